@@ -1,0 +1,2 @@
+//! The isolux command.
+fn main() {}

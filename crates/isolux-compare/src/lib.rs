@@ -1,0 +1,1 @@
+//! Is it right, and by how much: scenes with exact answers and measures of error.

@@ -1,0 +1,16 @@
+//! What a ray hits: points, vectors, transforms, triangles, rays and the bounding volume hierarchy.
+//!
+//! Lengths are metres. Positions of triangles are `f32` (what the ray kernel reads), everything
+//! computed from them is `f64`.
+
+pub mod bvh;
+mod ray;
+mod transform;
+mod triangle;
+mod vector;
+
+pub use bvh::Bvh;
+pub use ray::{Hit, Ray, offset_origin};
+pub use transform::Transform;
+pub use triangle::{Triangle, TriangleMesh};
+pub use vector::{Direction, Normal, Point, Vector};

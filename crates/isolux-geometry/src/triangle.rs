@@ -1,0 +1,81 @@
+//! Triangles and indexed triangle meshes.
+
+use crate::{Normal, Point, Vector};
+
+/// One triangle by its corners; the front is where they turn counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle {
+    /// Corners, metres.
+    pub corners: [Point; 3],
+}
+
+impl Triangle {
+    /// Twice the area times the normal.
+    pub fn area_vector(&self) -> Vector {
+        let [a, b, c] = self.corners;
+        (b - a).cross(c - a)
+    }
+
+    /// Area, m2.
+    pub fn area(&self) -> f64 {
+        0.5 * self.area_vector().length()
+    }
+
+    /// The normal of the front; `None` where the triangle has no area.
+    pub fn normal(&self) -> Option<Normal> {
+        self.area_vector().normal()
+    }
+
+    /// The point with barycentric weights `(1 - u - v, u, v)`.
+    pub fn point(&self, u: f64, v: f64) -> Point {
+        let [a, b, c] = self.corners;
+        a + (b - a) * u + (c - a) * v
+    }
+
+    /// The centroid.
+    pub fn centroid(&self) -> Point {
+        self.point(1.0 / 3.0, 1.0 / 3.0)
+    }
+}
+
+/// Triangles over shared vertices, as the ray kernel reads them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriangleMesh {
+    /// Positions, metres.
+    pub positions: Vec<[f32; 3]>,
+    /// Three indices into `positions` a triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl TriangleMesh {
+    /// Number of triangles.
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Whether there is no triangle.
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// The corners of triangle `index`.
+    ///
+    /// # Panics
+    /// If `index` or one of its vertex indices is out of range.
+    pub fn triangle(&self, index: u32) -> Triangle {
+        let corners = self.triangles[index as usize];
+        Triangle { corners: corners.map(|v| Point::from(self.positions[v as usize])) }
+    }
+
+    /// The smallest axis-parallel box around all positions, `None` for an empty mesh.
+    pub fn bounds(&self) -> Option<(Point, Point)> {
+        let first = Point::from(*self.positions.first()?);
+        Some(self.positions.iter().fold((first, first), |(low, high), &p| {
+            let p = Point::from(p);
+            (
+                Point::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z)),
+                Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z)),
+            )
+        }))
+    }
+}

@@ -1,0 +1,1 @@
+//! Values in, pixels out: exposure, tone mapping, false colour.

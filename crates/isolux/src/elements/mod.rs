@@ -1,0 +1,116 @@
+//! Elements: the surfaces of a scene, subdivided, with a piecewise linear function over them.
+//!
+//! Every side of every triangle that carries a map is the root of a tree of bisections. Vertices
+//! are shared between coplanar (or smoothly joined) neighbours of one side and split at creases.
+
+mod arrays;
+
+pub use arrays::{ElementArrays, ElementArraysError};
+
+use isolux_geometry::{Normal, Point};
+
+/// The subdivided surfaces.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elements {
+    vertices: Vec<Vertex>,
+    nodes: Vec<Node>,
+    /// Per triangle of the scene: the root of its front and of its back.
+    roots: Vec<[Option<u32>; 2]>,
+}
+
+/// A vertex of the elements: a receiver of light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertex {
+    /// Place on the surface, m.
+    pub position: Point,
+    /// Shading normal of the side it is on.
+    pub normal: Normal,
+    /// The ends of the edge it is the middle of, for vertices made by bisection.
+    pub parents: Option<[u32; 2]>,
+    /// Integral of its hat function, m2.
+    pub area_m2: f64,
+}
+
+/// A node of a tree of bisections: an element where it is not split.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Node {
+    /// Vertices, counter-clockwise seen from the front of the scene's triangle.
+    pub vertices: [u32; 3],
+    /// How it is bisected.
+    pub split: Option<Split>,
+}
+
+/// A bisection at the middle of one edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Split {
+    /// The edge from vertex `edge` to vertex `(edge + 1) % 3`.
+    pub edge: u8,
+    /// The child that keeps vertex `edge`; the other child follows it.
+    pub first_child: u32,
+}
+
+/// An element that is not split.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Element {
+    /// The triangle of the scene it is part of.
+    pub triangle: u32,
+    /// Whether it is on the back of it.
+    pub back: bool,
+    /// Its vertices, counter-clockwise seen from the front of the scene's triangle.
+    pub vertices: [u32; 3],
+}
+
+impl Elements {
+    /// The vertices.
+    pub fn vertices(&self) -> &[Vertex] {
+        &self.vertices
+    }
+
+    /// All elements, in the order of the triangles of the scene.
+    pub fn elements(&self) -> Vec<Element> {
+        let mut found = Vec::new();
+        for (triangle, sides) in self.roots.iter().enumerate() {
+            for (root, back) in sides.iter().zip([false, true]) {
+                let Some(root) = *root else { continue };
+                self.leaves(root, &mut |vertices| {
+                    found.push(Element { triangle: triangle as u32, back, vertices });
+                });
+            }
+        }
+        found
+    }
+
+    fn leaves(&self, node: u32, visit: &mut impl FnMut([u32; 3])) {
+        let node = self.nodes[node as usize];
+        match node.split {
+            None => visit(node.vertices),
+            Some(Split { first_child, .. }) => {
+                self.leaves(first_child, visit);
+                self.leaves(first_child + 1, visit);
+            }
+        }
+    }
+
+    /// The element at barycentric weights `(1 - u - v, u, v)` of a triangle: its vertices and their
+    /// weights there. `None` where the side carries no map.
+    pub fn locate(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<[(u32, f64); 3]> {
+        let root = self.roots.get(triangle as usize)?[usize::from(back)]?;
+        let mut node = self.nodes[root as usize];
+        let mut weights = [1.0 - u - v, u, v];
+        while let Some(Split { edge, first_child }) = node.split {
+            let (a, b) = (usize::from(edge), (usize::from(edge) + 1) % 3);
+            // On the edge from a to b the middle has twice the smaller weight.
+            if weights[a] >= weights[b] {
+                weights[a] -= weights[b];
+                weights[b] *= 2.0;
+                node = self.nodes[first_child as usize];
+            } else {
+                weights[b] -= weights[a];
+                weights[a] *= 2.0;
+                node = self.nodes[first_child as usize + 1];
+            }
+        }
+        let [a, b, c] = node.vertices;
+        Some([(a, weights[0]), (b, weights[1]), (c, weights[2])])
+    }
+}

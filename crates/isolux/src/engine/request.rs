@@ -1,0 +1,109 @@
+//! What is asked of an engine and what it says while it works.
+
+use crate::map::{Accuracy, Method};
+use std::time::Duration;
+
+/// What to compute, and when to stop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SolveRequest {
+    /// Which engine.
+    pub method: Method,
+    /// Stop when the whole error of the scene is this fraction; `None` runs until the time limit or
+    /// until stopped.
+    pub accuracy: Option<f64>,
+    /// Subdivide until the bare interpolated map is this good (a fraction); best effort.
+    pub mesh_accuracy: f64,
+    /// Stop after this time with a valid map.
+    pub time_limit: Option<Duration>,
+    /// Seed: the same seed gives the same bits.
+    pub seed: u64,
+    /// Refuse to need more memory than this, bytes.
+    pub max_memory_bytes: u64,
+}
+
+impl Default for SolveRequest {
+    /// One per cent, within what a small machine has.
+    fn default() -> Self {
+        Self {
+            method: Method::Hybrid,
+            accuracy: Some(0.01),
+            mesh_accuracy: 0.05,
+            time_limit: None,
+            seed: 1,
+            max_memory_bytes: 8 << 30,
+        }
+    }
+}
+
+/// What an engine is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Finding out where elements are needed.
+    Pilot,
+    /// Accumulating increments.
+    Increments,
+}
+
+/// The state of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// What is being done.
+    pub stage: Stage,
+    /// Increments accumulated.
+    pub increments: u64,
+    /// Error of the scene; `None` until it can be believed.
+    pub accuracy: Option<Accuracy>,
+    /// Accuracy asked for.
+    pub target: Option<f64>,
+    /// Vertices of the elements.
+    pub receivers: u64,
+    /// Rays traced.
+    pub rays: u64,
+    /// Time since the start, s.
+    pub elapsed_s: f64,
+    /// When it will be done; `None` until it can be said.
+    pub prediction: Option<Prediction>,
+}
+
+/// A predicted finishing time, s since the start, with an interval of 90 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prediction {
+    /// Most likely.
+    pub finish_s: f64,
+    /// Not before.
+    pub earliest_s: f64,
+    /// Not after.
+    pub latest_s: f64,
+}
+
+/// The answer to a progress report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watch {
+    /// Go on.
+    Continue,
+    /// Stop after this increment, with a valid map.
+    Stop,
+}
+
+/// Why there is no map.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// The scene has no luminaire and no emitting surface.
+    #[error("the scene has no light; add a luminaire or an emitting material")]
+    NoLight,
+    /// No surface carries a map.
+    #[error("no surface of the scene can carry a map: all of them are mirrors or glass")]
+    NoReceiver,
+    /// It would take more memory than allowed.
+    #[error("the map needs about {needed} bytes, more than the {allowed} allowed")]
+    Memory {
+        /// Bytes needed.
+        needed: u64,
+        /// Bytes allowed.
+        allowed: u64,
+    },
+    /// Stopped before the first map.
+    #[error("stopped before the first increment was complete")]
+    Stopped,
+}

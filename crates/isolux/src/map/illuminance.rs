@@ -1,0 +1,52 @@
+//! One value of a map.
+
+use crate::units::Rgb;
+
+/// The illuminance at a place, in lux, with its uncertainty.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Illuminance {
+    /// What arrives from luminaires without a diffuse reflection (mirror images included), lx.
+    pub direct_lx: Rgb,
+    /// What arrives after at least one diffuse reflection, lx.
+    pub indirect_lx: Rgb,
+    /// Standard error of the photometric total, lx.
+    pub standard_error_lx: f64,
+    /// Standard error of the photometric indirect part alone, lx.
+    pub indirect_standard_error_lx: f64,
+    /// Samples behind the value (rays gathered or particles received).
+    pub samples: u64,
+}
+
+impl Illuminance {
+    /// Direct plus indirect, lx.
+    pub fn total_lx(&self) -> Rgb {
+        self.direct_lx + self.indirect_lx
+    }
+
+    /// The photometric illuminance: the luminance-weighted total, lx.
+    pub fn illuminance_lx(&self) -> f64 {
+        self.total_lx().luminance()
+    }
+
+    /// The weighted mean over the known values; `None` where none is known. Standard errors are
+    /// combined as of independent values, which the vertices of an element are.
+    pub fn mix<const N: usize>(parts: [(Option<Self>, f64); N]) -> Option<Self> {
+        let known = || parts.iter().filter_map(|(value, weight)| Some((value.as_ref()?, *weight)));
+        let sum: f64 = known().map(|(_, weight)| weight).sum();
+        // A place on the far edge of an element has weight only on its unknown vertices.
+        let (scale, even) =
+            if sum > 1e-9 { (1.0 / sum, false) } else { (1.0 / known().count().max(1) as f64, true) };
+        let weighted = || known().map(|(v, w)| (v, if even { scale } else { w * scale }));
+        weighted().next()?;
+        let root_sum = |f: &dyn Fn(&Self) -> f64| {
+            weighted().map(|(v, w)| (w * f(v)) * (w * f(v))).sum::<f64>().sqrt()
+        };
+        Some(Self {
+            direct_lx: weighted().map(|(v, w)| v.direct_lx * w).sum(),
+            indirect_lx: weighted().map(|(v, w)| v.indirect_lx * w).sum(),
+            standard_error_lx: root_sum(&|v| v.standard_error_lx),
+            indirect_standard_error_lx: root_sum(&|v| v.indirect_standard_error_lx),
+            samples: weighted().map(|(v, _)| v.samples).sum(),
+        })
+    }
+}

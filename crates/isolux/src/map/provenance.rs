@@ -1,0 +1,57 @@
+//! Where a map came from and how good it is.
+
+use serde::{Deserialize, Serialize};
+
+/// Everything needed to repeat a run and to judge its result.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// Name of the scene.
+    pub scene: String,
+    /// Hash of everything the result depends on in the scene, hexadecimal.
+    pub scene_hash: String,
+    /// Version of isolux.
+    pub version: String,
+    /// How it was computed.
+    pub method: Method,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Increments (independent replicates) accumulated.
+    pub increments: u64,
+    /// Rays traced.
+    pub rays: u64,
+    /// Wall-clock time of the solution, s.
+    pub time_s: f64,
+    /// The accuracy asked for, a fraction, where one was.
+    pub accuracy_target: Option<f64>,
+    /// Whether the run reached what was asked of it.
+    pub complete: bool,
+    /// How good the map is; `None` before the error could be believed.
+    pub accuracy: Option<Accuracy>,
+}
+
+/// Relative errors of the scene: area-weighted root mean squares over all surfaces, relative to the
+/// root mean square of the illuminance (the distance of Kopylov, Khodulev, Volevich 1998, 3.3).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Accuracy {
+    /// The whole error of the map read with direct light evaluated afresh: root of the sum of the
+    /// squares of the three parts below.
+    pub reached: f64,
+    /// From the spread of independent replicates.
+    pub statistical: f64,
+    /// From interpolating the indirect part between vertices.
+    pub discretization: f64,
+    /// Bound of the error common to all replicates: interpolated light at the ends of rays.
+    pub bias: f64,
+    /// The whole error of the bare interpolated map, direct light included.
+    pub interpolated: f64,
+}
+
+/// The engines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Particles from the luminaires.
+    Forward,
+    /// Exact direct light, gathered indirect light, particles for caustics.
+    Hybrid,
+}

@@ -1,0 +1,11 @@
+//! Luminous intensity distributions.
+//!
+//! Every distribution lives in the luminaire's own frame: the photometric axis (nadir, gamma = 0)
+//! is **-z**, the C0 half-plane contains **+x**, the C90 half-plane contains **+y**. (glTF lights
+//! shine along -z too.) A direction has gamma = acos(-z) and C = atan2(y, x).
+
+mod distribution;
+mod web;
+
+pub use distribution::IntensityDistribution;
+pub use web::{PhotometricWeb, WebError};

@@ -1,0 +1,351 @@
+//! From plain parts to a scene that cannot be invalid.
+
+use super::{
+    AreaLuminaire, Body, Camera, Finish, Luminaire, LuminaireKind, Material, SceneParts, Shape,
+    Texture, UpAxis,
+};
+use crate::units::Rgb;
+use isolux_geometry::{Bvh, Hit, Normal, Point, Triangle, TriangleMesh, Vector};
+
+/// A checked scene with its ray kernel. Immutable.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    name: String,
+    up: UpAxis,
+    bvh: Bvh,
+    /// Shading normals at the corners, for triangles of shapes that have them.
+    corner_normals: Vec<Option<[Normal; 3]>>,
+    corner_uvs: Vec<Option<[[f64; 2]; 3]>>,
+    triangle_shape: Vec<u32>,
+    shape_names: Vec<String>,
+    shape_material: Vec<u32>,
+    materials: Vec<Material>,
+    textures: Vec<Texture>,
+    luminaires: Vec<Luminaire>,
+    area_luminaires: Vec<AreaLuminaire>,
+    groups: Vec<String>,
+    cameras: Vec<Camera>,
+}
+
+/// What is wrong with a scene, and with which part.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{place}: {what}; {remedy}")]
+pub struct SceneProblem {
+    /// Which part.
+    pub place: Place,
+    /// What is wrong.
+    pub what: String,
+    /// How to mend it.
+    pub remedy: String,
+}
+
+/// A part of a scene, by its index in [`SceneParts`] and its name.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Place {
+    /// The scene as a whole.
+    #[error("scene")]
+    Scene,
+    /// A shape.
+    #[error("shape `{name}`")]
+    Shape {
+        /// Index.
+        index: usize,
+        /// Name.
+        name: String,
+    },
+    /// A material.
+    #[error("material `{name}`")]
+    Material {
+        /// Index.
+        index: usize,
+        /// Name.
+        name: String,
+    },
+    /// A texture.
+    #[error("texture {index}")]
+    Texture {
+        /// Index.
+        index: usize,
+    },
+    /// A luminaire.
+    #[error("luminaire `{name}`")]
+    Luminaire {
+        /// Index.
+        index: usize,
+        /// Name.
+        name: String,
+    },
+    /// A camera.
+    #[error("camera `{name}`")]
+    Camera {
+        /// Index.
+        index: usize,
+        /// Name.
+        name: String,
+    },
+}
+
+impl Scene {
+    /// Checks all parts and builds the scene; on failure, all problems. Triangles without area are
+    /// left out.
+    pub fn assemble(parts: SceneParts) -> Result<Self, Vec<SceneProblem>> {
+        let problems = super::check::problems(&parts);
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let mut build = Build::default();
+        for (index, shape) in parts.shapes.iter().enumerate() {
+            build.add(index as u32, shape);
+        }
+        let mut scene = Self {
+            name: parts.name,
+            up: parts.up,
+            bvh: Bvh::build(build.mesh),
+            corner_normals: build.corner_normals,
+            corner_uvs: build.corner_uvs,
+            triangle_shape: build.triangle_shape,
+            shape_names: parts.shapes.iter().map(|s| s.name.clone()).collect(),
+            shape_material: parts.shapes.iter().map(|s| s.material).collect(),
+            materials: parts.materials,
+            textures: parts.textures,
+            luminaires: parts.luminaires,
+            area_luminaires: Vec::new(),
+            groups: parts.groups,
+            cameras: parts.cameras,
+        };
+        scene.area_luminaires = scene.find_area_luminaires();
+        Ok(scene)
+    }
+
+    /// The inverse of [`Scene::assemble`], but for triangles without area and for positions, which
+    /// come back as the ray kernel stores them (`f32`). Every triangle has its own three vertices.
+    pub fn to_parts(&self) -> SceneParts {
+        let mut shapes: Vec<Shape> = self
+            .shape_names
+            .iter()
+            .zip(&self.shape_material)
+            .map(|(name, &material)| Shape { name: name.clone(), material, ..Shape::default() })
+            .collect();
+        for triangle in 0..self.triangle_count() {
+            self.append_triangle(triangle, &mut shapes[self.shape_of(triangle) as usize]);
+        }
+        SceneParts {
+            name: self.name.clone(),
+            up: self.up,
+            shapes,
+            materials: self.materials.clone(),
+            textures: self.textures.clone(),
+            luminaires: self.luminaires.clone(),
+            groups: self.groups.clone(),
+            cameras: self.cameras.clone(),
+        }
+    }
+
+    fn append_triangle(&self, triangle: u32, shape: &mut Shape) {
+        let first = shape.positions.len() as u32;
+        shape.triangles.push([first, first + 1, first + 2]);
+        shape.positions.extend(self.triangle(triangle).corners.map(<[f64; 3]>::from));
+        if let Some(normals) = self.corner_normals[triangle as usize] {
+            let list = shape.normals.get_or_insert_default();
+            list.extend(normals.map(|n| <[f64; 3]>::from(n.to_vector())));
+        }
+        if let Some(uvs) = self.corner_uvs[triangle as usize] {
+            shape.uvs.get_or_insert_default().extend(uvs);
+        }
+    }
+
+    fn find_area_luminaires(&self) -> Vec<AreaLuminaire> {
+        let mut found: Vec<AreaLuminaire> = Vec::new();
+        for triangle in 0..self.triangle_count() {
+            for back in [false, true] {
+                let Some(finish) = self.material(triangle).finish(back) else { continue };
+                if !finish.is_emitter() {
+                    continue;
+                }
+                let shape = self.shape_of(triangle);
+                let known = found.iter().rposition(|a| a.shape == shape && a.back == back);
+                let index = known.unwrap_or_else(|| {
+                    found.push(AreaLuminaire {
+                        shape,
+                        triangles: Vec::new(),
+                        back,
+                        luminance_cd_m2: finish.luminance_cd_m2,
+                        area_m2: 0.0,
+                    });
+                    found.len() - 1
+                });
+                found[index].triangles.push(triangle);
+                found[index].area_m2 += self.triangle(triangle).area();
+            }
+        }
+        found
+    }
+
+    /// Name of the scene.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The axis that points up in the coordinates as written.
+    pub fn up(&self) -> UpAxis {
+        self.up
+    }
+
+    /// The ray kernel over all triangles.
+    pub fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
+
+    /// Number of triangles.
+    pub fn triangle_count(&self) -> u32 {
+        self.triangle_shape.len() as u32
+    }
+
+    /// A triangle by index.
+    pub fn triangle(&self, index: u32) -> Triangle {
+        self.bvh.mesh().triangle(index)
+    }
+
+    /// Index of the shape a triangle belongs to.
+    pub fn shape_of(&self, triangle: u32) -> u32 {
+        self.triangle_shape[triangle as usize]
+    }
+
+    /// Names of the shapes.
+    pub fn shape_names(&self) -> &[String] {
+        &self.shape_names
+    }
+
+    /// Index of the material of a triangle.
+    pub fn material_index(&self, triangle: u32) -> u32 {
+        self.shape_material[self.shape_of(triangle) as usize]
+    }
+
+    /// The material of a triangle.
+    pub fn material(&self, triangle: u32) -> &Material {
+        &self.materials[self.material_index(triangle) as usize]
+    }
+
+    /// All materials.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// All textures.
+    pub fn textures(&self) -> &[Texture] {
+        &self.textures
+    }
+
+    /// Luminaires without surface.
+    pub fn luminaires(&self) -> &[Luminaire] {
+        &self.luminaires
+    }
+
+    /// Emitting surfaces.
+    pub fn area_luminaires(&self) -> &[AreaLuminaire] {
+        &self.area_luminaires
+    }
+
+    /// Names of the light groups.
+    pub fn groups(&self) -> &[String] {
+        &self.groups
+    }
+
+    /// Cameras.
+    pub fn cameras(&self) -> &[Camera] {
+        &self.cameras
+    }
+
+    /// The normal of the front of a triangle.
+    pub fn geometric_normal(&self, triangle: u32) -> Normal {
+        self.triangle(triangle).normal().expect("triangles without area are left out")
+    }
+
+    /// The shading normals at the corners of a triangle, where it is not flat.
+    pub fn corner_normals(&self, triangle: u32) -> Option<[Normal; 3]> {
+        self.corner_normals[triangle as usize]
+    }
+
+    /// Texture coordinates at the corners of a triangle.
+    pub fn corner_uvs(&self, triangle: u32) -> Option<[[f64; 2]; 3]> {
+        self.corner_uvs[triangle as usize]
+    }
+
+    /// The front shading normal at barycentric weights `(1 - u - v, u, v)`.
+    pub fn shading_normal(&self, triangle: u32, u: f64, v: f64) -> Normal {
+        self.corner_normals[triangle as usize]
+            .and_then(|[a, b, c]| (a * (1.0 - u - v) + b * u + c * v).normal())
+            .unwrap_or_else(|| self.geometric_normal(triangle))
+    }
+
+    /// The place of a hit on its triangle.
+    pub fn hit_point(&self, hit: &Hit) -> Point {
+        self.triangle(hit.triangle).point(f64::from(hit.u), f64::from(hit.v))
+    }
+
+    /// Diffuse reflectance of a finish at a place of a triangle.
+    pub fn diffuse_reflectance(&self, finish: &Finish, triangle: u32, u: f64, v: f64) -> Rgb {
+        let Some(texture) = finish.diffuse.texture else { return finish.diffuse.colour };
+        let Some([a, b, c]) = self.corner_uvs[triangle as usize] else {
+            return finish.diffuse.colour;
+        };
+        let mix = |k: usize| a[k] * (1.0 - u - v) + b[k] * u + c[k] * v;
+        finish.diffuse.colour * self.textures[texture as usize].value(mix(0), mix(1))
+    }
+
+    /// Flux of all luminaires with finite flux, lm (directional light has none of its own).
+    pub fn luminous_flux_lm(&self) -> f64 {
+        let points: f64 = self
+            .luminaires
+            .iter()
+            .map(|l| match &l.kind {
+                LuminaireKind::Point { intensity, .. } => intensity.luminous_flux_lm(),
+                LuminaireKind::Directional { .. } => 0.0,
+            })
+            .sum();
+        points + self.area_luminaires.iter().map(AreaLuminaire::luminous_flux_lm).sum::<f64>()
+    }
+
+    /// Whether shadow rays may pass a triangle (bent by it or not).
+    pub fn is_transparent(&self, triangle: u32) -> bool {
+        matches!(self.material(triangle).body, Body::Dielectric(_))
+    }
+}
+
+/// Triangle soup with its attributes, while shapes are added.
+#[derive(Default)]
+struct Build {
+    mesh: TriangleMesh,
+    corner_normals: Vec<Option<[Normal; 3]>>,
+    corner_uvs: Vec<Option<[[f64; 2]; 3]>>,
+    triangle_shape: Vec<u32>,
+}
+
+impl Build {
+    fn add(&mut self, index: u32, shape: &Shape) {
+        let first = self.mesh.positions.len() as u32;
+        self.mesh.positions.extend(shape.positions.iter().map(|&p| Point::from(p).to_f32()));
+        for corners in &shape.triangles {
+            self.mesh.triangles.push(corners.map(|v| first + v));
+            let stored = self.mesh.triangle(self.mesh.len() as u32 - 1);
+            let Some(flat) = stored.normal() else {
+                self.mesh.triangles.pop();
+                continue;
+            };
+            self.triangle_shape.push(index);
+            self.corner_normals.push(shape.normals.as_ref().map(|list| {
+                corners.map(|v| shading_normal(list[v as usize], flat))
+            }));
+            let uvs = shape.uvs.as_ref();
+            self.corner_uvs.push(uvs.map(|list| corners.map(|v| list[v as usize])));
+        }
+    }
+}
+
+/// The stored normal where it has a direction on the front of the triangle, else the flat one.
+fn shading_normal(stored: [f64; 3], flat: Normal) -> Normal {
+    Vector::from(stored)
+        .normal()
+        .filter(|n| n.dot(flat) > 0.0)
+        .unwrap_or(flat)
+}

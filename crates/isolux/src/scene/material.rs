@@ -1,0 +1,123 @@
+//! How surfaces reflect, transmit and emit; energy-conserving by construction.
+
+use crate::units::Rgb;
+use serde::{Deserialize, Serialize};
+
+/// A named material.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Name, as written in the scene.
+    pub name: String,
+    /// What it is made of.
+    pub body: Body,
+}
+
+/// What light can do at a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Body {
+    /// Light stays on the side it came from.
+    Opaque {
+        /// The side from which corners turn counter-clockwise.
+        front: Finish,
+        /// The other side; [`Finish::BLACK`] for a one-sided material.
+        back: Finish,
+    },
+    /// Smooth glass or liquid: reflects and refracts by Fresnel's equations, without scattering.
+    Dielectric(Dielectric),
+}
+
+/// One side of an opaque surface: a sum of a diffuse part, a mirror part, a glossy part, and light
+/// of its own. In each channel diffuse, mirror and glossy reflectance sum to at most one; the
+/// glossy part is cut at grazing angles, where it would exceed that.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Finish {
+    /// Lambertian reflectance.
+    pub diffuse: Reflectance,
+    /// Reflectance of a perfect mirror, the same at every angle.
+    pub mirror: Rgb,
+    /// Microfacet reflection.
+    pub gloss: Option<Gloss>,
+    /// Luminance of the light it emits, the same in every direction, cd/m2.
+    pub luminance_cd_m2: Rgb,
+}
+
+/// Diffuse reflectance: a colour, times a texture where there is one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Reflectance {
+    /// Factor, 0 to 1.
+    pub colour: Rgb,
+    /// Index into the textures of the scene.
+    pub texture: Option<u32>,
+}
+
+/// GGX microfacets with Schlick's Fresnel term (Walter et al. 2007; Schlick 1994).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Gloss {
+    /// Reflectance at normal incidence.
+    pub f0: Rgb,
+    /// Width of the facet distribution, 0 < alpha <= 1 (perceptual roughness squared).
+    pub alpha: f64,
+}
+
+/// Smooth dielectric.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Dielectric {
+    /// Refractive index against air (inside over outside), > 1 or < 1.
+    pub ior: f64,
+    /// Share of the light left by one crossing of the pane (thin) or of the surface (solid).
+    pub transmittance: Rgb,
+    /// A pane of two parallel faces in one surface: transmits straight on, with the inner
+    /// reflections summed. Otherwise the surface bounds a solid.
+    pub thin: bool,
+}
+
+impl Finish {
+    /// Absorbs all.
+    pub const BLACK: Self = Self {
+        diffuse: Reflectance { colour: Rgb::BLACK, texture: None },
+        mirror: Rgb::BLACK,
+        gloss: None,
+        luminance_cd_m2: Rgb::BLACK,
+    };
+
+    /// A Lambertian surface.
+    pub fn diffuse(reflectance: Rgb) -> Self {
+        Self { diffuse: Reflectance { colour: reflectance, texture: None }, ..Self::BLACK }
+    }
+
+    /// A perfect mirror.
+    pub fn mirror(reflectance: Rgb) -> Self {
+        Self { mirror: reflectance, ..Self::BLACK }
+    }
+
+    /// Whether it emits.
+    pub fn is_emitter(&self) -> bool {
+        !self.luminance_cd_m2.is_black()
+    }
+
+    /// Whether it is nothing but a mirror, so that an illuminance on it would light nothing.
+    pub fn is_pure_mirror(&self) -> bool {
+        self.diffuse.colour.is_black() && self.gloss.is_none() && !self.mirror.is_black()
+    }
+}
+
+impl Material {
+    /// The same finish on both sides.
+    pub fn two_sided(name: impl Into<String>, finish: Finish) -> Self {
+        Self { name: name.into(), body: Body::Opaque { front: finish.clone(), back: finish } }
+    }
+
+    /// A finish in front and a black back.
+    pub fn one_sided(name: impl Into<String>, finish: Finish) -> Self {
+        Self { name: name.into(), body: Body::Opaque { front: finish, back: Finish::BLACK } }
+    }
+
+    /// The finish of one side, `None` for a dielectric.
+    pub fn finish(&self, back: bool) -> Option<&Finish> {
+        match &self.body {
+            Body::Opaque { front, back: rear } => Some(if back { rear } else { front }),
+            Body::Dielectric(_) => None,
+        }
+    }
+}

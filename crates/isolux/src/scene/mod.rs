@@ -1,0 +1,19 @@
+//! A scene as solved: geometry, materials and luminaires that cannot be invalid.
+//!
+//! Readers fill [`SceneParts`], the plain description; [`Scene::assemble`] checks all of it at once
+//! and builds the ray kernel. Engines take only a [`Scene`].
+
+mod assemble;
+mod check;
+mod luminaire;
+mod material;
+mod parts;
+mod texture;
+mod view;
+
+pub use assemble::{Place, Scene, SceneProblem};
+pub use luminaire::{AreaLuminaire, Luminaire, LuminaireKind};
+pub use material::{Body, Dielectric, Finish, Gloss, Material, Reflectance};
+pub use parts::{SceneParts, Shape, UpAxis};
+pub use texture::Texture;
+pub use view::Camera;

@@ -1,0 +1,5 @@
+//! Colour quantities.
+
+mod rgb;
+
+pub use rgb::Rgb;
