@@ -99,8 +99,7 @@ impl Transform {
         let column = |k: usize| {
             Vector::new(rows[0].component(k), rows[1].component(k), rows[2].component(k))
         };
-        let linear =
-            Self { columns: [column(0), column(1), column(2)], translation: Vector::ZERO };
+        let linear = Self { columns: [column(0), column(1), column(2)], translation: Vector::ZERO };
         Some(Self { translation: -linear.vector(self.translation), ..linear })
     }
 }

@@ -9,8 +9,9 @@ pub struct Bvh {
 }
 
 impl Bvh {
-    /// Builds the hierarchy.
-    pub fn build(mesh: TriangleMesh) -> Self {
+    /// Builds the hierarchy. `is_transparent` says for every triangle whether [`Bvh::any_hit`]
+    /// looks through it.
+    pub fn build(mesh: TriangleMesh, _is_transparent: impl Fn(u32) -> bool) -> Self {
         Self { mesh }
     }
 
@@ -19,13 +20,13 @@ impl Bvh {
         &self.mesh
     }
 
-    /// The first triangle that the ray meets.
+    /// The first triangle that the ray meets, transparent or not.
     pub fn closest_hit(&self, _ray: &Ray) -> Option<Hit> {
         None
     }
 
-    /// Whether the ray meets any triangle for which `blocks` says yes.
-    pub fn any_hit(&self, _ray: &Ray, _blocks: impl Fn(u32) -> bool) -> bool {
+    /// Whether the ray meets any triangle that is not transparent.
+    pub fn any_hit(&self, _ray: &Ray) -> bool {
         false
     }
 }

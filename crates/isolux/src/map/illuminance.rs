@@ -34,8 +34,11 @@ impl Illuminance {
         let known = || parts.iter().filter_map(|(value, weight)| Some((value.as_ref()?, *weight)));
         let sum: f64 = known().map(|(_, weight)| weight).sum();
         // A place on the far edge of an element has weight only on its unknown vertices.
-        let (scale, even) =
-            if sum > 1e-9 { (1.0 / sum, false) } else { (1.0 / known().count().max(1) as f64, true) };
+        let (scale, even) = if sum > 1e-9 {
+            (1.0 / sum, false)
+        } else {
+            (1.0 / known().count().max(1) as f64, true)
+        };
         let weighted = || known().map(|(v, w)| (v, if even { scale } else { w * scale }));
         weighted().next()?;
         let root_sum = |f: &dyn Fn(&Self) -> f64| {

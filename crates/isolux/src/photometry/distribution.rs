@@ -43,7 +43,11 @@ impl IntensityDistribution {
         match self {
             Self::Isotropic { intensity_cd } => *intensity_cd,
             Self::CosinePower { peak_cd, exponent } => {
-                if cos_gamma > 0.0 { peak_cd * libm::pow(cos_gamma, *exponent) } else { 0.0 }
+                if cos_gamma > 0.0 {
+                    peak_cd * libm::pow(cos_gamma, *exponent)
+                } else {
+                    0.0
+                }
             }
             Self::Spot { peak_cd, inner_rad, outer_rad } => {
                 let (inner, outer) = (libm::cos(*inner_rad), libm::cos(*outer_rad));
@@ -84,7 +88,9 @@ impl IntensityDistribution {
         };
         match self {
             Self::Isotropic { .. } => around(1.0 - 2.0 * a),
-            Self::CosinePower { exponent, .. } => around(libm::pow(1.0 - a, 1.0 / (exponent + 1.0))),
+            Self::CosinePower { exponent, .. } => {
+                around(libm::pow(1.0 - a, 1.0 / (exponent + 1.0)))
+            }
             Self::Spot { inner_rad, outer_rad, .. } => {
                 let (inner, outer) = (libm::cos(*inner_rad), libm::cos(*outer_rad));
                 let (plateau, ramp) = (1.0 - inner, (inner - outer) / 3.0);
@@ -102,7 +108,9 @@ impl IntensityDistribution {
     /// The same distribution with every intensity multiplied by a factor >= 0.
     pub fn scaled(&self, factor: f64) -> Self {
         match self.clone() {
-            Self::Isotropic { intensity_cd } => Self::Isotropic { intensity_cd: intensity_cd * factor },
+            Self::Isotropic { intensity_cd } => {
+                Self::Isotropic { intensity_cd: intensity_cd * factor }
+            }
             Self::CosinePower { peak_cd, exponent } => {
                 Self::CosinePower { peak_cd: peak_cd * factor, exponent }
             }

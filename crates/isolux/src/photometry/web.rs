@@ -28,7 +28,11 @@ pub enum WebError {
 
 impl PhotometricWeb {
     /// Full-circle table.
-    pub fn new(planes_deg: Vec<f64>, gammas_deg: Vec<f64>, candela: Vec<f64>) -> Result<Self, WebError> {
+    pub fn new(
+        planes_deg: Vec<f64>,
+        gammas_deg: Vec<f64>,
+        candela: Vec<f64>,
+    ) -> Result<Self, WebError> {
         Ok(Self { planes_deg, gammas_deg, candela })
     }
 

@@ -97,13 +97,18 @@ impl Scene {
         for (index, shape) in parts.shapes.iter().enumerate() {
             build.add(index as u32, shape);
         }
+        let Build { mesh, corner_normals, corner_uvs, triangle_shape } = build;
+        let is_transparent = |triangle: u32| {
+            let shape = &parts.shapes[triangle_shape[triangle as usize] as usize];
+            matches!(parts.materials[shape.material as usize].body, Body::Dielectric(_))
+        };
         let mut scene = Self {
+            bvh: Bvh::build(mesh, is_transparent),
             name: parts.name,
             up: parts.up,
-            bvh: Bvh::build(build.mesh),
-            corner_normals: build.corner_normals,
-            corner_uvs: build.corner_uvs,
-            triangle_shape: build.triangle_shape,
+            corner_normals,
+            corner_uvs,
+            triangle_shape,
             shape_names: parts.shapes.iter().map(|s| s.name.clone()).collect(),
             shape_material: parts.shapes.iter().map(|s| s.material).collect(),
             materials: parts.materials,
@@ -305,11 +310,6 @@ impl Scene {
             .sum();
         points + self.area_luminaires.iter().map(AreaLuminaire::luminous_flux_lm).sum::<f64>()
     }
-
-    /// Whether shadow rays may pass a triangle (bent by it or not).
-    pub fn is_transparent(&self, triangle: u32) -> bool {
-        matches!(self.material(triangle).body, Body::Dielectric(_))
-    }
 }
 
 /// Triangle soup with its attributes, while shapes are added.
@@ -333,9 +333,12 @@ impl Build {
                 continue;
             };
             self.triangle_shape.push(index);
-            self.corner_normals.push(shape.normals.as_ref().map(|list| {
-                corners.map(|v| shading_normal(list[v as usize], flat))
-            }));
+            self.corner_normals.push(
+                shape
+                    .normals
+                    .as_ref()
+                    .map(|list| corners.map(|v| shading_normal(list[v as usize], flat))),
+            );
             let uvs = shape.uvs.as_ref();
             self.corner_uvs.push(uvs.map(|list| corners.map(|v| list[v as usize])));
         }
@@ -344,8 +347,5 @@ impl Build {
 
 /// The stored normal where it has a direction on the front of the triangle, else the flat one.
 fn shading_normal(stored: [f64; 3], flat: Normal) -> Normal {
-    Vector::from(stored)
-        .normal()
-        .filter(|n| n.dot(flat) > 0.0)
-        .unwrap_or(flat)
+    Vector::from(stored).normal().filter(|n| n.dot(flat) > 0.0).unwrap_or(flat)
 }

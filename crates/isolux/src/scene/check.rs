@@ -31,7 +31,8 @@ pub(super) fn problems(parts: &SceneParts) -> Vec<SceneProblem> {
     }
     for (index, texture) in parts.textures.iter().enumerate() {
         if !texture_is_whole(texture) {
-            let what = format!("{} x {} pixels need as many bytes times 3", texture.width, texture.height);
+            let what =
+                format!("{} x {} pixels need as many bytes times 3", texture.width, texture.height);
             found.push(problem(Place::Texture { index }, what, "give every pixel three bytes"));
         }
     }
@@ -189,14 +190,15 @@ fn intensity_problem(intensity: &IntensityDistribution) -> Option<String> {
         IntensityDistribution::Isotropic { intensity_cd } => {
             bad(intensity_cd).then(|| format!("intensity {intensity_cd} cd"))
         }
-        IntensityDistribution::CosinePower { peak_cd, exponent } => (bad(peak_cd)
-            || bad(exponent))
-        .then(|| format!("intensity {peak_cd} cd, exponent {exponent}")),
+        IntensityDistribution::CosinePower { peak_cd, exponent } => (bad(peak_cd) || bad(exponent))
+            .then(|| format!("intensity {peak_cd} cd, exponent {exponent}")),
         IntensityDistribution::Spot { peak_cd, inner_rad, outer_rad } => (bad(peak_cd)
             || !(0.0 <= inner_rad && inner_rad < outer_rad && outer_rad <= std::f64::consts::PI))
-        .then(|| {
-            format!("intensity {peak_cd} cd, inner angle {inner_rad} rad, outer {outer_rad} rad")
-        }),
+            .then(|| {
+                format!(
+                    "intensity {peak_cd} cd, inner angle {inner_rad} rad, outer {outer_rad} rad"
+                )
+            }),
         // A web was checked when it was made.
         IntensityDistribution::Web(_) => None,
     }
@@ -208,7 +210,10 @@ fn camera_problem(camera: &Camera) -> Option<(String, &'static str)> {
     }
     let fov = camera.vertical_fov_rad;
     if !(fov > 0.0 && fov < std::f64::consts::PI) {
-        return Some((format!("opening angle {fov} rad"), "give an angle between 0 and 180 degrees"));
+        return Some((
+            format!("opening angle {fov} rad"),
+            "give an angle between 0 and 180 degrees",
+        ));
     }
     (camera.up.dot(camera.direction).abs() > 1.0 - 1e-9)
         .then(|| ("it looks along its own up".into(), "choose another up direction"))
