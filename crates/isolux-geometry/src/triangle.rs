@@ -32,6 +32,21 @@ impl Triangle {
         a + (b - a) * u + (c - a) * v
     }
 
+    /// The weights `(u, v)` of [`Triangle::point`] for the foot of a point on the plane of the
+    /// triangle; zero where the triangle has no area.
+    pub fn barycentric(&self, point: Point) -> [f64; 2] {
+        let [a, b, c] = self.corners;
+        let normal = self.area_vector();
+        let squared = normal.length_squared();
+        if squared <= 0.0 {
+            return [0.0; 2];
+        }
+        let from_a = point - a;
+        let u = from_a.cross(c - a).dot(normal) / squared;
+        let v = (b - a).cross(from_a).dot(normal) / squared;
+        [u, v]
+    }
+
     /// The centroid.
     pub fn centroid(&self) -> Point {
         self.point(1.0 / 3.0, 1.0 / 3.0)

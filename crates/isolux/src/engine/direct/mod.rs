@@ -15,6 +15,7 @@ use super::surface::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use mirrors::Mirrors;
+pub(super) use source::LuminaireId;
 use source::{Source, SourceKind};
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
@@ -59,7 +60,7 @@ impl<'s> Lighting<'s> {
 
     /// Whether the light of a luminaire that was reflected by these planar mirrors in this order
     /// is part of direct light here.
-    pub(super) fn covers(&self, luminaire: source::LuminaireId, chain: &[u32]) -> bool {
+    pub(super) fn covers(&self, luminaire: LuminaireId, chain: &[u32]) -> bool {
         chain.is_empty()
             || self.sources.iter().any(|s| s.luminaire == luminaire && s.chain == chain)
     }
