@@ -54,12 +54,6 @@ impl Block {
 
     /// Marks triangles that `any_hit` does not see.
     pub(super) const TRANSPARENT: u32 = 1 << 31;
-
-    /// The corners of one triangle.
-    #[inline(always)]
-    pub(super) fn triangle(&self, lane: usize) -> [[f32; 3]; 3] {
-        self.corners.map(|corner| corner.map(|axis| axis[lane]))
-    }
 }
 
 impl Reference {
