@@ -74,12 +74,11 @@ fn reflected(bvh: &Bvh, ray: &Ray, hit: isolux_geometry::Hit, random: &mut Rando
     }
 }
 
-/// From every start of the walk to that of a ray a while later: half of them are blocked.
+/// From every start of the walk to that of a ray a while later: two thirds of them are blocked.
 fn segments(walk: &[Ray]) -> Vec<Ray> {
     let point = |ray: &Ray| isolux_geometry::Point::from(ray.origin);
     let later = walk.iter().cycle().skip(walk.len() / 3);
-    let segment = |(from, to)| Ray { skip: walk[0].skip, ..Ray::between(point(from), point(to)) };
-    walk.iter().zip(later).map(segment).collect()
+    walk.iter().zip(later).map(|(from, to)| Ray::between(point(from), point(to))).collect()
 }
 
 /// Millions a second in the best round, and the share of rays that hit.

@@ -101,7 +101,7 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn write_met(node: &Node, t: __m256, met: u32, entries: &mut [Entry; WIDTH]) {
         // SAFETY: only called within `closest_hit` and `any_hit`, which have the features. The load
-        // reads the eight children, the two stores of 32 bytes fill the eight entries of eight bytes.
+        // reads the eight children, the two stores of 32 bytes fill the eight entries.
         unsafe {
             // The lanes met move to the front, distance above child.
             let order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(ORDER[met as usize & 0xff] as i64));

@@ -12,8 +12,8 @@ const BINS: usize = 32;
 /// From this many triangles on, both halves are built at the same time.
 const PARALLEL: usize = 4096;
 
-/// Greatest number of nodes on a path from the root to a leaf, less one.
-pub(super) const MAX_DEPTH: u32 = 34;
+/// Greatest number of nodes on a path from the root to a leaf, less one: bounds all recursion.
+const MAX_DEPTH: u32 = 34;
 
 /// Greatest number of triangles: more could not keep to [`MAX_DEPTH`] and to the bits of a
 /// reference in the wide tree.

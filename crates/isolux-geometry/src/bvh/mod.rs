@@ -30,10 +30,9 @@ use wide::{Block, WideTree};
 /// the same `t`, a front counts before a back and then the lower index. Between triangles that
 /// share an edge (the same two positions, bit for bit) or a corner no ray passes.
 ///
-/// Rays that are not finite, that have no direction, or whose origin or direction has a component
-/// of more than 2^40 meet nothing (nor do rays whose direction is shorter than 2^-40). Triangles with a
-/// corner that is not finite or more than 2^40 m from an axis are never met, nor are triangles
-/// without area.
+/// Rays that are not finite meet nothing, nor do those whose origin is more than 2^40 m away or
+/// whose direction is shorter than 2^-40 or longer than 2^40. Triangles with a corner that is not
+/// finite or has a coordinate beyond 2^40 m are never met, nor are triangles without area.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     mesh: TriangleMesh,

@@ -1,13 +1,14 @@
 //! Where a ray enters and leaves boxes: conservative, so that no hit is lost.
 //!
-//! The triangle test moves corners by rounding: by at most 5 u D in each coordinate, D the greatest distance
-//! along an axis between the origin and a corner, u = 2^-24 the unit roundoff (one rounding each of the
-//! difference to the origin, the slope, its product with the depth, and the last difference, which is
-//! up to 2 D). The exact line then meets a convex combination of moved corners; `t` is rounded once more
-//! (u D). So the point `origin + t direction` lies within 6 u D of the triangle's box. The
-//! box test `plane / direction - origin / direction` itself errs by less than 5 u (M + |origin|) /
-//! |direction|, M the largest coordinate of the scene, and D <= M + |origin|. Boxes widened by 16 u (M + |origin|) therefore
-//! contain every hit of their triangles, wherever the ray starts.
+//! The triangle test moves corners by rounding: by at most 5 u D in each coordinate, D the greatest
+//! distance along an axis between the origin and a corner, u = 2^-24 the unit roundoff (a rounding
+//! each of the difference to the origin, the slope, its product with the depth, and the last
+//! difference, which is up to 2 D). The exact line meets a convex combination of moved corners,
+//! and `t` is rounded once more (u D). So the point `origin + t direction` lies within 6 u D of the
+//! triangle's box. The box test `plane / direction - origin / direction` itself errs by less than
+//! 6 u (M + |origin|) / |direction|, M the largest coordinate of the scene, and D <= M + |origin|.
+//! Boxes widened by 16 u (M + |origin|) contain every hit of their triangles, wherever the
+//! ray starts.
 
 use super::triangle_test::{LARGEST, greater};
 use crate::Ray;
@@ -20,8 +21,8 @@ pub(super) struct Slabs {
     pub(super) enter: [f32; 3],
     /// Offsets for the planes through which it leaves, widened.
     pub(super) leave: [f32; 3],
-    /// In [`Node::planes`](super::wide::Node::planes), the plane of each axis through which the ray enters; the other one differs in the
-    /// last bit.
+    /// Of the planes of a node, that of each axis through which the ray enters; the other one
+    /// differs in the last bit.
     pub(super) entry_planes: [usize; 3],
 }
 

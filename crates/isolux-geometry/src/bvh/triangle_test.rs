@@ -5,17 +5,19 @@
 //! edge it passes. A sheared corner depends on ray and corner alone, and the edge functions of two
 //! triangles over a common edge are exact negatives of each other, so no ray slips between them.
 //!
-//! The paper falls back to `f64` where an edge function vanishes. Here every triangle that passes a
-//! filter in `f32` (see [`Shear::sides`]) is decided in `f64`, where the products of `f32` numbers are exact:
-//! the signs of the edge functions are then exact, and the weights have full relative precision
-//! even for slivers seen edge-on. That makes the point hit a convex combination of the corners up to
-//! the rounding of the shear, which is what lets the box test be conservative (see `slabs`).
+//! The paper falls back to `f64` where an edge function vanishes. Here every triangle is decided in
+//! `f64`, where products of `f32` numbers are exact: so are the signs of the edge functions, and
+//! the weights have full relative precision even for slivers seen edge-on. That makes the point hit
+//! a convex combination of the corners up to the rounding of the shear, which is what lets the box
+//! test be conservative (see `slabs`). The hierarchy sifts with the same edge functions in `f32`
+//! first (`Lanes::candidates`). Rounding keeps the order of the two products, so that their
+//! difference may vanish but never has the wrong sign, and no triangle is lost there.
 
 use crate::{Hit, Ray};
 
 /// Largest coordinate, metres, and largest (inverse: smallest) length of a direction the kernel
-/// takes, 2^40: up to here no intermediate result overflows or loses precision to underflow. Rays beyond
-/// it meet nothing and triangles beyond it are never met.
+/// takes, 2^40: up to here no intermediate result overflows or loses precision to underflow. Rays
+/// beyond it meet nothing and triangles beyond it are never met.
 pub(super) const LARGEST: f32 = (1_u64 << 40) as f32;
 
 /// The axes in cyclic order, by the last of them.
@@ -113,6 +115,7 @@ impl Meeting {
     }
 }
 
+/// The greater of two numbers, without the care that `f32::max` takes of NaN.
 #[inline(always)]
 pub(super) fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }

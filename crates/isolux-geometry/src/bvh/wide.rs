@@ -8,7 +8,7 @@ pub(super) const WIDTH: usize = 8;
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(super) struct Node {
-    /// Low and high `x`, low and high `y`, low and high `z`. Low is above high where there is no child.
+    /// Low and high `x`, low and high `y`, low and high `z`; low > high where there is no child.
     pub(super) planes: [[f32; WIDTH]; 6],
     pub(super) children: [Reference; WIDTH],
 }

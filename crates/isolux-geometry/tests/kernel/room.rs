@@ -95,8 +95,8 @@ pub(crate) fn cube() -> TriangleMesh {
     mesh
 }
 
-/// 11,592 triangles: a hall with rows of desks and chairs, luminaires, columns and balls. Parts that
-/// stand on the floor reach a little below it.
+/// 11,592 triangles: a hall with rows of desks and chairs, luminaires, columns and balls. Parts
+/// that stand on the floor reach a little below it.
 pub(crate) fn hall() -> TriangleMesh {
     let mut mesh = TriangleMesh::default();
     let mut random = Random(1);
