@@ -25,18 +25,17 @@ const INDIRECT: usize = 2;
 /// The engine, ready for increments.
 pub(super) struct Forward<'p, 's> {
     plan: &'p Plan<'s>,
-    emission: Option<Emission<'s>>,
+    emission: Emission<'s>,
     particles: u32,
     key: Key,
 }
 
 impl<'p, 's> Forward<'p, 's> {
-    /// `None` where there is no light.
-    pub(super) fn new(plan: &'p Plan<'s>, seed: u64) -> Option<Self> {
+    /// With particles in proportion to the vertices.
+    pub(super) fn new(plan: &'p Plan<'s>, emission: Emission<'s>, seed: u64) -> Self {
         let particles = (PARTICLES_A_VERTEX * plan.indirect_vertices).clamp(FEWEST, MOST);
         let particles = particles.next_power_of_two() as u32;
-        let emission = Emission::new(plan.scene)?;
-        Some(Self { plan, emission, particles, key: Key::new(seed).with(2) })
+        Self { plan, emission, particles, key: Key::new(seed).with(2) }
     }
 
     /// Adds increment `index`; returns the rays traced.

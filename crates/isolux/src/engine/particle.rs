@@ -143,7 +143,8 @@ impl Particle {
 /// specular part decides by its own roulette in the rest, so a chance of one is only allowed where
 /// there is none.
 fn diffuse_chance(finish: &Finish, reflectance: Rgb, flux: Rgb) -> f64 {
-    let chance = ((flux * reflectance).luminance() / flux.luminance().max(f64::MIN_POSITIVE)).min(1.0);
+    let chance =
+        ((flux * reflectance).luminance() / flux.luminance().max(f64::MIN_POSITIVE)).min(1.0);
     let specular = !finish.mirror.is_black() || finish.gloss.is_some();
     if specular { chance.min(0.95) } else { chance }
 }

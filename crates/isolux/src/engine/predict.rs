@@ -17,12 +17,7 @@ pub(super) fn increments_needed(accuracy: &Accuracy, increments: u64, target: f6
 }
 
 /// The finishing time, from the time the increments have taken so far.
-pub(super) fn finish(
-    needed: f64,
-    increments: u64,
-    started_s: f64,
-    now_s: f64,
-) -> Prediction {
+pub(super) fn finish(needed: f64, increments: u64, started_s: f64, now_s: f64) -> Prediction {
     let each_s = (now_s - started_s) / increments as f64;
     let left = (needed - increments as f64).max(0.0);
     let finish_s = now_s + left * each_s;

@@ -57,9 +57,8 @@ impl<'a> MapReader<'a> {
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
-        let reflected = |v: &Option<Illuminance>| {
-            v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx)
-        };
+        let reflected =
+            |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx);
         Self {
             scene,
             map,

@@ -2,8 +2,9 @@
 
 use super::accumulate::{Accumulator, MAX_INCREMENTS};
 use super::accuracy::{BELIEVED_INCREMENTS, accuracy};
-use super::checks::{self, Check, InterpolationErrors};
+use super::checks::{self, Check};
 use super::direct::Lighting;
+use super::emission::Emission;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
 use super::pilot::{PilotRequest, Plan, pilot};
@@ -58,14 +59,7 @@ enum Outcome {
 }
 
 fn check(scene: &Scene, request: &SolveRequest) -> Result<(), SolveError> {
-    let dark = scene.luminous_flux_lm() <= 0.0
-        && scene.luminaires().iter().all(|l| match l.kind {
-            crate::scene::LuminaireKind::Point { .. } => true,
-            crate::scene::LuminaireKind::Directional { illuminance_lx, .. } => {
-                illuminance_lx <= 0.0
-            }
-        });
-    if dark {
+    if Emission::new(scene).is_none() {
         return Err(SolveError::NoLight);
     }
     let vertices = crate::elements::Subdivision::new(scene).vertex_count() as u64;
@@ -156,9 +150,8 @@ impl<'s> Run<'s, '_> {
             let mut progress =
                 self.progress(Stage::Increments, count, work.sums.sums.len() as u64, accuracy);
             let goal = self.request.accuracy;
-            let needed = accuracy
-                .zip(goal)
-                .map(|(a, goal)| predict::increments_needed(&a, count, goal));
+            let needed =
+                accuracy.zip(goal).map(|(a, goal)| predict::increments_needed(&a, count, goal));
             progress.prediction = needed.flatten().map(|needed| {
                 let needed = needed.max(FEWEST_INCREMENTS as f64);
                 predict::finish(needed, count, started_s, progress.elapsed_s)
@@ -235,7 +228,10 @@ impl<'p, 's> Work<'p, 's> {
         let rays = gathering_rays(target, plan.indirect_vertices, request.max_memory_bytes);
         let engine = match request.method {
             Method::Hybrid => Engine::Hybrid(Hybrid::new(plan, &checks.points, rays, request.seed)),
-            Method::Forward => Engine::Forward(Forward::new(plan, request.seed)),
+            Method::Forward => {
+                let emission = Emission::new(plan.scene).expect("a scene without light is refused");
+                Engine::Forward(Forward::new(plan, emission, request.seed))
+            }
         };
         Self { plan, engine, sums, checks, rays_a_value: u64::from(rays) }
     }

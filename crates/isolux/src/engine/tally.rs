@@ -39,8 +39,7 @@ impl<'p, 's> Tally<'p, 's> {
     /// Deposits flux at a place.
     pub(super) fn add(&self, part: usize, at: &SurfacePoint, flux_lm: Rgb) {
         let plan = self.plan;
-        let place =
-            plan.elements.locate_above(plan.level, at.triangle, at.back, at.u, at.v);
+        let place = plan.elements.locate_above(plan.level, at.triangle, at.back, at.u, at.v);
         let Some(corners) = place else { return };
         let Some(weights) = known_weights(corners, &plan.known) else { return };
         for ((vertex, _), weight) in corners.into_iter().zip(weights) {
@@ -87,7 +86,7 @@ impl<'p, 's> Tally<'p, 's> {
 }
 
 /// Elements all of whose vertices are known, and their areas.
-fn known_elements(plan: &Plan) -> impl Iterator<Item = ([u32; 3], f64)> + '_ {
+fn known_elements<'a>(plan: &'a Plan<'_>) -> impl Iterator<Item = ([u32; 3], f64)> + 'a {
     plan.subdivision.leaves().filter_map(|leaf| {
         let corners = plan.subdivision.node(leaf).0.vertices;
         let known = corners.iter().all(|&v| plan.known[v as usize]);
@@ -100,8 +99,7 @@ fn hat_areas_m2(plan: &Plan) -> Vec<f64> {
     let mut areas = vec![0.0; plan.indirect_vertices];
     for leaf in plan.subdivision.leaves() {
         let corners = plan.subdivision.node(leaf).0.vertices;
-        let known: Vec<u32> =
-            corners.into_iter().filter(|&v| plan.known[v as usize]).collect();
+        let known: Vec<u32> = corners.into_iter().filter(|&v| plan.known[v as usize]).collect();
         let share = plan.subdivision.triangle(leaf).area() / known.len().max(1) as f64;
         for v in known {
             areas[v as usize] += share;

@@ -55,7 +55,9 @@ impl<'s> Lighting<'s> {
 
     /// Whether there is specular transport that the sources do not cover.
     pub(super) fn leaves_caustics(&self) -> bool {
-        self.has_glass || self.mirrors.leaves_some_out || self.scene.materials().iter().any(has_gloss)
+        self.has_glass
+            || self.mirrors.leaves_some_out
+            || self.scene.materials().iter().any(has_gloss)
     }
 
     /// Whether the light of a luminaire that was reflected by these planar mirrors in this order
@@ -73,7 +75,8 @@ impl<'s> Lighting<'s> {
     /// Direct illuminance from all sources: exact for points and parallel light, sampled for
     /// emitting surfaces.
     pub(super) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        let areas = self.sources.iter().filter(|s| matches!(s.kind, SourceKind::Area { .. })).count();
+        let areas =
+            self.sources.iter().filter(|s| matches!(s.kind, SourceKind::Area { .. })).count();
         let samples = (AREA_SAMPLES / areas.max(1)).max(FEWEST_AREA_SAMPLES);
         self.sources.iter().map(|source| self.from_source(source, at, samples, dice)).sum()
     }
