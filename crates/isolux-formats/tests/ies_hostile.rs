@@ -26,6 +26,7 @@ fn every_defect_is_named_with_its_place() {
         GOOD.replacen(from, to, 1)
     };
     let counts = "1 -1 1 3 2 1 2";
+    let endless = format!(" {}", "x9".repeat(1000));
     let table = [
         // What the file is.
         (String::new(), "line 1", "there is no TILT= line"),
@@ -77,10 +78,18 @@ fn every_defect_is_named_with_its_place() {
         (spoilt("\n0 90\n", "\n0 75\n"), "line 6", "from 0 to 75 degrees cover no known part"),
         (spoilt("\n0 90\n", "\n10 90\n"), "line 6", "from 10 to 90 degrees cover no known part"),
         // Intensities.
-        (spoilt("200", "-200"), "line 7, column 5", "intensity at 45 degrees vertically, 0 horiz"),
-        (spoilt("200", "1e16"), "line 7, column 5", "from 0 to 1e15"),
-        (spoilt("200", "2OO"), "line 7, column 5", "\"2OO\" is not a number"),
-        (spoilt("200", &"9".repeat(1000)), "line 7, column 5", "9999…\" is not a number"),
+        (
+            spoilt(" 200", " -200"),
+            "line 7, column 5",
+            "intensity at 45 degrees vertically, 0 horiz",
+        ),
+        (spoilt(" 200", " 1e16"), "line 7, column 5", "from 0 to 1e15"),
+        (spoilt(" 200", " 2OO"), "line 7, column 5", "\"2OO\" is not a number"),
+        (
+            spoilt(" 200", &(" ".to_owned() + &"x9".repeat(1000))),
+            "line 7, column 5",
+            "x9x9x9x9x9x9x9x9x9x…\" is not a number",
+        ),
         // Tilt.
         (spoilt("NONE", "INCLUDE\n4 2 0 90 1 1"), "line 3, column 1", "geometry is 4"),
         (spoilt("NONE", "INCLUDE\n1 9999999 0"), "line 3, column 3", "number of tilt angles"),
