@@ -62,7 +62,7 @@ impl Strip {
     fn first_guess(&self, flux: f64) -> f64 {
         let [low, high] = self.angles_rad;
         let share = share_below(self.intensities_cd, flux / self.flux());
-        // cos(low) - cos(angle) = share of the whole difference, in half angles against cancellation.
+        // cos(low) - cos(angle) is a share of the whole; half angles avoid cancellation.
         let square = |angle: f64| {
             let sine = libm::sin(0.5 * angle);
             sine * sine
@@ -183,7 +183,7 @@ mod tests {
                 let [low, high] = strip.angles_rad;
                 assert!(angle >= low && angle <= high);
                 let back = strip.below(angle).flux();
-                // Angles are known to a rounding of their own size, and the flux is as steep as this.
+                // Angles are known to a rounding of their own size; the flux is this steep.
                 let peak = strip.intensities_cd[0].max(strip.intensities_cd[1]);
                 let steep = peak * (libm::sin(angle) * angle + (high - low) * low);
                 let allowed = 8.0 * f64::EPSILON * (whole + steep);

@@ -105,7 +105,7 @@ fn samples_follow_intensity() {
 
 #[test]
 fn the_test_sees_a_wrong_sampler() {
-    // Samples of one distribution held against another that is up to 20 % brighter at every second angle.
+    // Samples of one web held against another, up to 20 % brighter at every second angle.
     let one = every_kind().remove(6).1;
     let IntensityDistribution::Web(web) = &one else { panic!("not a web") };
     let candela: Vec<f64> =
