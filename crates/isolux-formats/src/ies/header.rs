@@ -1,8 +1,8 @@
 //! The lines before the numbers: edition, keywords, labels and `TILT=`.
 
-use super::text::Line;
 use super::{Edition, Keyword};
 use crate::Problem;
+use crate::plain_text::Line;
 use std::path::Path;
 
 /// What stands before the numbers.
@@ -130,7 +130,7 @@ mod tests {
     #[test]
     fn keywords_labels_and_continuations_keep_their_order() {
         let text = "IESNA91\n[TEST] one\nfree text\n[MORE] two\n [ lamp ]x\n\ntilt = None\n1 2";
-        let lines = super::super::text::lines(text);
+        let lines = crate::plain_text::lines(text);
         let (header, rest) = split(&lines, Path::new("x")).unwrap();
         let keyword = |name: &str, value: &str, line| Keyword {
             name: name.into(),

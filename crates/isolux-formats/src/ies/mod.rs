@@ -11,7 +11,6 @@ mod parse;
 mod read;
 mod record;
 mod resolve;
-mod text;
 mod tilt;
 
 pub use opening::{LuminousOpening, OpeningShape};

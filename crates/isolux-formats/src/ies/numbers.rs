@@ -1,7 +1,7 @@
 //! The numbers of a file, one after the other, each with its place.
 
-use super::text::Line;
 use crate::Problem;
+use crate::plain_text::Line;
 use std::path::Path;
 
 /// Reads numbers separated by blanks, tabs, commas and line ends.

@@ -2,11 +2,11 @@
 
 use super::header::{Header, split};
 use super::numbers::Numbers;
-use super::text::{decode, lines};
 use super::tilt::{Tilt, TiltTable};
 use super::{
     Edition, IesFile, LampFactor, LengthUnit, LuminousOpening, PhotometricType, RecordLines, audit,
 };
+use crate::plain_text::{decode, lines};
 use crate::{Loaded, Problem, Problems};
 use std::path::{Component, Path};
 
