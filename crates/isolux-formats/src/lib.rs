@@ -1,5 +1,8 @@
 //! Files to values and values to files: scenes, photometry, maps.
 
+pub mod ies;
+pub mod ldt;
+mod plain_text;
 mod problem;
 
 pub use problem::{Loaded, Problem, Problems};
