@@ -73,14 +73,8 @@ pub(super) fn vectors<const N: usize>(
     document: &Document,
     index: usize,
 ) -> Result<Vec<[f64; N]>, Flaw> {
-    let form = format(document, index)?;
-    if form.width != N {
-        let what = format!("{} where elements of {N} numbers belong", form.name());
-        return Err(Flaw::new(what, "export the file again").rooted(place(index)));
-    }
-    let read = |bytes: &[u8]| element(form, bytes);
-    let values = elements(document, index, form, [0.0; N], read)?;
-    match values.iter().position(|v| !v.iter().all(|c| c.is_finite())) {
+    let values = unchecked_vectors(document, index)?;
+    match values.iter().position(|value| !is_finite(value)) {
         Some(bad) => Err(Flaw::new(
             format!("element {bad} is not made of finite numbers"),
             "mend the geometry and export it again",
@@ -88,6 +82,24 @@ pub(super) fn vectors<const N: usize>(
         .rooted(place(index))),
         None => Ok(values),
     }
+}
+
+/// All elements as vectors of `N` numbers, perhaps infinite or not numbers.
+pub(super) fn unchecked_vectors<const N: usize>(
+    document: &Document,
+    index: usize,
+) -> Result<Vec<[f64; N]>, Flaw> {
+    let form = format(document, index)?;
+    if form.width != N {
+        let what = format!("{} where elements of {N} numbers belong", form.name());
+        return Err(Flaw::new(what, "export the file again").rooted(place(index)));
+    }
+    elements(document, index, form, [0.0; N], |bytes| element(form, bytes))
+}
+
+/// Whether no component is infinite or NaN.
+pub(super) fn is_finite<const N: usize>(value: &[f64; N]) -> bool {
+    value.iter().all(|c| c.is_finite())
 }
 
 /// All elements as indices.

@@ -121,7 +121,7 @@ impl<'a> Source<'a> {
             surfaces.surface(material, tint, notes).map_err(|flaw| flaw.at("material"))?;
         self.warn_of_morph_targets(notes);
         Ok(Decoded {
-            normals: self.vectors(Semantic::Normals, size)?,
+            normals: self.normals(size, notes)?,
             uvs: surface.texcoord.map(|t| self.uvs(t, size, notes)).transpose()?,
             positions,
             triangles,
@@ -148,19 +148,40 @@ impl<'a> Source<'a> {
         topology::triangles(size.mode, &corners, size.vertices).map_err(|flaw| flaw.at("indices"))
     }
 
-    /// A vertex attribute, as many elements as there are vertices.
-    fn vectors<const N: usize>(
-        &self,
-        semantic: Semantic,
-        size: Size,
-    ) -> Result<Option<Vec<[f64; N]>>, Flaw> {
+    /// Stored normals; zero, for which the scene takes the triangle's own, where they are no
+    /// numbers, as exporters leave them at triangles without area.
+    fn normals(&self, size: Size, notes: &mut Notes) -> Result<Option<Vec<[f64; 3]>>, Flaw> {
+        let Some(accessor) = self.checked_attribute(Semantic::Normals, size)? else {
+            return Ok(None);
+        };
+        let mut normals = accessor::unchecked_vectors(self.document, accessor)?;
+        for normal in normals.iter_mut().filter(|normal| !accessor::is_finite(normal)) {
+            *normal = [0.0; 3];
+            let what = "normals that are no finite numbers are replaced by those of the triangles";
+            let remedy = "compute the normals again and export";
+            notes.warn(Flaw::new(what, remedy).at(self.place()));
+        }
+        Ok(Some(normals))
+    }
+
+    /// The accessor of a vertex attribute, as many elements as there are vertices.
+    fn checked_attribute(&self, semantic: Semantic, size: Size) -> Result<Option<usize>, Flaw> {
         let Some(index) = self.attribute(semantic.clone()) else { return Ok(None) };
         let format = self.vertex_format(index, semantic.clone())?;
         if format.count != size.vertices {
             let what = format!("{} elements for {} vertices", format.count, size.vertices);
             return Err(attribute_flaw(&semantic, what, "export the file again"));
         }
-        accessor::vectors(self.document, index).map(Some)
+        Ok(Some(index))
+    }
+
+    fn vectors<const N: usize>(
+        &self,
+        semantic: Semantic,
+        size: Size,
+    ) -> Result<Option<Vec<[f64; N]>>, Flaw> {
+        let accessor = self.checked_attribute(semantic, size)?;
+        accessor.map(|accessor| accessor::vectors(self.document, accessor)).transpose()
     }
 
     /// The format of an attribute's accessor, found to be one the attribute may have.

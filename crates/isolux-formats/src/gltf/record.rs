@@ -3,6 +3,7 @@
 use super::limits;
 use super::notes::Flaw;
 use gltf_json::Root;
+use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use std::fmt;
 
@@ -15,9 +16,8 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, Flaw> {
         ));
     }
     survey(json).map_err(|error| flaw(&error))?;
-    let root: Root = serde_json::from_slice(json).map_err(|error| flaw(&error))?;
-    check_version(&root)?;
-    Ok(root)
+    check_version(json)?;
+    serde_json::from_slice(json).map_err(|error| flaw(&error))
 }
 
 fn flaw(error: &serde_json::Error) -> Flaw {
@@ -30,16 +30,31 @@ fn flaw(error: &serde_json::Error) -> Flaw {
     ))
 }
 
-fn check_version(root: &Root) -> Result<(), Flaw> {
-    let needed = root.asset.min_version.as_ref().unwrap_or(&root.asset.version);
-    let readable = match needed.split_once('.') {
-        Some(("2", minor)) => root.asset.min_version.is_none() || minor == "0",
-        _ => false,
+/// The one part of a file that every version of glTF has.
+#[derive(Deserialize)]
+struct Versioned {
+    asset: Asset,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Asset {
+    version: String,
+    min_version: Option<String>,
+}
+
+/// Looked at first: a file of version 1 would only fail with a riddle.
+fn check_version(json: &[u8]) -> Result<(), Flaw> {
+    let Versioned { asset } = serde_json::from_slice(json).map_err(|error| flaw(&error))?;
+    let readable = match (&asset.min_version, asset.version.split_once('.')) {
+        (Some(needed), _) => needed == "2.0",
+        (None, Some((major, _))) => major == "2",
+        (None, None) => false,
     };
     if readable {
         return Ok(());
     }
-    let what = format!("glTF version `{needed}`");
+    let what = format!("glTF version `{}`", asset.min_version.unwrap_or(asset.version));
     Err(Flaw::new(what, "convert the file to glTF 2.0").at("asset"))
 }
 

@@ -181,6 +181,20 @@ fn instances_and_mirror_images() {
 }
 
 #[test]
+fn normals_that_are_no_numbers() {
+    let mut file = File::triangle();
+    let stored = [f32::NAN, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, f32::INFINITY];
+    let normals = file.accessor(&floats(&stored), "VEC3", FLOAT, 3);
+    file.primitive()["attributes"]["NORMAL"] = json!(normals);
+    let loaded = file.load();
+    assert_eq!(loaded.warnings.len(), 1);
+    assert_warns(&loaded, "meshes[0].primitives[0]", "no finite numbers");
+    let expected = [[0.0; 3], [0.0, 0.0, 1.0], [0.0; 3]];
+    assert_eq!(loaded.value.shapes[0].normals.as_deref(), Some(&expected[..]));
+    Scene::assemble(loaded.value).unwrap();
+}
+
+#[test]
 fn only_the_default_scene() {
     let mut file = File::triangle();
     file.json["nodes"] = json!([{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b"}]);

@@ -499,7 +499,8 @@ fn texts() {
         assert_refused(name, read_bytes("a.gltf", text.as_bytes()), "line 1, column", words);
     }
     for version in ["1.0", "3.0", "2", ""] {
-        let text = format!(r#"{{"asset":{{"version":"{version}"}}}}"#);
+        // Meshes were named, not numbered, before version 2.
+        let text = format!(r#"{{"asset":{{"version":"{version}"}},"meshes":{{}}}}"#);
         assert_refused(version, read_bytes("a.gltf", text.as_bytes()), "asset", "glTF version");
     }
     let directory = tempfile::tempdir().unwrap();

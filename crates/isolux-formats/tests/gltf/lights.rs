@@ -1,7 +1,7 @@
 //! Luminaires of KHR_lights_punctual and EXT_lights_ies.
 
 use crate::build::{File, assert_warns};
-use isolux::geometry::{Direction, Point, Vector};
+use isolux::geometry::{Point, Vector};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Luminaire, LuminaireKind, Scene};
 use isolux::units::Rgb;
