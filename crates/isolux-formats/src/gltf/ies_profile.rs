@@ -2,8 +2,9 @@
 
 use super::buffers::Document;
 use super::limits;
-use super::notes::{Flaw, no_such};
+use super::notes::{Flaw, Notes, no_such};
 use super::uri;
+use crate::{Problem, ies};
 use isolux::photometry::IntensityDistribution;
 use serde_json::Value;
 use std::borrow::Cow;
@@ -44,16 +45,20 @@ impl Instance {
 }
 
 /// The distribution of a profile, with its name where it has one.
-pub(super) fn profile(document: &Document, index: usize) -> Result<IntensityDistribution, Flaw> {
+pub(super) fn profile(
+    document: &Document,
+    index: usize,
+    notes: &mut Notes,
+) -> Result<IntensityDistribution, Flaw> {
     let root_extensions = document.root.extensions.as_ref();
     let lights = root_extensions
         .and_then(|e| e.others.get(NAME)?.get("lights")?.as_array())
         .map_or(&[][..], Vec::as_slice);
     let list = format!("extensions.{NAME}.lights");
     let record = lights.get(index).ok_or_else(|| no_such(&list, index, lights.len()))?;
-    bytes(document, record)
-        .and_then(|(bytes, name)| distribution(&bytes, Path::new(&name)))
-        .map_err(|flaw| flaw.rooted(format!("{list}[{index}]")))
+    let place = format!("{list}[{index}]");
+    let (bytes, name) = bytes(document, record).map_err(|flaw| flaw.rooted(&place))?;
+    distribution(&bytes, Path::new(&name), &place, notes)
 }
 
 /// The bytes of a profile, and what to call them in a message.
@@ -73,7 +78,27 @@ fn bytes<'a>(document: &'a Document, record: &Value) -> Result<(Cow<'a, [u8]>, S
     }
 }
 
-/// The seam to the reader of photometric files.
-fn distribution(_bytes: &[u8], _name: &Path) -> Result<IntensityDistribution, Flaw> {
-    Err(Flaw::new("IES profiles cannot be read yet", "replace the light"))
+/// Photometry from memory. Its findings are given the place of the profile in the glTF file.
+fn distribution(
+    bytes: &[u8],
+    name: &Path,
+    place: &str,
+    notes: &mut Notes,
+) -> Result<IntensityDistribution, Flaw> {
+    let flaw = |problem: Problem| {
+        let what = format!("{}: {}: {}", name.display(), problem.place, problem.what);
+        Flaw::new(what, problem.remedy).rooted(place)
+    };
+    let read_tilt = &mut |_: &str| {
+        let what = "a tilt file of its own is not read through glTF";
+        Err(Problem::new(name, "", what, "write TILT=NONE or TILT=INCLUDE"))
+    };
+    let loaded = ies::parse(bytes, name, read_tilt).map_err(|problems| {
+        let mut flaws = problems.0.into_iter().map(flaw);
+        let first = flaws.next();
+        flaws.for_each(|flaw| notes.problem(flaw));
+        first.unwrap_or_else(|| Flaw::new("unreadable", "replace it").rooted(place))
+    })?;
+    loaded.warnings.into_iter().map(flaw).for_each(|warning| notes.warn(warning));
+    loaded.value.resolve().map_err(flaw)
 }

@@ -21,7 +21,7 @@ pub(super) fn luminaires(
         let place = format!("nodes[{}].extensions", instance.node);
         for made in [
             punctual_luminaire(document, instance, notes),
-            ies_luminaire(document, instance, &mut profiles),
+            ies_luminaire(document, instance, &mut profiles, notes),
         ] {
             luminaires.extend(notes.accept(made.map_err(|flaw| flaw.rooted(&place))).flatten());
         }
@@ -51,6 +51,7 @@ fn ies_luminaire(
     document: &Document,
     instance: &Placed,
     profiles: &mut Profiles,
+    notes: &mut Notes,
 ) -> Result<Option<Luminaire>, Flaw> {
     let node = &document.root.nodes[instance.node];
     let extension = node.extensions.as_ref().and_then(|e| e.others.get(ies_profile::NAME));
@@ -58,9 +59,9 @@ fn ies_luminaire(
     let ies = Instance::read(extension).map_err(|flaw| flaw.at(ies_profile::NAME))?;
     let profile = profiles
         .entry(ies.profile)
-        .or_insert_with(|| ies_profile::profile(document, ies.profile))
+        .or_insert_with(|| ies_profile::profile(document, ies.profile, notes))
         .as_ref()
-        .map_err(|flaw| flaw.clone().at(ies_profile::NAME))?;
+        .map_err(|flaw| flaw.clone().at(format!("{}.light", ies_profile::NAME)))?;
     let (colour, factor) = punctual::photometric(ies.colour, ies.multiplier)?;
     let kind = punctual::point(&instance.world_from_node, profile.scaled(factor));
     let name = name(document, instance.node, None);

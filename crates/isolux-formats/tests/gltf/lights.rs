@@ -159,3 +159,87 @@ fn refused() {
     let problems = file.read().unwrap_err();
     assert_eq!(problems.0[0].place, "nodes[1].extensions.KHR_lights_punctual.light");
 }
+
+/// 100 cd straight on, half of it aside along C0, a quarter along C90, nothing behind.
+const PROFILE: &str = "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 1 2 0 0 0\n1 1 10\n0 90 180\n0 90\n\
+    100 50 0\n100 25 0\n";
+
+fn with_profile(node: Value) -> File {
+    let mut file = File::triangle();
+    let view = file.view(PROFILE.as_bytes());
+    file.json["extensionsRequired"] = json!(["EXT_lights_ies"]);
+    file.json["extensions"] = json!({"EXT_lights_ies": {
+        "lights": [{"bufferView": view, "mimeType": "application/x-ies-lm-63"}],
+    }});
+    file.json["nodes"] = json!([{"mesh": 0}, node]);
+    file.json["scenes"] = json!([{"nodes": [0, 1]}]);
+    file
+}
+
+#[test]
+fn ies_profile() {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let file = with_profile(json!({
+        // A quarter turn about x takes -z to +y and +y to +z.
+        "name": "wall washer", "rotation": [half, 0, 0, half], "scale": [9, 9, 9],
+        "extensions": {"EXT_lights_ies": {"light": 0, "multiplier": 3, "color": [1, 1, 7]}},
+    }));
+    let found = luminaire(&file);
+    assert_eq!(found.name, "wall washer");
+    assert!(found.colour.0.iter().all(|c| (c - 1.0).abs() < SINGLE_ROUNDING));
+    let LuminaireKind::Point { world_from_luminaire, intensity, .. } = found.kind else {
+        panic!("no point")
+    };
+    let luminaire_from_world = world_from_luminaire.inverse().unwrap();
+    for (world, expected_cd) in [
+        ([0.0, 1.0, 0.0], 300.0),
+        ([0.0, -1.0, 0.0], 0.0),
+        ([1.0, 0.0, 0.0], 150.0),
+        ([0.0, 0.0, 1.0], 75.0),
+    ] {
+        let local = luminaire_from_world.vector(world.into()).direction().unwrap();
+        let found_cd = intensity.intensity_cd(local);
+        // Degrees of the table and the `f32` quaternion: 150 cd a right angle, 1e-7 off.
+        assert!((found_cd - expected_cd).abs() < 1e-4, "{world:?}: {found_cd}");
+    }
+}
+
+#[test]
+fn ies_profile_as_a_file() {
+    let node = json!({"extensions": {"EXT_lights_ies": {"light": 0}}});
+    let mut file = with_profile(node);
+    let expected = luminaire(&file);
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("lamp.ies"), PROFILE).unwrap();
+    file.json["extensions"]["EXT_lights_ies"]["lights"] = json!([{"uri": "lamp.ies"}]);
+    let read = crate::build::read_in(directory.path(), "a.glb", &file.glb()).unwrap();
+    assert_eq!(read.value.luminaires, [expected]);
+}
+
+#[test]
+fn ies_profiles_refused() {
+    let table = [
+        (json!({"light": 1}), "light", "lights[1] does not exist"),
+        (json!({}), "EXT_lights_ies.light", "unreadable"),
+        (json!({"light": 0, "multiplier": -1}), "multiplier", "unreadable"),
+        (json!({"light": 0, "color": [1, 1]}), "color", "unreadable"),
+    ];
+    for (node, place, words) in table {
+        let file = with_profile(json!({"extensions": {"EXT_lights_ies": node}}));
+        let Err(problems) = file.read() else { panic!("{node}: accepted") };
+        let problem = &problems.0[0];
+        assert!(problem.place.ends_with(place) && problem.what.contains(words), "{problem}");
+    }
+    let mut file = with_profile(json!({"extensions": {"EXT_lights_ies": {"light": 0}}}));
+    for (record, words) in [
+        (json!({"uri": "data:,none"}), "line 1"),
+        (json!({"uri": "../lamp.ies"}), "leaves the directory"),
+        (json!({"bufferView": 9}), "bufferViews[9] does not exist"),
+        (json!({}), "neither uri nor bufferView"),
+    ] {
+        file.json["extensions"]["EXT_lights_ies"]["lights"] = json!([record]);
+        let problems = file.read().unwrap_err();
+        assert!(problems.0[0].place.starts_with("extensions.EXT_lights_ies.lights[0]"));
+        assert!(problems.0[0].what.contains(words), "{problems}");
+    }
+}
