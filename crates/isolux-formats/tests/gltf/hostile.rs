@@ -463,13 +463,37 @@ fn containers() {
     }
 }
 
+/// A little of all that is read from buffers.
+fn file_of_everything() -> File {
+    let mut file = File::triangle();
+    let indices = file.accessor(&[0, 1, 2], "SCALAR", U8, 3);
+    let uvs = file.accessor(&floats(&[0.5; 6]), "VEC2", FLOAT, 3);
+    let colours = file.accessor(&floats(&[0.5; 9]), "VEC3", FLOAT, 3);
+    let (places, values) = (file.view(&[1]), file.view(&floats(&[2.0; 3])));
+    let picture = file.view(&png(&[[255, 0, 0], [0, 0, 255]]));
+    file.json["accessors"][0]["sparse"] = json!({
+        "count": 1,
+        "indices": {"bufferView": places, "componentType": U8},
+        "values": {"bufferView": values},
+    });
+    file.primitive()["indices"] = json!(indices);
+    file.primitive()["attributes"]["TEXCOORD_0"] = json!(uvs);
+    file.primitive()["attributes"]["COLOR_0"] = json!(colours);
+    file.json["images"] = json!([{"bufferView": picture}]);
+    file.json["textures"] = json!([{"source": 0}]);
+    file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = json!({"index": 0});
+    file.json["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}]);
+    file.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [{"type": "spot"}]}});
+    let light = json!({"KHR_lights_punctual": {"light": 0}});
+    file.json["nodes"][0] = json!({"mesh": 0, "camera": 0, "extensions": light});
+    file.parts();
+    file
+}
+
 /// Every prefix, and every byte turned over, is an answer and no panic.
 #[test]
 fn damaged_everywhere() {
-    let mut file = File::triangle();
-    let indices = file.accessor(&[0, 1, 2], "SCALAR", U8, 3);
-    file.primitive()["indices"] = json!(indices);
-    let good = file.glb();
+    let good = file_of_everything().glb();
     let directory = tempfile::tempdir().unwrap();
     for length in 0..good.len() {
         assert!(read_in(directory.path(), "a.glb", &good[..length]).is_err(), "{length}");
