@@ -1,5 +1,7 @@
 //! Files to values and values to files: scenes, photometry, maps.
 
+pub mod atomic;
+pub mod map_glb;
 mod problem;
 
 pub use problem::{Loaded, Problem, Problems};
