@@ -1,6 +1,7 @@
 //! Files to values and values to files: scenes, photometry, maps.
 
 pub mod atomic;
+pub mod checkpoint;
 pub mod map_glb;
 mod problem;
 
