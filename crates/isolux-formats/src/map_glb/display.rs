@@ -66,8 +66,8 @@ fn is_shown(scene: &Scene, triangle: u32, back: bool) -> bool {
     }
 }
 
-/// Whether a layer of this material and side needs texture coordinates.
-fn texture_of(scene: &Scene, triangle: u32, back: bool) -> Option<u32> {
+/// The texture that a side of a triangle shows.
+pub(super) fn texture_of(scene: &Scene, triangle: u32, back: bool) -> Option<u32> {
     scene.corner_uvs(triangle)?;
     scene.material(triangle).finish(back)?.diffuse.texture
 }

@@ -1,5 +1,6 @@
 //! The look of a map in viewers that know nothing of lux.
 
+use super::display::texture_of;
 use super::value_arrays::storable;
 use isolux::elements::Element;
 use isolux::map::IlluminationMap;
@@ -85,7 +86,8 @@ fn patch(
     let [a, b, c] = element.vertices.map(|v| map.elements.vertices()[v as usize].position);
     let known = element.vertices.iter().filter_map(|&v| map.values[v as usize].and_then(storable));
     let (sum, count) = known.fold((Rgb::BLACK, 0.0), |(s, n), v| (s + v.total_lx(), n + 1.0));
-    let texture = finish.diffuse.texture.map_or(Rgb::WHITE, |t| textures[t as usize]);
+    let texture = texture_of(scene, element.triangle, element.back);
+    let texture = texture.map_or(Rgb::WHITE, |t| textures[t as usize]);
     let luminance = luminance_cd_m2(finish, sum / count) * texture;
     (count > 0.0).then(|| Patch {
         area_m2: 0.5 * (b - a).cross(c - a).length(),
