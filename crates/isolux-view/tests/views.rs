@@ -246,10 +246,14 @@ fn a_chart_of_a_rising_map_has_level_bands_and_lines() {
 
     let lines = FalseColour { contours: Some(Contours::At(vec![200.0])), ..chart };
     let lined = false_colour(&image, &lines).unwrap();
-    let changed: Vec<usize> =
-        (0..64 * 64).filter(|&p| lined.rgb[p] != bands.rgb[p]).map(|p| p / 64).collect();
+    // The label stands in the middle; left of it there is only the line.
+    let changed: Vec<usize> = (0..64 * 64)
+        .filter(|p| p % 64 < 16 && lined.rgb[*p] != bands.rgb[*p])
+        .map(|p| p / 64)
+        .collect();
     assert!(changed.iter().all(|row| (30..=33).contains(row)), "{changed:?}");
-    assert!(changed.len() >= 2 * 62, "the line crosses the whole face");
+    // The first column has no neighbour to its left.
+    assert!(changed.len() >= 2 * 15, "the line runs across");
 }
 
 #[test]
