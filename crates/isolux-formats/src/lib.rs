@@ -7,6 +7,7 @@ pub mod ies;
 pub mod ldt;
 pub mod map_glb;
 mod plain_text;
+pub mod png;
 mod problem;
 
 pub use problem::{Loaded, Problem, Problems};
