@@ -44,6 +44,7 @@ pub fn probe_exact(
 ) -> Illuminance {
     Illuminance {
         direct_lx: crate::units::Rgb::BLACK,
+        caustic_lx: crate::units::Rgb::BLACK,
         indirect_lx: crate::units::Rgb::BLACK,
         standard_error_lx: 0.0,
         indirect_standard_error_lx: 0.0,
