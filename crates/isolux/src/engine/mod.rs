@@ -1,6 +1,12 @@
 //! Engines: from a scene to an illumination map.
 
+mod accumulate;
+mod direct;
+mod gather;
+mod path;
 mod request;
+mod scatter;
+mod surface;
 
 pub use request::{Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
 
