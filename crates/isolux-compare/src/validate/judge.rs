@@ -246,3 +246,66 @@ fn root_mean_square_lx(map: &IlluminationMap) -> f64 {
     });
     if area > 0.0 { (sum / area).sqrt() } else { 0.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expectation::Bound;
+    use isolux::engine::ProbePoint;
+    use isolux::geometry::{Normal, Point};
+
+    const ALLOWANCE: Allowance =
+        Allowance { rounding_lx: 1e-10, interpolation_lx: 2.0, interval: 2.0, chance: 0.01 };
+
+    fn expectation(quantity: Quantity, lx: f64) -> Expectation {
+        let at = ProbePoint { position: Point::ORIGIN, normal: Normal::Z };
+        Expectation { at, quantity, expected_lx: Rgb::grey(lx), bound: Bound::EXACT_GEOMETRY }
+    }
+
+    fn found(direct: Rgb, indirect: f64) -> Illuminance {
+        Illuminance {
+            direct_lx: direct,
+            caustic_lx: Rgb::BLACK,
+            indirect_lx: Rgb::grey(indirect),
+            standard_error_lx: 5.0,
+            indirect_standard_error_lx: 5.0,
+            samples: 100,
+        }
+    }
+
+    #[test]
+    fn direct_light_has_no_excuse_and_indirect_light_has_its_errors() {
+        let reading = |quantity, lx: f64, off: f64| {
+            let light = found(Rgb::grey(100.0 + off), 50.0 + off);
+            ALLOWANCE.reading(&expectation(quantity, lx), &light)
+        };
+        assert!(!reading(Quantity::Direct, 100.0, 0.0).is_off());
+        assert!(!reading(Quantity::Direct, 100.0, 0.0).is_statistical());
+        assert!(reading(Quantity::Direct, 100.0, 0.1).is_off());
+        // Three standard errors and the interpolation are 17 lx.
+        assert!(!reading(Quantity::Indirect, 50.0, 16.9).is_off());
+        assert!(reading(Quantity::Indirect, 50.0, 17.1).is_off());
+        assert!(reading(Quantity::Total, 150.0, 8.6).is_off());
+    }
+
+    #[test]
+    fn a_wrong_colour_of_the_right_luminance_is_wrong() {
+        let [red, green, _] = Rgb::LUMINANCE_WEIGHTS;
+        let light = found(Rgb::new(100.0 + green, 100.0 - red, 100.0), 0.0);
+        let reading = ALLOWANCE.reading(&expectation(Quantity::Direct, 100.0), &light);
+        assert!((reading.measured_lx - 100.0).abs() < 1e-9 && reading.is_off());
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_off() {
+        let light = found(Rgb::new(f64::NAN, 100.0, 100.0), 0.0);
+        assert!(ALLOWANCE.reading(&expectation(Quantity::Direct, 100.0), &light).is_off());
+    }
+
+    #[test]
+    fn caustics_make_direct_light_statistical() {
+        let light = Illuminance { caustic_lx: Rgb::grey(1.0), ..found(Rgb::grey(110.0), 0.0) };
+        let reading = ALLOWANCE.reading(&expectation(Quantity::Direct, 100.0), &light);
+        assert!(reading.is_statistical() && !reading.is_off());
+    }
+}

@@ -26,8 +26,11 @@ pub fn any_hit(mesh: &TriangleMesh, is_transparent: impl Fn(u32) -> bool, ray: &
 pub fn hits(mesh: &TriangleMesh, ray: &Ray) -> impl Iterator<Item = Hit> {
     let skip = ray.skip;
     Shear::new(ray).into_iter().flat_map(move |shear| {
-        (0..mesh.len() as u32)
-            .filter(move |&triangle| Some(triangle) != skip)
-            .filter_map(move |triangle| shear.meet(corners(mesh, triangle)?, triangle))
+        (0..mesh.len() as u32).filter(move |&triangle| Some(triangle) != skip).filter_map(
+            move |triangle| {
+                let corners = corners(mesh, triangle)?;
+                Some(shear.meet(|corner, axis| corners[corner][axis])?.of(triangle))
+            },
+        )
     })
 }

@@ -12,8 +12,8 @@ const BINS: usize = 32;
 /// From this many triangles on, both halves are built at the same time.
 const PARALLEL: usize = 4096;
 
-/// Greatest number of nodes on a path from the root to a leaf, less one.
-pub(super) const MAX_DEPTH: u32 = 34;
+/// Greatest number of nodes on a path from the root to a leaf, less one: bounds all recursion.
+const MAX_DEPTH: u32 = 34;
 
 /// Greatest number of triangles: more could not keep to [`MAX_DEPTH`] and to the bits of a
 /// reference in the wide tree.
@@ -27,7 +27,7 @@ pub(super) struct Primitive {
 }
 
 /// A node of the binary hierarchy. The first child of an inner node follows it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct BinaryNode {
     pub(super) bounds: Bounds,
     /// Number of triangles below; one for a leaf.
@@ -219,5 +219,53 @@ impl Bins {
             (count > 0 && second_count > 0)
                 .then(|| (bin, bounds.half_area() * count as f32 + second_cost))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BinaryNode, Bounds, MAX_DEPTH, Primitive, build};
+
+    /// Boxes along a spiral, of sizes that differ by orders of magnitude.
+    fn primitives(count: u32, growth: f32) -> Vec<Primitive> {
+        let primitive = |triangle: u32| {
+            let k = triangle as f32;
+            let size = growth.powf(k);
+            let low = [size * (0.1 * k).cos(), size * (0.1 * k).sin(), k % 7.0];
+            let bounds = Bounds { low, high: low.map(|x| x + 0.1 * size) };
+            Primitive { bounds, triangle }
+        };
+        (0..count).map(primitive).collect()
+    }
+
+    fn depth(nodes: &[BinaryNode], index: usize) -> u32 {
+        let below = nodes[index].children(index);
+        below.map_or(0, |children| {
+            1 + children.map(|child| depth(nodes, child)).into_iter().max().unwrap()
+        })
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_nothing() {
+        let with_threads = |count: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+            pool.install(|| build(primitives(20_000, 1.0001)))
+        };
+        let one = with_threads(1);
+        assert_eq!(one.len(), 39_999);
+        assert_eq!(one, with_threads(4));
+    }
+
+    #[test]
+    fn every_triangle_has_one_leaf_and_the_depth_is_bounded() {
+        for (count, growth) in [(1, 1.0), (2, 1.0), (1000, 1.0), (2000, 1.01), (6000, 0.99)] {
+            let nodes = build(primitives(count, growth));
+            let leaves = nodes.iter().filter(|node| node.count == 1);
+            let mut triangles: Vec<u32> = leaves.map(BinaryNode::triangle).collect();
+            triangles.sort_unstable();
+            assert!(triangles.into_iter().eq(0..count));
+            assert!(depth(&nodes, 0) <= MAX_DEPTH, "{count} {growth}");
+        }
+        assert!(build(Vec::new()).is_empty());
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Which descendants become the children of a wide node, and which subtrees become leaves, is
 //! decided by dynamic programming over the binary nodes (Ylitie, Karras, Laine 2017, "Efficient
-//! Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 3): `forest(n, i)` is the least
-//! cost of what lies below binary node `n` when at most `i` wide children may stand for it.
+//! Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 3), over the least cost
+//! of what lies below a binary node when at most so many wide children may stand for it.
 
 use super::bounds::Bounds;
 use super::build::BinaryNode;

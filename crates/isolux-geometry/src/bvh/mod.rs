@@ -3,10 +3,13 @@
 //! What a ray hits is defined by [`brute_force`] over the triangle test; everything else only saves
 //! work and changes no bit of the answer.
 
+#[cfg(target_arch = "x86_64")]
+mod avx2;
 mod bounds;
 pub mod brute_force;
 mod build;
 mod collapse;
+mod instructions;
 mod portable;
 mod slabs;
 mod traverse;
@@ -14,8 +17,11 @@ mod triangle_test;
 mod wide;
 
 use crate::{Hit, Ray, TriangleMesh};
+pub use instructions::InstructionSet;
+
 use bounds::Bounds;
 use build::Primitive;
+use instructions::Kernel;
 use wide::{Block, WideTree};
 
 /// Answers ray queries over a triangle mesh.
@@ -24,14 +30,14 @@ use wide::{Block, WideTree};
 /// the same `t`, a front counts before a back and then the lower index. Between triangles that
 /// share an edge (the same two positions, bit for bit) or a corner no ray passes.
 ///
-/// Rays that are not finite, that have no direction, or whose origin or direction has a component
-/// of more than 2^40 meet nothing (nor do rays whose direction is shorter than 2^-40). Triangles with a
-/// corner that is not finite or more than 2^40 m from an axis are never met, nor are triangles
-/// without area.
+/// Rays that are not finite meet nothing, nor do those whose origin is more than 2^40 m away or
+/// whose direction is shorter than 2^-40 or longer than 2^40. Triangles with a corner that is not
+/// finite or has a coordinate beyond 2^40 m are never met, nor are triangles without area.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     mesh: TriangleMesh,
     tree: WideTree,
+    kernel: Kernel,
 }
 
 impl Bvh {
@@ -49,7 +55,13 @@ impl Bvh {
         let binary = build::build(primitives.collect());
         let tree =
             collapse::collapse(&binary, |triangles| block(&mesh, &is_transparent, triangles));
-        Self { mesh, tree }
+        Self { mesh, tree, kernel: Kernel::fastest() }
+    }
+
+    /// The same hierarchy walked with the given instructions instead of the fastest, for
+    /// measurement and tests; `None` where this processor lacks them.
+    pub fn with_instructions(self, set: InstructionSet) -> Option<Self> {
+        Some(Self { kernel: Kernel::of(set)?, ..self })
     }
 
     /// The triangles.
@@ -59,12 +71,12 @@ impl Bvh {
 
     /// The first triangle that the ray meets, transparent or not.
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        traverse::closest_hit::<portable::Portable>(&self.tree, ray)
+        self.kernel.closest_hit(&self.tree, ray)
     }
 
     /// Whether the ray meets any triangle that is not transparent.
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        traverse::any_hit::<portable::Portable>(&self.tree, ray)
+        self.kernel.any_hit(&self.tree, ray)
     }
 }
 

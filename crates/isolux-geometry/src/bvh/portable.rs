@@ -12,13 +12,15 @@ pub(super) struct Portable {
 }
 
 impl Lanes for Portable {
+    type Distances = [f32; WIDTH];
+
     #[inline(always)]
     fn new(shear: &Shear, slabs: &Slabs) -> Self {
         Self { shear: *shear, slabs: *slabs }
     }
 
     #[inline(always)]
-    fn children_met(&self, node: &Node, t_far: f32, entries: &mut [Entry; WIDTH]) -> usize {
+    fn children_met(&self, node: &Node, t_far: f32) -> ([f32; WIDTH], u32) {
         let Slabs { inverse, enter, leave, entry_planes } = &self.slabs;
         let (mut t_enter, mut t_leave) = ([0.0_f32; WIDTH], [t_far; WIDTH]);
         for axis in 0..3 {
@@ -31,14 +33,17 @@ impl Lanes for Portable {
                 t_leave[lane] = if b < t_leave[lane] { b } else { t_leave[lane] };
             }
         }
-        let mut count = 0;
-        for lane in 0..WIDTH {
-            if t_enter[lane] <= t_leave[lane] {
-                entries[count] = Entry::new(t_enter[lane], node.children[lane]);
-                count += 1;
-            }
+        let met =
+            (0..WIDTH).fold(0, |met, lane| met | u32::from(t_enter[lane] <= t_leave[lane]) << lane);
+        (t_enter, met)
+    }
+
+    #[inline(always)]
+    fn write_met(node: &Node, t: [f32; WIDTH], met: u32, entries: &mut [Entry; WIDTH]) {
+        let lanes = (0..WIDTH).filter(|lane| met >> lane & 1 == 1);
+        for (entry, lane) in entries.iter_mut().zip(lanes) {
+            *entry = Entry::new(t[lane], node.children[lane]);
         }
-        count
     }
 
     #[inline(always)]

@@ -8,12 +8,18 @@ use crate::{Hit, Ray};
 /// The tests of eight boxes and eight triangles at once. They only sift: what is hit is decided by
 /// [`Shear::meet`], hence the same bits for every implementation.
 pub(super) trait Lanes {
+    /// Where the ray enters eight boxes.
+    type Distances: Copy;
+
     /// What the tests need to know about the ray.
     fn new(shear: &Shear, slabs: &Slabs) -> Self;
 
-    /// Writes an entry for each child whose box the ray meets up to `t_far`, in any order, and
-    /// returns their number. The other elements of `entries` may be overwritten.
-    fn children_met(&self, node: &Node, t_far: f32, entries: &mut [Entry; WIDTH]) -> usize;
+    /// Where the ray enters the children, and a bit for each that it meets up to `t_far`.
+    fn children_met(&self, node: &Node, t_far: f32) -> (Self::Distances, u32);
+
+    /// Writes an entry for each child `met`, in the order of the lanes. What follows them in
+    /// `entries` may be overwritten.
+    fn write_met(node: &Node, t: Self::Distances, met: u32, entries: &mut [Entry; WIDTH]);
 
     /// A bit for each triangle that the line of the ray may meet.
     fn candidates(&self, block: &Block) -> u32;
@@ -23,7 +29,7 @@ pub(super) trait Lanes {
 /// negative, so that their bits order as they do).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(transparent)]
-pub(super) struct Entry(pub(super) u64);
+pub(super) struct Entry(u64);
 
 impl Entry {
     #[inline(always)]
@@ -42,119 +48,198 @@ impl Entry {
     }
 }
 
-/// What is still to be visited, next on top. Every level of the tree leaves at most seven entries
-/// behind, and [`MAX_DEPTH`](super::build::MAX_DEPTH) bounds the levels.
-struct Stack {
-    entries: [Entry; Self::SIZE],
-    len: usize,
+/// What a walk looks for.
+trait Query {
+    /// Whether nearer children come first.
+    const ORDERED: bool;
+
+    /// Nothing beyond is of interest.
+    fn t_far(&self) -> f32;
+
+    /// Looks at some triangles of a block; true when nothing more can be learned.
+    fn look_at(&mut self, block: &Block, candidates: u32) -> bool;
 }
-
-impl Stack {
-    const SIZE: usize = 256;
-
-    #[inline(always)]
-    fn new(root: Reference) -> Self {
-        let mut entries = [Entry(0); Self::SIZE];
-        entries[0] = Entry::new(0.0, root);
-        Self { entries, len: 1 }
-    }
-
-    #[inline(always)]
-    fn pop(&mut self) -> Option<Entry> {
-        self.len = self.len.checked_sub(1)?;
-        Some(self.entries[self.len])
-    }
-
-    /// Pushes the children met and returns them.
-    #[inline(always)]
-    fn push<L: Lanes>(&mut self, lanes: &L, node: &Node, t_far: f32) -> &mut [Entry] {
-        let Some(free) = self.entries[self.len..].first_chunk_mut::<WIDTH>() else {
-            unreachable!("depth is bounded")
-        };
-        let count = lanes.children_met(node, t_far, free);
-        self.len += count;
-        &mut free[..count]
-    }
-}
-
-const _: () = assert!(super::build::MAX_DEPTH as usize * (WIDTH - 1) + WIDTH <= Stack::SIZE);
 
 /// See [`Bvh::closest_hit`](super::Bvh::closest_hit).
 #[inline(always)]
 pub(super) fn closest_hit<L: Lanes>(tree: &WideTree, ray: &Ray) -> Option<Hit> {
     let shear = Shear::new(ray)?;
     let lanes = L::new(&shear, &Slabs::new(ray, tree.reach));
-    let skip = ray.skip.unwrap_or(u32::MAX);
-    let mut stack = Stack::new(tree.root?);
-    let mut closest: Option<Hit> = None;
-    let mut t_far = shear.t_max;
-    while let Some(entry) = stack.pop() {
-        if entry.t() > t_far {
-            continue;
-        }
-        match entry.reference().target() {
-            Ok(node) => sort_nearest_last(stack.push(&lanes, &tree.nodes[node], t_far)),
-            Err((first, count)) => {
-                for block in &tree.blocks[first..first + count] {
-                    let candidates = lanes.candidates(block);
-                    for lane in set_bits(candidates) {
-                        let triangle = block.labels[lane] & !Block::TRANSPARENT;
-                        if triangle == skip {
-                            continue;
-                        }
-                        let Some(hit) = shear.meet(block.triangle(lane), triangle) else {
-                            continue;
-                        };
-                        if closest.as_ref().is_none_or(|best| comes_before(&hit, best)) {
-                            t_far = hit.t;
-                            closest = Some(hit);
-                        }
-                    }
-                }
-            }
-        }
-    }
-    closest
+    let mut query = Closest { t_far: shear.t_max, shear, skip: skipped(ray), closest: None };
+    walk(tree, &lanes, &mut query);
+    query.closest
 }
 
 /// See [`Bvh::any_hit`](super::Bvh::any_hit).
 #[inline(always)]
 pub(super) fn any_hit<L: Lanes>(tree: &WideTree, ray: &Ray) -> bool {
-    let (Some(shear), Some(root)) = (Shear::new(ray), tree.root) else { return false };
+    let Some(shear) = Shear::new(ray) else { return false };
     let lanes = L::new(&shear, &Slabs::new(ray, tree.reach));
-    let skip = ray.skip.unwrap_or(u32::MAX);
-    let mut stack = Stack::new(root);
-    while let Some(entry) = stack.pop() {
-        match entry.reference().target() {
+    walk(tree, &lanes, &mut Any { shear, skip: skipped(ray) })
+}
+
+/// The label of no triangle where none is skipped.
+#[inline(always)]
+fn skipped(ray: &Ray) -> u32 {
+    ray.skip.unwrap_or(u32::MAX)
+}
+
+struct Closest {
+    shear: Shear,
+    skip: u32,
+    t_far: f32,
+    closest: Option<Hit>,
+}
+
+impl Query for Closest {
+    const ORDERED: bool = true;
+
+    #[inline(always)]
+    fn t_far(&self) -> f32 {
+        self.t_far
+    }
+
+    #[inline(always)]
+    fn look_at(&mut self, block: &Block, mut candidates: u32) -> bool {
+        while candidates != 0 {
+            let lane = candidates.trailing_zeros() as usize;
+            candidates &= candidates - 1;
+            let triangle = block.labels[lane] & !Block::TRANSPARENT;
+            if triangle == self.skip {
+                continue;
+            }
+            let corner = |corner: usize, axis: usize| block.corners[corner][axis][lane];
+            let Some(meeting) = self.shear.meet(corner) else { continue };
+            if meeting.t > self.t_far {
+                continue;
+            }
+            let hit = meeting.of(triangle);
+            if self.closest.as_ref().is_none_or(|closest| comes_before(&hit, closest)) {
+                self.t_far = hit.t;
+                self.closest = Some(hit);
+            }
+        }
+        false
+    }
+}
+
+struct Any {
+    shear: Shear,
+    skip: u32,
+}
+
+impl Query for Any {
+    const ORDERED: bool = false;
+
+    #[inline(always)]
+    fn t_far(&self) -> f32 {
+        self.shear.t_max
+    }
+
+    #[inline(always)]
+    fn look_at(&mut self, block: &Block, mut candidates: u32) -> bool {
+        while candidates != 0 {
+            let lane = candidates.trailing_zeros() as usize;
+            candidates &= candidates - 1;
+            let label = block.labels[lane];
+            let is_seen = label < Block::TRANSPARENT && label != self.skip;
+            let corner = |corner: usize, axis: usize| block.corners[corner][axis][lane];
+            if is_seen && self.shear.meet(corner).is_some() {
+                return true;
+            }
+        }
+        false
+    }
+}
+
+/// Visits what the ray meets until nothing is left or the query has its answer; whether it has.
+#[inline(always)]
+fn walk<L: Lanes, Q: Query>(tree: &WideTree, lanes: &L, query: &mut Q) -> bool {
+    let Some(mut current) = tree.root else { return false };
+    let mut stack = Stack::new();
+    loop {
+        match current.target() {
             Ok(node) => {
-                stack.push(&lanes, &tree.nodes[node], shear.t_max);
+                let node = &tree.nodes[node];
+                let (t, met) = lanes.children_met(node, query.t_far());
+                if met != 0 {
+                    current = if met.is_power_of_two() {
+                        node.children[met.trailing_zeros() as usize % WIDTH]
+                    } else {
+                        stack.push::<L, Q>(node, t, met)
+                    };
+                    continue;
+                }
             }
             Err((first, count)) => {
                 for block in &tree.blocks[first..first + count] {
-                    let blocked = set_bits(lanes.candidates(block)).any(|lane| {
-                        let label = block.labels[lane];
-                        let is_seen = label < Block::TRANSPARENT && label != skip;
-                        is_seen && shear.meet(block.triangle(lane), label).is_some()
-                    });
-                    if blocked {
+                    if query.look_at(block, lanes.candidates(block)) {
                         return true;
                     }
                 }
             }
         }
+        current = loop {
+            let Some(entry) = stack.pop() else { return false };
+            if entry.t() <= query.t_far() {
+                break entry.reference();
+            }
+        };
     }
-    false
 }
 
-/// The places of the ones, from the lowest up.
-#[inline(always)]
-fn set_bits(mut bits: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lane = bits.trailing_zeros() as usize;
-        let any = bits != 0;
-        bits &= bits.wrapping_sub(1);
-        any.then_some(lane)
-    })
+/// What is still to be visited, next on top.
+struct Stack {
+    entries: [Entry; Self::SIZE],
+    len: usize,
+    /// What lies below `entries`; only deep trees get here.
+    deeper: Vec<Entry>,
+}
+
+impl Stack {
+    /// Few, because all are written for every ray.
+    const SIZE: usize = 32;
+
+    #[inline(always)]
+    fn new() -> Self {
+        Self { entries: [Entry(0); Self::SIZE], len: 0, deeper: Vec::new() }
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> Option<Entry> {
+        if self.len == 0 {
+            return self.deeper.pop();
+        }
+        self.len -= 1;
+        Some(self.entries[self.len % Self::SIZE])
+    }
+
+    /// Pushes the children met, two or more, but for the one to visit next, which is returned.
+    #[inline(always)]
+    fn push<L: Lanes, Q: Query>(&mut self, node: &Node, t: L::Distances, met: u32) -> Reference {
+        if self.len > Self::SIZE - WIDTH {
+            make_room(&self.entries[..self.len % (Self::SIZE + 1)], &mut self.deeper);
+            self.len = 0;
+        }
+        let Some(free) = self.entries[self.len..].first_chunk_mut::<WIDTH>() else {
+            unreachable!("there is room")
+        };
+        L::write_met(node, t, met, free);
+        let last = met.count_ones() as usize - 1;
+        self.len += last;
+        if last == 1 {
+            (free[0], free[1]) = (free[0].max(free[1]), free[0].min(free[1]));
+        } else if Q::ORDERED {
+            sort_nearest_last(&mut free[..=last]);
+        }
+        free[last % WIDTH].reference()
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn make_room(entries: &[Entry], deeper: &mut Vec<Entry>) {
+    deeper.extend_from_slice(entries);
 }
 
 /// By insertion: there are few.

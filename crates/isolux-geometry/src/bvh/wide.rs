@@ -8,7 +8,7 @@ pub(super) const WIDTH: usize = 8;
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(super) struct Node {
-    /// Low and high `x`, low and high `y`, low and high `z`. Low is above high where there is no child.
+    /// Low and high `x`, low and high `y`, low and high `z`; low > high where there is no child.
     pub(super) planes: [[f32; WIDTH]; 6],
     pub(super) children: [Reference; WIDTH],
 }
@@ -54,12 +54,6 @@ impl Block {
 
     /// Marks triangles that `any_hit` does not see.
     pub(super) const TRANSPARENT: u32 = 1 << 31;
-
-    /// The corners of one triangle.
-    #[inline(always)]
-    pub(super) fn triangle(&self, lane: usize) -> [[f32; 3]; 3] {
-        self.corners.map(|corner| corner.map(|axis| axis[lane]))
-    }
 }
 
 impl Reference {

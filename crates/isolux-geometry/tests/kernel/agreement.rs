@@ -4,26 +4,29 @@ use crate::room::{self, Random};
 use isolux_geometry::bvh::brute_force;
 use isolux_geometry::{Bvh, Ray, TriangleMesh};
 
-/// Compares on rays; every third triangle is transparent. Returns how many rays hit.
+/// Compares on rays, and on what lies behind the first hit and before it; every third triangle is
+/// transparent. Returns how many rays hit.
 #[track_caller]
 fn check(mesh: &TriangleMesh, rays: impl IntoIterator<Item = Ray>) -> usize {
     let is_transparent = |triangle: u32| triangle.is_multiple_of(3);
-    let bvh = Bvh::build(mesh.clone(), is_transparent);
+    let kernels = room::kernels(&Bvh::build(mesh.clone(), is_transparent));
     let mut hits = 0;
     for ray in rays {
         let expected = brute_force::closest_hit(mesh, &ray);
-        assert_eq!(bvh.closest_hit(&ray), expected, "{ray:?}");
         let expected_any = brute_force::any_hit(mesh, is_transparent, &ray);
-        assert_eq!(bvh.any_hit(&ray), expected_any, "{ray:?}");
-        hits += usize::from(expected.is_some());
-        // And behind the first hit: from its triangle, and only up to its distance.
-        if let Some(hit) = expected {
-            let onward = ray.skipping(hit.triangle);
-            assert_eq!(bvh.closest_hit(&onward), brute_force::closest_hit(mesh, &onward));
-            let up_to = Ray { t_max: hit.t, ..ray };
-            assert_eq!(bvh.closest_hit(&up_to), None, "{ray:?}");
-            assert!(!bvh.any_hit(&up_to), "{ray:?}");
+        let onward = expected.map(|hit| ray.skipping(hit.triangle));
+        let expected_onward = onward.and_then(|ray| brute_force::closest_hit(mesh, &ray));
+        for bvh in &kernels {
+            assert_eq!(bvh.closest_hit(&ray), expected, "{ray:?}");
+            assert_eq!(bvh.any_hit(&ray), expected_any, "{ray:?}");
+            assert_eq!(onward.and_then(|ray| bvh.closest_hit(&ray)), expected_onward, "{ray:?}");
+            if let Some(hit) = expected {
+                let up_to_hit = Ray { t_max: hit.t, ..ray };
+                assert_eq!(bvh.closest_hit(&up_to_hit), None, "{ray:?}");
+                assert!(!bvh.any_hit(&up_to_hit), "{ray:?}");
+            }
         }
+        hits += usize::from(expected.is_some());
     }
     hits
 }

@@ -27,14 +27,19 @@ fn turned_over([a, b, c]: [[f32; 3]; 3]) -> [[f32; 3]; 3] {
 #[track_caller]
 fn check(name: &str, triangles: &[[[f32; 3]; 3]], expected: Option<Hit>) {
     let mesh = mesh(triangles);
-    let bvh = Bvh::build(mesh.clone(), |_| false);
-    assert_eq!(bvh.closest_hit(&DOWN), expected, "{name}");
+    let kernels = room::kernels(&Bvh::build(mesh.clone(), |_| false));
+    for bvh in &kernels {
+        assert_eq!(bvh.closest_hit(&DOWN), expected, "{name}");
+    }
     let mut random = Random(12);
     for _ in 0..200 {
         let ray = Ray { origin: random.direction(), ..room::random_ray(&mut random) };
-        assert_eq!(bvh.closest_hit(&ray), brute_force::closest_hit(&mesh, &ray), "{name} {ray:?}");
+        let closest = brute_force::closest_hit(&mesh, &ray);
         let any = brute_force::any_hit(&mesh, |_| false, &ray);
-        assert_eq!(bvh.any_hit(&ray), any, "{name} {ray:?}");
+        for bvh in &kernels {
+            assert_eq!(bvh.closest_hit(&ray), closest, "{name} {ray:?}");
+            assert_eq!(bvh.any_hit(&ray), any, "{name} {ray:?}");
+        }
     }
 }
 
@@ -126,4 +131,17 @@ fn growing_sizes_do_not_deepen_the_tree_without_bound() {
     let grown = |k: i32| level(0.0).map(|corner| corner.map(|x| x * 1.02_f32.powi(k)));
     let triangles: Vec<_> = (-1200..1200).map(grown).collect();
     check("growing", &triangles, brute_force::closest_hit(&mesh(&triangles), &DOWN));
+}
+
+/// A ray that must look at everything: more is left to be visited than the stack first holds.
+#[test]
+fn a_hundred_thousand_coincident_transparent_triangles() {
+    let triangles = vec![turned_over(level(0.0)); 100_000];
+    let last = |triangle: u32| triangle != 99_999;
+    for bvh in room::kernels(&Bvh::build(mesh(&triangles), last)) {
+        assert!(bvh.any_hit(&DOWN));
+        assert!(!bvh.any_hit(&DOWN.skipping(99_999)));
+        assert_eq!(bvh.closest_hit(&DOWN).map(|hit| hit.triangle), Some(0));
+        assert_eq!(bvh.closest_hit(&DOWN.skipping(0)).map(|hit| hit.triangle), Some(1));
+    }
 }

@@ -1,6 +1,7 @@
 //! A closed room with furniture, all of it welded closed surfaces, and random rays in it.
 
-use isolux_geometry::{Ray, TriangleMesh};
+use isolux_geometry::bvh::InstructionSet;
+use isolux_geometry::{Bvh, Ray, TriangleMesh};
 use std::collections::HashMap;
 
 /// Numbers in [0, 1) from a counter (SplitMix64).
@@ -94,8 +95,8 @@ pub(crate) fn cube() -> TriangleMesh {
     mesh
 }
 
-/// 11,592 triangles: a hall with rows of desks and chairs, luminaires, columns and balls. Parts that
-/// stand on the floor reach a little below it.
+/// 11,592 triangles: a hall with rows of desks and chairs, luminaires, columns and balls. Parts
+/// that stand on the floor reach a little below it.
 pub(crate) fn hall() -> TriangleMesh {
     let mut mesh = TriangleMesh::default();
     let mut random = Random(1);
@@ -155,4 +156,10 @@ pub(crate) fn edge_point(mesh: &TriangleMesh, random: &mut Random) -> [f32; 3] {
 /// The same ray towards a point.
 pub(crate) fn aimed(ray: Ray, target: [f32; 3]) -> Ray {
     Ray { direction: [0, 1, 2].map(|axis| target[axis] - ray.origin[axis]), ..ray }
+}
+
+/// The same hierarchy with every set of instructions that this processor has.
+pub(crate) fn kernels(bvh: &Bvh) -> Vec<Bvh> {
+    let with = |set| bvh.clone().with_instructions(set);
+    InstructionSet::ALL.into_iter().filter_map(with).collect()
 }

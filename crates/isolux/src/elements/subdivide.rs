@@ -245,12 +245,7 @@ impl Subdivision {
         let at = self.vertices[vertex as usize];
         let centroid = self.triangle(node).centroid();
         debug_assert!(vertices.contains(&vertex), "a receiver lies in an element at its vertex");
-        Receiver {
-            point: at.position.lerp(centroid, share),
-            normal: at.normal,
-            triangle,
-            back,
-        }
+        Receiver { point: at.position.lerp(centroid, share), normal: at.normal, triangle, back }
     }
 
     fn angle(&self, node: u32, corner: usize) -> f64 {

@@ -90,9 +90,8 @@ impl Accumulator {
     pub(super) fn estimate(&self, receiver: usize) -> Estimate {
         let Sums { values, squares } = self.sums[receiver];
         let n = self.increments as f64;
-        let mean = |k: usize| {
-            Rgb([0, 1, 2].map(|c| values[3 * k + c] as f64 * self.lux_per_unit / n))
-        };
+        let mean =
+            |k: usize| Rgb([0, 1, 2].map(|c| values[3 * k + c] as f64 * self.lux_per_unit / n));
         let mean = Sample { direct: mean(0), caustic: mean(1), indirect: mean(2) };
         let indirect = (mean.indirect + mean.caustic).luminance();
         let total = indirect + mean.direct.luminance();

@@ -158,8 +158,7 @@ impl Gathering<'_> {
 
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
     fn entry(&self, at: &SurfacePoint, weight: Rgb) -> Option<Entry> {
-        let corners =
-            self.elements.locate_above(self.level, at.triangle, at.back, at.u, at.v)?;
+        let corners = self.elements.locate_above(self.level, at.triangle, at.back, at.u, at.v)?;
         let weights = known_weights(corners, self.known)?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
@@ -215,9 +214,8 @@ impl Operator {
     /// application for all of them. Starts from `guess`. Ends when a sweep changes nothing beyond
     /// `tolerance`, relative to the root mean square.
     pub(super) fn solve(&self, guess: &[Rgb], given: &[Rgb], tolerance: f64) -> Vec<Rgb> {
-        let with_given = |light: &[Rgb]| -> Vec<Rgb> {
-            light.iter().zip(given).map(|(&e, &g)| e + g).collect()
-        };
+        let with_given =
+            |light: &[Rgb]| -> Vec<Rgb> { light.iter().zip(given).map(|(&e, &g)| e + g).collect() };
         let mut light = guess.to_vec();
         for _ in 0..MAX_SWEEPS {
             let next = self.apply(&with_given(&light));

@@ -162,12 +162,7 @@ fn fresnel(cos: f64, ior: f64) -> [f64; 2] {
 }
 
 /// Snell's law; `None` at total reflection.
-fn refracted(
-    incoming: Direction,
-    surface: &SurfacePoint,
-    cos: f64,
-    ior: f64,
-) -> Option<Direction> {
+fn refracted(incoming: Direction, surface: &SurfacePoint, cos: f64, ior: f64) -> Option<Direction> {
     let sin2 = (1.0 - cos * cos) / (ior * ior);
     if sin2 >= 1.0 {
         return None;

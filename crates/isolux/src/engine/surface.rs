@@ -50,11 +50,6 @@ impl SurfacePoint {
 
     /// The same place seen from the other side.
     pub(super) fn other_side(&self) -> Self {
-        Self {
-            back: !self.back,
-            geometric: -self.geometric,
-            shading: -self.shading,
-            ..*self
-        }
+        Self { back: !self.back, geometric: -self.geometric, shading: -self.shading, ..*self }
     }
 }

@@ -5,6 +5,7 @@
 
 mod assemble;
 mod check;
+mod hash;
 mod luminaire;
 mod material;
 mod parts;

@@ -73,8 +73,7 @@ impl Lighting<'_> {
         let direction = spherical.sample(square)?;
         let cos = facing_cos(direction, at.shading, at.geometric)?;
         let target = on_plane(at.point, direction.to_vector(), corners)?;
-        let share =
-            self.visibility(source, at, Target::Point(target), Some(emitter.indices[k]));
+        let share = self.visibility(source, at, Target::Point(target), Some(emitter.indices[k]));
         Some((cos * spherical.solid_angle_sr * whole / parts[k], share))
     }
 

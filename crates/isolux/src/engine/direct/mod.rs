@@ -15,6 +15,7 @@ use super::surface::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use mirrors::Mirrors;
+pub(super) use source::LuminaireId;
 use source::{Source, SourceKind};
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
@@ -54,12 +55,14 @@ impl<'s> Lighting<'s> {
 
     /// Whether there is specular transport that the sources do not cover.
     pub(super) fn leaves_caustics(&self) -> bool {
-        self.has_glass || self.mirrors.leaves_some_out || self.scene.materials().iter().any(has_gloss)
+        self.has_glass
+            || self.mirrors.leaves_some_out
+            || self.scene.materials().iter().any(has_gloss)
     }
 
     /// Whether the light of a luminaire that was reflected by these planar mirrors in this order
     /// is part of direct light here.
-    pub(super) fn covers(&self, luminaire: source::LuminaireId, chain: &[u32]) -> bool {
+    pub(super) fn covers(&self, luminaire: LuminaireId, chain: &[u32]) -> bool {
         chain.is_empty()
             || self.sources.iter().any(|s| s.luminaire == luminaire && s.chain == chain)
     }
@@ -72,7 +75,8 @@ impl<'s> Lighting<'s> {
     /// Direct illuminance from all sources: exact for points and parallel light, sampled for
     /// emitting surfaces.
     pub(super) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        let areas = self.sources.iter().filter(|s| matches!(s.kind, SourceKind::Area { .. })).count();
+        let areas =
+            self.sources.iter().filter(|s| matches!(s.kind, SourceKind::Area { .. })).count();
         let samples = (AREA_SAMPLES / areas.max(1)).max(FEWEST_AREA_SAMPLES);
         self.sources.iter().map(|source| self.from_source(source, at, samples, dice)).sum()
     }

@@ -91,10 +91,9 @@ fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
                 position: *position,
                 local_from_world: transposed(world_from_luminaire),
             },
-            LuminaireKind::Directional { direction, illuminance_lx } => SourceKind::Directional {
-                towards: -*direction,
-                illuminance_lx: *illuminance_lx,
-            },
+            LuminaireKind::Directional { direction, illuminance_lx } => {
+                SourceKind::Directional { towards: -*direction, illuminance_lx: *illuminance_lx }
+            }
         };
         let luminaire_id = LuminaireId::Luminaire(index as u32);
         Source { luminaire: luminaire_id, chain: Vec::new(), colour: luminaire.colour, kind }

@@ -53,7 +53,12 @@ impl Lighting<'_> {
 
     /// Looks towards an image: the first opaque thing must be the mirror. What panes before it
     /// leave, and the place on the mirror.
-    fn meet_mirror(&self, from: &SurfacePoint, target: Target, plane: u32) -> Option<(Rgb, SurfacePoint)> {
+    fn meet_mirror(
+        &self,
+        from: &SurfacePoint,
+        target: Target,
+        plane: u32,
+    ) -> Option<(Rgb, SurfacePoint)> {
         let mut ray = Ray { t_max: f32::INFINITY, ..segment(from, target) };
         let mut share = Rgb::WHITE;
         for _ in 0..MAX_PANES {
@@ -104,8 +109,9 @@ impl Lighting<'_> {
 
 fn segment(from: &SurfacePoint, target: Target) -> Ray {
     match target {
-        Target::Point(p) => Ray::between(offset_origin(from.point, from.geometric), p)
-            .skipping(from.triangle),
+        Target::Point(p) => {
+            Ray::between(offset_origin(from.point, from.geometric), p).skipping(from.triangle)
+        }
         Target::Infinity(direction) => from.leave(direction),
     }
 }
