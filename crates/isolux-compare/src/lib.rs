@@ -1,1 +1,27 @@
-//! Is it right, and by how much: scenes with exact answers and measures of error.
+//! Is it right, and by how much: scenes with exact answers, measures of error, and the table of all
+//! cases through all engines.
+//!
+//! [`case::cases`] is the closed list; [`validate`] runs one case through one engine and gives a row
+//! of plain values; [`validate_all`] makes the table. Writing it is left to others.
+
+mod builtin;
+pub mod case;
+mod expectation;
+pub mod lambert;
+mod measure;
+pub mod metric;
+pub mod model;
+pub mod quadrature;
+pub mod statistics;
+pub mod tolerance;
+mod validate;
+
+pub use builtin::{BUILTIN_NAMES, builtin};
+pub use expectation::{Bound, Case, Expectation, Quantity};
+pub use measure::{
+    CubeError, GridError, MeasureError, MeasuredPoint, SphereError, measure_cube, measure_sphere,
+};
+pub use validate::{
+    Calibration, Reading, ValidateError, ValidateRow, ValidateSettings, ValidateTable, Verdict,
+    validate, validate_all,
+};

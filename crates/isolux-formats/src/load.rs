@@ -1,6 +1,6 @@
 //! A scene file of any kind.
 
-use crate::{Loaded, Problem, Problems, obj};
+use crate::{Loaded, Problem, Problems, gltf, obj};
 use isolux::scene::SceneParts;
 use std::path::Path;
 
@@ -8,6 +8,7 @@ use std::path::Path;
 pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
+        Some("gltf" | "glb") => gltf::read(path),
         Some("obj") => obj::read(path),
         _ => Err(Problem::new(
             path,

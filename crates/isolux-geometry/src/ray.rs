@@ -26,14 +26,18 @@ impl Ray {
         }
     }
 
-    /// The open segment between two points: `t` runs from 0 at `from` to 1 at `to`, and both ends
-    /// are left out by the rounding bound of the coordinates.
+    /// The segment between two points: `t` runs from 0 at `from` to 1 at `to`. The end is left out
+    /// by a bound of the rounding errors of coordinates of that size, so that what lies there is
+    /// not met; for the start see [`offset_origin`] and [`Ray::skipping`]. Points closer together
+    /// than that bound have nothing between them.
     pub fn between(from: Point, to: Point) -> Self {
         let d: Vector = to - from;
+        let size = largest(from.to_vector()).max(largest(to.to_vector()));
+        let rounding = 8.0 * f64::from(f32::EPSILON) * (1.0 + size / largest(d));
         Self {
             origin: from.to_f32(),
             direction: [d.x as f32, d.y as f32, d.z as f32],
-            t_max: 1.0 - 8.0 * f32::EPSILON,
+            t_max: (1.0 - rounding) as f32,
             skip: None,
         }
     }
@@ -63,9 +67,82 @@ pub struct Hit {
 /// moved along the normal by a bound of the rounding errors of `f32` coordinates of that size, and
 /// no further (after Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 6.8.6).
 pub fn offset_origin(point: Point, normal: Normal) -> Point {
-    let v = point.to_vector();
-    let largest = v.x.abs().max(v.y.abs()).max(v.z.abs());
     // Eight roundings of half an ulp each lie between the stored vertices and the traced origin.
-    let bound = 8.0 * f64::from(f32::EPSILON) * largest + f64::from(f32::MIN_POSITIVE);
+    let bound =
+        8.0 * f64::from(f32::EPSILON) * largest(point.to_vector()) + f64::from(f32::MIN_POSITIVE);
     point + normal * bound
+}
+
+/// The largest component without its sign.
+fn largest(v: Vector) -> f64 {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ray, offset_origin};
+    use crate::{Bvh, Direction, Point, Triangle, TriangleMesh, Vector};
+    use proptest::prelude::*;
+
+    /// A triangle of the size of metres, up to a kilometre away, with corners as the kernel stores
+    /// them.
+    fn triangle() -> impl Strategy<Value = Triangle> {
+        let place = [-1e3..1e3, -1e3..1e3, -1e3..1e3];
+        let corner = || [-3.0..3.0, -3.0..3.0, -3.0..3.0];
+        (place, [corner(), corner(), corner()]).prop_map(|(place, corners)| {
+            let stored = |v: [f64; 3]| (Point::from(place) + Vector::from(v)).to_f32();
+            Triangle { corners: corners.map(|v| Point::from(stored(v))) }
+        })
+    }
+
+    fn kernel(triangle: &Triangle) -> Bvh {
+        let positions = triangle.corners.map(Point::to_f32).to_vec();
+        Bvh::build(TriangleMesh { positions, triangles: vec![[0, 1, 2]] }, |_| false)
+    }
+
+    proptest! {
+        /// From a point computed on a triangle, no ray back meets that triangle.
+        #[test]
+        fn offset_origins_lie_on_the_side_of_the_normal(
+            triangle in triangle(),
+            (u, v) in (0.0..0.5, 0.0..0.5),
+            local in [-1.0..1.0, -1.0..1.0, 0.05..1.0],
+        ) {
+            prop_assume!(triangle.area() > 0.01);
+            let normal = triangle.normal().unwrap();
+            for normal in [normal, -normal] {
+                let origin = offset_origin(triangle.point(u, v), normal);
+                let up = normal.to_direction();
+                let direction = up.from_local(Vector::from(local).direction().unwrap().to_vector());
+                prop_assert_eq!(kernel(&triangle).closest_hit(&Ray::new(origin, direction)), None);
+                let down = Ray::new(origin, -up);
+                prop_assert!(kernel(&triangle).any_hit(&down), "moved to the other side");
+            }
+        }
+
+        /// What lies at the end of a segment does not block it, what lies before it does.
+        #[test]
+        fn segments_leave_out_their_end(
+            triangle in triangle(),
+            (u, v) in (0.1..0.4, 0.1..0.4),
+            distance in 0.01..100.0,
+        ) {
+            prop_assume!(triangle.area() > 0.01);
+            let up = triangle.normal().unwrap().to_vector();
+            let end = triangle.point(u, v);
+            let segment = Ray::between(end + up * distance, end);
+            prop_assert!(!kernel(&triangle).any_hit(&segment));
+            let beyond = Ray::between(end + up * distance, end - up * 0.01);
+            prop_assert!(kernel(&triangle).any_hit(&beyond));
+        }
+    }
+
+    #[test]
+    fn a_segment_between_equal_points_holds_nothing() {
+        let p = Point::new(1.0, 2.0, 3.0);
+        let ray = Ray::between(p, p);
+        assert!(ray.t_max.is_nan() || ray.t_max <= 0.0);
+        assert!(Ray::between(p, p + Direction::X * 1e-9).t_max <= 0.0);
+        assert!(Ray::between(Point::ORIGIN, Point::ORIGIN).t_max.is_nan());
+    }
 }

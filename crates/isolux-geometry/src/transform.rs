@@ -51,7 +51,7 @@ impl Transform {
 
     /// Rotates about an axis through the origin by an angle in radians, right-handed.
     pub fn rotation_about(axis: crate::Direction, angle_rad: f64) -> Self {
-        let (s, c) = ((0.5 * angle_rad).sin(), (0.5 * angle_rad).cos());
+        let (s, c) = libm::sincos(0.5 * angle_rad);
         let v = axis.to_vector();
         Self::rotation([v.x * s, v.y * s, v.z * s, c])
     }
@@ -101,5 +101,75 @@ impl Transform {
         };
         let linear = Self { columns: [column(0), column(1), column(2)], translation: Vector::ZERO };
         Some(Self { translation: -linear.vector(self.translation), ..linear })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Transform;
+    use crate::{Direction, Normal, Point, Vector};
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    /// A few roundings of numbers of the order of ten.
+    const ROUNDING: f64 = 1e-13;
+
+    #[track_caller]
+    fn check_vector(actual: Vector, expected: Vector) {
+        assert!((actual - expected).length() < ROUNDING, "{actual:?} is not {expected:?}");
+    }
+
+    /// Nothing special: turned, stretched, mirrored, moved.
+    fn general() -> Transform {
+        let turn = Direction::Y.from_local(Vector::new(0.6, 0.0, 0.8));
+        Transform::translation(Vector::new(1.0, -2.0, 3.0))
+            .then_from(&Transform::rotation_about(turn, 0.7))
+            .then_from(&Transform::scale(2.0, -0.5, 4.0))
+    }
+
+    #[test]
+    fn rotation_is_right_handed() {
+        let quarter = Transform::rotation_about(Direction::Z, FRAC_PI_2);
+        check_vector(quarter.vector(Direction::X.to_vector()), Direction::Y.to_vector());
+        check_vector(quarter.vector(Direction::Y.to_vector()), -Direction::X.to_vector());
+        let half = Transform::rotation_about(Direction::X, PI);
+        check_vector(half.vector(Vector::new(1.0, 2.0, 3.0)), Vector::new(1.0, -2.0, -3.0));
+    }
+
+    #[test]
+    fn composition_applies_the_inner_map_first() {
+        let a_from_b = general();
+        let b_from_c = Transform::translation(Vector::new(5.0, 6.0, 7.0));
+        let p = Point::new(0.1, 0.2, 0.3);
+        let at_once = a_from_b.then_from(&b_from_c).point(p);
+        check_vector(at_once.to_vector(), a_from_b.point(b_from_c.point(p)).to_vector());
+        assert_eq!(Transform::IDENTITY.then_from(&a_from_b), a_from_b);
+    }
+
+    #[test]
+    fn inverse_undoes() {
+        let there_and_back = general().inverse().unwrap().then_from(&general());
+        let p = Point::new(0.1, 0.2, 0.3);
+        check_vector(there_and_back.point(p).to_vector(), p.to_vector());
+        assert_eq!(Transform::scale(1.0, 0.0, 1.0).inverse(), None);
+        assert_eq!(Transform::scale(1.0, f64::NAN, 1.0).inverse(), None);
+    }
+
+    #[test]
+    fn determinant_is_the_volume_with_the_sign_of_the_orientation() {
+        assert!((general().determinant() + 4.0).abs() < ROUNDING);
+        assert_eq!(Transform::IDENTITY.determinant(), 1.0);
+    }
+
+    /// Also where the map stretches unevenly and mirrors.
+    #[test]
+    fn normals_stay_perpendicular_and_on_their_side() {
+        let (map, normal) = (general(), Vector::new(1.0, 2.0, -1.0).normal().unwrap());
+        let image = map.normal(normal).unwrap().to_vector();
+        let (u, v) = normal.to_direction().frame();
+        for tangent in [u, v] {
+            assert!(image.dot(map.vector(tangent.to_vector())).abs() < ROUNDING);
+        }
+        assert!(image.dot(map.vector(normal.to_vector())) > 0.0);
+        assert_eq!(Transform::scale(1.0, 0.0, 0.0).normal(Normal::Z), None);
     }
 }

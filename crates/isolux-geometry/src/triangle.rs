@@ -32,6 +32,21 @@ impl Triangle {
         a + (b - a) * u + (c - a) * v
     }
 
+    /// The weights `(u, v)` of [`Triangle::point`] for the foot of a point on the plane of the
+    /// triangle; zero where the triangle has no area.
+    pub fn barycentric(&self, point: Point) -> [f64; 2] {
+        let [a, b, c] = self.corners;
+        let normal = self.area_vector();
+        let squared = normal.length_squared();
+        if squared <= 0.0 {
+            return [0.0; 2];
+        }
+        let from_a = point - a;
+        let u = from_a.cross(c - a).dot(normal) / squared;
+        let v = (b - a).cross(from_a).dot(normal) / squared;
+        [u, v]
+    }
+
     /// The centroid.
     pub fn centroid(&self) -> Point {
         self.point(1.0 / 3.0, 1.0 / 3.0)
@@ -77,5 +92,47 @@ impl TriangleMesh {
                 Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z)),
             )
         }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Triangle, TriangleMesh};
+    use crate::{Normal, Point};
+
+    fn right_angled() -> Triangle {
+        let corner = |x, y| Point::new(x, y, 5.0);
+        Triangle { corners: [corner(0.0, 0.0), corner(3.0, 0.0), corner(0.0, 4.0)] }
+    }
+
+    #[test]
+    fn measures() {
+        let triangle = right_angled();
+        assert_eq!(triangle.area(), 6.0);
+        assert_eq!(triangle.normal(), Some(Normal::Z));
+        assert_eq!(triangle.point(0.0, 0.0), triangle.corners[0]);
+        assert_eq!(triangle.point(1.0, 0.0), triangle.corners[1]);
+        assert_eq!(triangle.point(0.0, 1.0), triangle.corners[2]);
+        let Point { x, y, z } = triangle.centroid();
+        // One rounding of a third, times four.
+        assert!((x - 1.0).abs() + (y - 4.0 / 3.0).abs() + (z - 5.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn without_area_there_is_no_normal() {
+        let point = Triangle { corners: [Point::new(1.0, 2.0, 3.0); 3] };
+        assert_eq!((point.area(), point.normal()), (0.0, None));
+        let [a, b, _] = right_angled().corners;
+        assert_eq!(Triangle { corners: [a, b, b] }.normal(), None);
+    }
+
+    #[test]
+    fn bounds_contain_all_positions() {
+        assert_eq!(TriangleMesh::default().bounds(), None);
+        let positions = vec![[0.0, 5.0, -1.0], [2.0, 1.0, 0.0]];
+        let mesh = TriangleMesh { positions, ..TriangleMesh::default() };
+        let corners = (Point::new(0.0, 1.0, -1.0), Point::new(2.0, 5.0, 0.0));
+        assert_eq!(mesh.bounds(), Some(corners));
+        assert!(mesh.is_empty());
     }
 }

@@ -29,11 +29,17 @@ pub struct Vector {
 
 /// A vector of length one: where a ray goes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vector", into = "Vector")]
 pub struct Direction(Vector);
 
 /// A vector of length one perpendicular to a surface; transforms by the inverse transpose.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vector", into = "Vector")]
 pub struct Normal(Vector);
+
+/// How far from one the squared length of a normalized vector may be computed to be: the roundings
+/// of [`Vector::direction`] and of the squared length itself make up less than 12 half units.
+const UNIT_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Point {
     /// The origin.
@@ -98,10 +104,17 @@ impl Vector {
         self.length_squared().sqrt()
     }
 
-    /// The direction of this vector; `None` where it has none (zero, overflow or not a number).
+    /// The direction of this vector; `None` where it has none (zero, overflow or not a number). A
+    /// vector of length one, up to rounding, is its own direction, bit for bit: what was normalized
+    /// once does not change when it is written to a file and read again.
     pub fn direction(self) -> Option<Direction> {
+        if (self.length_squared() - 1.0).abs() <= UNIT_ROUNDING {
+            return Some(Direction(self));
+        }
         let largest = self.x.abs().max(self.y.abs()).max(self.z.abs());
-        if !(largest > 0.0 && largest.is_finite()) {
+        // The maximum passes over a NaN.
+        let is_finite = self.x.is_finite() && self.y.is_finite() && self.z.is_finite();
+        if !(largest > 0.0 && is_finite) {
             return None;
         }
         // Scaled first, so that tiny and huge vectors neither underflow nor overflow when squared.
@@ -204,6 +217,32 @@ impl Normal {
     /// Cosine of the angle to another normal.
     pub const fn dot(self, other: Self) -> f64 {
         self.0.dot(other.0)
+    }
+}
+
+impl TryFrom<Vector> for Direction {
+    type Error = &'static str;
+    fn try_from(vector: Vector) -> Result<Self, Self::Error> {
+        vector.direction().ok_or("a vector without direction")
+    }
+}
+
+impl TryFrom<Vector> for Normal {
+    type Error = &'static str;
+    fn try_from(vector: Vector) -> Result<Self, Self::Error> {
+        vector.normal().ok_or("a normal without direction")
+    }
+}
+
+impl From<Direction> for Vector {
+    fn from(direction: Direction) -> Self {
+        direction.0
+    }
+}
+
+impl From<Normal> for Vector {
+    fn from(normal: Normal) -> Self {
+        normal.0
     }
 }
 
@@ -330,5 +369,89 @@ impl From<[f32; 3]> for Vector {
 impl From<Vector> for [f64; 3] {
     fn from(v: Vector) -> Self {
         [v.x, v.y, v.z]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Direction, Point, Vector};
+    use proptest::prelude::*;
+
+    /// A few roundings of numbers of the order of one.
+    const ROUNDING: f64 = 1e-15 * 4.0;
+
+    fn direction() -> impl Strategy<Value = Direction> {
+        [-1.0..1.0, -1.0..1.0, -1.0..1.0]
+            .prop_filter_map("has a direction", |v| Vector::from(v).direction())
+    }
+
+    proptest! {
+        #[test]
+        fn frame_is_right_handed_and_orthonormal(w in direction()) {
+            let (u, v) = w.frame();
+            prop_assert!((u.to_vector().length() - 1.0).abs() < ROUNDING);
+            prop_assert!((v.to_vector().length() - 1.0).abs() < ROUNDING);
+            prop_assert!((u.to_vector().cross(v.to_vector()) - w.to_vector()).length() < ROUNDING);
+        }
+
+        #[test]
+        fn reflection_turns_back_to_itself_and_keeps_the_angle(d in direction(), n in direction()) {
+            let n = n.to_normal();
+            let reflected = d.reflect(n);
+            prop_assert!((reflected.cos(n) + d.cos(n)).abs() < ROUNDING);
+            let twice = reflected.reflect(n);
+            prop_assert!((twice.to_vector() - d.to_vector()).length() < ROUNDING);
+        }
+
+        #[test]
+        fn local_z_is_the_direction(w in direction()) {
+            prop_assert_eq!(w.from_local(Vector::new(0.0, 0.0, 1.0)), w);
+        }
+    }
+
+    #[test]
+    fn frames_at_the_poles() {
+        for w in [Direction::Z, -Direction::Z] {
+            let (u, v) = w.frame();
+            assert_eq!(u.to_vector().cross(v.to_vector()), w.to_vector());
+        }
+    }
+
+    #[test]
+    fn directions_of_all_lengths() {
+        let expected = Vector::new(0.6, -0.8, 0.0);
+        for scale in [1.0, 1e-320, 1e-200, 1e200, 1e308] {
+            let direction = Vector::new(0.6 * scale, -0.8 * scale, 0.0).direction().unwrap();
+            // Subnormal numbers have few digits: 1e-320 has eleven bits.
+            let tolerance = if scale < 1e-300 { 1e-3 } else { ROUNDING };
+            assert!((direction.to_vector() - expected).length() < tolerance, "{scale}");
+        }
+        for bad in [0.0, -0.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(Vector::new(0.0, bad, 0.0).direction(), None, "{bad}");
+            assert_eq!(Vector::new(bad, 0.0, 0.0).normal(), None, "{bad}");
+        }
+        assert_eq!(Vector::new(1.0, f64::NAN, 0.0).direction(), None);
+    }
+
+    #[test]
+    fn what_was_normalized_once_stays_the_same() {
+        // Uneven directions, of lengths from the smallest to the largest.
+        let steps = || (-9..=9).map(|k| f64::from(k) / 7.0);
+        for x in steps() {
+            for y in steps() {
+                for scale in [1e-200, 1e-3, 1.0, 3.7, 1e200] {
+                    let once = (Vector::new(x, y, 0.3) * scale).direction().unwrap();
+                    let twice = once.to_vector().direction().unwrap();
+                    assert_eq!(once, twice, "{x} {y} {scale}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn interpolation_meets_its_start() {
+        let (a, b) = (Point::new(1.0, 2.0, 3.0), Point::new(3.0, 2.0, -1.0));
+        assert_eq!(a.lerp(b, 0.0), a);
+        assert_eq!(a.lerp(b, 0.5), Point::new(2.0, 2.0, 1.0));
     }
 }

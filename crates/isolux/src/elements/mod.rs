@@ -4,8 +4,10 @@
 //! are shared between coplanar (or smoothly joined) neighbours of one side and split at creases.
 
 mod arrays;
+mod subdivide;
 
 pub use arrays::{ElementArrays, ElementArraysError};
+pub use subdivide::{Origin, Receiver, Subdivision};
 
 use isolux_geometry::{Normal, Point};
 
@@ -94,10 +96,22 @@ impl Elements {
     /// The element at barycentric weights `(1 - u - v, u, v)` of a triangle: its vertices and their
     /// weights there. `None` where the side carries no map.
     pub fn locate(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<[(u32, f64); 3]> {
+        self.locate_above(u32::MAX, triangle, back, u, v)
+    }
+
+    /// The same on a coarser level: as if the nodes from number `level` on did not exist.
+    pub fn locate_above(
+        &self,
+        level: u32,
+        triangle: u32,
+        back: bool,
+        u: f64,
+        v: f64,
+    ) -> Option<[(u32, f64); 3]> {
         let root = self.roots.get(triangle as usize)?[usize::from(back)]?;
         let mut node = self.nodes[root as usize];
         let mut weights = [1.0 - u - v, u, v];
-        while let Some(Split { edge, first_child }) = node.split {
+        while let Some(Split { edge, first_child }) = node.split.filter(|s| s.first_child < level) {
             let (a, b) = (usize::from(edge), (usize::from(edge) + 1) % 3);
             // On the edge from a to b the middle has twice the smaller weight.
             if weights[a] >= weights[b] {

@@ -7,11 +7,15 @@ use crate::units::Rgb;
 pub struct Illuminance {
     /// What arrives from luminaires without a diffuse reflection (mirror images included), lx.
     pub direct_lx: Rgb,
+    /// The share of `direct_lx` that only particles can find (through curved mirrors, glass, gloss)
+    /// and that no reader can evaluate afresh, lx.
+    pub caustic_lx: Rgb,
     /// What arrives after at least one diffuse reflection, lx.
     pub indirect_lx: Rgb,
     /// Standard error of the photometric total, lx.
     pub standard_error_lx: f64,
-    /// Standard error of the photometric indirect part alone, lx.
+    /// Standard error of the photometric indirect part and the caustics, without the rest of the
+    /// direct light, lx.
     pub indirect_standard_error_lx: f64,
     /// Samples behind the value (rays gathered or particles received).
     pub samples: u64,
@@ -46,6 +50,7 @@ impl Illuminance {
         };
         Some(Self {
             direct_lx: weighted().map(|(v, w)| v.direct_lx * w).sum(),
+            caustic_lx: weighted().map(|(v, w)| v.caustic_lx * w).sum(),
             indirect_lx: weighted().map(|(v, w)| v.indirect_lx * w).sum(),
             standard_error_lx: root_sum(&|v| v.standard_error_lx),
             indirect_standard_error_lx: root_sum(&|v| v.indirect_standard_error_lx),

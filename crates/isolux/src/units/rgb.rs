@@ -61,6 +61,11 @@ impl Rgb {
         Self(self.0.map(f))
     }
 
+    /// The smaller of two, channel by channel.
+    pub fn min(self, other: Self) -> Self {
+        Self([0, 1, 2].map(|k| self.0[k].min(other.0[k])))
+    }
+
     /// The colour scaled to luminance one; white where it has none.
     pub fn chromaticity(self) -> Self {
         let luminance = self.luminance();

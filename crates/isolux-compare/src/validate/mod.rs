@@ -1,0 +1,181 @@
+//! Cases through engines, and what comes of it, as plain values.
+
+mod judge;
+
+pub use judge::{Calibration, Reading, Verdict};
+
+use crate::expectation::Case;
+use isolux::engine::{Progress, SolveError, SolveRequest, Watch, solve};
+use isolux::map::{Accuracy, Method};
+use isolux::scene::{Scene, SceneProblem};
+use serde::Serialize;
+use std::time::Duration;
+
+/// How hard engines try.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ValidateSettings {
+    /// Accuracy asked of every run, a fraction.
+    pub accuracy: f64,
+    /// Longest run.
+    pub time_limit: Duration,
+    /// Memory allowed, bytes.
+    pub max_memory_bytes: u64,
+}
+
+impl Default for ValidateSettings {
+    /// Half a per cent, at most half a minute a run.
+    fn default() -> Self {
+        let max_memory_bytes = SolveRequest::default().max_memory_bytes;
+        Self { accuracy: 0.005, time_limit: Duration::from_secs(30), max_memory_bytes }
+    }
+}
+
+/// One case through one engine from one seed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ValidateRow {
+    /// Name of the case.
+    pub case: &'static str,
+    /// Engine.
+    pub method: Method,
+    /// Seed.
+    pub seed: u64,
+    /// Readings compared.
+    pub readings: u64,
+    /// Of them, those with a statistical error.
+    pub statistical: u64,
+    /// Of those, farther off than three standard errors and all bounds.
+    pub outliers: u64,
+    /// Outliers that chance allows.
+    pub accepted_outliers: u64,
+    /// Of `statistical`, outside their interval of 95 %, bounds included.
+    pub outside_interval: u64,
+    /// The reading farthest off in units of what it may be.
+    pub worst: Option<Reading>,
+    /// What the map says of itself.
+    pub accuracy: Option<Accuracy>,
+    /// Independent replicates.
+    pub increments: u64,
+    /// Rays traced.
+    pub rays: u64,
+    /// Time of the solution, s.
+    pub time_s: f64,
+    /// Whether the engine is right.
+    pub verdict: Verdict,
+}
+
+/// All rows, and how well error bars keep their promise.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ValidateTable {
+    /// Cases in the outer, methods in the middle, seeds in the inner loop.
+    pub rows: Vec<ValidateRow>,
+    /// One a method.
+    pub calibrations: Vec<Calibration>,
+}
+
+/// Why there is no row.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ValidateError {
+    /// The case is not a scene: a fault of this crate.
+    #[error("case `{case}` is not a scene: {problem}")]
+    Scene {
+        /// Its name.
+        case: &'static str,
+        /// The first problem.
+        problem: SceneProblem,
+    },
+    /// The engine gave no map.
+    #[error("case `{case}`: {error}")]
+    Solve {
+        /// Its name.
+        case: &'static str,
+        /// Why.
+        error: SolveError,
+    },
+}
+
+/// Runs a case through an engine.
+pub fn validate(
+    case: &Case,
+    method: Method,
+    seed: u64,
+    settings: &ValidateSettings,
+) -> Result<ValidateRow, ValidateError> {
+    let scene = Scene::assemble((case.parts)()).map_err(|mut problems| ValidateError::Scene {
+        case: case.name,
+        problem: problems.swap_remove(0),
+    })?;
+    let request = SolveRequest {
+        method,
+        seed,
+        accuracy: Some(settings.accuracy),
+        time_limit: Some(settings.time_limit),
+        max_memory_bytes: settings.max_memory_bytes,
+        ..SolveRequest::default()
+    };
+    let map = solve(&scene, &request, &mut |_: &Progress| Watch::Continue)
+        .map_err(|error| ValidateError::Solve { case: case.name, error })?;
+    let count = judge::count(&scene, &map, &(case.expectations)());
+    Ok(ValidateRow {
+        case: case.name,
+        method,
+        seed,
+        readings: count.readings,
+        statistical: count.statistical,
+        outliers: count.outliers,
+        accepted_outliers: count.accepted_outliers,
+        outside_interval: count.outside_interval,
+        worst: count.worst,
+        accuracy: map.provenance.accuracy,
+        increments: map.provenance.increments,
+        rays: map.provenance.rays,
+        time_s: map.provenance.time_s,
+        verdict: count.verdict,
+    })
+}
+
+/// Runs cases through engines from several seeds. `on_row` sees every row as it comes and may stop.
+/// An engine that gives no map has a failed row.
+pub fn validate_all(
+    cases: &[Case],
+    methods: &[Method],
+    seeds: &[u64],
+    settings: &ValidateSettings,
+    on_row: &mut dyn FnMut(&ValidateRow) -> Watch,
+) -> ValidateTable {
+    let mut rows: Vec<ValidateRow> = Vec::new();
+    'all: for case in cases {
+        for &method in methods {
+            for &seed in seeds {
+                let row = validate(case, method, seed, settings)
+                    .unwrap_or_else(|error| failed(case.name, method, seed, &error));
+                let answer = on_row(&row);
+                rows.push(row);
+                if answer == Watch::Stop {
+                    break 'all;
+                }
+            }
+        }
+    }
+    let calibrations = methods.iter().map(|&m| Calibration::of(m, &rows)).collect();
+    ValidateTable { rows, calibrations }
+}
+
+fn failed(case: &'static str, method: Method, seed: u64, error: &ValidateError) -> ValidateRow {
+    ValidateRow {
+        case,
+        method,
+        seed,
+        readings: 0,
+        statistical: 0,
+        outliers: 0,
+        accepted_outliers: 0,
+        outside_interval: 0,
+        worst: None,
+        accuracy: None,
+        increments: 0,
+        rays: 0,
+        time_s: 0.0,
+        verdict: Verdict::Fail { reason: error.to_string() },
+    }
+}

@@ -1,0 +1,55 @@
+//! Where a ray enters and leaves boxes: conservative, so that no hit is lost.
+//!
+//! The triangle test moves corners by rounding: by at most 5 u D in each coordinate, D the greatest
+//! distance along an axis between the origin and a corner, u = 2^-24 the unit roundoff (a rounding
+//! each of the difference to the origin, the slope, its product with the depth, and the last
+//! difference, which is up to 2 D). The exact line meets a convex combination of moved corners,
+//! and `t` is rounded once more (u D). So the point `origin + t direction` lies within 6 u D of the
+//! triangle's box. The box test `plane / direction - origin / direction` itself errs by less than
+//! 6 u (M + |origin|) / |direction|, M the largest coordinate of the scene, and D <= M + |origin|.
+//! Boxes widened by 16 u (M + |origin|) contain every hit of their triangles, wherever the
+//! ray starts.
+
+use super::triangle_test::{LARGEST, greater};
+use crate::Ray;
+
+/// What the box test needs to know about a ray. A plane at `p` is met at `p * inverse - offset`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slabs {
+    pub(super) inverse: [f32; 3],
+    /// Offsets for the planes through which the ray enters, widened.
+    pub(super) enter: [f32; 3],
+    /// Offsets for the planes through which it leaves, widened.
+    pub(super) leave: [f32; 3],
+    /// Of the planes of a node, that of each axis through which the ray enters; the other one
+    /// differs in the last bit.
+    pub(super) entry_planes: [usize; 3],
+}
+
+impl Slabs {
+    /// For rays that passed [`Shear::new`](super::triangle_test::Shear::new), in a scene of the
+    /// given largest coordinate.
+    #[inline(always)]
+    pub(super) fn new(ray: &Ray, reach: f32) -> Self {
+        let Ray { origin, direction, .. } = *ray;
+        let greatest = |v: [f32; 3]| greater(greater(v[0].abs(), v[1].abs()), v[2].abs());
+        let margin = 8.0 * f32::EPSILON * (reach + greatest(origin)) + f32::MIN_POSITIVE;
+        // A component so small that the ray does not leave its place along the axis: no division by
+        // zero, and no more than D 2^-40 away from the ray.
+        let least = greatest(direction) / LARGEST;
+        let inverse = |axis: usize| {
+            let d = direction[axis];
+            1.0 / if d.abs() < least { least.copysign(d) } else { d }
+        };
+        let inverse = [inverse(0), inverse(1), inverse(2)];
+        let enter = |axis: usize| origin[axis] * inverse[axis] + margin * inverse[axis].abs();
+        let leave = |axis: usize| origin[axis] * inverse[axis] - margin * inverse[axis].abs();
+        let entry = |axis: usize| 2 * axis + usize::from(inverse[axis].is_sign_negative());
+        Self {
+            inverse,
+            enter: [enter(0), enter(1), enter(2)],
+            leave: [leave(0), leave(1), leave(2)],
+            entry_planes: [entry(0), entry(1), entry(2)],
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! The ray kernel against its specification.
+
+mod agreement;
+mod degenerate;
+mod room;
+mod watertight;

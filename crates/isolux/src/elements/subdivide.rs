@@ -1,0 +1,300 @@
+//! Longest-edge bisection of the surfaces of a scene.
+//!
+//! An element is bisected only at its longest edge, together with all elements on that edge, after
+//! those of them that have a longer one (the longest-edge propagation path of Rivara 1997). So no
+//! T-vertex appears, angles never fall below half the smallest of the input, and the tree over each
+//! triangle of the scene locates any point of it.
+
+use super::{Elements, Node, Split, Vertex};
+use crate::scene::{Finish, Scene};
+use isolux_geometry::{Normal, Point, Triangle};
+use std::collections::HashMap;
+
+/// Vertices at one place are one where their normals agree within one degree: coplanar or smoothly
+/// joined neighbours; anything else is a crease.
+const CREASE_COS: f64 = 0.999_847_7;
+
+/// Elements that can still be bisected.
+#[derive(Clone, Debug)]
+pub struct Subdivision {
+    vertices: Vec<Vertex>,
+    nodes: Vec<Node>,
+    origins: Vec<Origin>,
+    roots: Vec<[Option<u32>; 2]>,
+    /// The elements on every edge, by its ends, the lower first.
+    edges: HashMap<[u32; 2], Vec<u32>>,
+}
+
+/// Which side of which triangle a node is part of, and its depth in the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// Triangle of the scene.
+    pub triangle: u32,
+    /// Whether it is on the back.
+    pub back: bool,
+    /// Bisections above it.
+    pub depth: u32,
+}
+
+impl Subdivision {
+    /// The triangles of the scene that carry a map, as they are.
+    pub fn new(scene: &Scene) -> Self {
+        let mut subdivision = Self {
+            vertices: Vec::new(),
+            nodes: Vec::new(),
+            origins: Vec::new(),
+            roots: vec![[None; 2]; scene.triangle_count() as usize],
+            edges: HashMap::new(),
+        };
+        let mut welded: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
+        for triangle in 0..scene.triangle_count() {
+            for back in [false, true] {
+                if carries_map(scene, triangle, back) {
+                    let corners = corners(scene, triangle, back)
+                        .map(|(point, normal)| subdivision.weld(&mut welded, point, normal));
+                    let root = subdivision.push(corners, Origin { triangle, back, depth: 0 });
+                    subdivision.roots[triangle as usize][usize::from(back)] = Some(root);
+                }
+            }
+        }
+        subdivision
+    }
+
+    fn weld(
+        &mut self,
+        welded: &mut HashMap<[u64; 3], Vec<u32>>,
+        position: Point,
+        normal: Normal,
+    ) -> u32 {
+        // Adding zero makes one zero of the two.
+        let key = [position.x, position.y, position.z].map(|c| (c + 0.0).to_bits());
+        let here = welded.entry(key).or_default();
+        let same = |&&v: &&u32| self.vertices[v as usize].normal.dot(normal) >= CREASE_COS;
+        if let Some(&vertex) = here.iter().find(same) {
+            return vertex;
+        }
+        let vertex = self.vertices.len() as u32;
+        here.push(vertex);
+        self.vertices.push(Vertex { position, normal, parents: None, area_m2: 0.0 });
+        vertex
+    }
+
+    fn push(&mut self, vertices: [u32; 3], origin: Origin) -> u32 {
+        let node = self.nodes.len() as u32;
+        self.nodes.push(Node { vertices, split: None });
+        self.origins.push(origin);
+        for k in 0..3 {
+            let edge = edge_key(vertices[k], vertices[(k + 1) % 3]);
+            self.edges.entry(edge).or_default().push(node);
+        }
+        node
+    }
+
+    /// Number of vertices.
+    pub fn vertex_count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Number of nodes of all trees.
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The nodes that are not split, in the order they were made.
+    pub fn leaves(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.nodes.len() as u32).filter(|&n| self.nodes[n as usize].split.is_none())
+    }
+
+    /// A node and where it comes from.
+    pub fn node(&self, node: u32) -> (Node, Origin) {
+        (self.nodes[node as usize], self.origins[node as usize])
+    }
+
+    /// The corners of a node.
+    pub fn triangle(&self, node: u32) -> Triangle {
+        let corners = self.nodes[node as usize].vertices;
+        Triangle { corners: corners.map(|v| self.vertices[v as usize].position) }
+    }
+
+    /// Length of the longest edge of a node, m.
+    pub fn longest_edge_m(&self, node: u32) -> f64 {
+        self.longest_edge(node).0.sqrt()
+    }
+
+    /// Bisects until no edge is longer than `edge_m` or there are `max_vertices`.
+    pub fn bisect_to(&mut self, edge_m: f64, max_vertices: usize) {
+        let mut node = 0;
+        // Children are appended, so one pass over the growing list sees them all.
+        while node < self.nodes.len() as u32 && self.vertices.len() < max_vertices {
+            if self.nodes[node as usize].split.is_none() && self.longest_edge_m(node) > edge_m {
+                self.bisect(node);
+            }
+            node += 1;
+        }
+    }
+
+    /// Bisects an element, and before it whatever must be bisected so that no T-vertex appears.
+    pub fn bisect(&mut self, node: u32) {
+        while self.nodes[node as usize].split.is_none() {
+            let edge = self.end_of_longest_edge_path(node);
+            self.bisect_edge(edge);
+        }
+    }
+
+    /// From element to element over longest edges, until an edge is the longest of all elements on
+    /// it. The edges grow strictly in [`Self::longest_edge`]'s order, so the path ends.
+    fn end_of_longest_edge_path(&self, node: u32) -> [u32; 2] {
+        let mut edge = self.longest_edge(node).1;
+        loop {
+            let longer = self.edges[&edge].iter().map(|&n| self.longest_edge(n).1);
+            match longer.into_iter().find(|&other| other != edge) {
+                Some(other) => edge = other,
+                None => return edge,
+            }
+        }
+    }
+
+    fn bisect_edge(&mut self, edge: [u32; 2]) {
+        let middle = self.middle(edge);
+        for node in self.edges.remove(&edge).unwrap_or_default() {
+            self.split(node, edge, middle);
+        }
+    }
+
+    fn middle(&mut self, [a, b]: [u32; 2]) -> u32 {
+        let (va, vb) = (self.vertices[a as usize], self.vertices[b as usize]);
+        let sum = va.normal.to_vector() + vb.normal.to_vector();
+        self.vertices.push(Vertex {
+            position: va.position.lerp(vb.position, 0.5),
+            normal: sum.normal().unwrap_or(va.normal),
+            parents: Some([a, b]),
+            area_m2: 0.0,
+        });
+        self.vertices.len() as u32 - 1
+    }
+
+    fn split(&mut self, node: u32, edge: [u32; 2], middle: u32) {
+        let (Node { vertices, .. }, origin) = self.node(node);
+        let on = |k: usize| edge_key(vertices[k], vertices[(k + 1) % 3]);
+        for k in 0..3 {
+            if let Some(list) = self.edges.get_mut(&on(k)) {
+                list.retain(|&n| n != node);
+            }
+        }
+        let k = (0..3).find(|&k| on(k) == edge).expect("an element is listed at its own edges");
+        let (mut first, mut second) = (vertices, vertices);
+        first[(k + 1) % 3] = middle;
+        second[k] = middle;
+        let origin = Origin { depth: origin.depth + 1, ..origin };
+        let first_child = self.push(first, origin);
+        self.push(second, origin);
+        self.nodes[node as usize].split = Some(Split { edge: k as u8, first_child });
+    }
+
+    /// The longest edge: its squared length and its ends; of equal ones the one whose ends come
+    /// last, so that every element on an edge agrees.
+    fn longest_edge(&self, node: u32) -> (f64, [u32; 2]) {
+        let vertices = self.nodes[node as usize].vertices;
+        let edge = |k: usize| {
+            let key = edge_key(vertices[k], vertices[(k + 1) % 3]);
+            let [a, b] = key.map(|v| self.vertices[v as usize].position);
+            ((b - a).length_squared(), key)
+        };
+        let longer = |a: (f64, [u32; 2]), b: (f64, [u32; 2])| {
+            if a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).is_ge() { a } else { b }
+        };
+        longer(longer(edge(0), edge(1)), edge(2))
+    }
+
+    /// The elements as they are now.
+    pub fn elements(&self) -> Elements {
+        let mut vertices = self.vertices.clone();
+        for leaf in self.leaves() {
+            let third = self.triangle(leaf).area() / 3.0;
+            for v in self.nodes[leaf as usize].vertices {
+                vertices[v as usize].area_m2 += third;
+            }
+        }
+        Elements { vertices, nodes: self.nodes.clone(), roots: self.roots.clone() }
+    }
+
+    /// Where to sample the light of every vertex: at the vertex, or, where elements do not surround
+    /// it, pulled in by `share` of the way to the middle of its widest element. (At the very edge a
+    /// receiver would see the neighbouring wall from distance zero.) The element is named, too.
+    pub fn receivers(&self, share: f64) -> Vec<Receiver> {
+        let on_border = self.border_vertices();
+        let mut widest: Vec<Option<(f64, u32)>> = vec![None; self.vertices.len()];
+        for leaf in self.leaves() {
+            for (k, v) in self.nodes[leaf as usize].vertices.into_iter().enumerate() {
+                let angle = self.angle(leaf, k);
+                let best = &mut widest[v as usize];
+                if best.is_none_or(|(widest, _)| angle > widest) {
+                    *best = Some((angle, leaf));
+                }
+            }
+        }
+        let receiver = |vertex: usize| {
+            let (_, node) = widest[vertex].expect("every vertex is a corner of an element");
+            self.receiver(vertex as u32, node, if on_border[vertex] { share } else { 0.0 })
+        };
+        (0..self.vertices.len()).map(receiver).collect()
+    }
+
+    fn receiver(&self, vertex: u32, node: u32, share: f64) -> Receiver {
+        let (Node { vertices, .. }, Origin { triangle, back, .. }) = self.node(node);
+        let at = self.vertices[vertex as usize];
+        let centroid = self.triangle(node).centroid();
+        debug_assert!(vertices.contains(&vertex), "a receiver lies in an element at its vertex");
+        Receiver { point: at.position.lerp(centroid, share), normal: at.normal, triangle, back }
+    }
+
+    fn angle(&self, node: u32, corner: usize) -> f64 {
+        let p = self.triangle(node).corners;
+        let (a, b) = (p[(corner + 1) % 3] - p[corner], p[(corner + 2) % 3] - p[corner]);
+        libm::atan2(a.cross(b).length(), a.dot(b))
+    }
+
+    fn border_vertices(&self) -> Vec<bool> {
+        let mut border = vec![false; self.vertices.len()];
+        for (ends, elements) in &self.edges {
+            if elements.len() == 1 {
+                border[ends[0] as usize] = true;
+                border[ends[1] as usize] = true;
+            }
+        }
+        border
+    }
+}
+
+/// A place that receives light for a vertex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Receiver {
+    /// Where, on the surface.
+    pub point: Point,
+    /// Shading normal of the side.
+    pub normal: Normal,
+    /// The triangle of the scene it lies on.
+    pub triangle: u32,
+    /// On its back.
+    pub back: bool,
+}
+
+const fn edge_key(a: u32, b: u32) -> [u32; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
+
+/// Whether a side of a triangle carries a map: opaque, not a pure mirror, not the black back of a
+/// one-sided material.
+fn carries_map(scene: &Scene, triangle: u32, back: bool) -> bool {
+    scene
+        .material(triangle)
+        .finish(back)
+        .is_some_and(|finish| !finish.is_pure_mirror() && !(back && *finish == Finish::BLACK))
+}
+
+fn corners(scene: &Scene, triangle: u32, back: bool) -> [(Point, Normal); 3] {
+    let points = scene.triangle(triangle).corners;
+    let flat = scene.geometric_normal(triangle);
+    let normals = scene.corner_normals(triangle).unwrap_or([flat; 3]);
+    [0, 1, 2].map(|k| (points[k], if back { -normals[k] } else { normals[k] }))
+}

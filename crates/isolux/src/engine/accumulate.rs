@@ -1,0 +1,115 @@
+//! Sums that do not depend on their order.
+//!
+//! A contribution is scaled to fixed point and added to integers, so that addition is associative:
+//! any order, any number of threads, any machine gives the same bits, and sums of disjoint
+//! increments merge by addition.
+//!
+//! One unit is 2^-24 of the scene's reference illuminance (rounded up to a power of two). A value of
+//! one increment is held to 2^47 units (eight million times the reference; brighter values saturate),
+//! its square to 2^94. So 2^15 increments fit the 63 bits of a sum and the 127 of a sum of squares.
+//! Rounding adds at most half a unit an increment: 3e-8 of the reference.
+
+use crate::units::Rgb;
+
+const UNITS_OF_REFERENCE: f64 = (1u64 << 24) as f64;
+const LARGEST: f64 = (1u64 << 47) as f64;
+
+/// Increments that one accumulator can hold.
+pub(super) const MAX_INCREMENTS: u64 = 1 << 15;
+
+/// The light at one receiver in one increment, lx.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Sample {
+    /// From luminaires, without caustics.
+    pub(super) direct: Rgb,
+    /// From luminaires, by particles.
+    pub(super) caustic: Rgb,
+    /// After diffuse reflections.
+    pub(super) indirect: Rgb,
+}
+
+/// Sums of one receiver.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Sums {
+    /// Direct, caustic, indirect; three channels each.
+    pub(super) values: [i64; 9],
+    /// Squares of the photometric total and of the photometric indirect and caustic part.
+    pub(super) squares: [i128; 2],
+}
+
+/// Sums of many receivers over increments.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Accumulator {
+    lux_per_unit: f64,
+    pub(super) increments: u64,
+    pub(super) sums: Vec<Sums>,
+}
+
+/// Mean and variance of the mean at one receiver.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Estimate {
+    pub(super) mean: Sample,
+    /// Variance of the mean of the photometric total, lx2.
+    pub(super) variance: f64,
+    /// The same of the indirect part and the caustics.
+    pub(super) indirect_variance: f64,
+}
+
+impl Accumulator {
+    /// No increments yet; `reference_lx` sets the unit.
+    pub(super) fn new(receivers: usize, reference_lx: f64) -> Self {
+        let exponent = libm::ceil(libm::log2(reference_lx.max(1e-30)));
+        let reference = libm::exp2(exponent);
+        Self {
+            lux_per_unit: reference / UNITS_OF_REFERENCE,
+            increments: 0,
+            sums: vec![Sums::default(); receivers],
+        }
+    }
+
+    /// Adds one increment: one sample a receiver.
+    pub(super) fn add(&mut self, samples: impl Iterator<Item = Sample>) {
+        let scale = 1.0 / self.lux_per_unit;
+        for (sums, sample) in self.sums.iter_mut().zip(samples) {
+            let parts = [sample.direct, sample.caustic, sample.indirect];
+            let channels = parts.iter().flat_map(|part| part.0);
+            for (sum, value) in sums.values.iter_mut().zip(channels) {
+                *sum += fixed(value * scale);
+            }
+            let indirect = (sample.indirect + sample.caustic).luminance();
+            let total = indirect + sample.direct.luminance();
+            for (square, value) in sums.squares.iter_mut().zip([total, indirect]) {
+                let units = i128::from(fixed(value * scale));
+                *square += units * units;
+            }
+        }
+        self.increments += 1;
+    }
+
+    /// Mean and its variance at a receiver, from the spread of the increments.
+    pub(super) fn estimate(&self, receiver: usize) -> Estimate {
+        let Sums { values, squares } = self.sums[receiver];
+        let n = self.increments as f64;
+        let mean =
+            |k: usize| Rgb([0, 1, 2].map(|c| values[3 * k + c] as f64 * self.lux_per_unit / n));
+        let mean = Sample { direct: mean(0), caustic: mean(1), indirect: mean(2) };
+        let indirect = (mean.indirect + mean.caustic).luminance();
+        let total = indirect + mean.direct.luminance();
+        let variance = |square: i128, mean: f64| {
+            let mean_square = square as f64 * self.lux_per_unit * self.lux_per_unit / n;
+            // Rounding of the unit and of f64 can make this slightly negative.
+            let spread = (mean_square - mean * mean).max(0.0);
+            if self.increments > 1 { spread / (n - 1.0) } else { f64::INFINITY }
+        };
+        Estimate {
+            mean,
+            variance: variance(squares[0], total),
+            indirect_variance: variance(squares[1], indirect),
+        }
+    }
+}
+
+fn fixed(units: f64) -> i64 {
+    // NaN becomes zero and infinities saturate.
+    units.clamp(-LARGEST, LARGEST).round_ties_even() as i64
+}

@@ -1,0 +1,65 @@
+//! How good a map is: the error of the scene from replicates, check points and details.
+
+use super::accumulate::Accumulator;
+use super::checks::InterpolationErrors;
+use super::pilot::Plan;
+use crate::map::Accuracy;
+
+/// Replicates from which on their spread is believed. The scene figure pools thousands of
+/// receivers, so eight give it to a few per cent.
+pub(super) const BELIEVED_INCREMENTS: u64 = 8;
+
+/// The error of the scene so far; `None` while there are too few replicates, or no light at all.
+pub(super) fn accuracy(
+    plan: &Plan,
+    sums: &Accumulator,
+    interpolation: &InterpolationErrors,
+) -> Option<Accuracy> {
+    if sums.increments < BELIEVED_INCREMENTS {
+        return None;
+    }
+    let (mut area, mut squared, mut variance) = (0.0, 0.0, 0.0);
+    for (k, vertex) in plan.elements.vertices().iter().enumerate().filter(|&(k, _)| plan.known[k]) {
+        let estimate = sums.estimate(k);
+        let mean = &estimate.mean;
+        let lx = (mean.direct + mean.caustic + mean.indirect).luminance();
+        area += vertex.area_m2;
+        squared += vertex.area_m2 * lx * lx;
+        variance += vertex.area_m2 * estimate.variance;
+    }
+    if !(squared > 0.0 && area > 0.0) {
+        return None;
+    }
+    let rms_lx = (squared / area).sqrt();
+    let statistical = (variance / squared).sqrt();
+    let discretization = interpolation.indirect_lx / rms_lx;
+    let lookup_lx = if plan.direct_from_map {
+        interpolation.total_mean_lx
+    } else {
+        interpolation.indirect_mean_lx
+    };
+    // What lookups get wrong on the mean is reflected, and reflected again.
+    let bias = lookup_lx.abs() / rms_lx * reflected_series(plan);
+    let root = |parts: &[f64]| parts.iter().map(|p| p * p).sum::<f64>().sqrt();
+    Some(Accuracy {
+        reached: root(&[statistical, discretization, bias]),
+        statistical,
+        discretization,
+        bias,
+        interpolated: root(&[statistical, interpolation.total_lx / rms_lx, bias]),
+    })
+}
+
+/// `rho / (1 - rho)` of the mean reflectance of the surfaces.
+fn reflected_series(plan: &Plan) -> f64 {
+    let (mut area, mut reflected) = (0.0, 0.0);
+    for leaf in plan.subdivision.leaves() {
+        let (_, origin) = plan.subdivision.node(leaf);
+        let finish = plan.scene.material(origin.triangle).finish(origin.back);
+        let m2 = plan.subdivision.triangle(leaf).area();
+        area += m2;
+        reflected += m2 * finish.map_or(0.0, |f| f.diffuse.colour.luminance());
+    }
+    let rho = (reflected / area).min(0.99);
+    rho / (1.0 - rho)
+}

@@ -1,0 +1,48 @@
+//! Caustics: light that reaches diffuse surfaces over specular ones that virtual luminaires do not
+//! cover, carried by particles.
+
+use super::emission::Emission;
+use super::particle::Particle;
+use super::pilot::Plan;
+use super::tally::Tally;
+use crate::sampling::{Key, Sequence};
+use crate::scene::Body;
+use crate::units::Rgb;
+use rayon::prelude::*;
+
+/// Particles a vertex and increment.
+const PARTICLES_A_VERTEX: usize = 16;
+
+/// Caustic illuminance at the vertices that indirect light lives on, and the rays it took.
+pub(super) fn deposit(plan: &Plan, key: Key) -> (Vec<Rgb>, u64) {
+    let nothing = || (vec![Rgb::BLACK; plan.indirect_vertices], 0);
+    if !plan.lighting.leaves_caustics() {
+        return nothing();
+    }
+    let Some(emission) = Emission::new(plan.scene) else { return nothing() };
+    let count = (PARTICLES_A_VERTEX * plan.indirect_vertices).next_power_of_two() as u32;
+    let tally = Tally::new(plan, emission.flux_lm(), 1);
+    let sequence = Sequence::new(key);
+    let fly = |index: u32| {
+        let (scene, lighting) = (plan.scene, plan.lighting);
+        let Some(mut particle) = Particle::emit(&emission, sequence, index, count) else {
+            return 0;
+        };
+        let mut rays = 1;
+        while let Some(at) = particle.advance(scene) {
+            let opaque = matches!(scene.material(at.triangle).body, Body::Opaque { .. });
+            // What virtual luminaires bring is theirs.
+            if opaque && !particle.is_covered(lighting) {
+                tally.add(0, &at, particle.flux_lm);
+            }
+            // Diffuse reflection ends a caustic.
+            if !particle.scatter_specular(scene, lighting) {
+                break;
+            }
+            rays += 1;
+        }
+        rays
+    };
+    let rays = (0..count).into_par_iter().map(fly).sum();
+    (tally.illuminance(0), rays)
+}

@@ -1,0 +1,156 @@
+//! Check points: how wrong interpolation is, measured.
+//!
+//! At random places of the surfaces each increment gathers afresh and compares with its own map,
+//! interpolated. The mean difference over increments is the discretization error there, with a
+//! known variance that is subtracted: an unbiased estimate of the squared error of the scene. Half
+//! of the points are drawn by area, half where details are large (most of the error lies in little
+//! of the area), and weighted accordingly.
+
+use super::accumulate::{Accumulator, Sample};
+use super::gather::{Gatherer, known_weights};
+use super::path::Dice;
+use super::pilot::{Plan, place_in_leaf};
+use super::surface::SurfacePoint;
+use crate::sampling::{Key, Sequence};
+use crate::units::Rgb;
+use rayon::prelude::*;
+
+/// Check points: a part of the receivers, within limits.
+const SHARE: usize = 8;
+const FEWEST: usize = 256;
+const MOST: usize = 1024;
+
+/// A place where the map is checked.
+pub(super) struct Check {
+    pub(super) gatherer: Gatherer,
+    /// Vertices and weights of the indirect map there, over the known ones.
+    coarse: [(u32, f64); 3],
+    /// The same of the whole map.
+    fine: [(u32, f64); 3],
+    /// Surface that the point stands for, m2.
+    area_m2: f64,
+}
+
+/// Errors of interpolation over the surface, lx: root mean squares, and the signed mean.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct InterpolationErrors {
+    /// Of the indirect part.
+    pub(super) indirect_lx: f64,
+    /// Of direct and indirect together.
+    pub(super) total_lx: f64,
+    /// Mean of the indirect error, with its sign and standard error.
+    pub(super) indirect_mean_lx: f64,
+    /// Mean of the total error.
+    pub(super) total_mean_lx: f64,
+}
+
+/// Draws the check points of a plan.
+pub(super) fn draw(plan: &Plan, key: Key) -> Vec<Check> {
+    let errors = &plan.indirect_errors;
+    let count = (plan.indirect_vertices / SHARE).clamp(FEWEST, MOST);
+    let area: f64 = errors.iter().map(|e| e.area_m2).sum();
+    let squared: f64 = errors.iter().map(|e| e.squared()).sum();
+    // Density of the draw over elements: an even mixture of area and squared error.
+    let density = |k: usize| {
+        let by_error = if squared > 0.0 { errors[k].squared() / squared } else { 0.0 };
+        let by_area = errors[k].area_m2 / area;
+        if squared > 0.0 { 0.5 * (by_area + by_error) } else { by_area }
+    };
+    let mut sums = Vec::with_capacity(errors.len());
+    let mut sum = 0.0;
+    for k in 0..errors.len() {
+        sum += density(k);
+        sums.push(sum);
+    }
+    let sequence = Sequence::new(key);
+    let one = |index: usize| {
+        let mut dice = Dice::new(sequence, index as u32);
+        let [pick, _] = dice.pair();
+        // Stratified: one point in each of `count` equal parts.
+        let at = (index as f64 + pick) / count as f64 * sum;
+        let k = sums.partition_point(|&s| s <= at).min(errors.len() - 1);
+        let surface = place_in_leaf(plan, errors[k].node, dice.pair());
+        let area_m2 = errors[k].area_m2 / (count as f64 * density(k) / sum);
+        check(plan, surface, area_m2)
+    };
+    (0..count).filter_map(one).collect()
+}
+
+fn check(plan: &Plan, surface: SurfacePoint, area_m2: f64) -> Option<Check> {
+    let weights = |level: u32| {
+        let SurfacePoint { triangle, back, u, v, .. } = surface;
+        let corners = plan.elements.locate_above(level, triangle, back, u, v)?;
+        let weights = known_weights(corners, &plan.known)?;
+        Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
+    };
+    Some(Check {
+        gatherer: Gatherer::on_surface(surface),
+        coarse: weights(plan.level)?,
+        fine: weights(u32::MAX)?,
+        area_m2,
+    })
+}
+
+/// Direct light at the check points; `key` only matters where emitting surfaces are sampled.
+pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
+    let sequence = |k: usize| Sequence::new(key.with(k as u64));
+    let one = |(k, check): (usize, &Check)| {
+        plan.lighting.illuminance(&check.gatherer.surface, &mut Dice::new(sequence(k), 0))
+    };
+    checks.par_iter().enumerate().map(one).collect()
+}
+
+/// Adds one increment: `fresh` is what was gathered at the points, `direct` what luminaires give
+/// there, the rest the increment's map.
+pub(super) fn add(
+    sums: &mut Accumulator,
+    checks: &[Check],
+    fresh: &[Rgb],
+    fresh_direct: &[Rgb],
+    indirect: &[Rgb],
+    direct: &[Rgb],
+) {
+    let read = |values: &[Rgb], at: &[(u32, f64); 3]| -> Rgb {
+        at.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
+    };
+    sums.add(checks.iter().enumerate().map(|(k, check)| {
+        let hidden = fresh[k].is_black() && fresh_direct[k].is_black();
+        if hidden {
+            return Sample::default();
+        }
+        Sample {
+            direct: read(direct, &check.fine) - fresh_direct[k],
+            caustic: Rgb::BLACK,
+            indirect: read(indirect, &check.coarse) - fresh[k],
+        }
+    }));
+}
+
+/// The errors seen so far.
+pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationErrors {
+    let area: f64 = checks.iter().map(|c| c.area_m2).sum();
+    let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    for (k, check) in checks.iter().enumerate() {
+        let estimate = sums.estimate(k);
+        let indirect = estimate.mean.indirect.luminance();
+        let share = check.area_m2 / area;
+        let both = [
+            (indirect, estimate.indirect_variance),
+            (indirect + estimate.mean.direct.luminance(), estimate.variance),
+        ];
+        for (part, (value, variance)) in both.into_iter().enumerate() {
+            mean[part] += share * value;
+            squared[part] += share * (value * value - variance);
+            // Variance of `value^2 - variance` for a normal value of mean zero.
+            spread[part] += share * share * 2.0 * variance * variance;
+        }
+    }
+    // One standard error on the safe side: what noise could hide is reported as error.
+    let root = |part: usize| (squared[part].max(0.0) + spread[part].sqrt()).sqrt();
+    InterpolationErrors {
+        indirect_lx: root(0),
+        total_lx: root(1),
+        indirect_mean_lx: mean[0],
+        total_mean_lx: mean[1],
+    }
+}

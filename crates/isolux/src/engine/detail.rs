@@ -1,0 +1,123 @@
+//! Where elements are too coarse: detail coefficients of a function on the tree of bisections.
+//!
+//! A vertex made by bisection has a detail coefficient: its value minus the mean of the ends of its
+//! edge. A quantity that is smooth has a quarter of it at the next level, one with a kink a half, a
+//! shadow border all of it. So details at the finest level tell the error that interpolation still
+//! makes there.
+
+use crate::elements::{Elements, Subdivision};
+
+/// Root mean square of the linear interpolation error over an element, as a share of the detail of
+/// its newest vertex. For a parabola across the edge the error at the middle of the next edge is a
+/// quarter of the detail and the root mean square over the edge is 0.73 of that; kinks and shadow
+/// borders, which come to matter as the rest is resolved, make it up to twice as much.
+const ERROR_OF_DETAIL: f64 = 0.3;
+
+/// The same for an element of the input, which has no detail, as a share of the spread of its
+/// vertices: what a detail of half the spread would give.
+const ERROR_OF_SPREAD: f64 = 0.15;
+
+/// A detail belongs to an element if the edge it was made on is at most so many times its own.
+const RECENT: f64 = 2.9;
+
+/// The error estimated for an element.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LeafError {
+    pub(super) node: u32,
+    pub(super) area_m2: f64,
+    /// Root mean square over the element, in the unit of the values.
+    pub(super) error: f64,
+}
+
+impl LeafError {
+    /// Contribution to the squared error of the scene.
+    pub(super) fn squared(&self) -> f64 {
+        self.area_m2 * self.error * self.error
+    }
+}
+
+/// Errors of all elements for values at the vertices (`None` where hidden).
+pub(super) fn leaf_errors(
+    subdivision: &Subdivision,
+    elements: &Elements,
+    values: &[Option<f64>],
+) -> Vec<LeafError> {
+    let leaf = |node: u32| {
+        let area_m2 = subdivision.triangle(node).area();
+        LeafError { node, area_m2, error: leaf_error(subdivision, elements, values, node) }
+    };
+    subdivision.leaves().map(leaf).collect()
+}
+
+fn leaf_error(
+    subdivision: &Subdivision,
+    elements: &Elements,
+    values: &[Option<f64>],
+    node: u32,
+) -> f64 {
+    let corners = subdivision.node(node).0.vertices;
+    let known: Vec<f64> = corners.iter().filter_map(|&v| values[v as usize]).collect();
+    let high = known.iter().copied().fold(0.0, f64::max);
+    let low = known.iter().copied().fold(high, f64::min);
+    if known.len() < corners.len() {
+        // Extrapolation over a hidden vertex: as uncertain as the value is large.
+        return ERROR_OF_SPREAD * high;
+    }
+    let reach = RECENT * subdivision.longest_edge_m(node);
+    let details = corners.iter().filter_map(|&v| detail(elements, values, v, reach));
+    match details.fold(None, |largest: Option<f64>, d| Some(largest.map_or(d, |l| l.max(d)))) {
+        Some(detail) => ERROR_OF_DETAIL * detail,
+        None => ERROR_OF_SPREAD * (high - low),
+    }
+}
+
+/// The detail of a vertex made on an edge no longer than `reach_m`.
+fn detail(elements: &Elements, values: &[Option<f64>], vertex: u32, reach_m: f64) -> Option<f64> {
+    let vertices = elements.vertices();
+    let ends = vertices[vertex as usize].parents?;
+    let [a, b] = ends.map(|end| vertices[end as usize].position);
+    if (b - a).length() > reach_m {
+        return None;
+    }
+    let [a, b] = ends.map(|end| values[end as usize]);
+    Some((values[vertex as usize]? - 0.5 * (a? + b?)).abs())
+}
+
+/// Share of the squared error that one round of refinement removes by marking the worst elements
+/// (Dörfler 1996).
+const MARKED_SHARE: f64 = 0.75;
+
+/// Bisects the worst elements, twice each so that both directions are halved, leaving alone those
+/// with edges below `least_edge_m`. Returns whether anything was bisected.
+pub(super) fn refine_worst(
+    subdivision: &mut Subdivision,
+    errors: &[LeafError],
+    least_edge_m: f64,
+    max_vertices: usize,
+) -> bool {
+    let mut worst: Vec<&LeafError> = errors
+        .iter()
+        .filter(|e| e.error > 0.0 && subdivision.longest_edge_m(e.node) > 2.0 * least_edge_m)
+        .collect();
+    // Ties in the order of the nodes: the same mesh on every machine.
+    worst.sort_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
+    let total: f64 = worst.iter().map(|e| e.squared()).sum();
+    let (mut marked, mut any) = (0.0, false);
+    for error in worst {
+        if marked >= MARKED_SHARE * total || subdivision.vertex_count() >= max_vertices {
+            break;
+        }
+        marked += error.squared();
+        any = true;
+        bisect_twice(subdivision, error.node);
+    }
+    any
+}
+
+fn bisect_twice(subdivision: &mut Subdivision, node: u32) {
+    subdivision.bisect(node);
+    if let Some(split) = subdivision.node(node).0.split {
+        subdivision.bisect(split.first_child);
+        subdivision.bisect(split.first_child + 1);
+    }
+}

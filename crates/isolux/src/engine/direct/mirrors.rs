@@ -1,0 +1,123 @@
+//! Planar mirrors.
+
+use crate::scene::Scene;
+use crate::units::Rgb;
+use isolux_geometry::{Normal, Point, Vector};
+
+/// Planes that get virtual luminaires; the largest ones, if there are more.
+const MAX_PLANES: usize = 16;
+
+/// Two mirror triangles lie in one plane if their normals and their distances agree to the
+/// rounding of `f32` coordinates: in units of the scene's extent.
+const PLANE_TOLERANCE: f64 = 1e-5;
+
+/// A plane with mirror triangles in it, seen from the reflecting side.
+#[derive(Clone, Debug)]
+pub(super) struct Plane {
+    pub(super) point: Point,
+    pub(super) normal: Normal,
+    pub(super) reflectance: Rgb,
+    area_m2: f64,
+}
+
+impl Plane {
+    /// Height of a point above the reflecting side, m.
+    pub(super) fn height(&self, p: Point) -> f64 {
+        (p - self.point).dot(self.normal.to_vector())
+    }
+
+    /// The mirror image of a point.
+    pub(super) fn image(&self, p: Point) -> Point {
+        p - self.normal * (2.0 * self.height(p))
+    }
+
+    /// The mirror image of a free vector.
+    pub(super) fn image_vector(&self, v: Vector) -> Vector {
+        v - self.normal * (2.0 * v.dot(self.normal.to_vector()))
+    }
+}
+
+/// All planar mirrors of a scene.
+pub(super) struct Mirrors {
+    pub(super) planes: Vec<Plane>,
+    /// Per triangle, the plane its front and its back belong to.
+    sides: Vec<[Option<u32>; 2]>,
+    /// Whether some mirror is curved or one plane too many.
+    pub(super) leaves_some_out: bool,
+}
+
+impl Mirrors {
+    /// Groups the mirror triangles by plane.
+    pub(super) fn find(scene: &Scene) -> Self {
+        let mut found = Self {
+            planes: Vec::new(),
+            sides: vec![[None; 2]; scene.triangle_count() as usize],
+            leaves_some_out: false,
+        };
+        let tolerance_m = PLANE_TOLERANCE * extent_m(scene);
+        for triangle in 0..scene.triangle_count() {
+            for back in [false, true] {
+                let finish = scene.material(triangle).finish(back);
+                let reflectance = finish.map_or(Rgb::BLACK, |f| f.mirror);
+                if reflectance.is_black() {
+                    continue;
+                }
+                if scene.corner_normals(triangle).is_some_and(|n| n[0].dot(n[1]) < 1.0 - 1e-9) {
+                    found.leaves_some_out = true;
+                    continue;
+                }
+                let plane = found.plane_of(scene, triangle, back, reflectance, tolerance_m);
+                found.sides[triangle as usize][usize::from(back)] = Some(plane);
+            }
+        }
+        found.keep_largest();
+        found
+    }
+
+    fn plane_of(
+        &mut self,
+        scene: &Scene,
+        triangle: u32,
+        back: bool,
+        reflectance: Rgb,
+        tolerance_m: f64,
+    ) -> u32 {
+        let corners = scene.triangle(triangle);
+        let front = scene.geometric_normal(triangle);
+        let normal = if back { -front } else { front };
+        let same = |p: &Plane| {
+            p.normal.dot(normal) > 1.0 - PLANE_TOLERANCE * PLANE_TOLERANCE.sqrt()
+                && corners.corners.iter().all(|&c| p.height(c).abs() <= tolerance_m)
+                && p.reflectance == reflectance
+        };
+        let known = self.planes.iter().position(same);
+        let index = known.unwrap_or_else(|| {
+            let point = corners.centroid();
+            self.planes.push(Plane { point, normal, reflectance, area_m2: 0.0 });
+            self.planes.len() - 1
+        });
+        self.planes[index].area_m2 += corners.area();
+        index as u32
+    }
+
+    fn keep_largest(&mut self) {
+        let mut order: Vec<usize> = (0..self.planes.len()).collect();
+        order.sort_by(|&a, &b| self.planes[b].area_m2.total_cmp(&self.planes[a].area_m2));
+        self.leaves_some_out |= order.len() > MAX_PLANES;
+        order.truncate(MAX_PLANES);
+        let renumbered = |old: u32| order.iter().position(|&k| k == old as usize);
+        for side in self.sides.iter_mut().flatten() {
+            *side = side.and_then(renumbered).map(|k| k as u32);
+        }
+        self.planes = order.iter().map(|&k| self.planes[k].clone()).collect();
+    }
+
+    /// The plane that a side of a triangle belongs to.
+    pub(super) fn of(&self, triangle: u32, back: bool) -> Option<u32> {
+        self.sides[triangle as usize][usize::from(back)]
+    }
+}
+
+fn extent_m(scene: &Scene) -> f64 {
+    scene.bvh().mesh().bounds().map_or(0.0, |(low, high)| (high - low).length())
+}

@@ -1,0 +1,229 @@
+//! Luminaires and their images in planar mirrors.
+
+use super::mirrors::Mirrors;
+use crate::engine::surface::SurfacePoint;
+use crate::photometry::IntensityDistribution;
+use crate::scene::{LuminaireKind, Scene};
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Normal, Point, Transform, Vector};
+
+/// Reflections in a row that virtual luminaires follow.
+const MAX_CHAIN: usize = 6;
+/// Chains whose mirrors leave less than this of the light are left to particles.
+const LEAST_REFLECTANCE: f64 = 1e-3;
+/// Virtual luminaires for every real one, at most.
+const MAX_IMAGES: usize = 64;
+
+/// A luminaire of the scene: those without surface first, then emitting surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LuminaireId {
+    Luminaire(u32),
+    Area(u32),
+}
+
+/// A luminaire or its image.
+#[derive(Clone, Debug)]
+pub(super) struct Source {
+    pub(super) luminaire: LuminaireId,
+    /// Planes that reflect its light, in the order the light meets them.
+    pub(super) chain: Vec<u32>,
+    /// Colour of the luminaire times reflectance of the chain.
+    pub(super) colour: Rgb,
+    pub(super) kind: SourceKind,
+}
+
+/// What it looks like from a receiver.
+#[derive(Clone, Debug)]
+pub(super) enum SourceKind {
+    /// A point; `local_from_world` is linear and orthogonal (a mirror image is left-handed).
+    Point { luminaire: u32, position: Point, local_from_world: Transform },
+    /// Parallel light.
+    Directional { towards: Direction, illuminance_lx: f64 },
+    /// Emitting triangles, reflected by the chain, their emitting side counter-clockwise.
+    Area { emitter: Emitter, triangles: Vec<[Point; 3]> },
+}
+
+/// Totals of an emitting surface.
+#[derive(Clone, Debug)]
+pub(super) struct Emitter {
+    pub(super) indices: Vec<u32>,
+    /// Running sums of the areas, m2.
+    pub(super) area_sums_m2: Vec<f64>,
+    pub(super) centre: Point,
+}
+
+/// Light on its way to a surface, obstacles left out.
+pub(super) struct Arriving {
+    pub(super) illuminance_lx: Rgb,
+    pub(super) target: Target,
+}
+
+/// Where a source is.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Target {
+    Point(Point),
+    Infinity(Direction),
+}
+
+/// All sources of a scene.
+pub(super) fn sources(scene: &Scene, mirrors: &Mirrors) -> Vec<Source> {
+    let mut found = Vec::new();
+    for real in real_sources(scene) {
+        let first = found.len();
+        found.push(real);
+        let mut next = first;
+        // Breadth first: images are appended and looked at in turn.
+        while next < found.len() && found.len() - first < MAX_IMAGES {
+            for plane in 0..mirrors.planes.len() {
+                found.extend(image(&found[next], plane as u32, mirrors));
+            }
+            next += 1;
+        }
+    }
+    found
+}
+
+fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
+    let points = scene.luminaires().iter().enumerate().map(|(index, luminaire)| {
+        let kind = match &luminaire.kind {
+            LuminaireKind::Point { position, world_from_luminaire, .. } => SourceKind::Point {
+                luminaire: index as u32,
+                position: *position,
+                local_from_world: transposed(world_from_luminaire),
+            },
+            LuminaireKind::Directional { direction, illuminance_lx } => {
+                SourceKind::Directional { towards: -*direction, illuminance_lx: *illuminance_lx }
+            }
+        };
+        let luminaire_id = LuminaireId::Luminaire(index as u32);
+        Source { luminaire: luminaire_id, chain: Vec::new(), colour: luminaire.colour, kind }
+    });
+    let areas = scene.area_luminaires().iter().enumerate().map(|(index, area)| {
+        let triangles = area.triangles.iter().map(|&t| {
+            let [a, b, c] = scene.triangle(t).corners;
+            if area.back { [a, c, b] } else { [a, b, c] }
+        });
+        Source {
+            luminaire: LuminaireId::Area(index as u32),
+            chain: Vec::new(),
+            colour: area.luminance_cd_m2,
+            kind: area_kind(area.triangles.clone(), triangles.collect()),
+        }
+    });
+    points.chain(areas)
+}
+
+fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
+    let area = |&[a, b, c]: &[Point; 3]| 0.5 * (b - a).cross(c - a).length();
+    let (mut sum_m2, mut moment) = (0.0, Vector::ZERO);
+    let mut area_sums_m2 = Vec::with_capacity(triangles.len());
+    for triangle in &triangles {
+        let m2 = area(triangle);
+        sum_m2 += m2;
+        area_sums_m2.push(sum_m2);
+        let [a, b, c] = triangle.map(Point::to_vector);
+        moment += (a + b + c) * (m2 / 3.0);
+    }
+    let centre = Point::ORIGIN + moment / sum_m2;
+    SourceKind::Area { emitter: Emitter { indices, area_sums_m2, centre }, triangles }
+}
+
+/// The image of a source in a plane; `None` where its light cannot reach the reflecting side, or
+/// where too little of it is left.
+fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
+    let mirror = &mirrors.planes[plane as usize];
+    let colour = source.colour * mirror.reflectance;
+    let kept = mirror.reflectance.max_channel() * chain_reflectance(source, mirrors);
+    let repeated = source.chain.last() == Some(&plane);
+    if repeated || source.chain.len() >= MAX_CHAIN || kept < LEAST_REFLECTANCE {
+        return None;
+    }
+    let kind = match &source.kind {
+        SourceKind::Point { luminaire, position, local_from_world } => {
+            (mirror.height(*position) > 0.0).then(|| SourceKind::Point {
+                luminaire: *luminaire,
+                position: mirror.image(*position),
+                local_from_world: Transform {
+                    columns: Transform::IDENTITY
+                        .columns
+                        .map(|axis| local_from_world.vector(mirror.image_vector(axis))),
+                    translation: Vector::ZERO,
+                },
+            })
+        }
+        SourceKind::Directional { towards, illuminance_lx } => (towards.cos(mirror.normal) > 0.0)
+            .then(|| SourceKind::Directional {
+                towards: towards.reflect(mirror.normal),
+                illuminance_lx: *illuminance_lx,
+            }),
+        SourceKind::Area { emitter, triangles } => {
+            let in_front = |t: &[Point; 3]| t.iter().any(|&p| mirror.height(p) > 0.0);
+            // Reflection turns triangles around; swapping two corners keeps the emitting side.
+            let reflected = |&[a, b, c]: &[Point; 3]| [a, c, b].map(|p| mirror.image(p));
+            triangles.iter().any(in_front).then(|| {
+                area_kind(emitter.indices.clone(), triangles.iter().map(reflected).collect())
+            })
+        }
+    }?;
+    let chain = source.chain.iter().copied().chain([plane]).collect();
+    Some(Source { luminaire: source.luminaire, chain, colour, kind })
+}
+
+fn chain_reflectance(source: &Source, mirrors: &Mirrors) -> f64 {
+    source.chain.iter().map(|&p| mirrors.planes[p as usize].reflectance.max_channel()).product()
+}
+
+/// The inverse of a rotation: its linear part transposed.
+fn transposed(rotation: &Transform) -> Transform {
+    let [a, b, c] = rotation.columns;
+    let row = |k: usize| Vector::new(a.component(k), b.component(k), c.component(k));
+    Transform { columns: [row(0), row(1), row(2)], translation: Vector::ZERO }
+}
+
+/// What a point or parallel source would give without obstacles; `None` where it faces away.
+pub(super) fn unoccluded(scene: &Scene, source: &Source, at: &SurfacePoint) -> Option<Arriving> {
+    let (towards, lx, target) = match &source.kind {
+        SourceKind::Point { luminaire, position, local_from_world } => {
+            let to_source = *position - at.point;
+            let towards = to_source.direction()?;
+            let local = local_from_world.vector(-towards.to_vector()).direction()?;
+            let candela = intensity(scene, *luminaire).intensity_cd(local);
+            (towards, candela / to_source.length_squared(), Target::Point(*position))
+        }
+        SourceKind::Directional { towards, illuminance_lx } => {
+            (*towards, *illuminance_lx, Target::Infinity(*towards))
+        }
+        SourceKind::Area { .. } => return None,
+    };
+    let cos = facing_cos(towards, at.shading, at.geometric)?;
+    let illuminance_lx = source.colour * (lx * cos);
+    (!illuminance_lx.is_black()).then_some(Arriving { illuminance_lx, target })
+}
+
+/// Cosine at the receiver, if both its normals see the direction.
+pub(super) fn facing_cos(towards: Direction, shading: Normal, geometric: Normal) -> Option<f64> {
+    let cos = towards.cos(shading);
+    (cos > 0.0 && towards.cos(geometric) > 0.0).then_some(cos)
+}
+
+fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution {
+    match &scene.luminaires()[luminaire as usize].kind {
+        LuminaireKind::Point { intensity, .. } => intensity,
+        LuminaireKind::Directional { .. } => {
+            unreachable!("sources of points are made from points")
+        }
+    }
+}
+
+/// How likely a source should be drawn at a point: in proportion to what it would give without
+/// obstacles, exactly for points, roughly (and never zero) for surfaces.
+pub(super) fn importance(scene: &Scene, source: &Source, at: &SurfacePoint) -> f64 {
+    match &source.kind {
+        SourceKind::Area { emitter, .. } => {
+            let area_m2 = emitter.area_sums_m2.last().copied().unwrap_or(0.0);
+            let distance_squared = (emitter.centre - at.point).length_squared();
+            source.colour.luminance() * area_m2 / (distance_squared + area_m2)
+        }
+        _ => unoccluded(scene, source, at).map_or(0.0, |a| a.illuminance_lx.luminance()),
+    }
+}

@@ -1,0 +1,117 @@
+//! What of a source's light reaches a receiver: along its chain of mirrors, through thin panes.
+
+use super::Lighting;
+use super::source::{Source, Target};
+use crate::engine::scatter::pane_transmittance;
+use crate::engine::surface::SurfacePoint;
+use crate::scene::Body;
+use crate::units::Rgb;
+use isolux_geometry::{Point, Ray, Vector, offset_origin};
+
+/// Thin panes one behind the other that a shadow ray passes.
+const MAX_PANES: usize = 64;
+
+impl Lighting<'_> {
+    /// The share of light, 0 to 1 a channel, that comes from `target` to a receiver: the image is
+    /// looked at, its last mirror must be met first, and so back to the real luminaire. `emitter`
+    /// is the emitting triangle, which does not shade itself.
+    pub(super) fn visibility(
+        &self,
+        source: &Source,
+        at: &SurfacePoint,
+        target: Target,
+        emitter: Option<u32>,
+    ) -> Rgb {
+        let mut from = *at;
+        let mut target = target;
+        let mut share = Rgb::WHITE;
+        for &plane in source.chain.iter().rev() {
+            let Some((passed, on_mirror)) = self.meet_mirror(&from, target, plane) else {
+                return Rgb::BLACK;
+            };
+            share = share * passed;
+            from = on_mirror;
+            target = self.unreflected(target, plane);
+        }
+        let ray = segment(&from, target);
+        // A segment that ends on the emitter must not be stopped by it; one that starts on a
+        // triangle leaves it by its offset.
+        let ray = emitter.map_or(ray, |index| ray.skipping(index));
+        if self.scene.bvh().any_hit(&ray) {
+            return Rgb::BLACK;
+        }
+        if self.has_glass { share * self.through_glass(ray) } else { share }
+    }
+
+    fn unreflected(&self, target: Target, plane: u32) -> Target {
+        let mirror = &self.mirrors.planes[plane as usize];
+        match target {
+            Target::Point(p) => Target::Point(mirror.image(p)),
+            Target::Infinity(d) => Target::Infinity(d.reflect(mirror.normal)),
+        }
+    }
+
+    /// Looks towards an image: the first opaque thing must be the mirror. What panes before it
+    /// leave, and the place on the mirror.
+    fn meet_mirror(
+        &self,
+        from: &SurfacePoint,
+        target: Target,
+        plane: u32,
+    ) -> Option<(Rgb, SurfacePoint)> {
+        let mut ray = Ray { t_max: f32::INFINITY, ..segment(from, target) };
+        let mut share = Rgb::WHITE;
+        for _ in 0..MAX_PANES {
+            let hit = self.scene.bvh().closest_hit(&ray)?;
+            let surface = SurfacePoint::from_hit(self.scene, &hit);
+            match self.pane_share(&surface, &ray) {
+                Some(passed) => {
+                    share = share * passed;
+                    ray = Ray { t_max: f32::INFINITY, ..segment(&surface.other_side(), target) }
+                        .skipping(surface.triangle);
+                }
+                None => {
+                    let met = self.mirrors.of(surface.triangle, surface.back) == Some(plane);
+                    return met.then_some((share, surface));
+                }
+            }
+        }
+        None
+    }
+
+    /// What the transparent surfaces on an otherwise free segment let straight through: panes their
+    /// transmittance, solid glass nothing (its light is bent: particles bring it).
+    fn through_glass(&self, mut ray: Ray) -> Rgb {
+        let mut share = Rgb::WHITE;
+        for _ in 0..MAX_PANES {
+            let Some(hit) = self.scene.bvh().closest_hit(&ray) else { return share };
+            let surface = SurfacePoint::from_hit(self.scene, &hit);
+            let Some(passed) = self.pane_share(&surface, &ray) else { return Rgb::BLACK };
+            share = share * passed;
+            // The rest of the segment, on the other side of the pane.
+            let passed = f64::from(hit.t);
+            let rest = Point::from(ray.origin) + Vector::from(ray.direction) * passed;
+            let start = offset_origin(rest, -surface.geometric);
+            ray = Ray { origin: start.to_f32(), t_max: ray.t_max - hit.t, skip: None, ..ray };
+        }
+        Rgb::BLACK
+    }
+
+    /// What a surface lets straight through, if it is a thin pane.
+    fn pane_share(&self, surface: &SurfacePoint, ray: &Ray) -> Option<Rgb> {
+        let Body::Dielectric(glass) = &self.scene.material(surface.triangle).body else {
+            return None;
+        };
+        let direction = Vector::from(ray.direction).direction()?;
+        glass.thin.then(|| pane_transmittance(glass, direction.cos(surface.shading).abs()))
+    }
+}
+
+fn segment(from: &SurfacePoint, target: Target) -> Ray {
+    match target {
+        Target::Point(p) => {
+            Ray::between(offset_origin(from.point, from.geometric), p).skipping(from.triangle)
+        }
+        Target::Infinity(direction) => from.leave(direction),
+    }
+}

@@ -1,0 +1,259 @@
+//! Gathering: what a receiver sees, as a row of a linear operator over the vertices of the map.
+//!
+//! From a receiver, cosine-distributed rays are followed to diffuse surfaces. There the direct light
+//! is evaluated at once (or read from the map, where luminaires are many), and the indirect light
+//! is left open: the ray becomes an entry of a sparse matrix, so that the light of all further
+//! reflections is the fixed point of `E = source + A E`, solved without tracing the rays again.
+
+use super::direct::Lighting;
+use super::path::{Dice, follow};
+use super::surface::SurfacePoint;
+use crate::elements::{Elements, Receiver};
+use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::scene::{Finish, Scene};
+use crate::units::Rgb;
+use isolux_geometry::{Normal, Point, Ray, offset_origin};
+use rayon::prelude::*;
+
+/// Receivers of one task: enough work to be worth handing out, few enough to share evenly.
+const CHUNK: usize = 64;
+
+/// A place that gathers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gatherer {
+    /// Where rays start.
+    origin: Point,
+    /// About what they are distributed.
+    normal: Normal,
+    /// The place for direct light.
+    pub(super) surface: SurfacePoint,
+}
+
+impl Gatherer {
+    /// The receiver of a vertex. Its normal is that of the smooth surface, whose facets meet at it.
+    pub(super) fn at_vertex(scene: &Scene, receiver: &Receiver) -> Self {
+        let Receiver { point, normal, triangle, back } = *receiver;
+        let flat = SurfacePoint::new(scene, triangle, back, 0.0, 0.0);
+        let surface = SurfacePoint { point, shading: normal, geometric: normal, ..flat };
+        Self { origin: offset_origin(point, flat.geometric), normal, surface }
+    }
+
+    /// A place inside a triangle.
+    pub(super) fn on_surface(surface: SurfacePoint) -> Self {
+        let origin = offset_origin(surface.point, surface.geometric);
+        Self { origin, normal: surface.shading, surface }
+    }
+
+    /// A place in space that faces a way.
+    pub(super) fn in_space(point: Point, normal: Normal) -> Self {
+        let surface = SurfacePoint {
+            triangle: u32::MAX,
+            back: false,
+            u: 0.0,
+            v: 0.0,
+            point,
+            geometric: normal,
+            shading: normal,
+        };
+        Self { origin: point, normal, surface }
+    }
+}
+
+/// Everything gathering reads.
+pub(super) struct Gathering<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) lighting: &'a Lighting<'a>,
+    pub(super) elements: &'a Elements,
+    /// Nodes of the elements from this number on are finer than the level gathered over.
+    pub(super) level: u32,
+    /// Which vertices have a value to be read; hidden ones have not.
+    pub(super) known: &'a [bool],
+    /// Whether direct light at the ends of rays is read from the map instead of evaluated.
+    pub(super) direct_from_map: bool,
+    /// Rays of a receiver.
+    pub(super) rays: u32,
+}
+
+/// The share of the light of three vertices that arrives at a receiver.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    vertices: [u32; 3],
+    weights: [f32; 3],
+    reflectance: [f32; 3],
+}
+
+/// Rows of the operator for consecutive receivers.
+#[derive(Debug, Default)]
+struct Rows {
+    entries: Vec<Entry>,
+    /// End of the entries of every row.
+    ends: Vec<usize>,
+    /// Light that needs no further reflection, lx.
+    sources: Vec<Rgb>,
+    /// Whether some ray left the scene or came to a surface that could be lit.
+    open: Vec<bool>,
+}
+
+/// The operator of all receivers: one noisy sample of light transport.
+pub(super) struct Operator {
+    chunks: Vec<Rows>,
+    pub(super) rays: u64,
+}
+
+impl Gathering<'_> {
+    /// Traces the rays of all receivers; `key_of` gives each its random numbers.
+    pub(super) fn operator(
+        &self,
+        gatherers: &[Gatherer],
+        key_of: impl Fn(usize) -> Key + Sync,
+    ) -> Operator {
+        let chunk = |(index, part): (usize, &[Gatherer])| {
+            let mut rows = Rows::default();
+            for (k, gatherer) in part.iter().enumerate() {
+                self.row(gatherer, key_of(index * CHUNK + k), &mut rows);
+            }
+            rows
+        };
+        let chunks = gatherers.par_chunks(CHUNK).enumerate().map(chunk).collect();
+        Operator { chunks, rays: gatherers.len() as u64 * u64::from(self.rays) }
+    }
+
+    fn row(&self, gatherer: &Gatherer, key: Key, rows: &mut Rows) {
+        let sequence = Sequence::new(key);
+        let axis = gatherer.normal.to_direction();
+        let (mut source, mut open) = (Rgb::BLACK, false);
+        for index in 0..self.rays {
+            let mut dice = Dice::new(sequence, index);
+            let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
+            let ray = Ray::new(gatherer.origin, direction);
+            let mut ends: Vec<(SurfacePoint, Rgb)> = Vec::with_capacity(1);
+            open |= follow(self.scene, ray, direction, &mut dice, |surface, finish, throughput| {
+                match self.end(surface, finish, throughput) {
+                    End::Lit(reflectance) => ends.push((*surface, reflectance)),
+                    End::Black => open = true,
+                    End::Closed => {}
+                }
+            });
+            for (surface, reflectance) in ends {
+                let weight = reflectance / f64::from(self.rays);
+                if !self.direct_from_map {
+                    source += weight * self.lighting.estimate(&surface, &mut dice);
+                }
+                rows.entries.extend(self.entry(&surface, weight));
+            }
+        }
+        rows.ends.push(rows.entries.len());
+        rows.sources.push(source);
+        rows.open.push(open);
+    }
+
+    fn end(&self, surface: &SurfacePoint, finish: &Finish, throughput: Rgb) -> End {
+        if surface.back && *finish == Finish::BLACK {
+            return End::Closed;
+        }
+        let SurfacePoint { triangle, u, v, .. } = *surface;
+        let reflectance = throughput * self.scene.diffuse_reflectance(finish, triangle, u, v);
+        if reflectance.is_black() { End::Black } else { End::Lit(reflectance) }
+    }
+
+    /// The entry for an end, over the known vertices of its element; `None` if there is none.
+    fn entry(&self, at: &SurfacePoint, weight: Rgb) -> Option<Entry> {
+        let corners = self.elements.locate_above(self.level, at.triangle, at.back, at.u, at.v)?;
+        let weights = known_weights(corners, self.known)?;
+        Some(Entry {
+            vertices: corners.map(|(vertex, _)| vertex),
+            weights: weights.map(|w| w as f32),
+            reflectance: weight.0.map(|c| c as f32),
+        })
+    }
+}
+
+/// What a surface is to a gathering ray.
+enum End {
+    /// It reflects.
+    Lit(Rgb),
+    /// It could be lit, but reflects nothing diffusely.
+    Black,
+    /// It is the black back of something: nothing is ever lit there.
+    Closed,
+}
+
+/// Interpolation weights over the known vertices alone.
+pub(super) fn known_weights(corners: [(u32, f64); 3], known: &[bool]) -> Option<[f64; 3]> {
+    let is_known = corners.map(|(vertex, _)| known[vertex as usize]);
+    let count = is_known.iter().filter(|&&k| k).count();
+    if count == 0 {
+        return None;
+    }
+    let mut weights = [0.0; 3];
+    for k in 0..3 {
+        if is_known[k] {
+            weights[k] = corners[k].1;
+        }
+    }
+    let sum: f64 = weights.iter().sum();
+    // On the far side of the element only unknown vertices have weight.
+    if sum < 1e-9 {
+        return Some(is_known.map(|k| if k { 1.0 / count as f64 } else { 0.0 }));
+    }
+    Some(weights.map(|w| w / sum))
+}
+
+impl Operator {
+    /// `source + A light`, one value a receiver.
+    pub(super) fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
+        self.chunks.par_iter().flat_map_iter(|rows| rows.apply(light)).collect()
+    }
+
+    /// Whether each receiver is open: not closed in by black backs.
+    pub(super) fn open(&self) -> Vec<bool> {
+        self.chunks.iter().flat_map(|rows| rows.open.iter().copied()).collect()
+    }
+
+    /// The fixed point `E = source + A (E + given)` over the first `given.len()` receivers, then one
+    /// application for all of them. Starts from `guess`. Ends when a sweep changes nothing beyond
+    /// `tolerance`, relative to the root mean square.
+    pub(super) fn solve(&self, guess: &[Rgb], given: &[Rgb], tolerance: f64) -> Vec<Rgb> {
+        let with_given =
+            |light: &[Rgb]| -> Vec<Rgb> { light.iter().zip(given).map(|(&e, &g)| e + g).collect() };
+        let mut light = guess.to_vec();
+        for _ in 0..MAX_SWEEPS {
+            let next = self.apply(&with_given(&light));
+            let (mut change, mut size) = (0.0, 0.0);
+            for (a, b) in next.iter().zip(&light) {
+                let (difference, value) = ((*a - *b).luminance(), a.luminance());
+                change += difference * difference;
+                size += value * value;
+            }
+            let settled = change <= tolerance * tolerance * size;
+            if settled {
+                return next;
+            }
+            light = next;
+            light.truncate(given.len());
+        }
+        self.apply(&with_given(&light))
+    }
+}
+
+/// Sweeps of the fixed point before giving up: at mean reflectance 0.99 the light left is e^-20.
+const MAX_SWEEPS: usize = 2000;
+
+impl Rows {
+    fn apply<'a>(&'a self, light: &'a [Rgb]) -> impl Iterator<Item = Rgb> + 'a {
+        let starts = std::iter::once(0).chain(self.ends.iter().copied());
+        starts.zip(&self.ends).zip(&self.sources).map(|((start, &end), &source)| {
+            self.entries[start..end].iter().fold(source, |sum, entry| sum + entry.light(light))
+        })
+    }
+}
+
+impl Entry {
+    fn light(&self, light: &[Rgb]) -> Rgb {
+        let mut value = Rgb::BLACK;
+        for k in 0..3 {
+            value += light[self.vertices[k] as usize] * f64::from(self.weights[k]);
+        }
+        value * Rgb(self.reflectance.map(f64::from))
+    }
+}

@@ -1,0 +1,106 @@
+//! `hybrid`: exact direct light, gathered indirect light with a shared tail, particles for caustics.
+//!
+//! An increment is a whole replicate: its own random rays, its own operator, its own fixed point, on
+//! the elements that the pilot has fixed. Replicates share nothing random, so their spread tells the
+//! error of their mean.
+
+use super::accumulate::{Accumulator, Sample};
+use super::caustics;
+use super::checks::{self, Check};
+use super::gather::{Gatherer, Gathering};
+use super::path::Dice;
+use super::pilot::Plan;
+use crate::sampling::{Key, Sequence};
+use crate::units::Rgb;
+use rayon::prelude::*;
+
+/// Sweeps of the fixed point end when they change less than this, relative to the light: far below
+/// the noise of an increment, which is above 1e-4 at the rays it has.
+const TOLERANCE: f64 = 1e-6;
+
+/// The engine, ready for increments.
+pub(super) struct Hybrid<'p, 's> {
+    plan: &'p Plan<'s>,
+    check_direct: Vec<Rgb>,
+    rows: Vec<Gatherer>,
+    rays: u32,
+    key: Key,
+}
+
+impl<'p, 's> Hybrid<'p, 's> {
+    /// With `rays` gathering rays a receiver and increment.
+    pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: u32, seed: u64) -> Self {
+        let key = Key::new(seed).with(1);
+        let vertices = plan.gatherers.iter().take(plan.indirect_vertices);
+        let rows = vertices.chain(checks.iter().map(|c| &c.gatherer)).copied().collect();
+        let check_direct = checks::direct(plan, checks, key.with(0));
+        Self { plan, check_direct, rows, rays, key }
+    }
+
+    /// Adds increment `index`; returns the rays traced.
+    pub(super) fn increment(
+        &self,
+        index: u64,
+        receivers: &mut Accumulator,
+        checks: &[Check],
+        check_sums: &mut Accumulator,
+    ) -> u64 {
+        let plan = self.plan;
+        let key = self.key.with(1 + index);
+        let (direct, check_direct) = self.direct(checks, key.with(0));
+        let (caustic, particles) = caustics::deposit(plan, key.with(1));
+        let gathering = Gathering {
+            scene: plan.scene,
+            lighting: plan.lighting,
+            elements: &plan.elements,
+            level: plan.level,
+            known: &plan.known,
+            direct_from_map: plan.direct_from_map,
+            rays: self.rays,
+        };
+        let operator = gathering.operator(&self.rows, |row| key.with(2).with(row as u64));
+        let given: Vec<Rgb> = (0..plan.indirect_vertices)
+            .map(|k| if plan.direct_from_map { caustic[k] + direct[k] } else { caustic[k] })
+            .collect();
+        let solved = operator.solve(&plan.guess, &given, TOLERANCE);
+        let (gathered, fresh) = solved.split_at(plan.indirect_vertices);
+        let indirect = self.prolongate(gathered);
+        let caustic = self.prolongate(&caustic);
+        receivers.add((0..direct.len()).map(|k| Sample {
+            direct: direct[k],
+            caustic: caustic[k],
+            indirect: indirect[k],
+        }));
+        checks::add(check_sums, checks, fresh, &check_direct, &indirect, &direct);
+        operator.rays + particles
+    }
+
+    /// Direct light at vertices and check points: the plan's where it is exact.
+    fn direct(&self, checks: &[Check], key: Key) -> (Vec<Rgb>, Vec<Rgb>) {
+        if self.plan.lighting.is_exact() {
+            return (self.plan.direct.clone(), self.check_direct.clone());
+        }
+        let vertex = |(k, gatherer): (usize, &Gatherer)| {
+            let sequence = Sequence::new(key.with(k as u64));
+            self.plan.lighting.illuminance(&gatherer.surface, &mut Dice::new(sequence, 0))
+        };
+        let vertices = self.plan.gatherers.par_iter().enumerate().map(vertex).collect();
+        (vertices, checks::direct(self.plan, checks, key.with(u64::MAX)))
+    }
+
+    /// Values for the vertices that only direct light needs: interpolated from their parents.
+    fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
+        let mut values = coarse.to_vec();
+        for vertex in &self.plan.elements.vertices()[coarse.len()..] {
+            let [a, b] = vertex.parents.expect("vertices beyond the input are made by bisection");
+            let read = |end: u32| (self.plan.known[end as usize]).then(|| values[end as usize]);
+            let value = match (read(a), read(b)) {
+                (Some(a), Some(b)) => (a + b) * 0.5,
+                (Some(one), None) | (None, Some(one)) => one,
+                (None, None) => Rgb::BLACK,
+            };
+            values.push(value);
+        }
+        values
+    }
+}

@@ -1,0 +1,150 @@
+//! A particle of light on its way through the scene.
+
+use super::direct::{Lighting, LuminaireId};
+use super::emission::Emission;
+use super::path::{Dice, specular_step};
+use super::scatter::Scattered;
+use super::surface::SurfacePoint;
+use crate::sampling::{CosineHemisphere, Sequence};
+use crate::scene::{Body, Finish, Scene};
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Ray};
+
+/// A particle: flux that moves in one direction.
+pub(super) struct Particle {
+    ray: Ray,
+    direction: Direction,
+    pub(super) flux_lm: Rgb,
+    luminaire: LuminaireId,
+    /// Planar mirrors met so far, while nothing else was.
+    chain: Option<Vec<u32>>,
+    dice: Dice,
+    at: Option<SurfacePoint>,
+    /// Whether it was reflected diffusely before.
+    pub(super) diffused: bool,
+}
+
+impl Particle {
+    /// Particle `index` of `count` that share the flux of all luminaires.
+    pub(super) fn emit(
+        emission: &Emission,
+        sequence: Sequence,
+        index: u32,
+        count: u32,
+    ) -> Option<Self> {
+        let mut dice = Dice::new(sequence, index);
+        let emitted = emission.emit(&mut dice)?;
+        Some(Self {
+            ray: emitted.ray,
+            direction: emitted.direction,
+            flux_lm: emitted.colour * (emission.flux_lm() / f64::from(count)),
+            luminaire: emitted.luminaire,
+            chain: Some(Vec::new()),
+            dice,
+            at: None,
+            diffused: false,
+        })
+    }
+
+    /// Flies to the next surface; `None` when it leaves the scene.
+    pub(super) fn advance(&mut self, scene: &Scene) -> Option<SurfacePoint> {
+        let hit = scene.bvh().closest_hit(&self.ray)?;
+        let at = SurfacePoint::from_hit(scene, &hit);
+        self.at = Some(at);
+        Some(at)
+    }
+
+    /// Whether its light is part of direct light as evaluated at points.
+    pub(super) fn is_covered(&self, lighting: &Lighting) -> bool {
+        let covers = |chain: &Vec<u32>| lighting.covers(self.luminaire, chain);
+        !self.diffused && self.chain.as_ref().is_some_and(covers)
+    }
+
+    /// Goes on without diffuse reflection; `false` when it is absorbed.
+    pub(super) fn scatter_specular(&mut self, scene: &Scene, lighting: &Lighting) -> bool {
+        let Some(at) = self.at else { return false };
+        let body = &scene.material(at.triangle).body;
+        // Roulette relative to the flux it has: a share of one means it survives for sure.
+        let unit = self.flux_lm * (1.0 / self.flux_lm.max_channel().max(f64::MIN_POSITIVE));
+        match specular_step(body, &at, self.direction, unit, &mut self.dice) {
+            Some(next) => {
+                self.remember(&at, body, lighting, &next);
+                self.go(next);
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Goes on diffusely or specularly, by Russian roulette; `false` when it is absorbed.
+    pub(super) fn scatter(&mut self, scene: &Scene, lighting: &Lighting) -> bool {
+        let Some(at) = self.at else { return false };
+        let body = &scene.material(at.triangle).body;
+        let Body::Opaque { front, back } = body else {
+            return self.scatter_specular(scene, lighting);
+        };
+        let finish = if at.back { back } else { front };
+        let reflectance = scene.diffuse_reflectance(finish, at.triangle, at.u, at.v);
+        let chance = diffuse_chance(finish, reflectance, self.flux_lm);
+        let [pick, _] = self.dice.pair();
+        if pick < chance {
+            let square = self.dice.pair();
+            self.reflect_diffusely(&at, reflectance, chance, square)
+        } else {
+            self.flux_lm = self.flux_lm * (1.0 / (1.0 - chance));
+            self.scatter_specular(scene, lighting)
+        }
+    }
+
+    fn reflect_diffusely(
+        &mut self,
+        at: &SurfacePoint,
+        reflectance: Rgb,
+        chance: f64,
+        square: [f64; 2],
+    ) -> bool {
+        let direction = at.shading.to_direction().from_local(CosineHemisphere::sample(square));
+        self.diffused = true;
+        self.go(Scattered {
+            ray: at.leave(direction),
+            direction,
+            weight: reflectance * (1.0 / chance),
+            mirrored: false,
+        });
+        direction.cos(at.geometric) > 0.0
+    }
+
+    fn go(&mut self, next: Scattered) {
+        self.ray = next.ray;
+        self.direction = next.direction;
+        self.flux_lm = self.flux_lm * next.weight;
+    }
+
+    /// Keeps the chain of planar mirrors, as long as it is one. Passing straight through a pane
+    /// leaves it as it is.
+    fn remember(&mut self, at: &SurfacePoint, body: &Body, lighting: &Lighting, next: &Scattered) {
+        let straight = next.direction == self.direction
+            && matches!(body, Body::Dielectric(glass) if glass.thin);
+        if straight {
+            return;
+        }
+        let plane = if next.mirrored { lighting.mirror_of(at.triangle, at.back) } else { None };
+        self.chain = match (self.chain.take(), plane) {
+            (Some(mut chain), Some(plane)) => {
+                chain.push(plane);
+                Some(chain)
+            }
+            _ => None,
+        };
+    }
+}
+
+/// Chance of diffuse reflection: the luminance-weighted reflectance for the light it carries. The
+/// specular part decides by its own roulette in the rest, so a chance of one is only allowed where
+/// there is none.
+fn diffuse_chance(finish: &Finish, reflectance: Rgb, flux: Rgb) -> f64 {
+    let chance =
+        ((flux * reflectance).luminance() / flux.luminance().max(f64::MIN_POSITIVE)).min(1.0);
+    let specular = !finish.mirror.is_black() || finish.gloss.is_some();
+    if specular { chance.min(0.95) } else { chance }
+}

@@ -1,0 +1,95 @@
+//! Paths over specular surfaces.
+
+use super::scatter::{Scattered, reflect, refract, specular_share};
+use super::surface::SurfacePoint;
+use crate::sampling::Sequence;
+use crate::scene::{Body, Finish, Scene};
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Ray};
+
+/// Specular reflections after which a path is given up. Mirrors of a room lose the light long
+/// before; only light caught in lossless glass gets here.
+const MAX_SPECULAR: u32 = 128;
+
+/// Numbers for one path, in order.
+pub(super) struct Dice {
+    sequence: Sequence,
+    index: u32,
+    next_pair: u32,
+}
+
+impl Dice {
+    /// The numbers of point `index` of a sequence.
+    pub(super) const fn new(sequence: Sequence, index: u32) -> Self {
+        Self { sequence, index, next_pair: 0 }
+    }
+
+    /// The next two numbers.
+    pub(super) const fn pair(&mut self) -> [f64; 2] {
+        self.next_pair += 1;
+        self.sequence.pair(self.index, self.next_pair - 1)
+    }
+}
+
+/// Follows a ray over specular reflection and transmission. Every surface met that is opaque is
+/// handed to `met` with the throughput up to there, before its specular part is followed. Returns
+/// whether the path left the scene.
+pub(super) fn follow(
+    scene: &Scene,
+    mut ray: Ray,
+    mut direction: Direction,
+    dice: &mut Dice,
+    mut met: impl FnMut(&SurfacePoint, &Finish, Rgb),
+) -> bool {
+    let mut throughput = Rgb::WHITE;
+    for _ in 0..MAX_SPECULAR {
+        let Some(hit) = scene.bvh().closest_hit(&ray) else { return true };
+        let surface = SurfacePoint::from_hit(scene, &hit);
+        let body = &scene.material(hit.triangle).body;
+        if let Body::Opaque { front, back } = body {
+            met(&surface, if surface.back { back } else { front }, throughput);
+        }
+        let Some(next) = specular_step(body, &surface, direction, throughput, dice) else {
+            return false;
+        };
+        (ray, direction, throughput) = (next.ray, next.direction, throughput * next.weight);
+    }
+    false
+}
+
+/// One sample of where light goes on without diffuse reflection, with Russian roulette.
+pub(super) fn specular_step(
+    body: &Body,
+    surface: &SurfacePoint,
+    incoming: Direction,
+    throughput: Rgb,
+    dice: &mut Dice,
+) -> Option<Scattered> {
+    match body {
+        Body::Dielectric(glass) => {
+            let [pick, survive] = dice.pair();
+            let next = refract(glass, surface, incoming, pick);
+            let chance = (throughput * next.weight).max_channel().min(1.0);
+            let weight = next.weight * (1.0 / chance.max(f64::MIN_POSITIVE));
+            (survive < chance).then_some(Scattered { weight, ..next })
+        }
+        Body::Opaque { front, back } => {
+            let finish = if surface.back { back } else { front };
+            let share = specular_share(finish, surface, incoming);
+            if share == 0.0 {
+                return None;
+            }
+            // Strong reflections are always followed while the path carries much: roulette on them
+            // would cost more in noise than it saves in rays.
+            let chance = (2.0 * share * throughput.max_channel()).min(1.0);
+            let [survive, pick] = dice.pair();
+            if survive >= chance {
+                return None;
+            }
+            let square = if finish.gloss.is_some() { dice.pair() } else { [0.0; 2] };
+            // `reflect` gives the weight of a sample taken with the probability `share`.
+            let next = reflect(finish, surface, incoming, pick, square)?;
+            Some(Scattered { weight: next.weight * (share / chance), ..next })
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
+
+use super::direct::Lighting;
+use super::gather::{Gatherer, Gathering};
+use super::path::Dice;
+use super::surface::SurfacePoint;
+use crate::map::{Illuminance, IlluminationMap};
+use crate::sampling::{Key, Sequence};
+use crate::scene::Scene;
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Normal, Point, Ray};
+
+/// Independent estimates of the direct light of emitting surfaces, for its standard error.
+const DIRECT_REPLICATES: u64 = 8;
+
+/// A point counts as on a surface within this share of the scene's extent.
+const REACH_SHARE: f64 = 1e-4;
+
+/// A place and the way a luxmeter faces there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProbePoint {
+    /// Where, m.
+    pub position: Point,
+    /// Where it faces.
+    pub normal: Normal,
+}
+
+/// How hard [`MapReader::estimate`] tries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExactSettings {
+    /// Gathering rays of one replicate.
+    pub rays: u32,
+    /// Independent replicates, at least two.
+    pub replicates: u32,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+impl Default for ExactSettings {
+    fn default() -> Self {
+        Self { rays: 1024, replicates: 16, seed: 1 }
+    }
+}
+
+/// Reads a map with its scene at hand.
+pub struct MapReader<'a> {
+    scene: &'a Scene,
+    map: &'a IlluminationMap,
+    lighting: Lighting<'a>,
+    known: Vec<bool>,
+    light: Vec<Rgb>,
+    reach_m: f64,
+}
+
+impl<'a> MapReader<'a> {
+    /// Prepares the luminaires of the scene.
+    pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
+        let bounds = scene.bvh().mesh().bounds();
+        let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
+        let reflected =
+            |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx);
+        Self {
+            scene,
+            map,
+            lighting: Lighting::new(scene),
+            known: map.values.iter().map(Option::is_some).collect(),
+            light: map.values.iter().map(reflected).collect(),
+            reach_m: REACH_SHARE * extent_m,
+        }
+    }
+
+    /// The illuminance at barycentric weights `(1 - u - v, u, v)` of a side of a triangle: direct
+    /// light evaluated afresh there, indirect light and caustics interpolated. `None` where the
+    /// map knows nothing.
+    pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
+        let stored = self.map.interpolate(triangle, back, u, v)?;
+        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+        Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
+    }
+
+    /// The same at a point on a surface, on the side that `normal` points to. `None` where no
+    /// surface that carries a known value lies within a ten-thousandth of the scene's extent.
+    pub fn probe(&self, at: ProbePoint) -> Option<Illuminance> {
+        let surface = self.find_surface(at)?;
+        let SurfacePoint { triangle, back, u, v, .. } = surface;
+        let stored = self.map.interpolate(triangle, back, u, v)?;
+        Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
+    }
+
+    /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
+    /// indirect light by gathering over the map. Caustics are read from the map where the point is
+    /// on a surface; in free space they are unknown and left out.
+    pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
+        let on_surface = self.find_surface(at).map(|s| self.pulled_in(s));
+        let gatherer = on_surface
+            .map_or_else(|| Gatherer::in_space(at.position, at.normal), Gatherer::on_surface);
+        let gathering = Gathering {
+            scene: self.scene,
+            lighting: &self.lighting,
+            elements: &self.map.elements,
+            level: u32::MAX,
+            known: &self.known,
+            direct_from_map: false,
+            rays: settings.rays,
+        };
+        let key = Key::new(settings.seed).with(4);
+        let replicates = settings.replicates.max(2);
+        let rows = vec![gatherer; replicates as usize];
+        let values = gathering.operator(&rows, |k| key.with(k as u64)).apply(&self.light);
+        let (indirect_lx, indirect_variance) = mean_and_variance(&values);
+        let caustic_lx = on_surface
+            .and_then(|s| self.map.interpolate(s.triangle, s.back, s.u, s.v))
+            .map_or(Rgb::BLACK, |stored| stored.caustic_lx);
+        let (direct, direct_variance) = self.direct(&gatherer.surface);
+        Illuminance {
+            direct_lx: direct + caustic_lx,
+            caustic_lx,
+            indirect_lx,
+            standard_error_lx: (indirect_variance + direct_variance).sqrt(),
+            indirect_standard_error_lx: indirect_variance.sqrt(),
+            samples: u64::from(replicates) * u64::from(settings.rays),
+        }
+    }
+
+    fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {
+        let (direct, variance) = self.direct(at);
+        let indirect = stored.indirect_standard_error_lx;
+        Illuminance {
+            direct_lx: direct + stored.caustic_lx,
+            standard_error_lx: (indirect * indirect + variance).sqrt(),
+            ..stored
+        }
+    }
+
+    /// Direct light at a place and the variance of its mean.
+    fn direct(&self, at: &SurfacePoint) -> (Rgb, f64) {
+        let bits = at.point.to_vector();
+        // Random numbers belong to the place, so that neighbours are independent.
+        let key = [bits.x, bits.y, bits.z]
+            .iter()
+            .fold(Key::new(0).with(5), |key, c| key.with(c.to_bits()));
+        let one = |replicate| {
+            self.lighting.illuminance(at, &mut Dice::new(Sequence::new(key.with(replicate)), 0))
+        };
+        if self.lighting.is_exact() {
+            return (one(0), 0.0);
+        }
+        let values: Vec<Rgb> = (0..DIRECT_REPLICATES).map(one).collect();
+        mean_and_variance(&values)
+    }
+
+    /// The surface at a point: straight below it, or, at the rim of a surface, just beside.
+    fn find_surface(&self, at: ProbePoint) -> Option<SurfacePoint> {
+        let (u, v) = at.normal.to_direction().frame();
+        let side = 0.1 * self.reach_m;
+        let beside = (0..8).map(|k| {
+            let (s, c) = libm::sincos(f64::from(k) * std::f64::consts::FRAC_PI_4);
+            u * (side * c) + v * (side * s)
+        });
+        std::iter::once(isolux_geometry::Vector::ZERO)
+            .chain(beside)
+            .find_map(|shift| self.surface_below(at.position + shift, at.normal))
+    }
+
+    fn surface_below(&self, point: Point, normal: Normal) -> Option<SurfacePoint> {
+        let down: Direction = -normal.to_direction();
+        let mut ray = Ray::new(point + normal * self.reach_m, down);
+        ray.t_max = 2.0 * self.reach_m as f32;
+        let hit = self.scene.bvh().closest_hit(&ray)?;
+        let surface = SurfacePoint::from_hit(self.scene, &hit);
+        let SurfacePoint { triangle, back, u, v, .. } = surface;
+        let carries = self.map.elements.locate(triangle, back, u, v).is_some();
+        // Sixty degrees: a surface that faces quite another way is not the one asked for.
+        (carries && surface.geometric.dot(normal) > 0.5).then_some(surface)
+    }
+
+    /// A place on the rim of a triangle, moved inwards beyond the rounding of coordinates, so that
+    /// it does not lie in the wall that meets it there.
+    fn pulled_in(&self, at: SurfacePoint) -> SurfacePoint {
+        let triangle = self.scene.triangle(at.triangle);
+        let inwards = triangle.centroid() - at.point;
+        let largest = at.point.to_vector();
+        let largest = largest.x.abs().max(largest.y.abs()).max(largest.z.abs());
+        let distance_m = 64.0 * f64::from(f32::EPSILON) * largest;
+        let near_rim = at.u.min(at.v).min(1.0 - at.u - at.v) * inwards.length() < distance_m;
+        match inwards.direction() {
+            Some(direction) if near_rim => {
+                SurfacePoint { point: at.point + direction * distance_m, ..at }
+            }
+            _ => at,
+        }
+    }
+}
+
+/// Mean of independent values and variance of their photometric mean.
+fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().copied().sum::<Rgb>() / n;
+    let squares: f64 = values.iter().map(|v| (*v - mean).luminance()).map(|d| d * d).sum();
+    (mean, squares / (n * (n - 1.0)))
+}

@@ -1,0 +1,173 @@
+//! What specular surfaces do to light: mirrors, gloss, glass.
+
+use super::surface::SurfacePoint;
+use crate::sampling::Ggx;
+use crate::scene::{Dielectric, Finish};
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Ray, Vector};
+
+/// Light sent on by a surface, one sample of it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scattered {
+    /// Where it goes on.
+    pub(super) ray: Ray,
+    pub(super) direction: Direction,
+    /// Factor on what it carries, the chance of this sample taken into account.
+    pub(super) weight: Rgb,
+    /// Whether it was a perfect mirror.
+    pub(super) mirrored: bool,
+}
+
+/// Probability with which the specular part of a finish is followed: its largest reflectance.
+pub(super) fn specular_share(finish: &Finish, surface: &SurfacePoint, incoming: Direction) -> f64 {
+    let gloss = finish.gloss.map_or(Rgb::BLACK, |gloss| {
+        let cos = -incoming.cos(surface.shading);
+        schlick(gloss.f0, cos).min(room_for_gloss(finish))
+    });
+    (finish.mirror + gloss).max_channel().clamp(0.0, 1.0)
+}
+
+/// One sample of the specular part of a finish, weighted as one taken with the probability
+/// [`specular_share`]; `pick` of [0, 1) chooses between mirror and gloss, `square` the facet.
+pub(super) fn reflect(
+    finish: &Finish,
+    surface: &SurfacePoint,
+    incoming: Direction,
+    pick: f64,
+    square: [f64; 2],
+) -> Option<Scattered> {
+    let share = specular_share(finish, surface, incoming);
+    let mirror = finish.mirror.max_channel();
+    let mirror_chance = (mirror / share).min(1.0);
+    if pick < mirror_chance {
+        let direction = incoming.reflect(surface.shading);
+        let weight = finish.mirror * (1.0 / (share * mirror_chance));
+        return scattered(surface, direction, weight, true);
+    }
+    let gloss = finish.gloss?;
+    let (direction, reflectance) = glossy(gloss.f0, gloss.alpha, surface, incoming, square)?;
+    // No more than the other parts leave, whatever the angle.
+    let weight = reflectance.min(room_for_gloss(finish)) * (1.0 / (share * (1.0 - mirror_chance)));
+    scattered(surface, direction, weight, false)
+}
+
+fn scattered(
+    surface: &SurfacePoint,
+    direction: Direction,
+    weight: Rgb,
+    mirrored: bool,
+) -> Option<Scattered> {
+    // Interpolated normals can send light below the true surface: it is lost there.
+    (direction.cos(surface.geometric) > 0.0).then(|| Scattered {
+        ray: surface.leave(direction),
+        direction,
+        weight,
+        mirrored,
+    })
+}
+
+/// What diffuse and mirror reflectance leave for gloss. (The diffuse texture only lowers the
+/// diffuse part.)
+fn room_for_gloss(finish: &Finish) -> Rgb {
+    (Rgb::WHITE - finish.diffuse.colour - finish.mirror).map(|c| c.max(0.0))
+}
+
+/// Direction of a GGX reflection by its visible normals, and its weight F G1.
+fn glossy(
+    f0: Rgb,
+    alpha: f64,
+    surface: &SurfacePoint,
+    incoming: Direction,
+    square: [f64; 2],
+) -> Option<(Direction, Rgb)> {
+    let normal = surface.shading.to_direction();
+    let (u, v) = normal.frame();
+    let view = -incoming;
+    let local = Vector::new(view.dot(u), view.dot(v), view.dot(normal));
+    if local.z <= 0.0 {
+        return None;
+    }
+    let ggx = Ggx { alpha };
+    let facet = ggx.sample(local, square);
+    let cos = local.dot(facet);
+    let out = facet * (2.0 * cos) - local;
+    if out.z <= 0.0 {
+        return None;
+    }
+    Some((normal.from_local(out), schlick(f0, cos) * ggx.masking(out)))
+}
+
+/// Schlick's approximation of Fresnel reflectance (1994).
+fn schlick(f0: Rgb, cos: f64) -> Rgb {
+    let m = (1.0 - cos).clamp(0.0, 1.0);
+    let m5 = m * m * m * m * m;
+    f0.map(|f| f + (1.0 - f) * m5)
+}
+
+/// One sample of what a smooth dielectric does: reflection with the probability of Fresnel's
+/// reflectance, else transmission.
+pub(super) fn refract(
+    glass: &Dielectric,
+    surface: &SurfacePoint,
+    incoming: Direction,
+    pick: f64,
+) -> Scattered {
+    let cos = -incoming.cos(surface.shading);
+    let ior = if surface.back { 1.0 / glass.ior } else { glass.ior };
+    let reflectance = if glass.thin {
+        pane_reflectance(cos, glass.ior)
+    } else {
+        fresnel(cos, ior).iter().sum::<f64>() / 2.0
+    };
+    let through = || {
+        if glass.thin { Some(incoming) } else { refracted(incoming, surface, cos, ior) }
+    };
+    match (pick >= reflectance).then(through).flatten() {
+        Some(direction) => Scattered {
+            ray: surface.cross(direction),
+            direction,
+            weight: glass.transmittance,
+            mirrored: false,
+        },
+        None => {
+            let direction = incoming.reflect(surface.shading);
+            let ray = surface.leave(direction);
+            Scattered { ray, direction, weight: Rgb::WHITE, mirrored: false }
+        }
+    }
+}
+
+/// Share of unpolarized light that a thin pane lets straight through.
+pub(super) fn pane_transmittance(glass: &Dielectric, cos: f64) -> Rgb {
+    glass.transmittance * (1.0 - pane_reflectance(cos, glass.ior))
+}
+
+/// Reflectance of two parallel faces with all inner reflections: 2 R / (1 + R) for each
+/// polarization (Born and Wolf, "Principles of Optics", 7.6, incoherent sum), then their mean.
+fn pane_reflectance(cos: f64, ior: f64) -> f64 {
+    fresnel(cos, ior).iter().map(|r| 2.0 * r / (1.0 + r)).sum::<f64>() / 2.0
+}
+
+/// Fresnel reflectance for both polarizations, from the side of index 1 to that of index `ior`.
+fn fresnel(cos: f64, ior: f64) -> [f64; 2] {
+    let cos = cos.clamp(0.0, 1.0);
+    let sin2 = (1.0 - cos * cos) / (ior * ior);
+    if sin2 >= 1.0 {
+        return [1.0; 2];
+    }
+    let inside = (1.0 - sin2).sqrt();
+    let perpendicular = (cos - ior * inside) / (cos + ior * inside);
+    let parallel = (ior * cos - inside) / (ior * cos + inside);
+    [perpendicular * perpendicular, parallel * parallel]
+}
+
+/// Snell's law; `None` at total reflection.
+fn refracted(incoming: Direction, surface: &SurfacePoint, cos: f64, ior: f64) -> Option<Direction> {
+    let sin2 = (1.0 - cos * cos) / (ior * ior);
+    if sin2 >= 1.0 {
+        return None;
+    }
+    let normal = surface.shading.to_vector();
+    let along = incoming.to_vector() / ior + normal * (cos / ior - (1.0 - sin2).sqrt());
+    along.direction()
+}

@@ -1,0 +1,157 @@
+//! Flux deposited on the vertices of a map.
+//!
+//! A particle gives its flux to the vertices of the element it hits, by their hat functions; divided
+//! by the integrals of the hats that is a mean of the illuminance about each vertex. The mean lags
+//! behind where the illuminance bends, and more so at borders, where a hat has one side only; one
+//! step of Van Cittert's deconvolution (twice the mean less the mean of the means) removes the first
+//! order of it and tells its size.
+
+use super::accumulate::{Accumulator, Estimate};
+use super::checks::InterpolationErrors;
+use super::detail::leaf_errors;
+use super::gather::known_weights;
+use super::pilot::Plan;
+use super::surface::SurfacePoint;
+use crate::units::Rgb;
+use std::sync::atomic::{AtomicI64, Ordering};
+
+/// Flux of all particles of an increment in units of the fixed point. A particle deposits at most at
+/// every reflection; 2^14 times the flux of the luminaires would need a mean reflectance of 0.9999.
+const UNITS_OF_FLUX: f64 = (1u64 << 48) as f64;
+
+/// Deposits of one increment: integers, so the order of the particles does not matter.
+pub(super) struct Tally<'p, 's> {
+    plan: &'p Plan<'s>,
+    areas_m2: Vec<f64>,
+    parts: usize,
+    units_per_lm: f64,
+    flux: Vec<AtomicI64>,
+}
+
+impl<'p, 's> Tally<'p, 's> {
+    /// For `parts` separate quantities over the vertices that indirect light lives on.
+    pub(super) fn new(plan: &'p Plan<'s>, flux_lm: f64, parts: usize) -> Self {
+        let flux = (0..plan.indirect_vertices * parts * 3).map(|_| AtomicI64::new(0)).collect();
+        let units_per_lm = UNITS_OF_FLUX / flux_lm;
+        Self { plan, areas_m2: hat_areas_m2(plan), parts, units_per_lm, flux }
+    }
+
+    /// Deposits flux at a place.
+    pub(super) fn add(&self, part: usize, at: &SurfacePoint, flux_lm: Rgb) {
+        let plan = self.plan;
+        let place = plan.elements.locate_above(plan.level, at.triangle, at.back, at.u, at.v);
+        let Some(corners) = place else { return };
+        let Some(weights) = known_weights(corners, &plan.known) else { return };
+        for ((vertex, _), weight) in corners.into_iter().zip(weights) {
+            let first = (vertex as usize * self.parts + part) * 3;
+            for (channel, value) in flux_lm.0.into_iter().enumerate() {
+                let units = (value * weight * self.units_per_lm).round_ties_even() as i64;
+                self.flux[first + channel].fetch_add(units, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// Mean illuminance about every vertex, lx.
+    pub(super) fn means(&self, part: usize) -> Vec<Rgb> {
+        let value = |vertex: usize| {
+            let first = (vertex * self.parts + part) * 3;
+            let channel = |k: usize| self.flux[first + k].load(Ordering::Relaxed) as f64;
+            let lumen = Rgb([0, 1, 2].map(|k| channel(k) / self.units_per_lm));
+            let area = self.areas_m2[vertex];
+            if area > 0.0 { lumen / area } else { Rgb::BLACK }
+        };
+        (0..self.areas_m2.len()).map(value).collect()
+    }
+
+    /// Illuminance at the vertices, lx: the means, corrected.
+    pub(super) fn illuminance(&self, part: usize) -> Vec<Rgb> {
+        let means = self.means(part);
+        let blurred = self.blur(&means);
+        means.iter().zip(&blurred).map(|(&mean, &again)| mean * 2.0 - again).collect()
+    }
+
+    /// What the means would be if the illuminance were the given values, interpolated.
+    fn blur(&self, values: &[Rgb]) -> Vec<Rgb> {
+        let mut sums = vec![Rgb::BLACK; values.len()];
+        for (corners, area_m2) in known_elements(self.plan) {
+            // Exact integrals of products of hats: a sixth of the area, a twelfth for two of them.
+            let all: Rgb = corners.iter().map(|&v| values[v as usize]).sum();
+            for &v in &corners {
+                sums[v as usize] += (values[v as usize] + all) * (area_m2 / 12.0);
+            }
+        }
+        let mean = |(sum, &area): (Rgb, &f64)| if area > 0.0 { sum / area } else { Rgb::BLACK };
+        sums.into_iter().zip(&self.areas_m2).map(mean).collect()
+    }
+}
+
+/// Elements all of whose vertices are known, and their areas.
+fn known_elements<'a>(plan: &'a Plan<'_>) -> impl Iterator<Item = ([u32; 3], f64)> + 'a {
+    plan.subdivision.leaves().filter_map(|leaf| {
+        let corners = plan.subdivision.node(leaf).0.vertices;
+        let known = corners.iter().all(|&v| plan.known[v as usize]);
+        known.then(|| (corners, plan.subdivision.triangle(leaf).area()))
+    })
+}
+
+/// Integrals of the hat functions, shared among the known vertices of each element.
+fn hat_areas_m2(plan: &Plan) -> Vec<f64> {
+    let mut areas = vec![0.0; plan.indirect_vertices];
+    for leaf in plan.subdivision.leaves() {
+        let corners = plan.subdivision.node(leaf).0.vertices;
+        let known: Vec<u32> = corners.into_iter().filter(|&v| plan.known[v as usize]).collect();
+        let share = plan.subdivision.triangle(leaf).area() / known.len().max(1) as f64;
+        for v in known {
+            areas[v as usize] += share;
+        }
+    }
+    areas
+}
+
+/// Errors of a map of particles beyond its noise: what the hats still blur, and what interpolation
+/// loses, both with the part that noise explains taken off.
+pub(super) fn errors(plan: &Plan, sums: &Accumulator) -> InterpolationErrors {
+    let estimates: Vec<Estimate> = (0..plan.indirect_vertices).map(|k| sums.estimate(k)).collect();
+    let indirect = |e: &Estimate| (e.mean.indirect + e.mean.caustic).luminance();
+    let total = |e: &Estimate| indirect(e) + e.mean.direct.luminance();
+    let part = |value: &dyn Fn(&Estimate) -> f64, variance: &dyn Fn(&Estimate) -> f64| {
+        let values: Vec<f64> = estimates.iter().map(value).collect();
+        let variances: Vec<f64> = estimates.iter().map(variance).collect();
+        (blur_squared(plan, &values, &variances) + detail_squared(plan, &values, &variances)).sqrt()
+    };
+    let indirect_lx = part(&indirect, &|e| e.indirect_variance);
+    let total_lx = part(&total, &|e| e.variance);
+    InterpolationErrors { indirect_lx, total_lx, ..InterpolationErrors::default() }
+}
+
+/// Mean square of what one more step of the correction would change: what is left of the blur.
+fn blur_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
+    let tally = Tally::new(plan, 1.0, 0);
+    let grey: Vec<Rgb> = values.iter().map(|&v| Rgb::grey(v)).collect();
+    let blurred = tally.blur(&grey);
+    let (mut area, mut sum) = (0.0, 0.0);
+    for (k, &m2) in tally.areas_m2.iter().enumerate().filter(|&(k, _)| plan.known[k]) {
+        let change = values[k] - blurred[k].0[0];
+        area += m2;
+        // A vertex has half its weight in its own mean, its neighbours share the rest: noise of
+        // independent vertices makes a quarter of the variance, and a little more.
+        sum += m2 * (change * change - 0.3 * variances[k]);
+    }
+    if area > 0.0 { (sum / area).max(0.0) } else { 0.0 }
+}
+
+/// Mean square of the interpolation error from the details of the means.
+fn detail_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
+    let known: Vec<Option<f64>> =
+        values.iter().zip(&plan.known).map(|(&v, &known)| known.then_some(v)).collect();
+    let (mut area, mut sum) = (0.0, 0.0);
+    for error in leaf_errors(&plan.subdivision, &plan.elements, &known) {
+        let corners = plan.subdivision.node(error.node).0.vertices;
+        let noise: f64 = corners.iter().map(|&v| variances[v as usize]).sum::<f64>() / 3.0;
+        area += error.area_m2;
+        // A detail of three independent values has one and a half times their variance, of which
+        // the estimate takes the square of 0.3; the largest of three details is twice that.
+        sum += error.squared() - error.area_m2 * 0.27 * noise;
+    }
+    if area > 0.0 { (sum / area).max(0.0) } else { 0.0 }
+}
