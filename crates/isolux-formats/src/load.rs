@@ -1,6 +1,6 @@
 //! A scene file of any kind.
 
-use crate::{Loaded, Problem, Problems, gltf, obj};
+use crate::{Loaded, Problem, Problems, gltf, obj, scene_toml};
 use isolux::scene::SceneParts;
 use std::path::Path;
 
@@ -10,6 +10,7 @@ pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     match extension.as_deref() {
         Some("gltf" | "glb") => gltf::read(path),
         Some("obj") => obj::read(path),
+        Some("toml") => scene_toml::read(path),
         _ => Err(Problem::new(
             path,
             "",

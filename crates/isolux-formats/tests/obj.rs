@@ -1,5 +1,7 @@
 //! OBJ and MTL: real files, the reading of every property, and hostile ones.
 
+#![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
+
 use isolux::scene::{Body, Scene, SceneParts, UpAxis};
 use isolux::units::Rgb;
 use isolux_formats::{Loaded, Problems, obj};

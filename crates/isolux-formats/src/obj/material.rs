@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 const MOST_BYTES: u64 = 64 << 20;
 /// What a surface reflects of which nothing is known.
 const UNKNOWN_REFLECTANCE: f64 = 0.5;
+/// The material of faces without one.
+const UNNAMED: &str = "unnamed";
 /// Window glass.
 const USUAL_INDEX: f64 = 1.5;
 
@@ -25,9 +27,14 @@ pub(super) struct Materials {
     pub(super) of_part: Vec<u32>,
 }
 
-/// Reads the material libraries of a file and makes materials of those it uses.
-pub(super) fn read_libraries(path: &Path, file: &ObjFile, findings: &mut Findings) -> Materials {
-    let root = source::directory_of(path);
+/// Reads the material libraries of a file and makes materials of those it uses and nothing replaces.
+pub(super) fn read_libraries(
+    file: &ObjFile,
+    is_replaced: &dyn Fn(&str) -> bool,
+    findings: &mut Findings,
+) -> Materials {
+    let root = source::directory_of(findings.file()).to_owned();
+    let root = root.as_path();
     let mut known: HashMap<String, (PathBuf, MtlMaterial)> = HashMap::new();
     for library in &file.libraries {
         for path in library_paths(root, library, findings) {
@@ -46,6 +53,7 @@ pub(super) fn read_libraries(path: &Path, file: &ObjFile, findings: &mut Finding
     }
     let mut reader = Reader {
         root,
+        is_replaced,
         known,
         made: HashMap::new(),
         pictures: HashMap::new(),
@@ -78,6 +86,7 @@ fn library_paths(root: &Path, library: &Named, findings: &mut Findings) -> Vec<P
 
 struct Reader<'a> {
     root: &'a Path,
+    is_replaced: &'a dyn Fn(&str) -> bool,
     known: HashMap<String, (PathBuf, MtlMaterial)>,
     made: HashMap<Option<String>, u32>,
     pictures: HashMap<PathBuf, Option<u32>>,
@@ -88,6 +97,12 @@ impl Reader<'_> {
     fn material(&mut self, named: Option<&Named>, findings: &mut Findings) -> u32 {
         let key = named.map(|n| n.name.clone());
         if let Some(&index) = self.made.get(&key) {
+            return index;
+        }
+        let name = key.as_deref().unwrap_or(UNNAMED);
+        if (self.is_replaced)(name) {
+            let index = self.push(Material::two_sided(name, Finish::BLACK));
+            self.made.insert(key, index);
             return index;
         }
         let known = key.as_ref().and_then(|name| self.known.remove(name));
@@ -107,10 +122,14 @@ impl Reader<'_> {
                 unknown(key.as_deref())
             }
         };
-        let index = self.materials.list.len() as u32;
-        self.materials.list.push(material);
+        let index = self.push(material);
         self.made.insert(key, index);
         index
+    }
+
+    fn push(&mut self, material: Material) -> u32 {
+        self.materials.list.push(material);
+        self.materials.list.len() as u32 - 1
     }
 
     fn make(&mut self, record: &MtlMaterial, findings: &mut Findings) -> Material {
@@ -157,7 +176,7 @@ impl Reader<'_> {
 
 fn unknown(name: Option<&str>) -> Material {
     let finish = Finish::diffuse(Rgb::grey(UNKNOWN_REFLECTANCE));
-    Material::two_sided(name.unwrap_or("unnamed"), finish)
+    Material::two_sided(name.unwrap_or(UNNAMED), finish)
 }
 
 fn dielectric(record: &MtlMaterial, findings: &mut Findings) -> Option<Dielectric> {

@@ -21,7 +21,6 @@ pub(super) fn resolve(file: &ObjFile, materials: Materials, findings: &mut Findi
     if shapes.iter().all(|shape| shape.triangles.is_empty()) {
         findings.problem("", "there are no faces", "export polygons");
     }
-    warn_of_units(file, findings);
     SceneParts {
         name: findings.file().file_stem().map_or_else(String::new, |s| s.to_string_lossy().into()),
         up: UpAxis::Y,
@@ -32,7 +31,8 @@ pub(super) fn resolve(file: &ObjFile, materials: Materials, findings: &mut Findi
     }
 }
 
-fn warn_of_units(file: &ObjFile, findings: &mut Findings) {
+/// Warns of a size that another unit would explain.
+pub(super) fn warn_of_units(file: &ObjFile, findings: &mut Findings) {
     let extent = |k: usize| {
         let all = file.positions.iter().map(|p| p[k]);
         all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
