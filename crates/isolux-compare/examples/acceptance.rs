@@ -38,9 +38,18 @@ fn main() {
         println!(
             "seed {seed}: {:.2} s {} inc {} rays {:.1} Mrays/s reported {:.5} (stat {:.5} disc {:.5} bias {:.5} \
              interp {:.5}) points {point:.5} ({:.2}) grid {grid:.5} ({:.2}) receivers {}",
-            p.time_s, p.increments, p.rays, p.rays as f64 / p.time_s / 1e6,
-            a.reached, a.statistical, a.discretization, a.bias, a.interpolated,
-            point / a.reached, grid / a.reached, map.values.len()
+            p.time_s,
+            p.increments,
+            p.rays,
+            p.rays as f64 / p.time_s / 1e6,
+            a.reached,
+            a.statistical,
+            a.discretization,
+            a.bias,
+            a.interpolated,
+            point / a.reached,
+            grid / a.reached,
+            map.values.len()
         );
     }
 }

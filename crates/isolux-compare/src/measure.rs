@@ -144,10 +144,7 @@ fn pair(point: &MeasuredPoint) -> Pair {
     Pair { reference: point.expected_lx, measured: point.measured_lx }
 }
 
-fn grid_error(
-    reader: &MapReader,
-    grid: &[(ProbePoint, f64)],
-) -> Result<GridError, MeasureError> {
+fn grid_error(reader: &MapReader, grid: &[(ProbePoint, f64)]) -> Result<GridError, MeasureError> {
     let pairs = grid
         .par_iter()
         .map(|&(at, expected_lx)| Ok(pair(&measured(reader, ' ', at, expected_lx)?)))

@@ -137,16 +137,15 @@ pub(super) fn count(scene: &Scene, map: &IlluminationMap, expected: &[Expectatio
 
 fn complaint(count: &Count, found: &[Option<Reading>], map: &IlluminationMap) -> Option<String> {
     let unknown = found.iter().filter(|r| r.is_none()).count();
-    let certain = found.iter().flatten().filter(|r| !r.is_statistical() && r.is_off()).count();
     if unknown > 0 {
         return Some(format!("{unknown} of {} places have no value", found.len()));
     }
+    if map.provenance.accuracy.is_none() {
+        return Some("too few increments to believe the error".into());
+    }
+    let certain = found.iter().flatten().filter(|r| !r.is_statistical() && r.is_off()).count();
     if certain > 0 {
         return Some(format!("{certain} values without statistical error are wrong"));
-    }
-    if count.statistical > 0 && (map.provenance.accuracy.is_none() || map.provenance.increments < 2)
-    {
-        return Some("too few increments to believe the error".into());
     }
     (count.outliers > count.accepted_outliers).then(|| {
         format!("{} outliers where chance allows {}", count.outliers, count.accepted_outliers)
