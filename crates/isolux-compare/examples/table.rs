@@ -11,7 +11,7 @@ fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let settings = ValidateSettings {
         accuracy: words[0].parse().unwrap(),
-        time_limit: Duration::from_secs(10),
+        time_limit: Duration::from_secs(words.get(4).map_or(10, |w| w.parse().unwrap())),
         ..ValidateSettings::default()
     };
     let seeds: Vec<u64> = (words[1].parse().unwrap()..=words[2].parse().unwrap()).collect();

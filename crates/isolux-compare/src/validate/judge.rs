@@ -231,7 +231,7 @@ fn standard_error_lx(quantity: Quantity, found: &Illuminance) -> f64 {
     match quantity {
         Quantity::Total => whole,
         Quantity::Indirect => read,
-        Quantity::Direct if is_read_from_vertices(quantity, found) => whole,
+        Quantity::Direct if is_read_from_vertices(quantity, found) || !read.is_finite() => whole,
         Quantity::Direct => (whole * whole - read * read).max(0.0).sqrt(),
     }
 }
