@@ -1,4 +1,5 @@
-//! The table of validation on the terminal: `cargo run --release -p isolux-compare --example table -- 0.01 1 3 [case prefix]`.
+//! The table of validation on the terminal:
+//! `cargo run --release -p isolux-compare --example table -- ACCURACY SEEDS [PART OF CASE] [METHOD] [SECONDS]`.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "an example for the terminal")]
 
 use isolux::engine::Watch;
@@ -9,15 +10,16 @@ use std::time::Duration;
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
+    let word = |k: usize| words.get(k).cloned().unwrap_or_default();
     let settings = ValidateSettings {
         accuracy: words[0].parse().unwrap(),
-        time_limit: Duration::from_secs(words.get(4).map_or(10, |w| w.parse().unwrap())),
+        time_limit: Duration::from_secs(words.get(4).map_or(30, |w| w.parse().unwrap())),
         ..ValidateSettings::default()
     };
-    let seeds: Vec<u64> = (words[1].parse().unwrap()..=words[2].parse().unwrap()).collect();
-    let prefix = words.get(3).cloned().unwrap_or_default();
-    let chosen: Vec<Case> = cases().into_iter().filter(|c| c.name.starts_with(&prefix)).collect();
-    let methods = [Method::Hybrid, Method::Forward];
+    let seeds: Vec<u64> = (1..=words[1].parse().unwrap()).collect();
+    let chosen: Vec<Case> = cases().into_iter().filter(|c| c.name.contains(&word(2))).collect();
+    let mut methods = vec![Method::Hybrid, Method::Forward];
+    methods.retain(|m| format!("{m:?}").to_lowercase().contains(&word(3)));
     let table = validate_all(&chosen, &methods, &seeds, &settings, &mut |row| {
         print(row);
         Watch::Continue
@@ -29,13 +31,13 @@ fn main() {
 
 fn print(row: &ValidateRow) {
     println!(
-        "{:28} {:?} {} {:.2}s inc {} acc {:.5} readings {} stat {} out {}/{} outside {} {:?}",
+        "{:28} {:?} {} {:.2}s inc {} acc {:?} readings {} stat {} out {}/{} outside {} {:?}",
         row.case,
         row.method,
         row.seed,
         row.time_s,
         row.increments,
-        row.accuracy.map_or(f64::NAN, |a| a.reached),
+        row.accuracy.map(|a| (a.reached, a.statistical, a.discretization, a.bias)),
         row.readings,
         row.statistical,
         row.outliers,

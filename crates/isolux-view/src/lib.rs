@@ -1,1 +1,27 @@
-//! Values in, pixels out: exposure, tone mapping, false colour.
+//! Values in, pixels out: views traced from an illumination map, exposure, tone mapping, false
+//! colour.
+//!
+//! [`trace()`] makes a [`LuminanceImage`] (cd/m2 and lx); [`develop()`] shows it as the eye or a camera
+//! would, [`false_colour()`] as a chart of lux with a legend. Both end in a [`Picture`] of sRGB bytes.
+//! Nothing here reads or writes a file.
+
+mod camera;
+mod develop;
+mod error;
+mod exposure;
+mod false_colour;
+mod image;
+mod picture;
+mod srgb;
+mod text;
+mod tone;
+mod trace;
+
+pub use develop::{Development, develop};
+pub use error::ViewError;
+pub use exposure::Exposure;
+pub use false_colour::{ColourMap, Contours, FalseColour, Quantity, Scale, false_colour};
+pub use image::{LuminanceImage, Seen, Sight, Size, Surface};
+pub use picture::{Picture, UNKNOWN};
+pub use tone::ToneCurve;
+pub use trace::{SurfacePoint, TraceSettings, trace};

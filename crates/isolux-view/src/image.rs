@@ -1,0 +1,176 @@
+//! What a view sees before it is shown: luminance, illuminance and surfaces, pixel by pixel.
+
+use crate::error::ViewError;
+use isolux::geometry::{Normal, Point};
+use isolux::units::Rgb;
+
+/// Pixels in one picture at most: 8K.
+const MAX_PIXELS: u64 = 1 << 25;
+/// Samples in one view at most (24 bytes each).
+const MAX_SAMPLES: u64 = 1 << 27;
+
+/// Width and height of a picture, neither of them zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    width: u32,
+    height: u32,
+}
+
+impl Size {
+    /// A size in pixels.
+    pub fn new(width: u32, height: u32) -> Result<Self, ViewError> {
+        let pixels = u64::from(width) * u64::from(height);
+        if (1..=MAX_PIXELS).contains(&pixels) {
+            Ok(Self { width, height })
+        } else {
+            Err(ViewError::Size { width, height })
+        }
+    }
+
+    /// Pixels across.
+    pub fn width(self) -> u32 {
+        self.width
+    }
+
+    /// Pixels down.
+    pub fn height(self) -> u32 {
+        self.height
+    }
+
+    /// Pixels in all.
+    pub fn pixels(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+
+    /// Refuses more samples than fit in memory.
+    pub(crate) fn check_samples(self, samples_per_pixel: u32) -> Result<(), ViewError> {
+        let samples = self.pixels() as u64 * u64::from(samples_per_pixel);
+        if samples <= MAX_SAMPLES { Ok(()) } else { Err(ViewError::Samples { samples }) }
+    }
+}
+
+/// What kind of thing a sample saw.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sight {
+    /// Nothing: black.
+    Background,
+    /// A surface.
+    Surface,
+    /// A surface that gives light of its own.
+    Emitter,
+    /// A diffuse surface of which the map knows no value.
+    Unknown,
+}
+
+/// One sample of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seen {
+    /// Luminance, cd/m2.
+    pub luminance_cd_m2: [f32; 3],
+    /// Illuminance of the surface seen, lx; in mirrors and through glass that of the surface
+    /// behind, along the stronger branch.
+    pub illuminance_lx: Option<f32>,
+    /// Kind.
+    pub sight: Sight,
+}
+
+impl Seen {
+    /// Luminance, cd/m2.
+    pub fn luminance(&self) -> Rgb {
+        Rgb(self.luminance_cd_m2.map(f64::from))
+    }
+}
+
+/// The place on a surface that the middle of a pixel shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// Index of the shape.
+    pub shape: u32,
+    /// Whether its back is seen.
+    pub back: bool,
+    /// Mirrors and panes on the way, as a number that differs when they differ.
+    pub path: u32,
+    /// Where.
+    pub position: Point,
+    /// Shading normal on the side seen.
+    pub normal: Normal,
+}
+
+impl Surface {
+    /// Whether two places belong to one smooth piece of surface, so that values may be interpolated
+    /// between them: same shape, side and path, normals within 25 degrees, and neither far out of
+    /// the other's tangent plane. Best effort: a narrow slit in one plane is not seen.
+    pub(crate) fn continues(&self, other: &Self) -> bool {
+        const COS_25_DEG: f64 = 0.906;
+        /// Sine of the steepest chord between places of one smooth piece.
+        const STEEPEST: f64 = 0.35;
+        let step = other.position - self.position;
+        let height = step.dot(self.normal.to_vector()).abs();
+        self.shape == other.shape
+            && self.back == other.back
+            && self.path == other.path
+            && self.normal.dot(other.normal) > COS_25_DEG
+            && height <= STEEPEST * step.length()
+    }
+}
+
+/// A view in physical units: several samples a pixel and what its middle shows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LuminanceImage {
+    size: Size,
+    samples_per_pixel: u32,
+    samples: Vec<Seen>,
+    middles: Vec<Option<Middle>>,
+}
+
+/// The middle of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Middle {
+    pub(crate) surface: Surface,
+    /// Mean over the samples of the pixel on the same piece of surface.
+    pub(crate) illuminance_lx: Option<f64>,
+}
+
+impl LuminanceImage {
+    /// Pixel by pixel, rows from the top; `samples` pixel after pixel.
+    pub(crate) fn new(size: Size, samples: Vec<Seen>, middles: Vec<Option<Middle>>) -> Self {
+        debug_assert!(samples.len().is_multiple_of(size.pixels()));
+        let samples_per_pixel = (samples.len() / size.pixels()) as u32;
+        Self { size, samples_per_pixel, samples, middles }
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// Samples of each pixel.
+    pub fn samples_per_pixel(&self) -> u32 {
+        self.samples_per_pixel
+    }
+
+    /// The samples of a pixel, counted in rows from the top left.
+    ///
+    /// # Panics
+    /// Beyond the last pixel, as all functions of a pixel's index.
+    pub fn samples(&self, pixel: usize) -> &[Seen] {
+        let count = self.samples_per_pixel as usize;
+        &self.samples[pixel * count..(pixel + 1) * count]
+    }
+
+    /// Mean luminance of a pixel, cd/m2.
+    pub fn luminance_cd_m2(&self, pixel: usize) -> Rgb {
+        let sum: Rgb = self.samples(pixel).iter().map(Seen::luminance).sum();
+        sum / f64::from(self.samples_per_pixel)
+    }
+
+    /// Illuminance of the surface in the middle of a pixel, lx: the mean over the samples on it.
+    pub fn illuminance_lx(&self, pixel: usize) -> Option<f64> {
+        self.middles[pixel]?.illuminance_lx
+    }
+
+    /// The surface in the middle of a pixel.
+    pub fn surface(&self, pixel: usize) -> Option<&Surface> {
+        self.middles[pixel].as_ref().map(|m| &m.surface)
+    }
+}

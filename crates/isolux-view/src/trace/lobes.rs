@@ -1,0 +1,103 @@
+//! Where a surface looks on: mirror directions, refraction, glossy facets.
+
+use super::dielectric::Interface;
+use isolux::geometry::{Direction, Normal, Vector};
+use isolux::sampling::{Ggx, Key};
+use isolux::scene::{Dielectric, Finish, Gloss};
+use isolux::units::Rgb;
+
+/// Facets narrower than this are mirrors: their lobe is thinner than a pixel.
+const MIRROR_ALPHA: f64 = 1e-3;
+
+/// A direction in which a surface shows what lies there, times a weight.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lobe {
+    pub(super) weight: Rgb,
+    pub(super) direction: Direction,
+}
+
+/// A place of a surface as the ray arrives there.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arrival {
+    /// Direction of the ray.
+    pub(super) direction: Direction,
+    /// Shading normal, turned to the side of the ray.
+    pub(super) normal: Normal,
+    /// Normal of the triangle, turned to the side of the ray.
+    pub(super) flat: Normal,
+}
+
+impl Arrival {
+    /// The mirror direction; about the flat normal where a smoothed one would lead into the surface.
+    fn mirror(&self) -> Direction {
+        let smooth = self.direction.reflect(self.normal);
+        if smooth.cos(self.flat) > 0.0 { smooth } else { self.direction.reflect(self.flat) }
+    }
+}
+
+/// The lobes of an opaque finish whose diffuse reflectance at the place is given.
+pub(super) fn opaque(
+    at: &Arrival,
+    finish: &Finish,
+    diffuse: Rgb,
+    facets: u32,
+    key: Key,
+) -> Vec<Lobe> {
+    let mut lobes = Vec::new();
+    if !finish.mirror.is_black() {
+        lobes.push(Lobe { weight: finish.mirror, direction: at.mirror() });
+    }
+    if let Some(gloss) = &finish.gloss {
+        let spare = Rgb::WHITE - diffuse - finish.mirror;
+        if gloss.alpha < MIRROR_ALPHA {
+            let cos = -at.direction.cos(at.normal);
+            lobes.push(Lobe { weight: fresnel(gloss, spare, cos), direction: at.mirror() });
+        } else {
+            lobes.extend((0..facets).filter_map(|k| facet(at, gloss, spare, (k, facets), key)));
+        }
+    }
+    lobes
+}
+
+/// The lobes of a dielectric.
+pub(super) fn dielectric(at: &Arrival, glass: &Dielectric, inside: bool) -> Vec<Lobe> {
+    let Interface { reflected, transmitted } =
+        Interface::new(glass, at.direction, at.normal, inside);
+    let mirror = Lobe { weight: reflected, direction: at.mirror() };
+    let through = transmitted.map(|(weight, direction)| Lobe { weight, direction });
+    std::iter::once(mirror).chain(through).collect()
+}
+
+/// Schlick's approximation, cut where diffuse, mirror and gloss would reflect more than they
+/// receive.
+fn fresnel(gloss: &Gloss, spare: Rgb, cos: f64) -> Rgb {
+    let c = 1.0 - cos.clamp(0.0, 1.0);
+    let c5 = (c * c) * (c * c) * c;
+    let channel = |k: usize| {
+        let schlick = gloss.f0.0[k] + (1.0 - gloss.f0.0[k]) * c5;
+        schlick.min(spare.0[k].max(0.0))
+    };
+    Rgb([0, 1, 2].map(channel))
+}
+
+/// One facet of a stratum (k of n) of the visible ones, with height-correlated masking (Heitz 2014,
+/// "Understanding the masking-shadowing function in microfacet-based BRDFs", eq. 99).
+fn facet(at: &Arrival, gloss: &Gloss, spare: Rgb, (k, n): (u32, u32), key: Key) -> Option<Lobe> {
+    let axis = at.normal.to_direction();
+    let (u, v) = axis.frame();
+    let towards = -at.direction;
+    let view = Vector::new(towards.dot(u), towards.dot(v), towards.dot(axis).max(1e-6));
+    let key = key.with(u64::from(k));
+    let stratum = (f64::from(k) + key.with(0).uniform()) / f64::from(n);
+    let ggx = Ggx { alpha: gloss.alpha };
+    let half = ggx.sample(view, [key.with(1).uniform(), stratum]);
+    let out = half * (2.0 * view.dot(half)) - view;
+    let direction = axis.from_local(out.direction()?.to_vector());
+    if out.z <= 0.0 || direction.cos(at.flat) <= 0.0 {
+        return None;
+    }
+    let (seen, lit) = (ggx.masking(view), ggx.masking(out));
+    let masking = lit / (seen + lit - seen * lit);
+    let weight = fresnel(gloss, spare, view.dot(half)) * (masking / f64::from(n));
+    Some(Lobe { weight, direction })
+}

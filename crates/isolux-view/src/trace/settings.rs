@@ -1,0 +1,49 @@
+//! What a view is asked for.
+
+/// A place of a triangle of a scene, on one side: barycentric weights `(1 - u - v, u, v)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// Index of the triangle.
+    pub triangle: u32,
+    /// Whether it is seen from the back.
+    pub back: bool,
+    /// Weight of the second corner.
+    pub u: f64,
+    /// Weight of the third corner.
+    pub v: f64,
+}
+
+/// How finely a view is traced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TraceSettings {
+    /// Samples along each side of a pixel: 3 makes 9 a pixel.
+    pub samples_per_side: u32,
+    /// Mirrors, panes and glossy surfaces followed in a row; behind the last one is black.
+    pub depth: u32,
+    /// Facets looked along at a glossy surface that is seen directly; one behind a mirror.
+    pub gloss_samples: u32,
+    /// Whether the camera looks through the black backs of one-sided materials, into a room from
+    /// outside. Reflections never do.
+    pub through_black_backs: bool,
+    /// Seed of the places of samples.
+    pub seed: u64,
+}
+
+impl TraceSettings {
+    /// One sample a pixel, in its middle.
+    pub const DRAFT: Self = Self { samples_per_side: 1, ..Self::FINE };
+    /// Smooth outlines.
+    pub const FINE: Self = Self {
+        samples_per_side: 3,
+        depth: 8,
+        gloss_samples: 4,
+        through_black_backs: false,
+        seed: 1,
+    };
+}
+
+impl Default for TraceSettings {
+    fn default() -> Self {
+        Self::FINE
+    }
+}
