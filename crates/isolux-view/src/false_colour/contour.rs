@@ -9,10 +9,10 @@ use crate::text::Font;
 
 /// Half the width of a line, pixels.
 const HALF_WIDTH: f64 = 0.6;
-/// One level is labelled at most once in a square of so many letters' width.
-const LABEL_TILE_LETTERS: i64 = 24;
-/// A line shorter than its label times this has none.
-const SHORTEST_LABELLED: i64 = 2;
+/// Labels of one level are at least so many letters' width apart.
+const LABEL_DISTANCE_LETTERS: i64 = 30;
+/// A piece of line shorter than its label times this has none.
+const SHORTEST_LABELLED: i64 = 4;
 const DARK: [u8; 3] = [0; 3];
 const LIGHT: [u8; 3] = [255; 3];
 
@@ -145,11 +145,18 @@ struct Label {
 impl Label {
     const FONT: Font = Font::SMALL;
 
-    fn overlaps(&self, other: &Self) -> bool {
+    /// Whether they hide each other, or say the same nearby.
+    fn disturbs(&self, other: &Self) -> bool {
         let width = |label: &Self| Self::FONT.width(&label.text);
-        self.left < other.left + width(other)
+        let (dx, dy) = ((self.left - other.left).abs(), (self.top - other.top).abs());
+        let overlap = self.left < other.left + width(other)
             && other.left < self.left + width(self)
-            && (self.top - other.top).abs() < Self::FONT.height()
+            && dy < Self::FONT.height();
+        overlap || (self.text == other.text && dx.max(dy) < Self::distance())
+    }
+
+    fn distance() -> i64 {
+        LABEL_DISTANCE_LETTERS * Self::FONT.width("0")
     }
 }
 
@@ -163,7 +170,7 @@ impl Labels {
         ink: [u8; 3],
         halo: [u8; 3],
     ) {
-        let tile = LABEL_TILE_LETTERS * Label::FONT.width("0");
+        let tile = Label::distance();
         let width = Label::FONT.width(text);
         let tile_of = |[a, _]: &Segment| (a[1] as i64 / tile, a[0] as i64 / tile);
         let mut in_tiles: Vec<&Segment> = segments.iter().collect();
@@ -185,7 +192,7 @@ impl Labels {
                     && label.top >= 0
                     && label.left + width <= i64::from(picture.width)
                     && label.top + Label::FONT.height() <= i64::from(picture.height)
-                    && !self.0.iter().any(|known| known.overlaps(label))
+                    && !self.0.iter().any(|known| known.disturbs(label))
             };
             if let Some(label) = labels.find(fits) {
                 self.0.push(label);

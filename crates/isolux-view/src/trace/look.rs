@@ -66,13 +66,15 @@ struct Progress {
     depth: u32,
     /// What one cd/m2 from here adds to the picture.
     weight: Rgb,
+    /// Whether a glossy surface lies on the way.
+    blurred: bool,
     key: Key,
 }
 
 impl Looker<'_> {
     /// The look along a ray of the camera.
     pub(super) fn look(&self, ray: &Ray, direction: Direction, key: Key) -> Look {
-        let start = Progress { depth: 0, weight: Rgb::WHITE, key };
+        let start = Progress { depth: 0, weight: Rgb::WHITE, blurred: false, key };
         match self.camera_hit(*ray, direction) {
             Some(hit) => self.at(&hit, direction, start),
             None => Look::NOTHING,
@@ -121,13 +123,19 @@ impl Looker<'_> {
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
         let diffuse = self.scene.diffuse_reflectance(finish, hit.triangle, u, v);
         let facets = if progress.depth == 0 { self.settings.gloss_samples.max(1) } else { 1 };
-        let lobes = lobes::opaque(at, finish, diffuse, facets, progress.key.with(0));
+        let lobes = lobes::opaque(at, finish, facets, progress.key.with(0));
         let (specular, strongest) = self.follow(hit, lobes, progress);
         if finish.is_pure_mirror() {
             let luminance_cd_m2 = specular + finish.luminance_cd_m2;
             return Look { luminance_cd_m2, ..strongest.unwrap_or(self.bare(hit, at)) };
         }
-        let point = SurfacePoint { triangle: hit.triangle, back: hit.back, u, v };
+        let point = SurfacePoint {
+            triangle: hit.triangle,
+            back: hit.back,
+            u,
+            v,
+            blurred: progress.blurred,
+        };
         let read = (self.read)(point);
         let lux = read.map_or(Rgb::BLACK, |e| e.total_lx());
         let sight = if finish.is_emitter() {
@@ -176,7 +184,8 @@ impl Looker<'_> {
                 continue;
             }
             let key = progress.key.with(1 + index as u64);
-            let next = Progress { depth: progress.depth + 1, weight, key };
+            let blurred = progress.blurred || lobe.blurred;
+            let next = Progress { depth: progress.depth + 1, weight, blurred, key };
             let ray = self.onwards(hit, lobe.direction);
             let found = self.scene.bvh().closest_hit(&ray);
             let look = found.map_or(Look::NOTHING, |hit| self.at(&hit, lobe.direction, next));
