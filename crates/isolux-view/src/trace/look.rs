@@ -2,7 +2,7 @@
 
 use super::lobes::{self, Arrival, Lobe};
 use super::settings::{SurfacePoint, TraceSettings};
-use crate::image::{Seen, Sight, Surface};
+use crate::image::{Reading, Seen, Sight, Surface};
 use isolux::geometry::{Direction, Hit, Normal, Ray, offset_origin};
 use isolux::map::Illuminance;
 use isolux::sampling::Key;
@@ -28,7 +28,7 @@ pub(super) struct Looker<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     luminance_cd_m2: Rgb,
-    pub(super) illuminance_lx: Option<f64>,
+    pub(super) reading: Option<Reading>,
     sight: Sight,
     pub(super) surface: Option<Surface>,
 }
@@ -36,7 +36,7 @@ pub(super) struct Look {
 impl Look {
     pub(super) const NOTHING: Self = Self {
         luminance_cd_m2: Rgb::BLACK,
-        illuminance_lx: None,
+        reading: None,
         sight: Sight::Background,
         surface: None,
     };
@@ -45,7 +45,7 @@ impl Look {
     pub(super) fn seen(&self) -> Seen {
         Seen {
             luminance_cd_m2: self.luminance_cd_m2.0.map(|c| c as f32),
-            illuminance_lx: self.illuminance_lx.map(|lux| lux as f32),
+            reading: self.reading,
             sight: self.sight,
         }
     }
@@ -147,7 +147,10 @@ impl Looker<'_> {
         };
         Look {
             luminance_cd_m2: finish.luminance_cd_m2 + diffuse * lux / PI + specular,
-            illuminance_lx: read.map(|e| e.illuminance_lx()),
+            reading: read.map(|e| Reading {
+                illuminance_lx: e.illuminance_lx() as f32,
+                standard_error_lx: e.standard_error_lx as f32,
+            }),
             sight,
             ..self.bare(hit, at)
         }
