@@ -2,7 +2,7 @@
 
 use crate::case::{cube, sphere};
 use crate::metric::{Pair, relative_l2_distance, weighted_rms_relative_difference};
-use isolux::engine::{ProbePoint, probe};
+use isolux::engine::{MapReader, ProbePoint};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use rayon::prelude::*;
@@ -71,31 +71,33 @@ pub struct SphereError {
 
 /// The error of a map of CUBE.
 pub fn measure_cube(scene: &Scene, map: &IlluminationMap) -> Result<CubeError, MeasureError> {
+    let reader = MapReader::new(scene, map);
     let reference = cube::reference::cube_reference();
     let points = cube::TABLE_1
         .iter()
         .map(|p| {
             let expected_lx = reference.at(p.x, p.y).total_lx();
-            measured(scene, map, p.name, cube::floor_point(p.x, p.y), expected_lx)
+            measured(&reader, p.name, cube::floor_point(p.x, p.y), expected_lx)
         })
         .collect::<Result<Vec<_>, _>>()?;
     let weighted: Vec<(Pair, f64)> =
         points.iter().map(pair).zip(cube::TABLE_1.iter().map(|p| p.weight)).collect();
     let points_error = weighted_rms_relative_difference(&weighted).unwrap_or(f64::NAN);
-    Ok(CubeError { points, points_error, grid: grid_error(scene, map, cube_grid())? })
+    Ok(CubeError { points, points_error, grid: grid_error(&reader, cube_grid())? })
 }
 
 /// The error of a map of SPHERE.
 pub fn measure_sphere(scene: &Scene, map: &IlluminationMap) -> Result<SphereError, MeasureError> {
     let expected_lx = |at: &ProbePoint| sphere::direct_lx(at.position) + sphere::ambient_lx();
     let at = sphere::centre();
-    let centre = measured(scene, map, 'C', at, expected_lx(&at))?;
+    let reader = MapReader::new(scene, map);
+    let centre = measured(&reader, 'C', at, expected_lx(&at))?;
     let grid: Vec<(ProbePoint, f64)> =
         sphere::grid(SPHERE_GRID).into_iter().map(|at| (at, expected_lx(&at))).collect();
     Ok(SphereError {
         centre,
         centre_error: (centre.measured_lx / centre.expected_lx - 1.0).abs(),
-        grid: grid_error(scene, map, &grid)?,
+        grid: grid_error(&reader, &grid)?,
     })
 }
 
@@ -128,13 +130,12 @@ fn cube_grid() -> &'static [(ProbePoint, f64)] {
 }
 
 fn measured(
-    scene: &Scene,
-    map: &IlluminationMap,
+    reader: &MapReader,
     name: char,
     at: ProbePoint,
     expected_lx: f64,
 ) -> Result<MeasuredPoint, MeasureError> {
-    let found = probe(scene, map, at).ok_or(MeasureError::Unknown(at.position.into()))?;
+    let found = reader.probe(at).ok_or(MeasureError::Unknown(at.position.into()))?;
     let (measured_lx, standard_error_lx) = (found.illuminance_lx(), found.standard_error_lx);
     Ok(MeasuredPoint { name, expected_lx, measured_lx, standard_error_lx })
 }
@@ -143,14 +144,10 @@ fn pair(point: &MeasuredPoint) -> Pair {
     Pair { reference: point.expected_lx, measured: point.measured_lx }
 }
 
-fn grid_error(
-    scene: &Scene,
-    map: &IlluminationMap,
-    grid: &[(ProbePoint, f64)],
-) -> Result<GridError, MeasureError> {
+fn grid_error(reader: &MapReader, grid: &[(ProbePoint, f64)]) -> Result<GridError, MeasureError> {
     let pairs = grid
         .par_iter()
-        .map(|&(at, expected_lx)| Ok(pair(&measured(scene, map, ' ', at, expected_lx)?)))
+        .map(|&(at, expected_lx)| Ok(pair(&measured(reader, ' ', at, expected_lx)?)))
         .collect::<Result<Vec<Pair>, MeasureError>>()?;
     let even: Vec<(Pair, f64)> = pairs.iter().map(|&p| (p, 1.0)).collect();
     Ok(GridError {

@@ -16,10 +16,13 @@ pub const CUBE_REFERENCE: f64 = 1e-8;
 /// Relative error of Gauss quadratures that were doubled until they no longer changed.
 pub const QUADRATURE: f64 = 1e-11;
 
-/// Relative error of direct light from `f32` positions: origins of rays are moved by eight roundings
-/// (1e-6 of the largest coordinate), luminaires are no nearer than a tenth of that, and the inverse
-/// square doubles it.
-pub const RAY_KERNEL_POSITION: f64 = 2e-5;
+/// Share of its largest coordinate by which a reader may move a place: on the rim of a triangle 64
+/// roundings of `f32` inwards, so that it is not in the wall that meets it there (8e-6).
+pub const PLACE_ON_RIM: f64 = 1e-5;
+
+/// Relative error of direct light from that, where light changes no faster than the inverse cube of a
+/// distance of half the coordinates: luminaires stand no nearer in the cases here.
+pub const RAY_KERNEL_POSITION: f64 = 6.0 * PLACE_ON_RIM;
 
 /// A reading lies within this many standard errors ...
 pub const STANDARD_ERRORS: f64 = 3.0;

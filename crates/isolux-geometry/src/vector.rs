@@ -29,11 +29,17 @@ pub struct Vector {
 
 /// A vector of length one: where a ray goes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vector", into = "Vector")]
 pub struct Direction(Vector);
 
 /// A vector of length one perpendicular to a surface; transforms by the inverse transpose.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vector", into = "Vector")]
 pub struct Normal(Vector);
+
+/// How far from one the squared length of a normalized vector may be computed to be: the roundings
+/// of [`Vector::direction`] and of the squared length itself make up less than 12 half units.
+const UNIT_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Point {
     /// The origin.
@@ -98,8 +104,13 @@ impl Vector {
         self.length_squared().sqrt()
     }
 
-    /// The direction of this vector; `None` where it has none (zero, overflow or not a number).
+    /// The direction of this vector; `None` where it has none (zero, overflow or not a number). A
+    /// vector of length one, up to rounding, is its own direction, bit for bit: what was normalized
+    /// once does not change when it is written to a file and read again.
     pub fn direction(self) -> Option<Direction> {
+        if (self.length_squared() - 1.0).abs() <= UNIT_ROUNDING {
+            return Some(Direction(self));
+        }
         let largest = self.x.abs().max(self.y.abs()).max(self.z.abs());
         // The maximum passes over a NaN.
         let is_finite = self.x.is_finite() && self.y.is_finite() && self.z.is_finite();
@@ -206,6 +217,32 @@ impl Normal {
     /// Cosine of the angle to another normal.
     pub const fn dot(self, other: Self) -> f64 {
         self.0.dot(other.0)
+    }
+}
+
+impl TryFrom<Vector> for Direction {
+    type Error = &'static str;
+    fn try_from(vector: Vector) -> Result<Self, Self::Error> {
+        vector.direction().ok_or("a vector without direction")
+    }
+}
+
+impl TryFrom<Vector> for Normal {
+    type Error = &'static str;
+    fn try_from(vector: Vector) -> Result<Self, Self::Error> {
+        vector.normal().ok_or("a normal without direction")
+    }
+}
+
+impl From<Direction> for Vector {
+    fn from(direction: Direction) -> Self {
+        direction.0
+    }
+}
+
+impl From<Normal> for Vector {
+    fn from(normal: Normal) -> Self {
+        normal.0
     }
 }
 
@@ -394,6 +431,21 @@ mod tests {
             assert_eq!(Vector::new(bad, 0.0, 0.0).normal(), None, "{bad}");
         }
         assert_eq!(Vector::new(1.0, f64::NAN, 0.0).direction(), None);
+    }
+
+    #[test]
+    fn what_was_normalized_once_stays_the_same() {
+        // Uneven directions, of lengths from the smallest to the largest.
+        let steps = || (-9..=9).map(|k| f64::from(k) / 7.0);
+        for x in steps() {
+            for y in steps() {
+                for scale in [1e-200, 1e-3, 1.0, 3.7, 1e200] {
+                    let once = (Vector::new(x, y, 0.3) * scale).direction().unwrap();
+                    let twice = once.to_vector().direction().unwrap();
+                    assert_eq!(once, twice, "{x} {y} {scale}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@
 use crate::expectation::{Bound, Case, Expectation, Quantity};
 use crate::model::{SphereMesh, isotropic, sphere};
 use isolux::engine::ProbePoint;
-use isolux::geometry::{Normal, Point, Vector};
+use isolux::geometry::{Point, Vector};
 use isolux::scene::{Finish, Luminaire, Material, SceneParts};
 use isolux::units::Rgb;
 use std::f64::consts::PI;
@@ -155,24 +155,19 @@ impl FullSphere {
             .sum()
     }
 
-    fn nearest_m(&self, at: ProbePoint) -> f64 {
-        (self.luminaires)()
-            .iter()
-            .map(|&(source, _)| (Point::from(source) - at.position).length())
-            .fold(f64::INFINITY, f64::min)
-    }
-
     fn expectations(&self) -> Vec<Expectation> {
         let mesh = sphere(RADIUS_M, ROWS);
-        places().into_iter().flat_map(|at| self.expected_at(at, &mesh)).collect()
+        places(&mesh).into_iter().flat_map(|at| self.expected_at(at, &mesh)).collect()
     }
 
     fn expected_at(&self, at: ProbePoint, mesh: &SphereMesh) -> [Expectation; 3] {
         let (direct, ambient) = (self.direct_lx(at), self.ambient_lx());
-        // The inverse cube in `cos / d^2 = h / d^3`, when the place moves out to the triangle.
-        let direct_bound = 3.0 * mesh.thickness_m() / self.nearest_m(at) * direct;
+        // Places are on the mesh; only the normal between its corners may tilt, by the slope
+        // of their distances. Light falls at less than 45 degrees, so cosines change by as much.
+        let direct_bound =
+            mesh.thickness_m() * mesh.longest_edge_m() / (RADIUS_M * RADIUS_M) * direct;
         let ambient_bound = mesh.area_excess(1.0) / (1.0 - self.mean_reflectance()) * ambient;
-        let reason = "triangles around the sphere: their area, and how far they are from it";
+        let reason = "triangles around the sphere: their area, and their normals";
         Quantity::split(Rgb::grey(direct), Rgb::grey(ambient)).map(|(quantity, expected_lx)| {
             let lx = match quantity {
                 Quantity::Direct => direct_bound,
@@ -184,16 +179,16 @@ impl FullSphere {
     }
 }
 
-/// Twelve places on a spiral from pole to pole.
-fn places() -> Vec<ProbePoint> {
+/// Twelve places of the mesh on a spiral from pole to pole, facing the middle.
+fn places(mesh: &SphereMesh) -> Vec<ProbePoint> {
     (0..12)
         .filter_map(|k| {
             let z = (f64::from(k) + 0.5) / 6.0 - 1.0;
             let r = (1.0 - z * z).sqrt();
             let (sin, cos) = libm::sincos(2.4 * f64::from(k));
-            let outward = Vector::new(r * cos, r * sin, z);
-            let normal: Normal = (-outward).normal()?;
-            Some(ProbePoint { position: Point::ORIGIN + outward * RADIUS_M, normal })
+            let outward = Vector::new(r * cos, r * sin, z).direction()?;
+            let position = mesh.place_towards(outward)?;
+            Some(ProbePoint { position, normal: (-outward).to_normal() })
         })
         .collect()
 }
@@ -233,6 +228,11 @@ mod tests {
             k * flux * RADIUS_M * RADIUS_M
         };
         half(sphere.lower, -1.0, 0.0) + half(sphere.upper, 0.0, 1.0)
+    }
+
+    #[test]
+    fn no_place_is_lost() {
+        assert_eq!(places(&sphere(RADIUS_M, ROWS)).len(), 12);
     }
 
     #[test]

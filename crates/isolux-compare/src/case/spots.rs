@@ -7,6 +7,7 @@
 
 use crate::expectation::{Bound, Case, Expectation};
 use crate::model::{Rectangle, aimed};
+use crate::tolerance::PLACE_ON_RIM;
 use isolux::engine::ProbePoint;
 use isolux::geometry::{Direction, Normal, Point, Vector};
 use isolux::photometry::IntensityDistribution;
@@ -126,16 +127,37 @@ fn lit_by(lamps: &[Lamp]) -> Vec<Expectation> {
     places
         .flat_map(|(x, y)| {
             let position = Point::new(1.5 * x, 1.5 * y, 0.0);
-            let lx = lamps.iter().map(|lamp| {
-                let d = position - Point::from(lamp.position);
-                let cos_gamma = d.dot(towards(lamp.aim).to_vector()) / d.length();
-                let r2 = d.length_squared();
-                lamp.beam.intensity_cd(cos_gamma) * -d.z / (r2 * r2.sqrt())
-            });
+            let lx = illuminance_lx(lamps, position);
             let at = ProbePoint { position, normal: Normal::Z };
-            Expectation::direct_only(at, Rgb::grey(lx.sum()), Bound::EXACT_GEOMETRY)
+            let bound = Bound {
+                lx: change_lx(lamps, position, lx),
+                reason: "on the rim of a triangle the place is moved, and beams are steep",
+            };
+            Expectation::direct_only(at, Rgb::grey(lx), bound)
         })
         .collect()
+}
+
+fn illuminance_lx(lamps: &[Lamp], position: Point) -> f64 {
+    let from = |lamp: &Lamp| {
+        let d = position - Point::from(lamp.position);
+        let cos_gamma = d.dot(towards(lamp.aim).to_vector()) / d.length();
+        let r2 = d.length_squared();
+        lamp.beam.intensity_cd(cos_gamma) * -d.z / (r2 * r2.sqrt())
+    };
+    lamps.iter().map(from).sum()
+}
+
+/// The largest change when the place moves as far as a reader may move it.
+fn change_lx(lamps: &[Lamp], position: Point, lx: f64) -> f64 {
+    let step_m = PLACE_ON_RIM * position.x.abs().max(position.y.abs());
+    let steps = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
+    let change = |(x, y): (f64, f64)| {
+        let moved = position + Vector::new(x, y, 0.0) * step_m;
+        (illuminance_lx(lamps, moved) - lx).abs()
+    };
+    // Along both axes at once it may be twice that.
+    2.0 * steps.into_iter().map(change).fold(0.0, f64::max)
 }
 
 fn screen() -> Rectangle {

@@ -3,7 +3,7 @@
 //! Places on the sphere are then in front of the triangles seen from inside, never hidden behind
 //! them, and the excess of area is what the closed forms must be forgiven.
 
-use isolux::geometry::{Point, Triangle, Vector};
+use isolux::geometry::{Direction, Point, Triangle, Vector};
 use isolux::scene::Shape;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -112,6 +112,29 @@ impl SphereMesh {
         self.area_m2() / (share_of_sphere * 4.0 * PI * self.radius_m * self.radius_m) - 1.0
     }
 
+    /// The place of the mesh that is seen from the origin in a direction.
+    pub fn place_towards(&self, direction: Direction) -> Option<Point> {
+        let ray = direction.to_vector();
+        self.triangles.iter().find_map(|&corners| {
+            let [a, b, c] = self.triangle(corners).corners.map(Point::to_vector);
+            // Weights of the corners, up to a common factor: all of one sign inside.
+            let weights = [ray.dot(b.cross(c)), ray.dot(c.cross(a)), ray.dot(a.cross(b))];
+            let inside = weights.iter().all(|&w| w <= 0.0);
+            let sum = weights.iter().sum::<f64>();
+            let place = a * weights[0] + b * weights[1] + c * weights[2];
+            (inside && sum < 0.0).then(|| Point::ORIGIN + place / sum)
+        })
+    }
+
+    /// Length of the longest edge, m.
+    pub fn longest_edge_m(&self) -> f64 {
+        let edges = self.triangles.iter().flat_map(|&corners| {
+            let [a, b, c] = self.triangle(corners).corners;
+            [(b - a).length(), (c - b).length(), (a - c).length()]
+        });
+        edges.fold(0.0, f64::max)
+    }
+
     /// How far out of the sphere the mesh reaches, m.
     pub fn thickness_m(&self) -> f64 {
         let outermost = self.positions.iter().map(|&p| Vector::from(p).length());
@@ -183,6 +206,17 @@ mod tests {
             let triangle = mesh.triangle(corners);
             let inward = triangle.normal().unwrap().to_vector();
             assert!(-inward.dot(triangle.corners[0].to_vector()) >= 2.0);
+        }
+    }
+
+    #[test]
+    fn places_of_the_mesh_are_where_they_are_sought() {
+        let mesh = sphere(2.0, 10);
+        for (x, y, z) in [(0.3, 0.4, 0.5), (-0.1, 0.9, -0.2), (1.0, 0.0, 0.0), (0.2, -0.7, 0.7)] {
+            let direction = Vector::new(x, y, z).direction().unwrap();
+            let place = mesh.place_towards(direction).unwrap().to_vector();
+            assert!(place.cross(direction.to_vector()).length() < crate::tolerance::ROUNDING);
+            assert!((2.0..2.0 + mesh.thickness_m()).contains(&place.length()), "{place:?}");
         }
     }
 

@@ -14,7 +14,7 @@ use crate::statistics::{accepted_outliers, student_quantile, student_two_sided};
 use crate::tolerance::{
     COVERAGE, PLACE_OVER_SCENE, RAY_KERNEL_POSITION, ROUNDING, SIGNIFICANCE, STANDARD_ERRORS,
 };
-use isolux::engine::probe;
+use isolux::engine::MapReader;
 use isolux::map::{Illuminance, IlluminationMap, Method};
 use isolux::scene::Scene;
 use isolux::units::Rgb;
@@ -107,8 +107,9 @@ impl Calibration {
 /// Compares a map with all that is expected of it.
 pub(super) fn count(scene: &Scene, map: &IlluminationMap, expected: &[Expectation]) -> Count {
     let allowance = Allowance::of(map);
+    let reader = MapReader::new(scene, map);
     let found: Vec<Option<Reading>> =
-        expected.iter().map(|e| Some(allowance.reading(e, &probe(scene, map, e.at)?))).collect();
+        expected.iter().map(|e| Some(allowance.reading(e, &reader.probe(e.at)?))).collect();
     let readings = || found.iter().flatten();
     let statistical = || readings().filter(|r| r.is_statistical());
     let outside = |r: &&Reading| {
@@ -136,16 +137,15 @@ pub(super) fn count(scene: &Scene, map: &IlluminationMap, expected: &[Expectatio
 
 fn complaint(count: &Count, found: &[Option<Reading>], map: &IlluminationMap) -> Option<String> {
     let unknown = found.iter().filter(|r| r.is_none()).count();
-    let certain = found.iter().flatten().filter(|r| !r.is_statistical() && r.is_off()).count();
     if unknown > 0 {
         return Some(format!("{unknown} of {} places have no value", found.len()));
     }
+    if map.provenance.accuracy.is_none() {
+        return Some("too few increments to believe the error".into());
+    }
+    let certain = found.iter().flatten().filter(|r| !r.is_statistical() && r.is_off()).count();
     if certain > 0 {
         return Some(format!("{certain} values without statistical error are wrong"));
-    }
-    if count.statistical > 0 && (map.provenance.accuracy.is_none() || map.provenance.increments < 2)
-    {
-        return Some("too few increments to believe the error".into());
     }
     (count.outliers > count.accepted_outliers).then(|| {
         format!("{} outliers where chance allows {}", count.outliers, count.accepted_outliers)

@@ -6,6 +6,9 @@ use isolux_geometry::{Point, Vector};
 /// The index that stands for none.
 const NONE: u32 = u32::MAX;
 
+/// Bisections below one another: halving an area so often leaves nothing of it.
+const MAX_DEPTH: u8 = 64;
+
 /// [`Elements`] as arrays of numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ElementArrays {
@@ -58,8 +61,8 @@ impl Elements {
         }
     }
 
-    /// From plain arrays, of any origin: every index is checked, and so is that children come after
-    /// their parent, which bounds every walk.
+    /// From plain arrays, of any origin: every index is checked, and so is that the nodes are trees,
+    /// not too deep, which bounds every walk.
     pub fn from_arrays(arrays: &ElementArrays) -> Result<Self, ElementArraysError> {
         let (vertices, nodes) = (arrays.positions.len(), arrays.nodes.len());
         if [arrays.normals.len(), arrays.parents.len(), arrays.areas_m2.len()] != [vertices; 3] {
@@ -68,12 +71,37 @@ impl Elements {
         if arrays.splits.len() != nodes {
             return Err(ElementArraysError::Lengths("nodes"));
         }
-        Ok(Self {
+        let elements = Self {
             vertices: (0..vertices).map(|k| vertex(arrays, k)).collect::<Result<_, _>>()?,
             nodes: (0..nodes).map(|k| node(arrays, k)).collect::<Result<_, _>>()?,
             roots: arrays.roots.iter().map(|r| roots(*r, nodes)).collect::<Result<_, _>>()?,
-        })
+        };
+        if !are_trees(&elements) {
+            return Err(ElementArraysError::Index("a tree of bisections"));
+        }
+        Ok(elements)
     }
+}
+
+/// Whether every node is at most once a root or a child, no deeper than the bound. Children come
+/// after their parent, so one pass in order knows the depth of each parent before its children.
+fn are_trees(elements: &Elements) -> bool {
+    let mut depth: Vec<Option<u8>> = vec![None; elements.nodes.len()];
+    for &root in elements.roots.iter().flatten().flatten() {
+        if depth[root as usize].replace(0).is_some() {
+            return false;
+        }
+    }
+    for (index, node) in elements.nodes.iter().enumerate() {
+        let Some(Split { first_child, .. }) = node.split else { continue };
+        let below = depth[index].unwrap_or(0) + 1;
+        for child in [first_child, first_child + 1] {
+            if below > MAX_DEPTH || depth[child as usize].replace(below).is_some() {
+                return false;
+            }
+        }
+    }
+    true
 }
 
 fn vertex(arrays: &ElementArrays, index: usize) -> Result<Vertex, ElementArraysError> {
@@ -112,4 +140,48 @@ fn roots(roots: [u32; 2], nodes: usize) -> Result<[Option<u32>; 2], ElementArray
         return Err(ElementArraysError::Index("the root of a triangle"));
     }
     Ok(roots.map(|r| (r != NONE).then_some(r)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One vertex, nodes that split as said, two sides of a triangle with the roots as said.
+    fn nodes(splits: &[[u32; 2]], roots: [u32; 2]) -> ElementArrays {
+        ElementArrays {
+            positions: vec![[0.0; 3]],
+            normals: vec![[0.0, 0.0, 1.0]],
+            parents: vec![[NONE; 2]],
+            areas_m2: vec![1.0],
+            nodes: vec![[0; 3]; splits.len()],
+            splits: splits.to_vec(),
+            roots: vec![roots],
+        }
+    }
+
+    #[test]
+    fn nodes_that_are_no_trees_are_refused() {
+        const LEAF: [u32; 2] = [NONE; 2];
+        // Every second node is split into the two that follow it.
+        let split = |k: u32, levels: u32| {
+            if k.is_multiple_of(2) && k < 2 * levels { [0, k + 1] } else { LEAF }
+        };
+        let deep = |levels: u32| (0..=2 * levels).map(|k| split(k, levels)).collect();
+        for (name, splits, roots, is_tree) in [
+            ("one element", vec![LEAF], [0, NONE], true),
+            ("one bisection", vec![[0, 1], LEAF, LEAF], [NONE, 0], true),
+            ("two sides", vec![LEAF, LEAF], [0, 1], true),
+            ("shared sides", vec![LEAF], [0, 0], false),
+            ("a root that is a child", vec![[0, 1], LEAF, LEAF], [0, 1], false),
+            ("overlapping children", vec![[0, 1], [0, 2], LEAF, LEAF], [0, NONE], false),
+            ("a child before its parent", vec![LEAF, LEAF, [0, 0]], [2, NONE], false),
+            ("an edge too many", vec![[3, 1], LEAF, LEAF], [0, NONE], false),
+            ("a child too many", vec![[0, 1], LEAF], [0, NONE], false),
+            ("as deep as allowed", deep(u32::from(MAX_DEPTH)), [0, NONE], true),
+            ("too deep", deep(u32::from(MAX_DEPTH) + 1), [0, NONE], false),
+        ] {
+            let found = Elements::from_arrays(&nodes(&splits, roots));
+            assert_eq!(found.is_ok(), is_tree, "{name}: {found:?}");
+        }
+    }
 }

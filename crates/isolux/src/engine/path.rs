@@ -79,13 +79,17 @@ pub(super) fn specular_step(
             if share == 0.0 {
                 return None;
             }
+            // Strong reflections are always followed while the path carries much: roulette on them
+            // would cost more in noise than it saves in rays.
+            let chance = (2.0 * share * throughput.max_channel()).min(1.0);
             let [survive, pick] = dice.pair();
-            if survive >= share {
+            if survive >= chance {
                 return None;
             }
             let square = if finish.gloss.is_some() { dice.pair() } else { [0.0; 2] };
-            // `reflect` gives weights for a share already passed.
-            reflect(finish, surface, incoming, pick, square)
+            // `reflect` gives the weight of a sample taken with the probability `share`.
+            let next = reflect(finish, surface, incoming, pick, square)?;
+            Some(Scattered { weight: next.weight * (share / chance), ..next })
         }
     }
 }

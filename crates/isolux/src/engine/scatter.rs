@@ -27,8 +27,8 @@ pub(super) fn specular_share(finish: &Finish, surface: &SurfacePoint, incoming: 
     (finish.mirror + gloss).max_channel().clamp(0.0, 1.0)
 }
 
-/// One sample of the specular part of a finish, by probability [`specular_share`] already passed;
-/// `pick` of [0, 1) chooses between mirror and gloss, `square` the facet.
+/// One sample of the specular part of a finish, weighted as one taken with the probability
+/// [`specular_share`]; `pick` of [0, 1) chooses between mirror and gloss, `square` the facet.
 pub(super) fn reflect(
     finish: &Finish,
     surface: &SurfacePoint,

@@ -50,17 +50,21 @@ impl IntensityDistribution {
                 }
             }
             Self::Spot { peak_cd, inner_rad, outer_rad } => {
-                let (inner, outer) = (libm::cos(*inner_rad), libm::cos(*outer_rad));
-                let ramp = if cos_gamma >= inner {
-                    1.0
-                } else if cos_gamma <= outer {
-                    0.0
-                } else {
-                    (cos_gamma - outer) / (inner - outer)
-                };
-                peak_cd * ramp * ramp
+                let (plateau, ramp) = spot_caps(*inner_rad, *outer_rad);
+                let beyond = (1.0 - cos_gamma) - plateau;
+                let left = if beyond <= 0.0 { 1.0 } else { (1.0 - beyond / ramp).max(0.0) };
+                peak_cd * left * left
             }
             Self::Web(web) => web.intensity_cd(local),
+        }
+    }
+
+    /// Highest intensity in any direction, cd.
+    pub fn max_intensity_cd(&self) -> f64 {
+        match self {
+            Self::Isotropic { intensity_cd } => *intensity_cd,
+            Self::CosinePower { peak_cd, .. } | Self::Spot { peak_cd, .. } => *peak_cd,
+            Self::Web(web) => web.max_intensity_cd(),
         }
     }
 
@@ -70,36 +74,36 @@ impl IntensityDistribution {
             Self::Isotropic { intensity_cd } => 4.0 * PI * intensity_cd,
             Self::CosinePower { peak_cd, exponent } => 2.0 * PI * peak_cd / (exponent + 1.0),
             Self::Spot { peak_cd, inner_rad, outer_rad } => {
-                // In c = cos(gamma): a plateau of 1 - inner and a squared ramp, a third of its base.
-                let (inner, outer) = (libm::cos(*inner_rad), libm::cos(*outer_rad));
-                2.0 * PI * peak_cd * ((1.0 - inner) + (inner - outer) / 3.0)
+                let (plateau, ramp) = spot_caps(*inner_rad, *outer_rad);
+                2.0 * PI * peak_cd * (plateau + ramp / 3.0)
             }
             Self::Web(web) => web.luminous_flux_lm(),
         }
     }
 
-    /// A direction distributed in proportion to intensity, from two numbers of [0, 1). The flux it
-    /// carries is the whole flux; the density is `intensity / flux`. `None` if there is no flux.
+    /// A direction distributed in proportion to intensity, from two numbers of [0, 1): `a` chooses
+    /// gamma, `b` chooses C. The flux it carries is the whole flux; the density is
+    /// `intensity / flux` per steradian. `None` if there is no flux.
     pub fn sample(&self, [a, b]: [f64; 2]) -> Option<Direction> {
-        let around = |cos_gamma: f64| {
-            let sin_gamma = (1.0 - cos_gamma * cos_gamma).max(0.0).sqrt();
-            let (s, c) = libm::sincos(2.0 * PI * b);
-            Vector::new(sin_gamma * c, sin_gamma * s, -cos_gamma).direction()
-        };
+        let lit = self.luminous_flux_lm() > 0.0;
+        if !lit {
+            return None;
+        }
         match self {
-            Self::Isotropic { .. } => around(1.0 - 2.0 * a),
+            Self::Isotropic { .. } => at_cap(2.0 * a, b),
             Self::CosinePower { exponent, .. } => {
-                around(libm::pow(1.0 - a, 1.0 / (exponent + 1.0)))
+                // 1 - (1 - a)^(1 / (n + 1)), to the last digit for narrow beams too.
+                at_cap(-libm::expm1(libm::log1p(-a) / (exponent + 1.0)), b)
             }
             Self::Spot { inner_rad, outer_rad, .. } => {
-                let (inner, outer) = (libm::cos(*inner_rad), libm::cos(*outer_rad));
-                let (plateau, ramp) = (1.0 - inner, (inner - outer) / 3.0);
-                let at = a * (plateau + ramp);
-                around(if at < plateau {
-                    1.0 - at
+                let (plateau, ramp) = spot_caps(*inner_rad, *outer_rad);
+                let cap = a * (plateau + ramp / 3.0);
+                if cap < plateau {
+                    at_cap(cap, b)
                 } else {
-                    outer + (inner - outer) * libm::cbrt(1.0 - (at - plateau) / ramp)
-                })
+                    let left = (1.0 - 3.0 * (cap - plateau) / ramp).max(0.0);
+                    at_cap(plateau + ramp * (1.0 - libm::cbrt(left)), b)
+                }
             }
             Self::Web(web) => web.sample([a, b]),
         }
@@ -120,4 +124,21 @@ impl IntensityDistribution {
             Self::Web(web) => Self::Web(Arc::new(web.scaled(factor))),
         }
     }
+}
+
+/// `1 - cos` of the inner angle and how much more that of the outer angle is: solid angles over
+/// 2 pi, without the cancellation that a cosine near 1 would bring.
+fn spot_caps(inner_rad: f64, outer_rad: f64) -> (f64, f64) {
+    let cap = |angle: f64| {
+        let sine = libm::sin(0.5 * angle);
+        2.0 * sine * sine
+    };
+    (cap(inner_rad), cap(outer_rad) - cap(inner_rad))
+}
+
+/// The direction with `1 - cos(gamma) = cap` and C a share of the turn.
+fn at_cap(cap: f64, share: f64) -> Option<Direction> {
+    let sin_gamma = (cap * (2.0 - cap)).max(0.0).sqrt();
+    let (sin_c, cos_c) = libm::sincos(2.0 * PI * share);
+    Vector::new(sin_gamma * cos_c, sin_gamma * sin_c, cap - 1.0).direction()
 }

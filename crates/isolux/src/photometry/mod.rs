@@ -4,8 +4,14 @@
 //! is **-z**, the C0 half-plane contains **+x**, the C90 half-plane contains **+y**. (glTF lights
 //! shine along -z too.) A direction has gamma = acos(-z) and C = atan2(y, x).
 
+mod axis;
 mod distribution;
+mod strip;
+mod symmetry;
+#[cfg(test)]
+mod tests;
 mod web;
 
 pub use distribution::IntensityDistribution;
+pub use symmetry::Symmetry;
 pub use web::{PhotometricWeb, WebError};

@@ -1,14 +1,46 @@
 //! A measured intensity table, type C.
 
-use isolux_geometry::Direction;
+use super::Symmetry;
+use super::axis::Axis;
+use super::strip::{Strip, share_below, weights};
+use isolux_geometry::{Direction, Vector};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
-/// Intensities over a grid of C-planes and gamma angles, interpolated bilinearly in the angles.
+/// Values a table may hold: a quarter of a degree in both angles, four times over.
+const MAX_VALUES: usize = 1 << 22;
+
+/// Angles closer than this are the same one, degrees: no goniometer tells them apart.
+const MIN_STEP_DEG: f64 = 1e-6;
+
+/// Highest intensity accepted, cd; the sun has 3e27. Sums of such numbers stay finite.
+const MAX_INTENSITY_CD: f64 = 1e30;
+
+/// Intensities over a grid of C-planes and gamma angles, interpolated bilinearly in the angles,
+/// periodically in C. Directions outside the gamma angles given are dark.
+///
+/// The interpolated function is what the web *is*: its flux is the exact integral of it, and
+/// [`Self::sample`] draws from it without rejection or weight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Table", into = "Table")]
 pub struct PhotometricWeb {
+    /// Planes, degrees, closed by the first plane a turn later.
+    planes: Axis,
+    gammas: Axis,
+    /// `candela[plane * gammas + gamma]`.
+    candela: Vec<f64>,
+    /// Flux of each plane below each gamma, lm per radian of C; indexed as `candela`.
+    below: Vec<f64>,
+    /// Flux before each plane of the closed circle, lm.
+    before: Vec<f64>,
+}
+
+/// The web as files hold it; everything else follows from it.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
     planes_deg: Vec<f64>,
     gammas_deg: Vec<f64>,
-    /// `candela[plane * gammas + gamma]`.
     candela: Vec<f64>,
 }
 
@@ -16,6 +48,22 @@ pub struct PhotometricWeb {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WebError {
+    /// There is no plane, or fewer than two gamma angles: they span no solid angle.
+    #[error("{planes} planes and {gammas} gamma angles; at least 1 and 2 are needed")]
+    TooFewAngles {
+        /// Planes given.
+        planes: usize,
+        /// Gamma angles given.
+        gammas: usize,
+    },
+    /// More values than any luminaire is measured at.
+    #[error("{planes} planes times {gammas} gamma angles are more than {MAX_VALUES} intensities")]
+    TooLarge {
+        /// Planes given.
+        planes: usize,
+        /// Gamma angles given.
+        gammas: usize,
+    },
     /// The number of values is not planes times angles.
     #[error("{found} intensities for {expected} places of the table")]
     WrongCount {
@@ -24,35 +72,284 @@ pub enum WebError {
         /// Planes times angles.
         expected: usize,
     },
+    /// A plane is not an angle from 0 to 360 degrees.
+    #[error("plane {index} lies at {angle_deg} degrees, not within 0 to 360")]
+    PlaneOutOfRange {
+        /// Which, from 0.
+        index: usize,
+        /// The angle, degrees.
+        angle_deg: f64,
+    },
+    /// A gamma angle is not from 0 to 180 degrees.
+    #[error("gamma angle {index} is {angle_deg} degrees, not within 0 to 180")]
+    GammaOutOfRange {
+        /// Which, from 0.
+        index: usize,
+        /// The angle, degrees.
+        angle_deg: f64,
+    },
+    /// A plane does not lie beyond the one before.
+    #[error("plane {index} at {angle_deg} degrees does not lie beyond the one before it")]
+    PlanesNotIncreasing {
+        /// Which, from 0.
+        index: usize,
+        /// The angle, degrees.
+        angle_deg: f64,
+    },
+    /// A gamma angle is not larger than the one before.
+    #[error("gamma angle {index}, {angle_deg} degrees, is not larger than the one before it")]
+    GammasNotIncreasing {
+        /// Which, from 0.
+        index: usize,
+        /// The angle, degrees.
+        angle_deg: f64,
+    },
+    /// A value is negative, not a number, or beyond any source of light.
+    #[error("{intensity_cd} cd at plane {plane}, gamma angle {gamma} is not from 0 to 1e30")]
+    BadIntensity {
+        /// Plane, from 0.
+        plane: usize,
+        /// Gamma angle, from 0.
+        gamma: usize,
+        /// The value, cd.
+        intensity_cd: f64,
+    },
 }
 
 impl PhotometricWeb {
-    /// Full-circle table.
+    /// Table over the full circle: increasing planes within 0 to 360 degrees (the plane at 360, if
+    /// given, closes the circle; otherwise the first one does), increasing gamma angles within 0
+    /// to 180 degrees, and `candela[plane * gammas + gamma]`.
     pub fn new(
         planes_deg: Vec<f64>,
         gammas_deg: Vec<f64>,
         candela: Vec<f64>,
     ) -> Result<Self, WebError> {
-        Ok(Self { planes_deg, gammas_deg, candela })
+        check(&planes_deg, &gammas_deg, &candela)?;
+        Ok(Self::tabulate(closed(planes_deg), Axis::new(gammas_deg), candela))
+    }
+
+    /// Table over the part of the circle that a symmetry leaves to be given.
+    pub fn with_symmetry(
+        planes_deg: Vec<f64>,
+        gammas_deg: Vec<f64>,
+        candela: Vec<f64>,
+        symmetry: Symmetry,
+    ) -> Result<Self, WebError> {
+        check(&planes_deg, &gammas_deg, &candela)?;
+        let rows = candela.chunks(gammas_deg.len()).map(<[f64]>::to_vec);
+        let whole = symmetry.complete(planes_deg.into_iter().zip(rows).collect());
+        let (planes_deg, rows): (Vec<_>, Vec<_>) = whole.into_iter().unzip();
+        Self::new(planes_deg, gammas_deg, rows.concat())
+    }
+
+    fn tabulate(planes: Axis, gammas: Axis, candela: Vec<f64>) -> Self {
+        let below = flux_below(&gammas, &candela);
+        let mut web = Self { planes, gammas, candela, below, before: vec![0.0] };
+        let mut sum = 0.0;
+        for cell in 0..web.planes.cells() {
+            let [low, high] = web.plane_flux(cell);
+            sum += web.cell_width_rad(cell) * 0.5 * (low + high);
+            web.before.push(sum);
+        }
+        web
+    }
+
+    /// Planes, degrees.
+    pub fn planes_deg(&self) -> &[f64] {
+        &self.planes.angles()[..self.candela.len() / self.gammas_deg().len()]
+    }
+
+    /// Gamma angles, degrees.
+    pub fn gammas_deg(&self) -> &[f64] {
+        self.gammas.angles()
+    }
+
+    /// Intensities, cd: one row of gamma angles a plane.
+    pub fn candela(&self) -> &[f64] {
+        &self.candela
+    }
+
+    /// Highest intensity in any direction, cd; a bilinear function has it at a node.
+    pub fn max_intensity_cd(&self) -> f64 {
+        self.candela.iter().copied().fold(0.0, f64::max)
     }
 
     /// Intensity in a direction of the luminaire's frame, cd.
-    pub fn intensity_cd(&self, _local: Direction) -> f64 {
-        0.0
+    pub fn intensity_cd(&self, local: Direction) -> f64 {
+        let Vector { x, y, z } = local.to_vector();
+        let gamma = libm::atan2((x * x + y * y).sqrt(), -z).to_degrees();
+        let Some((strip, up)) = self.gammas.locate(gamma) else { return 0.0 };
+        let mut c = libm::atan2(y, x).to_degrees();
+        while c < self.planes.first() {
+            c += 360.0;
+        }
+        let Some((cell, across)) = self.planes.locate(c) else { return 0.0 };
+        let [low, high] = self.intensities_cd(cell, across, strip);
+        low + (high - low) * up
     }
 
-    /// Flux of the interpolated distribution, lm.
+    /// Flux, lm: the exact integral of the interpolated distribution.
     pub fn luminous_flux_lm(&self) -> f64 {
-        0.0
+        self.before[self.planes.cells()]
     }
 
-    /// A direction in proportion to intensity.
-    pub fn sample(&self, _u: [f64; 2]) -> Option<Direction> {
-        None
+    /// A direction in proportion to intensity, from two numbers of [0, 1); `None` if all is dark.
+    ///
+    /// Exact: `b` chooses C by the flux of the half-planes, whose density is linear between
+    /// planes, then `a` chooses gamma in that half-plane, linear times sine between angles. Both
+    /// maps are continuous and monotone, so that well distributed points stay so.
+    pub fn sample(&self, [a, b]: [f64; 2]) -> Option<Direction> {
+        let total = self.luminous_flux_lm();
+        if total <= 0.0 {
+            return None;
+        }
+        let (cell, across) = self.sample_plane(b * total);
+        let (sin_gamma, cos_gamma) = libm::sincos(self.sample_gamma(cell, across, a));
+        let c = self.planes.bounds(cell)[0].to_radians() + across * self.cell_width_rad(cell);
+        let (sin_c, cos_c) = libm::sincos(c);
+        Vector::new(sin_gamma * cos_c, sin_gamma * sin_c, -cos_gamma).direction()
     }
 
-    /// Every intensity multiplied by a factor.
-    pub fn scaled(&self, _factor: f64) -> Self {
-        self.clone()
+    /// Every intensity multiplied by a factor >= 0; anything else counts as 0. Products beyond
+    /// 1e30 cd stay there.
+    pub fn scaled(&self, factor: f64) -> Self {
+        let factor = factor.max(0.0);
+        let scale = |cd: &f64| (cd * factor).min(MAX_INTENSITY_CD);
+        let candela = self.candela.iter().map(scale).collect();
+        Self::tabulate(self.planes.clone(), self.gammas.clone(), candela)
+    }
+
+    /// Where in C the flux before it is `flux`: a cell of the circle and the place inside.
+    fn sample_plane(&self, flux: f64) -> (usize, f64) {
+        let last = self.planes.cells() - 1;
+        let cell = self.before.partition_point(|&f| f <= flux).saturating_sub(1).min(last);
+        let share = (flux - self.before[cell]) / (self.before[cell + 1] - self.before[cell]);
+        (cell, share_below(self.plane_flux(cell), share))
+    }
+
+    /// The gamma, rad, below which a half-plane holds a share of its flux.
+    fn sample_gamma(&self, cell: usize, across: f64, share: f64) -> f64 {
+        let below = |gamma: usize| self.mix(&self.below, cell, across, gamma);
+        let strips = self.gammas.cells();
+        let flux = share * below(strips);
+        let (mut low, mut high) = (0, strips);
+        while high - low > 1 {
+            let middle = low.midpoint(high);
+            if below(middle) <= flux { low = middle } else { high = middle }
+        }
+        let strip = Strip {
+            angles_rad: self.gammas.bounds(low).map(f64::to_radians),
+            intensities_cd: self.intensities_cd(cell, across, low),
+        };
+        strip.angle_below_which(flux - below(low))
+    }
+
+    /// Intensities at both ends of a strip, between the planes of a cell.
+    fn intensities_cd(&self, cell: usize, across: f64, strip: usize) -> [f64; 2] {
+        [strip, strip + 1].map(|gamma| self.mix(&self.candela, cell, across, gamma))
+    }
+
+    /// A value at a gamma angle, between the planes of a cell.
+    fn mix(&self, values: &[f64], cell: usize, across: f64, gamma: usize) -> f64 {
+        let count = self.gammas_deg().len();
+        let next = if (cell + 1) * count < values.len() { cell + 1 } else { 0 };
+        let (low, high) = (values[cell * count + gamma], values[next * count + gamma]);
+        low + (high - low) * across
+    }
+
+    /// Flux of the half-planes on both sides of a cell, lm per radian of C.
+    fn plane_flux(&self, cell: usize) -> [f64; 2] {
+        [0.0, 1.0].map(|across| self.mix(&self.below, cell, across, self.gammas.cells()))
+    }
+
+    fn cell_width_rad(&self, cell: usize) -> f64 {
+        let [low, high] = self.planes.bounds(cell);
+        (high - low) * (PI / 180.0)
+    }
+}
+
+/// The circle closed by its first plane, unless the file closed it.
+fn closed(mut planes_deg: Vec<f64>) -> Axis {
+    let turn = planes_deg[0] + 360.0;
+    if planes_deg.last().is_some_and(|&last| last < turn) {
+        planes_deg.push(turn);
+    }
+    Axis::new(planes_deg)
+}
+
+/// Running sums of each plane's flux, lm per radian of C.
+fn flux_below(gammas: &Axis, candela: &[f64]) -> Vec<f64> {
+    let weights: Vec<_> =
+        (0..gammas.cells()).map(|k| weights(gammas.bounds(k).map(f64::to_radians))).collect();
+    let mut below = Vec::with_capacity(candela.len());
+    for row in candela.chunks(gammas.cells() + 1) {
+        let mut sum = 0.0;
+        below.push(sum);
+        for ([low, high], ends) in weights.iter().zip(row.windows(2)) {
+            sum += low * ends[0] + high * ends[1];
+            below.push(sum);
+        }
+    }
+    below
+}
+
+fn check(planes_deg: &[f64], gammas_deg: &[f64], candela: &[f64]) -> Result<(), WebError> {
+    let (planes, gammas) = (planes_deg.len(), gammas_deg.len());
+    if planes < 1 || gammas < 2 {
+        return Err(WebError::TooFewAngles { planes, gammas });
+    }
+    let expected = planes.saturating_mul(gammas);
+    if expected > MAX_VALUES {
+        return Err(WebError::TooLarge { planes, gammas });
+    }
+    if candela.len() != expected {
+        return Err(WebError::WrongCount { found: candela.len(), expected });
+    }
+    if let Some((index, angle_deg)) = out_of_range(planes_deg, 360.0) {
+        return Err(WebError::PlaneOutOfRange { index, angle_deg });
+    }
+    if let Some((index, angle_deg)) = out_of_range(gammas_deg, 180.0) {
+        return Err(WebError::GammaOutOfRange { index, angle_deg });
+    }
+    if let Some((index, angle_deg)) = not_increasing(planes_deg) {
+        return Err(WebError::PlanesNotIncreasing { index, angle_deg });
+    }
+    if let Some((index, angle_deg)) = not_increasing(gammas_deg) {
+        return Err(WebError::GammasNotIncreasing { index, angle_deg });
+    }
+    match candela.iter().position(|cd| !(0.0..=MAX_INTENSITY_CD).contains(cd)) {
+        None => Ok(()),
+        Some(at) => Err(WebError::BadIntensity {
+            plane: at / gammas,
+            gamma: at % gammas,
+            intensity_cd: candela[at],
+        }),
+    }
+}
+
+fn out_of_range(angles: &[f64], limit: f64) -> Option<(usize, f64)> {
+    angles.iter().copied().enumerate().find(|(_, angle)| !(0.0..=limit).contains(angle))
+}
+
+fn not_increasing(angles: &[f64]) -> Option<(usize, f64)> {
+    let index = angles.windows(2).position(|pair| pair[1] < pair[0] + MIN_STEP_DEG)? + 1;
+    Some((index, angles[index]))
+}
+
+impl TryFrom<Table> for PhotometricWeb {
+    type Error = WebError;
+    fn try_from(table: Table) -> Result<Self, WebError> {
+        Self::new(table.planes_deg, table.gammas_deg, table.candela)
+    }
+}
+
+impl From<PhotometricWeb> for Table {
+    fn from(web: PhotometricWeb) -> Self {
+        Self {
+            planes_deg: web.planes_deg().to_vec(),
+            gammas_deg: web.gammas_deg().to_vec(),
+            candela: web.candela,
+        }
     }
 }

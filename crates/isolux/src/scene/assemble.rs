@@ -1,8 +1,8 @@
 //! From plain parts to a scene that cannot be invalid.
 
 use super::{
-    AreaLuminaire, Body, Camera, Finish, Luminaire, LuminaireKind, Material, SceneParts, Shape,
-    Texture, UpAxis,
+    AreaLuminaire, Body, Camera, Finish, Luminaire, LuminaireKind, Material, SceneParts,
+    SceneProblem, Shape, Texture, UpAxis,
 };
 use crate::units::Rgb;
 use isolux_geometry::{Bvh, Hit, Normal, Point, Triangle, TriangleMesh, Vector};
@@ -25,64 +25,6 @@ pub struct Scene {
     area_luminaires: Vec<AreaLuminaire>,
     groups: Vec<String>,
     cameras: Vec<Camera>,
-}
-
-/// What is wrong with a scene, and with which part.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{place}: {what}; {remedy}")]
-pub struct SceneProblem {
-    /// Which part.
-    pub place: Place,
-    /// What is wrong.
-    pub what: String,
-    /// How to mend it.
-    pub remedy: String,
-}
-
-/// A part of a scene, by its index in [`SceneParts`] and its name.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Place {
-    /// The scene as a whole.
-    #[error("scene")]
-    Scene,
-    /// A shape.
-    #[error("shape `{name}`")]
-    Shape {
-        /// Index.
-        index: usize,
-        /// Name.
-        name: String,
-    },
-    /// A material.
-    #[error("material `{name}`")]
-    Material {
-        /// Index.
-        index: usize,
-        /// Name.
-        name: String,
-    },
-    /// A texture.
-    #[error("texture {index}")]
-    Texture {
-        /// Index.
-        index: usize,
-    },
-    /// A luminaire.
-    #[error("luminaire `{name}`")]
-    Luminaire {
-        /// Index.
-        index: usize,
-        /// Name.
-        name: String,
-    },
-    /// A camera.
-    #[error("camera `{name}`")]
-    Camera {
-        /// Index.
-        index: usize,
-        /// Name.
-        name: String,
-    },
 }
 
 impl Scene {

@@ -9,12 +9,14 @@ mod hash;
 mod luminaire;
 mod material;
 mod parts;
+mod problem;
 mod texture;
 mod view;
 
-pub use assemble::{Place, Scene, SceneProblem};
+pub use assemble::Scene;
 pub use luminaire::{AreaLuminaire, Luminaire, LuminaireKind};
 pub use material::{Body, Dielectric, Finish, Gloss, Material, Reflectance};
 pub use parts::{SceneParts, Shape, UpAxis};
+pub use problem::{Place, SceneProblem};
 pub use texture::Texture;
 pub use view::Camera;

@@ -68,14 +68,14 @@ impl Transport {
     /// The illuminance at the nodes (`[y n + x]`) from radiosity given at the nodes.
     pub(super) fn apply(&self, radiosity: &[f64]) -> Vec<f64> {
         let n = self.line.nodes.len();
-        let along = strips(&self.up, radiosity, n);
+        let near = strips(&self.up, radiosity, n);
+        let own = strips(&self.own, radiosity, n);
         let rows: Vec<(Vec<f64>, Vec<f64>)> = self
             .views
             .par_iter()
             .map(|view| {
                 let xs = &self.line.nodes;
-                let walls = self.walls(&self.up, &along, view, xs, radiosity);
-                (walls, self.opposite(xs, view.y, radiosity))
+                (self.walls(&near, &own, view, xs), self.opposite(&own, view.y, xs))
             })
             .collect();
         let at = |y: usize, x: usize| rows[y].1[x] + rows[y].0[x] + rows[x].0[y];
@@ -85,54 +85,44 @@ impl Transport {
     /// What a place of a face receives from radiosity given at the nodes.
     pub(super) fn receive(&self, x: f64, y: f64, radiosity: &[f64]) -> Received {
         let (x, y) = (x.abs(), y.abs());
-        let on_edges = [x, y].iter().filter(|&&t| 1.0 - t < EDGE).count();
+        let on_edges = [x, y].iter().filter(|&&t| is_on_edge(t)).count();
+        let n = self.line.nodes.len();
+        let own = strips(&self.own, radiosity, n);
         let from_walls = |x: f64, y: f64| {
-            let a = (1.0 - x).max(EDGE);
-            let up = self.line.samples_near(Pole { at: 1.0, height: a });
-            let along = strips(&up, radiosity, self.line.nodes.len());
-            let view = View::new(&self.line, y, a);
-            self.walls(&up, &along, &view, &[x], radiosity)[0]
+            let lowest = (1.0 - x).max(EDGE);
+            let up = self.line.samples_near(Pole { at: 1.0, height: lowest });
+            let view = View::new(&self.line, y, lowest);
+            self.walls(&strips(&up, radiosity, n), &own, &view, &[x])[0]
         };
         Received {
-            distant: self.opposite(&[x], y, radiosity)[0] + from_walls(x, y) + from_walls(y, x),
+            distant: self.opposite(&own, y, &[x])[0] + from_walls(x, y) + from_walls(y, x),
             contact: [0.0, 0.5, 0.75][on_edges],
         }
     }
 
-    /// From the walls at `x = 1` and `x = -1`, to places `xs` at the `y` of a view.
-    fn walls(
-        &self,
-        up: &Samples,
-        along: &[Vec<f64>],
-        view: &View,
-        xs: &[f64],
-        radiosity: &[f64],
-    ) -> Vec<f64> {
-        let near: Vec<f64> =
-            xs.iter().map(|x| if 1.0 - x < EDGE { 0.0 } else { 1.0 - x }).collect();
-        let far: Vec<f64> = xs.iter().map(|x| 1.0 + x).collect();
+    /// From the walls at `x = 1` (strips graded towards the edge) and `x = -1`, to places `xs` at the
+    /// `y` of a view.
+    fn walls(&self, near: &[Strip], own: &[Strip], view: &View, xs: &[f64]) -> Vec<f64> {
         let mut sum = vec![0.0; xs.len()];
-        for (k, strip) in along.iter().enumerate() {
-            let w = 1.0 - up.positions[k];
-            let samples = view.level(w);
-            add_strip(&mut sum, &near, w, up.weights[k], view.y, samples, strip);
+        let distances: Vec<f64> =
+            xs.iter().map(|&x| if is_on_edge(x) { 0.0 } else { 1.0 - x }).collect();
+        for strip in near {
+            strip.light_floor(view.level(strip.height), view.y, &distances, &mut sum);
         }
-        let n = self.line.nodes.len();
-        for (k, strip) in strips(&self.own, radiosity, n).iter().enumerate() {
-            let w = 1.0 - self.own.positions[k];
-            add_strip(&mut sum, &far, w, self.own.weights[k], view.y, &self.own, strip);
+        let distances: Vec<f64> = xs.iter().map(|x| 1.0 + x).collect();
+        for strip in own {
+            strip.light_floor(&self.own, view.y, &distances, &mut sum);
         }
         sum
     }
 
-    fn opposite(&self, xs: &[f64], y: f64, radiosity: &[f64]) -> Vec<f64> {
-        let n = self.line.nodes.len();
+    fn opposite(&self, own: &[Strip], y: f64, xs: &[f64]) -> Vec<f64> {
         let mut sum = vec![0.0; xs.len()];
-        for (k, strip) in strips(&self.own, radiosity, n).iter().enumerate() {
-            let dy = self.own.positions[k] - y;
+        for strip in own {
+            let dy = 1.0 - strip.height - y;
             for j in 0..self.own.len() {
-                let weight = self.own.weights[k] * self.own.weights[j];
-                let b = weight * self.own.value(j, strip, 1) * 4.0 / PI;
+                let weight = strip.weight * self.own.weights[j];
+                let b = weight * self.own.value(j, &strip.values, 1) * 4.0 / PI;
                 for (sum, x) in sum.iter_mut().zip(xs) {
                     let dx = self.own.positions[j] - x;
                     let r2 = 4.0 + dx * dx + dy * dy;
@@ -144,35 +134,49 @@ impl Transport {
     }
 }
 
-/// The function along an edge at each of the samples across it.
-fn strips(across: &Samples, values: &[f64], n: usize) -> Vec<Vec<f64>> {
+fn is_on_edge(x: f64) -> bool {
+    1.0 - x < EDGE
+}
+
+/// A line of a face parallel to one of its edges.
+struct Strip {
+    /// Distance from that edge.
+    height: f64,
+    /// Quadrature weight across.
+    weight: f64,
+    /// Radiosity at the nodes along it.
+    values: Vec<f64>,
+}
+
+/// A face cut into lines at the samples across it.
+fn strips(across: &Samples, values: &[f64], n: usize) -> Vec<Strip> {
     (0..across.len())
-        .map(|k| (0..n).map(|along| across.value(k, &values[along..], n)).collect())
+        .map(|k| Strip {
+            height: 1.0 - across.positions[k],
+            weight: across.weights[k],
+            values: (0..n).map(|along| across.value(k, &values[along..], n)).collect(),
+        })
         .collect()
 }
 
-/// Adds what a strip of a wall at height `w` throws on places at the given distances from it.
-fn add_strip(
-    sum: &mut [f64],
-    distances: &[f64],
-    w: f64,
-    weight: f64,
-    y: f64,
-    samples: &Samples,
-    strip: &[f64],
-) {
-    let mut inner = vec![0.0; distances.len()];
-    for j in 0..samples.len() {
-        let b = samples.weights[j] * samples.value(j, strip, 1);
-        let dv = samples.positions[j] - y;
-        let c = w * w + dv * dv;
-        for (inner, a) in inner.iter_mut().zip(distances) {
-            let r2 = a * a + c;
-            *inner += b / (r2 * r2);
+impl Strip {
+    /// As part of a wall over its edge with the floor: adds what it throws on places of the floor
+    /// at `y` along that edge and at the given distances from it.
+    fn light_floor(&self, samples: &Samples, y: f64, distances: &[f64], sum: &mut [f64]) {
+        let w = self.height;
+        let mut inner = vec![0.0; distances.len()];
+        for j in 0..samples.len() {
+            let b = samples.weights[j] * samples.value(j, &self.values, 1);
+            let dv = samples.positions[j] - y;
+            let c = w * w + dv * dv;
+            for (inner, a) in inner.iter_mut().zip(distances) {
+                let r2 = a * a + c;
+                *inner += b / (r2 * r2);
+            }
         }
-    }
-    for ((sum, a), inner) in sum.iter_mut().zip(distances).zip(inner) {
-        *sum += a * w * weight * inner / PI;
+        for ((sum, a), inner) in sum.iter_mut().zip(distances).zip(inner) {
+            *sum += a * w * self.weight * inner / PI;
+        }
     }
 }
 

@@ -1,0 +1,55 @@
+//! Measured against reported error of CUBE and SPHERE, seed by seed:
+//! `cargo run --release -p isolux-compare --example acceptance -- cube 0.01 1 20`.
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "an example for the terminal")]
+
+use isolux::engine::{Progress, SolveRequest, Watch, solve};
+use isolux::map::Method;
+use isolux::scene::Scene;
+use isolux_compare::{builtin, measure_cube, measure_sphere};
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let accuracy: f64 = words[1].parse().unwrap();
+    let (first, last): (u64, u64) = (words[2].parse().unwrap(), words[3].parse().unwrap());
+    let method = if words.len() > 4 { Method::Forward } else { Method::Hybrid };
+    let scene = Scene::assemble(builtin(&words[0]).unwrap()).unwrap();
+    for seed in first..=last {
+        let request =
+            SolveRequest { method, accuracy: Some(accuracy), seed, ..SolveRequest::default() };
+        let map = solve(&scene, &request, &mut |p: &Progress| {
+            if std::env::var("TRACE").is_ok() {
+                println!(
+                    "{:?} {} {:.2}s {:?} {}",
+                    p.stage, p.increments, p.elapsed_s, p.accuracy, p.receivers
+                );
+            }
+            Watch::Continue
+        })
+        .unwrap();
+        let (point, grid) = if words[0] == "cube" {
+            let e = measure_cube(&scene, &map).unwrap();
+            (e.points_error, e.grid.relative_l2)
+        } else {
+            let e = measure_sphere(&scene, &map).unwrap();
+            (e.centre_error, e.grid.relative_l2)
+        };
+        let p = &map.provenance;
+        let a = p.accuracy.unwrap();
+        println!(
+            "seed {seed}: {:.2} s {} inc {} rays {:.1} Mrays/s reported {:.5} (stat {:.5} disc {:.5} bias {:.5} \
+             interp {:.5}) points {point:.5} ({:.2}) grid {grid:.5} ({:.2}) receivers {}",
+            p.time_s,
+            p.increments,
+            p.rays,
+            p.rays as f64 / p.time_s / 1e6,
+            a.reached,
+            a.statistical,
+            a.discretization,
+            a.bias,
+            a.interpolated,
+            point / a.reached,
+            grid / a.reached,
+            map.values.len()
+        );
+    }
+}

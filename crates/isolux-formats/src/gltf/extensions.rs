@@ -1,0 +1,53 @@
+//! Which extensions are understood.
+
+use super::notes::{Flaw, Notes};
+use gltf_json::Root;
+
+/// Read in full, or ignored with a warning where they are met.
+const KNOWN: &[&str] = &[
+    "EXT_lights_ies",
+    "KHR_lights_punctual",
+    QUANTIZATION,
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_texture_transform",
+];
+const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+/// Refuses what is required and unknown; warns of what is used and unknown.
+pub(super) fn check(root: &Root, notes: &mut Notes) {
+    let unknown = |name: &&String| !KNOWN.contains(&name.as_str());
+    let required = &root.extensions_required;
+    for name in required.iter().filter(unknown) {
+        let what = format!("the extension {name} is required and not supported");
+        notes.problem(Flaw::new(what, remedy(name)).at("extensionsRequired"));
+    }
+    for name in root.extensions_used.iter().filter(unknown).filter(|n| !required.contains(n)) {
+        let what = format!("the extension {name} is not supported; what it says is left out");
+        notes.warn(Flaw::new(what, remedy(name)).at("extensionsUsed"));
+    }
+    if !root.animations.is_empty() {
+        let what = "animations are left out; everything stands where its node is";
+        notes.warn(Flaw::new(what, "export the moment to be computed").at("animations"));
+    }
+}
+
+/// Whether vertex attributes may be small integers.
+pub(super) fn is_quantized(root: &Root) -> bool {
+    root.extensions_required.iter().chain(&root.extensions_used).any(|name| name == QUANTIZATION)
+}
+
+fn remedy(name: &str) -> &'static str {
+    match name {
+        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
+            "export without mesh compression"
+        }
+        "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" | "MSFT_texture_dds" => {
+            "export the textures as PNG or JPEG"
+        }
+        _ => "export without it",
+    }
+}

@@ -1,0 +1,248 @@
+//! One glTF material to a [`Body`].
+
+use super::buffers::Document;
+use super::finish::{self, MetallicRoughness};
+use super::notes::{Flaw, Notes};
+use super::pictures::{Means, Pictures};
+use super::texcoord::TexCoord;
+use gltf_json::material::AlphaMode;
+use gltf_json::texture::Info;
+use gltf_json::validation::Checked;
+use isolux::scene::{Body, Dielectric, Finish};
+use isolux::units::Rgb;
+use serde_json::Value;
+
+/// Factors may exceed one by this much: the rounding of decimal fractions.
+const SHARE_ROUNDING: f64 = 1e-6;
+/// KHR_materials_ior, default.
+const DEFAULT_IOR: f64 = 1.5;
+
+/// A material while it is read.
+pub(super) struct Reading<'r, 'a> {
+    pub(super) document: &'a Document<'a>,
+    pub(super) record: &'r gltf_json::Material,
+    /// Where it is in the file.
+    pub(super) place: &'r str,
+    pub(super) pictures: &'r mut Pictures<'a>,
+    pub(super) notes: &'r mut Notes,
+}
+
+impl Reading<'_, '_> {
+    /// The texture coordinates its base colour asks for.
+    pub(super) fn texcoord(&self) -> Result<Option<TexCoord>, Flaw> {
+        let info = self.record.pbr_metallic_roughness.base_color_texture.as_ref();
+        info.map(|info| TexCoord::read(self.document, info))
+            .transpose()
+            .map_err(|flaw| flaw.at("pbrMetallicRoughness.baseColorTexture"))
+    }
+
+    /// What it is made of, its base colour times `tint`.
+    pub(super) fn body(&mut self, tint: Rgb) -> Result<Body, Flaw> {
+        self.warn_of_what_is_left_out();
+        let pbr = self.metallic_roughness(tint)?;
+        let luminance_cd_m2 = self.luminance_cd_m2()?;
+        let transmission = self.transmission()? * (1.0 - pbr.metallic);
+        if transmission > 0.0 {
+            if !luminance_cd_m2.is_black() {
+                self.warn(
+                    "emissiveFactor",
+                    "light emitted by a transparent material is left out",
+                    "make it opaque",
+                );
+            }
+            return self.dielectric(&pbr, transmission);
+        }
+        let front = Finish { luminance_cd_m2, ..finish::finish(&pbr) };
+        let back = if self.record.double_sided { front.clone() } else { Finish::BLACK };
+        Ok(Body::Opaque { front, back })
+    }
+
+    fn warn(&mut self, member: &str, what: &str, remedy: &str) {
+        let place = if member.is_empty() {
+            self.place.to_owned()
+        } else {
+            format!("{}.{member}", self.place)
+        };
+        self.notes.warn(Flaw::new(what, remedy).at(place));
+    }
+
+    fn warn_of_what_is_left_out(&mut self) {
+        let opaque = matches!(self.record.alpha_mode, Checked::Valid(AlphaMode::Opaque));
+        if !opaque {
+            let what = "alpha is left out: the surface is taken as opaque everywhere";
+            self.warn(
+                "alphaMode",
+                what,
+                "model holes as geometry, glass by KHR_materials_transmission",
+            );
+        }
+        if self.record.normal_texture.is_some() {
+            let what = "normal maps are left out: surfaces are as smooth as their vertices say";
+            self.warn("normalTexture", what, "model what matters for the light as geometry");
+        }
+        if self.record.occlusion_texture.is_some() {
+            let what = "occlusion maps are left out: occlusion is computed";
+            self.warn("occlusionTexture", what, "nothing needs to be done");
+        }
+        if self.record.extensions.as_ref().is_some_and(|e| e.unlit.is_some()) {
+            let what = "unlit is ignored: the base colour is taken as reflectance";
+            self.warn("extensions.KHR_materials_unlit", what, "make luminous surfaces emissive");
+        }
+    }
+
+    fn metallic_roughness(&mut self, tint: Rgb) -> Result<MetallicRoughness, Flaw> {
+        let pbr = &self.record.pbr_metallic_roughness;
+        let at = |flaw: Flaw| flaw.at("pbrMetallicRoughness");
+        let [r, g, b, _] = pbr.base_color_factor.0;
+        let base = share_colour([r, g, b], "baseColorFactor").map_err(at)?;
+        let metallic = share(pbr.metallic_factor.0, "metallicFactor").map_err(at)?;
+        let roughness = share(pbr.roughness_factor.0, "roughnessFactor").map_err(at)?;
+        let data = self.metallic_roughness_means()?;
+        let metallic = metallic * data[2];
+        let (texture, texture_mean) = self.base_texture(metallic)?;
+        Ok(MetallicRoughness {
+            base: base * tint,
+            texture_mean,
+            texture,
+            metallic,
+            roughness: roughness * data[1],
+            dielectric_f0: self.dielectric_f0()?,
+        })
+    }
+
+    /// Index of the base colour texture, where something will show it, and its mean.
+    fn base_texture(&mut self, metallic: f64) -> Result<(Option<u32>, Rgb), Flaw> {
+        const MEMBER: &str = "pbrMetallicRoughness.baseColorTexture";
+        let Some(info) = &self.record.pbr_metallic_roughness.base_color_texture else {
+            return Ok((None, Rgb::WHITE));
+        };
+        let texture = info.index.value();
+        let mean = self.pictures.means(texture).map_err(|flaw| flaw.at(MEMBER))?.colour;
+        let index = match metallic < 1.0 {
+            true => Some(self.pictures.texture(texture).map_err(|flaw| flaw.at(MEMBER))?),
+            false => None,
+        };
+        if metallic > 0.0 {
+            let what =
+                "the specular colour of a textured metal is taken as the mean of its texture";
+            self.warn(MEMBER, what, "split the surface where its colour changes");
+        }
+        Ok((index, mean))
+    }
+
+    /// Means of the channels of the metallic-roughness texture: green roughness, blue metal.
+    fn metallic_roughness_means(&mut self) -> Result<[f64; 3], Flaw> {
+        const MEMBER: &str = "pbrMetallicRoughness.metallicRoughnessTexture";
+        let info = self.record.pbr_metallic_roughness.metallic_roughness_texture.as_ref();
+        Ok(self.mean(info, MEMBER)?.map_or([1.0; 3], |means| means.data))
+    }
+
+    /// The means of a texture that cannot be used pixel by pixel.
+    fn mean(&mut self, info: Option<&Info>, member: &str) -> Result<Option<Means>, Flaw> {
+        let Some(info) = info else { return Ok(None) };
+        let means = self.pictures.means(info.index.value()).map_err(|flaw| flaw.at(member))?;
+        let name = member.rsplit('.').next().unwrap_or(member);
+        let what = format!("only the mean of the {name} is used");
+        self.warn(member, &what, "split the surface where it changes");
+        Ok(Some(means))
+    }
+
+    fn luminance_cd_m2(&mut self) -> Result<Rgb, Flaw> {
+        let factor = Rgb(self.record.emissive_factor.0.map(f64::from));
+        let extension = self.record.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref());
+        let strength = extension.map_or(1.0, |e| f64::from(e.emissive_strength.0));
+        let luminance = factor * strength;
+        if !luminance.is_finite() || factor.min_channel() < 0.0 || strength < 0.0 {
+            let what = format!("luminance {:?} times {strength} cd/m2", factor.0);
+            return Err(Flaw::new(what, "give finite numbers of zero or more").at("emissiveFactor"));
+        }
+        if luminance.is_black() {
+            return Ok(luminance);
+        }
+        let info = self.record.emissive_texture.as_ref();
+        Ok(self.mean(info, "emissiveTexture")?.map_or(luminance, |means| luminance * means.colour))
+    }
+
+    fn ior(&self) -> Result<Option<f64>, Flaw> {
+        let Some(ior) = self.record.extensions.as_ref().and_then(|e| e.ior.as_ref()) else {
+            return Ok(None);
+        };
+        let ior = f64::from(ior.ior.0);
+        if ior == 0.0 || (ior >= 1.0 && ior.is_finite()) {
+            return Ok(Some(ior));
+        }
+        let flaw = Flaw::new(format!("refractive index {ior}"), "give one of 1 or more");
+        Err(flaw.at("extensions.KHR_materials_ior.ior"))
+    }
+
+    /// An index of 0 stands for infinity: it reflects all (KHR_materials_ior).
+    fn dielectric_f0(&self) -> Result<f64, Flaw> {
+        let ior = self.ior()?.unwrap_or(DEFAULT_IOR);
+        Ok(if ior == 0.0 { 1.0 } else { finish::f0_from_ior(ior) })
+    }
+
+    fn transmission(&mut self) -> Result<f64, Flaw> {
+        const MEMBER: &str = "extensions.KHR_materials_transmission";
+        let extension = self.record.extensions.as_ref().and_then(|e| e.transmission.as_ref());
+        let Some(extension) = extension else { return Ok(0.0) };
+        let factor = share(extension.transmission_factor.0, "transmissionFactor")
+            .map_err(|flaw| flaw.at(MEMBER))?;
+        let member = format!("{MEMBER}.transmissionTexture");
+        let means = self.mean(extension.transmission_texture.as_ref(), &member)?;
+        Ok(factor * means.map_or(1.0, |means| means.data[0]))
+    }
+
+    fn dielectric(&mut self, pbr: &MetallicRoughness, transmission: f64) -> Result<Body, Flaw> {
+        const MEMBER: &str = "extensions.KHR_materials_transmission";
+        if transmission < 1.0 {
+            let what =
+                "light that a transparent material would scatter or reflect as metal is absorbed";
+            self.warn(MEMBER, what, "use a transmission factor of 1");
+        }
+        if pbr.roughness > 0.0 {
+            self.warn(MEMBER, "rough glass is taken as smooth", "use a roughness of 0");
+        }
+        if self.record.pbr_metallic_roughness.base_color_texture.is_some() {
+            let what = "a transparent material is tinted by the mean of its texture";
+            self.warn(MEMBER, what, "split the surface where its colour changes");
+        }
+        let mut ior = self.ior()?.unwrap_or(DEFAULT_IOR);
+        if ior == 0.0 {
+            let what =
+                "a transparent material of infinite refractive index is taken as glass of 1.5";
+            self.warn("extensions.KHR_materials_ior", what, "give an index of 1 or more");
+            ior = DEFAULT_IOR;
+        }
+        let transmittance = pbr.base * pbr.texture_mean * transmission;
+        Ok(Body::Dielectric(Dielectric { ior, transmittance, thin: !self.bounds_a_solid() }))
+    }
+
+    /// Whether KHR_materials_volume says that the surface encloses a medium.
+    fn bounds_a_solid(&mut self) -> bool {
+        let others = self.record.extensions.as_ref().map(|e| &e.others);
+        let Some(volume) = others.and_then(|others| others.get("KHR_materials_volume")) else {
+            return false;
+        };
+        let is_solid =
+            volume.get("thicknessFactor").and_then(Value::as_f64).is_some_and(|t| t > 0.0);
+        if is_solid && volume.get("attenuationDistance").is_some() {
+            let what = "absorption along the way through a solid is left out";
+            let remedy = "tint the base colour, which counts once at each surface";
+            self.warn("extensions.KHR_materials_volume", what, remedy);
+        }
+        is_solid
+    }
+}
+
+fn share(value: f32, member: &str) -> Result<f64, Flaw> {
+    let value = f64::from(value);
+    if (0.0..=1.0 + SHARE_ROUNDING).contains(&value) {
+        return Ok(value.min(1.0));
+    }
+    Err(Flaw::new(format!("{value} is not between 0 and 1"), "give a share").at(member))
+}
+
+fn share_colour(colour: [f32; 3], member: &str) -> Result<Rgb, Flaw> {
+    let [r, g, b] = colour;
+    Ok(Rgb::new(share(r, member)?, share(g, member)?, share(b, member)?))
+}

@@ -1,0 +1,86 @@
+//! glTF 2.0 scenes (`.gltf`, `.glb`).
+//!
+//! What becomes of each part of a file, with formulas and sources, is in the `README.md` of this
+//! folder. Files are taken as hostile: memory and time are bounded before a number is believed, and
+//! only files beside the scene are opened.
+
+mod accessor;
+mod buffers;
+mod cameras;
+mod container;
+mod extensions;
+mod finish;
+mod ies_profile;
+mod limits;
+mod luminaires;
+mod material;
+mod meshes;
+mod nodes;
+mod notes;
+mod orientation;
+mod pictures;
+mod primitive;
+mod punctual;
+mod record;
+mod surfaces;
+mod texcoord;
+mod topology;
+mod uri;
+
+use crate::{Loaded, Problems};
+use buffers::Document;
+use gltf_json::Root;
+use isolux::scene::{SceneParts, UpAxis};
+use nodes::Placed;
+use notes::{Flaw, Notes};
+use std::path::Path;
+use surfaces::Surfaces;
+use uri::Folder;
+
+/// Reads the default scene of a file; on failure, all problems that could be found.
+pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
+    let mut notes = Notes::new(path);
+    let bytes = or_fail(uri::read_file(path, limits::BUFFER_BYTES), &mut notes)?;
+    let container = or_fail(container::open(&bytes), &mut notes)?;
+    let root = or_fail(record::parse(container.json), &mut notes)?;
+    extensions::check(&root, &mut notes);
+    let placed = nodes::place(&root, &mut notes);
+    let document = Document::load(root, Folder::of(path), container.binary, &mut notes);
+    notes.check()?;
+    let value = resolve(&document, &placed, path, &mut notes);
+    notes.check()?;
+    Ok(Loaded { value, warnings: notes.into_warnings() })
+}
+
+fn or_fail<T>(result: Result<T, Flaw>, notes: &mut Notes) -> Result<T, Problems> {
+    match notes.accept(result) {
+        Some(value) => Ok(value),
+        None => Err(notes.take_problems()),
+    }
+}
+
+/// From the file as written to the scene, with what cannot be resolved noted.
+fn resolve(document: &Document, placed: &[Placed], path: &Path, notes: &mut Notes) -> SceneParts {
+    let mut surfaces = Surfaces::new(document);
+    let shapes = meshes::shapes(document, placed, &mut surfaces, notes);
+    let luminaires = luminaires::luminaires(document, placed, notes);
+    let cameras = cameras::cameras(document, placed, notes);
+    let (materials, textures) = surfaces.into_parts();
+    SceneParts {
+        name: scene_name(&document.root, path),
+        up: UpAxis::Y,
+        shapes,
+        materials,
+        textures,
+        luminaires,
+        groups: Vec::new(),
+        cameras,
+    }
+}
+
+/// The name of the scene, else of the file.
+fn scene_name(root: &Root, path: &Path) -> String {
+    let scene = root.scene.and_then(|scene| root.scenes.get(scene.value()));
+    let of_file = || path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    scene.and_then(|scene| scene.name.clone()).unwrap_or_else(of_file)
+}

@@ -1,0 +1,171 @@
+//! From JSON text to the file as written.
+
+use super::limits;
+use super::notes::Flaw;
+use gltf_json::Root;
+use serde::Deserialize;
+use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use std::fmt;
+
+/// Reads the JSON, without judging what it refers to.
+pub(super) fn parse(json: &[u8]) -> Result<Root, Flaw> {
+    if json.len() as u64 > limits::JSON_BYTES {
+        return Err(Flaw::new(
+            format!("{} bytes of JSON", json.len()),
+            format!("at most {} are read; put mesh data into buffers", limits::JSON_BYTES),
+        ));
+    }
+    survey(json).map_err(|error| flaw(&error))?;
+    check_version(json)?;
+    serde_json::from_slice(json).map_err(|error| flaw(&error))
+}
+
+fn flaw(error: &serde_json::Error) -> Flaw {
+    let text = error.to_string();
+    let what = text.rsplit_once(" at line ").map_or(text.as_str(), |(what, _)| what);
+    Flaw::new(what, "mend the JSON or export the file again").at(format!(
+        "line {}, column {}",
+        error.line(),
+        error.column()
+    ))
+}
+
+/// The one part of a file that every version of glTF has.
+#[derive(Deserialize)]
+struct Versioned {
+    asset: Asset,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Asset {
+    version: String,
+    min_version: Option<String>,
+}
+
+/// Looked at first: a file of version 1 would only fail with a riddle.
+fn check_version(json: &[u8]) -> Result<(), Flaw> {
+    let Versioned { asset } = serde_json::from_slice(json).map_err(|error| flaw(&error))?;
+    let readable = match (&asset.min_version, asset.version.split_once('.')) {
+        (Some(needed), _) => needed == "2.0",
+        (None, Some((major, _))) => major == "2",
+        (None, None) => false,
+    };
+    if readable {
+        return Ok(());
+    }
+    let what = format!("glTF version `{}`", asset.min_version.unwrap_or(asset.version));
+    Err(Flaw::new(what, "convert the file to glTF 2.0").at("asset"))
+}
+
+/// Looks through the text before it is believed: how many values it makes, and whether every index
+/// fits 32 bits (the typed model would cut off the rest and name something else).
+fn survey(json: &[u8]) -> Result<(), serde_json::Error> {
+    let mut counts = Counts::default();
+    let mut text = serde_json::Deserializer::from_slice(json);
+    Survey { counts: &mut counts, holds: Holds::Other }.deserialize(&mut text)?;
+    text.end()
+}
+
+#[derive(Default)]
+struct Counts {
+    objects: u64,
+    values: u64,
+}
+
+/// What the numbers at a place of the file mean.
+#[derive(Clone, Copy, PartialEq)]
+enum Holds {
+    Index,
+    /// An object all of whose members are indices.
+    IndexMap,
+    Other,
+}
+
+impl Holds {
+    fn below(self, key: &str) -> Self {
+        match key {
+            _ if self == Self::IndexMap => Self::Index,
+            "attributes" => Self::IndexMap,
+            "buffer" | "bufferView" | "camera" | "children" | "componentType" | "index"
+            | "indices" | "light" | "material" | "mesh" | "mode" | "nodes" | "sampler"
+            | "scene" | "skin" | "source" => Self::Index,
+            _ => Self::Other,
+        }
+    }
+}
+
+struct Survey<'a> {
+    counts: &'a mut Counts,
+    holds: Holds,
+}
+
+impl Survey<'_> {
+    fn count<E: Error>(&mut self) -> Result<(), E> {
+        self.counts.values += 1;
+        if self.counts.values > limits::JSON_VALUES {
+            return Err(E::custom(format!("more than {} values", limits::JSON_VALUES)));
+        }
+        Ok(())
+    }
+}
+
+impl<'de> DeserializeSeed<'de> for Survey<'_> {
+    type Value = ();
+    fn deserialize<D: Deserializer<'de>>(mut self, text: D) -> Result<(), D::Error> {
+        self.count()?;
+        text.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Survey<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("JSON")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
+        self.counts.objects += 1;
+        if self.counts.objects > limits::JSON_OBJECTS {
+            return Err(A::Error::custom(format!("more than {} objects", limits::JSON_OBJECTS)));
+        }
+        while let Some(key) = map.next_key::<String>()? {
+            if key == "extras" {
+                map.next_value::<IgnoredAny>()?;
+            } else {
+                map.next_value_seed(Survey { counts: self.counts, holds: self.holds.below(&key) })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
+        while list.next_element_seed(Survey { counts: self.counts, holds: self.holds })?.is_some() {
+        }
+        Ok(())
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<(), E> {
+        if self.holds == Holds::Index && value > u64::from(u32::MAX) {
+            return Err(E::custom(format!("the index {value} does not fit 32 bits")));
+        }
+        Ok(())
+    }
+
+    fn visit_i64<E: Error>(self, _: i64) -> Result<(), E> {
+        Ok(())
+    }
+    fn visit_f64<E: Error>(self, _: f64) -> Result<(), E> {
+        Ok(())
+    }
+    fn visit_bool<E: Error>(self, _: bool) -> Result<(), E> {
+        Ok(())
+    }
+    fn visit_str<E: Error>(self, _: &str) -> Result<(), E> {
+        Ok(())
+    }
+    fn visit_unit<E: Error>(self) -> Result<(), E> {
+        Ok(())
+    }
+}

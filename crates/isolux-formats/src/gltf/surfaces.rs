@@ -1,0 +1,87 @@
+//! Materials, as far as shapes of the scene use them.
+
+use super::buffers::Document;
+use super::material::Reading;
+use super::notes::{Flaw, Notes, no_such};
+use super::pictures::Pictures;
+use super::texcoord::TexCoord;
+use isolux::scene::{Body, Material, Texture};
+use isolux::units::Rgb;
+use std::collections::HashMap;
+
+/// The material of a shape, and the texture coordinates it asks for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Surface {
+    pub(super) material: u32,
+    pub(super) texcoord: Option<TexCoord>,
+}
+
+/// Materials made so far. A glTF material becomes one for every mean vertex colour it is used with.
+pub(super) struct Surfaces<'a> {
+    document: &'a Document<'a>,
+    pictures: Pictures<'a>,
+    materials: Vec<Material>,
+    known: HashMap<(Option<usize>, [u64; 3]), Result<Surface, Flaw>>,
+}
+
+impl<'a> Surfaces<'a> {
+    pub(super) fn new(document: &'a Document<'a>) -> Self {
+        Self {
+            document,
+            pictures: Pictures::new(document),
+            materials: Vec::new(),
+            known: HashMap::new(),
+        }
+    }
+
+    /// The surface of a glTF material (glTF's default without one) times a colour.
+    pub(super) fn surface(
+        &mut self,
+        index: Option<usize>,
+        tint: Rgb,
+        notes: &mut Notes,
+    ) -> Result<Surface, Flaw> {
+        let key = (index, tint.0.map(f64::to_bits));
+        if let Some(known) = self.known.get(&key) {
+            return known.clone();
+        }
+        let made = self.make(index, tint, notes);
+        self.known.insert(key, made.clone());
+        made
+    }
+
+    pub(super) fn into_parts(self) -> (Vec<Material>, Vec<Texture>) {
+        (self.materials, self.pictures.into_textures())
+    }
+
+    fn make(
+        &mut self,
+        index: Option<usize>,
+        tint: Rgb,
+        notes: &mut Notes,
+    ) -> Result<Surface, Flaw> {
+        let all = &self.document.root.materials;
+        let default = gltf_json::Material::default();
+        let (record, name, place) = match index {
+            Some(index) => {
+                let record =
+                    all.get(index).ok_or_else(|| no_such("materials", index, all.len()))?;
+                let name = record.name.clone().unwrap_or_else(|| format!("material {index}"));
+                (record, name, format!("materials[{index}]"))
+            }
+            None => (&default, "glTF default".to_owned(), "meshes".to_owned()),
+        };
+        let document = self.document;
+        let mut reading =
+            Reading { document, record, place: &place, pictures: &mut self.pictures, notes };
+        let body = reading.body(tint).map_err(|flaw| flaw.rooted(&place))?;
+        let is_textured =
+            matches!(&body, Body::Opaque { front, .. } if front.diffuse.texture.is_some());
+        let texcoord = match is_textured {
+            true => reading.texcoord().map_err(|flaw| flaw.rooted(&place))?,
+            false => None,
+        };
+        self.materials.push(Material { name, body });
+        Ok(Surface { material: self.materials.len() as u32 - 1, texcoord })
+    }
+}

@@ -1,0 +1,64 @@
+//! An [`IesFile`] to the distribution an engine uses.
+
+use super::{IesFile, PhotometricType};
+use crate::Problem;
+use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry};
+use std::sync::Arc;
+
+impl IesFile {
+    /// The intensity distribution of the luminaire in its base position, in candela: the table
+    /// completed by its symmetry, times [`Self::intensity_factor`].
+    ///
+    /// LM-63 counts horizontal angles counterclockwise as seen from above with the 0 degree plane
+    /// along the length: C90 is +y in the luminaire's frame.
+    pub fn resolve(&self) -> Result<IntensityDistribution, Problem> {
+        if self.photometric_type != PhotometricType::C {
+            return Err(self.problem(
+                self.lines.lamps,
+                format!("photometry of type {:?} is not supported", self.photometric_type),
+                "convert the file to type C",
+            ));
+        }
+        let symmetry = self.symmetry()?;
+        let factor = self.intensity_factor();
+        let candela = self.candela.iter().map(|cd| cd * factor).collect();
+        let (planes, gammas) = (self.horizontal_deg.clone(), self.vertical_deg.clone());
+        let web = PhotometricWeb::with_symmetry(planes, gammas, candela, symmetry);
+        let web = web.map_err(|error| {
+            self.problem(self.lines.vertical, error.to_string(), "correct the table")
+        })?;
+        Ok(IntensityDistribution::Web(Arc::new(web)))
+    }
+
+    /// Which part of the circle the horizontal angles give.
+    pub fn symmetry(&self) -> Result<Symmetry, Problem> {
+        let angles = &self.horizontal_deg;
+        let ends = (angles.first().copied(), angles.last().copied());
+        let (Some(first), Some(last)) = ends else { return Ok(Symmetry::None) };
+        match (first, last) {
+            _ if angles.len() == 1 => Ok(Symmetry::Axial),
+            (0.0, 90.0) => Ok(Symmetry::AboutBoth),
+            (0.0, 180.0) => Ok(Symmetry::AboutC0C180),
+            (90.0, 270.0) => Ok(Symmetry::AboutC90C270),
+            (0.0, 360.0) => Ok(Symmetry::None),
+            // The closing plane left out, as many programs do.
+            (0.0, last) if 360.0 - last <= 1.5 * (last - angles[angles.len() - 2]) => {
+                Ok(Symmetry::None)
+            }
+            _ => Err(self.problem(
+                self.lines.horizontal,
+                format!("horizontal angles from {first} to {last} degrees cover no known part"),
+                "give 0 alone, 0 to 90, 0 to 180, 90 to 270 or 0 to 360 degrees",
+            )),
+        }
+    }
+
+    pub(super) fn problem(
+        &self,
+        line: usize,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Problem {
+        Problem::new(&self.file, format!("line {line}"), what, remedy)
+    }
+}

@@ -1,0 +1,91 @@
+//! An [`LdtFile`] to the distribution an engine uses.
+
+use super::{LampSet, LdtFile, LdtSymmetry};
+use crate::Problem;
+use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry};
+use std::sync::Arc;
+
+impl LdtSymmetry {
+    /// Indices of the planes whose intensities are given, in the order of the file, out of all.
+    pub(super) fn given(self, planes: usize) -> Vec<usize> {
+        let (first, count) = match self {
+            Self::None => (0, planes),
+            Self::Axial => (0, 1),
+            Self::AboutC0C180 => (0, planes / 2 + 1),
+            Self::AboutC90C270 => (3 * planes / 4, planes / 2 + 1),
+            Self::AboutBoth => (0, planes / 4 + 1),
+        };
+        (first..first + count).map(|k| k % planes).collect()
+    }
+
+    /// Where the planes at 0, 1/4, 1/2 and 3/4 of the list must lie for the symmetry to hold.
+    fn corners(self) -> &'static [(usize, f64)] {
+        match self {
+            Self::None | Self::Axial => &[],
+            Self::AboutC0C180 => &[(0, 0.0), (2, 180.0)],
+            Self::AboutC90C270 => &[(0, 0.0), (1, 90.0), (3, 270.0)],
+            Self::AboutBoth => &[(0, 0.0), (1, 90.0)],
+        }
+    }
+}
+
+impl LdtFile {
+    /// The intensity distribution with the first lamp set, in candela.
+    pub fn resolve(&self) -> Result<IntensityDistribution, Problem> {
+        match self.lamp_sets.first() {
+            Some(set) => self.resolve_with(set),
+            None => Err(self.problem(self.lines.lamps, "there is no lamp set", "add one")),
+        }
+    }
+
+    /// The intensity distribution with a lamp set, in candela: the table, completed by its
+    /// symmetry, times the conversion factor (0 counts as 1) and the thousands of lumens.
+    pub fn resolve_with(&self, set: &LampSet) -> Result<IntensityDistribution, Problem> {
+        if set.flux_lm <= 0.0 {
+            return Err(self.problem(
+                self.lines.lamps,
+                "the flux of the lamps is 0, so that cd per 1000 lm mean nothing",
+                "give the flux of the lamps, or of the luminaire with a negative number of lamps",
+            ));
+        }
+        let conversion = if self.conversion_factor == 0.0 { 1.0 } else { self.conversion_factor };
+        let factor = conversion * set.flux_lm / 1000.0;
+        let (planes, rows) = self.given_planes()?;
+        let candela = rows.concat().iter().map(|cd| cd * factor).collect();
+        let symmetry = match self.symmetry {
+            LdtSymmetry::None => Symmetry::None,
+            LdtSymmetry::Axial => Symmetry::Axial,
+            LdtSymmetry::AboutC0C180 => Symmetry::AboutC0C180,
+            LdtSymmetry::AboutC90C270 => Symmetry::AboutC90C270,
+            LdtSymmetry::AboutBoth => Symmetry::AboutBoth,
+        };
+        let web = PhotometricWeb::with_symmetry(planes, self.gammas_deg.clone(), candela, symmetry);
+        let web = web.map_err(|error| {
+            self.problem(self.lines.planes, error.to_string(), "correct the table")
+        })?;
+        Ok(IntensityDistribution::Web(Arc::new(web)))
+    }
+
+    /// The planes given and their rows, in increasing order.
+    fn given_planes(&self) -> Result<(Vec<f64>, Vec<&[f64]>), Problem> {
+        for &(quarter, angle) in self.symmetry.corners() {
+            let index = quarter * self.planes_deg.len() / 4;
+            if self.planes_deg.get(index) != Some(&angle) {
+                return Err(self.problem(
+                    self.lines.planes + index,
+                    format!("plane {} should lie at {angle} degrees", index + 1),
+                    "list all planes of the circle, also those that follow from symmetry",
+                ));
+            }
+        }
+        let given = self.symmetry.given(self.planes_deg.len());
+        let rows = self.candela_per_klm.chunks(self.gammas_deg.len());
+        let mut planes: Vec<_> = given.iter().map(|&k| self.planes_deg[k]).zip(rows).collect();
+        planes.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Ok(planes.into_iter().unzip())
+    }
+
+    pub(super) fn problem(&self, line: usize, what: impl Into<String>, remedy: &str) -> Problem {
+        Problem::new(&self.file, format!("line {line}"), what, remedy)
+    }
+}

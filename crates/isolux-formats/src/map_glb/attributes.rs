@@ -1,0 +1,135 @@
+//! Vertex attributes of the displayed geometry.
+
+use super::bytes::Bytes;
+use super::display::Surface;
+use super::document::{Accessor, Attributes, INDICES, LightAttributes, VERTICES};
+use super::preview::{Preview, luminance_cd_m2};
+use super::value_arrays::storable;
+use isolux::map::{Illuminance, IlluminationMap};
+use isolux::scene::Finish;
+use isolux::units::Rgb;
+
+const FLOAT: u32 = 5126;
+const UNSIGNED_SHORT: u32 = 5123;
+const UNSIGNED_INT: u32 = 5125;
+/// Standard error where the illuminance is not known.
+const UNKNOWN: f32 = -1.0;
+/// Standard error where the illuminance is known but not its error.
+const NO_ESTIMATE: f32 = -2.0;
+/// Displayed colour where the illuminance is not known: half of the sRGB codes.
+const UNKNOWN_GREY: f64 = 0.214;
+
+/// Where attributes go.
+pub(super) struct Sink<'a> {
+    pub(super) bytes: &'a mut Bytes,
+    pub(super) accessors: &'a mut Vec<Accessor>,
+}
+
+impl Sink<'_> {
+    /// Writes the geometry of a surface: its attributes (without light) and its indices.
+    pub(super) fn geometry(&mut self, surface: &Surface) -> (Attributes, u32) {
+        let position = self.floats(&surface.positions, "VEC3");
+        let accessor = &mut self.accessors[position as usize];
+        (accessor.min, accessor.max) = bounds(&surface.positions);
+        let normal = self.floats(&surface.normals, "VEC3");
+        let texcoord = (!surface.uvs.is_empty()).then(|| self.floats(&surface.uvs, "VEC2"));
+        let indices = surface.indices.iter().flat_map(|i| i.to_le_bytes()).collect();
+        let layout = Layout { target: INDICES, component: UNSIGNED_INT, kind: "SCALAR" };
+        let indices = self.add(indices, surface.indices.len(), layout);
+        (Attributes { position, normal, texcoord, light: None }, indices)
+    }
+
+    /// Writes what a map says about the vertices of a surface.
+    pub(super) fn light(
+        &mut self,
+        map: &IlluminationMap,
+        vertices: &[u32],
+        (finish, preview): (&Finish, &Preview),
+    ) -> LightAttributes {
+        let values: Vec<Option<Illuminance>> = vertices
+            .iter()
+            .map(|&v| map.values[v as usize].and_then(storable).filter(is_shown))
+            .collect();
+        let of = |f: fn(&Illuminance) -> Rgb| -> Vec<[f32; 3]> {
+            values
+                .iter()
+                .map(|v| v.as_ref().map_or([0.0; 3], |v| f(v).0.map(|c| c as f32)))
+                .collect()
+        };
+        let errors: Vec<[f32; 1]> = values.iter().map(|v| [shown_error(v.as_ref())]).collect();
+        let colours = values.iter().flat_map(|v| match v {
+            None => [UNKNOWN_GREY; 3],
+            Some(value) => preview.colour(luminance_cd_m2(finish, value.total_lx())),
+        });
+        LightAttributes {
+            colour: self.colours(&colours.collect::<Vec<f64>>()),
+            illuminance_lx: self.floats(&of(Illuminance::total_lx), "VEC3"),
+            direct_lx: self.floats(&of(|v| v.direct_lx), "VEC3"),
+            standard_error_lx: self.floats(&errors, "SCALAR"),
+        }
+    }
+
+    fn floats<const N: usize>(&mut self, rows: &[[f32; N]], kind: &'static str) -> u32 {
+        let bytes = rows.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
+        self.add(bytes, rows.len(), Layout { target: VERTICES, component: FLOAT, kind })
+    }
+
+    /// Opaque colours in 16 bits a channel: in linear light, 8 bits show steps in the shadows.
+    fn colours(&mut self, channels: &[f64]) -> u32 {
+        let quantized = |c: f64| (c * f64::from(u16::MAX)).round() as u16;
+        let (pixels, _) = channels.as_chunks();
+        let bytes = pixels
+            .iter()
+            .flat_map(|&[r, g, b]| [r, g, b, 1.0].map(quantized))
+            .flat_map(u16::to_le_bytes)
+            .collect();
+        let layout = Layout { target: VERTICES, component: UNSIGNED_SHORT, kind: "VEC4" };
+        let index = self.add(bytes, pixels.len(), layout);
+        self.accessors[index as usize].normalized = true;
+        index
+    }
+
+    fn add(&mut self, bytes: Vec<u8>, count: usize, layout: Layout) -> u32 {
+        self.accessors.push(Accessor {
+            buffer_view: self.bytes.view(&bytes, Some(layout.target)),
+            component_type: layout.component,
+            normalized: false,
+            count,
+            kind: layout.kind,
+            min: None,
+            max: None,
+        });
+        self.accessors.len() as u32 - 1
+    }
+}
+
+struct Layout {
+    target: u32,
+    component: u32,
+    kind: &'static str,
+}
+
+/// Whether a viewer can be given a value: attributes must be finite in 32 bits.
+fn is_shown(value: &Illuminance) -> bool {
+    let fits = |c: &f64| (*c as f32).is_finite();
+    value.total_lx().0.iter().chain(&value.direct_lx.0).all(fits)
+}
+
+fn shown_error(value: Option<&Illuminance>) -> f32 {
+    match value {
+        None => UNKNOWN,
+        Some(value) => {
+            let error = value.standard_error_lx as f32;
+            if error.is_finite() && error >= 0.0 { error } else { NO_ESTIMATE }
+        }
+    }
+}
+
+type Corner = Option<[f64; 3]>;
+
+fn bounds(positions: &[[f32; 3]]) -> (Corner, Corner) {
+    let extreme = |pick: fn(f32, f32) -> f32| {
+        positions.iter().copied().reduce(|a, b| std::array::from_fn(|k| pick(a[k], b[k])))
+    };
+    (extreme(f32::min).map(|p| p.map(f64::from)), extreme(f32::max).map(|p| p.map(f64::from)))
+}

@@ -1,0 +1,131 @@
+//! The displayed geometry: elements grouped by shape and side, as a viewer wants them.
+
+use isolux::elements::Element;
+use isolux::geometry::{Point, Vector};
+use isolux::map::IlluminationMap;
+use isolux::scene::{Body, Finish, Scene};
+use std::collections::{BTreeMap, HashMap};
+
+/// One side of one shape, with a map or without.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Layer {
+    pub(super) shape: u32,
+    pub(super) material: u32,
+    pub(super) mapped: bool,
+    pub(super) back: bool,
+}
+
+/// Triangles of a layer; corners turn counter-clockwise seen from the displayed side.
+#[derive(Default)]
+pub(super) struct Surface {
+    pub(super) positions: Vec<[f32; 3]>,
+    pub(super) normals: Vec<[f32; 3]>,
+    /// Texture coordinates; none unless the layer has a texture.
+    pub(super) uvs: Vec<[f32; 2]>,
+    /// The vertex of the elements behind each vertex; none unless the layer has a map.
+    pub(super) vertices: Vec<u32>,
+    pub(super) indices: Vec<u32>,
+    known: HashMap<Key, u32>,
+}
+
+/// What makes vertices of a mapped layer the same: vertex of the elements, texture coordinates.
+type Key = (u32, [u32; 2]);
+
+/// All layers that are shown, in the order of the shapes.
+pub(super) fn surfaces(scene: &Scene, map: &IlluminationMap) -> BTreeMap<Layer, Surface> {
+    let mut found: BTreeMap<Layer, Surface> = BTreeMap::new();
+    let mut is_mapped = vec![[false; 2]; scene.triangle_count() as usize];
+    for element in map.elements.elements() {
+        is_mapped[element.triangle as usize][usize::from(element.back)] = true;
+        let layer = layer(scene, element.triangle, true, element.back);
+        found.entry(layer).or_default().add_element(scene, map, &element);
+    }
+    for triangle in 0..scene.triangle_count() {
+        for back in [false, true] {
+            if is_mapped[triangle as usize][usize::from(back)] || !is_shown(scene, triangle, back) {
+                continue;
+            }
+            let layer = layer(scene, triangle, false, back);
+            found.entry(layer).or_default().add_bare(scene, triangle, back);
+        }
+    }
+    found
+}
+
+fn layer(scene: &Scene, triangle: u32, mapped: bool, back: bool) -> Layer {
+    let (shape, material) = (scene.shape_of(triangle), scene.material_index(triangle));
+    Layer { shape, material, mapped, back }
+}
+
+/// Whether a side without map is worth a picture: glass once, for both its sides; black backs of
+/// one-sided materials not at all, so that one looks into a room from outside.
+fn is_shown(scene: &Scene, triangle: u32, back: bool) -> bool {
+    match &scene.material(triangle).body {
+        Body::Dielectric(_) => !back,
+        Body::Opaque { back: rear, .. } => !back || *rear != Finish::BLACK,
+    }
+}
+
+/// The texture that a side of a triangle shows.
+pub(super) fn texture_of(scene: &Scene, triangle: u32, back: bool) -> Option<u32> {
+    scene.corner_uvs(triangle)?;
+    scene.material(triangle).finish(back)?.diffuse.texture
+}
+
+impl Surface {
+    fn add_element(&mut self, scene: &Scene, map: &IlluminationMap, element: &Element) {
+        let textured = texture_of(scene, element.triangle, element.back).is_some();
+        let corners = turned(element.vertices, element.back).map(|vertex| {
+            let place = &map.elements.vertices()[vertex as usize];
+            let uv = if textured { uv_at(scene, element.triangle, place.position) } else { None };
+            let key = (vertex, uv.unwrap_or_default().map(f32::to_bits));
+            if let Some(&index) = self.known.get(&key) {
+                return index;
+            }
+            let index = self.add_vertex(place.position, place.normal.to_vector(), uv);
+            self.vertices.push(vertex);
+            self.known.insert(key, index);
+            index
+        });
+        self.indices.extend(corners);
+    }
+
+    fn add_bare(&mut self, scene: &Scene, triangle: u32, back: bool) {
+        let normal = |k: usize| match scene.corner_normals(triangle) {
+            Some(normals) => normals[k].to_vector(),
+            None => scene.geometric_normal(triangle).to_vector(),
+        };
+        let corners = scene.triangle(triangle).corners;
+        for k in turned([0, 1, 2], back) {
+            let front = normal(k);
+            let index = self.add_vertex(corners[k], if back { -front } else { front }, None);
+            self.indices.push(index);
+        }
+    }
+
+    fn add_vertex(&mut self, position: Point, normal: Vector, uv: Option<[f32; 2]>) -> u32 {
+        self.positions.push(position.to_f32());
+        self.normals.push([normal.x as f32, normal.y as f32, normal.z as f32]);
+        self.uvs.extend(uv);
+        self.positions.len() as u32 - 1
+    }
+}
+
+fn turned<T: Copy>([a, b, c]: [T; 3], back: bool) -> [T; 3] {
+    if back { [a, c, b] } else { [a, b, c] }
+}
+
+/// Texture coordinates at a place on a triangle.
+fn uv_at(scene: &Scene, triangle: u32, place: Point) -> Option<[f32; 2]> {
+    let uvs = scene.corner_uvs(triangle)?;
+    let whole = scene.triangle(triangle);
+    let [a, b, c] = whole.corners;
+    // Barycentric weights are ratios of areas, measured along the normal of the whole.
+    let along = whole.area_vector();
+    let share =
+        |p: Point, q: Point| (p - place).cross(q - place).dot(along) / along.length_squared();
+    let weights = [share(b, c), share(c, a), share(a, b)];
+    let mix = |k: usize| (0..3).map(|corner| weights[corner] * uvs[corner][k]).sum::<f64>() as f32;
+    // Far coordinates or a triangle near the smallest numbers leave nothing to show.
+    Some([mix(0), mix(1)].map(|t| if t.is_finite() { t } else { 0.0 }))
+}

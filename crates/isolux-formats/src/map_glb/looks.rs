@@ -1,0 +1,93 @@
+//! Unlit materials: colours are finished, viewers add no light of their own.
+
+use super::display::Layer;
+use super::document::{BaseColour, Empty, Material, MaterialExtensions, Objects, TextureReference};
+use super::preview::{Preview, luminance_cd_m2};
+use isolux::scene::{Body, Finish, Scene};
+use isolux::units::Rgb;
+use std::collections::HashMap;
+
+/// Displayed reflectance of mirrors, which show nothing of what they face.
+const MIRROR_GREY: f64 = 0.5;
+/// How much glass hides.
+const GLASS_ALPHA: f64 = 0.25;
+
+/// The materials of a document, each once.
+#[derive(Default)]
+pub(super) struct Looks(HashMap<Key, u32>);
+
+#[derive(PartialEq, Eq, Hash)]
+struct Key {
+    material: u32,
+    mapped: bool,
+    back: bool,
+    texture: Option<u32>,
+}
+
+impl Looks {
+    /// Index of the material of a layer.
+    pub(super) fn of(
+        &mut self,
+        (scene, preview): (&Scene, &Preview),
+        (layer, texture): (Layer, Option<u32>),
+        objects: &mut Objects,
+    ) -> u32 {
+        // The two mapped sides of a material differ by their texture alone.
+        let back = layer.back && !layer.mapped;
+        let key = Key { material: layer.material, mapped: layer.mapped, back, texture };
+        *self.0.entry(key).or_insert_with(|| {
+            let source = &scene.materials()[layer.material as usize];
+            let mut look = unlit(&source.name, [1.0; 4]);
+            look.pbr_metallic_roughness.base_color_texture =
+                texture.map(|index| TextureReference { index });
+            if !layer.mapped {
+                bare(&mut look, &source.body, layer.back, preview);
+            }
+            objects.materials.push(look);
+            objects.materials.len() as u32 - 1
+        })
+    }
+}
+
+fn unlit(name: &str, base_color_factor: [f64; 4]) -> Material {
+    Material {
+        name: name.to_owned(),
+        pbr_metallic_roughness: BaseColour {
+            base_color_factor,
+            base_color_texture: None,
+            metallic_factor: 0.0,
+            roughness_factor: 1.0,
+        },
+        alpha_mode: None,
+        double_sided: None,
+        extensions: MaterialExtensions { unlit: Empty {} },
+    }
+}
+
+/// Without a map: glass translucent, mirrors grey, luminaires as bright as they are.
+fn bare(look: &mut Material, body: &Body, back: bool, preview: &Preview) {
+    let factor = &mut look.pbr_metallic_roughness.base_color_factor;
+    match body {
+        Body::Dielectric(glass) => {
+            *factor = with_alpha(glass.transmittance, GLASS_ALPHA);
+            look.alpha_mode = Some("BLEND");
+            look.double_sided = Some(true);
+        }
+        Body::Opaque { front, back: rear } => {
+            *factor = with_alpha(opaque(if back { rear } else { front }, preview), 1.0);
+        }
+    }
+}
+
+fn opaque(finish: &Finish, preview: &Preview) -> Rgb {
+    if finish.is_emitter() {
+        Rgb(preview.colour(luminance_cd_m2(finish, Rgb::BLACK)))
+    } else {
+        finish.mirror * MIRROR_GREY
+    }
+}
+
+fn with_alpha(colour: Rgb, alpha: f64) -> [f64; 4] {
+    let [r, g, b] = colour.map(|c| c.clamp(0.0, 1.0)).0;
+    [r, g, b, alpha]
+}

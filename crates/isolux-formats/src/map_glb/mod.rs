@@ -1,0 +1,43 @@
+//! Illumination maps as `.glb` files: lit geometry for every viewer, and all of the map and its
+//! scene for isolux itself. `docs/book/map-format.md` describes the format.
+
+mod arrays;
+mod attributes;
+mod bytes;
+mod container;
+mod display;
+mod document;
+mod images;
+mod looks;
+mod nodes;
+mod preview;
+mod read;
+mod record;
+mod scene_arrays;
+mod value_arrays;
+mod write;
+
+pub use preview::Preview;
+pub use read::{is_map, read};
+pub use write::write;
+
+/// A map that does not fit into a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the map takes {bytes} bytes, more than the 4 GiB of a .glb file; ask for less accuracy")]
+pub struct MapTooLarge {
+    /// Bytes of the file, or of the part that is too large alone.
+    pub bytes: u64,
+}
+
+/// What is wrong with a map file, before it is known which file it is.
+#[derive(Clone, Debug, PartialEq)]
+struct Fault {
+    place: String,
+    what: String,
+}
+
+impl Fault {
+    fn new(place: impl Into<String>, what: impl Into<String>) -> Self {
+        Self { place: place.into(), what: what.into() }
+    }
+}

@@ -1,0 +1,129 @@
+//! The look of a map in viewers that know nothing of lux.
+
+use super::display::texture_of;
+use super::value_arrays::storable;
+use isolux::elements::Element;
+use isolux::map::IlluminationMap;
+use isolux::scene::{Finish, Scene, Texture};
+use isolux::units::Rgb;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// Displayed luminance, 0 to 1, of a surface of average luminance: a photographer's middle grey.
+const MIDDLE_GREY: f64 = 0.18;
+/// Share of the area that may be displayed as white.
+const WHITE_SHARE: f64 = 0.01;
+/// Darker places than this share of the mean do not darken the average further.
+const DARKEST_SHARE: f64 = 1e-3;
+
+/// How luminances become colours between 0 and 1: the global operator of Reinhard et al. 2002,
+/// "Photographic tone reproduction for digital images", equation 4, on the luminance.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Preview {
+    /// Factor on luminances, m2/cd.
+    pub exposure_m2_cd: f64,
+    /// The luminance shown as white, cd/m2.
+    pub white_cd_m2: f64,
+}
+
+impl Preview {
+    /// Exposure by the area-weighted geometric mean of the luminances, white where only a
+    /// hundredth of the area is brighter.
+    pub fn automatic(scene: &Scene, map: &IlluminationMap) -> Self {
+        let mut patches = patches(scene, map);
+        patches.sort_by(|a, b| a.luminance_cd_m2.total_cmp(&b.luminance_cd_m2));
+        let area: f64 = patches.iter().map(|p| p.area_m2).sum();
+        let mean = patches.iter().map(|p| p.area_m2 * p.luminance_cd_m2).sum::<f64>() / area;
+        if !(mean > 0.0 && mean.is_finite()) {
+            return Self { exposure_m2_cd: 1.0, white_cd_m2: 1.0 };
+        }
+        let floor = mean * DARKEST_SHARE;
+        let logarithm = |p: &Patch| p.area_m2 * libm::log(p.luminance_cd_m2.max(floor));
+        let average = libm::exp(patches.iter().map(logarithm).sum::<f64>() / area);
+        let mut brighter = area;
+        let white = patches.iter().find(|p| {
+            brighter -= p.area_m2;
+            brighter <= WHITE_SHARE * area
+        });
+        Self {
+            exposure_m2_cd: MIDDLE_GREY / average,
+            white_cd_m2: white.map_or(mean, |p| p.luminance_cd_m2.max(average)),
+        }
+    }
+
+    /// Linear Rec. 709 between 0 and 1, for a luminance in three channels, cd/m2.
+    pub fn colour(&self, luminance_cd_m2: Rgb) -> [f64; 3] {
+        let exposed = luminance_cd_m2 * self.exposure_m2_cd;
+        let white = self.exposure_m2_cd * self.white_cd_m2;
+        let x = exposed.luminance();
+        if !x.is_finite() {
+            return [1.0; 3];
+        }
+        let factor = (1.0 + x / (white * white)) / (1.0 + x);
+        exposed.map(|c| (c * factor).clamp(0.0, 1.0)).0
+    }
+}
+
+/// A piece of surface of one luminance.
+struct Patch {
+    area_m2: f64,
+    luminance_cd_m2: f64,
+}
+
+fn patches(scene: &Scene, map: &IlluminationMap) -> Vec<Patch> {
+    let textures: Vec<Rgb> = scene.textures().iter().map(Texture::mean).collect();
+    let elements = map.elements.elements();
+    elements.iter().filter_map(|element| patch(scene, map, &textures, element)).collect()
+}
+
+fn patch(
+    scene: &Scene,
+    map: &IlluminationMap,
+    textures: &[Rgb],
+    element: &Element,
+) -> Option<Patch> {
+    let finish = scene.material(element.triangle).finish(element.back)?;
+    let [a, b, c] = element.vertices.map(|v| map.elements.vertices()[v as usize].position);
+    let known = element.vertices.iter().filter_map(|&v| map.values[v as usize].and_then(storable));
+    let (sum, count) = known.fold((Rgb::BLACK, 0.0), |(s, n), v| (s + v.total_lx(), n + 1.0));
+    let texture = texture_of(scene, element.triangle, element.back);
+    let texture = texture.map_or(Rgb::WHITE, |t| textures[t as usize]);
+    let luminance = luminance_cd_m2(finish, sum / count) * texture;
+    (count > 0.0).then(|| Patch {
+        area_m2: 0.5 * (b - a).cross(c - a).length(),
+        luminance_cd_m2: luminance.luminance(),
+    })
+}
+
+/// Luminance of a surface without its texture, cd/m2: what it emits and `rho E / pi`, gloss counted
+/// as if it were diffuse.
+pub(super) fn luminance_cd_m2(finish: &Finish, illuminance_lx: Rgb) -> Rgb {
+    let gloss = finish.gloss.map_or(Rgb::BLACK, |g| g.f0);
+    (finish.diffuse.colour + gloss) * illuminance_lx / PI + finish.luminance_cd_m2
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn black_is_black_white_is_white_and_nothing_leaves_the_range() {
+        let preview = Preview { exposure_m2_cd: 0.01, white_cd_m2: 500.0 };
+        assert_eq!(preview.colour(Rgb::BLACK), [0.0; 3]);
+        let [white, ..] = preview.colour(Rgb::grey(500.0));
+        assert!((white - 1.0).abs() < 1e-12, "four roundings of numbers near one: {white}");
+        for luminance in [1e-300, 1.0, 1e6, 1e300] {
+            for c in preview.colour(Rgb::new(luminance, 0.0, 0.5 * luminance)) {
+                assert!((0.0..=1.0).contains(&c), "{luminance}: {c}");
+            }
+        }
+    }
+
+    #[test]
+    fn brighter_is_never_darker() {
+        let preview = Preview { exposure_m2_cd: 0.002, white_cd_m2: 900.0 };
+        let shown: Vec<f64> =
+            (0..1000).map(|k| preview.colour(Rgb::grey(f64::from(k)))[1]).collect();
+        assert!(shown.is_sorted());
+    }
+}

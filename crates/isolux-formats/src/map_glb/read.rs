@@ -1,0 +1,129 @@
+//! From a file to a scene and its map.
+
+use super::arrays::{self, Arrays};
+use super::bytes::View;
+use super::container;
+use super::record::{Extras, FORMAT_VERSION, Record};
+use super::{Fault, scene_arrays, value_arrays};
+use crate::{Loaded, Problem, Problems};
+use isolux::map::{IlluminationMap, Provenance};
+use isolux::scene::{Scene, SceneParts, SceneProblem};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Longest file that can be a map: the container counts in 32 bits.
+const MOST_BYTES: u64 = u32::MAX as u64;
+const REMEDY: &str = "compute the map again, or take an unchanged copy of it";
+
+/// Reads a map and its scene. Files of any origin are safe to read; one that another program has
+/// written anew is recognized by its checksum and refused.
+pub fn read(path: &Path) -> Result<Loaded<(Scene, IlluminationMap)>, Problems> {
+    let problem = |fault: Fault| Problem::new(path, fault.place, fault.what, REMEDY);
+    let bytes = contents(path).map_err(|error| {
+        let remedy = "check that the file exists and may be read";
+        Problem::new(path, "", format!("cannot be read: {error}"), remedy)
+    })?;
+    let chunks = container::unpack(&bytes).map_err(|what| problem(Fault::new("", what)))?;
+    check_version(path, chunks.json)?;
+    let document: Document<Extras<Record>> = serde_json::from_slice(chunks.json)
+        .map_err(|error| problem(Fault::new("JSON chunk", error.to_string())))?;
+    let Record { arrays: table, arrays_blake3, scene, provenance, .. } = document.extras.isolux;
+    let arrays = Arrays { binary: chunks.binary, views: &document.buffer_views, table: &table };
+    check_sum(&arrays, &arrays_blake3).map_err(problem)?;
+    let parts = scene_arrays::read(scene, &arrays).map_err(problem)?;
+    let scene = assemble(path, parts)?;
+    let map = map(&arrays, &scene, provenance).map_err(problem)?;
+    Ok(Loaded { value: (scene, map), warnings: Vec::new() })
+}
+
+fn check_sum(arrays: &Arrays<'_>, expected: &str) -> Result<(), Fault> {
+    let found = arrays::checksum(arrays.table, |view| arrays.view(view));
+    if found.as_deref() == Some(expected) {
+        return Ok(());
+    }
+    let what = "do not match their checksum: the file was damaged or written anew";
+    Err(Fault::new("extras.isolux.arrays", what))
+}
+
+fn assemble(path: &Path, parts: SceneParts) -> Result<Scene, Problems> {
+    Scene::assemble(parts).map_err(|found| {
+        let problem = |p: SceneProblem| Problem::new(path, p.place.to_string(), p.what, p.remedy);
+        Problems(found.into_iter().map(problem).collect())
+    })
+}
+
+fn map(
+    arrays: &Arrays<'_>,
+    scene: &Scene,
+    provenance: Provenance,
+) -> Result<IlluminationMap, Fault> {
+    let elements = value_arrays::read_elements(arrays, scene.triangle_count() as usize)?;
+    let values = value_arrays::read_values(arrays, elements.vertices().len())?;
+    Ok(IlluminationMap { elements, values, provenance })
+}
+
+/// Whether a file is a map and not a plain glTF scene; `false` where it cannot be read.
+pub fn is_map(path: &Path) -> bool {
+    json_chunk(path)
+        .is_ok_and(|json| serde_json::from_slice::<Document<Extras<IgnoredAny>>>(&json).is_ok())
+}
+
+fn json_chunk(path: &Path) -> io::Result<Vec<u8>> {
+    let mut file = open(path)?;
+    let mut prefix = [0; container::PREFIX_BYTES];
+    file.read_exact(&mut prefix)?;
+    let length = container::json_length(&prefix).map_err(io::Error::other)?;
+    let mut json = Vec::new();
+    file.take(length as u64).read_to_end(&mut json)?;
+    Ok(json)
+}
+
+fn contents(path: &Path) -> io::Result<Vec<u8>> {
+    let file = open(path)?;
+    let length = file.metadata()?.len();
+    if length > MOST_BYTES {
+        return Err(io::Error::other(format!("{length} bytes are more than a .glb file can have")));
+    }
+    let mut bytes = Vec::with_capacity(length as usize);
+    file.take(length).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+fn open(path: &Path) -> io::Result<File> {
+    // A pipe or a device has no end that one could rely on.
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("it is not a regular file"));
+    }
+    File::open(path)
+}
+
+/// What is read of the document; the rest is for viewers.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Document<E> {
+    #[serde(default)]
+    buffer_views: Vec<View>,
+    extras: E,
+}
+
+#[derive(Deserialize)]
+struct Version {
+    format_version: u32,
+}
+
+fn check_version(path: &Path, json: &[u8]) -> Result<(), Problem> {
+    let version = serde_json::from_slice::<Document<Extras<Version>>>(json).map_err(|_| {
+        let remedy = "solve it first, or take the file that `solve` wrote";
+        Problem::new(path, "extras.isolux", "is missing: this is no illumination map", remedy)
+    })?;
+    let found = version.extras.isolux.format_version;
+    if found == FORMAT_VERSION {
+        return Ok(());
+    }
+    let what = format!("the map has format {found}; this version reads format {FORMAT_VERSION}");
+    let remedy = "use the version of isolux that wrote it, or compute the map again";
+    Err(Problem::new(path, "extras.isolux.format_version", what, remedy))
+}

@@ -1,0 +1,108 @@
+//! `extras.isolux`, as written.
+
+use super::arrays::Table;
+use super::preview::Preview;
+use isolux::geometry::{Direction, Point, Transform};
+use isolux::map::Provenance;
+use isolux::photometry::IntensityDistribution;
+use isolux::scene::{Camera, Material, UpAxis};
+use isolux::units::Rgb;
+use serde::{Deserialize, Serialize};
+
+/// Version of the format; raised when older readers would misread what is written.
+pub(super) const FORMAT_VERSION: u32 = 1;
+
+/// `extras` of the document.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Extras<T> {
+    pub(super) isolux: T,
+}
+
+/// Everything about a map that is not an array.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Record {
+    pub(super) format_version: u32,
+    pub(super) provenance: Provenance,
+    pub(super) preview: Preview,
+    pub(super) scene: SceneRecord,
+    pub(super) arrays: Table,
+    /// BLAKE3 over all arrays.
+    pub(super) arrays_blake3: String,
+}
+
+/// The record with what those need who read the file without its manual; not read back.
+#[derive(Serialize)]
+pub(super) struct Declared<'a> {
+    quantity: &'static str,
+    unit: &'static str,
+    pi: &'static str,
+    channels: &'static str,
+    unknown: &'static str,
+    /// The whole relative error, a fraction; also in the provenance.
+    accuracy_reached: Option<f64>,
+    #[serde(flatten)]
+    record: &'a Record,
+}
+
+impl<'a> Declared<'a> {
+    pub(super) fn new(record: &'a Record) -> Self {
+        Self {
+            quantity: "illuminance",
+            unit: "lx",
+            pi: "luminance_cd_m2 = reflectance * illuminance_lx / pi",
+            channels: "linear Rec. 709; illuminance = 0.2126 r + 0.7152 g + 0.0722 b",
+            unknown: "_STDERR_LX = -1 where the illuminance is not known, \
+                      -2 where only its error is not known",
+            accuracy_reached: record.provenance.accuracy.map(|a| a.reached),
+            record,
+        }
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct SceneRecord {
+    pub(super) name: String,
+    pub(super) up: UpAxis,
+    pub(super) shapes: Vec<ShapeRecord>,
+    pub(super) materials: Vec<Material>,
+    pub(super) textures: Vec<TextureRecord>,
+    /// Luminaires refer to these: thousands of them share a few tables.
+    pub(super) distributions: Vec<IntensityDistribution>,
+    pub(super) luminaires: Vec<LuminaireRecord>,
+    pub(super) groups: Vec<String>,
+    pub(super) cameras: Vec<Camera>,
+}
+
+/// A shape: the next `triangles` triangles of the arrays.
+#[derive(Serialize, Deserialize)]
+pub(super) struct ShapeRecord {
+    pub(super) name: String,
+    pub(super) material: u32,
+    pub(super) triangles: usize,
+    pub(super) has_normals: bool,
+    pub(super) has_uvs: bool,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct TextureRecord {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    /// A PNG.
+    #[serde(rename = "bufferView")]
+    pub(super) buffer_view: u32,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct LuminaireRecord {
+    pub(super) name: String,
+    pub(super) group: u32,
+    pub(super) colour: Rgb,
+    pub(super) kind: KindRecord,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum KindRecord {
+    Point { position: Point, world_from_luminaire: Transform, distribution: u32 },
+    Directional { direction: Direction, illuminance_lx: f64 },
+}

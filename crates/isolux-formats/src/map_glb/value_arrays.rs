@@ -1,0 +1,115 @@
+//! Elements and values of a map as arrays, and back.
+
+use super::Fault;
+use super::arrays::{Arrays, Table, write_floats, write_integers};
+use super::bytes::Bytes;
+use isolux::elements::{ElementArrays, Elements};
+use isolux::map::{Illuminance, IlluminationMap};
+use isolux::units::Rgb;
+
+const POSITIONS: &str = "vertex_positions";
+const NORMALS: &str = "vertex_normals";
+const PARENTS: &str = "vertex_parents";
+const AREAS: &str = "vertex_areas_m2";
+const NODES: &str = "nodes";
+const SPLITS: &str = "splits";
+const ROOTS: &str = "roots";
+const KNOWN: &str = "known";
+const SAMPLES: &str = "samples";
+const DIRECT: &str = "direct_lx";
+const CAUSTIC: &str = "caustic_lx";
+const INDIRECT: &str = "indirect_lx";
+const ERRORS: &str = "standard_errors_lx";
+
+/// Writes elements and values.
+pub(super) fn write(map: &IlluminationMap, bytes: &mut Bytes, table: &mut Table) {
+    let elements = map.elements.to_arrays();
+    let mut floats = |name, columns, values: &[f64]| {
+        write_floats((bytes, table), name, columns, values);
+    };
+    floats(POSITIONS, 3, elements.positions.as_flattened());
+    floats(NORMALS, 3, elements.normals.as_flattened());
+    floats(AREAS, 1, &elements.areas_m2);
+    let values: Vec<Option<Illuminance>> =
+        map.values.iter().map(|v| v.and_then(storable)).collect();
+    let colours = |f: fn(&Illuminance) -> Rgb| -> Vec<f64> {
+        values.iter().flat_map(|v| v.as_ref().map_or([0.0; 3], |v| f(v).0)).collect()
+    };
+    floats(DIRECT, 3, &colours(|v| v.direct_lx));
+    floats(CAUSTIC, 3, &colours(|v| v.caustic_lx));
+    floats(INDIRECT, 3, &colours(|v| v.indirect_lx));
+    let errors = |v: &Illuminance| [v.standard_error_lx, v.indirect_standard_error_lx];
+    let errors = values.iter().flat_map(|v| v.as_ref().map_or([0.0; 2], errors));
+    floats(ERRORS, 2, &errors.collect::<Vec<_>>());
+    let mut integers = |name, columns, values: Vec<u64>| {
+        write_integers((bytes, table), name, columns, &values);
+    };
+    let wide = |rows: &[u32]| rows.iter().map(|&v| u64::from(v)).collect();
+    integers(PARENTS, 2, wide(elements.parents.as_flattened()));
+    integers(NODES, 3, wide(elements.nodes.as_flattened()));
+    integers(SPLITS, 2, wide(elements.splits.as_flattened()));
+    integers(ROOTS, 2, wide(elements.roots.as_flattened()));
+    integers(KNOWN, 1, values.iter().map(|v| u64::from(v.is_some())).collect());
+    integers(SAMPLES, 1, values.iter().map(|v| v.map_or(0, |v| v.samples)).collect());
+}
+
+/// A value as files hold it: finite or unknown; an error that is not a number is boundless.
+pub(super) fn storable(value: Illuminance) -> Option<Illuminance> {
+    let finite =
+        [value.direct_lx, value.caustic_lx, value.indirect_lx].iter().all(|c| c.is_finite());
+    let bounded = |error: f64| if error.is_nan() { f64::INFINITY } else { error };
+    finite.then(|| Illuminance {
+        standard_error_lx: bounded(value.standard_error_lx),
+        indirect_standard_error_lx: bounded(value.indirect_standard_error_lx),
+        ..value
+    })
+}
+
+/// The elements of a file of any origin, over a scene of so many triangles.
+pub(super) fn read_elements(arrays: &Arrays<'_>, triangles: usize) -> Result<Elements, Fault> {
+    let elements = ElementArrays {
+        positions: arrays.float_rows(POSITIONS)?,
+        normals: arrays.float_rows(NORMALS)?,
+        parents: arrays.index_rows(PARENTS)?,
+        areas_m2: arrays.float_rows::<1>(AREAS)?.into_iter().flatten().collect(),
+        nodes: arrays.index_rows(NODES)?,
+        splits: arrays.index_rows(SPLITS)?,
+        roots: arrays.index_rows(ROOTS)?,
+    };
+    if elements.roots.len() != triangles {
+        let what = format!("has {} rows for {triangles} triangles", elements.roots.len());
+        return Err(Fault::new(format!("extras.isolux.arrays.{ROOTS}"), what));
+    }
+    Elements::from_arrays(&elements)
+        .map_err(|error| Fault::new("extras.isolux.arrays", error.to_string()))
+}
+
+/// The values of a file of any origin, one for each of `count` vertices.
+pub(super) fn read_values(
+    arrays: &Arrays<'_>,
+    count: usize,
+) -> Result<Vec<Option<Illuminance>>, Fault> {
+    let [direct, caustic, indirect] = [DIRECT, CAUSTIC, INDIRECT].map(|n| arrays.float_rows(n));
+    let (direct, caustic, indirect) = (direct?, caustic?, indirect?);
+    let errors = arrays.floats(ERRORS, 2)?;
+    let (errors, _) = errors.as_chunks::<2>();
+    let (known, samples) = (arrays.integers(KNOWN, 1)?, arrays.integers(SAMPLES, 1)?);
+    let lengths =
+        [direct.len(), caustic.len(), indirect.len(), errors.len(), known.len(), samples.len()];
+    if lengths != [count; 6] {
+        let what = format!("hold {lengths:?} values for {count} vertices");
+        return Err(Fault::new("extras.isolux.arrays", what));
+    }
+    if errors.as_flattened().iter().any(|e| *e < 0.0) {
+        return Err(Fault::new(format!("extras.isolux.arrays.{ERRORS}"), "holds a negative error"));
+    }
+    let value = |k: usize| Illuminance {
+        direct_lx: Rgb(direct[k]),
+        caustic_lx: Rgb(caustic[k]),
+        indirect_lx: Rgb(indirect[k]),
+        standard_error_lx: errors[k][0],
+        indirect_standard_error_lx: errors[k][1],
+        samples: samples[k],
+    };
+    Ok((0..count).map(|k| (known[k] != 0).then(|| value(k))).collect())
+}

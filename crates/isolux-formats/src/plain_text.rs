@@ -1,0 +1,101 @@
+//! Plain text of unknown encoding: bounded reading, decoding, lines.
+
+use crate::Problem;
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Windows-1252 between 0x80 and 0x9f, where Latin-1 has control characters.
+const WINDOWS_1252: [char; 32] = [
+    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
+    '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+];
+
+/// A line and its number, from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Line<'a> {
+    /// Number in the file, from 1.
+    pub(crate) number: usize,
+    /// The line without its end.
+    pub(crate) text: &'a str,
+}
+
+/// The bytes of a file of at most so many.
+pub(crate) fn read_bounded(path: &Path, most: u64) -> Result<Vec<u8>, Problem> {
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(most + 1).read_to_end(&mut bytes))
+        .map_err(|error| unreadable(path, &error))?;
+    if bytes.len() as u64 > most {
+        let what = format!("is larger than {} MiB", most >> 20);
+        return Err(Problem::new(path, "", what, "give a photometric file"));
+    }
+    Ok(bytes)
+}
+
+/// A file that the system does not give.
+pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Problem {
+    Problem::new(path, "", format!("cannot be read: {error}"), "check the path and its permissions")
+}
+
+/// The text of a file: UTF-8 with or without a byte order mark, or else Windows-1252, of which
+/// Latin-1 is a part; up to the Ctrl-Z that ends files from DOS.
+pub(crate) fn decode<'a>(bytes: &'a [u8], file: &Path) -> Result<Cow<'a, str>, Problem> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let end = bytes.iter().position(|&b| b == 0x1a).unwrap_or(bytes.len());
+    let bytes = &bytes[..end];
+    if bytes.contains(&0) {
+        return Err(Problem::new(
+            file,
+            "",
+            "is not plain text",
+            "give a photometric file in ASCII, Latin-1 or UTF-8",
+        ));
+    }
+    Ok(match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => Cow::Owned(bytes.iter().map(|&b| windows_1252(b)).collect()),
+    })
+}
+
+fn windows_1252(byte: u8) -> char {
+    match byte {
+        0x80..=0x9f => WINDOWS_1252[usize::from(byte - 0x80)],
+        _ => char::from(byte),
+    }
+}
+
+/// Lines that end with CR LF, LF or CR.
+pub(crate) fn lines(text: &str) -> Vec<Line<'_>> {
+    let mut found = Vec::new();
+    let mut rest = text;
+    while let Some(end) = rest.find(['\r', '\n']) {
+        found.push(Line { number: found.len() + 1, text: &rest[..end] });
+        let skip = if rest[end..].starts_with("\r\n") { 2 } else { 1 };
+        rest = &rest[end + skip..];
+    }
+    found.push(Line { number: found.len() + 1, text: rest });
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_line_end_ends_a_line() {
+        let texts: Vec<_> = lines("a\r\nb\rc\n\nd").iter().map(|l| (l.number, l.text)).collect();
+        assert_eq!(texts, [(1, "a"), (2, "b"), (3, "c"), (4, ""), (5, "d")]);
+    }
+
+    #[test]
+    fn encodings_are_told_apart() {
+        let text = |bytes| decode(bytes, Path::new("x.ies")).map(Cow::into_owned);
+        assert_eq!(text(b"\xef\xbb\xbfM\xc3\xbcller"), Ok("Müller".into()));
+        assert_eq!(text(b"M\xfcller"), Ok("Müller".into()));
+        assert_eq!(text(b"\x80 5 \x96 M\xfc"), Ok("€ 5 – Mü".into()));
+        assert_eq!(text(b"one\x1atwo \x00"), Ok("one".into()));
+        assert!(text(b"\xff\xfeI\0E\0S\0").is_err());
+    }
+}

@@ -1,0 +1,40 @@
+//! Judges outside the workspace: the glTF validator and three.js, through node.
+
+use std::path::Path;
+use std::process::Command;
+
+/// Shows a map to the judges. Without node they are left out, except where `CI` is `true`.
+pub(crate) fn run(root: &Path, map: &Path) -> Result<String, String> {
+    let folder = root.join("checks");
+    if !folder.join("package.json").is_file() {
+        return Ok("skipped: there is no checks/".to_owned());
+    }
+    if let Some(missing) = missing(&folder) {
+        let message = format!("skipped, as it is optional: {missing}");
+        let is_ci = std::env::var_os("CI").is_some_and(|value| value == "true");
+        return if is_ci {
+            Err(format!("not optional with CI=true: {missing}"))
+        } else {
+            Ok(message)
+        };
+    }
+    let status = Command::new("npm")
+        .args(["--silent", "test", "--"])
+        .arg(map)
+        .current_dir(&folder)
+        .status()
+        .map_err(|e| format!("cannot run npm: {e}"))?;
+    if status.success() {
+        Ok("the judges accept the map".to_owned())
+    } else {
+        Err("checks/: the judges refuse the map".to_owned())
+    }
+}
+
+fn missing(folder: &Path) -> Option<&'static str> {
+    let node = Command::new("node").arg("--version").output();
+    if !node.is_ok_and(|output| output.status.success()) {
+        return Some("node is not installed");
+    }
+    (!folder.join("node_modules").is_dir()).then_some("run `npm ci` in checks/ first")
+}

@@ -1,0 +1,41 @@
+//! Everything that must hold before a change lands, in one command.
+
+use crate::{judge, smoke, tidy};
+use std::path::Path;
+use std::process::Command;
+
+const CARGO_STEPS: [&[&str]; 2] = [
+    &["fmt", "--all", "--check"],
+    &["clippy", "--quiet", "--workspace", "--all-targets", "--", "-D", "warnings"],
+];
+
+/// Runs all of it; the error names the first step that failed.
+pub(crate) fn run(root: &Path) -> Result<String, String> {
+    for step in CARGO_STEPS {
+        cargo(root, step)?;
+    }
+    announce("tidy");
+    println!("{}", tidy::run(root)?);
+    cargo(root, &["test", "--workspace"])?;
+    announce("smoke test of the command line");
+    let made = smoke::run(root)?;
+    announce("outside judges of the map (glTF validator, three.js)");
+    println!("{}", judge::run(root, &made.map)?);
+    Ok("all fine".to_owned())
+}
+
+fn announce(step: &str) {
+    println!("== {step}");
+}
+
+fn cargo(root: &Path, arguments: &[&str]) -> Result<(), String> {
+    let line = format!("cargo {}", arguments.join(" "));
+    announce(&line);
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let status = Command::new(cargo).args(arguments).current_dir(root).status();
+    match status {
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) => Err(format!("failed: {line}")),
+        Err(e) => Err(format!("cannot run {line}: {e}")),
+    }
+}
