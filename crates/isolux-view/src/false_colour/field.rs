@@ -20,16 +20,16 @@ impl Quantity {
         self != Self::Luminance
     }
 
-    /// The value of a reading; `None` for luminance, and for the relative error of darkness.
+    /// The value of a reading; `None` for luminance, for the relative error of darkness, and for an
+    /// error that is not known yet.
     fn read(self, reading: Reading) -> Option<f64> {
         let lux = f64::from(reading.illuminance_lx);
-        match self {
-            Self::Illuminance => Some(lux),
-            Self::StandardError => {
-                (lux > 0.0).then(|| 100.0 * f64::from(reading.standard_error_lx) / lux)
-            }
-            Self::Luminance => None,
-        }
+        let value = match self {
+            Self::Illuminance => lux,
+            Self::StandardError => 100.0 * f64::from(reading.standard_error_lx) / lux,
+            Self::Luminance => return None,
+        };
+        Some(value).filter(|v| v.is_finite())
     }
 
     /// The value of a sample, where it has one.
