@@ -247,10 +247,10 @@ impl<'s> Pilot<'s> {
 
 /// Vertices added for direct light are hidden if both ends of their edge are and no light arrives.
 fn extend_known(elements: &Elements, known: &mut Vec<bool>, direct: &[Rgb]) {
-    for k in known.len()..elements.vertices().len() {
-        let ends = elements.vertices()[k].parents.unwrap_or([0, 0]);
-        let lit = !direct[k].is_black();
-        known.push(lit || ends.iter().any(|&end| known[end as usize]));
+    let first = known.len();
+    for (vertex, direct) in elements.vertices().iter().zip(direct).skip(first) {
+        let ends = vertex.parents.unwrap_or([0, 0]);
+        known.push(!direct.is_black() || ends.iter().any(|&end| known[end as usize]));
     }
 }
 

@@ -14,7 +14,7 @@ const TRIANGLES_A_SAMPLE: usize = 32;
 
 impl Lighting<'_> {
     /// Illuminance from one emitting surface, by `samples` shadow rays.
-    pub(super) fn from_area(
+    pub(super) fn lit_by_area(
         &self,
         source: &Source,
         emitter: &Emitter,

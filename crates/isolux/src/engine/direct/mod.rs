@@ -78,14 +78,14 @@ impl<'s> Lighting<'s> {
         let areas =
             self.sources.iter().filter(|s| matches!(s.kind, SourceKind::Area { .. })).count();
         let samples = (AREA_SAMPLES / areas.max(1)).max(FEWEST_AREA_SAMPLES);
-        self.sources.iter().map(|source| self.from_source(source, at, samples, dice)).sum()
+        self.sources.iter().map(|source| self.lit_by(source, at, samples, dice)).sum()
     }
 
     /// An unbiased estimate of the direct illuminance by few shadow rays, for the ends of
     /// gathering rays.
     pub(super) fn estimate(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
         if self.sources.len() <= EXACT_SOURCES {
-            return self.sources.iter().map(|s| self.from_source(s, at, 1, dice)).sum();
+            return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
         }
         let weights: Vec<f64> =
             self.sources.iter().map(|s| source::importance(self.scene, s, at)).collect();
@@ -102,26 +102,20 @@ impl<'s> Lighting<'s> {
         // Rounding may leave a sliver past the last weight.
         let drawn = drawn.or_else(|| weights.iter().rposition(|&w| w > 0.0));
         drawn.map_or(Rgb::BLACK, |k| {
-            self.from_source(&self.sources[k], at, 1, dice) * (total / weights[k])
+            self.lit_by(&self.sources[k], at, 1, dice) * (total / weights[k])
         })
     }
 
-    fn from_source(
-        &self,
-        source: &Source,
-        at: &SurfacePoint,
-        samples: usize,
-        dice: &mut Dice,
-    ) -> Rgb {
+    fn lit_by(&self, source: &Source, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
         match &source.kind {
             SourceKind::Area { emitter, triangles } => {
-                self.from_area(source, emitter, triangles, at, samples, dice)
+                self.lit_by_area(source, emitter, triangles, at, samples, dice)
             }
-            _ => self.from_point(source, at),
+            _ => self.lit_by_point(source, at),
         }
     }
 
-    fn from_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {
+    fn lit_by_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {
         let Some(arriving) = source::unoccluded(self.scene, source, at) else { return Rgb::BLACK };
         arriving.illuminance_lx * self.visibility(source, at, arriving.target, None)
     }
