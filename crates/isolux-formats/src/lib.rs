@@ -2,12 +2,20 @@
 
 pub mod atomic;
 pub mod checkpoint;
+mod findings;
 pub mod gltf;
 pub mod ies;
 pub mod ldt;
+mod load;
 pub mod map_glb;
+pub mod obj;
+mod picture;
 mod plain_text;
 pub mod png;
+mod polygon;
 mod problem;
+pub mod scene_toml;
+mod source;
 
+pub use load::load;
 pub use problem::{Loaded, Problem, Problems};

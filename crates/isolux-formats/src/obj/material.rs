@@ -1,0 +1,244 @@
+//! MTL records into materials.
+
+use super::lines::place;
+use super::mtl;
+use super::record::{MtlMaterial, Named, ObjFile};
+use crate::findings::Findings;
+use crate::{picture, source};
+use isolux::scene::{Body, Dielectric, Finish, Material, Texture};
+use isolux::units::Rgb;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+const MOST_BYTES: u64 = 64 << 20;
+/// What a surface reflects of which nothing is known.
+const UNKNOWN_REFLECTANCE: f64 = 0.5;
+/// The material of faces without one.
+const UNNAMED: &str = "unnamed";
+/// Window glass.
+const USUAL_INDEX: f64 = 1.5;
+
+/// The materials that faces of the file use, in the order of its parts.
+#[derive(Default)]
+pub(super) struct Materials {
+    pub(super) list: Vec<Material>,
+    pub(super) textures: Vec<Texture>,
+    /// Index of the material of every part.
+    pub(super) of_part: Vec<u32>,
+}
+
+/// Reads the material libraries of a file and makes materials of those it uses and nothing replaces.
+pub(super) fn read_libraries(
+    file: &ObjFile,
+    is_replaced: &dyn Fn(&str) -> bool,
+    findings: &mut Findings,
+) -> Materials {
+    let root = source::directory_of(findings.file()).to_owned();
+    let root = root.as_path();
+    let mut known: HashMap<String, (PathBuf, MtlMaterial)> = HashMap::new();
+    for library in &file.libraries {
+        for path in library_paths(root, library, findings) {
+            let mut own = Findings::new(&path);
+            let list = match source::read_text(&path, MOST_BYTES) {
+                Ok(text) => mtl::parse(&text, &mut own),
+                Err(problem) => {
+                    findings.absorb::<()>(Err(problem.into()));
+                    continue;
+                }
+            };
+            for material in findings.absorb(own.finish(list)).unwrap_or_default() {
+                known.insert(material.name.clone(), (path.clone(), material));
+            }
+        }
+    }
+    let mut reader = Reader {
+        root,
+        is_replaced,
+        known,
+        made: HashMap::new(),
+        pictures: HashMap::new(),
+        materials: Materials::default(),
+    };
+    for part in &file.parts {
+        let index = reader.material(part.material.as_ref(), findings);
+        reader.materials.of_part.push(index);
+    }
+    reader.materials
+}
+
+/// `mtllib` names one file, blanks included, or several separated by blanks.
+fn library_paths(root: &Path, library: &Named, findings: &mut Findings) -> Vec<PathBuf> {
+    if let Ok(path) = source::within(root, root, &library.name) {
+        return vec![path];
+    }
+    let mut paths = Vec::new();
+    for name in library.name.split_whitespace() {
+        match source::within(root, root, name) {
+            Ok(path) => paths.push(path),
+            Err(why) => {
+                let (what, remedy) = why.explain(name);
+                findings.warning(place(library.line), what, remedy);
+            }
+        }
+    }
+    paths
+}
+
+struct Reader<'a> {
+    root: &'a Path,
+    is_replaced: &'a dyn Fn(&str) -> bool,
+    known: HashMap<String, (PathBuf, MtlMaterial)>,
+    made: HashMap<Option<String>, u32>,
+    pictures: HashMap<PathBuf, Option<u32>>,
+    materials: Materials,
+}
+
+impl Reader<'_> {
+    fn material(&mut self, named: Option<&Named>, findings: &mut Findings) -> u32 {
+        let key = named.map(|n| n.name.clone());
+        if let Some(&index) = self.made.get(&key) {
+            return index;
+        }
+        let name = key.as_deref().unwrap_or(UNNAMED);
+        if (self.is_replaced)(name) {
+            let index = self.push(Material::two_sided(name, Finish::BLACK));
+            self.made.insert(key, index);
+            return index;
+        }
+        let known = key.as_ref().and_then(|name| self.known.remove(name));
+        let material = match known {
+            Some((file, record)) => {
+                let mut own = Findings::new(&file);
+                let material = self.make(&record, &mut own);
+                findings.absorb(own.finish(material)).unwrap_or_else(|| unknown(key.as_deref()))
+            }
+            None => {
+                let (at, what) = match named {
+                    Some(n) => (place(n.line), format!("material `{}` is not known", n.name)),
+                    None => (String::new(), "some faces have no material".to_owned()),
+                };
+                let what = format!("{what}: taken as grey {UNKNOWN_REFLECTANCE}");
+                findings.warning(at, what, "define it in the file that `mtllib` names");
+                unknown(key.as_deref())
+            }
+        };
+        let index = self.push(material);
+        self.made.insert(key, index);
+        index
+    }
+
+    fn push(&mut self, material: Material) -> u32 {
+        self.materials.list.push(material);
+        self.materials.list.len() as u32 - 1
+    }
+
+    fn make(&mut self, record: &MtlMaterial, findings: &mut Findings) -> Material {
+        match dielectric(record, findings) {
+            Some(glass) => Material { name: record.name.clone(), body: Body::Dielectric(glass) },
+            None => {
+                let mut finish = finish(record, findings);
+                let base = source::directory_of(findings.file()).to_owned();
+                finish.diffuse.texture =
+                    record.map_kd.as_ref().and_then(|named| self.picture(&base, named, findings));
+                Material::two_sided(record.name.clone(), finish)
+            }
+        }
+    }
+
+    fn picture(&mut self, base: &Path, named: &Named, findings: &mut Findings) -> Option<u32> {
+        let without = "; the material keeps its Kd alone";
+        let path = match source::within(self.root, base, &named.name) {
+            Ok(path) => path,
+            Err(why) => {
+                let (what, remedy) = why.explain(&named.name);
+                findings.warning(place(named.line), what + without, remedy);
+                return None;
+            }
+        };
+        if let Some(&known) = self.pictures.get(&path) {
+            return known;
+        }
+        let index = match picture::read(&path) {
+            Ok(texture) => {
+                self.materials.textures.push(texture);
+                Some(self.materials.textures.len() as u32 - 1)
+            }
+            Err(problem) => {
+                let what = format!("`{}` {}{without}", named.name, problem.what);
+                findings.warning(place(named.line), what, problem.remedy);
+                None
+            }
+        };
+        self.pictures.insert(path, index);
+        index
+    }
+}
+
+fn unknown(name: Option<&str>) -> Material {
+    let finish = Finish::diffuse(Rgb::grey(UNKNOWN_REFLECTANCE));
+    Material::two_sided(name.unwrap_or(UNNAMED), finish)
+}
+
+fn dielectric(record: &MtlMaterial, findings: &mut Findings) -> Option<Dielectric> {
+    let dissolve = record.dissolve.unwrap_or(1.0);
+    let thin = match record.illum {
+        Some(6 | 7) => false,
+        Some(4 | 9) => true,
+        _ if dissolve < 1.0 => true,
+        _ => return None,
+    };
+    let through = if dissolve < 1.0 { Rgb::grey(1.0 - dissolve) } else { Rgb::WHITE };
+    let transmittance = record.tf.unwrap_or(through).map(|t| t.min(1.0));
+    let ior = record.ni.filter(|n| *n > 1.0).unwrap_or(USUAL_INDEX);
+    let kind = if thin { "a thin pane" } else { "solid glass" };
+    let [r, g, b] = transmittance.0;
+    findings.warning(
+        place(record.line),
+        format!(
+            "material `{}` is read as {kind} of index {ior}, transmitting {r} {g} {b}",
+            record.name
+        ),
+        "assign a material of scene.toml where this is not meant",
+    );
+    Some(Dielectric { ior, transmittance, thin })
+}
+
+fn finish(record: &MtlMaterial, findings: &mut Findings) -> Finish {
+    let mut say = |what: String, remedy: &str| {
+        findings.warning(place(record.line), format!("material `{}`: {what}", record.name), remedy);
+    };
+    let written = record.kd.unwrap_or_else(|| {
+        say(format!("no Kd: taken as {UNKNOWN_REFLECTANCE}"), "write its diffuse reflectance");
+        Rgb::grey(UNKNOWN_REFLECTANCE)
+    });
+    let diffuse = written.map(|c| c.min(1.0));
+    if diffuse != written {
+        say(format!("Kd {:?} is cut at 1", written.0), "write Kd as a share of the light");
+    }
+    let mut finish = Finish::diffuse(diffuse);
+    let ks = record.ks.unwrap_or(Rgb::BLACK);
+    if matches!(record.illum, Some(3 | 5)) {
+        let room = Rgb::WHITE - diffuse;
+        finish.mirror = Rgb(std::array::from_fn(|k| ks.0[k].min(room.0[k])));
+        if finish.mirror != ks {
+            say(
+                format!("mirror Ks {:?} is cut so that Kd + Ks is at most 1", ks.0),
+                "lower Ks or Kd",
+            );
+        }
+    } else if !ks.is_black() {
+        say(
+            "its gloss Ks, Ns is left out, because MTL does not say how much light it reflects"
+                .into(),
+            "assign a material of scene.toml with `gloss`, or set illum 3 for a mirror",
+        );
+    }
+    finish.luminance_cd_m2 = record.ke.unwrap_or(Rgb::BLACK);
+    if finish.is_emitter() {
+        say(
+            "Ke is read as luminance in cd/m2, emitted from both sides".into(),
+            "assign a material of scene.toml with `luminance_cd_m2` where this is not meant",
+        );
+    }
+    finish
+}

@@ -1,0 +1,59 @@
+//! Wavefront OBJ geometry with MTL materials.
+//!
+//! OBJ names no unit and no axis: lengths are read as metres and +y as up (a `scene.toml` that
+//! refers to the file can say otherwise). MTL was made for pictures; what of it has a photometric
+//! meaning is read as follows, and the rest is left out with a warning.
+//!
+//! | MTL | is read as |
+//! |---|---|
+//! | `Kd` | diffuse reflectance (linear), times `map_Kd` where given |
+//! | `Ke` | luminance in cd/m2, from both sides |
+//! | `Ks` with `illum` 3 or 5 | mirror reflectance, as far as `Kd` leaves room |
+//! | `illum` 6, 7 | solid glass of index `Ni`, transmitting `Tf` |
+//! | `illum` 4, 9, or `d` below 1 | a thin pane transmitting `Tf`, or else `1 - d` |
+//!
+//! Surfaces reflect on both sides, because orientation in OBJ files is not to be relied on.
+
+mod lines;
+mod material;
+mod mtl;
+mod parse;
+mod record;
+mod resolve;
+
+use crate::findings::Findings;
+use crate::{Loaded, Problems, source};
+use isolux::scene::SceneParts;
+use std::path::Path;
+
+const MOST_BYTES: u64 = 1 << 30;
+
+/// What is known of a file from elsewhere.
+pub(crate) struct Reading<'a> {
+    /// Whether its unit of length is known, so that its size surprises nobody.
+    pub(crate) unit_is_known: bool,
+    /// Whether a material is replaced by another: then it is not looked at, and comes out black.
+    pub(crate) is_replaced: &'a dyn Fn(&str) -> bool,
+}
+
+/// Reads an OBJ file and the materials and textures it names, which must lie in its directory tree.
+pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
+    read_as(path, &Reading { unit_is_known: false, is_replaced: &|_| false })
+}
+
+/// Reads an OBJ file of which something is known.
+pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<SceneParts>, Problems> {
+    let text = source::read_text(path, MOST_BYTES)?;
+    let mut findings = Findings::new(path);
+    let file = parse::parse(&text, &mut findings);
+    drop(text);
+    let materials = material::read_libraries(&file, reading.is_replaced, &mut findings);
+    if findings.has_problems() {
+        return findings.finish(SceneParts::default());
+    }
+    if !reading.unit_is_known {
+        resolve::warn_of_units(&file, &mut findings);
+    }
+    let parts = resolve::resolve(&file, materials, &mut findings);
+    findings.finish(parts)
+}

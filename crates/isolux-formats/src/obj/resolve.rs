@@ -1,0 +1,125 @@
+//! OBJ parts into shapes.
+
+use super::lines::place;
+use super::material::Materials;
+use super::record::{Corner, ObjFile, Part};
+use crate::findings::Findings;
+use crate::polygon;
+use isolux::geometry::Point;
+use isolux::scene::{SceneParts, Shape, UpAxis};
+use std::collections::HashMap;
+
+/// A scene wider than this many metres was more likely written in centimetres or millimetres.
+const IMPLAUSIBLE_EXTENT_M: f64 = 100.0;
+
+/// The scene of a file whose indices are all valid.
+pub(super) fn resolve(file: &ObjFile, materials: Materials, findings: &mut Findings) -> SceneParts {
+    let mut shapes = Vec::with_capacity(file.parts.len());
+    for (part, &material) in file.parts.iter().zip(&materials.of_part) {
+        shapes.push(Builder::new(file, part).shape(material, findings));
+    }
+    if shapes.iter().all(|shape| shape.triangles.is_empty()) {
+        findings.problem("", "there are no faces", "export polygons");
+    }
+    SceneParts {
+        name: findings.file().file_stem().map_or_else(String::new, |s| s.to_string_lossy().into()),
+        up: UpAxis::Y,
+        shapes,
+        materials: materials.list,
+        textures: materials.textures,
+        ..SceneParts::default()
+    }
+}
+
+/// Warns of a size that another unit would explain.
+pub(super) fn warn_of_units(file: &ObjFile, findings: &mut Findings) {
+    let extent = |k: usize| {
+        let all = file.positions.iter().map(|p| p[k]);
+        all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
+    };
+    let largest = (0..3).map(extent).fold(0.0, f64::max);
+    if largest > IMPLAUSIBLE_EXTENT_M {
+        findings.warning(
+            "",
+            format!("OBJ names no unit; read as metres, it is {largest:.0} m large"),
+            "if it was written in another unit, refer to it from a scene.toml with `units`",
+        );
+    }
+}
+
+/// One part while its corners become vertices.
+struct Builder<'a> {
+    file: &'a ObjFile,
+    part: &'a Part,
+    vertex_of: HashMap<Corner, u32>,
+    vertices: Vec<Corner>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(file: &'a ObjFile, part: &'a Part) -> Self {
+        Self { file, part, vertex_of: HashMap::new(), vertices: Vec::new(), triangles: Vec::new() }
+    }
+
+    fn shape(mut self, material: u32, findings: &mut Findings) -> Shape {
+        let mut crossed = Vec::new();
+        for face in 0..self.part.faces.len() {
+            if self.add_face(face) {
+                crossed.push(self.part.faces[face].line);
+            }
+        }
+        if let Some(&first) = crossed.first() {
+            findings.warning(
+                place(first),
+                format!("{} faces (the first here) cross themselves", crossed.len()),
+                "triangulate them before export",
+            );
+        }
+        Shape {
+            name: self.part.name.clone(),
+            positions: self
+                .vertices
+                .iter()
+                .map(|c| self.file.positions[c.position as usize])
+                .collect(),
+            normals: self.normals(),
+            uvs: self.uvs(),
+            triangles: self.triangles,
+            material,
+        }
+    }
+
+    /// Whether the face crosses itself.
+    fn add_face(&mut self, face: usize) -> bool {
+        let corners = self.part.corners_of(face);
+        let outline: Vec<Point> =
+            corners.iter().map(|c| Point::from(self.file.positions[c.position as usize])).collect();
+        let cut = polygon::triangulate(&outline);
+        for triangle in &cut.triangles {
+            let triangle = triangle.map(|k| self.vertex(corners[k]));
+            self.triangles.push(triangle);
+        }
+        cut.crosses_itself
+    }
+
+    fn vertex(&mut self, corner: Corner) -> u32 {
+        *self.vertex_of.entry(corner).or_insert_with(|| {
+            self.vertices.push(corner);
+            self.vertices.len() as u32 - 1
+        })
+    }
+
+    /// Vertices without a normal get none (zero), which leaves their triangles flat there.
+    fn normals(&self) -> Option<Vec<[f64; 3]>> {
+        let any = self.vertices.iter().any(|c| c.normal.is_some());
+        let of = |c: &Corner| c.normal.map_or([0.0; 3], |k| self.file.normals[k as usize]);
+        any.then(|| self.vertices.iter().map(of).collect())
+    }
+
+    /// `v` turned to point downwards.
+    fn uvs(&self) -> Option<Vec<[f64; 2]>> {
+        let any = self.vertices.iter().any(|c| c.uv.is_some());
+        let of = |c: &Corner| c.uv.map_or([0.0; 2], |k| self.file.uvs[k as usize]);
+        any.then(|| self.vertices.iter().map(of).map(|[u, v]| [u, 1.0 - v]).collect())
+    }
+}

@@ -1,0 +1,116 @@
+//! What every step of reading one scene shares.
+
+use super::spans::{Lines, Span};
+use crate::findings::Findings;
+use crate::source;
+use isolux::scene::UpAxis;
+use std::path::{Path, PathBuf};
+
+/// More triangles than this in one scene are refused.
+const MOST_TRIANGLES: usize = 50_000_000;
+/// More luminaires than this in one scene are refused.
+pub(super) const MOST_LUMINAIRES: usize = 1_000_000;
+
+/// The file, its conventions, and what was found.
+pub(super) struct Context {
+    pub(super) findings: Findings,
+    lines: Lines,
+    /// Metres in one unit of length of the file.
+    pub(super) unit_m: f64,
+    pub(super) up: UpAxis,
+    triangles_left: usize,
+    luminaires_left: usize,
+}
+
+impl Context {
+    pub(super) fn new(path: &Path, text: &str) -> Self {
+        Self {
+            findings: Findings::new(path),
+            lines: Lines::new(text),
+            unit_m: 1.0,
+            up: UpAxis::Z,
+            triangles_left: MOST_TRIANGLES,
+            luminaires_left: MOST_LUMINAIRES,
+        }
+    }
+
+    /// Something that keeps the scene from being used.
+    pub(super) fn problem(
+        &mut self,
+        at: &Span,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        self.findings.problem(self.lines.place(at), what, remedy);
+    }
+
+    /// Something left out or guessed.
+    pub(super) fn warning(
+        &mut self,
+        at: &Span,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) {
+        self.findings.warning(self.lines.place(at), what, remedy);
+    }
+
+    /// The one key of several that is there; a problem if there is none, or more.
+    pub(super) fn one_of(
+        &mut self,
+        at: &Span,
+        thing: &str,
+        keys: &[(&'static str, bool)],
+    ) -> Option<&'static str> {
+        let given: Vec<_> = keys.iter().filter(|(_, there)| *there).map(|(key, _)| *key).collect();
+        if let [only] = given[..] {
+            return Some(only);
+        }
+        let all: Vec<_> = keys.iter().map(|(key, _)| format!("`{key}`")).collect();
+        let what = match given[..] {
+            [] => format!("{thing} has nothing to say what it is"),
+            _ => format!("{thing} has both `{}`", given.join("` and `")),
+        };
+        self.problem(at, what, format!("give one of {}", all.join(", ")));
+        None
+    }
+
+    /// The path of a file that the scene names.
+    pub(super) fn path_of(&mut self, at: &Span, name: &str) -> Option<PathBuf> {
+        let root = source::directory_of(self.findings.file()).to_owned();
+        match source::within(&root, &root, name) {
+            Ok(path) => Some(path),
+            Err(why) => {
+                let (what, remedy) = why.explain(name);
+                self.problem(at, what, remedy);
+                None
+            }
+        }
+    }
+
+    /// Sets triangles aside before they are made; whether there was room.
+    pub(super) fn take_triangles(&mut self, at: &Span, count: usize, copies: usize) -> bool {
+        let Some(left) = left_after(self.triangles_left, count, copies) else {
+            let what =
+                format!("{copies} times {count} triangles are more than {MOST_TRIANGLES} in all");
+            self.problem(at, what, "lower the number of placements or the detail");
+            return false;
+        };
+        self.triangles_left = left;
+        true
+    }
+
+    /// Sets luminaires aside before they are made; whether there was room.
+    pub(super) fn take_luminaires(&mut self, at: &Span, count: usize, copies: usize) -> bool {
+        let Some(left) = left_after(self.luminaires_left, count, copies) else {
+            let what = format!("more than {MOST_LUMINAIRES} luminaires in all");
+            self.problem(at, what, "lower the counts");
+            return false;
+        };
+        self.luminaires_left = left;
+        true
+    }
+}
+
+fn left_after(left: usize, count: usize, copies: usize) -> Option<usize> {
+    count.checked_mul(copies).and_then(|taken| left.checked_sub(taken))
+}

@@ -1,0 +1,147 @@
+//! Geometry files that a scene names.
+
+use super::context::Context;
+use super::orientation::without_scale;
+use super::placement::scene_from_up;
+use super::record::GeometryRecord;
+use super::shapes::Piece;
+use super::spans::At;
+use crate::{gltf, obj};
+use isolux::geometry::Direction;
+use isolux::geometry::Transform;
+use isolux::scene::{Body, Camera, Finish, Luminaire, LuminaireKind, Material, SceneParts};
+
+/// The units and axes of a file, and what is in it.
+#[derive(Debug)]
+pub(super) struct Import {
+    /// Takes the file's coordinates to metres and to the up axis of the scene.
+    pub(super) scene_from_file: Transform,
+    pub(super) pieces: Vec<Piece>,
+    parts: SceneParts,
+    /// Indices in the scene of the materials and textures of the file that are used.
+    material_index: Vec<Option<u32>>,
+    texture_index: Vec<Option<u32>>,
+    label: String,
+}
+
+/// Reads a geometry file. Materials that the entry replaces are not looked at.
+pub(super) fn read(
+    file: &At<String>,
+    record: &GeometryRecord,
+    context: &mut Context,
+) -> Option<Import> {
+    let path = context.path_of(&file.span(), file.get_ref())?;
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let (read, usual_unit_m) = match extension.as_deref() {
+        Some("obj") => {
+            let is_replaced =
+                |name: &str| record.material.is_some() || record.materials.contains_key(name);
+            let reading = obj::Reading { unit_is_known: true, is_replaced: &is_replaced };
+            (obj::read_as(&path, &reading), context.unit_m)
+        }
+        Some("gltf" | "glb") => (gltf::read(&path), 1.0),
+        _ => {
+            let what = format!("`{}` is not geometry by its extension", file.get_ref());
+            context.problem(&file.span(), what, "name an .obj, .gltf or .glb file");
+            return None;
+        }
+    };
+    let mut parts = context.findings.absorb(read)?;
+    let unit_m = record.units.as_ref().map_or(usual_unit_m, |unit| unit.get_ref().metres());
+    let up = record.up.as_ref().map_or(parts.up, |up| *up.get_ref());
+    let scale = Transform::scale(unit_m, unit_m, unit_m);
+    let pieces = std::mem::take(&mut parts.shapes).into_iter().map(|shape| Piece {
+        slot: parts.materials.get(shape.material as usize).map_or("", |m| &m.name).to_owned(),
+        shape,
+    });
+    Some(Import {
+        scene_from_file: scene_from_up(context.up, up).then_from(&scale),
+        pieces: pieces.collect(),
+        material_index: vec![None; parts.materials.len()],
+        texture_index: vec![None; parts.textures.len()],
+        label: path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned()),
+        parts,
+    })
+}
+
+impl Import {
+    /// The name of the file without directory and extension.
+    pub(super) fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// Number of luminaires in the file.
+    pub(super) fn luminaire_count(&self) -> usize {
+        self.parts.luminaires.len()
+    }
+
+    /// A material of the file, taken into the scene when first asked for.
+    pub(super) fn material(&mut self, index: u32, scene: &mut SceneParts) -> Option<u32> {
+        let slot = self.material_index.get(index as usize).copied()?;
+        if slot.is_some() {
+            return slot;
+        }
+        let own = self.parts.materials[index as usize].clone();
+        let body = match own.body {
+            Body::Opaque { front, back } => Body::Opaque {
+                front: self.with_texture_of_scene(front, scene),
+                back: self.with_texture_of_scene(back, scene),
+            },
+            glass @ Body::Dielectric(_) => glass,
+        };
+        let made = scene.materials.len() as u32;
+        scene.materials.push(Material { name: format!("{}/{}", self.label, own.name), body });
+        self.material_index[index as usize] = Some(made);
+        Some(made)
+    }
+
+    fn with_texture_of_scene(&mut self, mut finish: Finish, scene: &mut SceneParts) -> Finish {
+        finish.diffuse.texture = finish.diffuse.texture.and_then(|of_file| {
+            let known = self.texture_index.get_mut(of_file as usize)?;
+            if known.is_none() {
+                *known = Some(scene.textures.len() as u32);
+                scene.textures.push(self.parts.textures[of_file as usize].clone());
+            }
+            *known
+        });
+        finish
+    }
+
+    /// The luminaires of the file, moved into the scene; intensities do not scale.
+    pub(super) fn luminaires(&self, scene_from_file: &Transform) -> Vec<Luminaire> {
+        let Some(turn) = without_scale(scene_from_file) else { return Vec::new() };
+        let kind = |kind: &LuminaireKind| match kind {
+            LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+                LuminaireKind::Point {
+                    position: scene_from_file.point(*position),
+                    world_from_luminaire: turn.then_from(world_from_luminaire),
+                    intensity: intensity.clone(),
+                }
+            }
+            LuminaireKind::Directional { direction, illuminance_lx } => {
+                LuminaireKind::Directional {
+                    direction: turned(&turn, *direction),
+                    illuminance_lx: *illuminance_lx,
+                }
+            }
+        };
+        let moved = |l: &Luminaire| Luminaire { kind: kind(&l.kind), group: 0, ..l.clone() };
+        self.parts.luminaires.iter().map(moved).collect()
+    }
+
+    /// The cameras of the file, moved into the scene.
+    pub(super) fn cameras(&self, scene_from_file: &Transform) -> Vec<Camera> {
+        let Some(turn) = without_scale(scene_from_file) else { return Vec::new() };
+        let moved = |c: &Camera| Camera {
+            position: scene_from_file.point(c.position),
+            direction: turned(&turn, c.direction),
+            up: turned(&turn, c.up),
+            ..c.clone()
+        };
+        self.parts.cameras.iter().map(moved).collect()
+    }
+}
+
+fn turned(turn: &Transform, direction: Direction) -> Direction {
+    turn.vector(direction.to_vector()).direction().unwrap_or(direction)
+}

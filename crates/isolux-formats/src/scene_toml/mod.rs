@@ -1,0 +1,36 @@
+//! `scene.toml`, the native scene description. Its keys are explained in `docs/book/scenes.md`.
+
+mod cameras;
+mod chromaticity;
+mod context;
+mod geometry;
+mod import;
+mod inline;
+mod luminaires;
+mod materials;
+mod orientation;
+mod parse;
+mod photometry;
+mod placement;
+mod quantity;
+mod record;
+mod resolve;
+mod shapes;
+mod spans;
+mod sphere;
+
+use crate::{Loaded, Problems, source};
+use isolux::scene::SceneParts;
+use std::path::Path;
+
+const MOST_BYTES: u64 = 64 << 20;
+
+/// Reads a scene and all files it names, which must lie in its directory tree; on failure, all
+/// problems with line and column.
+pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
+    let text = source::read_text(path, MOST_BYTES)?;
+    let mut context = context::Context::new(path, &text);
+    let file = parse::parse(&text, &mut context);
+    let parts = resolve::resolve(file, &mut context);
+    context.findings.finish(parts)
+}

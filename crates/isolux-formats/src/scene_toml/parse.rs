@@ -1,0 +1,135 @@
+//! TOML text into records, entry by entry, so that one wrong key does not hide the next.
+
+use super::context::Context;
+use super::record::SceneFile;
+use super::spans::{At, Span};
+use serde::de::DeserializeOwned;
+use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
+
+const KEYS: &str =
+    "use one of `name`, `up`, `units`, `materials`, `geometry`, `group`, `luminaire`, `camera`";
+/// Problems reported of one entry.
+const MOST_RETRIES: usize = 16;
+
+/// Reads a file; what is wrong goes to the findings with line and column.
+pub(super) fn parse(text: &str, context: &mut Context) -> SceneFile {
+    let (root, errors) = DeTable::parse_recoverable(text);
+    if !errors.is_empty() {
+        errors.iter().for_each(|error| report(error, &(0..0), context));
+        return SceneFile::default();
+    }
+    let mut entries: Vec<_> = root.into_inner().into_iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    let mut file = SceneFile::default();
+    for (key, value) in entries {
+        let span = value.span();
+        match key.get_ref().as_ref() {
+            "name" => file.name = entry(value, context),
+            "up" => file.up = entry(value, context),
+            "units" => file.units = entry(value, context),
+            "materials" => file.materials = table(value, context),
+            "geometry" => file.geometry = list("geometry", value, context),
+            "group" => {
+                let groups = list("group", value, context);
+                file.groups = groups.into_iter().map(At::into_inner).collect();
+            }
+            "luminaire" => file.luminaires = list("luminaire", value, context),
+            "camera" => file.cameras = list("camera", value, context),
+            other => {
+                let at = if key.span().is_empty() { span } else { key.span() };
+                context.problem(&at, format!("unknown key `{other}`"), KEYS);
+            }
+        }
+    }
+    file
+}
+
+/// The entries of an array of tables that could be read.
+fn list<T: DeserializeOwned>(key: &str, value: At<DeValue>, context: &mut Context) -> Vec<At<T>> {
+    let span = value.span();
+    let DeValue::Array(items) = value.into_inner() else {
+        context.problem(
+            &span,
+            format!("`{key}` is not an array of tables"),
+            format!("write `[[{key}]]` in double brackets, once for each"),
+        );
+        return Vec::new();
+    };
+    let mut read = Vec::new();
+    for item in items {
+        let span = item.span();
+        read.extend(entry(item, context).map(|record| At::new(span, record)));
+    }
+    read
+}
+
+/// The entries of a table of tables by name, in the order of the file.
+fn table<T: DeserializeOwned>(
+    value: At<DeValue>,
+    context: &mut Context,
+) -> Vec<(At<String>, Option<T>)> {
+    let span = value.span();
+    let DeValue::Table(items) = value.into_inner() else {
+        context.problem(&span, "`materials` is not a table", "write `[materials.NAME]`");
+        return Vec::new();
+    };
+    let mut items: Vec<_> = items.into_iter().collect();
+    items.sort_by_key(|(key, _)| key.span().start);
+    let mut read = Vec::new();
+    for (key, item) in items {
+        let name = At::new(key.span(), key.into_inner().into_owned());
+        read.push((name, entry(item, context)));
+    }
+    read
+}
+
+/// One entry. After a problem the key that caused it is put aside and the rest is tried, so that
+/// all problems of the entry are reported; the entry then counts as unreadable.
+fn entry<T: DeserializeOwned>(value: At<DeValue>, context: &mut Context) -> Option<T> {
+    let mut value = value;
+    let mut removed: Vec<String> = Vec::new();
+    for _ in 0..MOST_RETRIES {
+        let error = match T::deserialize(ValueDeserializer::from(value.clone())) {
+            Ok(record) => return removed.is_empty().then_some(record),
+            Err(error) => error,
+        };
+        let is_consequence = removed.iter().any(|key| *error.message() == missing(key));
+        if !is_consequence {
+            report(&error, &value.span(), context);
+        }
+        match error.span().and_then(|span| remove_cause(&mut value, &span)) {
+            Some(key) => removed.push(key),
+            None => return None,
+        }
+    }
+    None
+}
+
+fn missing(key: &str) -> String {
+    format!("missing field `{key}`")
+}
+
+/// Takes the key that a span lies in, or its value, out of a table.
+fn remove_cause(value: &mut At<DeValue>, span: &Span) -> Option<String> {
+    let DeValue::Table(items) = value.get_mut() else { return None };
+    let holds = |outer: Span| outer.start <= span.start && span.end <= outer.end;
+    let key = items
+        .iter()
+        .find(|(key, item)| holds(key.span()) || holds(item.span()))
+        .map(|(key, _)| key.get_ref().clone().into_owned())?;
+    items.remove(key.as_str());
+    Some(key)
+}
+
+fn report(error: &Error, fallback: &Span, context: &mut Context) {
+    let span = error.span().unwrap_or_else(|| fallback.clone());
+    let message = error.message().replace("unknown field", "unknown key").replace('\n', "; ");
+    let (what, remedy) = match message.split_once(", expected ") {
+        Some((what, expected)) => (what.to_owned(), format!("expected {expected}")),
+        None => match message.strip_prefix("missing field ") {
+            Some(key) => (format!("{key} is missing"), format!("add {key}")),
+            None => (message, "correct it; docs/book/scenes.md lists what can be written".into()),
+        },
+    };
+    context.problem(&span, what, remedy);
+}

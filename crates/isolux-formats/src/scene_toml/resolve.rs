@@ -1,0 +1,37 @@
+//! From the scene as written to its parts.
+
+use super::context::Context;
+use super::luminaires::{self, Groups};
+use super::materials::Palette;
+use super::record::SceneFile;
+use super::{cameras, geometry};
+use isolux::scene::SceneParts;
+
+/// All parts that could be made; what is wrong goes to the findings.
+pub(super) fn resolve(file: SceneFile, context: &mut Context) -> SceneParts {
+    context.unit_m = file.units.map_or(1.0, |unit| unit.metres());
+    context.up = file.up.unwrap_or_default();
+    let mut scene = SceneParts {
+        name: file.name.unwrap_or_else(|| stem(context)),
+        up: context.up,
+        ..SceneParts::default()
+    };
+    let mut palette = Palette::resolve(file.materials, &mut scene, context);
+    for (number, entry) in (1..).zip(&file.geometry) {
+        geometry::add(entry, number, &mut palette, &mut scene, context);
+    }
+    palette.warn_of_unused(context);
+    let mut groups = Groups::new(&file.groups, &file.luminaires, &scene);
+    luminaires::add(&file.luminaires, &mut groups, &mut scene, context);
+    scene.groups = groups.names;
+    cameras::add(&file.cameras, &mut scene, context);
+    if scene.shapes.is_empty() && !context.findings.has_problems() {
+        context.problem(&(0..0), "the scene has no geometry", "add a [[geometry]]");
+    }
+    scene
+}
+
+fn stem(context: &Context) -> String {
+    let stem = context.findings.file().file_stem();
+    stem.map_or_else(String::new, |s| s.to_string_lossy().into_owned())
+}

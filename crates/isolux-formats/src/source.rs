@@ -1,0 +1,129 @@
+//! Reading files that others wrote, and files that such files name.
+
+use crate::Problem;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+/// The bytes of a regular file of at most `limit` bytes.
+pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Problem> {
+    let refused = |what: String, remedy: &str| Problem::new(path, "", what, remedy);
+    let unreadable = |error: std::io::Error| {
+        refused(
+            format!("cannot be read ({error})"),
+            "check the name, and that you may read the file",
+        )
+    };
+    let about = std::fs::metadata(path).map_err(unreadable)?;
+    if !about.is_file() {
+        return Err(refused("is not a regular file".into(), "name a file"));
+    }
+    let file = File::open(path).map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    // The size asked above may be stale; only what is read counts.
+    file.take(limit + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > limit {
+        let what = format!("is larger than {} MiB, the most that is read", limit >> 20);
+        return Err(refused(what, "split it, or reduce its detail"));
+    }
+    Ok(bytes)
+}
+
+/// The text of a file; bytes that are not UTF-8 become replacement characters.
+pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, Problem> {
+    let bytes = read_bytes(path, limit)?;
+    let text = String::from_utf8(bytes)
+        .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
+    Ok(match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text,
+    })
+}
+
+/// The directory of a file.
+pub(crate) fn directory_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// Why a file named in another file is not opened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Unreachable {
+    /// It would lie outside the directory tree of the file that names it.
+    Outside,
+    /// There is no such file.
+    Missing,
+}
+
+impl Unreachable {
+    /// What is wrong, and how to mend it.
+    pub(crate) fn explain(self, name: &str) -> (String, &'static str) {
+        match self {
+            Self::Outside => (
+                format!("file `{name}` lies outside the directory of the file that names it"),
+                "put it into that directory or below, and name it relative to it",
+            ),
+            Self::Missing => {
+                (format!("file `{name}` does not exist"), "check the name and its case")
+            }
+        }
+    }
+}
+
+/// The path of a file named relative to `base`, which may not leave the tree below `root`, neither
+/// by `..` nor by a symbolic link. Both separators are understood.
+pub(crate) fn within(root: &Path, base: &Path, name: &str) -> Result<PathBuf, Unreachable> {
+    let name = name.replace('\\', "/");
+    let relative = Path::new(&name);
+    let has_drive = name.as_bytes().get(1) == Some(&b':');
+    let stays =
+        |c: Component| matches!(c, Component::Normal(_) | Component::CurDir | Component::ParentDir);
+    if has_drive || !relative.components().all(stays) {
+        return Err(Unreachable::Outside);
+    }
+    let path = base.join(relative);
+    let real = path.canonicalize().map_err(|_| Unreachable::Missing)?;
+    let real_root = root.canonicalize().map_err(|_| Unreachable::Missing)?;
+    if real.starts_with(real_root) { Ok(path) } else { Err(Unreachable::Outside) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn named_files_stay_in_the_tree() {
+        let outer = tempfile::tempdir().unwrap();
+        let root = outer.path().join("scene");
+        std::fs::create_dir_all(root.join("sub")).unwrap();
+        std::fs::write(root.join("sub/a.txt"), "a").unwrap();
+        std::fs::write(outer.path().join("secret.txt"), "s").unwrap();
+        let reach = |name: &str| within(&root, &root, name);
+        assert!(reach("sub/a.txt").is_ok());
+        assert!(reach("sub\\a.txt").is_ok());
+        assert!(reach("sub/../sub/a.txt").is_ok());
+        assert_eq!(reach("../secret.txt"), Err(Unreachable::Outside));
+        assert_eq!(reach("/etc/hostname"), Err(Unreachable::Outside));
+        assert_eq!(reach("C:\\a.txt"), Err(Unreachable::Outside));
+        assert_eq!(reach("sub/b.txt"), Err(Unreachable::Missing));
+        assert_eq!(within(&root, &root.join("sub"), "../../secret.txt"), Err(Unreachable::Outside));
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(outer.path().join("secret.txt"), root.join("l")).unwrap();
+            assert_eq!(reach("l"), Err(Unreachable::Outside));
+        }
+    }
+
+    #[test]
+    fn size_and_kind_are_bounded() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a");
+        std::fs::write(&path, [0; 17]).unwrap();
+        assert_eq!(read_bytes(&path, 17).unwrap().len(), 17);
+        assert!(read_bytes(&path, 16).unwrap_err().what.contains("larger"));
+        assert!(read_bytes(dir.path(), 16).unwrap_err().what.contains("regular"));
+        assert!(read_bytes(&dir.path().join("b"), 16).unwrap_err().what.contains("cannot"));
+    }
+}
