@@ -1,5 +1,6 @@
 //! What a map holds.
 
+use super::scene::list;
 use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
 use crate::quantity::{show_count, show_seconds, show_share};
@@ -53,7 +54,7 @@ impl Contents<'_> {
             ("increments", from.increments.to_string()),
             ("rays", show_count(from.rays as f64)),
             ("receivers", format!("{}, {} of them unknown", self.receivers, self.unknown)),
-            ("cameras", self.cameras.join(", ")),
+            ("cameras", list(&self.cameras)),
         ]);
         format!("{facts}\n{}", summary::text(&self.surfaces))
     }

@@ -17,6 +17,11 @@ pub(super) fn show(scene: &Scene, json: bool) -> Result<(), Failure> {
     if json { print_json(&contents) } else { print(&contents.text()) }
 }
 
+/// Names in a row.
+pub(super) fn list(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
 /// What `info --json` prints of a scene.
 #[derive(Serialize)]
 pub(super) struct Contents {
@@ -78,10 +83,6 @@ impl Contents {
         let corner = |c: Option<[f64; 3]>| {
             let [x, y, z] = c.unwrap_or_default().map(|c| significant(c, 3));
             format!("({x}, {y}, {z}) m")
-        };
-        let list = |names: &[String]| match names {
-            [] => "none".to_owned(),
-            names => names.join(", "),
         };
         let up = match self.up {
             UpAxis::Y => "y",
