@@ -4,7 +4,8 @@ use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
 use crate::quantity::significant;
 use crate::source::{bad_file, show_warnings};
-use isolux_formats::ies::{self, IesFile};
+use isolux_formats::ies::{self, Edition, IesFile};
+use isolux_formats::ldt::{self, LdtFile};
 use serde::Serialize;
 use std::path::Path;
 
@@ -16,12 +17,19 @@ pub(super) fn show_ies(path: &Path, json: bool) -> Result<(), Failure> {
     if json { print_json(&contents) } else { print(&contents.text()) }
 }
 
+/// Prints a EULUMDAT file.
+pub(super) fn show_ldt(path: &Path, json: bool) -> Result<(), Failure> {
+    let loaded = ldt::read(path).map_err(bad_file)?;
+    show_warnings(&loaded.warnings);
+    let contents = Contents::of_ldt(&loaded.value)?;
+    if json { print_json(&contents) } else { print(&contents.text()) }
+}
+
 /// What `info --json` prints of a photometric file.
 #[derive(Serialize)]
 struct Contents {
     kind: &'static str,
-    edition: String,
-    photometric_type: String,
+    format: String,
     manufacturer: Option<String>,
     luminaire: Option<String>,
     lamps: u32,
@@ -40,8 +48,7 @@ impl Contents {
         let distribution = file.resolve().map_err(Failure::bad_input)?;
         Ok(Self {
             kind: "photometric file",
-            edition: format!("LM-63 {:?}", file.edition),
-            photometric_type: format!("{:?}", file.photometric_type),
+            format: format!("{}, type {:?}", edition(file.edition), file.photometric_type),
             manufacturer: file.keyword("MANUFAC").map(str::to_owned),
             luminaire: file.keyword("LUMINAIRE").map(str::to_owned),
             lamps: file.lamps,
@@ -54,6 +61,26 @@ impl Contents {
         })
     }
 
+    /// With the first of its sets of lamps.
+    fn of_ldt(file: &LdtFile) -> Result<Self, Failure> {
+        let distribution = file.resolve().map_err(Failure::bad_input)?;
+        let lamps = file.lamp_sets.first();
+        let said = |text: &String| Some(text.clone()).filter(|text| !text.is_empty());
+        Ok(Self {
+            kind: "photometric file",
+            format: "EULUMDAT".to_owned(),
+            manufacturer: said(&file.header.company),
+            luminaire: said(&file.header.luminaire),
+            lamps: lamps.map_or(0, |set| set.lamps),
+            lamp_flux_lm: lamps.filter(|set| !set.absolute).map(|set| set.flux_lm),
+            luminous_flux_lm: distribution.luminous_flux_lm(),
+            max_intensity_cd: distribution.max_intensity_cd(),
+            input_watts: lamps.map_or(0.0, |set| set.watts),
+            planes: file.planes_deg.len(),
+            gammas: file.gammas_deg.len(),
+        })
+    }
+
     fn text(&self) -> String {
         let named = |name: &Option<String>| name.clone().unwrap_or_else(|| "not said".to_owned());
         let lumen = |lm: f64| format!("{} lm", significant(lm, 4));
@@ -62,7 +89,7 @@ impl Contents {
             w => format!("{w} W"),
         };
         facts(&[
-            ("file", format!("{}, type {}", self.edition, self.photometric_type)),
+            ("file", self.format.clone()),
             ("manufacturer", named(&self.manufacturer)),
             ("luminaire", named(&self.luminaire)),
             ("lamps", self.lamps.to_string()),
@@ -72,5 +99,15 @@ impl Contents {
             ("input", efficacy),
             ("table", format!("{} planes of {} angles", self.planes, self.gammas)),
         ])
+    }
+}
+
+fn edition(edition: Edition) -> &'static str {
+    match edition {
+        Edition::E1986 => "LM-63-1986",
+        Edition::E1991 => "LM-63-1991",
+        Edition::E1995 => "LM-63-1995",
+        Edition::E2002 => "LM-63-2002",
+        Edition::E2019 => "LM-63-2019",
     }
 }

@@ -15,6 +15,7 @@ pub(crate) fn run(flags: &InfoFlags, json: bool) -> Result<Outcome, Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("ies") => lamp::show_ies(path, json)?,
+        Some("ldt") => lamp::show_ldt(path, json)?,
         _ if map_file::is_map(path) => {
             let (scene, map) = map_file::read(path)?;
             map::show(&scene, &map, json)?;
