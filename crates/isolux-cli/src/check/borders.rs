@@ -89,3 +89,40 @@ fn worst(scene: &Scene, open_of_shape: &[u64]) -> Option<(String, u64)> {
     let (shape, &count) = open_of_shape.iter().enumerate().max_by_key(|(_, count)| **count)?;
     (count > 0).then(|| (scene.shape_names()[shape].clone(), count))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use isolux::scene::{Finish, Material, SceneParts, Shape};
+
+    fn borders(triangles: &[[[f64; 3]; 3]]) -> Borders {
+        let shape = Shape {
+            positions: triangles.iter().flatten().copied().collect(),
+            triangles: (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
+            ..Shape::default()
+        };
+        let materials = vec![Material::two_sided("m", Finish::BLACK)];
+        let parts = SceneParts { shapes: vec![shape], materials, ..SceneParts::default() };
+        Borders::of(&Scene::assemble(parts).unwrap())
+    }
+
+    #[test]
+    fn edges_are_counted_by_place() {
+        const O: [f64; 3] = [0.0, -0.0, 0.0];
+        const X: [f64; 3] = [1.0, 0.0, 0.0];
+        const Y: [f64; 3] = [0.0, 1.0, 0.0];
+        const Z: [f64; 3] = [0.0, 0.0, 1.0];
+        let tetrahedron = [[O, Y, X], [[0.0; 3], X, Z], [O, Z, Y], [X, Y, Z]];
+        for (triangles, open, forked, doubled) in [
+            (&tetrahedron[..], 0, 0, 0),
+            (&tetrahedron[..1], 3, 0, 0),
+            (&tetrahedron[..2], 4, 0, 0),
+            (&[[O, X, Y], [Y, O, X]], 0, 0, 1),
+            (&[[O, X, Y], [O, X, Z], [O, X, [1.0; 3]]], 6, 1, 0),
+        ] {
+            let found = borders(triangles);
+            assert_eq!((found.open, found.forked, found.doubled), (open, forked, doubled));
+            assert_eq!(found.is_closed(), open == 0);
+        }
+    }
+}

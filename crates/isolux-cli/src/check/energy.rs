@@ -110,3 +110,41 @@ fn bright_materials(scene: &Scene) -> Vec<String> {
         .map(|m| m.name.clone())
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use isolux::scene::SceneParts;
+
+    fn energy(change: impl FnOnce(&mut SceneParts)) -> Energy {
+        let mut parts = isolux_compare::builtin("cube").unwrap();
+        change(&mut parts);
+        Energy::of(&Scene::assemble(parts).unwrap())
+    }
+
+    #[test]
+    fn the_balance_of_the_cube_is_that_of_its_closed_form() {
+        let energy = energy(|_| {});
+        // 4 pi I over the absorbing third of 600 m2.
+        let expected = 4.0 * std::f64::consts::PI * 50_000.0 / 200.0;
+        let found = energy.mean_illuminance_lx(true).unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} lx");
+        assert_eq!(energy.mean_illuminance_lx(false), None);
+        assert!(energy.findings().is_empty());
+    }
+
+    #[test]
+    fn scenes_without_light_and_with_watts_for_lumens_are_found() {
+        assert_eq!(energy(|parts| parts.luminaires.clear()).findings().len(), 1);
+        for factor in [1e-6, 1e6] {
+            let scaled = energy(|parts| {
+                for luminaire in &mut parts.luminaires {
+                    if let LuminaireKind::Point { intensity, .. } = &mut luminaire.kind {
+                        *intensity = intensity.scaled(factor);
+                    }
+                }
+            });
+            assert_eq!(scaled.findings().len(), 1, "{factor}");
+        }
+    }
+}
