@@ -10,8 +10,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 const USAGE: &str = "\
-cargo xtask test   everything that must hold before a change lands
-cargo xtask tidy   layers, module cycles, sizes, paths and unsafe code only";
+cargo xtask test    everything that must hold before a change lands
+cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
+cargo xtask smoke   of it, the command line from scene to values, and the outside judges";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -19,6 +20,7 @@ fn main() -> ExitCode {
     let outcome = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["test"] => test::run(root),
         ["tidy"] => tidy::run(root),
+        ["smoke"] => test::smoke_and_judge(root),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

@@ -1,2 +1,52 @@
-//! The isolux command.
-fn main() {}
+//! The isolux command: a table of contents.
+
+mod check;
+mod console;
+mod demo;
+mod estimate;
+mod explain;
+mod failure;
+mod flags;
+mod info;
+mod interrupt;
+mod map_file;
+mod output;
+mod points;
+mod probe;
+mod progress;
+mod quantity;
+mod render;
+mod report;
+mod request;
+mod solve;
+mod source;
+mod summary;
+mod validate;
+mod viewpoint;
+
+use clap::Parser;
+use failure::{Failure, Outcome, exit_code};
+use flags::{Command, Flags};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let flags = Flags::parse();
+    let end = run(&flags);
+    if let Err(failure) = &end {
+        failure.lines().iter().for_each(console::note);
+    }
+    exit_code(&end)
+}
+
+fn run(flags: &Flags) -> Result<Outcome, Failure> {
+    let json = flags.json;
+    match &flags.command {
+        Command::Solve(flags) => solve::run(flags, json),
+        Command::Probe(flags) => probe::run(flags, json),
+        Command::Check(flags) => check::run(flags, json),
+        Command::Render(flags) => render::run(flags, json),
+        Command::Validate(flags) => validate::run(flags, json),
+        Command::Demo(flags) => demo::run(flags, json),
+        Command::Info(flags) => info::run(flags, json),
+    }
+}

@@ -31,6 +31,9 @@ pub const STANDARD_ERRORS: f64 = 3.0;
 /// scene as a whole: a place may err more than the root mean square over all.
 pub const PLACE_OVER_SCENE: f64 = 3.0;
 
+/// Light of emitting surfaces is read afresh by eight independent estimates, less one.
+pub const DIRECT_FREEDOM: f64 = 7.0;
+
 /// A verdict may be wrong by chance this often.
 pub const SIGNIFICANCE: f64 = 1e-4;
 

@@ -6,7 +6,7 @@ use isolux::units::Rgb;
 
 /// Pixels in one picture at most: 8K.
 const MAX_PIXELS: u64 = 1 << 25;
-/// Samples in one view at most (24 bytes each).
+/// Samples in one view at most (28 bytes each).
 const MAX_SAMPLES: u64 = 1 << 27;
 
 /// Width and height of a picture, neither of them zero.
@@ -67,11 +67,37 @@ pub enum Sight {
 pub struct Seen {
     /// Luminance, cd/m2.
     pub luminance_cd_m2: [f32; 3],
-    /// Illuminance of the surface seen, lx; in mirrors and through glass that of the surface
-    /// behind, along the stronger branch.
-    pub illuminance_lx: Option<f32>,
+    /// What the map says of the surface seen; in mirrors and through glass of the surface behind,
+    /// along the stronger branch.
+    pub reading: Option<Reading>,
     /// Kind.
     pub sight: Sight,
+}
+
+/// The illuminance of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reading {
+    /// Photometric illuminance, lx.
+    pub illuminance_lx: f32,
+    /// Its standard error, lx.
+    pub standard_error_lx: f32,
+}
+
+impl Reading {
+    /// The mean of readings of one piece of surface. Their errors are common to them, so the mean
+    /// keeps the mean error.
+    pub(crate) fn mean(readings: impl Iterator<Item = Self>) -> Option<Self> {
+        let (mut illuminance, mut error, mut count) = (0.0, 0.0, 0.0);
+        for reading in readings {
+            illuminance += f64::from(reading.illuminance_lx);
+            error += f64::from(reading.standard_error_lx);
+            count += 1.0;
+        }
+        (count > 0.0).then_some(Self {
+            illuminance_lx: (illuminance / count) as f32,
+            standard_error_lx: (error / count) as f32,
+        })
+    }
 }
 
 impl Seen {
@@ -128,7 +154,7 @@ pub struct LuminanceImage {
 pub(crate) struct Middle {
     pub(crate) surface: Surface,
     /// Mean over the samples of the pixel on the same piece of surface.
-    pub(crate) illuminance_lx: Option<f64>,
+    pub(crate) reading: Option<Reading>,
 }
 
 impl LuminanceImage {
@@ -164,9 +190,9 @@ impl LuminanceImage {
         sum / f64::from(self.samples_per_pixel)
     }
 
-    /// Illuminance of the surface in the middle of a pixel, lx: the mean over the samples on it.
-    pub fn illuminance_lx(&self, pixel: usize) -> Option<f64> {
-        self.middles[pixel]?.illuminance_lx
+    /// Illuminance of the surface in the middle of a pixel: the mean over the samples on it.
+    pub fn reading(&self, pixel: usize) -> Option<Reading> {
+        self.middles[pixel]?.reading
     }
 
     /// The surface in the middle of a pixel.

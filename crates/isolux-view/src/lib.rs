@@ -21,7 +21,7 @@ pub use develop::{Development, develop};
 pub use error::ViewError;
 pub use exposure::Exposure;
 pub use false_colour::{ColourMap, Contours, FalseColour, Quantity, Scale, false_colour};
-pub use image::{LuminanceImage, Seen, Sight, Size, Surface};
+pub use image::{LuminanceImage, Reading, Seen, Sight, Size, Surface};
 pub use picture::{Picture, UNKNOWN};
 pub use tone::ToneCurve;
 pub use trace::{SurfacePoint, TraceSettings, trace};

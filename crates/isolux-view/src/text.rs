@@ -8,9 +8,6 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_wid
 pub(crate) struct Font(RasterHeight);
 
 impl Font {
-    /// The smallest.
-    pub(crate) const SMALL: Self = Self(RasterHeight::Size16);
-
     /// The size that can be read in a picture of this height, in pixels.
     pub(crate) fn for_picture(height: u32) -> Self {
         Self(match height {
@@ -18,6 +15,15 @@ impl Font {
             640..960 => RasterHeight::Size20,
             960..1440 => RasterHeight::Size24,
             _ => RasterHeight::Size32,
+        })
+    }
+
+    /// The size of numbers within a picture of this height, which should not hide it.
+    pub(crate) fn for_labels(height: u32) -> Self {
+        Self(match height {
+            0..960 => RasterHeight::Size16,
+            960..1440 => RasterHeight::Size20,
+            _ => RasterHeight::Size24,
         })
     }
 

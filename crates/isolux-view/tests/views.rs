@@ -87,7 +87,7 @@ fn a_diffuse_wall_shows_its_illuminance_over_pi() {
     let scene = scene(room([0; 6]), vec![diffuse(0.5)]);
     let image = look(&scene, &TraceSettings::FINE, 1000.0);
     assert_luminance(&image, 500.0 / PI);
-    assert_eq!(image.illuminance_lx(0), Some(1000.0));
+    assert_eq!(image.reading(0).map(|r| r.illuminance_lx), Some(1000.0));
 }
 
 #[test]
@@ -133,7 +133,8 @@ fn a_white_room_stays_white_behind_glass_and_gloss() {
         let got = image.luminance_cd_m2(pixel).luminance() / (500.0 / PI);
         assert!((got - 1.0).abs() < 2.0 / 512.0, "{got}");
     }
-    assert_eq!(image.illuminance_lx(120), Some(1000.0), "lux are read through the pane");
+    let reading = image.reading(120).map(|r| r.illuminance_lx);
+    assert_eq!(reading, Some(1000.0), "lux are read through the pane");
 }
 
 #[test]
@@ -232,7 +233,7 @@ fn a_chart_of_a_rising_map_has_level_bands_and_lines() {
     let image = trace(&scene, &camera, size, &TraceSettings::DRAFT, &read).unwrap();
     // Row 16 of 64 looks at a quarter of the height from the top, plus half a pixel.
     let expected = 400.0 * (1.0 - 16.5 / 64.0);
-    let got = image.illuminance_lx(16 * 64 + 30).unwrap();
+    let got = f64::from(image.reading(16 * 64 + 30).unwrap().illuminance_lx);
     assert!((got - expected).abs() < 1e-4 * expected, "{got}");
 
     // 401 is prime: no pixel lies on the border of two colours.
@@ -273,6 +274,24 @@ fn exposure_and_tone_make_the_documented_codes() {
         let picture = develop(&image, &linear(exposure)).unwrap();
         assert_eq!(picture.pixel(3, 3), Some([code; 3]), "{exposure:?}");
     }
+}
+
+#[test]
+fn a_chart_of_the_error_is_in_per_cent() {
+    let scene = scene(room([0; 6]), vec![diffuse(0.5)]);
+    let size = Size::new(8, 8).unwrap();
+    let noisy = |_| lux(200.0).map(|e| Illuminance { standard_error_lx: 5.0, ..e });
+    let camera = towards_y(Point::ORIGIN);
+    let image = trace(&scene, &camera, size, &TraceSettings::FINE, &noisy).unwrap();
+    let chart = FalseColour {
+        quantity: Quantity::StandardError,
+        limits: Some((0.0, 10.0)),
+        legend: None,
+        ..FalseColour::default()
+    };
+    // 5 of 200 lx are 2.5 %, a quarter of the scale.
+    let expected = ColourMap::Viridis.table()[64];
+    assert!(false_colour(&image, &chart).unwrap().rgb.iter().all(|c| *c == expected));
 }
 
 #[test]

@@ -66,6 +66,13 @@ mod tests {
     }
 
     #[test]
+    fn a_front_may_pass_on_a_function_named_as_its_module() {
+        let front = "mod read; pub use read::read; pub struct M; impl M { fn f() { a.read() } }";
+        let files = [("crates/a/src/m/mod.rs", front), ("crates/a/src/m/read.rs", "use super::M;")];
+        assert_eq!(found(&files), Vec::<String>::new());
+    }
+
+    #[test]
     fn a_cycle_through_a_front_is_found() {
         let found = found(&[
             ("crates/a/src/m/mod.rs", "mod x; mod y; pub use x::X; pub use y::Y;"),

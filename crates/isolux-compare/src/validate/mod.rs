@@ -1,12 +1,16 @@
 //! Cases through engines, and what comes of it, as plain values.
 
+mod allowance;
+mod calibration;
 mod judge;
+mod row;
 
-pub use judge::{Calibration, Reading, Verdict};
+pub use calibration::Calibration;
+pub use row::{Reading, ValidateRow, Verdict};
 
 use crate::expectation::Case;
 use isolux::engine::{Progress, SolveError, SolveRequest, Watch, solve};
-use isolux::map::{Accuracy, Method};
+use isolux::map::Method;
 use isolux::scene::{Scene, SceneProblem};
 use serde::Serialize;
 use std::time::Duration;
@@ -28,39 +32,6 @@ impl Default for ValidateSettings {
         let max_memory_bytes = SolveRequest::default().max_memory_bytes;
         Self { accuracy: 0.005, time_limit: Duration::from_secs(30), max_memory_bytes }
     }
-}
-
-/// One case through one engine from one seed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ValidateRow {
-    /// Name of the case.
-    pub case: &'static str,
-    /// Engine.
-    pub method: Method,
-    /// Seed.
-    pub seed: u64,
-    /// Readings compared.
-    pub readings: u64,
-    /// Of them, those with a statistical error.
-    pub statistical: u64,
-    /// Of those, farther off than three standard errors and all bounds.
-    pub outliers: u64,
-    /// Outliers that chance allows.
-    pub accepted_outliers: u64,
-    /// Of `statistical`, outside their interval of 95 %, bounds included.
-    pub outside_interval: u64,
-    /// The reading farthest off in units of what it may be.
-    pub worst: Option<Reading>,
-    /// What the map says of itself.
-    pub accuracy: Option<Accuracy>,
-    /// Independent replicates.
-    pub increments: u64,
-    /// Rays traced.
-    pub rays: u64,
-    /// Time of the solution, s.
-    pub time_s: f64,
-    /// Whether the engine is right.
-    pub verdict: Verdict,
 }
 
 /// All rows, and how well error bars keep their promise.

@@ -42,8 +42,9 @@ pub(super) fn split<'a>(
     };
     let mut before = lines[..at].iter().filter(|l| !l.text.trim().is_empty()).peekable();
     if let Some(first) = before.next_if(|l| is_version(l.text)) {
-        header.edition = edition(first.text).unwrap_or(Edition::E2002);
-        header.unknown_edition = edition(first.text).is_none().then_some(first.text.trim());
+        header.edition = Edition::from_line(first.text).unwrap_or(Edition::E2002);
+        header.unknown_edition =
+            Edition::from_line(first.text).is_none().then_some(first.text.trim());
     }
     for line in before {
         header.take(line);
@@ -83,49 +84,9 @@ fn is_version(text: &str) -> bool {
     text.get(..3).is_some_and(|start| start.eq_ignore_ascii_case("IES"))
 }
 
-/// `IESNA91`, `IESNA:LM-63-1995`, `IES:LM-63-2019` and the spellings seen for them.
-fn edition(text: &str) -> Option<Edition> {
-    let mut text: String = text.split_whitespace().collect();
-    text.make_ascii_uppercase();
-    let year = ["IESNA", "IES", ":", "LM-63-", "LM63-", "19", "20"].iter().fold(
-        text.as_str(),
-        |rest, start| match rest.strip_prefix(start) {
-            Some(shorter) if !shorter.is_empty() => shorter,
-            _ => rest,
-        },
-    );
-    match year {
-        "86" => Some(Edition::E1986),
-        "91" => Some(Edition::E1991),
-        "95" => Some(Edition::E1995),
-        "02" => Some(Edition::E2002),
-        "19" => Some(Edition::E2019),
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn editions_by_their_spellings() {
-        for (text, expected) in [
-            ("IESNA86", Some(Edition::E1986)),
-            ("IESNA91", Some(Edition::E1991)),
-            ("IESNA95", Some(Edition::E1995)),
-            (" IESNA:LM-63-1995 ", Some(Edition::E1995)),
-            ("IESNA:LM-63-95", Some(Edition::E1995)),
-            ("IESNA: LM-63-2002", Some(Edition::E2002)),
-            ("iesna:lm-63-02", Some(Edition::E2002)),
-            ("IES:LM-63-2019", Some(Edition::E2019)),
-            ("IES:LM-63-19", Some(Edition::E2019)),
-            ("IESNA:LM-63-2077", None),
-            ("IES", None),
-        ] {
-            assert_eq!(edition(text), expected, "{text}");
-        }
-    }
 
     #[test]
     fn keywords_labels_and_continuations_keep_their_order() {

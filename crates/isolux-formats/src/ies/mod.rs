@@ -4,6 +4,7 @@
 //! distribution an engine uses. See the README beside this file for what is read how, and why.
 
 mod audit;
+mod edition;
 mod header;
 mod numbers;
 mod opening;
@@ -13,8 +14,9 @@ mod record;
 mod resolve;
 mod tilt;
 
+pub use edition::Edition;
 pub use opening::{LuminousOpening, OpeningShape};
 pub use parse::parse;
 pub use read::read;
-pub use record::{Edition, IesFile, Keyword, LampFactor, LengthUnit, PhotometricType, RecordLines};
+pub use record::{IesFile, Keyword, LampFactor, LengthUnit, PhotometricType, RecordLines};
 pub use tilt::{LampGeometry, Tilt, TiltTable};

@@ -1,22 +1,7 @@
 //! An LM-63 file as written.
 
-use super::{LuminousOpening, Tilt};
+use super::{Edition, LuminousOpening, Tilt};
 use std::path::PathBuf;
-
-/// The editions of the standard, told apart by the first line of a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Edition {
-    /// LM-63-1986: no version line, free label lines.
-    E1986,
-    /// LM-63-1991.
-    E1991,
-    /// LM-63-1995.
-    E1995,
-    /// ANSI/IESNA LM-63-02.
-    E2002,
-    /// ANSI/IES LM-63-19.
-    E2019,
-}
 
 /// A line of the form `[NAME] value`, with the `[MORE]` lines that follow it.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -28,7 +28,7 @@ pub struct Preview {
 
 impl Preview {
     /// Exposure by the area-weighted geometric mean of the luminances, white where only a
-    /// hundredth of the area is brighter.
+    /// hundredth of the area is brighter. Where luminances are much alike, white alone decides.
     pub fn automatic(scene: &Scene, map: &IlluminationMap) -> Self {
         let mut patches = patches(scene, map);
         patches.sort_by(|a, b| a.luminance_cd_m2.total_cmp(&b.luminance_cd_m2));
@@ -45,10 +45,11 @@ impl Preview {
             brighter -= p.area_m2;
             brighter <= WHITE_SHARE * area
         });
-        Self {
-            exposure_m2_cd: MIDDLE_GREY / average,
-            white_cd_m2: white.map_or(mean, |p| p.luminance_cd_m2.max(average)),
-        }
+        let white_cd_m2 = white.map_or(mean, |p| p.luminance_cd_m2.max(average));
+        // Less than one for white would bend the curve the wrong way and exaggerate contrasts; with
+        // one it is a straight line.
+        let exposure_m2_cd = (MIDDLE_GREY / average).max(1.0 / white_cd_m2);
+        Self { exposure_m2_cd, white_cd_m2 }
     }
 
     /// Linear Rec. 709 between 0 and 1, for a luminance in three channels, cd/m2.

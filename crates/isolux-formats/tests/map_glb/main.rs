@@ -37,6 +37,7 @@ fn nothing_is_lost_between_writing_and_reading() {
     let (scene_read, map_read) = read_bytes(&written).unwrap().value;
     assert_eq!(map_read, map);
     assert_eq!(scene_read.to_parts(), scene.to_parts());
+    assert_eq!(scene_read.hash(), scene.hash());
     assert!(bytes(&scene_read, &map_read) == written, "the second writing differs");
 }
 

@@ -6,13 +6,14 @@ use super::scale::Axis;
 use crate::image::{LuminanceImage, Surface};
 use crate::picture::Picture;
 use crate::text::Font;
+use rayon::prelude::*;
 
-/// Half the width of a line, pixels.
-const HALF_WIDTH: f64 = 0.6;
-/// One level is labelled at most once in a square of so many letters' width.
-const LABEL_TILE_LETTERS: i64 = 24;
-/// A line shorter than its label times this has none.
-const SHORTEST_LABELLED: i64 = 2;
+/// Half the width of a line, in heights of a label: 1.2 pixels wide beside letters of 16.
+const HALF_WIDTH: f64 = 0.6 / 16.0;
+/// Labels of one level are at least so many letters' width apart.
+const LABEL_DISTANCE_LETTERS: i64 = 30;
+/// A piece of line shorter than its label times this has none.
+const SHORTEST_LABELLED: i64 = 4;
 const DARK: [u8; 3] = [0; 3];
 const LIGHT: [u8; 3] = [255; 3];
 
@@ -27,31 +28,40 @@ pub(super) fn draw(
     axis: &Axis,
     levels: &[f64],
 ) {
-    let mut labels = Labels::default();
-    for &level in levels {
-        let segments = segments(image, values, level);
+    let font = Font::for_labels(picture.height);
+    let mut labels = Labels { font, placed: Vec::new() };
+    for (&level, segments) in levels.iter().zip(segments(image, values, levels)) {
         // Dark lines in the lighter half of the colours.
         let (ink, halo) = if axis.position(level) > 0.5 { (DARK, LIGHT) } else { (LIGHT, DARK) };
-        stroke(picture, &segments, ink);
+        stroke(picture, &segments, HALF_WIDTH * font.height() as f64, ink);
         labels.place(picture, &segments, &number(level), ink, halo);
     }
     labels.draw(picture);
 }
 
-fn segments(image: &LuminanceImage, values: &[Option<f64>], level: f64) -> Vec<Segment> {
+/// The lines of every level.
+fn segments(image: &LuminanceImage, values: &[Option<f64>], levels: &[f64]) -> Vec<Vec<Segment>> {
     let (width, height) = (image.size().width() as usize, image.size().height() as usize);
-    let mut found = Vec::new();
-    for y in 0..height - 1 {
+    let row = |y: usize| {
+        let mut found = Vec::new();
         for x in 0..width - 1 {
             let corner = y * width + x;
             // Clockwise from the top left.
             let square = [corner, corner + 1, corner + width + 1, corner + width];
             let Some(v) = whole_square(image, values, square) else { continue };
             let place = |p: [f64; 2]| [x as f64 + 0.5 + p[0], y as f64 + 0.5 + p[1]];
-            found.extend(crossings(v, level).map(|segment| segment.map(place)));
+            for (k, &level) in levels.iter().enumerate() {
+                found.extend(crossings(v, level).map(|segment| (k, segment.map(place))));
+            }
         }
+        found
+    };
+    let rows: Vec<Vec<(usize, Segment)>> = (0..height - 1).into_par_iter().map(row).collect();
+    let mut lines = vec![Vec::new(); levels.len()];
+    for (k, segment) in rows.into_iter().flatten() {
+        lines[k].push(segment);
     }
-    found
+    lines
 }
 
 /// The values at the corners of a square that lies on one surface.
@@ -93,10 +103,10 @@ fn crossings(values: [f64; 4], level: f64) -> impl Iterator<Item = Segment> {
 }
 
 /// Draws segments as one line: a pixel gets the darkest of their shades, not their sum.
-fn stroke(picture: &mut Picture, segments: &[Segment], ink: [u8; 3]) {
+fn stroke(picture: &mut Picture, segments: &[Segment], half_width: f64, ink: [u8; 3]) {
     let mut opacity = vec![0.0_f32; picture.rgb.len()];
     for [a, b] in segments {
-        let reach = HALF_WIDTH + 1.0;
+        let reach = half_width + 1.0;
         let range = |axis: usize, end: u32| {
             let low = (a[axis].min(b[axis]) - reach).max(0.0) as u32;
             low..((a[axis].max(b[axis]) + reach) as u32 + 1).min(end)
@@ -104,7 +114,7 @@ fn stroke(picture: &mut Picture, segments: &[Segment], ink: [u8; 3]) {
         for y in range(1, picture.height) {
             for x in range(0, picture.width) {
                 let middle = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-                let cover = (HALF_WIDTH + 0.5 - distance(middle, *a, *b)).clamp(0.0, 1.0) as f32;
+                let cover = (half_width + 0.5 - distance(middle, *a, *b)).clamp(0.0, 1.0) as f32;
                 let pixel = &mut opacity[(y * picture.width + x) as usize];
                 *pixel = pixel.max(cover);
             }
@@ -130,30 +140,42 @@ fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
     (dx * dx + dy * dy).sqrt()
 }
 
-/// Labels that do not overlap.
-#[derive(Default)]
-struct Labels(Vec<Label>);
+/// Labels that do not disturb each other.
+struct Labels {
+    font: Font,
+    placed: Vec<Label>,
+}
 
 struct Label {
     left: i64,
     top: i64,
+    width: i64,
     text: String,
     ink: [u8; 3],
     halo: [u8; 3],
 }
 
-impl Label {
-    const FONT: Font = Font::SMALL;
-
-    fn overlaps(&self, other: &Self) -> bool {
-        let width = |label: &Self| Self::FONT.width(&label.text);
-        self.left < other.left + width(other)
-            && other.left < self.left + width(self)
-            && (self.top - other.top).abs() < Self::FONT.height()
-    }
-}
-
 impl Labels {
+    fn distance(&self) -> i64 {
+        LABEL_DISTANCE_LETTERS * self.font.width("0")
+    }
+
+    /// Whether two labels hide each other, or say the same nearby.
+    fn disturb(&self, a: &Label, b: &Label) -> bool {
+        let (dx, dy) = ((a.left - b.left).abs(), (a.top - b.top).abs());
+        let overlap =
+            a.left < b.left + b.width && b.left < a.left + a.width && dy < self.font.height();
+        overlap || (a.text == b.text && dx.max(dy) < self.distance())
+    }
+
+    fn fits(&self, label: &Label, picture: &Picture) -> bool {
+        label.left >= 0
+            && label.top >= 0
+            && label.left + label.width <= i64::from(picture.width)
+            && label.top + self.font.height() <= i64::from(picture.height)
+            && !self.placed.iter().any(|known| self.disturb(known, label))
+    }
+
     /// Finds a place on every line of a level that is long enough.
     fn place(
         &mut self,
@@ -163,8 +185,7 @@ impl Labels {
         ink: [u8; 3],
         halo: [u8; 3],
     ) {
-        let tile = LABEL_TILE_LETTERS * Label::FONT.width("0");
-        let width = Label::FONT.width(text);
+        let (tile, width) = (self.distance(), self.font.width(text));
         let tile_of = |[a, _]: &Segment| (a[1] as i64 / tile, a[0] as i64 / tile);
         let mut in_tiles: Vec<&Segment> = segments.iter().collect();
         in_tiles.sort_by_key(|segment| tile_of(segment));
@@ -175,31 +196,27 @@ impl Labels {
             let places = run[run.len() / 2..].iter().chain(run[..run.len() / 2].iter().rev());
             let mut labels = places.map(|[a, _]| Label {
                 left: a[0] as i64 - width / 2,
-                top: a[1] as i64 - Label::FONT.height() / 2,
+                top: a[1] as i64 - self.font.height() / 2,
+                width,
                 text: text.to_owned(),
                 ink,
                 halo,
             });
-            let fits = |label: &Label| {
-                label.left >= 0
-                    && label.top >= 0
-                    && label.left + width <= i64::from(picture.width)
-                    && label.top + Label::FONT.height() <= i64::from(picture.height)
-                    && !self.0.iter().any(|known| known.overlaps(label))
-            };
-            if let Some(label) = labels.find(fits) {
-                self.0.push(label);
+            if let Some(label) = labels.find(|label| self.fits(label, picture)) {
+                self.placed.push(label);
             }
         }
     }
 
     fn draw(&self, picture: &mut Picture) {
-        for label in &self.0 {
-            for (dx, dy) in [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, 1), (-1, 1), (1, -1)] {
+        const AROUND: [(i64, i64); 8] =
+            [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, 1), (-1, 1), (1, -1)];
+        for label in &self.placed {
+            for (dx, dy) in AROUND {
                 let place = (label.left + dx, label.top + dy);
-                Label::FONT.write(picture, place, &label.text, label.halo);
+                self.font.write(picture, place, &label.text, label.halo);
             }
-            Label::FONT.write(picture, (label.left, label.top), &label.text, label.ink);
+            self.font.write(picture, (label.left, label.top), &label.text, label.ink);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The quantity shown, pixel by pixel.
 
-use crate::image::{LuminanceImage, Seen, Sight};
+use crate::image::{LuminanceImage, Reading, Seen, Sight};
 
 /// What a chart shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -8,56 +8,65 @@ pub enum Quantity {
     /// Illuminance of the surface seen, lx.
     #[default]
     Illuminance,
+    /// Standard error of the illuminance in per cent of it: where the map can be trusted.
+    StandardError,
     /// Luminance, cd/m2.
     Luminance,
 }
 
 impl Quantity {
+    /// Whether it is read from the map rather than seen.
+    pub(super) fn is_of_the_map(self) -> bool {
+        self != Self::Luminance
+    }
+
+    /// The value of a reading; `None` for luminance, for the relative error of darkness, and for an
+    /// error that is not known yet.
+    fn read(self, reading: Reading) -> Option<f64> {
+        let lux = f64::from(reading.illuminance_lx);
+        let value = match self {
+            Self::Illuminance => lux,
+            Self::StandardError => 100.0 * f64::from(reading.standard_error_lx) / lux,
+            Self::Luminance => return None,
+        };
+        Some(value).filter(|v| v.is_finite())
+    }
+
     /// The value of a sample, where it has one.
     pub(super) fn of(self, seen: &Seen) -> Option<f64> {
         match (self, seen.sight) {
-            (_, Sight::Background) => None,
-            (Self::Illuminance, _) => seen.illuminance_lx.map(f64::from),
-            (Self::Luminance, Sight::Unknown) => None,
+            (_, Sight::Background) | (Self::Luminance, Sight::Unknown) => None,
             (Self::Luminance, _) => Some(seen.luminance().luminance()),
+            _ => seen.reading.and_then(|reading| self.read(reading)),
         }
     }
 
-    /// Its name.
-    pub(super) fn name(self) -> &'static str {
+    /// Its name and unit.
+    pub(super) fn heading(self) -> &'static str {
         match self {
-            Self::Illuminance => "Illuminance",
-            Self::Luminance => "Luminance",
-        }
-    }
-
-    /// Its unit.
-    pub(super) fn unit(self) -> &'static str {
-        match self {
-            Self::Illuminance => "lx",
-            Self::Luminance => "cd/m\u{b2}",
+            Self::Illuminance => "Illuminance, lx",
+            Self::StandardError => "Std. error, %",
+            Self::Luminance => "Luminance, cd/m\u{b2}",
         }
     }
 }
 
-/// The value in the middle of every pixel. Of illuminance, luminaires have none: they are drawn
+/// The value in the middle of every pixel. Luminaires have none of what a map holds: they are drawn
 /// white.
 pub(super) fn values(image: &LuminanceImage, quantity: Quantity) -> Vec<Option<f64>> {
-    let lit = |pixel| {
+    let read = |pixel| {
         let emits = |seen: &Seen| seen.sight == Sight::Emitter;
         let shown = !image.samples(pixel).iter().any(emits);
-        image.illuminance_lx(pixel).filter(|_| shown)
+        image.reading(pixel).filter(|_| shown).and_then(|reading| quantity.read(reading))
     };
     let bright = |pixel| {
         let known = image.samples(pixel).iter().any(|s| quantity.of(s).is_some());
         known.then(|| image.luminance_cd_m2(pixel).luminance())
     };
-    let pixels = 0..image.size().pixels();
-    let finite = |value: &f64| value.is_finite();
-    match quantity {
-        Quantity::Illuminance => pixels.map(|p| lit(p).filter(finite)).collect(),
-        Quantity::Luminance => pixels.map(|p| bright(p).filter(finite)).collect(),
-    }
+    (0..image.size().pixels())
+        .map(|pixel| if quantity.is_of_the_map() { read(pixel) } else { bright(pixel) })
+        .map(|value| value.filter(|v| v.is_finite()))
+        .collect()
 }
 
 /// Things in a view that have no colour of the scale.
@@ -73,7 +82,7 @@ pub(super) struct Marks {
 pub(super) fn marks(image: &LuminanceImage, quantity: Quantity) -> Marks {
     let mut marks = Marks::default();
     for seen in (0..image.size().pixels()).flat_map(|pixel| image.samples(pixel)) {
-        let emitter = quantity == Quantity::Illuminance && seen.sight == Sight::Emitter;
+        let emitter = quantity.is_of_the_map() && seen.sight == Sight::Emitter;
         marks.emitters |= emitter;
         let shown = emitter || seen.sight == Sight::Background;
         marks.unknown |= !shown && quantity.of(seen).is_none();

@@ -72,7 +72,7 @@ impl Legend<'_> {
         if !lines.is_empty() {
             lines.push(String::new());
         }
-        lines.push(format!("{}, {}", self.quantity.name(), self.quantity.unit()));
+        lines.push(self.quantity.heading().to_owned());
         for line in lines {
             font.write(strip, (margin(font), y), &line, INK);
             y += if line.is_empty() { font.height() / 2 } else { font.height() };

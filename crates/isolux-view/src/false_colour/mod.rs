@@ -60,7 +60,7 @@ impl Default for FalseColour {
     }
 }
 
-/// Draws a view as a chart. Values beyond the limits get the outermost colours; of illuminance,
+/// Draws a view as a chart. Values beyond the limits get the outermost colours; of what a map holds,
 /// luminaires are white, surfaces without a value [`UNKNOWN`], and the background is black. A legend
 /// makes the picture wider than the view by [`FalseColour::legend_width`].
 pub fn false_colour(image: &LuminanceImage, how: &FalseColour) -> Result<Picture, ViewError> {
@@ -93,7 +93,7 @@ fn coloured(image: &LuminanceImage, how: &FalseColour, axis: &Axis) -> Picture {
     let unknown = linear_from_codes(UNKNOWN);
     let colour = |seen: &Seen| match (how.quantity.of(seen), seen.sight) {
         (_, Sight::Background) => Rgb::BLACK,
-        (_, Sight::Emitter) if how.quantity == Quantity::Illuminance => Rgb::WHITE,
+        (_, Sight::Emitter) if how.quantity.is_of_the_map() => Rgb::WHITE,
         (Some(value), _) => colours[axis.step(value)],
         (None, _) => unknown,
     };

@@ -23,7 +23,7 @@ impl Interface {
     ) -> Self {
         let cos = (-direction.cos(normal)).clamp(0.0, 1.0);
         if glass.thin {
-            return Self::pane(glass, direction, reflectance(glass.ior, cos));
+            return Self::pane(glass, direction, cos);
         }
         // Refractive index of the far side over that of the near side.
         let eta = if inside { 1.0 / glass.ior } else { glass.ior };
@@ -33,36 +33,37 @@ impl Interface {
         let (true, Some(refracted)) = (sin2_far < 1.0, towards.direction()) else {
             return Self { reflected: Rgb::WHITE, transmitted: None };
         };
-        let r = reflectance(eta, cos);
+        let r = mean(fresnel(eta, cos));
         // Luminance over the square of the index is what refraction conserves.
         let passed = glass.transmittance * ((1.0 - r) / (eta * eta));
         Self { reflected: Rgb::grey(r), transmitted: Some((passed, refracted)) }
     }
 
-    /// Two parallel faces of reflectance `r` and the geometric series of reflections between them.
-    fn pane(glass: &Dielectric, direction: Direction, r: f64) -> Self {
-        let between = glass.transmittance.map(|t| 1.0 - r * r * t * t);
-        let t = |k: usize| glass.transmittance.0[k];
-        let passed = |k: usize| (1.0 - r) * (1.0 - r) * t(k) / between.0[k].max(f64::MIN_POSITIVE);
-        let reflected = |k: usize| r + r * t(k) * passed(k);
-        Self {
-            reflected: Rgb([0, 1, 2].map(reflected)),
-            transmitted: Some((Rgb([0, 1, 2].map(passed)), direction)),
-        }
+    /// Two parallel faces with all reflections between them, 2 r / (1 + r) for each polarisation;
+    /// what is not reflected passes straight on, less what the pane absorbs.
+    fn pane(glass: &Dielectric, direction: Direction, cos: f64) -> Self {
+        let r = mean(fresnel(glass.ior, cos).map(|r| 2.0 * r / (1.0 + r)));
+        let passed = glass.transmittance * (1.0 - r);
+        Self { reflected: Rgb::grey(r), transmitted: Some((passed, direction)) }
     }
 }
 
-/// Fresnel reflectance of unpolarised light; `eta` is the index beyond over the index before, `cos`
+/// Unpolarised light is half of each polarisation.
+fn mean([one, other]: [f64; 2]) -> f64 {
+    0.5 * (one + other)
+}
+
+/// Fresnel reflectance of both polarisations; `eta` is the index beyond over the index before, `cos`
 /// the cosine of the angle of incidence.
-fn reflectance(eta: f64, cos: f64) -> f64 {
+fn fresnel(eta: f64, cos: f64) -> [f64; 2] {
     let cos2_far = 1.0 - (1.0 - cos * cos) / (eta * eta);
     if cos2_far <= 0.0 {
-        return 1.0;
+        return [1.0; 2];
     }
     let cos_far = cos2_far.sqrt();
     let parallel = (eta * cos - cos_far) / (eta * cos + cos_far);
     let perpendicular = (cos - eta * cos_far) / (cos + eta * cos_far);
-    0.5 * (parallel * parallel + perpendicular * perpendicular)
+    [parallel * parallel, perpendicular * perpendicular]
 }
 
 #[cfg(test)]
@@ -104,6 +105,6 @@ mod tests {
         let towards = Vector::new(0.8, 0.0, -0.6).direction().unwrap();
         let inside = Interface::new(&glass(false), towards, Normal::Z, true);
         assert_eq!(inside, Interface { reflected: Rgb::WHITE, transmitted: None });
-        assert_eq!(reflectance(1.5, 0.0), 1.0);
+        assert_eq!(fresnel(1.5, 0.0), [1.0; 2]);
     }
 }

@@ -14,6 +14,14 @@ const MIRROR_ALPHA: f64 = 1e-3;
 pub(super) struct Lobe {
     pub(super) weight: Rgb,
     pub(super) direction: Direction,
+    /// Whether it is one of many about the direction.
+    pub(super) blurred: bool,
+}
+
+impl Lobe {
+    const fn sharp(weight: Rgb, direction: Direction) -> Self {
+        Self { weight, direction, blurred: false }
+    }
 }
 
 /// A place of a surface as the ray arrives there.
@@ -35,23 +43,17 @@ impl Arrival {
     }
 }
 
-/// The lobes of an opaque finish whose diffuse reflectance at the place is given.
-pub(super) fn opaque(
-    at: &Arrival,
-    finish: &Finish,
-    diffuse: Rgb,
-    facets: u32,
-    key: Key,
-) -> Vec<Lobe> {
+/// The lobes of an opaque finish.
+pub(super) fn opaque(at: &Arrival, finish: &Finish, facets: u32, key: Key) -> Vec<Lobe> {
     let mut lobes = Vec::new();
     if !finish.mirror.is_black() {
-        lobes.push(Lobe { weight: finish.mirror, direction: at.mirror() });
+        lobes.push(Lobe::sharp(finish.mirror, at.mirror()));
     }
     if let Some(gloss) = &finish.gloss {
-        let spare = Rgb::WHITE - diffuse - finish.mirror;
+        let spare = Rgb::WHITE - finish.diffuse.colour - finish.mirror;
         if gloss.alpha < MIRROR_ALPHA {
             let cos = -at.direction.cos(at.normal);
-            lobes.push(Lobe { weight: fresnel(gloss, spare, cos), direction: at.mirror() });
+            lobes.push(Lobe::sharp(fresnel(gloss, spare, cos), at.mirror()));
         } else {
             lobes.extend((0..facets).filter_map(|k| facet(at, gloss, spare, (k, facets), key)));
         }
@@ -63,8 +65,8 @@ pub(super) fn opaque(
 pub(super) fn dielectric(at: &Arrival, glass: &Dielectric, inside: bool) -> Vec<Lobe> {
     let Interface { reflected, transmitted } =
         Interface::new(glass, at.direction, at.normal, inside);
-    let mirror = Lobe { weight: reflected, direction: at.mirror() };
-    let through = transmitted.map(|(weight, direction)| Lobe { weight, direction });
+    let mirror = Lobe::sharp(reflected, at.mirror());
+    let through = transmitted.map(|(weight, direction)| Lobe::sharp(weight, direction));
     std::iter::once(mirror).chain(through).collect()
 }
 
@@ -80,8 +82,8 @@ fn fresnel(gloss: &Gloss, spare: Rgb, cos: f64) -> Rgb {
     Rgb([0, 1, 2].map(channel))
 }
 
-/// One facet of a stratum (k of n) of the visible ones, with height-correlated masking (Heitz 2014,
-/// "Understanding the masking-shadowing function in microfacet-based BRDFs", eq. 99).
+/// One facet of a stratum (k of n) of the visible ones: Fresnel's share of what leaves unmasked
+/// (Heitz 2018, "Sampling the GGX distribution of visible normals").
 fn facet(at: &Arrival, gloss: &Gloss, spare: Rgb, (k, n): (u32, u32), key: Key) -> Option<Lobe> {
     let axis = at.normal.to_direction();
     let (u, v) = axis.frame();
@@ -96,8 +98,7 @@ fn facet(at: &Arrival, gloss: &Gloss, spare: Rgb, (k, n): (u32, u32), key: Key) 
     if out.z <= 0.0 || direction.cos(at.flat) <= 0.0 {
         return None;
     }
-    let (seen, lit) = (ggx.masking(view), ggx.masking(out));
-    let masking = lit / (seen + lit - seen * lit);
-    let weight = fresnel(gloss, spare, view.dot(half)) * (masking / f64::from(n));
-    Some(Lobe { weight, direction })
+    let share = ggx.masking(out) / f64::from(n);
+    let weight = fresnel(gloss, spare, view.dot(half)) * share;
+    Some(Lobe { weight, direction, blurred: true })
 }

@@ -2,7 +2,7 @@
 
 use super::lobes::{self, Arrival, Lobe};
 use super::settings::{SurfacePoint, TraceSettings};
-use crate::image::{Seen, Sight, Surface};
+use crate::image::{Reading, Seen, Sight, Surface};
 use isolux::geometry::{Direction, Hit, Normal, Ray, offset_origin};
 use isolux::map::Illuminance;
 use isolux::sampling::Key;
@@ -28,7 +28,7 @@ pub(super) struct Looker<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     luminance_cd_m2: Rgb,
-    pub(super) illuminance_lx: Option<f64>,
+    pub(super) reading: Option<Reading>,
     sight: Sight,
     pub(super) surface: Option<Surface>,
 }
@@ -36,7 +36,7 @@ pub(super) struct Look {
 impl Look {
     pub(super) const NOTHING: Self = Self {
         luminance_cd_m2: Rgb::BLACK,
-        illuminance_lx: None,
+        reading: None,
         sight: Sight::Background,
         surface: None,
     };
@@ -45,7 +45,7 @@ impl Look {
     pub(super) fn seen(&self) -> Seen {
         Seen {
             luminance_cd_m2: self.luminance_cd_m2.0.map(|c| c as f32),
-            illuminance_lx: self.illuminance_lx.map(|lux| lux as f32),
+            reading: self.reading,
             sight: self.sight,
         }
     }
@@ -66,13 +66,15 @@ struct Progress {
     depth: u32,
     /// What one cd/m2 from here adds to the picture.
     weight: Rgb,
+    /// Whether a glossy surface lies on the way.
+    blurred: bool,
     key: Key,
 }
 
 impl Looker<'_> {
     /// The look along a ray of the camera.
     pub(super) fn look(&self, ray: &Ray, direction: Direction, key: Key) -> Look {
-        let start = Progress { depth: 0, weight: Rgb::WHITE, key };
+        let start = Progress { depth: 0, weight: Rgb::WHITE, blurred: false, key };
         match self.camera_hit(*ray, direction) {
             Some(hit) => self.at(&hit, direction, start),
             None => Look::NOTHING,
@@ -121,13 +123,19 @@ impl Looker<'_> {
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
         let diffuse = self.scene.diffuse_reflectance(finish, hit.triangle, u, v);
         let facets = if progress.depth == 0 { self.settings.gloss_samples.max(1) } else { 1 };
-        let lobes = lobes::opaque(at, finish, diffuse, facets, progress.key.with(0));
+        let lobes = lobes::opaque(at, finish, facets, progress.key.with(0));
         let (specular, strongest) = self.follow(hit, lobes, progress);
         if finish.is_pure_mirror() {
             let luminance_cd_m2 = specular + finish.luminance_cd_m2;
             return Look { luminance_cd_m2, ..strongest.unwrap_or(self.bare(hit, at)) };
         }
-        let point = SurfacePoint { triangle: hit.triangle, back: hit.back, u, v };
+        let point = SurfacePoint {
+            triangle: hit.triangle,
+            back: hit.back,
+            u,
+            v,
+            blurred: progress.blurred,
+        };
         let read = (self.read)(point);
         let lux = read.map_or(Rgb::BLACK, |e| e.total_lx());
         let sight = if finish.is_emitter() {
@@ -139,7 +147,10 @@ impl Looker<'_> {
         };
         Look {
             luminance_cd_m2: finish.luminance_cd_m2 + diffuse * lux / PI + specular,
-            illuminance_lx: read.map(|e| e.illuminance_lx()),
+            reading: read.map(|e| Reading {
+                illuminance_lx: e.illuminance_lx() as f32,
+                standard_error_lx: e.standard_error_lx as f32,
+            }),
             sight,
             ..self.bare(hit, at)
         }
@@ -176,7 +187,8 @@ impl Looker<'_> {
                 continue;
             }
             let key = progress.key.with(1 + index as u64);
-            let next = Progress { depth: progress.depth + 1, weight, key };
+            let blurred = progress.blurred || lobe.blurred;
+            let next = Progress { depth: progress.depth + 1, weight, blurred, key };
             let ray = self.onwards(hit, lobe.direction);
             let found = self.scene.bvh().closest_hit(&ray);
             let look = found.map_or(Look::NOTHING, |hit| self.at(&hit, lobe.direction, next));

@@ -9,7 +9,7 @@ pub use settings::{SurfacePoint, TraceSettings};
 
 use crate::camera::ViewRays;
 use crate::error::ViewError;
-use crate::image::{LuminanceImage, Middle, Size};
+use crate::image::{LuminanceImage, Middle, Reading, Size};
 use isolux::map::Illuminance;
 use isolux::sampling::Key;
 use isolux::scene::{Camera, Scene};
@@ -73,15 +73,11 @@ fn pixel_looks(
         .collect()
 }
 
-/// The surface in the cell nearest the middle, and the mean illuminance over the cells on it.
+/// The surface in the cell nearest the middle, and the mean reading of the cells on it.
 fn middle(looks: &[Look], per_side: u32) -> Option<Middle> {
     let central = (per_side / 2) * per_side + per_side / 2;
     let surface = looks[central as usize].surface?;
-    let values: Vec<f64> = looks
-        .iter()
-        .filter(|look| look.surface.is_some_and(|other| surface.continues(&other)))
-        .filter_map(|look| look.illuminance_lx)
-        .collect();
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    Some(Middle { surface, illuminance_lx: (!values.is_empty()).then_some(mean) })
+    let same = |look: &&Look| look.surface.is_some_and(|other| surface.continues(&other));
+    let reading = Reading::mean(looks.iter().filter(same).filter_map(|look| look.reading));
+    Some(Middle { surface, reading })
 }

@@ -11,6 +11,8 @@ pub struct SurfacePoint {
     pub u: f64,
     /// Weight of the third corner.
     pub v: f64,
+    /// Whether it is seen by gloss, which blurs it: a cheap reading is then as good as a fine one.
+    pub blurred: bool,
 }
 
 /// How finely a view is traced.

@@ -289,7 +289,7 @@ fn carries_map(scene: &Scene, triangle: u32, back: bool) -> bool {
     scene
         .material(triangle)
         .finish(back)
-        .is_some_and(|finish| !finish.is_pure_mirror() && !(back && *finish == Finish::BLACK))
+        .is_some_and(|finish| !(finish.is_pure_mirror() || back && *finish == Finish::BLACK))
 }
 
 fn corners(scene: &Scene, triangle: u32, back: bool) -> [(Point, Normal); 3] {

@@ -68,7 +68,7 @@ impl<'s> Emission<'s> {
         let points = self.scene.luminaires().len();
         if index >= points {
             let area = &self.scene.area_luminaires()[index - points];
-            return self.from_area(area, index - points, other, square, place);
+            return self.leave_area(area, index - points, other, square, place);
         }
         let luminaire = &self.scene.luminaires()[index];
         let (origin, direction) = match &luminaire.kind {
@@ -96,7 +96,7 @@ impl<'s> Emission<'s> {
         self.centre + u * (radius * c) + v * (radius * s) - direction * (2.0 * self.radius_m)
     }
 
-    fn from_area(
+    fn leave_area(
         &self,
         area: &AreaLuminaire,
         index: usize,

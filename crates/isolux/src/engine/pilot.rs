@@ -27,6 +27,8 @@ const LEAST_EDGE_SHARE: f64 = 1e-4;
 const PULL_IN: f64 = 2e-3;
 /// With more sources than this, rays read direct light from the map where they end.
 const MOST_SOURCES_EVALUATED: usize = 64;
+/// Vertices for the direct light of emitting surfaces, in multiples of those for indirect light.
+const MOST_FOR_SAMPLED_LIGHT: usize = 4;
 /// Sweeps of the pilot end when they change less than this.
 const PILOT_TOLERANCE: f64 = 1e-4;
 
@@ -198,6 +200,12 @@ impl<'s> Pilot<'s> {
         let level = coarse.node_count() as u32;
         let mut known = look.known;
         let mut elements = look.elements;
+        // Sampled direct light has noise, which refinement cannot tell from shadow borders.
+        let most = if self.lighting.is_exact() {
+            request.max_vertices
+        } else {
+            request.max_vertices.min(MOST_FOR_SAMPLED_LIGHT * indirect_vertices)
+        };
         for _ in 0..MAX_ROUNDS {
             let luminances: Vec<Option<f64>> =
                 (0..known.len()).map(|k| known[k].then(|| self.direct[k].luminance())).collect();
@@ -206,7 +214,7 @@ impl<'s> Pilot<'s> {
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
             }
-            let (least, most) = (self.least_edge_m, request.max_vertices);
+            let least = self.least_edge_m;
             if !refine_worst(&mut self.subdivision, &errors, least, most) {
                 break;
             }
@@ -239,10 +247,10 @@ impl<'s> Pilot<'s> {
 
 /// Vertices added for direct light are hidden if both ends of their edge are and no light arrives.
 fn extend_known(elements: &Elements, known: &mut Vec<bool>, direct: &[Rgb]) {
-    for k in known.len()..elements.vertices().len() {
-        let ends = elements.vertices()[k].parents.unwrap_or([0, 0]);
-        let lit = !direct[k].is_black();
-        known.push(lit || ends.iter().any(|&end| known[end as usize]));
+    let first = known.len();
+    for (vertex, direct) in elements.vertices().iter().zip(direct).skip(first) {
+        let ends = vertex.parents.unwrap_or([0, 0]);
+        known.push(!direct.is_black() || ends.iter().any(|&end| known[end as usize]));
     }
 }
 

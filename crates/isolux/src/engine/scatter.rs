@@ -104,8 +104,8 @@ fn schlick(f0: Rgb, cos: f64) -> Rgb {
     f0.map(|f| f + (1.0 - f) * m5)
 }
 
-/// One sample of what a smooth dielectric does: reflection with the probability of Fresnel's
-/// reflectance, else transmission.
+/// One sample of what a smooth dielectric does: reflection in proportion to Fresnel's reflectance,
+/// else transmission.
 pub(super) fn refract(
     glass: &Dielectric,
     surface: &SurfacePoint,
@@ -114,38 +114,59 @@ pub(super) fn refract(
 ) -> Scattered {
     let cos = -incoming.cos(surface.shading);
     let ior = if surface.back { 1.0 / glass.ior } else { glass.ior };
-    let reflectance = if glass.thin {
-        pane_reflectance(cos, glass.ior)
+    let (reflected, transmitted, through) = if glass.thin {
+        let Pane { reflectance, transmittance } = pane(glass, cos);
+        (reflectance, transmittance, Some(incoming))
     } else {
-        fresnel(cos, ior).iter().sum::<f64>() / 2.0
+        let reflectance = mean(fresnel(cos, ior));
+        let through = refracted(incoming, surface, cos, ior);
+        let kept = if through.is_some() { reflectance } else { 1.0 };
+        (Rgb::grey(kept), glass.transmittance * (1.0 - kept), through)
     };
-    let through = || {
-        if glass.thin { Some(incoming) } else { refracted(incoming, surface, cos, ior) }
-    };
-    match (pick >= reflectance).then(through).flatten() {
+    let both = reflected.luminance() + transmitted.luminance();
+    let chance = if both > 0.0 { reflected.luminance() / both } else { 1.0 };
+    match through.filter(|_| pick >= chance) {
         Some(direction) => Scattered {
             ray: surface.cross(direction),
             direction,
-            weight: glass.transmittance,
+            weight: transmitted * (1.0 / (1.0 - chance)),
             mirrored: false,
         },
         None => {
             let direction = incoming.reflect(surface.shading);
-            let ray = surface.leave(direction);
-            Scattered { ray, direction, weight: Rgb::WHITE, mirrored: false }
+            let weight = reflected * (1.0 / chance);
+            Scattered { ray: surface.leave(direction), direction, weight, mirrored: false }
         }
     }
 }
 
-/// Share of unpolarized light that a thin pane lets straight through.
-pub(super) fn pane_transmittance(glass: &Dielectric, cos: f64) -> Rgb {
-    glass.transmittance * (1.0 - pane_reflectance(cos, glass.ior))
+/// What a pane does to unpolarized light, inner reflections summed.
+pub(super) struct Pane {
+    reflectance: Rgb,
+    pub(super) transmittance: Rgb,
 }
 
-/// Reflectance of two parallel faces with all inner reflections: 2 R / (1 + R) for each
-/// polarization (Born and Wolf, "Principles of Optics", 7.6, incoherent sum), then their mean.
-fn pane_reflectance(cos: f64, ior: f64) -> f64 {
-    fresnel(cos, ior).iter().map(|r| 2.0 * r / (1.0 + r)).sum::<f64>() / 2.0
+/// A pane of two parallel faces in one surface. For each polarization, with the reflectance R of a
+/// face and the share t left by one crossing, `T = (1 - R)^2 t / (1 - R^2 t^2)` is transmitted and
+/// `R (1 + t T)` reflected (Born and Wolf, "Principles of Optics", 7.6, without interference); then
+/// the mean of the two.
+pub(super) fn pane(glass: &Dielectric, cos: f64) -> Pane {
+    let faces = fresnel(cos, glass.ior);
+    let transmitted = |r: f64, t: f64| {
+        let lost = 1.0 - r * r * t * t;
+        if lost > 0.0 { (1.0 - r) * (1.0 - r) * t / lost } else { 0.0 }
+    };
+    Pane {
+        reflectance: glass
+            .transmittance
+            .map(|t| mean(faces.map(|r| r * (1.0 + t * transmitted(r, t))))),
+        transmittance: glass.transmittance.map(|t| mean(faces.map(|r| transmitted(r, t)))),
+    }
+}
+
+/// Half of each polarization.
+fn mean([a, b]: [f64; 2]) -> f64 {
+    0.5 * (a + b)
 }
 
 /// Fresnel reflectance for both polarizations, from the side of index 1 to that of index `ior`.

@@ -5,6 +5,7 @@
 //! shine along -z too.) A direction has gamma = acos(-z) and C = atan2(y, x).
 
 mod axis;
+mod check;
 mod distribution;
 mod strip;
 mod symmetry;
@@ -12,6 +13,7 @@ mod symmetry;
 mod tests;
 mod web;
 
+pub use check::WebError;
 pub use distribution::IntensityDistribution;
 pub use symmetry::Symmetry;
-pub use web::{PhotometricWeb, WebError};
+pub use web::PhotometricWeb;

@@ -137,10 +137,15 @@ impl Module {
         Self { file: file.path.clone(), path, name, uses: uses(&code), code }
     }
 
-    /// Whether a name is used, not only passed on.
+    /// Whether a name is used, not only passed on: neither in a `use`, nor as the name of a module
+    /// or of a method.
     fn works_with(&self, name: &str) -> bool {
         let declared = |at: usize| self.uses.iter().any(|u| u.span.contains(&at));
-        name != "*" && words(&self.code, name).any(|at| !declared(at))
+        let is_other = |at: usize| {
+            let before = self.code[..at].trim_end();
+            before.ends_with('.') || before.ends_with("mod")
+        };
+        name != "*" && words(&self.code, name).any(|at| !declared(at) && !is_other(at))
     }
 
     /// Names of the modules written inside the file around a byte of it.

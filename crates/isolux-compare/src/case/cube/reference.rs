@@ -10,8 +10,8 @@
 
 use super::krylov::Krylov;
 use super::line::Resolution;
+use super::room::{HALF_EDGE_M, INTENSITY_CD, REFLECTANCE};
 use super::transport::Transport;
-use super::{HALF_EDGE_M, INTENSITY_CD, REFLECTANCE};
 use std::sync::{Arc, LazyLock};
 
 /// The solution of CUBE for one reflectance, anywhere on a face.
@@ -122,7 +122,7 @@ pub fn direct_lx(x: f64, y: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::cube::TABLE_1;
+    use crate::case::cube::room::TABLE_1;
     use crate::tolerance::{CUBE_REFERENCE, PRINTED_SIX_DIGITS, PRINTED_TENTH};
     use std::f64::consts::PI;
 

@@ -8,13 +8,13 @@ use crate::sampling::SphericalTriangle;
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 
-/// Emitters of at most so many triangles are sampled by solid angle, with the exact unoccluded
-/// illuminance as control; larger ones by area.
-const SOLID_ANGLE_TRIANGLES: usize = 32;
+/// Emitters of at most so many triangles a sample are sampled by solid angle, with the exact
+/// unoccluded illuminance as control; larger ones by area, which costs less and spreads more.
+const TRIANGLES_A_SAMPLE: usize = 32;
 
 impl Lighting<'_> {
     /// Illuminance from one emitting surface, by `samples` shadow rays.
-    pub(super) fn from_area(
+    pub(super) fn lit_by_area(
         &self,
         source: &Source,
         emitter: &Emitter,
@@ -23,7 +23,7 @@ impl Lighting<'_> {
         samples: usize,
         dice: &mut Dice,
     ) -> Rgb {
-        if triangles.len() > SOLID_ANGLE_TRIANGLES {
+        if triangles.len() > TRIANGLES_A_SAMPLE * samples {
             let one = |_| self.by_area(source, emitter, triangles, at, dice);
             return source.colour * ((0..samples).map(one).sum::<Rgb>() / samples as f64);
         }
@@ -43,9 +43,14 @@ impl Lighting<'_> {
             }
         }
         // The exact unoccluded value less the estimated shadow has no variance where nothing is in
-        // the way; in full shadow the plain estimate, zero, has none.
-        let steradians =
-            if seen { Rgb::grey(whole) - lost / samples as f64 } else { kept / samples as f64 };
+        // the way; in full shadow the plain estimate, zero, has none. An image is mostly hidden by
+        // the frame of its mirror.
+        let mostly_free = seen && source.chain.is_empty();
+        let steradians = if mostly_free {
+            Rgb::grey(whole) - lost / samples as f64
+        } else {
+            kept / samples as f64
+        };
         source.colour * steradians
     }
 

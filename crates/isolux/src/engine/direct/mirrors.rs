@@ -2,7 +2,7 @@
 
 use crate::scene::Scene;
 use crate::units::Rgb;
-use isolux_geometry::{Normal, Point, Vector};
+use isolux_geometry::{Normal, Point, Triangle, Vector};
 
 /// Planes that get virtual luminaires; the largest ones, if there are more.
 const MAX_PLANES: usize = 16;
@@ -18,12 +18,36 @@ pub(super) struct Plane {
     pub(super) normal: Normal,
     pub(super) reflectance: Rgb,
     area_m2: f64,
+    /// The box around its mirror triangles, by its corners.
+    low: Point,
+    high: Point,
 }
 
 impl Plane {
     /// Height of a point above the reflecting side, m.
     pub(super) fn height(&self, p: Point) -> f64 {
         (p - self.point).dot(self.normal.to_vector())
+    }
+
+    /// Whether light that leaves this mirror can meet the other: some of it lies in front of this.
+    pub(super) fn can_light(&self, other: &Self, tolerance_m: f64) -> bool {
+        let n = self.normal.to_vector();
+        let farthest = |low: f64, high: f64, n: f64| if n > 0.0 { high } else { low };
+        let corner = Point::new(
+            farthest(other.low.x, other.high.x, n.x),
+            farthest(other.low.y, other.high.y, n.y),
+            farthest(other.low.z, other.high.z, n.z),
+        );
+        self.height(corner) > tolerance_m
+    }
+
+    fn include(&mut self, corners: &Triangle) {
+        self.area_m2 += corners.area();
+        for p in corners.corners {
+            let (low, high) = (self.low, self.high);
+            self.low = Point::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z));
+            self.high = Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z));
+        }
     }
 
     /// The mirror image of a point.
@@ -44,6 +68,8 @@ pub(super) struct Mirrors {
     sides: Vec<[Option<u32>; 2]>,
     /// Whether some mirror is curved or one plane too many.
     pub(super) leaves_some_out: bool,
+    /// Heights below this are rounding, m.
+    pub(super) tolerance_m: f64,
 }
 
 impl Mirrors {
@@ -53,8 +79,8 @@ impl Mirrors {
             planes: Vec::new(),
             sides: vec![[None; 2]; scene.triangle_count() as usize],
             leaves_some_out: false,
+            tolerance_m: PLANE_TOLERANCE * extent_m(scene),
         };
-        let tolerance_m = PLANE_TOLERANCE * extent_m(scene);
         for triangle in 0..scene.triangle_count() {
             for back in [false, true] {
                 let finish = scene.material(triangle).finish(back);
@@ -66,7 +92,7 @@ impl Mirrors {
                     found.leaves_some_out = true;
                     continue;
                 }
-                let plane = found.plane_of(scene, triangle, back, reflectance, tolerance_m);
+                let plane = found.plane_of(scene, triangle, back, reflectance);
                 found.sides[triangle as usize][usize::from(back)] = Some(plane);
             }
         }
@@ -74,14 +100,8 @@ impl Mirrors {
         found
     }
 
-    fn plane_of(
-        &mut self,
-        scene: &Scene,
-        triangle: u32,
-        back: bool,
-        reflectance: Rgb,
-        tolerance_m: f64,
-    ) -> u32 {
+    fn plane_of(&mut self, scene: &Scene, triangle: u32, back: bool, reflectance: Rgb) -> u32 {
+        let tolerance_m = self.tolerance_m;
         let corners = scene.triangle(triangle);
         let front = scene.geometric_normal(triangle);
         let normal = if back { -front } else { front };
@@ -93,10 +113,11 @@ impl Mirrors {
         let known = self.planes.iter().position(same);
         let index = known.unwrap_or_else(|| {
             let point = corners.centroid();
-            self.planes.push(Plane { point, normal, reflectance, area_m2: 0.0 });
+            let (low, high) = (point, point);
+            self.planes.push(Plane { point, normal, reflectance, area_m2: 0.0, low, high });
             self.planes.len() - 1
         });
-        self.planes[index].area_m2 += corners.area();
+        self.planes[index].include(&corners);
         index as u32
     }
 

@@ -31,6 +31,7 @@ pub(super) struct Lighting<'s> {
     scene: &'s Scene,
     mirrors: Mirrors,
     sources: Vec<Source>,
+    area_sources: usize,
     has_glass: bool,
 }
 
@@ -40,7 +41,9 @@ impl<'s> Lighting<'s> {
         let mirrors = Mirrors::find(scene);
         let sources = source::sources(scene, &mirrors);
         let has_glass = scene.materials().iter().any(|m| m.finish(false).is_none());
-        Self { scene, mirrors, sources, has_glass }
+        let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
+        let area_sources = sources.iter().filter(is_area).count();
+        Self { scene, mirrors, sources, area_sources, has_glass }
     }
 
     /// Number of sources, images included.
@@ -50,7 +53,7 @@ impl<'s> Lighting<'s> {
 
     /// Whether direct light has an exact value at every point: no emitting surface.
     pub(super) fn is_exact(&self) -> bool {
-        !self.sources.iter().any(|s| matches!(s.kind, SourceKind::Area { .. }))
+        self.area_sources == 0
     }
 
     /// Whether there is specular transport that the sources do not cover.
@@ -75,17 +78,20 @@ impl<'s> Lighting<'s> {
     /// Direct illuminance from all sources: exact for points and parallel light, sampled for
     /// emitting surfaces.
     pub(super) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        let areas =
-            self.sources.iter().filter(|s| matches!(s.kind, SourceKind::Area { .. })).count();
-        let samples = (AREA_SAMPLES / areas.max(1)).max(FEWEST_AREA_SAMPLES);
-        self.sources.iter().map(|source| self.from_source(source, at, samples, dice)).sum()
+        let samples = (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES);
+        self.sampled(at, samples, dice)
+    }
+
+    /// The same with `samples` shadow rays for every emitting surface.
+    pub(super) fn sampled(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
+        self.sources.iter().map(|source| self.lit_by(source, at, samples, dice)).sum()
     }
 
     /// An unbiased estimate of the direct illuminance by few shadow rays, for the ends of
     /// gathering rays.
     pub(super) fn estimate(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
         if self.sources.len() <= EXACT_SOURCES {
-            return self.sources.iter().map(|s| self.from_source(s, at, 1, dice)).sum();
+            return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
         }
         let weights: Vec<f64> =
             self.sources.iter().map(|s| source::importance(self.scene, s, at)).collect();
@@ -102,26 +108,20 @@ impl<'s> Lighting<'s> {
         // Rounding may leave a sliver past the last weight.
         let drawn = drawn.or_else(|| weights.iter().rposition(|&w| w > 0.0));
         drawn.map_or(Rgb::BLACK, |k| {
-            self.from_source(&self.sources[k], at, 1, dice) * (total / weights[k])
+            self.lit_by(&self.sources[k], at, 1, dice) * (total / weights[k])
         })
     }
 
-    fn from_source(
-        &self,
-        source: &Source,
-        at: &SurfacePoint,
-        samples: usize,
-        dice: &mut Dice,
-    ) -> Rgb {
+    fn lit_by(&self, source: &Source, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
         match &source.kind {
             SourceKind::Area { emitter, triangles } => {
-                self.from_area(source, emitter, triangles, at, samples, dice)
+                self.lit_by_area(source, emitter, triangles, at, samples, dice)
             }
-            _ => self.from_point(source, at),
+            _ => self.lit_by_point(source, at),
         }
     }
 
-    fn from_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {
+    fn lit_by_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {
         let Some(arriving) = source::unoccluded(self.scene, source, at) else { return Rgb::BLACK };
         arriving.illuminance_lx * self.visibility(source, at, arriving.target, None)
     }

@@ -134,8 +134,10 @@ fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
     let mirror = &mirrors.planes[plane as usize];
     let colour = source.colour * mirror.reflectance;
     let kept = mirror.reflectance.max_channel() * chain_reflectance(source, mirrors);
-    let repeated = source.chain.last() == Some(&plane);
-    if repeated || source.chain.len() >= MAX_CHAIN || kept < LEAST_REFLECTANCE {
+    let meets = source.chain.last().is_none_or(|&last| {
+        last != plane && mirrors.planes[last as usize].can_light(mirror, mirrors.tolerance_m)
+    });
+    if !meets || source.chain.len() >= MAX_CHAIN || kept < LEAST_REFLECTANCE {
         return None;
     }
     let kind = match &source.kind {
@@ -157,12 +159,16 @@ fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
                 illuminance_lx: *illuminance_lx,
             }),
         SourceKind::Area { emitter, triangles } => {
-            let in_front = |t: &[Point; 3]| t.iter().any(|&p| mirror.height(p) > 0.0);
+            // Triangles behind the mirror have no image; of those that cross its plane, what lies
+            // behind is told by the mirror not being met before the image.
+            let in_front =
+                |t: &[Point; 3]| t.iter().any(|&p| mirror.height(p) > mirrors.tolerance_m);
             // Reflection turns triangles around; swapping two corners keeps the emitting side.
             let reflected = |&[a, b, c]: &[Point; 3]| [a, c, b].map(|p| mirror.image(p));
-            triangles.iter().any(in_front).then(|| {
-                area_kind(emitter.indices.clone(), triangles.iter().map(reflected).collect())
-            })
+            let kept = || emitter.indices.iter().zip(triangles).filter(|(_, t)| in_front(t));
+            let indices: Vec<u32> = kept().map(|(&index, _)| index).collect();
+            (!indices.is_empty())
+                .then(|| area_kind(indices, kept().map(|(_, t)| reflected(t)).collect()))
         }
     }?;
     let chain = source.chain.iter().copied().chain([plane]).collect();

@@ -2,7 +2,7 @@
 
 use super::Lighting;
 use super::source::{Source, Target};
-use crate::engine::scatter::pane_transmittance;
+use crate::engine::scatter::pane;
 use crate::engine::surface::SurfacePoint;
 use crate::scene::Body;
 use crate::units::Rgb;
@@ -59,7 +59,7 @@ impl Lighting<'_> {
         target: Target,
         plane: u32,
     ) -> Option<(Rgb, SurfacePoint)> {
-        let mut ray = Ray { t_max: f32::INFINITY, ..segment(from, target) };
+        let mut ray = segment(from, target);
         let mut share = Rgb::WHITE;
         for _ in 0..MAX_PANES {
             let hit = self.scene.bvh().closest_hit(&ray)?;
@@ -67,8 +67,7 @@ impl Lighting<'_> {
             match self.pane_share(&surface, &ray) {
                 Some(passed) => {
                     share = share * passed;
-                    ray = Ray { t_max: f32::INFINITY, ..segment(&surface.other_side(), target) }
-                        .skipping(surface.triangle);
+                    ray = segment(&surface.other_side(), target);
                 }
                 None => {
                     let met = self.mirrors.of(surface.triangle, surface.back) == Some(plane);
@@ -103,7 +102,7 @@ impl Lighting<'_> {
             return None;
         };
         let direction = Vector::from(ray.direction).direction()?;
-        glass.thin.then(|| pane_transmittance(glass, direction.cos(surface.shading).abs()))
+        glass.thin.then(|| pane(glass, direction.cos(surface.shading).abs()).transmittance)
     }
 }
 

@@ -1,0 +1,186 @@
+//! Luminaires that light nothing.
+
+use super::finding::Finding;
+use isolux::geometry::{Direction, Point, Ray, Vector};
+use isolux::scene::{Body, Finish, Luminaire, LuminaireKind, Scene};
+
+/// Findings shown one by one; more are counted.
+const MAX_SHOWN: usize = 10;
+
+/// A luminaire that sees nothing beyond this share of the scene is shut in.
+const SHUT_IN_SHARE: f64 = 0.02;
+
+/// What is the matter with a luminaire.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Trouble {
+    NoFlux,
+    LightsNothing,
+    LightsBlackBacks,
+    ShutIn,
+}
+
+/// What a luminaire sees in one direction.
+struct Seen {
+    black_back: bool,
+    clear: bool,
+    distance_m: f64,
+}
+
+pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
+    let troubled: Vec<(&Luminaire, Trouble)> =
+        scene.luminaires().iter().filter_map(|l| Some((l, trouble(scene, l)?))).collect();
+    let mut found: Vec<Finding> =
+        troubled.iter().take(MAX_SHOWN).map(|(l, trouble)| finding(l, *trouble)).collect();
+    if troubled.len() > MAX_SHOWN {
+        let more = format!("{} more luminaires in trouble", troubled.len() - MAX_SHOWN);
+        found.push(Finding::warning("luminaires", more, "mend the first ones and check again"));
+    }
+    found
+}
+
+fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
+    let LuminaireKind::Point { position, world_from_luminaire, intensity } = &luminaire.kind else {
+        return None;
+    };
+    if intensity.luminous_flux_lm() <= 0.0 {
+        return Some(Trouble::NoFlux);
+    }
+    let is_lit = |local: &Direction| intensity.intensity_cd(*local) > 0.0;
+    let looks: Vec<Option<Seen>> = all_around()
+        .into_iter()
+        .filter(is_lit)
+        .filter_map(|local| world_from_luminaire.vector(local.to_vector()).direction())
+        .map(|direction| look(scene, *position, direction))
+        .collect();
+    let seen = || looks.iter().flatten();
+    let shut_in_m = SHUT_IN_SHARE * extent_m(scene);
+    // A beam narrower than the directions tried is left alone.
+    if looks.is_empty() {
+        None
+    } else if seen().next().is_none() {
+        Some(Trouble::LightsNothing)
+    } else if seen().all(|s| s.black_back) {
+        Some(Trouble::LightsBlackBacks)
+    } else if looks.iter().all(|l| l.as_ref().is_some_and(|s| !s.clear && s.distance_m < shut_in_m))
+    {
+        Some(Trouble::ShutIn)
+    } else {
+        None
+    }
+}
+
+/// The first surface in a direction.
+fn look(scene: &Scene, from: Point, direction: Direction) -> Option<Seen> {
+    let hit = scene.bvh().closest_hit(&Ray::new(from, direction))?;
+    let material = scene.material(hit.triangle);
+    let is_black = material.finish(true).is_some_and(|back| *back == Finish::BLACK);
+    Some(Seen {
+        black_back: hit.back && is_black,
+        clear: matches!(material.body, Body::Dielectric(_)),
+        distance_m: f64::from(hit.t),
+    })
+}
+
+fn extent_m(scene: &Scene) -> f64 {
+    scene.bvh().mesh().bounds().map_or(0.0, |(low, high)| (high - low).length())
+}
+
+/// The 26 neighbours of the middle of a cube of cubes, away from edges of a model on a grid.
+fn all_around() -> Vec<Direction> {
+    let steps = [-1.0, 0.0, 1.0];
+    let mut directions = Vec::new();
+    for x in steps {
+        for y in steps {
+            for z in steps {
+                directions.extend(Vector::new(x + 0.013, y + 0.007, z - 0.011).direction());
+            }
+        }
+    }
+    directions
+}
+
+fn finding(luminaire: &Luminaire, trouble: Trouble) -> Finding {
+    let (what, remedy) = match trouble {
+        Trouble::NoFlux => ("gives no light", "raise its intensity or its dimming, or remove it"),
+        Trouble::LightsNothing => ("lights no surface", "check its position and its aim"),
+        Trouble::ShutIn => (
+            "is shut in on all sides close to it",
+            "it is inside a solid: move it out, or open its housing",
+        ),
+        Trouble::LightsBlackBacks => (
+            "lights only backs of one-sided surfaces",
+            "it is inside a solid, or the surfaces around it are turned inside out: move it or \
+             flip them",
+        ),
+    };
+    Finding::warning(format!("luminaire `{}`", luminaire.name), what, remedy)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use isolux::geometry::Transform;
+    use isolux::photometry::IntensityDistribution;
+    use isolux::scene::{Material, SceneParts, Shape};
+    use isolux::units::Rgb;
+
+    /// A closed cube around the origin, seen from inside or outside.
+    fn cube(half: f64, inwards: bool) -> Shape {
+        let corner = |k: u32| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { half } else { -half });
+        let faces =
+            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let turn = |[a, b, c]: [u32; 3]| if inwards { [a, c, b] } else { [a, b, c] };
+        Shape {
+            positions: (0..8).map(corner).collect(),
+            triangles: faces
+                .into_iter()
+                .flat_map(|[a, b, c, d]| [turn([a, b, c]), turn([a, c, d])])
+                .collect(),
+            ..Shape::default()
+        }
+    }
+
+    fn trouble_of(shapes: Vec<Shape>, intensity_cd: f64, two_sided: bool) -> Option<Trouble> {
+        let finish = Finish::diffuse(Rgb::grey(0.5));
+        let material = if two_sided {
+            Material::two_sided("wall", finish)
+        } else {
+            Material::one_sided("wall", finish)
+        };
+        let luminaire = Luminaire {
+            name: "lamp".into(),
+            group: 0,
+            colour: Rgb::WHITE,
+            kind: LuminaireKind::Point {
+                position: Point::ORIGIN,
+                world_from_luminaire: Transform::IDENTITY,
+                intensity: IntensityDistribution::Isotropic { intensity_cd },
+            },
+        };
+        let luminaires = vec![luminaire];
+        let parts =
+            SceneParts { shapes, materials: vec![material], luminaires, ..SceneParts::default() };
+        let scene = Scene::assemble(parts).unwrap();
+        trouble(&scene, &scene.luminaires()[0])
+    }
+
+    #[test]
+    fn luminaires_in_trouble_are_told_apart() {
+        let room = || cube(5.0, true);
+        let far = || Shape {
+            positions: vec![[9.0, 9.0, 9.0], [9.1, 9.0, 9.0], [9.0, 9.1, 9.0]],
+            triangles: vec![[0, 1, 2]],
+            ..Shape::default()
+        };
+        for (shapes, intensity_cd, two_sided, expected) in [
+            (vec![room()], 1.0, false, None),
+            (vec![room()], 0.0, false, Some(Trouble::NoFlux)),
+            (vec![cube(5.0, false)], 1.0, false, Some(Trouble::LightsBlackBacks)),
+            (vec![room(), cube(0.1, false)], 1.0, false, Some(Trouble::LightsBlackBacks)),
+            (vec![room(), cube(0.1, false)], 1.0, true, Some(Trouble::ShutIn)),
+            (vec![far()], 1.0, true, Some(Trouble::LightsNothing)),
+        ] {
+            assert_eq!(trouble_of(shapes, intensity_cd, two_sided), expected);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! `isolux check`: audit of a scene before a run.
+
+mod borders;
+mod energy;
+mod extent;
+mod finding;
+mod lamps;
+
+use crate::console::{facts, print, print_json, table};
+use crate::estimate::Estimate;
+use crate::failure::{Failure, Outcome};
+use crate::flags::CheckFlags;
+use crate::quantity::{show_bytes, show_seconds, significant};
+use crate::source;
+use finding::Finding;
+use isolux::engine::SolveRequest;
+use isolux::scene::Scene;
+use serde::Serialize;
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &CheckFlags, json: bool) -> Result<Outcome, Failure> {
+    let loaded = source::read_scene_with_warnings(&flags.scene)?;
+    let audit = Audit::of(&loaded.value, loaded.warnings.iter().map(Finding::of_reading).collect());
+    if json {
+        print_json(&audit)?
+    } else {
+        print(&audit.text())?
+    }
+    Ok(Outcome::Done)
+}
+
+/// What is known of a scene without solving it.
+#[derive(Serialize)]
+struct Audit {
+    scene: String,
+    triangles: u32,
+    size_m: [f64; 3],
+    area_m2: f64,
+    luminaires: usize,
+    emitting_surfaces: usize,
+    luminous_flux_lm: f64,
+    mean_reflectance: f64,
+    mean_illuminance_lx: Option<f64>,
+    open_edges: u64,
+    estimate: Option<Estimate>,
+    findings: Vec<Finding>,
+}
+
+impl Audit {
+    fn of(scene: &Scene, mut findings: Vec<Finding>) -> Self {
+        let extent = extent::Extent::of(scene);
+        let borders = borders::Borders::of(scene);
+        let energy = energy::Energy::of(scene);
+        findings.extend(extent.findings());
+        findings.extend(borders.findings());
+        findings.extend(energy.findings());
+        findings.extend(lamps::findings(scene));
+        Self {
+            scene: scene.name().to_owned(),
+            triangles: scene.triangle_count(),
+            size_m: extent.size_m,
+            area_m2: energy.area_m2,
+            luminaires: scene.luminaires().len(),
+            emitting_surfaces: scene.area_luminaires().len(),
+            luminous_flux_lm: energy.flux_lm,
+            mean_reflectance: energy.mean_reflectance,
+            mean_illuminance_lx: energy.mean_illuminance_lx(borders.is_closed()),
+            open_edges: borders.open,
+            // Without light or receivers the findings say so.
+            estimate: Estimate::of(scene, &SolveRequest::default()).ok(),
+            findings,
+        }
+    }
+
+    fn text(&self) -> String {
+        let [x, y, z] = self.size_m.map(|side| significant(side, 3));
+        let mean = self.mean_illuminance_lx.map_or("not a closed room".to_owned(), |lx| {
+            format!("about {} lx, if all light stays inside", significant(lx, 2))
+        });
+        let estimated = |show: fn(&Estimate) -> Option<String>| {
+            self.estimate.as_ref().and_then(show).unwrap_or_else(|| "cannot be told".to_owned())
+        };
+        let mut text = facts(&[
+            ("scene", self.scene.clone()),
+            ("size", format!("{x} x {y} x {z} m")),
+            ("triangles", self.triangles.to_string()),
+            ("surface", format!("{} m2", significant(self.area_m2, 3))),
+            ("open edges", self.open_edges.to_string()),
+            ("luminaires", self.luminaires.to_string()),
+            ("emitting surfaces", self.emitting_surfaces.to_string()),
+            ("luminous flux", format!("{} lm", significant(self.luminous_flux_lm, 3))),
+            ("mean reflectance", significant(self.mean_reflectance, 2)),
+            ("mean illuminance", mean),
+            ("receivers at 1 %", estimated(|e| Some(format!("at least {}", e.receivers)))),
+            ("memory at 1 %", estimated(|e| Some(format!("about {}", show_bytes(e.memory_bytes))))),
+            ("time to 1 %", estimated(|e| e.time_s.map(|s| format!("about {}", show_seconds(s))))),
+        ]);
+        let rows: Vec<Vec<String>> = self.findings.iter().map(Finding::row).collect();
+        text += "\n";
+        text += &match rows.is_empty() {
+            true => "nothing found\n".to_owned(),
+            false => table(&["", "place", "finding", "remedy"], &rows),
+        };
+        text
+    }
+}

@@ -1,0 +1,107 @@
+//! `isolux demo`: a real interior end to end, from nothing.
+
+use crate::console::{facts, note, print, print_json};
+use crate::failure::{Failure, Outcome};
+use crate::flags::{DemoFlags, LookFlags, ToneName};
+use crate::output::OutputPath;
+use crate::progress::Reporter;
+use crate::summary::{self, Lit};
+use crate::{explain, map_file, render, report, solve, source, viewpoint};
+use isolux::engine::SolveRequest;
+use isolux_view::Exposure;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+const SCENE: &str = "scenes/demo/scene.toml";
+const PICTURE: (u32, u32) = (1280, 720);
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
+    let path = find_scene()?;
+    let files = Files::check(&flags.output)?;
+    let scene = source::read_scene(&path.to_string_lossy())?;
+    let request = SolveRequest { accuracy: Some(flags.accuracy), ..SolveRequest::default() };
+    note(format!("{}, from {}", scene.name(), path.display()));
+    explain::lines(&scene, &request).iter().for_each(note);
+    let solved = solve::solve(&scene, &request, &mut Reporter::new(None))?;
+    map_file::write(&files.map, &scene, &solved.map)?;
+    let camera = viewpoint::camera(&scene, None)?;
+    let view = render::look(&scene, &solved.map, &camera, PICTURE, false)?;
+    render::write(&files.picture, &render::shown(&view, &look(false))?)?;
+    render::write(&files.false_colour, &render::shown(&view, &look(true))?)?;
+    let results = Results {
+        solution: report::Report::of(&solved.map, &files.map),
+        picture: files.picture.path().display().to_string(),
+        false_colour: files.false_colour.path().display().to_string(),
+        surfaces: summary::by_shape(&scene, &solved.map),
+    };
+    if json {
+        print_json(&results)?
+    } else {
+        print(&results.text())?
+    }
+    Ok(solved.outcome)
+}
+
+/// The files written.
+struct Files {
+    map: OutputPath,
+    picture: OutputPath,
+    false_colour: OutputPath,
+}
+
+impl Files {
+    fn check(folder: &Path) -> Result<Self, Failure> {
+        std::fs::create_dir_all(folder).map_err(|e| {
+            let folder = folder.display();
+            Failure::bad_input(format!("{folder}: cannot be created ({e}); choose another folder"))
+        })?;
+        Ok(Self {
+            map: OutputPath::check(&folder.join("map.glb"), "glb")?,
+            picture: OutputPath::check(&folder.join("picture.png"), "png")?,
+            false_colour: OutputPath::check(&folder.join("false-colour.png"), "png")?,
+        })
+    }
+}
+
+fn look(false_colour: bool) -> LookFlags {
+    LookFlags {
+        exposure: Exposure::Automatic,
+        tone: ToneName::Reinhard,
+        false_colour,
+        limits: None,
+        logarithmic: false,
+        contours: false_colour,
+    }
+}
+
+/// The scene in the current folder, or in one above the program (as in `target/release`).
+fn find_scene() -> Result<PathBuf, Failure> {
+    let program = std::env::current_exe().unwrap_or_default();
+    let above = program.ancestors().skip(1).map(|folder| folder.join(SCENE));
+    let candidates = std::iter::once(PathBuf::from(SCENE)).chain(above);
+    candidates.into_iter().find(|path| path.is_file()).ok_or_else(|| {
+        Failure::bad_input(format!(
+            "{SCENE}: not found here nor above the program; run it in a copy of the repository"
+        ))
+    })
+}
+
+/// What `demo --json` prints.
+#[derive(Serialize)]
+struct Results {
+    solution: report::Report,
+    picture: String,
+    false_colour: String,
+    surfaces: Vec<Lit>,
+}
+
+impl Results {
+    fn text(&self) -> String {
+        let pictures = facts(&[
+            ("picture", self.picture.clone()),
+            ("false colour", self.false_colour.clone()),
+        ]);
+        format!("{}{pictures}\n{}", self.solution.text(), summary::text(&self.surfaces))
+    }
+}

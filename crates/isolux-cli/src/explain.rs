@@ -1,0 +1,82 @@
+//! What a run will do, and why, in sentences.
+
+use crate::quantity::{show_bytes, show_seconds, show_share, significant};
+use isolux::engine::SolveRequest;
+use isolux::map::Method;
+use isolux::scene::{LuminaireKind, Scene};
+
+/// One sentence a line.
+pub(crate) fn lines(scene: &Scene, request: &SolveRequest) -> Vec<String> {
+    let mut said = vec![light(scene), surfaces(scene), method(request.method), stop(request)];
+    said.push(format!(
+        "Elements are bisected until the map read without its scene is good to {}, or memory reaches \
+         {}.",
+        show_share(request.mesh_accuracy),
+        show_bytes(request.max_memory_bytes)
+    ));
+    said.push(format!(
+        "Random numbers are counted from seed {}: the same command gives the same bits, on any number \
+         of threads.",
+        request.seed
+    ));
+    said
+}
+
+fn light(scene: &Scene) -> String {
+    let is_parallel = |kind: &LuminaireKind| matches!(kind, LuminaireKind::Directional { .. });
+    let parallel = scene.luminaires().iter().filter(|l| is_parallel(&l.kind)).count();
+    format!(
+        "Light comes from {} point luminaires, {parallel} parallel ones and {} emitting surfaces, {} \
+         lm in all.",
+        scene.luminaires().len() - parallel,
+        scene.area_luminaires().len(),
+        significant(scene.luminous_flux_lm(), 3)
+    )
+}
+
+fn surfaces(scene: &Scene) -> String {
+    let sides = |material: u32| {
+        let material = &scene.materials()[material as usize];
+        [false, true].into_iter().filter_map(|back| material.finish(back)).collect::<Vec<_>>()
+    };
+    let (mut mirrors, mut glossy, mut clear) = (0_u64, 0_u64, 0_u64);
+    for triangle in 0..scene.triangle_count() {
+        let sides = sides(scene.material_index(triangle));
+        clear += u64::from(sides.is_empty());
+        mirrors += u64::from(sides.iter().any(|f| !f.mirror.is_black()));
+        glossy += u64::from(sides.iter().any(|f| f.gloss.is_some()));
+    }
+    format!(
+        "Of {} triangles {mirrors} mirror, {glossy} are glossy and {clear} are clear; light is \
+         followed through all of them.",
+        scene.triangle_count()
+    )
+}
+
+fn method(method: Method) -> String {
+    match method {
+        Method::Hybrid => {
+            "Direct light is evaluated at every receiver, indirect light gathered over the map itself in \
+             sweeps, and light that reaches a surface only by way of mirrors or glass carried by \
+             particles: the cheapest way to an accurate map. Each increment repeats all of it \
+             independently, so that their spread is the error."
+        }
+        Method::Forward => {
+            "Particles leave the luminaires in proportion to their flux and are counted where they \
+             land: a complete picture in the first second, and slow to converge after it."
+        }
+    }
+    .to_owned()
+}
+
+fn stop(request: &SolveRequest) -> String {
+    let limit = request.time_limit.map(|t| show_seconds(t.as_secs_f64()));
+    match (request.accuracy, limit) {
+        (Some(accuracy), Some(limit)) => {
+            format!("It stops at an error of {} or after {limit}.", show_share(accuracy))
+        }
+        (Some(accuracy), None) => format!("It stops at an error of {}.", show_share(accuracy)),
+        (None, Some(limit)) => format!("It stops after {limit}."),
+        (None, None) => "It runs until it is interrupted.".to_owned(),
+    }
+}

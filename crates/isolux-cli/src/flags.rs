@@ -1,0 +1,248 @@
+//! Arguments as written.
+
+use crate::quantity;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use isolux_view::Exposure;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// Illumination maps: lux on every surface of a scene, with a standard error.
+#[derive(Debug, Parser)]
+#[command(
+    name = "isolux",
+    version,
+    disable_help_subcommand = true,
+    after_help = "Exit codes: 0 done, 1 a check failed, 2 bad input, 3 stopped early with a valid map, \
+                  4 refused (memory, space), 130 interrupted with a valid map."
+)]
+pub(crate) struct Flags {
+    /// Print one JSON value on standard output instead of text
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The subcommands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Compute the illumination map of a scene
+    Solve(SolveFlags),
+    /// Say what a scene, a map or a photometric file holds
+    Info(InfoFlags),
+    /// Read a map at points
+    Probe(ProbeFlags),
+    /// Draw a view from a map
+    Render(RenderFlags),
+    /// Audit a scene before a run
+    Check(CheckFlags),
+    /// Run the cases with exact answers
+    Validate(ValidateFlags),
+    /// Solve a real interior and draw it, from nothing
+    Demo(DemoFlags),
+}
+
+const SCENE_HELP: &str =
+    "Path of a scene (.gltf, .glb, .obj, scene.toml), builtin:cube or builtin:sphere";
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux solve room.glb -o map.glb --accuracy 1%
+  isolux solve builtin:cube -o cube.glb --quality draft --json
+  isolux solve room.glb -o map.glb --time-limit 5min")]
+pub(crate) struct SolveFlags {
+    #[arg(help = SCENE_HELP)]
+    pub scene: String,
+    /// Where to write the map (.glb)
+    #[arg(short, long, value_name = "MAP.glb", required_unless_present = "dry_run")]
+    pub output: Option<PathBuf>,
+    /// Stop when the whole error of the scene is this small: 1% or 0.01
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "1%",
+          conflicts_with = "quality")]
+    pub accuracy: f64,
+    /// Subdivide until the bare interpolated map is this good (best effort)
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "5%")]
+    pub mesh_accuracy: f64,
+    /// A name for an accuracy
+    #[arg(long, value_enum)]
+    pub quality: Option<Quality>,
+    /// Stop after this time with a valid map: 60s, 5min
+    #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true)]
+    pub time_limit: Option<Duration>,
+    /// How to compute
+    #[arg(long, value_enum, default_value = "hybrid")]
+    pub method: MethodName,
+    /// Seed of the random numbers: the same seed gives the same bits
+    #[arg(long, default_value_t = 1, allow_hyphen_values = true)]
+    pub seed: u64,
+    /// Threads to use [default: all there are]; the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Refuse to need more memory than this: 8GiB, 500MB
+    #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
+    pub max_memory: u64,
+    /// Predict memory, receivers and time, and compute nothing
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Say on standard error what will be done and why
+    #[arg(long)]
+    pub explain: bool,
+    /// How to report progress on standard error [default: bar on a terminal, else lines]
+    #[arg(long, value_enum)]
+    pub progress: Option<ProgressStyle>,
+}
+
+/// Aliases of accuracies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Quality {
+    /// 5 %
+    Draft,
+    /// 1 %
+    Medium,
+    /// 0.3 %
+    High,
+}
+
+/// The engines by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MethodName {
+    /// Exact direct light, gathered indirect light, particles for caustics
+    Hybrid,
+    /// Particles from the luminaires
+    Forward,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ProgressStyle {
+    /// One line that changes
+    Bar,
+    /// One JSON object a line
+    Json,
+    /// Nothing
+    None,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux info map.glb
+  isolux info lamp.ies --json")]
+pub(crate) struct InfoFlags {
+    /// A map (.glb), a scene (.gltf, .glb, .obj, scene.toml, builtin:NAME) or a photometric file (.ies, .ldt)
+    pub file: String,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux probe map.glb --points desk.pts
+  echo '1 2 0.75  0 0 1' | isolux probe map.glb --points - --exact --json
+
+Points are `x y z nx ny nz`, one a line, in metres and in the axes of the scene as written; # starts a comment.
+A point on no surface with a known value has empty fields (null in JSON), unless --exact is given.")]
+pub(crate) struct ProbeFlags {
+    /// The map (.glb)
+    pub map: PathBuf,
+    /// File of points, - for standard input
+    #[arg(long, value_name = "P.pts")]
+    pub points: PathBuf,
+    /// Estimate each point afresh instead of interpolating the indirect light of the map
+    #[arg(long)]
+    pub exact: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux render map.glb --camera door -o door.png
+  isolux render map.glb --camera door -o lux.png --false-colour --limits 0:500 --contours")]
+pub(crate) struct RenderFlags {
+    /// The map (.glb)
+    pub map: PathBuf,
+    /// Name of a camera of the scene
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// Where to write the picture (.png)
+    #[arg(short, long, value_name = "V.png")]
+    pub output: PathBuf,
+    /// Pixels across and down
+    #[arg(long, value_name = "WxH", value_parser = quantity::pixels, default_value = "1280x720")]
+    pub size: (u32, u32),
+    /// Interpolate direct light, too: fast, and what a viewer of the bare map shows
+    #[arg(long)]
+    pub interpolated: bool,
+    #[command(flatten)]
+    pub look: LookFlags,
+}
+
+/// How luminance becomes a picture.
+#[derive(Debug, Args)]
+pub(crate) struct LookFlags {
+    /// auto, an exposure value (ev8), or the luminance shown as white (500cd/m2)
+    #[arg(long, value_name = "EXPOSURE", value_parser = quantity::exposure, default_value = "auto",
+          conflicts_with = "false_colour", allow_hyphen_values = true)]
+    pub exposure: Exposure,
+    /// How luminance is fitted to the display
+    #[arg(long, value_enum, default_value = "reinhard", conflicts_with = "false_colour")]
+    pub tone: ToneName,
+    /// Colours that stand for lux, with a legend
+    #[arg(long, visible_alias = "false-color")]
+    pub false_colour: bool,
+    /// Lux of the first and the last colour [default: from the picture]
+    #[arg(long, visible_alias = "scale", value_name = "LOW:HIGH", value_parser = quantity::range, allow_hyphen_values = true,
+          requires = "false_colour")]
+    pub limits: Option<(f64, f64)>,
+    /// Spread the colours evenly over the logarithm
+    #[arg(long, requires = "false_colour")]
+    pub logarithmic: bool,
+    /// Draw lines of equal illuminance
+    #[arg(long, requires = "false_colour")]
+    pub contours: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ToneName {
+    /// Proportional, cut off at white: the picture can be measured
+    Linear,
+    /// Reinhard's photographic curve
+    Reinhard,
+    /// Hable's filmic curve
+    Hable,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux check room.glb
+  isolux check builtin:cube --json")]
+pub(crate) struct CheckFlags {
+    #[arg(help = SCENE_HELP)]
+    pub scene: String,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux validate
+  isolux validate --case cube --method forward --seeds 5
+
+Exit code 1 if a case fails.")]
+pub(crate) struct ValidateFlags {
+    /// One case only
+    #[arg(long, value_name = "NAME")]
+    pub case: Option<String>,
+    /// One engine only
+    #[arg(long, value_enum)]
+    pub method: Option<MethodName>,
+    /// Repetitions with different seeds
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    pub seeds: u32,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example:
+  cargo run --release -- demo")]
+pub(crate) struct DemoFlags {
+    /// Folder for the results
+    #[arg(short, long, value_name = "DIR", default_value = "out/demo")]
+    pub output: PathBuf,
+    /// Stop when the whole error of the scene is this small: 1% or 0.01
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "1%")]
+    pub accuracy: f64,
+}

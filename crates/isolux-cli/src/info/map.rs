@@ -1,0 +1,61 @@
+//! What a map holds.
+
+use super::scene::list;
+use crate::console::{facts, print, print_json};
+use crate::failure::Failure;
+use crate::quantity::{show_count, show_seconds, show_share};
+use crate::request::method_name;
+use crate::summary::{self, Lit};
+use isolux::map::{IlluminationMap, Provenance};
+use isolux::scene::Scene;
+use serde::Serialize;
+
+/// Prints a map.
+pub(super) fn show(scene: &Scene, map: &IlluminationMap, json: bool) -> Result<(), Failure> {
+    let contents = Contents {
+        kind: "map",
+        scene_unchanged: scene.hash() == map.provenance.scene_hash,
+        provenance: &map.provenance,
+        receivers: map.values.len(),
+        unknown: map.values.iter().filter(|value| value.is_none()).count(),
+        cameras: scene.cameras().iter().map(|c| c.name.clone()).collect(),
+        surfaces: summary::by_shape(scene, map),
+    };
+    if json { print_json(&contents) } else { print(&contents.text()) }
+}
+
+/// What `info --json` prints of a map.
+#[derive(Serialize)]
+struct Contents<'a> {
+    kind: &'static str,
+    /// Whether the scene inside is the one that was solved.
+    scene_unchanged: bool,
+    provenance: &'a Provenance,
+    receivers: usize,
+    unknown: usize,
+    cameras: Vec<String>,
+    surfaces: Vec<Lit>,
+}
+
+impl Contents<'_> {
+    fn text(&self) -> String {
+        let from = self.provenance;
+        let share = |s: Option<f64>| s.map_or("not known".to_owned(), show_share);
+        let target = from.accuracy_target.map_or("none".to_owned(), show_share);
+        let reached = if from.complete { "reached" } else { "not reached" };
+        let facts = facts(&[
+            ("map of", from.scene.clone()),
+            ("computed by", format!("isolux {}, {}", from.version, method_name(from.method))),
+            ("seed", from.seed.to_string()),
+            ("error", share(from.accuracy.map(|a| a.reached))),
+            ("error asked for", format!("{target}, {reached}")),
+            ("error of the bare map", share(from.accuracy.map(|a| a.interpolated))),
+            ("time", show_seconds(from.time_s)),
+            ("increments", from.increments.to_string()),
+            ("rays", show_count(from.rays as f64)),
+            ("receivers", format!("{}, {} of them unknown", self.receivers, self.unknown)),
+            ("cameras", list(&self.cameras)),
+        ]);
+        format!("{facts}\n{}", summary::text(&self.surfaces))
+    }
+}

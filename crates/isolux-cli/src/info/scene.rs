@@ -1,0 +1,176 @@
+//! What a scene holds.
+
+use crate::console::{facts, print, print_json, table};
+use crate::failure::Failure;
+use crate::quantity::significant;
+use isolux::geometry::Point;
+use isolux::photometry::IntensityDistribution;
+use isolux::scene::{Body, Finish, LuminaireKind, Material, Scene, UpAxis};
+use serde::Serialize;
+
+/// Materials shown in text; JSON holds all.
+const MAX_SHOWN: usize = 30;
+
+/// Prints a scene.
+pub(super) fn show(scene: &Scene, json: bool) -> Result<(), Failure> {
+    let contents = Contents::of(scene);
+    if json { print_json(&contents) } else { print(&contents.text()) }
+}
+
+/// Names in a row.
+pub(super) fn list(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+/// What `info --json` prints of a scene.
+#[derive(Serialize)]
+pub(super) struct Contents {
+    kind: &'static str,
+    name: String,
+    up: UpAxis,
+    low_m: Option<[f64; 3]>,
+    high_m: Option<[f64; 3]>,
+    triangles: u32,
+    shapes: usize,
+    textures: usize,
+    cameras: Vec<String>,
+    groups: Vec<String>,
+    luminaires: Vec<Luminaires>,
+    luminous_flux_lm: f64,
+    materials: Vec<Surface>,
+}
+
+/// Luminaires of one kind.
+#[derive(Serialize)]
+struct Luminaires {
+    kind: &'static str,
+    count: usize,
+    luminous_flux_lm: f64,
+}
+
+/// One material.
+#[derive(Serialize)]
+struct Surface {
+    name: String,
+    kind: &'static str,
+    diffuse: Option<f64>,
+    mirror: Option<f64>,
+    luminance_cd_m2: Option<f64>,
+}
+
+impl Contents {
+    fn of(scene: &Scene) -> Self {
+        let bounds = scene.bvh().mesh().bounds();
+        let corner = |p: Point| <[f64; 3]>::from(p);
+        Self {
+            kind: "scene",
+            name: scene.name().to_owned(),
+            up: scene.up(),
+            low_m: bounds.map(|(low, _)| corner(low)),
+            high_m: bounds.map(|(_, high)| corner(high)),
+            triangles: scene.triangle_count(),
+            shapes: scene.shape_names().len(),
+            textures: scene.textures().len(),
+            cameras: scene.cameras().iter().map(|c| c.name.clone()).collect(),
+            groups: scene.groups().to_vec(),
+            luminaires: luminaires(scene),
+            luminous_flux_lm: scene.luminous_flux_lm(),
+            materials: scene.materials().iter().map(surface).collect(),
+        }
+    }
+
+    fn text(&self) -> String {
+        let corner = |c: Option<[f64; 3]>| {
+            let [x, y, z] = c.unwrap_or_default().map(|c| significant(c, 3));
+            format!("({x}, {y}, {z}) m")
+        };
+        let up = match self.up {
+            UpAxis::Y => "y",
+            UpAxis::Z => "z",
+        };
+        let mut text = facts(&[
+            ("scene", self.name.clone()),
+            ("from", corner(self.low_m)),
+            ("to", corner(self.high_m)),
+            ("up", up.to_owned()),
+            ("triangles", format!("{} in {} shapes", self.triangles, self.shapes)),
+            ("textures", self.textures.to_string()),
+            ("cameras", list(&self.cameras)),
+            ("light groups", list(&self.groups)),
+            ("luminous flux", format!("{} lm", significant(self.luminous_flux_lm, 3))),
+        ]);
+        let light = |l: &Luminaires| {
+            vec![l.kind.to_owned(), l.count.to_string(), significant(l.luminous_flux_lm, 3)]
+        };
+        let rows: Vec<Vec<String>> = self.luminaires.iter().map(light).collect();
+        text += &format!("\n{}", table(&["light", "count", "lm"], &rows));
+        let rows: Vec<Vec<String>> =
+            self.materials.iter().take(MAX_SHOWN).map(Surface::row).collect();
+        let header = ["material", "kind", "diffuse", "mirror", "cd/m2"];
+        text += &format!("\n{}", table(&header, &rows));
+        if self.materials.len() > MAX_SHOWN {
+            text += &format!("and {} more; --json lists all\n", self.materials.len() - MAX_SHOWN);
+        }
+        text
+    }
+}
+
+impl Surface {
+    fn row(&self) -> Vec<String> {
+        let number = |value: Option<f64>| value.map_or("-".to_owned(), |v| significant(v, 2));
+        vec![
+            self.name.clone(),
+            self.kind.to_owned(),
+            number(self.diffuse),
+            number(self.mirror),
+            number(self.luminance_cd_m2),
+        ]
+    }
+}
+
+fn luminaires(scene: &Scene) -> Vec<Luminaires> {
+    let mut found: Vec<Luminaires> = Vec::new();
+    let mut add = |kind, flux_lm| match found.iter_mut().find(|l| l.kind == kind) {
+        Some(known) => {
+            known.count += 1;
+            known.luminous_flux_lm += flux_lm;
+        }
+        None => found.push(Luminaires { kind, count: 1, luminous_flux_lm: flux_lm }),
+    };
+    for luminaire in scene.luminaires() {
+        match &luminaire.kind {
+            LuminaireKind::Point { intensity, .. } => {
+                add(distribution(intensity), intensity.luminous_flux_lm());
+            }
+            LuminaireKind::Directional { .. } => add("directional", 0.0),
+        }
+    }
+    scene.area_luminaires().iter().for_each(|area| add("surface", area.luminous_flux_lm()));
+    found
+}
+
+fn distribution(intensity: &IntensityDistribution) -> &'static str {
+    match intensity {
+        IntensityDistribution::Isotropic { .. } => "isotropic",
+        IntensityDistribution::CosinePower { .. } => "cosine power",
+        IntensityDistribution::Spot { .. } => "spot",
+        IntensityDistribution::Web(_) => "measured",
+    }
+}
+
+fn surface(material: &Material) -> Surface {
+    let (kind, finish) = match &material.body {
+        Body::Opaque { front, back } if front == back => ("two-sided", Some(front)),
+        Body::Opaque { front, back } if *back == Finish::BLACK => ("one-sided", Some(front)),
+        Body::Opaque { front, .. } => ("different sides", Some(front)),
+        Body::Dielectric(glass) if glass.thin => ("pane", None),
+        Body::Dielectric(_) => ("solid glass", None),
+    };
+    Surface {
+        name: material.name.clone(),
+        kind,
+        diffuse: finish.map(|f| f.diffuse.colour.luminance()),
+        mirror: finish.map(|f| f.mirror.luminance()),
+        luminance_cd_m2: finish.map(|f| f.luminance_cd_m2.luminance()).filter(|l| *l > 0.0),
+    }
+}

@@ -1,0 +1,31 @@
+//! Ctrl-C and termination while a map is computed.
+
+use crate::failure::Failure;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether the user wants the run to end.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// From now on the first signal asks for an end with a valid map, the second ends at once.
+    pub(crate) fn install() -> Result<Self, Failure> {
+        let interrupt = Self::default();
+        let flag = Arc::clone(&interrupt.0);
+        let handler = move || {
+            if flag.swap(true, Ordering::Relaxed) {
+                std::process::exit(130);
+            }
+            crate::console::note("stopping after this increment; once more to stop at once");
+        };
+        ctrlc::set_handler(handler)
+            .map_err(|e| Failure::Refused(format!("cannot listen to Ctrl-C: {e}")))?;
+        Ok(interrupt)
+    }
+
+    /// Whether a signal has arrived.
+    pub(crate) fn is_requested(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}

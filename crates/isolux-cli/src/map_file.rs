@@ -1,0 +1,33 @@
+//! Map files.
+
+use crate::failure::Failure;
+use crate::output::OutputPath;
+use crate::source::{bad_file, show_warnings};
+use isolux::map::IlluminationMap;
+use isolux::scene::Scene;
+use isolux_formats::map_glb::{self, Preview};
+use std::path::Path;
+
+/// Whether a file is a map and not a scene.
+pub(crate) fn is_map(path: &Path) -> bool {
+    map_glb::is_map(path)
+}
+
+/// Reads a map with the scene in it.
+pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
+    let loaded = map_glb::read(path).map_err(bad_file)?;
+    show_warnings(&loaded.warnings);
+    Ok(loaded.value)
+}
+
+/// Writes a map with its scene.
+pub(crate) fn write(
+    output: &OutputPath,
+    scene: &Scene,
+    map: &IlluminationMap,
+) -> Result<(), Failure> {
+    let preview = Preview::automatic(scene, map);
+    let bytes = map_glb::write(scene, map, &preview)
+        .map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
+    output.write(&bytes)
+}

@@ -1,0 +1,73 @@
+//! Files written: checked before anything is computed, and never seen half-written.
+
+use crate::failure::Failure;
+use isolux_formats::atomic;
+use std::path::{Path, PathBuf};
+
+/// A path that could be written when it was checked.
+#[derive(Clone, Debug)]
+pub(crate) struct OutputPath(PathBuf);
+
+impl OutputPath {
+    /// Checks the extension, and that a file can be written there.
+    pub(crate) fn check(path: &Path, extension: &str) -> Result<Self, Failure> {
+        let found = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        if found.as_deref() != Some(extension) {
+            return Err(Failure::bad_input(format!(
+                "{}: cannot write this kind of file; end its name in .{extension}",
+                path.display()
+            )));
+        }
+        atomic::check_writable(path).map_err(Failure::bad_input)?;
+        Ok(Self(path.to_owned()))
+    }
+
+    /// The path as given.
+    pub(crate) fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// Refuses to replace one of the files read.
+    pub(crate) fn differs_from(&self, input: &Path) -> Result<(), Failure> {
+        match (self.0.canonicalize(), input.canonicalize()) {
+            (Ok(output), Ok(input)) if output == input => Err(Failure::bad_input(format!(
+                "{}: is the input, too; choose another name for the output",
+                self.0.display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes the file whole or not at all.
+    pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
+        // It could be written when it was checked: what keeps it from it now is the machine.
+        atomic::write(&self.0, bytes).map_err(|problem| Failure::Refused(problem.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_checked() {
+        let home = tempfile::tempdir().unwrap();
+        let check = |name: &str| OutputPath::check(&home.path().join(name), "glb");
+        assert!(check("map.glb").is_ok());
+        assert!(check("map.GLB").is_ok());
+        std::fs::create_dir(home.path().join("folder.glb")).unwrap();
+        for name in ["map", "map.png", "missing/map.glb", "folder.glb", ""] {
+            assert!(matches!(check(name), Err(Failure::BadInput(_))), "{name}");
+        }
+    }
+
+    #[test]
+    fn the_input_is_not_replaced() {
+        let home = tempfile::tempdir().unwrap();
+        let path = home.path().join("map.glb");
+        std::fs::write(&path, "old").unwrap();
+        let output = OutputPath::check(&path, "glb").unwrap();
+        assert!(output.differs_from(&path).is_err());
+        assert!(output.differs_from(&home.path().join("other.glb")).is_ok());
+    }
+}

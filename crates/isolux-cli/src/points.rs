@@ -1,0 +1,109 @@
+//! Files of points: `x y z nx ny nz` a line.
+
+use crate::failure::Failure;
+use isolux::engine::ProbePoint;
+use isolux::geometry::{Point, Vector};
+use std::io::Read;
+use std::path::Path;
+
+/// No more is read: ten million points.
+const MAX_BYTES: u64 = 1 << 30;
+/// Problems shown; a file with more of them is another kind of file.
+const MAX_PROBLEMS: usize = 20;
+
+/// Reads points from a file, or from standard input where the path is `-`.
+pub(crate) fn read(path: &Path) -> Result<Vec<ProbePoint>, Failure> {
+    let name =
+        if path == Path::new("-") { "standard input".into() } else { path.to_string_lossy() };
+    let fail = |e| Failure::bad_input(format!("{name}: cannot be read ({e}); check the path"));
+    let mut bytes = Vec::new();
+    if path == Path::new("-") {
+        std::io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(fail)?;
+    } else {
+        let file = std::fs::File::open(path).map_err(fail)?;
+        file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(fail)?;
+    }
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(Failure::bad_input(format!("{name}: larger than 1 GiB; split it")));
+    }
+    parse(&String::from_utf8_lossy(&bytes), &name)
+}
+
+/// The points of a text; every problem with its line.
+fn parse(text: &str, name: &str) -> Result<Vec<ProbePoint>, Failure> {
+    let mut points = Vec::new();
+    let mut problems = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let content = line.split('#').next().unwrap_or_default().trim();
+        if content.is_empty() {
+            continue;
+        }
+        match point(content) {
+            Ok(point) => points.push(point),
+            Err(what) => problems.push(format!("{name}: line {}: {what}", index + 1)),
+        }
+        if problems.len() == MAX_PROBLEMS {
+            problems.push(format!("{name}: and perhaps more; the rest was not read"));
+            break;
+        }
+    }
+    if problems.is_empty() && points.is_empty() {
+        problems.push(format!("{name}: holds no point; write x y z nx ny nz, one a line"));
+    }
+    if problems.is_empty() { Ok(points) } else { Err(Failure::BadInput(problems)) }
+}
+
+fn point(line: &str) -> Result<ProbePoint, String> {
+    let fields: Vec<&str> =
+        line.split(|c: char| c.is_whitespace() || c == ',').filter(|f| !f.is_empty()).collect();
+    let mut numbers = [0.0; 6];
+    if fields.len() != numbers.len() {
+        return Err(format!("{} numbers; write six: x y z nx ny nz", fields.len()));
+    }
+    for (number, field) in numbers.iter_mut().zip(&fields) {
+        let finite = field.parse::<f64>().ok().filter(|v| v.is_finite());
+        *number = finite.ok_or_else(|| {
+            // A binary file has no short words.
+            let shown: String = field.chars().take(20).flat_map(char::escape_default).collect();
+            format!("`{shown}` is not a finite number; write six: x y z nx ny nz")
+        })?;
+    }
+    let [x, y, z, nx, ny, nz] = numbers;
+    let normal = Vector::new(nx, ny, nz).normal();
+    let normal = normal.ok_or("the normal has no direction; 0 0 1 faces up in a z-up scene")?;
+    Ok(ProbePoint { position: Point::new(x, y, z), normal })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_comments_and_blank_lines() {
+        let points = parse("# desk\n\n1 2 3 0 0 2 # up\r\n-1e0, 0,0 , 1 0 0", "p").unwrap();
+        assert_eq!(points.len(), 2);
+        assert_eq!(points[0].position, Point::new(1.0, 2.0, 3.0));
+        assert_eq!(points[0].normal.to_vector(), Vector::new(0.0, 0.0, 1.0));
+    }
+
+    #[test]
+    fn every_problem_has_its_line() {
+        let Err(Failure::BadInput(problems)) =
+            parse("1 2 3 0 0 1\n1 2 3\n1 2 x 0 0 1\n1 2 3 0 0 0\n1 2 NaN 0 0 1", "p.pts")
+        else {
+            panic!("no problem found");
+        };
+        for (problem, start) in problems.iter().zip(["line 2", "line 3", "line 4", "line 5"]) {
+            assert!(problem.starts_with(&format!("p.pts: {start}: ")), "{problem}");
+        }
+        assert_eq!(problems.len(), 4);
+    }
+
+    #[test]
+    fn another_kind_of_file_is_one_screen_of_problems() {
+        for text in ["", "# nothing\n", &"\u{0}binary \u{fffd}\n".repeat(1000)] {
+            let Err(Failure::BadInput(problems)) = parse(text, "p") else { panic!("{text:?}") };
+            assert!((1..=MAX_PROBLEMS + 1).contains(&problems.len()));
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! `isolux probe`: values of a map at points.
+
+use crate::console::{note, print, print_json};
+use crate::failure::{Failure, Outcome};
+use crate::flags::ProbeFlags;
+use crate::{map_file, points};
+use isolux::engine::{ExactSettings, MapReader, ProbePoint};
+use isolux::map::Illuminance;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::fmt::Write;
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
+    let points = points::read(&flags.points)?;
+    let (scene, map) = map_file::read(&flags.map)?;
+    let reader = MapReader::new(&scene, &map);
+    let read = |at: &ProbePoint| {
+        if flags.exact {
+            Some(reader.estimate(*at, &ExactSettings::default()))
+        } else {
+            reader.probe(*at)
+        }
+    };
+    let values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
+    let unknown = values.iter().filter(|v| v.is_none()).count();
+    if unknown > 0 {
+        note(format!(
+            "warning: {unknown} of {} points lie on no surface with a known value; move them onto one, \
+             or use --exact",
+            points.len()
+        ));
+    }
+    if json {
+        let points = values.iter().map(|v| Reading::of(v.as_ref())).collect();
+        print_json(&Readings { points })?;
+    } else {
+        print(&csv(&points, &values))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// What `probe --json` prints.
+#[derive(Serialize)]
+struct Readings {
+    points: Vec<Reading>,
+}
+
+/// A value in the order asked for; `null` where it is not known.
+#[derive(Serialize)]
+struct Reading {
+    illuminance_lx: Option<f64>,
+    standard_error_lx: Option<f64>,
+    direct_lx: Option<f64>,
+    indirect_lx: Option<f64>,
+    rgb_lx: Option<[f64; 3]>,
+}
+
+impl Reading {
+    fn of(value: Option<&Illuminance>) -> Self {
+        Self {
+            illuminance_lx: value.map(Illuminance::illuminance_lx),
+            standard_error_lx: value.map(|v| v.standard_error_lx),
+            direct_lx: value.map(|v| v.direct_lx.luminance()),
+            indirect_lx: value.map(|v| v.indirect_lx.luminance()),
+            rgb_lx: value.map(|v| v.total_lx().0),
+        }
+    }
+
+    /// In the order of the header, but for the colours.
+    fn photometric(&self) -> [Option<f64>; 4] {
+        [self.illuminance_lx, self.standard_error_lx, self.direct_lx, self.indirect_lx]
+    }
+}
+
+const HEADER: &str = "x,y,z,nx,ny,nz,illuminance_lx,standard_error_lx,direct_lx,indirect_lx,red_lx,\
+                      green_lx,blue_lx";
+
+fn csv(points: &[ProbePoint], values: &[Option<Illuminance>]) -> String {
+    let mut text = format!("{HEADER}\n");
+    for (point, value) in points.iter().zip(values) {
+        let reading = Reading::of(value.as_ref());
+        let colours = reading.rgb_lx.map_or([None; 3], |rgb| rgb.map(Some));
+        let place = <[f64; 3]>::from(point.position).into_iter();
+        let normal = <[f64; 3]>::from(point.normal.to_vector()).into_iter();
+        let known = place.chain(normal).map(Some);
+        let fields = known.chain(reading.photometric()).chain(colours);
+        let fields: Vec<String> =
+            fields.map(|field| field.map_or(String::new(), |v| v.to_string())).collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}", fields.join(","));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use isolux::geometry::{Normal, Point, Vector};
+
+    fn at(x: f64) -> ProbePoint {
+        let normal: Normal = Vector::new(0.0, 0.0, 1.0).normal().unwrap();
+        ProbePoint { position: Point::new(x, 0.0, 0.5), normal }
+    }
+
+    #[test]
+    fn unknown_values_are_empty_fields() {
+        let text = csv(&[at(1.5)], &[None]);
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[1], "1.5,0,0.5,0,0,1,,,,,,,");
+        assert_eq!(lines[0].split(',').count(), lines[1].split(',').count());
+    }
+
+    #[test]
+    fn unknown_values_are_null_in_json() {
+        let json = serde_json::to_value(Reading::of(None)).unwrap();
+        assert!(json["illuminance_lx"].is_null() && json["rgb_lx"].is_null());
+    }
+}

@@ -1,0 +1,175 @@
+//! Progress on standard error: a bar, lines, or JSON lines.
+
+use crate::console::note;
+use crate::flags::ProgressStyle;
+use crate::quantity::{show_count, show_seconds, show_share};
+use indicatif::{ProgressBar, ProgressStyle as BarStyle};
+use isolux::engine::{Progress, Stage};
+use serde::Serialize;
+use std::io::IsTerminal;
+
+/// Lines are for logs: one in so many seconds.
+const LINE_EVERY_S: f64 = 2.0;
+/// JSON is for programs that draw: several a second.
+const JSON_EVERY_S: f64 = 0.2;
+/// Steps of the bar.
+const BAR_STEPS: u64 = 1000;
+
+/// Shows the state of a run.
+pub(crate) struct Reporter {
+    shape: Shape,
+    last_s: Option<f64>,
+}
+
+enum Shape {
+    Bar(ProgressBar),
+    Lines,
+    Json,
+    Silent,
+}
+
+impl Reporter {
+    /// As asked for; otherwise a bar where there is a terminal.
+    pub(crate) fn new(asked: Option<ProgressStyle>) -> Self {
+        let shape = match asked {
+            Some(ProgressStyle::Json) => Shape::Json,
+            Some(ProgressStyle::None) => Shape::Silent,
+            Some(ProgressStyle::Bar) => Shape::Bar(bar()),
+            None if std::io::stderr().is_terminal() => Shape::Bar(bar()),
+            None => Shape::Lines,
+        };
+        Self { shape, last_s: None }
+    }
+
+    /// Shows a state, unless another was shown just before.
+    pub(crate) fn show(&mut self, progress: &Progress) {
+        let pause_s = match self.shape {
+            Shape::Bar(_) => 0.0,
+            Shape::Lines => LINE_EVERY_S,
+            Shape::Json => JSON_EVERY_S,
+            Shape::Silent => return,
+        };
+        if self.last_s.is_some_and(|last| progress.elapsed_s < last + pause_s) {
+            return;
+        }
+        self.last_s = Some(progress.elapsed_s);
+        match &self.shape {
+            Shape::Bar(bar) => {
+                bar.set_position((share_done(progress) * BAR_STEPS as f64) as u64);
+                bar.set_message(line(progress));
+            }
+            Shape::Lines => note(line(progress)),
+            Shape::Json => note(serde_json::to_string(&Report::of(progress)).unwrap_or_default()),
+            Shape::Silent => {}
+        }
+    }
+
+    /// Leaves the terminal as it was.
+    pub(crate) fn finish(&self) {
+        if let Shape::Bar(bar) = &self.shape {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+fn bar() -> ProgressBar {
+    let style =
+        BarStyle::with_template("{bar:24} {msg}").unwrap_or_else(|_| BarStyle::default_bar());
+    ProgressBar::new(BAR_STEPS).with_style(style)
+}
+
+/// Time spent over the time predicted.
+fn share_done(progress: &Progress) -> f64 {
+    let predicted = progress.prediction.map(|p| p.finish_s).filter(|finish| *finish > 0.0);
+    predicted.map_or(0.0, |finish| (progress.elapsed_s / finish).clamp(0.0, 1.0))
+}
+
+fn line(progress: &Progress) -> String {
+    let mut parts = vec![match progress.stage {
+        Stage::Pilot => "subdividing".to_owned(),
+        Stage::Increments => format!("{} increments", progress.increments),
+    }];
+    match progress.accuracy {
+        Some(accuracy) => parts.push(format!("error {}", show_share(accuracy.reached))),
+        None => parts.push("error not known yet".to_owned()),
+    }
+    if let Some(target) = progress.target {
+        parts.push(format!("target {}", show_share(target)));
+    }
+    if let Some(p) = progress.prediction {
+        let left = |finish_s: f64| show_seconds((finish_s - progress.elapsed_s).max(0.0));
+        let (likely, early, late) = (left(p.finish_s), left(p.earliest_s), left(p.latest_s));
+        parts.push(format!("{likely} left ({early} to {late})"));
+    }
+    if progress.elapsed_s > 0.0 {
+        parts.push(format!("{} rays/s", show_count(progress.rays as f64 / progress.elapsed_s)));
+    }
+    parts.push(format!("{} receivers", progress.receivers));
+    parts.join(", ")
+}
+
+/// A state as a JSON line.
+#[derive(Serialize)]
+struct Report {
+    stage: &'static str,
+    increments: u64,
+    accuracy: Option<f64>,
+    accuracy_statistical: Option<f64>,
+    target: Option<f64>,
+    receivers: u64,
+    rays: u64,
+    rays_per_s: f64,
+    elapsed_s: f64,
+    finish_s: Option<f64>,
+    finish_earliest_s: Option<f64>,
+    finish_latest_s: Option<f64>,
+}
+
+impl Report {
+    fn of(progress: &Progress) -> Self {
+        Self {
+            stage: match progress.stage {
+                Stage::Pilot => "pilot",
+                Stage::Increments => "increments",
+            },
+            increments: progress.increments,
+            accuracy: progress.accuracy.map(|a| a.reached),
+            accuracy_statistical: progress.accuracy.map(|a| a.statistical),
+            target: progress.target,
+            receivers: progress.receivers,
+            rays: progress.rays,
+            rays_per_s: progress.rays as f64 / progress.elapsed_s.max(1e-9),
+            elapsed_s: progress.elapsed_s,
+            finish_s: progress.prediction.map(|p| p.finish_s),
+            finish_earliest_s: progress.prediction.map(|p| p.earliest_s),
+            finish_latest_s: progress.prediction.map(|p| p.latest_s),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use isolux::engine::Prediction;
+
+    #[test]
+    fn a_line_says_when() {
+        let progress = Progress {
+            stage: Stage::Increments,
+            increments: 12,
+            accuracy: None,
+            target: Some(0.01),
+            receivers: 3458,
+            rays: 3_000_000,
+            elapsed_s: 2.0,
+            prediction: Some(Prediction { finish_s: 5.0, earliest_s: 4.0, latest_s: 8.0 }),
+        };
+        assert_eq!(
+            line(&progress),
+            "12 increments, error not known yet, target 1.0 %, 3.0 s left (2.0 s to 6.0 s), \
+             1.50 M rays/s, 3458 receivers"
+        );
+        assert_eq!(share_done(&progress), 0.4);
+        assert_eq!(share_done(&Progress { prediction: None, ..progress }), 0.0);
+    }
+}

@@ -1,0 +1,225 @@
+//! Quantities as people write them on a command line.
+
+use isolux_view::Exposure;
+use std::time::Duration;
+
+/// A share as `1%` or `0.01`, more than 0 and less than 1.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let value = match text.strip_suffix('%') {
+        Some(percent) => percent.trim_end().parse::<f64>().map(|p| p / 100.0),
+        None => text.parse::<f64>(),
+    };
+    match value {
+        Ok(share) if share > 0.0 && share < 1.0 => Ok(share),
+        Ok(_) => Err("must be more than 0 and less than 1; one per cent is 1% or 0.01".into()),
+        Err(_) => Err("not a number; write 1% or 0.01".into()),
+    }
+}
+
+const TIME_UNITS_S: [(&str, f64); 4] = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
+
+/// A time as `60s`, `5min`, `1.5h`.
+pub(crate) fn duration(text: &str) -> Result<Duration, String> {
+    let remedy = "write a number and a unit: 500ms, 60s, 5min, 2h";
+    let seconds = scaled(text, &TIME_UNITS_S).ok_or(remedy)?;
+    // Duration refuses what is negative, not finite, or too large for it.
+    let duration = Duration::try_from_secs_f64(seconds).map_err(|_| remedy)?;
+    if duration.is_zero() { Err(format!("no time at all; {remedy}")) } else { Ok(duration) }
+}
+
+const MEMORY_UNITS: [(&str, f64); 9] = [
+    ("KiB", 1024.0),
+    ("MiB", 1_048_576.0),
+    ("GiB", 1_073_741_824.0),
+    ("TiB", 1_099_511_627_776.0),
+    ("kB", 1e3),
+    ("MB", 1e6),
+    ("GB", 1e9),
+    ("TB", 1e12),
+    ("B", 1.0),
+];
+
+/// A size of memory as `8GiB`, `500MB`.
+pub(crate) fn memory_bytes(text: &str) -> Result<u64, String> {
+    match scaled(text, &MEMORY_UNITS) {
+        // Above 2^63 a float no longer says which integer was meant.
+        Some(bytes) if (1.0..9.2e18).contains(&bytes) => Ok(bytes as u64),
+        _ => Err("write a number and a unit: 500MiB, 8GiB".into()),
+    }
+}
+
+/// A number in front of one of the units, in the first unit's measure.
+fn scaled(text: &str, units: &[(&str, f64)]) -> Option<f64> {
+    let text = text.trim();
+    let (number, scale) =
+        units.iter().find_map(|(unit, scale)| Some((text.strip_suffix(unit)?, scale)))?;
+    let value: f64 = number.trim_end().parse().ok()?;
+    value.is_finite().then_some(value * scale)
+}
+
+/// The largest side of a picture: 16 384 squared is a gigabyte of pixels already.
+const MAX_SIDE: u32 = 16_384;
+
+/// The size of a picture as `1280x720`.
+pub(crate) fn pixels(text: &str) -> Result<(u32, u32), String> {
+    let side = |side: &str| {
+        side.trim().parse::<u32>().ok().filter(|pixels| (1..=MAX_SIDE).contains(pixels))
+    };
+    text.split_once('x')
+        .and_then(|(width, height)| Some((side(width)?, side(height)?)))
+        .ok_or_else(|| format!("write WIDTHxHEIGHT as 1280x720, each from 1 to {MAX_SIDE}"))
+}
+
+/// A range as `0:500`.
+pub(crate) fn range(text: &str) -> Result<(f64, f64), String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    text.split_once(':')
+        .and_then(|(low, high)| Some((number(low)?, number(high)?)))
+        .filter(|(low, high)| low < high)
+        .ok_or_else(|| "write LOW:HIGH as 0:500, the lower first".to_owned())
+}
+
+/// Exposure as written: `auto`, `ev 8`, `500 cd/m2`.
+pub(crate) fn exposure(text: &str) -> Result<Exposure, String> {
+    let text = text.trim();
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
+    let written = if text == "auto" {
+        Some(Exposure::Automatic)
+    } else if let Some(value) = text.strip_prefix("ev") {
+        number(value).map(Exposure::Ev100)
+    } else {
+        let value = text.strip_suffix("cd/m2").and_then(number);
+        value.filter(|white| *white > 0.0).map(Exposure::WhiteCdM2)
+    };
+    written.ok_or_else(|| {
+        "write auto, an exposure value as ev8, or the luminance shown as white as 500cd/m2".into()
+    })
+}
+
+/// Bytes for reading: `1.5 GiB`.
+pub(crate) fn show_bytes(bytes: u64) -> String {
+    let units = [("TiB", 40), ("GiB", 30), ("MiB", 20), ("KiB", 10)];
+    match units.iter().find(|(_, power)| bytes >> power > 0) {
+        Some((unit, power)) => format!("{:.1} {unit}", bytes as f64 / (1_u64 << power) as f64),
+        None => format!("{bytes} B"),
+    }
+}
+
+/// A time for reading: `0.35 s`, `12 s`, `5 min 20 s`, `3 h 5 min`.
+pub(crate) fn show_seconds(seconds: f64) -> String {
+    let whole = seconds.round();
+    match seconds {
+        s if s < 1.0 => format!("{s:.2} s"),
+        s if s < 10.0 => format!("{s:.1} s"),
+        s if s < 120.0 => format!("{whole} s"),
+        s if s < 7200.0 => format!("{} min {} s", (whole / 60.0).floor(), whole % 60.0),
+        _ => format!("{} h {} min", (whole / 3600.0).floor(), (whole % 3600.0 / 60.0).floor()),
+    }
+}
+
+/// A share for reading: `0.95 %`.
+pub(crate) fn show_share(share: f64) -> String {
+    format!("{} %", significant(100.0 * share, 2))
+}
+
+/// A count for reading: `3.1 M`.
+pub(crate) fn show_count(count: f64) -> String {
+    let units = [(1e12, " T"), (1e9, " G"), (1e6, " M"), (1e3, " k")];
+    match units.iter().find(|(scale, _)| count >= *scale) {
+        Some((scale, unit)) => format!("{}{unit}", significant(count / scale, 3)),
+        None => significant(count, 3),
+    }
+}
+
+/// A number with so many significant digits, and no fewer than its whole part has.
+pub(crate) fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let magnitude = value.abs().log10().floor() as i32;
+    let decimals = (digits as i32 - 1 - magnitude).clamp(0, 12) as usize;
+    format!("{value:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares() {
+        for (text, expected) in [("1%", 0.01), ("0.01", 0.01), (" 0.3 % ", 0.003), ("1e-3", 0.001)]
+        {
+            let read = share(text).unwrap();
+            // One division apart.
+            assert!((read - expected).abs() < 4.0 * f64::EPSILON * expected, "{text}: {read}");
+        }
+        for text in ["", "%", "0", "1", "5", "100%", "-1%", "NaN", "inf", "1 percent"] {
+            assert!(share(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn durations() {
+        for (text, seconds) in [("60s", 60.0), ("5min", 300.0), ("1.5h", 5400.0), ("500ms", 0.5)] {
+            assert_eq!(duration(text).unwrap().as_secs_f64(), seconds, "{text}");
+        }
+        for text in ["", "60", "s", "-1s", "0s", "1e300h", "NaNs", "infs", "5m"] {
+            assert!(duration(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn memory() {
+        for (text, bytes) in [("8GiB", 8 << 30), ("500MB", 500_000_000), ("1 KiB", 1024), ("7B", 7)]
+        {
+            assert_eq!(memory_bytes(text).unwrap(), bytes, "{text}");
+        }
+        for text in ["", "8", "GiB", "-1GiB", "0GiB", "1e30TiB", "8G"] {
+            assert!(memory_bytes(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn pictures_and_ranges() {
+        assert_eq!(pixels("1280x720"), Ok((1280, 720)));
+        for text in ["", "x", "0x1", "1x0", "1280", "99999x1", "1x-1", "1x1x1"] {
+            assert!(pixels(text).is_err(), "{text}");
+        }
+        assert_eq!(range("0:500"), Ok((0.0, 500.0)));
+        for text in ["", ":", "5:5", "5:1", "NaN:1", "0:inf"] {
+            assert!(range(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn exposures() {
+        for (text, expected) in [
+            ("auto", Exposure::Automatic),
+            ("ev8", Exposure::Ev100(8.0)),
+            ("ev-1.5", Exposure::Ev100(-1.5)),
+            ("500cd/m2", Exposure::WhiteCdM2(500.0)),
+            ("2.5 cd/m2", Exposure::WhiteCdM2(2.5)),
+        ] {
+            assert_eq!(exposure(text), Ok(expected), "{text}");
+        }
+        for text in ["", "8", "ev", "evNaN", "0cd/m2", "-1cd/m2", "cd/m2"] {
+            assert!(exposure(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn quantities_are_shown_as_people_read_them() {
+        assert_eq!(show_bytes(3 << 29), "1.5 GiB");
+        assert_eq!(show_bytes(12), "12 B");
+        for (seconds, text) in
+            [(0.123, "0.12 s"), (12.3, "12 s"), (320.0, "5 min 20 s"), (11_100.0, "3 h 5 min")]
+        {
+            assert_eq!(show_seconds(seconds), text);
+        }
+        assert_eq!(show_share(0.0095), "0.95 %");
+        assert_eq!(show_count(3.14e6), "3.14 M");
+        assert_eq!(significant(1234.5, 3), "1234");
+        assert_eq!(significant(0.0, 3), "0");
+    }
+}

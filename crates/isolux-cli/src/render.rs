@@ -1,0 +1,116 @@
+//! `isolux render`: a view from a map.
+
+use crate::console::{facts, print, print_json};
+use crate::failure::{Failure, Outcome};
+use crate::flags::{LookFlags, RenderFlags, ToneName};
+use crate::output::OutputPath;
+use crate::{map_file, viewpoint};
+use isolux::engine::MapReader;
+use isolux::map::{Illuminance, IlluminationMap};
+use isolux::scene::{Camera, Scene};
+use isolux_view::{
+    Contours, Development, FalseColour, LuminanceImage, Picture, Size, SurfacePoint, ToneCurve,
+    TraceSettings, develop, false_colour, trace,
+};
+use serde::Serialize;
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
+    let output = OutputPath::check(&flags.output, "png")?;
+    let (scene, map) = map_file::read(&flags.map)?;
+    let camera = viewpoint::camera(&scene, flags.camera.as_deref())?;
+    let view = look(&scene, &map, &camera, flags.size, flags.interpolated)?;
+    let picture = shown(&view, &flags.look)?;
+    write(&output, &picture)?;
+    let report = Report {
+        picture: output.path().display().to_string(),
+        camera: camera.name,
+        width: picture.width,
+        height: picture.height,
+    };
+    if json {
+        print_json(&report)?
+    } else {
+        print(&report.text())?
+    }
+    Ok(Outcome::Done)
+}
+
+/// Traces a view over a map: direct light evaluated afresh, or interpolated with the rest.
+pub(crate) fn look(
+    scene: &Scene,
+    map: &IlluminationMap,
+    camera: &Camera,
+    (width, height): (u32, u32),
+    interpolated: bool,
+) -> Result<LuminanceImage, Failure> {
+    let size = Size::new(width, height).map_err(Failure::bad_input)?;
+    // Walls of one side only are looked through from outside.
+    let settings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
+    let reader = (!interpolated).then(|| MapReader::new(scene, map));
+    let read = |at: SurfacePoint| -> Option<Illuminance> {
+        let SurfacePoint { triangle, back, u, v, blurred } = at;
+        match &reader {
+            Some(reader) if !blurred => reader.glance(triangle, back, u, v, 0),
+            _ => map.interpolate(triangle, back, u, v),
+        }
+    };
+    trace(scene, camera, size, &settings, &read).map_err(Failure::bad_input)
+}
+
+/// Makes a view a picture.
+pub(crate) fn shown(view: &LuminanceImage, look: &LookFlags) -> Result<Picture, Failure> {
+    let picture = if look.false_colour {
+        false_colour(view, &chart(look))
+    } else {
+        develop(view, &Development { exposure: look.exposure, tone: tone(look.tone) })
+    };
+    picture.map_err(Failure::bad_input)
+}
+
+/// Writes a picture.
+pub(crate) fn write(output: &OutputPath, picture: &Picture) -> Result<(), Failure> {
+    let bytes = isolux_formats::png::encode(picture.width, picture.height, &picture.rgb)
+        .map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
+    output.write(&bytes)
+}
+
+fn chart(look: &LookFlags) -> FalseColour {
+    FalseColour {
+        limits: look.limits,
+        contours: look.contours.then_some(Contours::AtTicks),
+        scale: if look.logarithmic {
+            isolux_view::Scale::Logarithmic
+        } else {
+            isolux_view::Scale::Linear
+        },
+        ..FalseColour::default()
+    }
+}
+
+fn tone(name: ToneName) -> ToneCurve {
+    match name {
+        ToneName::Linear => ToneCurve::Linear,
+        ToneName::Reinhard => ToneCurve::default(),
+        ToneName::Hable => ToneCurve::Hable,
+    }
+}
+
+/// What `render --json` prints.
+#[derive(Serialize)]
+struct Report {
+    picture: String,
+    camera: String,
+    width: u32,
+    height: u32,
+}
+
+impl Report {
+    fn text(&self) -> String {
+        facts(&[
+            ("picture", self.picture.clone()),
+            ("camera", self.camera.clone()),
+            ("size", format!("{} x {}", self.width, self.height)),
+        ])
+    }
+}

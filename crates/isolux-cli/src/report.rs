@@ -1,0 +1,75 @@
+//! How good a map is and what it took.
+
+use crate::console::facts;
+use crate::output::OutputPath;
+use crate::quantity::{show_count, show_seconds, show_share};
+use crate::request::method_name;
+use isolux::map::IlluminationMap;
+use serde::Serialize;
+
+/// What `solve --json` prints.
+#[derive(Serialize)]
+pub(crate) struct Report {
+    scene: String,
+    method: &'static str,
+    complete: bool,
+    accuracy_target: Option<f64>,
+    accuracy_reached: Option<f64>,
+    accuracy_statistical: Option<f64>,
+    accuracy_discretization: Option<f64>,
+    accuracy_bias: Option<f64>,
+    accuracy_interpolated: Option<f64>,
+    time_s: f64,
+    increments: u64,
+    rays: u64,
+    receivers: usize,
+    seed: u64,
+    map: String,
+}
+
+impl Report {
+    /// Of a map and where it was written.
+    pub(crate) fn of(map: &IlluminationMap, output: &OutputPath) -> Self {
+        let from = &map.provenance;
+        Self {
+            scene: from.scene.clone(),
+            method: method_name(from.method),
+            complete: from.complete,
+            accuracy_target: from.accuracy_target,
+            accuracy_reached: from.accuracy.map(|a| a.reached),
+            accuracy_statistical: from.accuracy.map(|a| a.statistical),
+            accuracy_discretization: from.accuracy.map(|a| a.discretization),
+            accuracy_bias: from.accuracy.map(|a| a.bias),
+            accuracy_interpolated: from.accuracy.map(|a| a.interpolated),
+            time_s: from.time_s,
+            increments: from.increments,
+            rays: from.rays,
+            receivers: map.values.len(),
+            seed: from.seed,
+            map: output.path().display().to_string(),
+        }
+    }
+
+    /// For people.
+    pub(crate) fn text(&self) -> String {
+        let share = |s: Option<f64>| s.map_or("not known".to_owned(), show_share);
+        let reached = match self.accuracy_target {
+            Some(target) if !self.complete => {
+                format!("{} of the {} asked for", share(self.accuracy_reached), show_share(target))
+            }
+            _ => share(self.accuracy_reached),
+        };
+        facts(&[
+            ("map", self.map.clone()),
+            ("error", reached),
+            ("  from noise", share(self.accuracy_statistical)),
+            ("  from interpolation", share(self.accuracy_discretization)),
+            ("  from light looked up", share(self.accuracy_bias)),
+            ("error of the bare map", share(self.accuracy_interpolated)),
+            ("time", show_seconds(self.time_s)),
+            ("receivers", self.receivers.to_string()),
+            ("increments", self.increments.to_string()),
+            ("rays", show_count(self.rays as f64)),
+        ])
+    }
+}

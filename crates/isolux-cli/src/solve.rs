@@ -1,0 +1,100 @@
+//! `isolux solve`: a scene to a map.
+
+use crate::console::{facts, note, print, print_json};
+use crate::estimate::Estimate;
+use crate::failure::{Failure, Outcome};
+use crate::flags::SolveFlags;
+use crate::interrupt::Interrupt;
+use crate::progress::Reporter;
+use crate::quantity::{show_bytes, show_seconds};
+use crate::report::Report;
+use crate::{explain, map_file, request, source};
+use isolux::engine::{self, SolveError, SolveRequest, Watch};
+use isolux::map::IlluminationMap;
+use isolux::scene::Scene;
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
+    let asked = request::solution(flags)?;
+    request::use_threads(flags.threads)?;
+    let scene = source::read_scene(&flags.scene)?;
+    if flags.explain {
+        explain::lines(&scene, &asked.request).iter().for_each(note);
+    }
+    let Some(output) = asked.output.filter(|_| !flags.dry_run) else {
+        return dry_run(&scene, &asked.request, json);
+    };
+    let mut reporter = Reporter::new(flags.progress);
+    let solved = solve(&scene, &asked.request, &mut reporter)?;
+    map_file::write(&output, &scene, &solved.map)?;
+    let report = Report::of(&solved.map, &output);
+    if json {
+        print_json(&report)?
+    } else {
+        print(&report.text())?
+    }
+    Ok(solved.outcome)
+}
+
+/// Predicts, and computes only as much as that takes.
+fn dry_run(scene: &Scene, request: &SolveRequest, json: bool) -> Result<Outcome, Failure> {
+    let estimate = Estimate::of(scene, request).map_err(failure)?;
+    if json {
+        print_json(&estimate)?;
+    } else {
+        let time = estimate.time_s.zip(estimate.time_earliest_s.zip(estimate.time_latest_s));
+        let time = time.map_or("cannot be told yet".to_owned(), |(likely, (early, late))| {
+            let (early, late) = (show_seconds(early), show_seconds(late));
+            format!("about {} ({early} to {late})", show_seconds(likely))
+        });
+        print(&facts(&[
+            ("receivers", format!("at least {}", estimate.receivers)),
+            ("memory", format!("about {}", show_bytes(estimate.memory_bytes))),
+            ("time", time),
+        ]))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// A map and how its computation ended.
+pub(crate) struct Solved {
+    /// The map.
+    pub map: IlluminationMap,
+    /// Done, stopped by a limit, or interrupted.
+    pub outcome: Outcome,
+}
+
+/// Computes a map, reports progress, and ends early at a signal.
+pub(crate) fn solve(
+    scene: &Scene,
+    request: &SolveRequest,
+    reporter: &mut Reporter,
+) -> Result<Solved, Failure> {
+    let interrupt = Interrupt::install()?;
+    let solved = engine::solve(scene, request, &mut |progress| {
+        reporter.show(progress);
+        if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
+    });
+    reporter.finish();
+    let map = solved.map_err(failure)?;
+    let outcome = match (map.provenance.complete, interrupt.is_requested()) {
+        (true, _) => Outcome::Done,
+        (false, true) => Outcome::Interrupted,
+        (false, false) => Outcome::StoppedEarly,
+    };
+    Ok(Solved { map, outcome })
+}
+
+/// Sorted by who can mend it.
+pub(crate) fn failure(error: SolveError) -> Failure {
+    match error {
+        SolveError::Memory { needed, allowed } => Failure::Refused(format!(
+            "the map needs about {}, more than the {} of --max-memory; raise it, or ask for less \
+             with --mesh-accuracy",
+            show_bytes(needed),
+            show_bytes(allowed)
+        )),
+        SolveError::Stopped => Failure::Interrupted(error.to_string()),
+        other => Failure::bad_input(other),
+    }
+}

@@ -1,0 +1,105 @@
+//! `isolux validate`: the cases with exact answers.
+
+use crate::console::{note, print, print_json, table};
+use crate::failure::{Failure, Outcome};
+use crate::flags::ValidateFlags;
+use crate::interrupt::Interrupt;
+use crate::quantity::{show_seconds, show_share, significant};
+use crate::request;
+use isolux::engine::Watch;
+use isolux::map::Method;
+use isolux_compare::case::{cases, find};
+use isolux_compare::{
+    Calibration, Case, ValidateRow, ValidateSettings, ValidateTable, Verdict, validate_all,
+};
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &ValidateFlags, json: bool) -> Result<Outcome, Failure> {
+    let cases = chosen(flags.case.as_deref())?;
+    let methods = flags
+        .method
+        .map_or(vec![Method::Hybrid, Method::Forward], |name| vec![request::method(name)]);
+    let seeds: Vec<u64> = (1..=u64::from(flags.seeds)).collect();
+    let interrupt = Interrupt::install()?;
+    let settings = ValidateSettings::default();
+    let table = validate_all(&cases, &methods, &seeds, &settings, &mut |row| {
+        note(line(row));
+        if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
+    });
+    if json {
+        print_json(&table)?
+    } else {
+        print(&text(&table))?
+    }
+    let failed = table.rows.iter().any(|row| row.verdict != Verdict::Pass);
+    Ok(match (interrupt.is_requested(), failed) {
+        (true, _) => Outcome::Interrupted,
+        (false, true) => Outcome::CheckFailed,
+        (false, false) => Outcome::Done,
+    })
+}
+
+fn chosen(name: Option<&str>) -> Result<Vec<Case>, Failure> {
+    let Some(name) = name else { return Ok(cases()) };
+    find(name).map(|case| vec![case]).ok_or_else(|| {
+        let names: Vec<&str> = cases().iter().map(|case| case.name).collect();
+        let names = names.join(", ");
+        Failure::bad_input(format!("there is no case `{name}`; choose one of {names}"))
+    })
+}
+
+/// A row while it comes.
+fn line(row: &ValidateRow) -> String {
+    let method = request::method_name(row.method);
+    format!("{} {method} {}: {}", row.case, row.seed, verdict(row))
+}
+
+fn verdict(row: &ValidateRow) -> String {
+    match &row.verdict {
+        Verdict::Pass => "pass".to_owned(),
+        Verdict::Fail { reason } => format!("FAIL: {reason}"),
+    }
+}
+
+fn text(table_of_cases: &ValidateTable) -> String {
+    let header = [
+        "case", "method", "seed", "error", "readings", "outliers", "allowed", "worst", "time",
+        "verdict",
+    ];
+    let rows: Vec<Vec<String>> = table_of_cases.rows.iter().map(row).collect();
+    let calibrations = table_of_cases.calibrations.iter().map(calibration);
+    let failed = table_of_cases.rows.iter().filter(|r| r.verdict != Verdict::Pass).count();
+    let passed = table_of_cases.rows.len() - failed;
+    let calibrations: String = calibrations.collect();
+    format!("{}\n{calibrations}{passed} passed, {failed} failed\n", table(&header, &rows))
+}
+
+fn row(row: &ValidateRow) -> Vec<String> {
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), |v| significant(v, 2));
+    vec![
+        row.case.to_owned(),
+        request::method_name(row.method).to_owned(),
+        row.seed.to_string(),
+        row.accuracy.map_or("-".to_owned(), |a| show_share(a.reached)),
+        row.readings.to_string(),
+        row.outliers.to_string(),
+        row.accepted_outliers.to_string(),
+        number(row.worst.as_ref().map(|worst| worst.ratio)),
+        show_seconds(row.time_s),
+        verdict(row),
+    ]
+}
+
+fn calibration(calibration: &Calibration) -> String {
+    let method = request::method_name(calibration.method);
+    let Some(coverage) = calibration.coverage else {
+        return format!("{method}: no reading with a statistical error\n");
+    };
+    format!(
+        "{method}: intervals of 95 % hold {:.1} % of {} readings ({} outside, chance allows {})\n",
+        100.0 * coverage,
+        calibration.readings,
+        calibration.outside,
+        calibration.accepted_outside
+    )
+}

@@ -1,0 +1,79 @@
+//! Bad input: exit code 2, a message that names it and its remedy, nothing half-written.
+
+use crate::ran::Home;
+
+/// Arguments, and what the message must hold.
+const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
+    (&[], "Usage"),
+    (&["paint"], "paint"),
+    (&["solve"], "SCENE"),
+    (&["solve", "builtin:cube"], "--output"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--accuracy", "1"], "1%"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--accuracy", "-1%"], "--accuracy"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--accuracy", "NaN"], "0.01"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--accuracy", "2%", "--quality", "draft"], "cannot"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--quality", "best"], "medium"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--method", "radiosity"], "hybrid"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--layout", "texels"], "--layout"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--time-limit", "60"], "60s"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--max-memory", "8"], "8GiB"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--threads", "0"], "--threads"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--seed", "-1"], "--seed"),
+    (&["solve", "builtin:cube", "-o", "m.png"], ".glb"),
+    (&["solve", "builtin:cube", "-o", "missing/m.glb"], "missing/m.glb"),
+    (&["solve", "builtin:cube", "-o", "."], ".glb"),
+    (&["solve", "builtin:teapot", "-o", "m.glb"], "builtin:cube"),
+    (&["solve", "missing.glb", "-o", "m.glb"], "missing.glb"),
+    (&["solve", "text.glb", "-o", "m.glb"], "text.glb"),
+    (&["solve", "empty.glb", "-o", "m.glb"], "empty.glb"),
+    (&["solve", "text.glb", "-o", "text.glb"], "input"),
+    (&["solve", "scene.xyz", "-o", "m.glb"], "scene.xyz"),
+    (&["info", "missing.ies"], "missing.ies"),
+    (&["info", "text.ies"], "text.ies"),
+    (&["info", "text.xyz"], "text.xyz"),
+    (&["probe", "text.glb"], "--points"),
+    (&["probe", "missing.glb", "--points", "good.pts"], "missing.glb"),
+    (&["probe", "text.glb", "--points", "good.pts"], "text.glb"),
+    (&["probe", "text.glb", "--points", "missing.pts"], "missing.pts"),
+    (&["probe", "text.glb", "--points", "bad.pts"], "bad.pts: line 2"),
+    (&["probe", "text.glb", "--points", "empty.glb"], "x y z nx ny nz"),
+    (&["render", "text.glb", "-o", "v.png", "--size", "0x5"], "1280x720"),
+    (&["render", "text.glb", "-o", "v.jpg"], ".png"),
+    (&["render", "text.glb", "-o", "v.png", "--scale", "5:1"], "0:500"),
+    (&["render", "missing.glb", "-o", "v.png"], "missing.glb"),
+    (&["check", "missing.toml"], "missing.toml"),
+    (&["validate", "--case", "teapot"], "cube"),
+    (&["validate", "--seeds", "0"], "--seeds"),
+];
+
+#[test]
+fn bad_input_is_refused_with_a_reason() {
+    let home = Home::new();
+    home.file("text.glb", "this is no glTF");
+    home.file("text.ies", "this is no lamp");
+    home.file("text.xyz", "this is nothing");
+    home.file("empty.glb", "");
+    home.file("good.pts", "0 0 0 0 0 1\n");
+    home.file("bad.pts", "0 0 0 0 0 1\n0 0 zero 0 0 1\n");
+    let before = home.names();
+    for (arguments, expected) in BAD_ARGUMENTS {
+        let ran = home.run(arguments);
+        assert_eq!(ran.code, 2, "{arguments:?}: {ran:?}");
+        assert!(ran.err.contains(expected), "{arguments:?} does not say {expected}: {}", ran.err);
+        assert_eq!(ran.out, "", "{arguments:?}");
+        assert!(!ran.err.contains("panicked"), "{arguments:?}: {}", ran.err);
+    }
+    assert_eq!(home.names(), before, "something was left behind");
+}
+
+#[test]
+fn every_subcommand_has_help_with_an_example() {
+    let home = Home::new();
+    for subcommand in ["solve", "info", "probe", "render", "check", "validate", "demo"] {
+        let ran = home.run(&[subcommand, "--help"]);
+        assert_eq!(ran.code, 0, "{ran:?}");
+        assert!(ran.out.contains("Example"), "{subcommand}: {}", ran.out);
+        assert!(ran.out.contains("--json"), "{subcommand}: {}", ran.out);
+    }
+    assert_eq!(home.run(&["--version"]).code, 0);
+}

@@ -1,0 +1,6 @@
+//! The command as a user runs it: exit codes, messages, and the shape of what it prints.
+#![allow(clippy::unwrap_used, reason = "tests may stop at the first surprise")]
+
+mod bad_input;
+mod ran;
+mod results;

@@ -1,0 +1,149 @@
+//! Good input: values, JSON and exit codes.
+
+use crate::ran::{Home, Ran};
+
+fn solved(home: &Home, more: &[&str]) -> Ran {
+    let arguments = ["solve", "builtin:cube", "-o", "cube.glb", "--quality", "draft", "--json"];
+    home.run(&[&arguments, more].concat())
+}
+
+#[test]
+fn solve_ends_with_one_object_that_says_how_good_it_is() {
+    let home = Home::new();
+    let ran = solved(&home, &[]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let report = ran.json();
+    for number in [
+        "accuracy_reached",
+        "accuracy_statistical",
+        "accuracy_discretization",
+        "accuracy_interpolated",
+        "time_s",
+        "increments",
+        "rays",
+        "receivers",
+        "seed",
+    ] {
+        assert!(report[number].is_number(), "{number}: {report}");
+    }
+    assert_eq!(report["method"], "hybrid");
+    assert_eq!(report["map"], "cube.glb");
+    assert!(report["accuracy_reached"].as_f64().unwrap() <= 0.05, "{report}");
+    assert_eq!(home.names(), ["cube.glb"]);
+}
+
+#[test]
+fn probe_answers_in_the_order_asked_and_null_where_nothing_is_known() {
+    let home = Home::new();
+    assert_eq!(solved(&home, &[]).code, 0);
+    let points = "0 0 -5 0 0 1\n99 99 99 0 0 1\n5 0 0 -1 0 0\n";
+    let ran = home.run_with_input(&["probe", "cube.glb", "--points", "-", "--json"], points);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let json = ran.json();
+    let lx: Vec<Option<f64>> =
+        json["points"].as_array().unwrap().iter().map(|p| p["illuminance_lx"].as_f64()).collect();
+    // pi x 892.8 cd/m2 / (2/3) at the middle of every wall; a draft is good to 5 %.
+    let expected = std::f64::consts::PI * 892.8 * 1.5;
+    for (index, value) in [(0, lx[0]), (2, lx[2])] {
+        let value = value.unwrap_or_else(|| panic!("point {index} is not known: {json}"));
+        assert!((value / expected - 1.0).abs() < 0.1, "point {index}: {value} lx");
+    }
+    assert_eq!(lx[1], None);
+    assert!(ran.err.contains("1 of 3 points"), "{}", ran.err);
+    let csv = home.run_with_input(&["probe", "cube.glb", "--points", "-"], points);
+    assert_eq!(csv.out.lines().count(), 4, "{}", csv.out);
+}
+
+#[test]
+fn a_run_out_of_time_has_a_valid_map() {
+    let home = Home::new();
+    let ran = home.run(&[
+        "solve",
+        "builtin:cube",
+        "-o",
+        "m.glb",
+        "--accuracy",
+        "0.001%",
+        "--time-limit",
+        "2s",
+        "--json",
+    ]);
+    assert_eq!(ran.code, 3, "{ran:?}");
+    assert_eq!(ran.json()["complete"], false);
+    assert_eq!(home.run(&["info", "m.glb"]).code, 0);
+}
+
+#[test]
+fn too_little_memory_is_refused() {
+    let home = Home::new();
+    let ran = home.run(&["solve", "builtin:cube", "-o", "m.glb", "--max-memory", "1kB"]);
+    assert_eq!(ran.code, 4, "{ran:?}");
+    assert!(ran.err.contains("--max-memory"), "{}", ran.err);
+    assert_eq!(home.names(), Vec::<String>::new());
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_saves_its_map() {
+    use std::io::{BufRead, BufReader};
+    let home = Home::new();
+    let mut child = home.start(&[
+        "solve",
+        "builtin:cube",
+        "-o",
+        "m.glb",
+        "--accuracy",
+        "0.5%",
+        "--progress",
+        "json",
+    ]);
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let report: serde_json::Value = lines
+        .by_ref()
+        .map(|line| serde_json::from_str(&line).unwrap())
+        .find(|report: &serde_json::Value| report["stage"] == "increments")
+        .unwrap();
+    assert!(report["rays"].as_u64().unwrap() > 0, "{report}");
+    let id = child.id().to_string();
+    let interrupted = std::process::Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(interrupted.success());
+    lines.for_each(drop);
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(home.names(), ["m.glb"]);
+    assert_eq!(home.run(&["info", "m.glb"]).code, 0);
+}
+
+#[test]
+fn the_same_seed_gives_the_same_values_on_any_number_of_threads() {
+    let home = Home::new();
+    let values = |threads: &str| {
+        assert_eq!(solved(&home, &["--threads", threads]).code, 0);
+        home.run_with_input(&["probe", "cube.glb", "--points", "-"], "1 2 -5 0 0 1\n").out
+    };
+    let (one, two) = (values("1"), values("2"));
+    assert!(one.lines().count() == 2);
+    assert_eq!(one, two);
+}
+
+#[test]
+fn a_dry_run_writes_nothing_and_explains() {
+    let home = Home::new();
+    let ran = home.run(&["solve", "builtin:cube", "--dry-run", "--explain", "--json"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let json = ran.json();
+    assert!(json["receivers"].is_number() && json["memory_bytes"].is_number(), "{json}");
+    assert!(ran.err.contains("stops at an error of 1.0 %"), "{}", ran.err);
+    assert_eq!(home.names(), Vec::<String>::new());
+}
+
+#[test]
+fn check_finds_the_cube_in_order() {
+    let home = Home::new();
+    let json = home.run(&["check", "builtin:cube", "--json"]).json();
+    assert_eq!(json["open_edges"], 0, "{json}");
+    // 4 pi x 50 000 cd.
+    let flux = json["luminous_flux_lm"].as_f64().unwrap();
+    assert!((flux / (4.0 * std::f64::consts::PI * 50_000.0) - 1.0).abs() < 1e-9, "{flux}");
+    let warnings = json["findings"].as_array().unwrap().iter();
+    assert_eq!(warnings.filter(|f| f["severity"] == "warning").count(), 0, "{json}");
+}
