@@ -49,10 +49,10 @@ pub(crate) fn look(
     let settings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
     let reader = (!interpolated).then(|| MapReader::new(scene, map));
     let read = |at: SurfacePoint| -> Option<Illuminance> {
-        let SurfacePoint { triangle, back, u, v } = at;
+        let SurfacePoint { triangle, back, u, v, blurred } = at;
         match &reader {
-            Some(reader) => reader.at(triangle, back, u, v),
-            None => map.interpolate(triangle, back, u, v),
+            Some(reader) if !blurred => reader.glance(triangle, back, u, v, 0),
+            _ => map.interpolate(triangle, back, u, v),
         }
     };
     trace(scene, camera, size, &settings, &read).map_err(Failure::bad_input)

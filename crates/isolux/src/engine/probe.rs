@@ -78,7 +78,29 @@ impl<'a> MapReader<'a> {
         Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
     }
 
-    /// The same at a point on a surface, on the side that `normal` points to. `None` where no
+    /// The same by one shadow ray for every emitting surface, for pictures, which take a mean over
+    /// many places anyway: noisy, and the standard error leaves that noise out. `number` tells
+    /// readings of one place apart.
+    pub fn glance(
+        &self,
+        triangle: u32,
+        back: bool,
+        u: f64,
+        v: f64,
+        number: u64,
+    ) -> Option<Illuminance> {
+        let stored = self.map.interpolate(triangle, back, u, v)?;
+        let at = self.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
+        let sequence = Sequence::new(place_key(at.point).with(number));
+        let direct = self.lighting.sampled(&at, 1, &mut Dice::new(sequence, 0));
+        Some(Illuminance {
+            direct_lx: direct + stored.caustic_lx,
+            standard_error_lx: stored.indirect_standard_error_lx,
+            ..stored
+        })
+    }
+
+    /// As [`MapReader::at`] at a point on a surface, on the side that `normal` points to. `None` where no
     /// surface that carries a known value lies within a ten-thousandth of the scene's extent.
     pub fn probe(&self, at: ProbePoint) -> Option<Illuminance> {
         let surface = self.find_surface(at)?;
@@ -134,11 +156,7 @@ impl<'a> MapReader<'a> {
 
     /// Direct light at a place and the variance of its mean.
     fn direct(&self, at: &SurfacePoint) -> (Rgb, f64) {
-        let bits = at.point.to_vector();
-        // Random numbers belong to the place, so that neighbours are independent.
-        let key = [bits.x, bits.y, bits.z]
-            .iter()
-            .fold(Key::new(0).with(5), |key, c| key.with(c.to_bits()));
+        let key = place_key(at.point);
         let one = |replicate| {
             self.lighting.illuminance(at, &mut Dice::new(Sequence::new(key.with(replicate)), 0))
         };
@@ -190,6 +208,12 @@ impl<'a> MapReader<'a> {
             _ => at,
         }
     }
+}
+
+/// Random numbers belong to the place, so that neighbours are independent.
+fn place_key(point: Point) -> Key {
+    let place = [point.x, point.y, point.z];
+    place.iter().fold(Key::new(0).with(5), |key, c| key.with(c.to_bits()))
 }
 
 /// Mean of independent values and variance of their photometric mean.

@@ -31,6 +31,7 @@ pub(super) struct Lighting<'s> {
     scene: &'s Scene,
     mirrors: Mirrors,
     sources: Vec<Source>,
+    area_sources: usize,
     has_glass: bool,
 }
 
@@ -40,7 +41,9 @@ impl<'s> Lighting<'s> {
         let mirrors = Mirrors::find(scene);
         let sources = source::sources(scene, &mirrors);
         let has_glass = scene.materials().iter().any(|m| m.finish(false).is_none());
-        Self { scene, mirrors, sources, has_glass }
+        let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
+        let area_sources = sources.iter().filter(is_area).count();
+        Self { scene, mirrors, sources, area_sources, has_glass }
     }
 
     /// Number of sources, images included.
@@ -50,7 +53,7 @@ impl<'s> Lighting<'s> {
 
     /// Whether direct light has an exact value at every point: no emitting surface.
     pub(super) fn is_exact(&self) -> bool {
-        !self.sources.iter().any(|s| matches!(s.kind, SourceKind::Area { .. }))
+        self.area_sources == 0
     }
 
     /// Whether there is specular transport that the sources do not cover.
@@ -75,9 +78,12 @@ impl<'s> Lighting<'s> {
     /// Direct illuminance from all sources: exact for points and parallel light, sampled for
     /// emitting surfaces.
     pub(super) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        let areas =
-            self.sources.iter().filter(|s| matches!(s.kind, SourceKind::Area { .. })).count();
-        let samples = (AREA_SAMPLES / areas.max(1)).max(FEWEST_AREA_SAMPLES);
+        let samples = (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES);
+        self.sampled(at, samples, dice)
+    }
+
+    /// The same with `samples` shadow rays for every emitting surface.
+    pub(super) fn sampled(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
         self.sources.iter().map(|source| self.lit_by(source, at, samples, dice)).sum()
     }
 
