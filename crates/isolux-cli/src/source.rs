@@ -4,7 +4,7 @@ use crate::console::note;
 use crate::failure::Failure;
 use isolux::scene::{Scene, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, builtin};
-use isolux_formats::{Loaded, Problem, Problems, gltf};
+use isolux_formats::{Loaded, Problem, Problems};
 use std::path::Path;
 
 /// What comes before the name of a scene that is built in.
@@ -51,15 +51,7 @@ fn built_in(name: &str) -> Result<Scene, Failure> {
 
 /// By the extension of its name.
 fn from_file(path: &Path) -> Result<Loaded<Scene>, Problems> {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    let loaded = match extension.as_deref() {
-        Some("gltf" | "glb") => gltf::read(path)?,
-        _ => {
-            let what = "not a scene that can be read, going by its extension";
-            return Err(Problem::new(path, "", what, "give a .gltf or .glb file").into());
-        }
-    };
-    let Loaded { value, warnings } = loaded;
+    let Loaded { value, warnings } = isolux_formats::load(path)?;
     let value = Scene::assemble(value).map_err(|problems| {
         let problem = |p: SceneProblem| Problem::new(path, p.place.to_string(), p.what, p.remedy);
         Problems(problems.into_iter().map(problem).collect())

@@ -18,7 +18,7 @@ pub(super) fn check(tree: &Tree) -> Vec<Finding> {
         file: ".".to_owned(),
         line: 1,
         what: format!("{} entries at the root: {}", entries.len(), entries.join(", ")),
-        remedy: "keep fewer than fifteen: move one into a folder",
+        remedy: "keep fewer than fifteen: put one into a folder",
     };
     if entries.len() >= LIMIT { vec![finding()] } else { Vec::new() }
 }

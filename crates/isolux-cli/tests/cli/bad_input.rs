@@ -28,6 +28,9 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["solve", "empty.glb", "-o", "m.glb"], "empty.glb"),
     (&["solve", "text.glb", "-o", "text.glb"], "input"),
     (&["solve", "scene.xyz", "-o", "m.glb"], "scene.xyz"),
+    (&["solve", "text.toml", "-o", "m.glb"], "text.toml"),
+    (&["solve", "empty.obj", "-o", "m.glb"], "empty.obj"),
+    (&["info", "text.ldt"], "text.ldt"),
     (&["info", "missing.ies"], "missing.ies"),
     (&["info", "text.ies"], "text.ies"),
     (&["info", "text.xyz"], "text.xyz"),
@@ -51,6 +54,9 @@ fn bad_input_is_refused_with_a_reason() {
     let home = Home::new();
     home.file("text.glb", "this is no glTF");
     home.file("text.ies", "this is no lamp");
+    home.file("text.ldt", "this is no lamp");
+    home.file("text.toml", "this is no scene");
+    home.file("empty.obj", "");
     home.file("text.xyz", "this is nothing");
     home.file("empty.glb", "");
     home.file("good.pts", "0 0 0 0 0 1\n");

@@ -1,4 +1,5 @@
 //! Files made to harm: each is refused, with its reason, without a panic.
+// size: tables of files, a few lines each
 
 use crate::build::{FLOAT, File, I16, U8, U16, floats, png, push, read_bytes, read_in};
 use isolux_formats::{Problems, gltf};
@@ -14,6 +15,7 @@ fn assert_refused(name: &str, read: Result<impl Sized, Problems>, place: &str, w
 
 type Change = fn(&mut File);
 
+// long: a table
 #[test]
 fn accessors() {
     let table: &[(&str, Change, &str, &str)] = &[
@@ -255,6 +257,7 @@ fn sparse_accessors() {
     assert_refused("many zeros", zeros.read(), "accessors[0]", "without a bufferView");
 }
 
+// long: a table
 #[test]
 fn nodes() {
     let table: &[(&str, Change, &str, &str)] = &[
