@@ -34,12 +34,12 @@ impl Estimate {
         let mut prediction = None;
         let limit = request.time_limit.map_or(PATIENCE, |limit| limit.min(PATIENCE));
         let beginning = SolveRequest { time_limit: Some(limit), ..request.clone() };
-        let map = engine::solve(scene, &beginning, &mut |progress| {
+        let solution = engine::solve(scene, &beginning, None, &mut |progress| {
             receivers = progress.receivers;
             prediction = progress.prediction;
             if prediction.is_some() { Watch::Stop } else { Watch::Continue }
         })?;
-        let done_s = map.provenance.complete.then_some(map.provenance.time_s);
+        let done_s = solution.map.provenance.complete.then_some(solution.time_s);
         let textures: u64 = scene.textures().iter().map(|t| t.srgb.len() as u64).sum();
         let triangles = u64::from(scene.triangle_count());
         Ok(Self {

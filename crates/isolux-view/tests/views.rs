@@ -215,7 +215,6 @@ fn rising_map(scene: &Scene) -> IlluminationMap {
             seed: 1,
             increments: 1,
             rays: 0,
-            time_s: 0.0,
             accuracy_target: None,
             complete: true,
             accuracy: None,

@@ -18,9 +18,12 @@ mod probe;
 mod request;
 mod run;
 mod scatter;
+mod state;
 mod surface;
 mod tally;
 
+pub use accumulate::Sums;
 pub use probe::{ExactSettings, MapReader, ProbePoint};
 pub use request::{Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
-pub use run::solve;
+pub use run::{Solution, solve};
+pub use state::{RunIdentity, RunState};

@@ -103,7 +103,7 @@ pub enum SolveError {
         /// Bytes allowed.
         allowed: u64,
     },
-    /// Stopped before the first map.
-    #[error("stopped before the first increment was complete")]
-    Stopped,
+    /// The saved state is that of another run.
+    #[error("the saved run differs in {0}; solve without resuming, or ask for the same again")]
+    OtherRun(&'static str),
 }

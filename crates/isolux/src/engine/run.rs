@@ -10,6 +10,7 @@ use super::hybrid::Hybrid;
 use super::pilot::{PilotRequest, Plan, pilot};
 use super::predict;
 use super::request::{Progress, SolveError, SolveRequest, Stage, Watch};
+use super::state::{RunIdentity, RunState, restore};
 use super::tally;
 use crate::map::{Accuracy, Illuminance, IlluminationMap, Method, Provenance};
 use crate::sampling::Key;
@@ -26,34 +27,52 @@ const DEFAULT_ACCURACY: f64 = 0.01;
 /// rays, sums and values. Measured on rooms; rounded up.
 const BYTES_A_VERTEX: u64 = 2400;
 
-/// Computes the illumination map of a scene.
+/// A map, and what it takes to go on with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// The map.
+    pub map: IlluminationMap,
+    /// The run as it was when the map was made.
+    pub state: RunState,
+    /// Wall-clock time it took, s. Not part of the map, whose bits do not depend on the machine.
+    pub time_s: f64,
+}
+
+/// Computes the illumination map of a scene, or goes on from a saved state.
 ///
 /// `watch` is called after every round of the pilot and every increment and may stop the run; the
 /// map is valid then, too. Everything but the moment of stopping depends only on the scene and the
-/// request: a run that stops at its accuracy gives the same bits on any number of threads.
+/// request: a run that stops at its accuracy gives the same bits on any number of threads, stopped
+/// and resumed or not.
 pub fn solve(
     scene: &Scene,
     request: &SolveRequest,
+    resume: Option<&RunState>,
     watch: &mut dyn FnMut(&Progress) -> Watch,
-) -> Result<IlluminationMap, SolveError> {
+) -> Result<Solution, SolveError> {
     check(scene, request)?;
-    let lighting = Lighting::new(scene);
-    let mut run = Run { scene, request, started: Instant::now(), rays: 0, stopped: false };
-    let mut target = request.accuracy.unwrap_or(DEFAULT_ACCURACY);
-    for stage in 1.. {
-        let plan = run.pilot(&lighting, target, watch);
-        let outcome = run.increments(&plan, target, stage == MOST_STAGES, watch);
-        match outcome {
-            Outcome::Done(map) => return Ok(*map),
-            Outcome::TooCoarse => target *= 0.5,
-        }
+    let identity = RunIdentity::of(scene, request);
+    let resume = resume.filter(|state| state.increments > 0);
+    if let Some(state) = resume {
+        identity.check(&state.identity)?;
     }
-    Err(SolveError::Stopped)
+    let lighting = Lighting::new(scene);
+    let started = Instant::now();
+    let mut run = Run { scene, request, identity, started, rays: 0, stopped: false, stage: 1 };
+    run.stage = resume.map_or(1, |state| state.stage.clamp(1, MOST_STAGES));
+    loop {
+        let plan = run.pilot(&lighting, watch);
+        let saved = resume.filter(|state| state.stage == run.stage);
+        if let Outcome::Done(solution) = run.increments(&plan, saved, watch)? {
+            return Ok(*solution);
+        }
+        run.stage += 1;
+    }
 }
 
 /// What came of the increments on one mesh.
 enum Outcome {
-    Done(Box<IlluminationMap>),
+    Done(Box<Solution>),
     /// The elements are too coarse for the accuracy asked for.
     TooCoarse,
 }
@@ -76,9 +95,12 @@ fn check(scene: &Scene, request: &SolveRequest) -> Result<(), SolveError> {
 struct Run<'s, 'r> {
     scene: &'s Scene,
     request: &'r SolveRequest,
+    identity: RunIdentity,
     started: Instant,
     rays: u64,
+    /// Stopped by the watcher or the clock before the mesh was complete.
     stopped: bool,
+    stage: u32,
 }
 
 impl<'s> Run<'s, '_> {
@@ -90,14 +112,19 @@ impl<'s> Run<'s, '_> {
         self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
     }
 
+    /// The accuracy that the elements of this stage are made for.
+    fn mesh_for(&self) -> f64 {
+        let target = self.request.accuracy.unwrap_or(DEFAULT_ACCURACY);
+        target * libm::exp2(1.0 - f64::from(self.stage))
+    }
+
     fn pilot(
         &mut self,
         lighting: &'s Lighting<'s>,
-        target: f64,
         watch: &mut dyn FnMut(&Progress) -> Watch,
     ) -> Plan<'s> {
         let request = PilotRequest {
-            target,
+            target: self.mesh_for(),
             mesh_target: self.request.mesh_accuracy,
             seed: self.request.seed,
             max_vertices: (self.request.max_memory_bytes / BYTES_A_VERTEX) as usize,
@@ -107,8 +134,8 @@ impl<'s> Run<'s, '_> {
         let plan = pilot(scene, lighting, &request, &mut |receivers, rays| {
             self.rays = before + rays;
             let progress = self.progress(Stage::Pilot, 0, receivers as u64, None);
-            self.stopped |= watch(&progress) == Watch::Stop;
-            !self.stopped && !self.out_of_time()
+            self.stopped |= watch(&progress) == Watch::Stop || self.out_of_time();
+            !self.stopped
         });
         self.rays = before + plan.rays;
         plan
@@ -137,40 +164,76 @@ impl<'s> Run<'s, '_> {
     fn increments(
         &mut self,
         plan: &Plan<'s>,
-        target: f64,
-        last_stage: bool,
+        saved: Option<&RunState>,
         watch: &mut dyn FnMut(&Progress) -> Watch,
-    ) -> Outcome {
-        let mut work = Work::new(plan, self.request, target);
-        let started_s = self.elapsed_s();
+    ) -> Result<Outcome, SolveError> {
+        let mut work = Work::new(plan, self.request, self.mesh_for());
+        if let Some(state) = saved.filter(|_| !self.stopped) {
+            work.restore(state)?;
+            self.rays = state.rays;
+        }
+        let pace = Pace { started_s: self.elapsed_s(), before: work.sums.increments };
+        let whole_mesh = !self.stopped;
         loop {
             self.rays += work.increment();
             let accuracy = work.accuracy();
+            let progress = self.report(&work, accuracy, pace);
             let count = work.sums.increments;
-            let mut progress =
-                self.progress(Stage::Increments, count, work.sums.sums.len() as u64, accuracy);
-            let goal = self.request.accuracy;
-            let needed =
-                accuracy.zip(goal).map(|(a, goal)| predict::increments_needed(&a, count, goal));
-            progress.prediction = needed.flatten().map(|needed| {
-                let needed = needed.max(FEWEST_INCREMENTS as f64);
-                predict::finish(needed, count, started_s, progress.elapsed_s)
-            });
             let reached = count >= FEWEST_INCREMENTS
-                && accuracy.zip(goal).is_some_and(|(a, goal)| a.reached <= goal);
-            self.stopped |= watch(&progress) == Watch::Stop;
-            if reached || self.stopped || self.out_of_time() || count >= MAX_INCREMENTS {
-                return Outcome::Done(Box::new(self.map(&work, accuracy, reached)));
-            }
+                && accuracy.zip(progress.target).is_some_and(|(a, goal)| a.reached <= goal);
+            self.stopped |= watch(&progress) == Watch::Stop || self.out_of_time();
+            let done = reached || self.stopped || count >= MAX_INCREMENTS;
             // No number of increments helps where interpolation alone takes the whole error.
-            let hopeless = matches!(needed, Some(None)) && count >= FEWEST_INCREMENTS;
-            if hopeless && !last_stage && self.request.method == Method::Hybrid {
-                return Outcome::TooCoarse;
+            let hopeless = self.is_hopeless(&work, accuracy);
+            if !done && hopeless && self.stage < MOST_STAGES {
+                return Ok(Outcome::TooCoarse);
             }
-            if hopeless && work.is_settled(accuracy) {
-                return Outcome::Done(Box::new(self.map(&work, accuracy, false)));
+            if done || (hopeless && work.is_settled(accuracy)) {
+                return Ok(Outcome::Done(Box::new(
+                    self.solution(&work, accuracy, reached, whole_mesh),
+                )));
             }
         }
+    }
+
+    fn report(&self, work: &Work, accuracy: Option<Accuracy>, pace: Pace) -> Progress {
+        let count = work.sums.increments;
+        let receivers = work.sums.sums.len() as u64;
+        let progress = self.progress(Stage::Increments, count, receivers, accuracy);
+        let needed = accuracy
+            .zip(self.request.accuracy)
+            .and_then(|(a, goal)| predict::increments_needed(&a, count, goal));
+        let prediction = needed.map(|needed| {
+            let needed = needed.max(FEWEST_INCREMENTS as f64);
+            let each_s = (progress.elapsed_s - pace.started_s) / (count - pace.before) as f64;
+            predict::finish(needed, count, each_s, progress.elapsed_s)
+        });
+        Progress { prediction, ..progress }
+    }
+
+    fn is_hopeless(&self, work: &Work, accuracy: Option<Accuracy>) -> bool {
+        let count = work.sums.increments;
+        let wanted = accuracy.zip(self.request.accuracy).filter(|_| count >= FEWEST_INCREMENTS);
+        wanted.is_some_and(|(a, goal)| predict::increments_needed(&a, count, goal).is_none())
+    }
+
+    fn solution(
+        &self,
+        work: &Work,
+        accuracy: Option<Accuracy>,
+        reached: bool,
+        whole_mesh: bool,
+    ) -> Solution {
+        let state = RunState {
+            identity: self.identity.clone(),
+            stage: self.stage,
+            rays: self.rays,
+            increments: if whole_mesh { work.sums.increments } else { 0 },
+            receivers: if whole_mesh { work.sums.sums.clone() } else { Vec::new() },
+            checks: if whole_mesh { work.checks.sums.sums.clone() } else { Vec::new() },
+        };
+        let time_s = self.elapsed_s();
+        Solution { map: self.map(work, accuracy, reached), state, time_s }
     }
 
     fn map(&self, work: &Work, accuracy: Option<Accuracy>, reached: bool) -> IlluminationMap {
@@ -180,19 +243,25 @@ impl<'s> Run<'s, '_> {
             values: (0..work.plan.known.len()).map(|k| work.value(k)).collect(),
             provenance: Provenance {
                 scene: self.scene.name().to_owned(),
-                scene_hash: self.scene.hash(),
+                scene_hash: self.identity.scene_hash.clone(),
                 version: env!("CARGO_PKG_VERSION").to_owned(),
                 method: self.request.method,
                 seed: self.request.seed,
                 increments,
                 rays: self.rays,
-                time_s: self.elapsed_s(),
                 accuracy_target: self.request.accuracy,
                 complete: reached || self.request.accuracy.is_none(),
                 accuracy,
             },
         }
     }
+}
+
+/// Since when, and since which increment, the pace of a run is taken.
+#[derive(Clone, Copy)]
+struct Pace {
+    started_s: f64,
+    before: u64,
 }
 
 /// The increments on one mesh.
@@ -234,6 +303,11 @@ impl<'p, 's> Work<'p, 's> {
             }
         };
         Self { plan, engine, sums, checks, rays_a_value: u64::from(rays) }
+    }
+
+    fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
+        restore(&mut self.sums, &saved.receivers, saved.increments)?;
+        restore(&mut self.checks.sums, &saved.checks, saved.increments)
     }
 
     fn increment(&mut self) -> u64 {

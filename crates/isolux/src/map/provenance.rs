@@ -19,8 +19,6 @@ pub struct Provenance {
     pub increments: u64,
     /// Rays traced.
     pub rays: u64,
-    /// Wall-clock time of the solution, s.
-    pub time_s: f64,
     /// The accuracy asked for, a fraction, where one was.
     pub accuracy_target: Option<f64>,
     /// Whether the run reached what was asked of it.
