@@ -64,8 +64,8 @@ impl<'p, 's> Hybrid<'p, 's> {
             .collect();
         let solved = operator.solve(&plan.guess, &given, TOLERANCE);
         let (gathered, fresh) = solved.split_at(plan.indirect_vertices);
-        let indirect = self.prolongate(gathered);
-        let caustic = self.prolongate(&caustic);
+        let indirect = plan.prolongate(gathered);
+        let caustic = plan.prolongate(&caustic);
         receivers.add((0..direct.len()).map(|k| Sample {
             direct: direct[k],
             caustic: caustic[k],
@@ -86,21 +86,5 @@ impl<'p, 's> Hybrid<'p, 's> {
         };
         let vertices = self.plan.gatherers.par_iter().enumerate().map(vertex).collect();
         (vertices, checks::direct(self.plan, checks, key.with(u64::MAX)))
-    }
-
-    /// Values for the vertices that only direct light needs: interpolated from their parents.
-    fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
-        let mut values = coarse.to_vec();
-        for vertex in &self.plan.elements.vertices()[coarse.len()..] {
-            let [a, b] = vertex.parents.expect("vertices beyond the input are made by bisection");
-            let read = |end: u32| (self.plan.known[end as usize]).then(|| values[end as usize]);
-            let value = match (read(a), read(b)) {
-                (Some(a), Some(b)) => (a + b) * 0.5,
-                (Some(one), None) | (None, Some(one)) => one,
-                (None, None) => Rgb::BLACK,
-            };
-            values.push(value);
-        }
-        values
     }
 }

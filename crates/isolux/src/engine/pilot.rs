@@ -57,6 +57,24 @@ pub(super) struct Plan<'s> {
     pub(super) rays: u64,
 }
 
+impl Plan<'_> {
+    /// Values for the vertices that only direct light needs: interpolated from their parents.
+    pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
+        let mut values = coarse.to_vec();
+        for vertex in &self.elements.vertices()[coarse.len()..] {
+            let [a, b] = vertex.parents.expect("vertices beyond the input are made by bisection");
+            let read = |end: u32| (self.known[end as usize]).then(|| values[end as usize]);
+            let value = match (read(a), read(b)) {
+                (Some(a), Some(b)) => (a + b) * 0.5,
+                (Some(one), None) | (None, Some(one)) => one,
+                (None, None) => Rgb::BLACK,
+            };
+            values.push(value);
+        }
+        values
+    }
+}
+
 /// What is asked of the pilot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PilotRequest {
