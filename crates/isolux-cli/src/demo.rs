@@ -23,17 +23,17 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let request = SolveRequest { accuracy: Some(flags.accuracy), ..SolveRequest::default() };
     note(format!("{}, from {}", scene.name(), path.display()));
     explain::lines(&scene, &request).iter().for_each(note);
-    let solved = solve::solve(&scene, &request, &mut Reporter::new(None))?;
-    map_file::write(&files.map, &scene, &solved.map)?;
+    let solved = solve::solve(&scene, &request, None, &mut Reporter::new(None))?;
+    map_file::write(&files.map, &scene, &solved.solution.map)?;
     let camera = viewpoint::camera(&scene, None)?;
-    let view = render::look(&scene, &solved.map, &camera, PICTURE, false)?;
+    let view = render::look(&scene, &solved.solution.map, &camera, PICTURE, false)?;
     render::write(&files.picture, &render::shown(&view, &look(false))?)?;
     render::write(&files.false_colour, &render::shown(&view, &look(true))?)?;
     let results = Results {
-        solution: report::Report::of(&solved.map, &files.map),
+        solution: report::Report::of(&solved.solution, &files.map),
         picture: files.picture.path().display().to_string(),
         false_colour: files.false_colour.path().display().to_string(),
-        surfaces: summary::by_shape(&scene, &solved.map),
+        surfaces: summary::by_shape(&scene, &solved.solution.map),
     };
     if json {
         print_json(&results)?

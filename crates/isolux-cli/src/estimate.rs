@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::time::Duration;
 
 /// An estimate takes no longer than this, or one round of a large scene.
-const PATIENCE: Duration = Duration::from_secs(10);
+const PATIENCE: Duration = Duration::from_secs(5);
 /// Elements, sums and gathered rays of a receiver, measured on rooms of 10^4 to 10^5 of them.
 const BYTES_A_RECEIVER: u64 = 2400;
 /// Mesh and hierarchy of a triangle: 3 vertices, normals, texture coordinates, and its nodes.
@@ -21,7 +21,7 @@ pub(crate) struct Estimate {
     pub memory_bytes: u64,
     /// Time to the accuracy asked for, s; `None` where the beginning was not enough to tell.
     pub time_s: Option<f64>,
-    /// Not before, with 95 % confidence, s.
+    /// Not before, with nine chances in ten, s.
     pub time_earliest_s: Option<f64>,
     /// Not after, s.
     pub time_latest_s: Option<f64>,
@@ -34,12 +34,12 @@ impl Estimate {
         let mut prediction = None;
         let limit = request.time_limit.map_or(PATIENCE, |limit| limit.min(PATIENCE));
         let beginning = SolveRequest { time_limit: Some(limit), ..request.clone() };
-        let map = engine::solve(scene, &beginning, &mut |progress| {
+        let solution = engine::solve(scene, &beginning, None, &mut |progress| {
             receivers = progress.receivers;
             prediction = progress.prediction;
             if prediction.is_some() { Watch::Stop } else { Watch::Continue }
         })?;
-        let done_s = map.provenance.complete.then_some(map.provenance.time_s);
+        let done_s = solution.map.provenance.complete.then_some(solution.time_s);
         let textures: u64 = scene.textures().iter().map(|t| t.srgb.len() as u64).sum();
         let triangles = u64::from(scene.triangle_count());
         Ok(Self {

@@ -23,8 +23,6 @@ pub(crate) enum Failure {
     BadInput(Vec<String>),
     /// The machine cannot: memory, space.
     Refused(String),
-    /// Interrupted before there was a map.
-    Interrupted(String),
     /// Whoever read our output has gone.
     ReaderGone,
 }
@@ -42,7 +40,6 @@ impl Failure {
                 problems.iter().flat_map(|p| p.lines()).map(|l| format!("error: {l}")).collect()
             }
             Self::Refused(why) => vec![format!("refused: {why}")],
-            Self::Interrupted(why) => vec![format!("interrupted: {why}")],
             Self::ReaderGone => Vec::new(),
         }
     }
@@ -56,6 +53,6 @@ pub(crate) fn exit_code(end: &Result<Outcome, Failure>) -> ExitCode {
         Err(Failure::BadInput(_)) => 2,
         Ok(Outcome::StoppedEarly) => 3,
         Err(Failure::Refused(_)) => 4,
-        Ok(Outcome::Interrupted) | Err(Failure::Interrupted(_)) => 130,
+        Ok(Outcome::Interrupted) => 130,
     })
 }

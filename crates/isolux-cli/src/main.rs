@@ -18,6 +18,7 @@ mod quantity;
 mod render;
 mod report;
 mod request;
+mod saved_run;
 mod solve;
 mod source;
 mod summary;

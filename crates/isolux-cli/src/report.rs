@@ -4,7 +4,7 @@ use crate::console::facts;
 use crate::output::OutputPath;
 use crate::quantity::{show_count, show_seconds, show_share};
 use crate::request::method_name;
-use isolux::map::IlluminationMap;
+use isolux::engine::Solution;
 use serde::Serialize;
 
 /// What `solve --json` prints.
@@ -29,7 +29,8 @@ pub(crate) struct Report {
 
 impl Report {
     /// Of a map and where it was written.
-    pub(crate) fn of(map: &IlluminationMap, output: &OutputPath) -> Self {
+    pub(crate) fn of(solution: &Solution, output: &OutputPath) -> Self {
+        let map = &solution.map;
         let from = &map.provenance;
         Self {
             scene: from.scene.clone(),
@@ -41,7 +42,7 @@ impl Report {
             accuracy_discretization: from.accuracy.map(|a| a.discretization),
             accuracy_bias: from.accuracy.map(|a| a.bias),
             accuracy_interpolated: from.accuracy.map(|a| a.interpolated),
-            time_s: from.time_s,
+            time_s: solution.time_s,
             increments: from.increments,
             rays: from.rays,
             receivers: map.values.len(),

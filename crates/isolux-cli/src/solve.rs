@@ -8,9 +8,8 @@ use crate::interrupt::Interrupt;
 use crate::progress::Reporter;
 use crate::quantity::{show_bytes, show_seconds};
 use crate::report::Report;
-use crate::{explain, map_file, request, source};
-use isolux::engine::{self, SolveError, SolveRequest, Watch};
-use isolux::map::IlluminationMap;
+use crate::{explain, map_file, request, saved_run, source};
+use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
 use isolux::scene::Scene;
 
 /// Runs the subcommand.
@@ -24,10 +23,15 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     let Some(output) = asked.output.filter(|_| !flags.dry_run) else {
         return dry_run(&scene, &asked.request, json);
     };
+    saved_run::check_writable(&output)?;
+    let saved =
+        if flags.resume { saved_run::read(&output, asked.request.max_memory_bytes)? } else { None };
     let mut reporter = Reporter::new(flags.progress);
-    let solved = solve(&scene, &asked.request, &mut reporter)?;
-    map_file::write(&output, &scene, &solved.map)?;
-    let report = Report::of(&solved.map, &output);
+    let solved = solve(&scene, &asked.request, saved.as_ref(), &mut reporter)?;
+    map_file::write(&output, &scene, &solved.solution.map)?;
+    let finished = matches!(solved.outcome, Outcome::Done);
+    saved_run::keep(&output, &solved.solution.state, finished)?;
+    let report = Report::of(&solved.solution, &output);
     if json {
         print_json(&report)?
     } else {
@@ -56,10 +60,10 @@ fn dry_run(scene: &Scene, request: &SolveRequest, json: bool) -> Result<Outcome,
     Ok(Outcome::Done)
 }
 
-/// A map and how its computation ended.
+/// A solution and how its computation ended.
 pub(crate) struct Solved {
-    /// The map.
-    pub map: IlluminationMap,
+    /// The map and the state of the run.
+    pub solution: Solution,
     /// Done, stopped by a limit, or interrupted.
     pub outcome: Outcome,
 }
@@ -68,21 +72,22 @@ pub(crate) struct Solved {
 pub(crate) fn solve(
     scene: &Scene,
     request: &SolveRequest,
+    saved: Option<&RunState>,
     reporter: &mut Reporter,
 ) -> Result<Solved, Failure> {
     let interrupt = Interrupt::install()?;
-    let solved = engine::solve(scene, request, &mut |progress| {
+    let solved = engine::solve(scene, request, saved, &mut |progress| {
         reporter.show(progress);
         if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
     });
     reporter.finish();
-    let map = solved.map_err(failure)?;
-    let outcome = match (map.provenance.complete, interrupt.is_requested()) {
+    let solution = solved.map_err(failure)?;
+    let outcome = match (solution.map.provenance.complete, interrupt.is_requested()) {
         (true, _) => Outcome::Done,
         (false, true) => Outcome::Interrupted,
         (false, false) => Outcome::StoppedEarly,
     };
-    Ok(Solved { map, outcome })
+    Ok(Solved { solution, outcome })
 }
 
 /// Sorted by who can mend it.
@@ -94,7 +99,6 @@ pub(crate) fn failure(error: SolveError) -> Failure {
             show_bytes(needed),
             show_bytes(allowed)
         )),
-        SolveError::Stopped => Failure::Interrupted(error.to_string()),
         other => Failure::bad_input(other),
     }
 }

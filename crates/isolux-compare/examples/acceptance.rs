@@ -2,7 +2,7 @@
 //! `cargo run --release -p isolux-compare --example acceptance -- cube 0.01 1 20`.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "an example for the terminal")]
 
-use isolux::engine::{Progress, SolveRequest, Watch, solve};
+use isolux::engine::{Progress, Solution, SolveRequest, Watch, solve};
 use isolux::map::Method;
 use isolux::scene::Scene;
 use isolux_compare::{builtin, measure_cube, measure_sphere};
@@ -16,7 +16,7 @@ fn main() {
     for seed in first..=last {
         let request =
             SolveRequest { method, accuracy: Some(accuracy), seed, ..SolveRequest::default() };
-        let map = solve(&scene, &request, &mut |p: &Progress| {
+        let Solution { map, time_s, .. } = solve(&scene, &request, None, &mut |p: &Progress| {
             if std::env::var("TRACE").is_ok() {
                 println!(
                     "{:?} {} {:.2}s {:?} {}",
@@ -38,10 +38,10 @@ fn main() {
         println!(
             "seed {seed}: {:.2} s {} inc {} rays {:.1} Mrays/s reported {:.5} (stat {:.5} disc {:.5} bias {:.5} \
              interp {:.5}) points {point:.5} ({:.2}) grid {grid:.5} ({:.2}) receivers {}",
-            p.time_s,
+            time_s,
             p.increments,
             p.rays,
-            p.rays as f64 / p.time_s / 1e6,
+            p.rays as f64 / time_s / 1e6,
             a.reached,
             a.statistical,
             a.discretization,

@@ -3,7 +3,7 @@
 use super::scene::list;
 use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
-use crate::quantity::{show_count, show_seconds, show_share};
+use crate::quantity::{show_count, show_share};
 use crate::request::method_name;
 use crate::summary::{self, Lit};
 use isolux::map::{IlluminationMap, Provenance};
@@ -50,7 +50,6 @@ impl Contents<'_> {
             ("error", share(from.accuracy.map(|a| a.reached))),
             ("error asked for", format!("{target}, {reached}")),
             ("error of the bare map", share(from.accuracy.map(|a| a.interpolated))),
-            ("time", show_seconds(from.time_s)),
             ("increments", from.increments.to_string()),
             ("rays", show_count(from.rays as f64)),
             ("receivers", format!("{}, {} of them unknown", self.receivers, self.unknown)),

@@ -9,7 +9,7 @@ pub use calibration::Calibration;
 pub use row::{Reading, ValidateRow, Verdict};
 
 use crate::expectation::Case;
-use isolux::engine::{Progress, SolveError, SolveRequest, Watch, solve};
+use isolux::engine::{Progress, Solution, SolveError, SolveRequest, Watch, solve};
 use isolux::map::Method;
 use isolux::scene::{Scene, SceneProblem};
 use serde::Serialize;
@@ -84,8 +84,9 @@ pub fn validate(
         max_memory_bytes: settings.max_memory_bytes,
         ..SolveRequest::default()
     };
-    let map = solve(&scene, &request, &mut |_: &Progress| Watch::Continue)
-        .map_err(|error| ValidateError::Solve { case: case.name, error })?;
+    let Solution { map, time_s, .. } =
+        solve(&scene, &request, None, &mut |_: &Progress| Watch::Continue)
+            .map_err(|error| ValidateError::Solve { case: case.name, error })?;
     let count = judge::count(&scene, &map, &(case.expectations)());
     Ok(ValidateRow {
         case: case.name,
@@ -100,7 +101,7 @@ pub fn validate(
         accuracy: map.provenance.accuracy,
         increments: map.provenance.increments,
         rays: map.provenance.rays,
-        time_s: map.provenance.time_s,
+        time_s,
         verdict: count.verdict,
     })
 }

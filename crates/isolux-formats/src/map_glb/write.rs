@@ -135,6 +135,5 @@ fn storable(provenance: &Provenance) -> Provenance {
         all.iter().all(finite)
     });
     let accuracy_target = provenance.accuracy_target.filter(finite);
-    let time_s = Some(provenance.time_s).filter(finite).unwrap_or(0.0);
-    Provenance { accuracy, accuracy_target, time_s, ..provenance.clone() }
+    Provenance { accuracy, accuracy_target, ..provenance.clone() }
 }

@@ -156,8 +156,8 @@ fn provenance() -> Provenance {
         seed: u64::MAX,
         increments: 24,
         rays: 1_000_000,
-        time_s: 0.1 + 0.2,
         accuracy_target: Some(0.01),
+        filter: None,
         complete: true,
         accuracy: Some(Accuracy {
             reached: 0.009_3,

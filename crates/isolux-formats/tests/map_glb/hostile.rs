@@ -80,7 +80,7 @@ fn false_declarations_are_refused_with_their_place() {
         ("/scene/cameras/0/direction", json!([0, 0, 0]), "JSON chunk"),
         ("/scene/cameras/0/vertical_fov_rad", json!(-1), "from the corner"),
         ("/scene/materials/0/body/opaque/front/diffuse/colour", json!([2, 2, 2]), "plaster"),
-        ("/provenance/time_s", Value::Null, "JSON chunk"),
+        ("/provenance/rays", Value::Null, "JSON chunk"),
     ] {
         let (mut json, rest) = json_and_rest(&WHOLE);
         *json.pointer_mut(&format!("{isolux}{pointer}")).unwrap() = value.clone();

@@ -28,13 +28,13 @@ pub(super) struct Sample {
     pub(super) indirect: Rgb,
 }
 
-/// Sums of one receiver.
+/// Sums of one receiver, in units of its run's fixed point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Sums {
+pub struct Sums {
     /// Direct, caustic, indirect; three channels each.
-    pub(super) values: [i64; 9],
+    pub values: [i64; 9],
     /// Squares of the photometric total and of the photometric indirect and caustic part.
-    pub(super) squares: [i128; 2],
+    pub squares: [i128; 2],
 }
 
 /// Sums of many receivers over increments.

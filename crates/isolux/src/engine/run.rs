@@ -5,15 +5,18 @@ use super::accuracy::{BELIEVED_INCREMENTS, accuracy};
 use super::checks::{self, Check};
 use super::direct::Lighting;
 use super::emission::Emission;
+use super::filter::filter;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
 use super::pilot::{PilotRequest, Plan, pilot};
 use super::predict;
 use super::request::{Progress, SolveError, SolveRequest, Stage, Watch};
+use super::state::{RunIdentity, RunState, restore};
 use super::tally;
-use crate::map::{Accuracy, Illuminance, IlluminationMap, Method, Provenance};
+use crate::map::{Accuracy, FilterReport, Illuminance, IlluminationMap, Method, Provenance};
 use crate::sampling::Key;
 use crate::scene::Scene;
+use crate::units::Rgb;
 use std::time::Instant;
 
 /// Increments before a run may stop at its accuracy: the estimates of single receivers need them.
@@ -26,34 +29,52 @@ const DEFAULT_ACCURACY: f64 = 0.01;
 /// rays, sums and values. Measured on rooms; rounded up.
 const BYTES_A_VERTEX: u64 = 2400;
 
-/// Computes the illumination map of a scene.
+/// A map, and what it takes to go on with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// The map.
+    pub map: IlluminationMap,
+    /// The run as it was when the map was made.
+    pub state: RunState,
+    /// Wall-clock time it took, s. Not part of the map, whose bits do not depend on the machine.
+    pub time_s: f64,
+}
+
+/// Computes the illumination map of a scene, or goes on from a saved state.
 ///
 /// `watch` is called after every round of the pilot and every increment and may stop the run; the
 /// map is valid then, too. Everything but the moment of stopping depends only on the scene and the
-/// request: a run that stops at its accuracy gives the same bits on any number of threads.
+/// request: a run that stops at its accuracy gives the same bits on any number of threads, stopped
+/// and resumed or not.
 pub fn solve(
     scene: &Scene,
     request: &SolveRequest,
+    resume: Option<&RunState>,
     watch: &mut dyn FnMut(&Progress) -> Watch,
-) -> Result<IlluminationMap, SolveError> {
+) -> Result<Solution, SolveError> {
     check(scene, request)?;
-    let lighting = Lighting::new(scene);
-    let mut run = Run { scene, request, started: Instant::now(), rays: 0, stopped: false };
-    let mut target = request.accuracy.unwrap_or(DEFAULT_ACCURACY);
-    for stage in 1.. {
-        let plan = run.pilot(&lighting, target, watch);
-        let outcome = run.increments(&plan, target, stage == MOST_STAGES, watch);
-        match outcome {
-            Outcome::Done(map) => return Ok(*map),
-            Outcome::TooCoarse => target *= 0.5,
-        }
+    let identity = RunIdentity::of(scene, request);
+    let resume = resume.filter(|state| state.increments > 0);
+    if let Some(state) = resume {
+        identity.check(&state.identity)?;
     }
-    Err(SolveError::Stopped)
+    let lighting = Lighting::new(scene);
+    let started = Instant::now();
+    let mut run = Run { scene, request, identity, started, rays: 0, stopped: false, stage: 1 };
+    run.stage = resume.map_or(1, |state| state.stage.clamp(1, MOST_STAGES));
+    loop {
+        let plan = run.pilot(&lighting, watch);
+        let saved = resume.filter(|state| state.stage == run.stage);
+        if let Outcome::Done(solution) = run.increments(&plan, saved, watch)? {
+            return Ok(*solution);
+        }
+        run.stage += 1;
+    }
 }
 
 /// What came of the increments on one mesh.
 enum Outcome {
-    Done(Box<IlluminationMap>),
+    Done(Box<Solution>),
     /// The elements are too coarse for the accuracy asked for.
     TooCoarse,
 }
@@ -76,9 +97,12 @@ fn check(scene: &Scene, request: &SolveRequest) -> Result<(), SolveError> {
 struct Run<'s, 'r> {
     scene: &'s Scene,
     request: &'r SolveRequest,
+    identity: RunIdentity,
     started: Instant,
     rays: u64,
+    /// Stopped by the watcher or the clock before the mesh was complete.
     stopped: bool,
+    stage: u32,
 }
 
 impl<'s> Run<'s, '_> {
@@ -90,14 +114,19 @@ impl<'s> Run<'s, '_> {
         self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
     }
 
+    /// The accuracy that the elements of this stage are made for.
+    fn mesh_for(&self) -> f64 {
+        let target = self.request.accuracy.unwrap_or(DEFAULT_ACCURACY);
+        target * libm::exp2(1.0 - f64::from(self.stage))
+    }
+
     fn pilot(
         &mut self,
         lighting: &'s Lighting<'s>,
-        target: f64,
         watch: &mut dyn FnMut(&Progress) -> Watch,
     ) -> Plan<'s> {
         let request = PilotRequest {
-            target,
+            target: self.mesh_for(),
             mesh_target: self.request.mesh_accuracy,
             seed: self.request.seed,
             max_vertices: (self.request.max_memory_bytes / BYTES_A_VERTEX) as usize,
@@ -107,8 +136,8 @@ impl<'s> Run<'s, '_> {
         let plan = pilot(scene, lighting, &request, &mut |receivers, rays| {
             self.rays = before + rays;
             let progress = self.progress(Stage::Pilot, 0, receivers as u64, None);
-            self.stopped |= watch(&progress) == Watch::Stop;
-            !self.stopped && !self.out_of_time()
+            self.stopped |= watch(&progress) == Watch::Stop || self.out_of_time();
+            !self.stopped
         });
         self.rays = before + plan.rays;
         plan
@@ -137,62 +166,106 @@ impl<'s> Run<'s, '_> {
     fn increments(
         &mut self,
         plan: &Plan<'s>,
-        target: f64,
-        last_stage: bool,
+        saved: Option<&RunState>,
         watch: &mut dyn FnMut(&Progress) -> Watch,
-    ) -> Outcome {
-        let mut work = Work::new(plan, self.request, target);
-        let started_s = self.elapsed_s();
+    ) -> Result<Outcome, SolveError> {
+        let mut work = Work::new(plan, self.request, self.mesh_for());
+        if let Some(state) = saved.filter(|_| !self.stopped) {
+            work.restore(state)?;
+            self.rays = state.rays;
+        }
+        let pace = Pace { started_s: self.elapsed_s(), before: work.sums.increments };
+        let whole_mesh = !self.stopped;
         loop {
             self.rays += work.increment();
             let accuracy = work.accuracy();
+            let progress = self.report(&work, accuracy, pace);
             let count = work.sums.increments;
-            let mut progress =
-                self.progress(Stage::Increments, count, work.sums.sums.len() as u64, accuracy);
-            let goal = self.request.accuracy;
-            let needed =
-                accuracy.zip(goal).map(|(a, goal)| predict::increments_needed(&a, count, goal));
-            progress.prediction = needed.flatten().map(|needed| {
-                let needed = needed.max(FEWEST_INCREMENTS as f64);
-                predict::finish(needed, count, started_s, progress.elapsed_s)
-            });
             let reached = count >= FEWEST_INCREMENTS
-                && accuracy.zip(goal).is_some_and(|(a, goal)| a.reached <= goal);
-            self.stopped |= watch(&progress) == Watch::Stop;
-            if reached || self.stopped || self.out_of_time() || count >= MAX_INCREMENTS {
-                return Outcome::Done(Box::new(self.map(&work, accuracy, reached)));
-            }
+                && accuracy.zip(progress.target).is_some_and(|(a, goal)| a.reached <= goal);
+            self.stopped |= watch(&progress) == Watch::Stop || self.out_of_time();
+            let done = reached || self.stopped || count >= MAX_INCREMENTS;
             // No number of increments helps where interpolation alone takes the whole error.
-            let hopeless = matches!(needed, Some(None)) && count >= FEWEST_INCREMENTS;
-            if hopeless && !last_stage && self.request.method == Method::Hybrid {
-                return Outcome::TooCoarse;
+            let hopeless = self.is_hopeless(&work, accuracy);
+            if !done && hopeless && self.stage < MOST_STAGES {
+                return Ok(Outcome::TooCoarse);
             }
-            if hopeless && work.is_settled(accuracy) {
-                return Outcome::Done(Box::new(self.map(&work, accuracy, false)));
+            if done || (hopeless && work.is_settled(accuracy)) {
+                return Ok(Outcome::Done(Box::new(
+                    self.solution(&work, accuracy, reached, whole_mesh),
+                )));
             }
         }
     }
 
+    fn report(&self, work: &Work, accuracy: Option<Accuracy>, pace: Pace) -> Progress {
+        let count = work.sums.increments;
+        let receivers = work.sums.sums.len() as u64;
+        let progress = self.progress(Stage::Increments, count, receivers, accuracy);
+        let needed = accuracy
+            .zip(self.request.accuracy)
+            .and_then(|(a, goal)| predict::increments_needed(&a, count, goal));
+        let prediction = needed.map(|needed| {
+            let needed = needed.max(FEWEST_INCREMENTS as f64);
+            let each_s = (progress.elapsed_s - pace.started_s) / (count - pace.before) as f64;
+            predict::finish(needed, count, each_s, progress.elapsed_s)
+        });
+        Progress { prediction, ..progress }
+    }
+
+    fn is_hopeless(&self, work: &Work, accuracy: Option<Accuracy>) -> bool {
+        let count = work.sums.increments;
+        let wanted = accuracy.zip(self.request.accuracy).filter(|_| count >= FEWEST_INCREMENTS);
+        wanted.is_some_and(|(a, goal)| predict::increments_needed(&a, count, goal).is_none())
+    }
+
+    fn solution(
+        &self,
+        work: &Work,
+        accuracy: Option<Accuracy>,
+        reached: bool,
+        whole_mesh: bool,
+    ) -> Solution {
+        let state = RunState {
+            identity: self.identity.clone(),
+            stage: self.stage,
+            rays: self.rays,
+            increments: if whole_mesh { work.sums.increments } else { 0 },
+            receivers: if whole_mesh { work.sums.sums.clone() } else { Vec::new() },
+            checks: if whole_mesh { work.checks.sums.sums.clone() } else { Vec::new() },
+        };
+        let time_s = self.elapsed_s();
+        Solution { map: self.map(work, accuracy, reached), state, time_s }
+    }
+
     fn map(&self, work: &Work, accuracy: Option<Accuracy>, reached: bool) -> IlluminationMap {
-        let increments = work.sums.increments;
+        let believed = work.sums.increments >= BELIEVED_INCREMENTS;
+        let (values, filter) = work.values(self.request.filter && believed);
         IlluminationMap {
             elements: work.plan.elements.clone(),
-            values: (0..work.plan.known.len()).map(|k| work.value(k)).collect(),
+            values,
             provenance: Provenance {
                 scene: self.scene.name().to_owned(),
-                scene_hash: self.scene.hash(),
+                scene_hash: self.identity.scene_hash.clone(),
                 version: env!("CARGO_PKG_VERSION").to_owned(),
                 method: self.request.method,
                 seed: self.request.seed,
-                increments,
+                increments: work.sums.increments,
                 rays: self.rays,
-                time_s: self.elapsed_s(),
                 accuracy_target: self.request.accuracy,
                 complete: reached || self.request.accuracy.is_none(),
                 accuracy,
+                filter,
             },
         }
     }
+}
+
+/// Since when, and since which increment, the pace of a run is taken.
+#[derive(Clone, Copy)]
+struct Pace {
+    started_s: f64,
+    before: u64,
 }
 
 /// The increments on one mesh.
@@ -201,7 +274,8 @@ struct Work<'p, 's> {
     engine: Engine<'p, 's>,
     sums: Accumulator,
     checks: Checks,
-    rays_a_value: u64,
+    /// Gathering rays of the vertices in an increment.
+    rays: Vec<u32>,
 }
 
 enum Engine<'p, 's> {
@@ -218,22 +292,30 @@ struct Checks {
 impl<'p, 's> Work<'p, 's> {
     fn new(plan: &'p Plan<'s>, request: &SolveRequest, target: f64) -> Self {
         let reference = plan.rms_lx;
+        let most = gathering_rays(target, plan.indirect_vertices, request.max_memory_bytes);
+        let rays = plan.rays_of_vertices(most);
         let points = match request.method {
-            Method::Hybrid => checks::draw(plan, Key::new(request.seed).with(3)),
+            Method::Hybrid => checks::draw(plan, most, Key::new(request.seed).with(3)),
             Method::Forward => Vec::new(),
         };
         let sums = Accumulator::new(plan.elements.vertices().len(), reference);
         let check_sums = Accumulator::new(points.len(), reference);
         let checks = Checks { points, sums: check_sums };
-        let rays = gathering_rays(target, plan.indirect_vertices, request.max_memory_bytes);
         let engine = match request.method {
-            Method::Hybrid => Engine::Hybrid(Hybrid::new(plan, &checks.points, rays, request.seed)),
+            Method::Hybrid => {
+                Engine::Hybrid(Hybrid::new(plan, &checks.points, &rays, request.seed))
+            }
             Method::Forward => {
                 let emission = Emission::new(plan.scene).expect("a scene without light is refused");
                 Engine::Forward(Forward::new(plan, emission, request.seed))
             }
         };
-        Self { plan, engine, sums, checks, rays_a_value: u64::from(rays) }
+        Self { plan, engine, sums, checks, rays }
+    }
+
+    fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
+        restore(&mut self.sums, &saved.receivers, saved.increments)?;
+        restore(&mut self.checks.sums, &saved.checks, saved.increments)
     }
 
     fn increment(&mut self) -> u64 {
@@ -262,6 +344,53 @@ impl<'p, 's> Work<'p, 's> {
         accuracy.is_some_and(|a| a.statistical <= 0.25 * a.discretization)
     }
 
+    /// Samples of a vertex in an increment; finer vertices are interpolated from coarser ones.
+    fn samples(&self, vertex: usize) -> u64 {
+        let least = self.rays.iter().copied().min().unwrap_or(1);
+        u64::from(self.rays.get(vertex).copied().unwrap_or(least))
+    }
+
+    /// The values of the map, and what the filter did to them.
+    fn values(&self, filtered: bool) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
+        let vertices = self.plan.known.len();
+        let mut values: Vec<Option<Illuminance>> = (0..vertices).map(|k| self.value(k)).collect();
+        if !filtered {
+            return (values, None);
+        }
+        let report = match self.engine {
+            Engine::Hybrid(_) => self.filter(&mut values, false),
+            Engine::Forward(_) => self.filter(&mut values, true),
+        };
+        (values, Some(report))
+    }
+
+    /// Filters indirect light and caustics, and direct light where particles brought it.
+    fn filter(&self, values: &mut [Option<Illuminance>], direct: bool) -> FilterReport {
+        let coarse = self.plan.indirect_vertices;
+        let part = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
+            values[..coarse].iter().map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect()
+        };
+        let mut parts = vec![part(&|v| v.indirect_lx), part(&|v| v.caustic_lx)];
+        if direct {
+            parts.push(part(&|v| v.direct_lx - v.caustic_lx));
+        }
+        let variance: Vec<f64> = (0..coarse)
+            .map(|k| self.sums.estimate(k))
+            .map(|e| if direct { e.variance } else { e.indirect_variance })
+            .collect();
+        let filtered = filter(self.plan, &parts, &variance, self.plan.rms_lx);
+        let fine: Vec<Vec<Rgb>> =
+            filtered.values.iter().map(|part| self.plan.prolongate(part)).collect();
+        for (k, value) in values.iter_mut().enumerate() {
+            let Some(value) = value else { continue };
+            let own_direct = value.direct_lx - value.caustic_lx;
+            value.indirect_lx = fine[0][k];
+            value.caustic_lx = fine[1][k];
+            value.direct_lx = fine.get(2).map_or(own_direct, |part| part[k]) + value.caustic_lx;
+        }
+        filtered.report
+    }
+
     fn value(&self, vertex: usize) -> Option<Illuminance> {
         if !self.plan.known[vertex] {
             return None;
@@ -274,7 +403,7 @@ impl<'p, 's> Work<'p, 's> {
             indirect_lx: mean.indirect,
             standard_error_lx: estimate.variance.sqrt(),
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
-            samples: self.sums.increments * self.rays_a_value,
+            samples: self.sums.increments * self.samples(vertex),
         })
     }
 }

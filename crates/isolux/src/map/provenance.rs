@@ -19,14 +19,23 @@ pub struct Provenance {
     pub increments: u64,
     /// Rays traced.
     pub rays: u64,
-    /// Wall-clock time of the solution, s.
-    pub time_s: f64,
     /// The accuracy asked for, a fraction, where one was.
     pub accuracy_target: Option<f64>,
     /// Whether the run reached what was asked of it.
     pub complete: bool,
     /// How good the map is; `None` before the error could be believed.
     pub accuracy: Option<Accuracy>,
+    /// What the filter did; `None` where it was off.
+    pub filter: Option<FilterReport>,
+}
+
+/// What the filter did to a map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FilterReport {
+    /// Share of the surface where most of the detail was taken for noise.
+    pub share: f64,
+    /// Signal that may have gone with it: root mean square, relative as in [`Accuracy`].
+    pub bias: f64,
 }
 
 /// Relative errors of the scene: area-weighted root mean squares over all surfaces, relative to the

@@ -1,0 +1,98 @@
+//! `--resume`: the state of a run beside its map.
+
+use crate::failure::Failure;
+use crate::output::OutputPath;
+use crate::source::bad_file;
+use isolux::engine::{RunIdentity, RunState, Sums};
+use isolux_formats::checkpoint::{self, ArrayError, Checkpoint};
+use isolux_formats::{Problem, Problems, atomic};
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// Where the state of a map's run is kept.
+pub(crate) fn path_beside(map: &Path) -> PathBuf {
+    map.with_extension("checkpoint")
+}
+
+/// What stands in front of the sums.
+#[derive(Serialize, Deserialize)]
+struct Header {
+    identity: RunIdentity,
+    stage: u32,
+    rays: u64,
+    increments: u64,
+}
+
+/// Keeps the state of an unfinished run, and removes that of a finished one.
+pub(crate) fn keep(output: &OutputPath, state: &RunState, finished: bool) -> Result<(), Failure> {
+    let path = path_beside(output.path());
+    if finished {
+        // There may be none.
+        std::fs::remove_file(&path).or_else(|e| match e.kind() {
+            std::io::ErrorKind::NotFound => Ok(()),
+            _ => Err(Failure::Refused(format!("{}: cannot be removed ({e})", path.display()))),
+        })
+    } else {
+        checkpoint::write(&path, &to_checkpoint(state)).map_err(|p| bad_file(Problems::from(p)))
+    }
+}
+
+/// Reads the state of an unfinished run; `None` where there is none.
+pub(crate) fn read(output: &OutputPath, max_bytes: u64) -> Result<Option<RunState>, Failure> {
+    let path = path_beside(output.path());
+    if !path.exists() {
+        return Ok(None);
+    }
+    let checkpoint = checkpoint::read(&path, max_bytes).map_err(|p| bad_file(Problems::from(p)))?;
+    let state = from_checkpoint(&checkpoint).map_err(|what| {
+        let remedy = "remove it and solve from the beginning";
+        bad_file(Problems::from(Problem::new(&path, "", what, remedy)))
+    })?;
+    Ok(Some(state))
+}
+
+/// Fails before computing where the state could not be written.
+pub(crate) fn check_writable(output: &OutputPath) -> Result<(), Failure> {
+    atomic::check_writable(&path_beside(output.path())).map_err(|p| bad_file(Problems::from(p)))
+}
+
+fn to_checkpoint(state: &RunState) -> Checkpoint {
+    let header = Header {
+        identity: state.identity.clone(),
+        stage: state.stage,
+        rays: state.rays,
+        increments: state.increments,
+    };
+    let header = serde_json::to_value(&header).expect("plain values always have a JSON value");
+    let mut checkpoint = Checkpoint::new(header);
+    for (name, sums) in [("receivers", &state.receivers), ("checks", &state.checks)] {
+        let values: Vec<i64> = sums.iter().flat_map(|s| s.values).collect();
+        let squares: Vec<i128> = sums.iter().flat_map(|s| s.squares).collect();
+        checkpoint.push(format!("{name}_values"), &values);
+        checkpoint.push(format!("{name}_squares"), &squares);
+    }
+    checkpoint
+}
+
+fn from_checkpoint(checkpoint: &Checkpoint) -> Result<RunState, String> {
+    let header: Header = serde_json::from_value(checkpoint.header.clone())
+        .map_err(|e| format!("its header is not that of a run ({e})"))?;
+    let sums = |name: &str| sums(checkpoint, name).map_err(|e| e.to_string());
+    Ok(RunState {
+        identity: header.identity,
+        stage: header.stage,
+        rays: header.rays,
+        increments: header.increments,
+        receivers: sums("receivers")?,
+        checks: sums("checks")?,
+    })
+}
+
+fn sums(checkpoint: &Checkpoint, name: &str) -> Result<Vec<Sums>, ArrayError> {
+    let values = checkpoint.integers::<i64>(&format!("{name}_values"))?;
+    let squares = checkpoint.integers::<i128>(&format!("{name}_squares"))?;
+    let (values, _) = values.as_chunks::<9>();
+    let (squares, _) = squares.as_chunks::<2>();
+    let pairs = values.iter().zip(squares);
+    Ok(pairs.map(|(&values, &squares)| Sums { values, squares }).collect())
+}
