@@ -20,6 +20,9 @@ struct Means {
     rows: Vec<Vec<(u32, f64)>>,
 }
 
+/// A squared normal number spreads by the root of two; over two rings some eight of them count.
+const CHANCE: f64 = 0.5;
+
 /// Values and what is left of their noise.
 pub(super) struct Filtered {
     /// Colour channels, as given, filtered.
@@ -106,8 +109,11 @@ impl Means {
         let noise: Vec<f64> = (0..values.len()).map(noise).collect();
         let excess: Vec<f64> =
             (0..values.len()).map(|i| detail(i) * detail(i) - noise[i]).collect();
+        let once: Vec<f64> = (0..values.len()).map(|i| self.mean(i, |j| excess[j])).collect();
         let kept = |i: usize| {
-            let signal = self.mean(i, |j| excess[j]).max(excess[i]).max(0.0);
+            // Pooled over two rings; what chance makes of noise there does not count as signal.
+            let pooled = self.mean(i, |j| once[j]);
+            let signal = (pooled - CHANCE * noise[i]).max(0.0);
             let both = signal + noise[i];
             Kept { share: if both > 0.0 { signal / both } else { 1.0 }, signal }
         };

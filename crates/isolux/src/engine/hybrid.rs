@@ -23,18 +23,17 @@ pub(super) struct Hybrid<'p, 's> {
     plan: &'p Plan<'s>,
     check_direct: Vec<Rgb>,
     rows: Vec<Gatherer>,
-    rays: u32,
     key: Key,
 }
 
 impl<'p, 's> Hybrid<'p, 's> {
-    /// With `rays` gathering rays a receiver and increment.
-    pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: u32, seed: u64) -> Self {
+    /// With `rays[k]` gathering rays for vertex k in every increment.
+    pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: &[u32], seed: u64) -> Self {
         let key = Key::new(seed).with(1);
-        let vertices = plan.gatherers.iter().take(plan.indirect_vertices);
-        let rows = vertices.chain(checks.iter().map(|c| &c.gatherer)).copied().collect();
+        let vertices = plan.gatherers.iter().zip(rays).map(|(g, &rays)| g.with_rays(rays));
+        let rows = vertices.chain(checks.iter().map(|c| c.gatherer)).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
-        Self { plan, check_direct, rows, rays, key }
+        Self { plan, check_direct, rows, key }
     }
 
     /// Adds increment `index`; returns the rays traced.
@@ -56,7 +55,6 @@ impl<'p, 's> Hybrid<'p, 's> {
             level: plan.level,
             known: &plan.known,
             direct_from_map: plan.direct_from_map,
-            rays: self.rays,
         };
         let operator = gathering.operator(&self.rows, |row| key.with(2).with(row as u64));
         let given: Vec<Rgb> = (0..plan.indirect_vertices)

@@ -274,7 +274,8 @@ struct Work<'p, 's> {
     engine: Engine<'p, 's>,
     sums: Accumulator,
     checks: Checks,
-    rays_a_value: u64,
+    /// Gathering rays of the vertices in an increment.
+    rays: Vec<u32>,
 }
 
 enum Engine<'p, 's> {
@@ -291,22 +292,25 @@ struct Checks {
 impl<'p, 's> Work<'p, 's> {
     fn new(plan: &'p Plan<'s>, request: &SolveRequest, target: f64) -> Self {
         let reference = plan.rms_lx;
+        let most = gathering_rays(target, plan.indirect_vertices, request.max_memory_bytes);
+        let rays = plan.rays_of_vertices(most);
         let points = match request.method {
-            Method::Hybrid => checks::draw(plan, Key::new(request.seed).with(3)),
+            Method::Hybrid => checks::draw(plan, most, Key::new(request.seed).with(3)),
             Method::Forward => Vec::new(),
         };
         let sums = Accumulator::new(plan.elements.vertices().len(), reference);
         let check_sums = Accumulator::new(points.len(), reference);
         let checks = Checks { points, sums: check_sums };
-        let rays = gathering_rays(target, plan.indirect_vertices, request.max_memory_bytes);
         let engine = match request.method {
-            Method::Hybrid => Engine::Hybrid(Hybrid::new(plan, &checks.points, rays, request.seed)),
+            Method::Hybrid => {
+                Engine::Hybrid(Hybrid::new(plan, &checks.points, &rays, request.seed))
+            }
             Method::Forward => {
                 let emission = Emission::new(plan.scene).expect("a scene without light is refused");
                 Engine::Forward(Forward::new(plan, emission, request.seed))
             }
         };
-        Self { plan, engine, sums, checks, rays_a_value: u64::from(rays) }
+        Self { plan, engine, sums, checks, rays }
     }
 
     fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
@@ -338,6 +342,12 @@ impl<'p, 's> Work<'p, 's> {
     /// Whether more increments would change little: noise is a small part of the error.
     fn is_settled(&self, accuracy: Option<Accuracy>) -> bool {
         accuracy.is_some_and(|a| a.statistical <= 0.25 * a.discretization)
+    }
+
+    /// Samples of a vertex in an increment; finer vertices are interpolated from coarser ones.
+    fn samples(&self, vertex: usize) -> u64 {
+        let least = self.rays.iter().copied().min().unwrap_or(1);
+        u64::from(self.rays.get(vertex).copied().unwrap_or(least))
     }
 
     /// The values of the map, and what the filter did to them.
@@ -393,7 +403,7 @@ impl<'p, 's> Work<'p, 's> {
             indirect_lx: mean.indirect,
             standard_error_lx: estimate.variance.sqrt(),
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
-            samples: self.sums.increments * self.rays_a_value,
+            samples: self.sums.increments * self.samples(vertex),
         })
     }
 }
