@@ -108,7 +108,10 @@ fn unwritable(path: &Path, error: &io::Error) -> Problem {
         io::ErrorKind::PermissionDenied => "choose a place where you may write",
         _ => "choose another place",
     };
-    problem(path, format!("cannot be written: {error}"), remedy)
+    // The text of a failure to create a temporary file names that file, which nobody asked for.
+    let cause = error.get_ref().and_then(|wrapped| wrapped.source());
+    let cause = cause.map_or_else(|| error.to_string(), ToString::to_string);
+    problem(path, format!("cannot be written: {cause}"), remedy)
 }
 
 #[cfg(test)]
@@ -159,6 +162,14 @@ mod tests {
         assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn the_name_of_a_temporary_file_is_not_told() {
+        let found = check_writable(Path::new("/proc/map.glb")).unwrap_err();
+        assert!(found.what.starts_with("cannot be written: "), "{found}");
+        assert!(!found.to_string().contains(".part"), "{found}");
     }
 
     #[cfg(unix)]

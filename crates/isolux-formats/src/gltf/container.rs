@@ -16,8 +16,7 @@ pub(super) struct Container<'a> {
 /// Tells GLB from JSON by the first bytes, not by the name of the file.
 pub(super) fn open(file: &[u8]) -> Result<Container<'_>, Flaw> {
     if !file.starts_with(MAGIC) {
-        let json = file.strip_prefix(b"\xef\xbb\xbf").unwrap_or(file);
-        return Ok(Container { json, binary: None });
+        return plain(file);
     }
     let (version, length) = (word(file, 4)?, word(file, 8)?);
     if version != 2 {
@@ -35,6 +34,15 @@ pub(super) fn open(file: &[u8]) -> Result<Container<'_>, Flaw> {
         .at("byte 8")
     })?;
     chunks(whole)
+}
+
+fn plain(file: &[u8]) -> Result<Container<'_>, Flaw> {
+    let json = file.strip_prefix(b"\xef\xbb\xbf").unwrap_or(file);
+    match json.trim_ascii_start().first() {
+        Some(b'{') => Ok(Container { json, binary: None }),
+        Some(_) => Err(Flaw::new("is neither GLB nor JSON", "give a glTF 2.0 file")),
+        None => Err(Flaw::new("is empty", "copy or export it again")),
+    }
 }
 
 fn chunks(glb: &[u8]) -> Result<Container<'_>, Flaw> {

@@ -27,6 +27,7 @@ mod texcoord;
 mod topology;
 mod uri;
 
+use crate::source::read_bytes;
 use crate::{Loaded, Problems};
 use buffers::Document;
 use gltf_json::Root;
@@ -40,7 +41,7 @@ use uri::Folder;
 /// Reads the default scene of a file; on failure, all problems that could be found.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     let mut notes = Notes::new(path);
-    let bytes = or_fail(uri::read_file(path, limits::BUFFER_BYTES), &mut notes)?;
+    let bytes = read_bytes(path, limits::BUFFER_BYTES)?;
     let container = or_fail(container::open(&bytes), &mut notes)?;
     let root = or_fail(record::parse(container.json), &mut notes)?;
     extensions::check(&root, &mut notes);

@@ -5,6 +5,7 @@ use super::notes::Flaw;
 use gltf_json::Root;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use std::collections::HashMap;
 use std::fmt;
 
 /// Reads the JSON, without judging what it refers to.
@@ -17,7 +18,20 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, Flaw> {
     }
     survey(json).map_err(|error| flaw(&error))?;
     check_version(json)?;
-    serde_json::from_slice(json).map_err(|error| flaw(&error))
+    let root = serde_json::from_slice(json).map_err(|error| flaw(&error))?;
+    refuse_map(&root)?;
+    Ok(root)
+}
+
+/// A map's materials are made for viewers: solved again they would say that there is no light.
+fn refuse_map(root: &Root) -> Result<(), Flaw> {
+    let extras = root.extras.as_deref().map(|raw| serde_json::from_str::<HashMap<_, _>>(raw.get()));
+    let is_map = |extras: HashMap<String, IgnoredAny>| extras.contains_key("isolux");
+    if !extras.and_then(Result::ok).is_some_and(is_map) {
+        return Ok(());
+    }
+    Err(Flaw::new("is an illumination map, no scene", "give the scene that it was computed from")
+        .at("extras.isolux"))
 }
 
 fn flaw(error: &serde_json::Error) -> Flaw {

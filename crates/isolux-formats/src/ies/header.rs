@@ -29,7 +29,7 @@ pub(super) fn split<'a>(
             file,
             format!("line {}", lines.len()),
             "there is no TILT= line",
-            "give an IES LM-63 photometric file",
+            "give an IES LM-63 file; EULUMDAT files end in .ldt",
         ));
     };
     let mut header = Header {

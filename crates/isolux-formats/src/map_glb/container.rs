@@ -2,7 +2,8 @@
 
 use super::MapTooLarge;
 
-const MAGIC: u32 = u32::from_le_bytes(*b"glTF");
+/// What every binary glTF file begins with.
+pub(super) const MAGIC: &[u8] = b"glTF";
 const JSON: u32 = u32::from_le_bytes(*b"JSON");
 const BINARY: u32 = u32::from_le_bytes(*b"BIN\0");
 const HEADER_BYTES: usize = 12;
@@ -24,7 +25,8 @@ pub(super) fn pack(json: &[u8], binary: &[u8]) -> Result<Vec<u8>, MapTooLarge> {
     let total = HEADER_BYTES + chunk(json.len()) + second;
     let declared = u32::try_from(total).map_err(|_| MapTooLarge { bytes: total as u64 })?;
     let mut bytes = Vec::with_capacity(total);
-    for word in [MAGIC, 2, declared] {
+    bytes.extend_from_slice(MAGIC);
+    for word in [2, declared] {
         bytes.extend(word.to_le_bytes());
     }
     append_chunk(&mut bytes, JSON, json, b' ');
@@ -63,7 +65,7 @@ pub(super) fn unpack(bytes: &[u8]) -> Result<Chunks<'_>, &'static str> {
 
 /// Length of the JSON chunk, from the first [`PREFIX_BYTES`] of a file.
 pub(super) fn json_length(prefix: &[u8]) -> Result<usize, &'static str> {
-    if prefix.len() < PREFIX_BYTES || word(prefix, 0) != MAGIC {
+    if prefix.len() < PREFIX_BYTES || !prefix.starts_with(MAGIC) {
         return Err("it is not a binary glTF file");
     }
     if word(prefix, 4) != 2 {

@@ -17,6 +17,7 @@ use std::path::Path;
 /// Longest file that can be a map: the container counts in 32 bits.
 const MOST_BYTES: u64 = u32::MAX as u64;
 const REMEDY: &str = "compute the map again, or take an unchanged copy of it";
+const NOT_A_MAP_REMEDY: &str = "solve it first, or take the file that `solve` wrote";
 
 /// Reads a map and its scene. Files of any origin are safe to read; one that another program has
 /// written anew is recognized by its checksum and refused.
@@ -26,6 +27,10 @@ pub fn read(path: &Path) -> Result<Loaded<(Scene, IlluminationMap)>, Problems> {
         let remedy = "check that the file exists and may be read";
         Problem::new(path, "", format!("cannot be read: {error}"), remedy)
     })?;
+    if !bytes.starts_with(container::MAGIC) {
+        let what = "is no illumination map: it is not a binary glTF file";
+        return Err(Problem::new(path, "", what, NOT_A_MAP_REMEDY).into());
+    }
     let chunks = container::unpack(&bytes).map_err(|what| problem(Fault::new("", what)))?;
     check_version(path, chunks.json)?;
     let document: Document<Extras<Record>> = serde_json::from_slice(chunks.json)
@@ -116,8 +121,8 @@ struct Version {
 
 fn check_version(path: &Path, json: &[u8]) -> Result<(), Problem> {
     let version = serde_json::from_slice::<Document<Extras<Version>>>(json).map_err(|_| {
-        let remedy = "solve it first, or take the file that `solve` wrote";
-        Problem::new(path, "extras.isolux", "is missing: this is no illumination map", remedy)
+        let what = "is missing: this is no illumination map";
+        Problem::new(path, "extras.isolux", what, NOT_A_MAP_REMEDY)
     })?;
     let found = version.extras.isolux.format_version;
     if found == FORMAT_VERSION {

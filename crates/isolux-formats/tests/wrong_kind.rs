@@ -1,0 +1,72 @@
+//! Regressions: files of one kind given where another is read. Each is refused for what it is.
+
+#![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
+
+use isolux_formats::{Problem, Problems, gltf, ies, map_glb};
+use std::fs;
+use std::path::Path;
+
+/// The only problem of a reading that must fail.
+#[track_caller]
+fn only_problem<T>(read: Result<T, Problems>) -> Problem {
+    let Err(Problems(mut found)) = read else { panic!("accepted") };
+    assert_eq!(found.len(), 1, "{found:#?}");
+    found.remove(0)
+}
+
+fn in_file<T>(bytes: &[u8], read: impl Fn(&Path) -> T) -> T {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("file.glb");
+    fs::write(&path, bytes).unwrap();
+    read(&path)
+}
+
+#[test]
+fn a_map_given_as_a_scene_was_said_to_have_no_light() {
+    let map = br#"{"asset": {"version": "2.0"}, "extras": {"isolux": {"format_version": 1}}}"#;
+    let found = only_problem(in_file(map, gltf::read));
+    assert_eq!(found.place, "extras.isolux");
+    assert!(found.what.contains("illumination map"), "{found}");
+    for other in ["[1]", "\"isolux\"", "{\"author\": \"isolux\"}", "null"] {
+        let scene = format!(r#"{{"asset": {{"version": "2.0"}}, "extras": {other}}}"#);
+        in_file(scene.as_bytes(), gltf::read).unwrap();
+    }
+}
+
+#[test]
+fn garbage_with_the_name_of_a_scene_was_said_to_be_faulty_json() {
+    for (bytes, what) in [
+        (&b""[..], "is empty"),
+        (b" \n\0\0", "neither GLB nor JSON"),
+        (b"\xef\xbb\xbf\r\n", "is empty"),
+        (b"\x7fELF\x02\x01", "neither GLB nor JSON"),
+        (b"# Blender\nv 0 0 0\n", "neither GLB nor JSON"),
+    ] {
+        let found = only_problem(in_file(bytes, gltf::read));
+        assert!(found.what.contains(what), "{found}");
+    }
+}
+
+#[test]
+fn a_scene_given_as_a_map_was_to_be_computed_again() {
+    for bytes in [&b""[..], b"gl", b"[[geometry]]\n", b"{\"asset\": {\"version\": \"2.0\"}}"] {
+        let found = only_problem(in_file(bytes, map_glb::read));
+        assert!(found.what.contains("no illumination map"), "{found}");
+        assert!(found.remedy.contains("solve it first"), "{found}");
+    }
+}
+
+#[test]
+fn a_missing_scene_was_named_twice() {
+    let found = only_problem(gltf::read(Path::new("nowhere/scene.glb")));
+    assert_eq!(found.to_string().matches("scene.glb").count(), 1, "{found}");
+    let found = only_problem(in_file(b"", |path| gltf::read(path.parent().unwrap())));
+    assert!(found.what.contains("not a regular file"), "{found}");
+}
+
+#[test]
+fn eulumdat_given_as_ies_was_not_told_apart() {
+    let text = b"Maker\r\n1\r\n0\r\n1\r\n0\r\n5\r\n";
+    let found = only_problem(ies::parse(text, Path::new("a.ies"), &mut |_| unreachable!()));
+    assert!(found.remedy.contains("EULUMDAT"), "{found}");
+}
