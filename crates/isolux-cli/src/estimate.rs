@@ -6,7 +6,7 @@ use serde::Serialize;
 use std::time::Duration;
 
 /// An estimate takes no longer than this, or one round of a large scene.
-const PATIENCE: Duration = Duration::from_secs(10);
+const PATIENCE: Duration = Duration::from_secs(5);
 /// Elements, sums and gathered rays of a receiver, measured on rooms of 10^4 to 10^5 of them.
 const BYTES_A_RECEIVER: u64 = 2400;
 /// Mesh and hierarchy of a triangle: 3 vertices, normals, texture coordinates, and its nodes.
@@ -21,7 +21,7 @@ pub(crate) struct Estimate {
     pub memory_bytes: u64,
     /// Time to the accuracy asked for, s; `None` where the beginning was not enough to tell.
     pub time_s: Option<f64>,
-    /// Not before, with 95 % confidence, s.
+    /// Not before, with nine chances in ten, s.
     pub time_earliest_s: Option<f64>,
     /// Not after, s.
     pub time_latest_s: Option<f64>,

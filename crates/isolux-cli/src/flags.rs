@@ -82,6 +82,9 @@ pub(crate) struct SolveFlags {
     /// Refuse to need more memory than this: 8GiB, 500MB
     #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
     pub max_memory: u64,
+    /// Leave the noise in: without it, single receivers are as far off as their standard errors say
+    #[arg(long)]
+    pub no_filter: bool,
     /// Go on from where an earlier run with the same flags stopped: its state is kept beside the
     /// map, as MAP.checkpoint
     #[arg(long)]

@@ -91,6 +91,7 @@ fn line(progress: &Progress) -> String {
     }];
     match progress.accuracy {
         Some(accuracy) => parts.push(format!("error {}", show_share(accuracy.reached))),
+        None if progress.stage == Stage::Pilot => {}
         None => parts.push("error not known yet".to_owned()),
     }
     if let Some(target) = progress.target {

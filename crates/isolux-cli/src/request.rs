@@ -32,6 +32,7 @@ fn request(flags: &SolveFlags) -> SolveRequest {
         mesh_accuracy: flags.mesh_accuracy,
         time_limit: flags.time_limit,
         seed: flags.seed,
+        filter: !flags.no_filter,
         max_memory_bytes: flags.max_memory,
     }
 }

@@ -216,6 +216,7 @@ fn rising_map(scene: &Scene) -> IlluminationMap {
             increments: 1,
             rays: 0,
             accuracy_target: None,
+            filter: None,
             complete: true,
             accuracy: None,
         },

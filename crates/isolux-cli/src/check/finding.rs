@@ -54,11 +54,11 @@ impl Finding {
         Self::warning(place, problem.what.clone(), problem.remedy.clone())
     }
 
-    pub(super) fn row(&self) -> Vec<String> {
+    pub(super) fn line(&self) -> String {
         let severity = match self.severity {
             Severity::Warning => "warning",
             Severity::Note => "note",
         };
-        vec![severity.to_owned(), self.place.clone(), self.what.clone(), self.remedy.clone()]
+        format!("{severity}: {}: {}; {}\n", self.place, self.what, self.remedy)
     }
 }

@@ -6,7 +6,7 @@ mod extent;
 mod finding;
 mod lamps;
 
-use crate::console::{facts, print, print_json, table};
+use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
@@ -95,12 +95,11 @@ impl Audit {
             ("memory at 1 %", estimated(|e| Some(format!("about {}", show_bytes(e.memory_bytes))))),
             ("time to 1 %", estimated(|e| e.time_s.map(|s| format!("about {}", show_seconds(s))))),
         ]);
-        let rows: Vec<Vec<String>> = self.findings.iter().map(Finding::row).collect();
         text += "\n";
-        text += &match rows.is_empty() {
-            true => "nothing found\n".to_owned(),
-            false => table(&["", "place", "finding", "remedy"], &rows),
-        };
+        text += &self.findings.iter().map(Finding::line).collect::<String>();
+        if self.findings.is_empty() {
+            text += "nothing found\n";
+        }
         text
     }
 }

@@ -2,5 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests may stop at the first surprise")]
 
 mod bad_input;
+#[cfg(unix)]
+mod interrupted;
 mod ran;
 mod results;

@@ -82,37 +82,6 @@ fn too_little_memory_is_refused() {
     assert_eq!(home.names(), Vec::<String>::new());
 }
 
-#[cfg(unix)]
-#[test]
-fn an_interrupted_run_saves_its_map() {
-    use std::io::{BufRead, BufReader};
-    let home = Home::new();
-    let mut child = home.start(&[
-        "solve",
-        "builtin:cube",
-        "-o",
-        "m.glb",
-        "--accuracy",
-        "0.5%",
-        "--progress",
-        "json",
-    ]);
-    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
-    let report: serde_json::Value = lines
-        .by_ref()
-        .map(|line| serde_json::from_str(&line).unwrap())
-        .find(|report: &serde_json::Value| report["stage"] == "increments")
-        .unwrap();
-    assert!(report["rays"].as_u64().unwrap() > 0, "{report}");
-    let id = child.id().to_string();
-    let interrupted = std::process::Command::new("kill").args(["-INT", &id]).status().unwrap();
-    assert!(interrupted.success());
-    lines.for_each(drop);
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert_eq!(home.names(), ["m.glb"]);
-    assert_eq!(home.run(&["info", "m.glb"]).code, 0);
-}
-
 #[test]
 fn the_same_seed_gives_the_same_values_on_any_number_of_threads() {
     let home = Home::new();

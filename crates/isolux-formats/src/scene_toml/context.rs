@@ -2,10 +2,12 @@
 
 use super::spans::{Lines, Span};
 use crate::findings::Findings;
-use crate::source;
-use isolux::scene::UpAxis;
+use crate::{Loaded, Problem, Problems, source};
+use isolux::scene::{SceneParts, UpAxis};
 use std::path::{Path, PathBuf};
 
+/// So many problems are put into the order of the file; the rest follow as they were found.
+const MOST_SORTED: usize = 100;
 /// More triangles than this in one scene are refused.
 const MOST_TRIANGLES: usize = 50_000_000;
 /// More luminaires than this in one scene are refused.
@@ -14,6 +16,8 @@ pub(super) const MOST_LUMINAIRES: usize = 1_000_000;
 /// The file, its conventions, and what was found.
 pub(super) struct Context {
     pub(super) findings: Findings,
+    /// Problems of this file, by where they start.
+    problems: Vec<(usize, Problem)>,
     lines: Lines,
     /// Metres in one unit of length of the file.
     pub(super) unit_m: f64,
@@ -26,6 +30,7 @@ impl Context {
     pub(super) fn new(path: &Path, text: &str) -> Self {
         Self {
             findings: Findings::new(path),
+            problems: Vec::new(),
             lines: Lines::new(text),
             unit_m: 1.0,
             up: UpAxis::Z,
@@ -41,7 +46,30 @@ impl Context {
         what: impl Into<String>,
         remedy: impl Into<String>,
     ) {
-        self.findings.problem(self.lines.place(at), what, remedy);
+        let place = self.lines.place(at);
+        if self.problems.len() < MOST_SORTED {
+            let problem = Problem::new(self.findings.file(), place, what, remedy);
+            self.problems.push((at.start, problem));
+        } else {
+            self.findings.problem(place, what, remedy);
+        }
+    }
+
+    /// Whether something keeps the scene from being used.
+    pub(super) fn has_problems(&self) -> bool {
+        !self.problems.is_empty() || self.findings.has_problems()
+    }
+
+    /// All problems, those of this file in its order; or the scene.
+    pub(super) fn finish(mut self, parts: SceneParts) -> Result<Loaded<SceneParts>, Problems> {
+        self.problems.sort_by_key(|(start, _)| *start);
+        let own: Vec<Problem> = self.problems.into_iter().map(|(_, problem)| problem).collect();
+        let of_other_files = self.findings.finish(parts);
+        match of_other_files {
+            Err(Problems(rest)) => Err(Problems(own.into_iter().chain(rest).collect())),
+            Ok(_) if !own.is_empty() => Err(Problems(own)),
+            Ok(loaded) => Ok(loaded),
+        }
     }
 
     /// Something left out or guessed.

@@ -32,5 +32,5 @@ pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     let mut context = context::Context::new(path, &text);
     let file = parse::parse(&text, &mut context);
     let parts = resolve::resolve(file, &mut context);
-    context.findings.finish(parts)
+    context.finish(parts)
 }

@@ -25,7 +25,7 @@ pub(super) fn resolve(file: SceneFile, context: &mut Context) -> SceneParts {
     luminaires::add(&file.luminaires, &mut groups, &mut scene, context);
     scene.groups = groups.names;
     cameras::add(&file.cameras, &mut scene, context);
-    if scene.shapes.is_empty() && !context.findings.has_problems() {
+    if scene.shapes.is_empty() && !context.has_problems() {
         context.problem(&(0..0), "the scene has no geometry", "add a [[geometry]]");
     }
     scene

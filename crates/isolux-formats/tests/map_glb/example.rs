@@ -157,6 +157,7 @@ fn provenance() -> Provenance {
         increments: 24,
         rays: 1_000_000,
         accuracy_target: Some(0.01),
+        filter: None,
         complete: true,
         accuracy: Some(Accuracy {
             reached: 0.009_3,

@@ -38,8 +38,10 @@ pub(super) fn accuracy(
     } else {
         interpolation.indirect_mean_lx
     };
-    // What lookups get wrong on the mean is reflected, and reflected again.
-    let bias = lookup_lx.abs() / rms_lx * reflected_series(plan);
+    // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign,
+    // and so has the mean of the interpolation error where the map is read.
+    let (lookup, series) = (lookup_lx.abs() / rms_lx, reflected_series(plan));
+    let bias = lookup * (series * series + 2.0 * series).sqrt();
     let root = |parts: &[f64]| parts.iter().map(|p| p * p).sum::<f64>().sqrt();
     Some(Accuracy {
         reached: root(&[statistical, discretization, bias]),

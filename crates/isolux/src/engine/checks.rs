@@ -45,7 +45,7 @@ pub(super) struct InterpolationErrors {
 }
 
 /// Draws the check points of a plan.
-pub(super) fn draw(plan: &Plan, key: Key) -> Vec<Check> {
+pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let errors = &plan.indirect_errors;
     let count = (plan.indirect_vertices / SHARE).clamp(FEWEST, MOST);
     let area: f64 = errors.iter().map(|e| e.area_m2).sum();
@@ -71,24 +71,19 @@ pub(super) fn draw(plan: &Plan, key: Key) -> Vec<Check> {
         let k = sums.partition_point(|&s| s <= at).min(errors.len() - 1);
         let surface = place_in_leaf(plan, errors[k].node, dice.pair());
         let area_m2 = errors[k].area_m2 / (count as f64 * density(k) / sum);
-        check(plan, surface, area_m2)
+        check(plan, Gatherer::on_surface(surface, rays), area_m2)
     };
     (0..count).filter_map(one).collect()
 }
 
-fn check(plan: &Plan, surface: SurfacePoint, area_m2: f64) -> Option<Check> {
+fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64) -> Option<Check> {
     let weights = |level: u32| {
-        let SurfacePoint { triangle, back, u, v, .. } = surface;
+        let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
         let corners = plan.elements.locate_above(level, triangle, back, u, v)?;
         let weights = known_weights(corners, &plan.known)?;
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     };
-    Some(Check {
-        gatherer: Gatherer::on_surface(surface),
-        coarse: weights(plan.level)?,
-        fine: weights(u32::MAX)?,
-        area_m2,
-    })
+    Some(Check { gatherer, coarse: weights(plan.level)?, fine: weights(u32::MAX)?, area_m2 })
 }
 
 /// Direct light at the check points; `key` only matters where emitting surfaces are sampled.

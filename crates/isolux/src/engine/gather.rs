@@ -27,25 +27,32 @@ pub(super) struct Gatherer {
     normal: Normal,
     /// The place for direct light.
     pub(super) surface: SurfacePoint,
+    /// How many rays.
+    pub(super) rays: u32,
 }
 
 impl Gatherer {
     /// The receiver of a vertex. Its normal is that of the smooth surface, whose facets meet at it.
-    pub(super) fn at_vertex(scene: &Scene, receiver: &Receiver) -> Self {
+    pub(super) fn at_vertex(scene: &Scene, receiver: &Receiver, rays: u32) -> Self {
         let Receiver { point, normal, triangle, back } = *receiver;
         let flat = SurfacePoint::new(scene, triangle, back, 0.0, 0.0);
         let surface = SurfacePoint { point, shading: normal, geometric: normal, ..flat };
-        Self { origin: offset_origin(point, flat.geometric), normal, surface }
+        Self { origin: offset_origin(point, flat.geometric), normal, surface, rays }
+    }
+
+    /// The same with another number of rays.
+    pub(super) const fn with_rays(self, rays: u32) -> Self {
+        Self { rays, ..self }
     }
 
     /// A place inside a triangle.
-    pub(super) fn on_surface(surface: SurfacePoint) -> Self {
+    pub(super) fn on_surface(surface: SurfacePoint, rays: u32) -> Self {
         let origin = offset_origin(surface.point, surface.geometric);
-        Self { origin, normal: surface.shading, surface }
+        Self { origin, normal: surface.shading, surface, rays }
     }
 
     /// A place in space that faces a way.
-    pub(super) fn in_space(point: Point, normal: Normal) -> Self {
+    pub(super) fn in_space(point: Point, normal: Normal, rays: u32) -> Self {
         let surface = SurfacePoint {
             triangle: u32::MAX,
             back: false,
@@ -55,7 +62,7 @@ impl Gatherer {
             geometric: normal,
             shading: normal,
         };
-        Self { origin: point, normal, surface }
+        Self { origin: point, normal, surface, rays }
     }
 }
 
@@ -70,8 +77,6 @@ pub(super) struct Gathering<'a> {
     pub(super) known: &'a [bool],
     /// Whether direct light at the ends of rays is read from the map instead of evaluated.
     pub(super) direct_from_map: bool,
-    /// Rays of a receiver.
-    pub(super) rays: u32,
 }
 
 /// The share of the light of three vertices that arrives at a receiver.
@@ -115,14 +120,15 @@ impl Gathering<'_> {
             rows
         };
         let chunks = gatherers.par_chunks(CHUNK).enumerate().map(chunk).collect();
-        Operator { chunks, rays: gatherers.len() as u64 * u64::from(self.rays) }
+        let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum();
+        Operator { chunks, rays }
     }
 
     fn row(&self, gatherer: &Gatherer, key: Key, rows: &mut Rows) {
         let sequence = Sequence::new(key);
         let axis = gatherer.normal.to_direction();
         let (mut source, mut open) = (Rgb::BLACK, false);
-        for index in 0..self.rays {
+        for index in 0..gatherer.rays {
             let mut dice = Dice::new(sequence, index);
             let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
             let ray = Ray::new(gatherer.origin, direction);
@@ -135,7 +141,7 @@ impl Gathering<'_> {
                 }
             });
             for (surface, reflectance) in ends {
-                let weight = reflectance / f64::from(self.rays);
+                let weight = reflectance / f64::from(gatherer.rays);
                 if !self.direct_from_map {
                     source += weight * self.lighting.estimate(&surface, &mut dice);
                 }

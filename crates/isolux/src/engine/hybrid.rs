@@ -23,18 +23,17 @@ pub(super) struct Hybrid<'p, 's> {
     plan: &'p Plan<'s>,
     check_direct: Vec<Rgb>,
     rows: Vec<Gatherer>,
-    rays: u32,
     key: Key,
 }
 
 impl<'p, 's> Hybrid<'p, 's> {
-    /// With `rays` gathering rays a receiver and increment.
-    pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: u32, seed: u64) -> Self {
+    /// With `rays[k]` gathering rays for vertex k in every increment.
+    pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: &[u32], seed: u64) -> Self {
         let key = Key::new(seed).with(1);
-        let vertices = plan.gatherers.iter().take(plan.indirect_vertices);
-        let rows = vertices.chain(checks.iter().map(|c| &c.gatherer)).copied().collect();
+        let vertices = plan.gatherers.iter().zip(rays).map(|(g, &rays)| g.with_rays(rays));
+        let rows = vertices.chain(checks.iter().map(|c| c.gatherer)).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
-        Self { plan, check_direct, rows, rays, key }
+        Self { plan, check_direct, rows, key }
     }
 
     /// Adds increment `index`; returns the rays traced.
@@ -56,7 +55,6 @@ impl<'p, 's> Hybrid<'p, 's> {
             level: plan.level,
             known: &plan.known,
             direct_from_map: plan.direct_from_map,
-            rays: self.rays,
         };
         let operator = gathering.operator(&self.rows, |row| key.with(2).with(row as u64));
         let given: Vec<Rgb> = (0..plan.indirect_vertices)
@@ -64,8 +62,8 @@ impl<'p, 's> Hybrid<'p, 's> {
             .collect();
         let solved = operator.solve(&plan.guess, &given, TOLERANCE);
         let (gathered, fresh) = solved.split_at(plan.indirect_vertices);
-        let indirect = self.prolongate(gathered);
-        let caustic = self.prolongate(&caustic);
+        let indirect = plan.prolongate(gathered);
+        let caustic = plan.prolongate(&caustic);
         receivers.add((0..direct.len()).map(|k| Sample {
             direct: direct[k],
             caustic: caustic[k],
@@ -86,21 +84,5 @@ impl<'p, 's> Hybrid<'p, 's> {
         };
         let vertices = self.plan.gatherers.par_iter().enumerate().map(vertex).collect();
         (vertices, checks::direct(self.plan, checks, key.with(u64::MAX)))
-    }
-
-    /// Values for the vertices that only direct light needs: interpolated from their parents.
-    fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
-        let mut values = coarse.to_vec();
-        for vertex in &self.plan.elements.vertices()[coarse.len()..] {
-            let [a, b] = vertex.parents.expect("vertices beyond the input are made by bisection");
-            let read = |end: u32| (self.plan.known[end as usize]).then(|| values[end as usize]);
-            let value = match (read(a), read(b)) {
-                (Some(a), Some(b)) => (a + b) * 0.5,
-                (Some(one), None) | (None, Some(one)) => one,
-                (None, None) => Rgb::BLACK,
-            };
-            values.push(value);
-        }
-        values
     }
 }

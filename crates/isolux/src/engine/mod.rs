@@ -7,6 +7,7 @@ mod checks;
 mod detail;
 mod direct;
 mod emission;
+mod filter;
 mod forward;
 mod gather;
 mod hybrid;

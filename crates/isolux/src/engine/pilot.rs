@@ -9,7 +9,7 @@ use super::direct::Lighting;
 use super::gather::{Gatherer, Gathering};
 use super::path::Dice;
 use super::surface::SurfacePoint;
-use crate::elements::{Elements, Subdivision};
+use crate::elements::{Elements, Subdivision, Vertex};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -29,6 +29,8 @@ const PULL_IN: f64 = 2e-3;
 const MOST_SOURCES_EVALUATED: usize = 64;
 /// Vertices for the direct light of emitting surfaces, in multiples of those for indirect light.
 const MOST_FOR_SAMPLED_LIGHT: usize = 4;
+/// Fewest rays of a receiver that is not hidden.
+const FEWEST_RAYS: u32 = 8;
 /// Sweeps of the pilot end when they change less than this.
 const PILOT_TOLERANCE: f64 = 1e-4;
 
@@ -57,6 +59,31 @@ pub(super) struct Plan<'s> {
     pub(super) rays: u64,
 }
 
+impl Plan<'_> {
+    /// Gathering rays of the vertices that indirect light lives on; none where they are hidden.
+    pub(super) fn rays_of_vertices(&self, most: u32) -> Vec<u32> {
+        let rays = shared_rays(self.subdivision.elements().vertices(), most);
+        let hidden = |&known: &bool| if known { 1 } else { 0 };
+        rays.into_iter().zip(self.known.iter().map(hidden)).map(|(r, k)| r * k).collect()
+    }
+
+    /// Values for the vertices that only direct light needs: interpolated from their parents.
+    pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
+        let mut values = coarse.to_vec();
+        for vertex in &self.elements.vertices()[coarse.len()..] {
+            let [a, b] = vertex.parents.expect("vertices beyond the input are made by bisection");
+            let read = |end: u32| (self.known[end as usize]).then(|| values[end as usize]);
+            let value = match (read(a), read(b)) {
+                (Some(a), Some(b)) => (a + b) * 0.5,
+                (Some(one), None) | (None, Some(one)) => one,
+                (None, None) => Rgb::BLACK,
+            };
+            values.push(value);
+        }
+        values
+    }
+}
+
 /// What is asked of the pilot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PilotRequest {
@@ -71,17 +98,20 @@ struct Pilot<'s> {
     lighting: &'s Lighting<'s>,
     key: Key,
     subdivision: Subdivision,
+    /// At the vertices looked at so far: light, and whether they are open to it.
     direct: Vec<Rgb>,
+    indirect: Vec<Rgb>,
+    known: Vec<bool>,
+    /// Nodes there were then.
+    solved_nodes: u32,
     rays: u32,
     traced: u64,
     least_edge_m: f64,
 }
 
-/// One solution of the pilot.
+/// What a round of the pilot sees.
 struct Look {
     elements: Elements,
-    indirect: Vec<Rgb>,
-    known: Vec<bool>,
     errors: Vec<LeafError>,
     rms_lx: f64,
 }
@@ -132,6 +162,9 @@ impl<'s> Pilot<'s> {
             key: Key::new(request.seed).with(0),
             subdivision,
             direct: Vec::new(),
+            indirect: Vec::new(),
+            known: Vec::new(),
+            solved_nodes: 0,
             rays: pilot_rays(request.target),
             traced: 0,
             least_edge_m: LEAST_EDGE_SHARE * extent_m,
@@ -142,9 +175,11 @@ impl<'s> Pilot<'s> {
         self.lighting.source_count() > MOST_SOURCES_EVALUATED
     }
 
-    fn gatherers(&self) -> Vec<Gatherer> {
+    fn gatherers(&self, elements: &Elements) -> Vec<Gatherer> {
+        let rays = shared_rays(elements.vertices(), self.rays);
         let receivers = self.subdivision.receivers(PULL_IN);
-        receivers.iter().map(|r| Gatherer::at_vertex(self.scene, r)).collect()
+        let both = receivers.iter().zip(rays);
+        both.map(|(r, rays)| Gatherer::at_vertex(self.scene, r, rays)).collect()
     }
 
     /// Direct light at the vertices that have none yet.
@@ -158,34 +193,51 @@ impl<'s> Pilot<'s> {
         self.direct.extend(values);
     }
 
+    /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
     fn look(&mut self) -> Look {
         let elements = self.subdivision.elements();
-        let gatherers = self.gatherers();
+        let gatherers = self.gatherers(&elements);
         self.complete_direct(&gatherers);
-        let known = vec![true; elements.vertices().len()];
+        self.complete_indirect(&elements, &gatherers);
+        let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
+        let luminances: Vec<Option<f64>> = (0..self.known.len())
+            .map(|k| self.known[k].then(|| self.indirect[k].luminance()))
+            .collect();
+        let errors = leaf_errors(&self.subdivision, &elements, &luminances);
+        let rms_lx = rms(&elements, &self.known, lx);
+        Look { elements, errors, rms_lx }
+    }
+
+    fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        let (first, level) = (self.indirect.len(), self.solved_nodes);
+        let everything = vec![true; gatherers.len()];
         let gathering = Gathering {
             scene: self.scene,
             lighting: self.lighting,
-            elements: &elements,
-            level: u32::MAX,
-            known: &known,
+            elements,
+            level: if first == 0 { u32::MAX } else { level },
+            known: if first == 0 { &everything } else { &self.known },
             direct_from_map: self.direct_from_map(),
-            rays: self.rays,
         };
         let key = self.key.with(2);
-        let operator = gathering.operator(&gatherers, |_| key);
+        let operator = gathering.operator(&gatherers[first..], |_| key);
         self.traced += operator.rays;
-        let black = vec![Rgb::BLACK; gatherers.len()];
-        let given = if self.direct_from_map() { self.direct.clone() } else { black.clone() };
-        let indirect = operator.solve(&black, &given, PILOT_TOLERANCE);
-        let open = operator.open();
-        let is_known = |k: usize| open[k] || !(self.direct[k] + indirect[k]).is_black();
-        let known: Vec<bool> = (0..gatherers.len()).map(is_known).collect();
-        let luminances: Vec<Option<f64>> =
-            (0..known.len()).map(|k| known[k].then(|| indirect[k].luminance())).collect();
-        let errors = leaf_errors(&self.subdivision, &elements, &luminances);
-        let rms_lx = rms(&elements, &known, |k| (self.direct[k] + indirect[k]).luminance());
-        Look { elements, indirect, known, errors, rms_lx }
+        let new = if first == 0 {
+            let black = vec![Rgb::BLACK; gatherers.len()];
+            let given = if self.direct_from_map() { &self.direct } else { &black };
+            operator.solve(&black, given, PILOT_TOLERANCE)
+        } else {
+            let given = |k: usize| {
+                if self.direct_from_map() { self.direct[k] } else { Rgb::BLACK }
+            };
+            let light: Vec<Rgb> = (0..first).map(|k| self.indirect[k] + given(k)).collect();
+            operator.apply(&light)
+        };
+        for ((lx, direct), open) in new.iter().zip(&self.direct[first..]).zip(operator.open()) {
+            self.known.push(open || !(*lx + *direct).is_black());
+        }
+        self.indirect.extend(new);
+        self.solved_nodes = self.subdivision.node_count() as u32;
     }
 
     /// Refines further for direct light as interpolated, and puts the plan together.
@@ -198,7 +250,7 @@ impl<'s> Pilot<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
         let coarse = self.subdivision.clone();
         let level = coarse.node_count() as u32;
-        let mut known = look.known;
+        let mut known = std::mem::take(&mut self.known);
         let mut elements = look.elements;
         // Sampled direct light has noise, which refinement cannot tell from shadow borders.
         let most = if self.lighting.is_exact() {
@@ -219,11 +271,12 @@ impl<'s> Pilot<'s> {
                 break;
             }
             elements = self.subdivision.elements();
-            self.complete_direct(&self.gatherers());
+            let gatherers = self.gatherers(&elements);
+            self.complete_direct(&gatherers);
             extend_known(&elements, &mut known, &self.direct);
         }
         // Once more for all: refinement has moved the receivers on borders.
-        let gatherers = self.gatherers();
+        let gatherers = self.gatherers(&elements);
         self.direct.clear();
         self.complete_direct(&gatherers);
         Plan {
@@ -236,7 +289,7 @@ impl<'s> Pilot<'s> {
             level,
             known,
             direct: self.direct,
-            guess: look.indirect,
+            guess: self.indirect,
             indirect_errors: look.errors,
             subdivision: coarse,
             rms_lx: look.rms_lx,
@@ -262,6 +315,19 @@ pub(super) fn rms(elements: &Elements, known: &[bool], value: impl Fn(usize) -> 
         sum += vertex.area_m2 * value(k) * value(k);
     }
     if area > 0.0 { (sum / area).sqrt() } else { 0.0 }
+}
+
+/// Rays of every vertex, if the most that one gets is `most`: in proportion to the root of the area
+/// it stands for, which makes the error of the scene least for the rays traced. Vertices of the
+/// coarsest mesh get all, no vertex less than a small net.
+fn shared_rays(vertices: &[Vertex], most: u32) -> Vec<u32> {
+    let area_m2: f64 = vertices.iter().map(|v| v.area_m2).sum();
+    let one = |vertex: &Vertex| {
+        let share = (vertex.area_m2 * FIRST_VERTICES / area_m2).sqrt();
+        let wanted = (share * f64::from(most)).min(f64::from(most)) as u32;
+        wanted.next_power_of_two().clamp(FEWEST_RAYS.min(most), most)
+    };
+    vertices.iter().map(one).collect()
 }
 
 /// Rays of a receiver in the pilot: more for finer accuracies, so that their noise stays below the

@@ -115,7 +115,8 @@ impl<'a> MapReader<'a> {
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
         let on_surface = self.find_surface(at).map(|s| self.pulled_in(s));
         let gatherer = on_surface
-            .map_or_else(|| Gatherer::in_space(at.position, at.normal), Gatherer::on_surface);
+            .map(|surface| Gatherer::on_surface(surface, settings.rays))
+            .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
         let gathering = Gathering {
             scene: self.scene,
             lighting: &self.lighting,
@@ -123,7 +124,6 @@ impl<'a> MapReader<'a> {
             level: u32::MAX,
             known: &self.known,
             direct_from_map: false,
-            rays: settings.rays,
         };
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);

@@ -17,6 +17,8 @@ pub struct SolveRequest {
     pub time_limit: Option<Duration>,
     /// Seed: the same seed gives the same bits.
     pub seed: u64,
+    /// Whether to take noise off where the map shows nothing else.
+    pub filter: bool,
     /// Refuse to need more memory than this, bytes.
     pub max_memory_bytes: u64,
 }
@@ -30,6 +32,7 @@ impl Default for SolveRequest {
             mesh_accuracy: 0.05,
             time_limit: None,
             seed: 1,
+            filter: true,
             max_memory_bytes: 8 << 30,
         }
     }

@@ -5,6 +5,7 @@ use super::accuracy::{BELIEVED_INCREMENTS, accuracy};
 use super::checks::{self, Check};
 use super::direct::Lighting;
 use super::emission::Emission;
+use super::filter::filter;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
 use super::pilot::{PilotRequest, Plan, pilot};
@@ -12,9 +13,10 @@ use super::predict;
 use super::request::{Progress, SolveError, SolveRequest, Stage, Watch};
 use super::state::{RunIdentity, RunState, restore};
 use super::tally;
-use crate::map::{Accuracy, Illuminance, IlluminationMap, Method, Provenance};
+use crate::map::{Accuracy, FilterReport, Illuminance, IlluminationMap, Method, Provenance};
 use crate::sampling::Key;
 use crate::scene::Scene;
+use crate::units::Rgb;
 use std::time::Instant;
 
 /// Increments before a run may stop at its accuracy: the estimates of single receivers need them.
@@ -237,21 +239,23 @@ impl<'s> Run<'s, '_> {
     }
 
     fn map(&self, work: &Work, accuracy: Option<Accuracy>, reached: bool) -> IlluminationMap {
-        let increments = work.sums.increments;
+        let believed = work.sums.increments >= BELIEVED_INCREMENTS;
+        let (values, filter) = work.values(self.request.filter && believed);
         IlluminationMap {
             elements: work.plan.elements.clone(),
-            values: (0..work.plan.known.len()).map(|k| work.value(k)).collect(),
+            values,
             provenance: Provenance {
                 scene: self.scene.name().to_owned(),
                 scene_hash: self.identity.scene_hash.clone(),
                 version: env!("CARGO_PKG_VERSION").to_owned(),
                 method: self.request.method,
                 seed: self.request.seed,
-                increments,
+                increments: work.sums.increments,
                 rays: self.rays,
                 accuracy_target: self.request.accuracy,
                 complete: reached || self.request.accuracy.is_none(),
                 accuracy,
+                filter,
             },
         }
     }
@@ -270,7 +274,8 @@ struct Work<'p, 's> {
     engine: Engine<'p, 's>,
     sums: Accumulator,
     checks: Checks,
-    rays_a_value: u64,
+    /// Gathering rays of the vertices in an increment.
+    rays: Vec<u32>,
 }
 
 enum Engine<'p, 's> {
@@ -287,22 +292,25 @@ struct Checks {
 impl<'p, 's> Work<'p, 's> {
     fn new(plan: &'p Plan<'s>, request: &SolveRequest, target: f64) -> Self {
         let reference = plan.rms_lx;
+        let most = gathering_rays(target, plan.indirect_vertices, request.max_memory_bytes);
+        let rays = plan.rays_of_vertices(most);
         let points = match request.method {
-            Method::Hybrid => checks::draw(plan, Key::new(request.seed).with(3)),
+            Method::Hybrid => checks::draw(plan, most, Key::new(request.seed).with(3)),
             Method::Forward => Vec::new(),
         };
         let sums = Accumulator::new(plan.elements.vertices().len(), reference);
         let check_sums = Accumulator::new(points.len(), reference);
         let checks = Checks { points, sums: check_sums };
-        let rays = gathering_rays(target, plan.indirect_vertices, request.max_memory_bytes);
         let engine = match request.method {
-            Method::Hybrid => Engine::Hybrid(Hybrid::new(plan, &checks.points, rays, request.seed)),
+            Method::Hybrid => {
+                Engine::Hybrid(Hybrid::new(plan, &checks.points, &rays, request.seed))
+            }
             Method::Forward => {
                 let emission = Emission::new(plan.scene).expect("a scene without light is refused");
                 Engine::Forward(Forward::new(plan, emission, request.seed))
             }
         };
-        Self { plan, engine, sums, checks, rays_a_value: u64::from(rays) }
+        Self { plan, engine, sums, checks, rays }
     }
 
     fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
@@ -336,6 +344,53 @@ impl<'p, 's> Work<'p, 's> {
         accuracy.is_some_and(|a| a.statistical <= 0.25 * a.discretization)
     }
 
+    /// Samples of a vertex in an increment; finer vertices are interpolated from coarser ones.
+    fn samples(&self, vertex: usize) -> u64 {
+        let least = self.rays.iter().copied().min().unwrap_or(1);
+        u64::from(self.rays.get(vertex).copied().unwrap_or(least))
+    }
+
+    /// The values of the map, and what the filter did to them.
+    fn values(&self, filtered: bool) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
+        let vertices = self.plan.known.len();
+        let mut values: Vec<Option<Illuminance>> = (0..vertices).map(|k| self.value(k)).collect();
+        if !filtered {
+            return (values, None);
+        }
+        let report = match self.engine {
+            Engine::Hybrid(_) => self.filter(&mut values, false),
+            Engine::Forward(_) => self.filter(&mut values, true),
+        };
+        (values, Some(report))
+    }
+
+    /// Filters indirect light and caustics, and direct light where particles brought it.
+    fn filter(&self, values: &mut [Option<Illuminance>], direct: bool) -> FilterReport {
+        let coarse = self.plan.indirect_vertices;
+        let part = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
+            values[..coarse].iter().map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect()
+        };
+        let mut parts = vec![part(&|v| v.indirect_lx), part(&|v| v.caustic_lx)];
+        if direct {
+            parts.push(part(&|v| v.direct_lx - v.caustic_lx));
+        }
+        let variance: Vec<f64> = (0..coarse)
+            .map(|k| self.sums.estimate(k))
+            .map(|e| if direct { e.variance } else { e.indirect_variance })
+            .collect();
+        let filtered = filter(self.plan, &parts, &variance, self.plan.rms_lx);
+        let fine: Vec<Vec<Rgb>> =
+            filtered.values.iter().map(|part| self.plan.prolongate(part)).collect();
+        for (k, value) in values.iter_mut().enumerate() {
+            let Some(value) = value else { continue };
+            let own_direct = value.direct_lx - value.caustic_lx;
+            value.indirect_lx = fine[0][k];
+            value.caustic_lx = fine[1][k];
+            value.direct_lx = fine.get(2).map_or(own_direct, |part| part[k]) + value.caustic_lx;
+        }
+        filtered.report
+    }
+
     fn value(&self, vertex: usize) -> Option<Illuminance> {
         if !self.plan.known[vertex] {
             return None;
@@ -348,7 +403,7 @@ impl<'p, 's> Work<'p, 's> {
             indirect_lx: mean.indirect,
             standard_error_lx: estimate.variance.sqrt(),
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
-            samples: self.sums.increments * self.rays_a_value,
+            samples: self.sums.increments * self.samples(vertex),
         })
     }
 }

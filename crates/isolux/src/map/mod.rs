@@ -4,7 +4,7 @@ mod illuminance;
 mod provenance;
 
 pub use illuminance::Illuminance;
-pub use provenance::{Accuracy, Method, Provenance};
+pub use provenance::{Accuracy, FilterReport, Method, Provenance};
 
 use crate::elements::Elements;
 

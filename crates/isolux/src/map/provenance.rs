@@ -25,6 +25,17 @@ pub struct Provenance {
     pub complete: bool,
     /// How good the map is; `None` before the error could be believed.
     pub accuracy: Option<Accuracy>,
+    /// What the filter did; `None` where it was off.
+    pub filter: Option<FilterReport>,
+}
+
+/// What the filter did to a map.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FilterReport {
+    /// Share of the surface where most of the detail was taken for noise.
+    pub share: f64,
+    /// Signal that may have gone with it: root mean square, relative as in [`Accuracy`].
+    pub bias: f64,
 }
 
 /// Relative errors of the scene: area-weighted root mean squares over all surfaces, relative to the

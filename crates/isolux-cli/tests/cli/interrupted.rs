@@ -1,0 +1,63 @@
+//! Ctrl-C: a valid map, and a run that can go on.
+
+use crate::ran::Home;
+use std::io::{BufRead, BufReader};
+use std::process::Command;
+
+const SOLVE: [&str; 6] = ["solve", "builtin:cube", "-o", "m.glb", "--accuracy", "0.5%"];
+
+/// Starts a run and interrupts it after its first increments; its exit code.
+fn interrupt(home: &Home) -> i32 {
+    let mut child = home.start(&[&SOLVE[..], &["--progress", "json"]].concat());
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let report: serde_json::Value = lines
+        .by_ref()
+        .map(|line| serde_json::from_str(&line).unwrap())
+        .find(|report: &serde_json::Value| report["stage"] == "increments")
+        .unwrap();
+    assert!(report["rays"].as_u64().unwrap() > 0, "{report}");
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    lines.for_each(drop);
+    child.wait().unwrap().code().unwrap()
+}
+
+#[test]
+fn an_interrupted_run_saves_its_map_and_its_state() {
+    let home = Home::new();
+    assert_eq!(interrupt(&home), 130);
+    assert_eq!(home.names(), ["m.checkpoint", "m.glb"]);
+    assert_eq!(home.run(&["info", "m.glb"]).code, 0);
+}
+
+#[test]
+fn a_resumed_run_ends_with_the_bytes_of_one_that_was_never_stopped() {
+    let home = Home::new();
+    let bytes = || std::fs::read(home.path("m.glb")).unwrap();
+    assert_eq!(home.run(&SOLVE).code, 0);
+    let whole = bytes();
+    assert_eq!(interrupt(&home), 130);
+    assert!(bytes() != whole, "it was not stopped");
+    let resumed = home.run(&[&SOLVE[..], &["--resume"]].concat());
+    assert_eq!(resumed.code, 0, "{resumed:?}");
+    assert!(bytes() == whole, "the maps differ");
+    assert_eq!(home.names(), ["m.glb"]);
+}
+
+#[test]
+fn a_run_with_other_flags_is_not_resumed() {
+    let home = Home::new();
+    assert_eq!(interrupt(&home), 130);
+    let ran = home.run(&[&SOLVE[..], &["--resume", "--seed", "2"]].concat());
+    assert!(ran.code == 2 && ran.err.contains("seed"), "{ran:?}");
+}
+
+#[test]
+fn a_damaged_state_is_refused() {
+    let home = Home::new();
+    for contents in ["", "this is no state"] {
+        home.file("m.checkpoint", contents);
+        let ran = home.run(&[&SOLVE[..], &["--resume"]].concat());
+        assert!(ran.code == 2 && ran.err.contains("m.checkpoint"), "{ran:?}");
+    }
+}

@@ -1,0 +1,35 @@
+//! Scenes of every kind through one door.
+
+#![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
+
+use isolux_formats::load;
+use std::path::Path;
+
+#[test]
+fn by_extension() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    for name in ["cornell_mcguire/CornellBox-Original.obj", "cornell_mcguire/scene.toml"] {
+        let parts = load(&scenes.join(name)).unwrap_or_else(|p| panic!("{p}")).value;
+        assert!(!parts.shapes.is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn extensions_in_capitals() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("A.OBJ");
+    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").unwrap();
+    assert!(load(&path).is_ok());
+}
+
+#[test]
+fn anything_else_is_refused_with_what_is_read() {
+    for name in ["scene.fbx", "scene", ".toml", "scene.gltf.zip", ""] {
+        let message = load(Path::new(name)).unwrap_err().to_string();
+        assert!(message.contains("name a .toml, .gltf, .glb or .obj file"), "{message}");
+    }
+    for name in ["none.toml", "none.gltf", "none.glb", "none.obj"] {
+        let message = load(Path::new(name)).unwrap_err().to_string();
+        assert!(message.contains(name) && message.contains("read"), "{message}");
+    }
+}

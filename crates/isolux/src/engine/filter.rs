@@ -1,0 +1,157 @@
+//! The filter: noise is taken off where a map shows nothing but noise.
+//!
+//! A Wiener filter on the mesh. What a vertex shows beyond the mean about it (its detail) is compared
+//! with the detail that noise alone would show, known from the replicates; pooled over the
+//! neighbours, the excess is signal. Of each detail the share of signal is kept. So noise falls where
+//! light is smooth, edges stay, and as replicates accumulate every detail becomes signal: the filter
+//! switches itself off, as that of Inspirer did (Kopylov, Khodulev, Volevich 1998). It never reaches
+//! over creases, borders or hidden vertices, since elements do not. Standard errors stay those of the
+//! unfiltered values.
+
+use super::pilot::Plan;
+use crate::map::FilterReport;
+use crate::units::Rgb;
+
+/// Each pass smooths over one more ring of neighbours.
+const PASSES: usize = 4;
+
+/// Weights of the mean about every vertex: of itself and of its neighbours, summing to one.
+struct Means {
+    rows: Vec<Vec<(u32, f64)>>,
+}
+
+/// A squared normal number spreads by the root of two; over two rings some eight of them count.
+const CHANCE: f64 = 0.5;
+
+/// Values and what is left of their noise.
+pub(super) struct Filtered {
+    /// Colour channels, as given, filtered.
+    pub(super) values: Vec<Vec<Rgb>>,
+    pub(super) report: FilterReport,
+}
+
+/// Filters `parts`, colour quantities at the vertices that indirect light lives on, by the
+/// photometric sum of them all and its variance.
+pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: f64) -> Filtered {
+    let means = Means::of(plan);
+    let mut values = parts.to_vec();
+    let mut variance = variance.to_vec();
+    let (mut smoothed_m2, mut bias) = (0.0, 0.0);
+    for pass in 0..PASSES {
+        let total: Vec<f64> = (0..variance.len())
+            .map(|k| values.iter().map(|part| part[k].luminance()).sum())
+            .collect();
+        let kept = means.shares_of_signal(&total, &variance);
+        if pass == 0 {
+            (smoothed_m2, bias) = smoothing(plan, &kept);
+        }
+        for part in &mut values {
+            *part = means.shrink(part, &kept);
+        }
+        variance = means.noise_left(&variance, &kept);
+    }
+    let bias = if rms_lx > 0.0 { bias / rms_lx } else { 0.0 };
+    Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
+}
+
+/// How much of a detail is signal, and how large the signal is, lx2.
+#[derive(Clone, Copy, Debug)]
+struct Kept {
+    share: f64,
+    signal: f64,
+}
+
+impl Means {
+    /// Hat functions weighted by their overlap.
+    fn of(plan: &Plan) -> Self {
+        let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); plan.indirect_vertices];
+        for leaf in plan.subdivision.leaves() {
+            let corners = plan.subdivision.node(leaf).0.vertices;
+            if !corners.iter().all(|&v| plan.known[v as usize]) {
+                continue;
+            }
+            let sixth = plan.subdivision.triangle(leaf).area() / 6.0;
+            for &i in &corners {
+                for &j in &corners {
+                    let overlap = if i == j { sixth } else { 0.5 * sixth };
+                    match rows[i as usize].iter_mut().find(|(vertex, _)| *vertex == j) {
+                        Some((_, weight)) => *weight += overlap,
+                        None => rows[i as usize].push((j, overlap)),
+                    }
+                }
+            }
+        }
+        for (vertex, row) in rows.iter_mut().enumerate() {
+            let sum: f64 = row.iter().map(|(_, weight)| weight).sum();
+            if sum > 0.0 {
+                row.iter_mut().for_each(|(_, weight)| *weight /= sum);
+            } else {
+                row.push((vertex as u32, 1.0));
+            }
+        }
+        Self { rows }
+    }
+
+    fn mean(&self, vertex: usize, value: impl Fn(usize) -> f64) -> f64 {
+        self.rows[vertex].iter().map(|&(j, weight)| weight * value(j as usize)).sum()
+    }
+
+    fn shares_of_signal(&self, values: &[f64], variance: &[f64]) -> Vec<Kept> {
+        let detail = |i: usize| values[i] - self.mean(i, |j| values[j]);
+        let noise = |i: usize| -> f64 {
+            let own = |j: u32, weight: f64| if j as usize == i { 1.0 - weight } else { -weight };
+            let part = |&(j, weight): &(u32, f64)| {
+                let factor = own(j, weight);
+                factor * factor * variance[j as usize]
+            };
+            self.rows[i].iter().map(part).sum()
+        };
+        let noise: Vec<f64> = (0..values.len()).map(noise).collect();
+        let excess: Vec<f64> =
+            (0..values.len()).map(|i| detail(i) * detail(i) - noise[i]).collect();
+        let once: Vec<f64> = (0..values.len()).map(|i| self.mean(i, |j| excess[j])).collect();
+        let kept = |i: usize| {
+            // Pooled over two rings; what chance makes of noise there does not count as signal.
+            let pooled = self.mean(i, |j| once[j]);
+            let signal = (pooled - CHANCE * noise[i]).max(0.0);
+            let both = signal + noise[i];
+            Kept { share: if both > 0.0 { signal / both } else { 1.0 }, signal }
+        };
+        (0..values.len()).map(kept).collect()
+    }
+
+    fn shrink(&self, values: &[Rgb], kept: &[Kept]) -> Vec<Rgb> {
+        let one = |i: usize| {
+            let mean: Rgb =
+                self.rows[i].iter().map(|&(j, weight)| values[j as usize] * weight).sum();
+            mean + (values[i] - mean) * kept[i].share
+        };
+        (0..values.len()).map(one).collect()
+    }
+
+    fn noise_left(&self, variance: &[f64], kept: &[Kept]) -> Vec<f64> {
+        let one = |i: usize| {
+            let part = |&(j, weight): &(u32, f64)| {
+                let own = if j as usize == i { kept[i].share } else { 0.0 };
+                let factor = weight * (1.0 - kept[i].share) + own;
+                factor * factor * variance[j as usize]
+            };
+            self.rows[i].iter().map(part).sum()
+        };
+        (0..variance.len()).map(one).collect()
+    }
+}
+
+/// Share of the surface where less than half of the detail is kept, and the signal that may be lost,
+/// root mean square in lx.
+fn smoothing(plan: &Plan, kept: &[Kept]) -> (f64, f64) {
+    let (mut area, mut smoothed, mut lost) = (0.0, 0.0, 0.0);
+    for (vertex, k) in plan.elements.vertices().iter().zip(kept) {
+        area += vertex.area_m2;
+        if k.share < 0.5 {
+            smoothed += vertex.area_m2;
+        }
+        lost += vertex.area_m2 * (1.0 - k.share) * (1.0 - k.share) * k.signal;
+    }
+    if area > 0.0 { (smoothed / area, (lost / area).sqrt()) } else { (0.0, 0.0) }
+}
