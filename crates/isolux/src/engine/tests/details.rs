@@ -57,7 +57,8 @@ fn errors_of_smooth_functions_are_told_on_the_safe_side() {
     // The estimate must do for kinks and shadow borders too, so of smooth functions it says up to three
     // times too much; and eight times for a saddle along the legs of the elements, which errs on
     // every second edge alone.
-    let functions: [(&str, fn(Point) -> f64, f64); 3] = [
+    type Named = (&'static str, fn(Point) -> f64, f64);
+    let functions: [Named; 3] = [
         ("parabola", |p| p.x * p.x, 3.0),
         ("saddle", |p| p.x * p.y, 9.0),
         ("inverse square", |p| 1.0 / (0.1 + p.x * p.x + p.y * p.y), 3.0),

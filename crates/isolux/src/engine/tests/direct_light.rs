@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 pub(super) fn facing(point: [f64; 3], normal: [f64; 3]) -> SurfacePoint {
     let normal = Vector::from(normal).normal().unwrap();
-    Gatherer::in_space(Point::from(point), normal).surface
+    Gatherer::in_space(Point::from(point), normal, 0).surface
 }
 
 /// Direct illuminance at a place in space, lx.

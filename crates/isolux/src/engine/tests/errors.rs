@@ -52,7 +52,7 @@ fn check_points_stand_for_the_whole_surface() {
     let scene = room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let checks = checks::draw(&plan, Key::new(2));
+    let checks = checks::draw(&plan, 0, Key::new(2));
     assert!(checks.len() > 100);
     // Floor against all, by the same weights: their common error is one on the floor, zero elsewhere.
     let on_floor = |c: &Check| if c.gatherer.surface.point.z < 1e-3 { 1.0 } else { 0.0 };
@@ -69,7 +69,7 @@ fn common_errors_are_seen_through_noise() {
     let scene = room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let checks = checks::draw(&plan, Key::new(2));
+    let checks = checks::draw(&plan, 0, Key::new(2));
     let near = |found: f64, expected: f64, allowed: f64| {
         assert!((found - expected).abs() < allowed, "{found} {expected}");
     };
@@ -125,8 +125,9 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
     assert!((found.statistical / 0.02 - 1.0).abs() < 5.0 * 0.012, "{found:?}");
     // The root mean square of 100 lx with noise of 2 lx.
     assert!((found.discretization - 0.03).abs() < 2e-4, "{found:?}");
-    // At a reflectance of one half what is read wrong is reflected once in all.
-    assert!((found.bias - 0.02).abs() < 2e-4, "{found:?}");
+    // At a reflectance of one half what is read wrong is reflected once in all, and adds to what is
+    // wrong where it is read: (1 + 1)2 of its square, less the one of discretization.
+    assert!((found.bias - 0.02 * 3.0_f64.sqrt()).abs() < 2e-4, "{found:?}");
     let root = |a: f64| (found.statistical.powi(2) + a * a + found.bias.powi(2)).sqrt();
     assert!((found.reached - root(found.discretization)).abs() < 1e-12);
     assert!((found.interpolated - root(0.04)).abs() < 1e-4);

@@ -6,16 +6,16 @@ use crate::engine::direct::Lighting;
 use crate::engine::gather::{Gatherer, Gathering, Operator, known_weights};
 use std::f64::consts::PI;
 
-fn elements_of(scene: &Scene) -> (Elements, Vec<Gatherer>) {
+fn elements_of(scene: &Scene, rays: u32) -> (Elements, Vec<Gatherer>) {
     let mut subdivision = Subdivision::new(scene);
     subdivision.bisect_to(0.9, usize::MAX);
     let receivers = subdivision.receivers(0.01);
-    let gatherers = receivers.iter().map(|r| Gatherer::at_vertex(scene, r)).collect();
+    let gatherers = receivers.iter().map(|r| Gatherer::at_vertex(scene, r, rays)).collect();
     (subdivision.elements(), gatherers)
 }
 
 /// The operator of a scene over its own vertices, direct light read from the map.
-fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer], rays: u32) -> Operator {
+fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer]) -> Operator {
     let lighting = Lighting::new(scene);
     let known = vec![true; elements.vertices().len()];
     let gathering = Gathering {
@@ -25,7 +25,6 @@ fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer], rays: u3
         level: u32::MAX,
         known: &known,
         direct_from_map: true,
-        rays,
     };
     gathering.operator(gatherers, |k| Key::new(1).with(k as u64))
 }
@@ -42,8 +41,8 @@ const STORED: f64 = 1e-6;
 #[test]
 fn a_furnace_settles_where_all_light_is_alike() {
     let scene = room();
-    let (elements, gatherers) = elements_of(&scene);
-    let operator = operator(&scene, &elements, &gatherers, 32);
+    let (elements, gatherers) = elements_of(&scene, 32);
+    let operator = operator(&scene, &elements, &gatherers);
     let n = gatherers.len();
     let given = vec![Rgb::new(7.0, 5.0, 3.0); n];
     let expected = Rgb::new(7.0, 5.0, 3.0) * REFLECTANCE.map(|rho| rho / (1.0 - rho));
@@ -62,8 +61,8 @@ fn a_furnace_settles_where_all_light_is_alike() {
 #[test]
 fn one_application_reflects_once() {
     let scene = room();
-    let (elements, gatherers) = elements_of(&scene);
-    let operator = operator(&scene, &elements, &gatherers, 32);
+    let (elements, gatherers) = elements_of(&scene, 32);
+    let operator = operator(&scene, &elements, &gatherers);
     assert_eq!(operator.rays, 32 * gatherers.len() as u64);
     for e in operator.apply(&vec![Rgb::WHITE; gatherers.len()]) {
         assert!((0..3).all(|c| (e.0[c] - REFLECTANCE.0[c]).abs() < STORED), "{e:?}");
@@ -75,8 +74,8 @@ fn one_application_reflects_once() {
 #[test]
 fn the_fixed_point_is_one() {
     let scene = room();
-    let (elements, gatherers) = elements_of(&scene);
-    let operator = operator(&scene, &elements, &gatherers, 16);
+    let (elements, gatherers) = elements_of(&scene, 32);
+    let operator = operator(&scene, &elements, &gatherers);
     let given: Vec<Rgb> = (0..gatherers.len()).map(|k| Rgb::grey((k % 7) as f64)).collect();
     let solved = operator.solve(&given, &given, 1e-10);
     let light: Vec<Rgb> = solved.iter().zip(&given).map(|(&e, &g)| e + g).collect();
@@ -103,11 +102,10 @@ fn what_leaves_through_an_opening_is_its_form_factor() {
     let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
     shapes.truncate(5);
     let scene = scene(shapes, vec![painted(Rgb::WHITE)], vec![]);
-    let (elements, _) = elements_of(&scene);
-    let up = isolux_geometry::Normal::Z;
-    let gatherer = Gatherer::in_space(Point::new(1.5, 1.0, 1e-6), up);
-    let rays = 4096;
-    let operator = operator(&scene, &elements, &[gatherer], rays);
+    let (elements, _) = elements_of(&scene, 32);
+    let (up, rays) = (isolux_geometry::Normal::Z, 4096);
+    let gatherer = Gatherer::in_space(Point::new(1.5, 1.0, 1e-6), up, rays);
+    let operator = operator(&scene, &elements, &[gatherer]);
     let found = operator.apply(&vec![Rgb::WHITE; elements.vertices().len()])[0].luminance();
     let expected = 1.0 - 4.0 * corner_form_factor(1.5, 1.0, 2.5);
     // Independent rays would scatter by this; a net scatters less.
@@ -122,10 +120,10 @@ fn receivers_shut_in_by_black_backs_are_not_open() {
     let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
     shapes.iter_mut().flat_map(|s| &mut s.triangles).for_each(|t| t.swap(1, 2));
     let scene = scene(shapes, vec![painted(REFLECTANCE)], vec![]);
-    let (elements, _) = elements_of(&scene);
-    let inside = Gatherer::in_space(Point::new(1.0, 1.0, 1.0), isolux_geometry::Normal::Z);
-    let outside = Gatherer::in_space(Point::new(1.0, 1.0, 9.0), isolux_geometry::Normal::Z);
-    let operator = operator(&scene, &elements, &[inside, outside], 64);
+    let (elements, _) = elements_of(&scene, 32);
+    let inside = Gatherer::in_space(Point::new(1.0, 1.0, 1.0), isolux_geometry::Normal::Z, 64);
+    let outside = Gatherer::in_space(Point::new(1.0, 1.0, 9.0), isolux_geometry::Normal::Z, 64);
+    let operator = operator(&scene, &elements, &[inside, outside]);
     assert_eq!(operator.open(), [false, true]);
     let light = vec![Rgb::WHITE; elements.vertices().len()];
     assert_eq!(operator.apply(&light), [Rgb::BLACK; 2]);
