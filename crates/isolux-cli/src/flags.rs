@@ -250,6 +250,6 @@ pub(crate) struct DemoFlags {
     #[arg(short, long, value_name = "DIR", default_value = "out/demo")]
     pub output: PathBuf,
     /// Stop when the whole error of the scene is this small: 1% or 0.01
-    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "1%")]
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "5%")]
     pub accuracy: f64,
 }

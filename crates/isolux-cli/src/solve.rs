@@ -40,21 +40,16 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     Ok(solved.outcome)
 }
 
-/// Predicts, and computes only as much as that takes.
+/// Says what a run would need.
 fn dry_run(scene: &Scene, request: &SolveRequest, json: bool) -> Result<Outcome, Failure> {
-    let estimate = Estimate::of(scene, request).map_err(failure)?;
+    let estimate = Estimate::of(scene, request);
     if json {
         print_json(&estimate)?;
     } else {
-        let time = estimate.time_s.zip(estimate.time_earliest_s.zip(estimate.time_latest_s));
-        let time = time.map_or("cannot be told yet".to_owned(), |(likely, (early, late))| {
-            let (early, late) = (show_seconds(early), show_seconds(late));
-            format!("about {} ({early} to {late})", show_seconds(likely))
-        });
         print(&facts(&[
-            ("receivers", format!("at least {}", estimate.receivers)),
+            ("receivers", format!("about {}", estimate.receivers)),
             ("memory", format!("about {}", show_bytes(estimate.memory_bytes))),
-            ("time", time),
+            ("time", format!("first guess {}", show_seconds(estimate.time_s))),
         ]))?;
     }
     Ok(Outcome::Done)

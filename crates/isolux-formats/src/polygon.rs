@@ -5,8 +5,9 @@ use isolux::geometry::{Point, Vector};
 /// The largest polygon that is cut: the time grows with the square of the number of corners.
 pub(crate) const MOST_CORNERS: usize = 4096;
 
-/// A wrong turn of less than this share of the polygon's area is rounding of its coordinates.
-const ROUNDING_SHARE: f64 = 1e-9;
+/// A wrong turn of less than this share of the polygon's area is rounding: corners that should
+/// coincide, in files of six digits.
+const ROUNDING_SHARE: f64 = 1e-5;
 
 /// A polygon cut into triangles.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -2,13 +2,18 @@
 
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
+use isolux::scene::Scene;
 use isolux_formats::load;
 use std::path::Path;
 
 #[test]
 fn by_extension() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
-    for name in ["cornell_mcguire/CornellBox-Original.obj", "cornell_mcguire/scene.toml"] {
+    for name in [
+        "cornell_mcguire/CornellBox-Original.obj",
+        "cornell_mcguire/scene.toml",
+        "cornell_embree/scene.toml",
+    ] {
         let parts = load(&scenes.join(name)).unwrap_or_else(|p| panic!("{p}")).value;
         assert!(!parts.shapes.is_empty(), "{name}");
     }
@@ -32,4 +37,21 @@ fn anything_else_is_refused_with_what_is_read() {
         let message = load(Path::new(name)).unwrap_err().to_string();
         assert!(message.contains(name) && message.contains("read"), "{message}");
     }
+}
+
+#[test]
+fn the_demo_is_a_furnished_room() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/demo/scene.toml");
+    let loaded = load(&path).unwrap_or_else(|p| panic!("{p}"));
+    let unexpected: Vec<_> =
+        loaded.warnings.iter().filter(|w| !w.what.contains("lie exactly on others")).collect();
+    assert!(unexpected.is_empty(), "{unexpected:?}");
+    let scene = Scene::assemble(loaded.value).unwrap();
+    let (low, high) = scene.bvh().mesh().bounds().unwrap();
+    // Walls are in single precision; nothing sticks out of the room.
+    assert!((low.to_vector()).length() < 1e-6 && (high.x - 8.0).abs() < 1e-6, "{low:?} {high:?}");
+    assert!((high.y - 6.0).abs() < 1e-6 && (high.z - 3.0).abs() < 1e-6);
+    assert_eq!(scene.luminaires().len(), 14);
+    assert_eq!(scene.groups(), ["general", "table", "accent", "desk lamp"]);
+    assert_eq!(scene.cameras().len(), 2);
 }

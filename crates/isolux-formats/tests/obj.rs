@@ -39,7 +39,8 @@ fn mcguire_cornell_box() {
     assert_eq!(parts.name, "CornellBox-Original");
     assert_eq!(parts.up, UpAxis::Y);
     assert_eq!(parts.shapes.len(), 8);
-    assert_eq!(parts.shapes.iter().map(|s| s.triangles.len()).sum::<usize>(), 36);
+    // 18 quadrilaterals, of which two (sides of the boxes) are there twice.
+    assert_eq!(parts.shapes.iter().map(|s| s.triangles.len()).sum::<usize>(), 32);
     let left = parts.materials.iter().find(|m| m.name == "leftWall").unwrap();
     assert_eq!(left.finish(false).unwrap().diffuse.colour, Rgb::new(0.63, 0.065, 0.05));
     let scene = Scene::assemble(parts).unwrap();
@@ -113,8 +114,8 @@ fn concave_face_keeps_its_area() {
 
 #[test]
 fn objects_groups_and_materials_split_and_rejoin() {
-    let text = "mtllib thing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\no desk\nusemtl a\nf 1 2 3\n\
-                usemtl b\nf 1 2 3\ng legs\nf 1 2 3\nusemtl a\ng\nf 3 2 1\n";
+    let text = "mtllib thing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\no desk\nusemtl a\nf 1 2 3\n\
+                usemtl b\nf 1 2 3\ng legs\nf 1 2 3\nusemtl a\ng\nf 3 2 4\n";
     let parts = read_text(text, "newmtl a\nKd 0.2\nnewmtl b\nKd 0.4 0.4 0.4\n").unwrap().value;
     let found: Vec<_> =
         parts.shapes.iter().map(|s| (s.name.as_str(), s.material, s.triangles.len())).collect();
@@ -129,6 +130,16 @@ fn texture_coordinates_turn_downwards_and_corners_are_shared() {
     assert_eq!(shape.uvs.unwrap()[..4], [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.25]]);
     assert_eq!(shape.positions.len(), 7, "corners without vt and vn are vertices of their own");
     assert_eq!(shape.normals.unwrap()[3..5], [[0.0, 0.0, 1.0], [0.0; 3]]);
+}
+
+#[test]
+fn copies_of_a_face_are_left_out() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -0 0\nv 1 0 0\nf 1 2 3\nf 3 5 4\nf 1 2 3\ng other\nf 1 2 3\n";
+    let loaded = read_text(text, "").unwrap();
+    assert_eq!(loaded.value.shapes.iter().map(|s| s.triangles.len()).collect::<Vec<_>>(), [1, 1]);
+    let warning =
+        loaded.warnings.iter().find(|w| w.what.contains("lie exactly on others")).unwrap();
+    assert!(warning.place == "line 7" && warning.what.contains("all 2"), "{warning}");
 }
 
 #[test]

@@ -42,7 +42,7 @@ struct Audit {
     mean_reflectance: f64,
     mean_illuminance_lx: Option<f64>,
     open_edges: u64,
-    estimate: Option<Estimate>,
+    estimate: Estimate,
     findings: Vec<Finding>,
 }
 
@@ -66,8 +66,7 @@ impl Audit {
             mean_reflectance: energy.mean_reflectance,
             mean_illuminance_lx: energy.mean_illuminance_lx(borders.is_closed()),
             open_edges: borders.open,
-            // Without light or receivers the findings say so.
-            estimate: Estimate::of(scene, &SolveRequest::default()).ok(),
+            estimate: Estimate::of(scene, &SolveRequest::default()),
             findings,
         }
     }
@@ -77,9 +76,6 @@ impl Audit {
         let mean = self.mean_illuminance_lx.map_or("not a closed room".to_owned(), |lx| {
             format!("about {} lx, if all light stays inside", significant(lx, 2))
         });
-        let estimated = |show: fn(&Estimate) -> Option<String>| {
-            self.estimate.as_ref().and_then(show).unwrap_or_else(|| "cannot be told".to_owned())
-        };
         let mut text = facts(&[
             ("scene", self.scene.clone()),
             ("size", format!("{x} x {y} x {z} m")),
@@ -91,9 +87,9 @@ impl Audit {
             ("luminous flux", format!("{} lm", significant(self.luminous_flux_lm, 3))),
             ("mean reflectance", significant(self.mean_reflectance, 2)),
             ("mean illuminance", mean),
-            ("receivers at 1 %", estimated(|e| Some(format!("at least {}", e.receivers)))),
-            ("memory at 1 %", estimated(|e| Some(format!("about {}", show_bytes(e.memory_bytes))))),
-            ("time to 1 %", estimated(|e| e.time_s.map(|s| format!("about {}", show_seconds(s))))),
+            ("receivers at 1 %", format!("about {}", self.estimate.receivers)),
+            ("memory at 1 %", format!("about {}", show_bytes(self.estimate.memory_bytes))),
+            ("time to 1 %", format!("first guess {}", show_seconds(self.estimate.time_s))),
         ]);
         text += "\n";
         text += &self.findings.iter().map(Finding::line).collect::<String>();

@@ -12,8 +12,10 @@
 //! | `illum` 6, 7 | solid glass of index `Ni`, transmitting `Tf` |
 //! | `illum` 4, 9, or `d` below 1 | a thin pane transmitting `Tf`, or else `1 - d` |
 //!
-//! Surfaces reflect on both sides, because orientation in OBJ files is not to be relied on.
+//! Surfaces reflect on both sides, because orientation in OBJ files is not to be relied on; of faces
+//! with the same corners and material one is kept.
 
+mod copies;
 mod lines;
 mod material;
 mod mtl;

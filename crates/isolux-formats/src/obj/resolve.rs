@@ -1,5 +1,6 @@
 //! OBJ parts into shapes.
 
+use super::copies::{Copies, Places};
 use super::lines::place;
 use super::material::Materials;
 use super::record::{Corner, ObjFile, Part};
@@ -15,8 +16,9 @@ const IMPLAUSIBLE_EXTENT_M: f64 = 100.0;
 /// The scene of a file whose indices are all valid.
 pub(super) fn resolve(file: &ObjFile, materials: Materials, findings: &mut Findings) -> SceneParts {
     let mut shapes = Vec::with_capacity(file.parts.len());
+    let places = Places::of(file);
     for (part, &material) in file.parts.iter().zip(&materials.of_part) {
-        shapes.push(Builder::new(file, part).shape(material, findings));
+        shapes.push(Builder::new(file, part, &places).shape(material, findings));
     }
     if shapes.iter().all(|shape| shape.triangles.is_empty()) {
         findings.problem("", "there are no faces", "export polygons");
@@ -28,6 +30,13 @@ pub(super) fn resolve(file: &ObjFile, materials: Materials, findings: &mut Findi
         materials: materials.list,
         textures: materials.textures,
         ..SceneParts::default()
+    }
+}
+
+fn warn_of_faces(lines: &[usize], what: &str, remedy: &str, findings: &mut Findings) {
+    if let Some(&first) = lines.first() {
+        let what = format!("faces, here and in all {}, {what}", lines.len());
+        findings.warning(place(first), what, remedy);
     }
 }
 
@@ -51,30 +60,37 @@ pub(super) fn warn_of_units(file: &ObjFile, findings: &mut Findings) {
 struct Builder<'a> {
     file: &'a ObjFile,
     part: &'a Part,
+    copies: Copies<'a>,
     vertex_of: HashMap<Corner, u32>,
     vertices: Vec<Corner>,
     triangles: Vec<[u32; 3]>,
 }
 
 impl<'a> Builder<'a> {
-    fn new(file: &'a ObjFile, part: &'a Part) -> Self {
-        Self { file, part, vertex_of: HashMap::new(), vertices: Vec::new(), triangles: Vec::new() }
+    fn new(file: &'a ObjFile, part: &'a Part, places: &'a Places) -> Self {
+        Self {
+            file,
+            part,
+            copies: Copies::new(places),
+            vertex_of: HashMap::new(),
+            vertices: Vec::new(),
+            triangles: Vec::new(),
+        }
     }
 
     fn shape(mut self, material: u32, findings: &mut Findings) -> Shape {
-        let mut crossed = Vec::new();
+        let (mut crossed, mut copied) = (Vec::new(), Vec::new());
         for face in 0..self.part.faces.len() {
-            if self.add_face(face) {
-                crossed.push(self.part.faces[face].line);
+            let line = self.part.faces[face].line;
+            if self.copies.is_copy(self.part.corners_of(face)) {
+                copied.push(line);
+            } else if self.add_face(face) {
+                crossed.push(line);
             }
         }
-        if let Some(&first) = crossed.first() {
-            findings.warning(
-                place(first),
-                format!("{} faces (the first here) cross themselves", crossed.len()),
-                "triangulate them before export",
-            );
-        }
+        warn_of_faces(&crossed, "cross themselves", "triangulate them before export", findings);
+        let what = "lie exactly on others of the same material and are left out";
+        warn_of_faces(&copied, what, "remove the copies; every face has both sides", findings);
         Shape {
             name: self.part.name.clone(),
             positions: self

@@ -89,3 +89,15 @@ fn cornell_box_with_assigned_materials() {
     let towards_the_room = if light.back { normal.y > 0.0 } else { normal.y < 0.0 };
     assert!(towards_the_room);
 }
+
+/// What the book shows first is a scene.
+#[test]
+fn example_of_the_book() {
+    let root = scenes().join("..");
+    let book = std::fs::read_to_string(root.join("docs/book/scenes.md")).unwrap();
+    let example = book.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let lamp = std::fs::read_to_string(root.join("data/photometry/own/linear_1200.ies")).unwrap();
+    let loaded = read_with(example, &[("panel.ies", &lamp)]).unwrap_or_else(|p| panic!("{p}"));
+    assert_eq!(loaded.warnings, []);
+    assert_eq!(Scene::assemble(loaded.value).unwrap().luminaires().len(), 4);
+}

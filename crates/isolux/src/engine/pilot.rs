@@ -21,16 +21,22 @@ const FIRST_VERTICES: f64 = 1500.0;
 const MAX_ROUNDS: usize = 16;
 /// The part of the accuracy asked for that interpolating indirect light may take.
 const DISCRETIZATION_SHARE: f64 = 0.4;
-/// Elements are not bisected below this share of the scene's extent.
-const LEAST_EDGE_SHARE: f64 = 1e-4;
+/// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
+const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
 const PULL_IN: f64 = 2e-3;
 /// With more sources than this, rays read direct light from the map where they end.
 const MOST_SOURCES_EVALUATED: usize = 64;
-/// Vertices for the direct light of emitting surfaces, in multiples of those for indirect light.
-const MOST_FOR_SAMPLED_LIGHT: usize = 4;
+/// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
+/// many are cheap anyway.
+const MOST_FOR_DIRECT_LIGHT: usize = 2;
+const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
+/// A round that leaves more than this of the error was in vain.
+const STALLED: f64 = 0.85;
+/// Vertices for indirect light, unless the scene has nearly as many from the start.
+const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
 /// Fewest rays of a receiver that is not hidden.
-const FEWEST_RAYS: u32 = 8;
+pub(super) const FEWEST_RAYS: u32 = 8;
 /// Sweeps of the pilot end when they change less than this.
 const PILOT_TOLERANCE: f64 = 1e-4;
 
@@ -112,6 +118,7 @@ struct Pilot<'s> {
 /// What a round of the pilot sees.
 struct Look {
     elements: Elements,
+    vertices: usize,
     errors: Vec<LeafError>,
     rms_lx: f64,
 }
@@ -126,12 +133,18 @@ pub(super) fn pilot<'s>(
     let mut pilot = Pilot::new(scene, lighting, request);
     let goal = DISCRETIZATION_SHARE * request.target;
     let mut look = pilot.look();
+    let most = request.max_vertices.min(MOST_FOR_INDIRECT_LIGHT.max(look.vertices / 2 * 3));
+    let mut before = f64::INFINITY;
     for _ in 0..MAX_ROUNDS {
         let error = relative_error(&look.errors, look.rms_lx);
-        if error <= goal || !go_on(pilot.subdivision.vertex_count(), pilot.traced) {
+        // Where bisection no longer helps, what is left is noise: the check points will tell.
+        let stalled = error > STALLED * before;
+        let done = error <= goal || stalled;
+        if done || !go_on(pilot.subdivision.vertex_count(), pilot.traced) {
             break;
         }
-        let (least, most) = (pilot.least_edge_m, request.max_vertices);
+        before = error;
+        let least = pilot.least_edge_m;
         if !refine_worst(&mut pilot.subdivision, &look.errors, least, most) {
             break;
         }
@@ -205,7 +218,7 @@ impl<'s> Pilot<'s> {
             .collect();
         let errors = leaf_errors(&self.subdivision, &elements, &luminances);
         let rms_lx = rms(&elements, &self.known, lx);
-        Look { elements, errors, rms_lx }
+        Look { vertices: gatherers.len(), elements, errors, rms_lx }
     }
 
     fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
@@ -252,12 +265,11 @@ impl<'s> Pilot<'s> {
         let level = coarse.node_count() as u32;
         let mut known = std::mem::take(&mut self.known);
         let mut elements = look.elements;
-        // Sampled direct light has noise, which refinement cannot tell from shadow borders.
-        let most = if self.lighting.is_exact() {
-            request.max_vertices
-        } else {
-            request.max_vertices.min(MOST_FOR_SAMPLED_LIGHT * indirect_vertices)
-        };
+        // Best effort: sharp shadow borders would take elements without end, and of emitting surfaces
+        // refinement cannot tell noise from borders.
+        let most = (MOST_FOR_DIRECT_LIGHT * indirect_vertices).max(ALWAYS_FOR_DIRECT_LIGHT);
+        let most = most.min(request.max_vertices);
+        let least = self.least_edge_m;
         for _ in 0..MAX_ROUNDS {
             let luminances: Vec<Option<f64>> =
                 (0..known.len()).map(|k| known[k].then(|| self.direct[k].luminance())).collect();
@@ -266,7 +278,6 @@ impl<'s> Pilot<'s> {
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
             }
-            let least = self.least_edge_m;
             if !refine_worst(&mut self.subdivision, &errors, least, most) {
                 break;
             }

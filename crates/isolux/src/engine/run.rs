@@ -8,7 +8,7 @@ use super::emission::Emission;
 use super::filter::filter;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
-use super::pilot::{PilotRequest, Plan, pilot};
+use super::pilot::{FEWEST_RAYS, PilotRequest, Plan, pilot};
 use super::predict;
 use super::request::{Progress, SolveError, SolveRequest, Stage, Watch};
 use super::state::{RunIdentity, RunState, restore};
@@ -346,8 +346,7 @@ impl<'p, 's> Work<'p, 's> {
 
     /// Samples of a vertex in an increment; finer vertices are interpolated from coarser ones.
     fn samples(&self, vertex: usize) -> u64 {
-        let least = self.rays.iter().copied().min().unwrap_or(1);
-        u64::from(self.rays.get(vertex).copied().unwrap_or(least))
+        u64::from(self.rays.get(vertex).copied().unwrap_or(FEWEST_RAYS))
     }
 
     /// The values of the map, and what the filter did to them.
