@@ -6,6 +6,9 @@
 mod arrays;
 mod subdivide;
 
+#[cfg(test)]
+mod tests;
+
 pub use arrays::{ElementArrays, ElementArraysError};
 pub use subdivide::{Origin, Receiver, Subdivision};
 

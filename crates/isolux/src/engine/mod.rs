@@ -23,6 +23,9 @@ mod state;
 mod surface;
 mod tally;
 
+#[cfg(test)]
+mod tests;
+
 pub use accumulate::Sums;
 pub use probe::{ExactSettings, MapReader, ProbePoint};
 pub use request::{Prediction, Progress, SolveError, SolveRequest, Stage, Watch};

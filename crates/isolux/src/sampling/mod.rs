@@ -7,6 +7,9 @@ mod counter;
 mod sobol;
 mod warp;
 
+#[cfg(test)]
+mod tests;
+
 pub use counter::Key;
 pub use sobol::Sequence;
 pub use warp::{CosineHemisphere, Ggx, SphericalTriangle};

@@ -1,0 +1,179 @@
+//! Errors of the scene from numbers whose error is known.
+
+use super::*;
+use crate::engine::accumulate::{Accumulator, Sample};
+use crate::engine::accuracy::{BELIEVED_INCREMENTS, accuracy};
+use crate::engine::checks::{self, Check, InterpolationErrors};
+use crate::engine::direct::Lighting;
+use crate::engine::pilot::{PilotRequest, Plan, pilot};
+use crate::engine::predict;
+use crate::map::Accuracy;
+
+pub(super) fn room() -> Scene {
+    let lamp = isotropic([1.0, 1.2, 1.5], 100.0);
+    scene(inward_box([3.0, 2.0, 2.5], 0), vec![painted(Rgb::grey(0.5))], vec![lamp])
+}
+
+pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Plan<'s> {
+    let request = PilotRequest { target: 1.0, mesh_target: 1.0, seed: 1, max_vertices: 150 };
+    pilot(scene, lighting, &request, &mut |_, _| true)
+}
+
+/// A number about zero with variance one, close to normal: the sum of twelve.
+fn noise(key: Key) -> f64 {
+    (0..12).map(|k| key.with(k).uniform()).sum::<f64>() - 6.0
+}
+
+/// Sums of increments at every check point: an error common to all of them, and noise.
+fn check_sums(
+    checks: &[Check],
+    plan: &Plan,
+    common: impl Fn(&Check) -> f64,
+    sigma: f64,
+) -> Accumulator {
+    let mut sums = Accumulator::new(checks.len(), plan.rms_lx);
+    let vertices = plan.elements.vertices().len();
+    let (coarse, fine) = (vec![Rgb::grey(5.0); plan.indirect_vertices], vec![Rgb::BLACK; vertices]);
+    for increment in 0..16 {
+        let key = Key::new(4).with(increment);
+        let fresh: Vec<Rgb> = checks
+            .iter()
+            .enumerate()
+            .map(|(k, c)| Rgb::grey(5.0 - common(c) + sigma * noise(key.with(k as u64))))
+            .collect();
+        let direct = vec![Rgb::BLACK; checks.len()];
+        checks::add(&mut sums, checks, &fresh, &direct, &coarse, &fine);
+    }
+    sums
+}
+
+#[test]
+fn check_points_stand_for_the_whole_surface() {
+    let scene = room();
+    let lighting = Lighting::new(&scene);
+    let plan = small_plan(&scene, &lighting);
+    let checks = checks::draw(&plan, 0, Key::new(2));
+    assert!(checks.len() > 100);
+    // Floor against all, by the same weights: their common error is one on the floor, zero elsewhere.
+    let on_floor = |c: &Check| if c.gatherer.surface.point.z < 1e-3 { 1.0 } else { 0.0 };
+    let found = checks::errors(&check_sums(&checks, &plan, on_floor, 0.0), &checks);
+    let share: f64 = 6.0 / (2.0 * (6.0 + 7.5 + 5.0));
+    // Half the points are drawn where errors are large; weights differ by a factor of a few, so a
+    // share of a sixth of some 256 points is known to 0.04 or better.
+    assert!((found.indirect_lx.powi(2) - share).abs() < 0.08, "{found:?} {share}");
+    assert!((found.indirect_mean_lx - share).abs() < 0.08);
+}
+
+#[test]
+fn common_errors_are_seen_through_noise() {
+    let scene = room();
+    let lighting = Lighting::new(&scene);
+    let plan = small_plan(&scene, &lighting);
+    let checks = checks::draw(&plan, 0, Key::new(2));
+    let near = |found: f64, expected: f64, allowed: f64| {
+        assert!((found - expected).abs() < allowed, "{found} {expected}");
+    };
+    // Without noise the error is what it is.
+    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.3, 0.0), &checks);
+    near(found.indirect_lx, 0.3, 1e-3);
+    near(found.indirect_mean_lx, 0.3, 1e-3);
+    near(found.total_lx, 0.3, 1e-3);
+    // Noise of 0.4 an increment, 0.1 of the mean of sixteen: its square is taken off, its standard
+    // error left on, sqrt(2 / 256) of 0.01 and a few times that for uneven weights.
+    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.3, 0.4), &checks);
+    near(found.indirect_lx * found.indirect_lx, 0.09, 0.006);
+    near(found.indirect_mean_lx, 0.3, 0.04);
+    // Noise alone is no error beyond what it may hide.
+    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.0, 0.4), &checks);
+    assert!(found.indirect_lx < 0.06, "{found:?}");
+    // As much one way as the other: an error, but no bias.
+    let sign =
+        |c: &Check| if (c.gatherer.surface.point.x * 997.0) as i64 % 2 == 0 { 1.0 } else { -1.0 };
+    let found = checks::errors(&check_sums(&checks, &plan, sign, 0.0), &checks);
+    near(found.indirect_lx, 1.0, 1e-3);
+    assert!(found.indirect_mean_lx.abs() < 0.3, "{found:?}");
+}
+
+/// Sums with noise of a share of a value at every vertex.
+fn sums(plan: &Plan, increments: u64, sigma: f64) -> Accumulator {
+    let count = plan.elements.vertices().len();
+    let mut sums = Accumulator::new(count, 100.0);
+    for increment in 0..increments {
+        let key = Key::new(9).with(increment);
+        sums.add((0..count as u64).map(|k| Sample {
+            indirect: Rgb::grey(60.0 + 100.0 * sigma * noise(key.with(k))),
+            direct: Rgb::grey(40.0),
+            ..Sample::default()
+        }));
+    }
+    sums
+}
+
+#[test]
+fn accuracy_is_relative_and_its_parts_add_in_squares() {
+    let scene = room();
+    let lighting = Lighting::new(&scene);
+    let plan = small_plan(&scene, &lighting);
+    let errors = InterpolationErrors {
+        indirect_lx: 3.0,
+        total_lx: 4.0,
+        indirect_mean_lx: -2.0,
+        total_mean_lx: 50.0,
+    };
+    let found = accuracy(&plan, &sums(&plan, 25, 0.1), &errors).unwrap();
+    // Some 150 vertices of 25 increments: the variance is known to sqrt(2 / 3600) = 2.4 %.
+    assert!((found.statistical / 0.02 - 1.0).abs() < 5.0 * 0.012, "{found:?}");
+    // The root mean square of 100 lx with noise of 2 lx.
+    assert!((found.discretization - 0.03).abs() < 2e-4, "{found:?}");
+    // At a reflectance of one half what is read wrong is reflected once in all, and adds to what is
+    // wrong where it is read: (1 + 1)2 of its square, less the one of discretization.
+    assert!((found.bias - 0.02 * 3.0_f64.sqrt()).abs() < 2e-4, "{found:?}");
+    let root = |a: f64| (found.statistical.powi(2) + a * a + found.bias.powi(2)).sqrt();
+    assert!((found.reached - root(found.discretization)).abs() < 1e-12);
+    assert!((found.interpolated - root(0.04)).abs() < 1e-4);
+}
+
+#[test]
+fn too_few_increments_and_darkness_have_no_accuracy() {
+    let scene = room();
+    let lighting = Lighting::new(&scene);
+    let plan = small_plan(&scene, &lighting);
+    let none = InterpolationErrors::default();
+    assert!(accuracy(&plan, &sums(&plan, BELIEVED_INCREMENTS - 1, 0.1), &none).is_none());
+    let mut dark = Accumulator::new(plan.elements.vertices().len(), 1.0);
+    (0..16).for_each(|_| dark.add(plan.elements.vertices().iter().map(|_| Sample::default())));
+    assert!(accuracy(&plan, &dark, &none).is_none());
+}
+
+fn parts(statistical: f64, discretization: f64, bias: f64) -> Accuracy {
+    Accuracy { reached: 0.0, statistical, discretization, bias, interpolated: 0.0 }
+}
+
+#[test]
+fn increments_needed_follow_the_inverse_square() {
+    let needed = |a: Accuracy, target| predict::increments_needed(&a, 20, target);
+    let near = |found: Option<f64>, expected: f64| {
+        assert!(found.is_some_and(|n| (n / expected - 1.0).abs() < 1e-12), "{found:?} {expected}");
+    };
+    near(needed(parts(0.02, 0.0, 0.0), 0.01), 80.0);
+    near(needed(parts(0.02, 0.006, 0.0), 0.01), 20.0 * 4e-4 / 6.4e-5);
+    near(needed(parts(0.02, 0.0, 0.008), 0.01), 20.0 * 4e-4 / 3.6e-5);
+    near(needed(parts(0.005, 0.0, 0.0), 0.01), 5.0);
+    assert_eq!(needed(parts(0.001, 0.01, 0.0), 0.01), None);
+    assert_eq!(needed(parts(0.001, 0.008, 0.008), 0.01), None);
+}
+
+#[test]
+fn predictions_lie_in_their_interval_and_sharpen() {
+    let at = |increments| predict::finish(100.0, increments, 3.0, 3.0 + 0.5 * increments as f64);
+    for increments in [1, 8, 50, 99] {
+        let p = at(increments);
+        assert!((p.finish_s - 53.0).abs() < 1e-9);
+        assert!(p.earliest_s <= p.finish_s && p.finish_s <= p.latest_s);
+        assert!(p.earliest_s >= 3.0 + 0.5 * increments as f64, "before now");
+    }
+    assert!(at(50).latest_s - at(50).earliest_s < at(8).latest_s - at(8).earliest_s);
+    // Done already: now.
+    let done = predict::finish(5.0, 20, 0.0, 10.0);
+    assert_eq!((done.earliest_s, done.finish_s, done.latest_s), (10.0, 10.0, 10.0));
+}

@@ -1,0 +1,83 @@
+//! The cheap estimate at the ends of rays against the value at receivers.
+
+use super::direct_light::facing;
+use super::*;
+use crate::engine::direct::Lighting;
+
+const UP: [f64; 3] = [0.0, 0.0, 1.0];
+
+fn check(name: &str, scene: &Scene, place: [f64; 3], normal: [f64; 3]) {
+    let lighting = Lighting::new(scene);
+    let at = facing(place, normal);
+    let (value, known_to) =
+        mean_and_error((0..400).map(|k| lighting.illuminance(&at, &mut dice(k)).luminance()));
+    let (mean, error) =
+        mean_and_error((0..20_000).map(|k| lighting.estimate(&at, &mut dice(k)).luminance()));
+    assert!(value > 0.0, "{name}: the case is dark");
+    // Where nothing varies the two are the same sum in another order.
+    let allowed = SIGMAS * libm::hypot(error, known_to) + 1e-12 * value;
+    assert!((mean - value).abs() < allowed, "{name}: {mean} +- {error} for {value} +- {known_to}");
+}
+
+fn floor() -> Shape {
+    rectangle([-9.0, -9.0, -1.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0)
+}
+
+fn with(mut shapes: Vec<Shape>, luminaires: Vec<Luminaire>) -> Scene {
+    shapes.push(floor());
+    let mirror = Material::one_sided("mirror", Finish::mirror(Rgb::grey(0.7)));
+    let materials = vec![painted(Rgb::grey(0.5)), glowing(1000.0), mirror];
+    scene(shapes, materials, luminaires)
+}
+
+/// Luminaires in a row, of rising intensity.
+fn row(count: u32) -> Vec<Luminaire> {
+    let lamp = |k: u32| isotropic([f64::from(k) - 3.0, 0.5, 2.0], 50.0 + 30.0 * f64::from(k));
+    (0..count).map(lamp).collect()
+}
+
+fn panel(x: f64) -> Shape {
+    rectangle([x, -0.5, 1.5], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], 1)
+}
+
+#[test]
+fn of_points_it_is_unbiased() {
+    let screen = || rectangle([-2.0, -2.0, 1.0], [2.5, 0.0, 0.0], [0.0, 4.0, 0.0], 0);
+    check("three in the open", &with(vec![], row(3)), [0.0; 3], UP);
+    check("eight in the open", &with(vec![], row(8)), [0.0; 3], UP);
+    check("eight, some behind a screen", &with(vec![screen()], row(8)), [0.5, 0.0, 0.0], UP);
+    let mirror = rectangle([-4.0, 2.0, 0.0], [9.0, 0.0, 0.0], [0.0, 0.0, 4.0], 2);
+    check("eight and their images", &with(vec![mirror], row(8)), [0.5, 0.0, 0.0], UP);
+}
+
+#[test]
+fn of_whole_surfaces_it_is_unbiased() {
+    check("one", &with(vec![panel(0.0)], vec![]), [0.0; 3], UP);
+    check("six", &with((0..6).map(|k| panel(f64::from(k) - 3.0)).collect(), vec![]), [0.0; 3], UP);
+    check(
+        "six and points",
+        &with((0..6).map(|k| panel(f64::from(k))).collect(), row(3)),
+        [0.0; 3],
+        UP,
+    );
+}
+
+/// A wall that glows from the floor, below the receiver, up.
+fn wall() -> Shape {
+    rectangle([-0.3, -1.0, -0.9], [0.0, 2.0, 0.0], [0.0, 0.0, 1.9], 1)
+}
+
+#[test]
+#[ignore = "fault: one sample that falls below the horizon counts as full shadow"]
+fn of_surfaces_that_cross_the_horizon_it_is_unbiased() {
+    check("a wall", &with(vec![wall()], vec![]), [0.0; 3], UP);
+}
+
+#[test]
+#[ignore = "fault: value or shadow is kept by what the sample itself saw"]
+fn of_surfaces_half_in_shadow_it_is_unbiased() {
+    // The screen hides what is brightest, the part right above.
+    let screen = rectangle([-0.1, -9.0, 0.2], [9.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0);
+    let wide = rectangle([-3.0, -3.0, 0.5], [0.0, 6.0, 0.0], [6.0, 0.0, 0.0], 1);
+    check("a ceiling", &with(vec![wide, screen], vec![]), [0.0; 3], UP);
+}

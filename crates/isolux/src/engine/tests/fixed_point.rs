@@ -1,0 +1,150 @@
+//! The operator of transport: enclosures whose light is known whatever their shape.
+
+use super::*;
+use crate::elements::{Elements, Subdivision};
+use crate::engine::direct::Lighting;
+use crate::engine::gather::{Gatherer, Gathering, Operator, known_weights};
+use std::f64::consts::PI;
+
+fn elements_of(scene: &Scene, rays: u32) -> (Elements, Vec<Gatherer>) {
+    let mut subdivision = Subdivision::new(scene);
+    subdivision.bisect_to(0.9, usize::MAX);
+    let receivers = subdivision.receivers(0.01);
+    let gatherers = receivers.iter().map(|r| Gatherer::at_vertex(scene, r, rays)).collect();
+    (subdivision.elements(), gatherers)
+}
+
+/// The operator of a scene over its own vertices, direct light read from the map.
+fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer]) -> Operator {
+    let lighting = Lighting::new(scene);
+    let known = vec![true; elements.vertices().len()];
+    let gathering = Gathering {
+        scene,
+        lighting: &lighting,
+        elements,
+        level: u32::MAX,
+        known: &known,
+        direct_from_map: true,
+    };
+    gathering.operator(gatherers, |k| Key::new(1).with(k as u64))
+}
+
+const REFLECTANCE: Rgb = Rgb::new(0.9, 0.5, 0.1);
+
+fn room() -> Scene {
+    scene(inward_box([3.0, 2.0, 2.5], 0), vec![painted(REFLECTANCE)], vec![])
+}
+
+/// Weights of a ray are stored in `f32`.
+const STORED: f64 = 1e-6;
+
+#[test]
+fn a_furnace_settles_where_all_light_is_alike() {
+    let scene = room();
+    let (elements, gatherers) = elements_of(&scene, 32);
+    let operator = operator(&scene, &elements, &gatherers);
+    let n = gatherers.len();
+    let given = vec![Rgb::new(7.0, 5.0, 3.0); n];
+    let expected = Rgb::new(7.0, 5.0, 3.0) * REFLECTANCE.map(|rho| rho / (1.0 - rho));
+    for guess in [Rgb::BLACK, Rgb::grey(1e4)] {
+        let solved = operator.solve(&vec![guess; n], &given, 1e-9);
+        for e in solved {
+            for c in 0..3 {
+                // An error of a ray's weight is reflected as the light is.
+                let allowed = STORED / (1.0 - REFLECTANCE.0[c]) * expected.0[c];
+                assert!((e.0[c] - expected.0[c]).abs() < allowed, "{e:?} for {expected:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn one_application_reflects_once() {
+    let scene = room();
+    let (elements, gatherers) = elements_of(&scene, 32);
+    let operator = operator(&scene, &elements, &gatherers);
+    assert_eq!(operator.rays, 32 * gatherers.len() as u64);
+    for e in operator.apply(&vec![Rgb::WHITE; gatherers.len()]) {
+        assert!((0..3).all(|c| (e.0[c] - REFLECTANCE.0[c]).abs() < STORED), "{e:?}");
+    }
+    // One wall of the box faces away from no other: all rays end on fronts.
+    assert!(operator.open().iter().all(|open| !open));
+}
+
+#[test]
+fn the_fixed_point_is_one() {
+    let scene = room();
+    let (elements, gatherers) = elements_of(&scene, 32);
+    let operator = operator(&scene, &elements, &gatherers);
+    let given: Vec<Rgb> = (0..gatherers.len()).map(|k| Rgb::grey((k % 7) as f64)).collect();
+    let solved = operator.solve(&given, &given, 1e-10);
+    let light: Vec<Rgb> = solved.iter().zip(&given).map(|(&e, &g)| e + g).collect();
+    for (a, b) in operator.apply(&light).iter().zip(&solved) {
+        // The last change was 1e-10 of the root mean square, of values of about ten.
+        assert!((0..3).all(|c| (a.0[c] - b.0[c]).abs() < 1e-7), "{a:?} {b:?}");
+    }
+}
+
+/// Form factor of a rectangle `a x b` in a parallel plane at distance `h` from a point below one of its
+/// corners (Howell, "A catalog of radiation heat transfer configuration factors", B-3).
+pub(super) fn corner_form_factor(a: f64, b: f64, h: f64) -> f64 {
+    let (x, y) = (a / h, b / h);
+    let part = |x: f64, y: f64| {
+        let root = (1.0 + x * x).sqrt();
+        x / root * libm::atan(y / root)
+    };
+    (part(x, y) + part(y, x)) / (2.0 * PI)
+}
+
+#[test]
+fn what_leaves_through_an_opening_is_its_form_factor() {
+    // The room without its ceiling, from the middle of the floor.
+    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
+    shapes.truncate(5);
+    let scene = scene(shapes, vec![painted(Rgb::WHITE)], vec![]);
+    let (elements, _) = elements_of(&scene, 32);
+    let (up, rays) = (isolux_geometry::Normal::Z, 4096);
+    let gatherer = Gatherer::in_space(Point::new(1.5, 1.0, 1e-6), up, rays);
+    let operator = operator(&scene, &elements, &[gatherer]);
+    let found = operator.apply(&vec![Rgb::WHITE; elements.vertices().len()])[0].luminance();
+    let expected = 1.0 - 4.0 * corner_form_factor(1.5, 1.0, 2.5);
+    // Independent rays would scatter by this; a net scatters less.
+    let sigma = (expected * (1.0 - expected) / f64::from(rays)).sqrt();
+    assert!((found - expected).abs() < SIGMAS * sigma, "{found} {expected}");
+    assert_eq!(operator.open(), [true]);
+}
+
+#[test]
+fn receivers_shut_in_by_black_backs_are_not_open() {
+    // The room inside out: from inside all walls are black backs.
+    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
+    shapes.iter_mut().flat_map(|s| &mut s.triangles).for_each(|t| t.swap(1, 2));
+    let scene = scene(shapes, vec![painted(REFLECTANCE)], vec![]);
+    let (elements, _) = elements_of(&scene, 32);
+    let inside = Gatherer::in_space(Point::new(1.0, 1.0, 1.0), isolux_geometry::Normal::Z, 64);
+    let outside = Gatherer::in_space(Point::new(1.0, 1.0, 9.0), isolux_geometry::Normal::Z, 64);
+    let operator = operator(&scene, &elements, &[inside, outside]);
+    assert_eq!(operator.open(), [false, true]);
+    let light = vec![Rgb::WHITE; elements.vertices().len()];
+    assert_eq!(operator.apply(&light), [Rgb::BLACK; 2]);
+}
+
+#[test]
+fn weights_go_to_what_is_known() {
+    let corners = [(0, 0.2), (1, 0.3), (2, 0.5)];
+    for (known, expected) in [
+        ([true, true, true], Some([0.2, 0.3, 0.5])),
+        ([true, true, false], Some([0.4, 0.6, 0.0])),
+        ([false, false, true], Some([0.0, 0.0, 1.0])),
+        ([false, false, false], None),
+    ] {
+        let found = known_weights(corners, &known);
+        assert_eq!(found.is_some(), expected.is_some());
+        for (a, b) in found.into_iter().flatten().zip(expected.into_iter().flatten()) {
+            assert!((a - b).abs() < 1e-15, "{known:?}: {found:?}");
+        }
+    }
+    // On the edge of two unknown vertices the third is all there is.
+    let far = [(0, 0.0), (1, 0.4), (2, 0.6)];
+    assert_eq!(known_weights(far, &[true, false, false]), Some([1.0, 0.0, 0.0]));
+}

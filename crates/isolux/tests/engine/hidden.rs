@@ -1,0 +1,124 @@
+//! Places that light cannot reach, and sheets that it reaches from both sides.
+
+use crate::rooms::{inward_box, lamp, outward_box, painted, rectangle, scene};
+use crate::runs::{METHODS, assert_valid, run};
+use isolux::elements::Vertex;
+use isolux::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest};
+use isolux::geometry::{Normal, Point, Ray};
+use isolux::map::{Illuminance, IlluminationMap, Method};
+use isolux::scene::{Finish, Material, Scene};
+use isolux::units::Rgb;
+
+/// A closed box from (1.1, 1.1, 0) to (2.3, 2.3, 1), on the floor of a room.
+const FOOT: [f64; 2] = [1.1, 2.3];
+
+fn standing(material: Material) -> Scene {
+    let mut shapes = inward_box([0.0; 3], [4.0, 4.0, 3.0], 0);
+    shapes.extend(outward_box([FOOT[0], FOOT[0], 0.0], [FOOT[1], FOOT[1], 1.0], 1));
+    scene(shapes, vec![painted(0.5), material], vec![lamp([3.0, 3.0, 2.5], 1000.0)])
+}
+
+fn map(scene: &Scene, method: Method) -> IlluminationMap {
+    let request = SolveRequest { method, accuracy: Some(0.02), ..SolveRequest::default() };
+    let map = run(scene, &request, 10).expect("the scene has light").map;
+    assert_valid("hidden", &map);
+    map
+}
+
+fn is_under_box(vertex: &Vertex) -> bool {
+    let within = |c: f64| c > FOOT[0] + 1e-3 && c < FOOT[1] - 1e-3;
+    let p = vertex.position;
+    p.z == 0.0 && vertex.normal == Normal::Z && within(p.x) && within(p.y)
+}
+
+fn check_unknown_under(box_of: Material) {
+    let scene = standing(box_of);
+    for method in METHODS {
+        let map = map(&scene, method);
+        let under = map.elements.vertices().iter().zip(&map.values);
+        let under: Vec<_> = under.filter(|(v, _)| is_under_box(v)).collect();
+        assert!(under.len() > 20, "the mesh is too coarse to tell");
+        let known = under.iter().filter(|(_, value)| value.is_some()).count();
+        assert_eq!(known, 0, "{method:?}: of {}", under.len());
+    }
+}
+
+#[test]
+fn the_floor_under_a_box_is_unknown() {
+    check_unknown_under(painted(0.5));
+}
+
+#[test]
+#[ignore = "fault: light leaks over floor elements that reach under the wall of a box painted on both sides"]
+fn the_floor_under_a_box_painted_inside_is_unknown() {
+    check_unknown_under(painted_inside());
+}
+
+fn painted_inside() -> Material {
+    Material::two_sided("painted", Finish::diffuse(Rgb::grey(0.5)))
+}
+
+fn at_floor(scene: &Scene, map: &IlluminationMap, x: f64, y: f64) -> Illuminance {
+    let down = Ray::new(Point::new(x, y, 0.01), -Normal::Z.to_direction());
+    let hit = scene.bvh().closest_hit(&down).expect("a floor");
+    map.interpolate(hit.triangle, hit.back, f64::from(hit.u), f64::from(hit.v)).expect("known")
+}
+
+/// On the lit side of the box, from the foot on: gathered afresh and as the map has it.
+fn check_beside(box_of: Material) {
+    let scene = standing(box_of);
+    let map = map(&scene, Method::Hybrid);
+    let reader = MapReader::new(&scene, &map);
+    for (y, distance) in
+        [(1.4, 0.005), (1.7, 0.005), (1.7, 0.02), (2.0, 0.05), (1.7, 0.1), (1.4, 0.2)]
+    {
+        let (x, read) = (FOOT[1] + distance, at_floor(&scene, &map, FOOT[1] + distance, y));
+        let place = ProbePoint { position: Point::new(x, y, 0.0), normal: Normal::Z };
+        let exact = reader.estimate(place, &ExactSettings::default());
+        let (read_lx, exact_lx) = (read.illuminance_lx(), exact.illuminance_lx());
+        // Five standard errors of vertices, and three times the error the map is made for: places
+        // by a contact are its worst.
+        let error = libm::hypot(read.standard_error_lx, exact.standard_error_lx);
+        assert!(
+            (read_lx - exact_lx).abs() < 5.0 * error + 0.06 * exact_lx,
+            "{distance} m from the foot: {read_lx} for {exact_lx} +- {error}"
+        );
+    }
+}
+
+#[test]
+fn the_floor_beside_a_box_is_not_darkened() {
+    check_beside(painted(0.5));
+}
+
+#[test]
+#[ignore = "fault: the dark floor under a box painted on both sides counts as known"]
+fn the_floor_beside_a_box_painted_inside_is_not_darkened() {
+    check_beside(painted_inside());
+}
+
+#[test]
+fn both_sides_of_a_sheet_have_their_own_light() {
+    let sheet = Material::two_sided("sheet", Finish::diffuse(Rgb::grey(0.3)));
+    let shapes = vec![rectangle([-1.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0)];
+    let lamps = vec![lamp([0.0, 0.0, 1.0], 100.0), lamp([0.0, 0.0, -2.0], 100.0)];
+    let scene = scene(shapes, vec![sheet], lamps);
+    for method in METHODS {
+        let map = map(&scene, method);
+        let mean = |up: bool| {
+            let side = |v: &Vertex| (v.normal.to_vector().z > 0.0) == up;
+            let values = map.elements.vertices().iter().zip(&map.values);
+            let near = |v: &Vertex| v.position.x.abs() < 0.2 && v.position.y.abs() < 0.2;
+            let lx: Vec<f64> = values
+                .filter(|(v, _)| side(v) && near(v))
+                .map(|(_, value)| value.expect("both sides are lit").illuminance_lx())
+                .collect();
+            lx.iter().sum::<f64>() / lx.len() as f64
+        };
+        // Within 20 cm of the middle, by the inverse square and the cosine: 0.92 to 1 of the peak; and the noise
+        // of particles.
+        let (above, below) = (mean(true), mean(false));
+        assert!(above > 90.0 && above < 103.0, "{method:?}: {above} lx above");
+        assert!(below > 23.0 && below < 26.5, "{method:?}: {below} lx below");
+    }
+}

@@ -1,0 +1,10 @@
+//! The engines from outside: from a scene to a map.
+
+mod balance;
+mod calibration;
+mod degenerate;
+mod hidden;
+mod refusals;
+mod repeat;
+mod rooms;
+mod runs;

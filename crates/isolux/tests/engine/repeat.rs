@@ -1,0 +1,93 @@
+//! The same input gives the same bits.
+
+use crate::rooms::{
+    clear_glass, glowing, inward_box, lamp, outward_box, painted, rectangle, scene,
+};
+use crate::runs::{METHODS, coarse, run};
+use isolux::engine::{Solution, SolveRequest, Stage, Watch, solve};
+use isolux::map::IlluminationMap;
+use isolux::scene::{Finish, Gloss, Material, Scene};
+use isolux::units::Rgb;
+
+/// A room with some of everything: lamps, a glowing square, mirror, gloss, pane, solid glass.
+fn everything() -> Scene {
+    let mut shapes = inward_box([0.0; 3], [3.0, 2.0, 2.5], 0);
+    shapes.push(rectangle([1.0, 0.8, 2.4], [0.0, 0.4, 0.0], [0.6, 0.0, 0.0], 1));
+    shapes.push(rectangle([2.9, 0.2, 0.2], [0.0, 0.0, 1.5], [0.0, 1.5, 0.0], 2));
+    shapes.extend(outward_box([0.4, 0.5, 0.0], [0.9, 1.0, 0.6], 3));
+    shapes.push(rectangle([0.3, 1.6, 0.1], [1.5, 0.0, 0.0], [0.0, 0.2, 1.0], 4));
+    shapes.extend(outward_box([1.5, 0.4, 0.5], [2.0, 0.9, 1.0], 5));
+    let gloss = Finish {
+        gloss: Some(Gloss { f0: Rgb::new(0.3, 0.2, 0.1), alpha: 0.2 }),
+        ..Finish::diffuse(Rgb::new(0.2, 0.5, 0.3))
+    };
+    let materials = vec![
+        painted(0.5),
+        glowing(500.0, 0.2),
+        Material::two_sided("mirror", Finish::mirror(Rgb::new(0.9, 0.8, 0.7))),
+        Material::two_sided("gloss", gloss),
+        clear_glass(1.5, true),
+        clear_glass(1.5, false),
+    ];
+    scene(shapes, materials, vec![lamp([1.0, 1.2, 1.5], 100.0), lamp([2.2, 0.4, 1.9], 40.0)])
+}
+
+/// A map written out, so that zeros of either sign count as different.
+fn written(map: &IlluminationMap) -> String {
+    format!("{map:?}")
+}
+
+fn on_threads(threads: usize, scene: &Scene, request: &SolveRequest) -> Solution {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
+    pool.install(|| run(scene, request, 9)).expect("the scene has light")
+}
+
+#[test]
+fn threads_change_no_bit() {
+    let scene = everything();
+    for method in METHODS {
+        let request = coarse(method, 250);
+        let one = on_threads(1, &scene, &request);
+        for threads in [1, 2, 3] {
+            let again = on_threads(threads, &scene, &request);
+            assert_eq!(written(&again.map), written(&one.map), "{method:?} on {threads} threads");
+            assert_eq!(again.state, one.state, "{method:?} on {threads} threads");
+        }
+    }
+}
+
+#[test]
+fn other_seeds_give_other_maps_of_the_same_light() {
+    let scene = everything();
+    for method in METHODS {
+        let of = |seed: u64| {
+            let request = SolveRequest { seed, ..coarse(method, 250) };
+            run(&scene, &request, 9).expect("the scene has light").map
+        };
+        let (a, b) = (of(1), of(2));
+        assert_eq!(a.elements, b.elements);
+        let mean = |map: &IlluminationMap| {
+            let values = map.values.iter().flatten();
+            values.map(|v| v.illuminance_lx()).sum::<f64>() / map.values.len() as f64
+        };
+        assert_ne!(written(&a), written(&b));
+        assert!((mean(&a) / mean(&b) - 1.0).abs() < 0.05, "{method:?}: {} {}", mean(&a), mean(&b));
+    }
+}
+
+#[test]
+fn a_run_stopped_and_resumed_gives_the_same_bits() {
+    let scene = everything();
+    for method in METHODS {
+        let request = coarse(method, 250);
+        let whole = run(&scene, &request, 12).expect("the scene has light");
+        let part = run(&scene, &request, 5).expect("the scene has light");
+        assert_eq!(part.state.increments, 5);
+        let stop = &mut |p: &isolux::engine::Progress| {
+            let enough = p.stage == Stage::Increments && p.increments >= 12;
+            if enough { Watch::Stop } else { Watch::Continue }
+        };
+        let resumed = solve(&scene, &request, Some(&part.state), stop).expect("the same run");
+        assert_eq!(written(&resumed.map), written(&whole.map), "{method:?}");
+    }
+}

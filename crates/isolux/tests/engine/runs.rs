@@ -1,0 +1,55 @@
+//! Runs that end.
+
+use isolux::engine::{Solution, SolveError, SolveRequest, Stage, Watch, solve};
+use isolux::map::{IlluminationMap, Method};
+use isolux::scene::Scene;
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+pub(crate) const METHODS: [Method; 2] = [Method::Hybrid, Method::Forward];
+
+/// What an engine counts for a vertex, bytes: memory is how its meshes are kept small here.
+const BYTES_A_VERTEX: u64 = 2400;
+
+/// A request that refines nothing and stops as soon as it may.
+pub(crate) fn coarse(method: Method, vertices: u64) -> SolveRequest {
+    SolveRequest {
+        method,
+        accuracy: Some(1.0),
+        mesh_accuracy: 1.0,
+        max_memory_bytes: vertices * BYTES_A_VERTEX,
+        ..SolveRequest::default()
+    }
+}
+
+/// Solves, with so many increments at most.
+pub(crate) fn run(
+    scene: &Scene,
+    request: &SolveRequest,
+    increments: u64,
+) -> Result<Solution, SolveError> {
+    solve(scene, request, None, &mut |progress| {
+        let enough = progress.stage == Stage::Increments && progress.increments >= increments;
+        if enough { Watch::Stop } else { Watch::Continue }
+    })
+}
+
+/// A valid map has numbers where it has values.
+pub(crate) fn assert_valid(name: &str, map: &IlluminationMap) {
+    assert_eq!(map.values.len(), map.elements.vertices().len(), "{name}");
+    for value in map.values.iter().flatten() {
+        let parts = [value.direct_lx, value.caustic_lx, value.indirect_lx];
+        assert!(parts.iter().all(|p| p.is_finite()), "{name}: {value:?}");
+        assert!(value.standard_error_lx >= 0.0, "{name}: {value:?}");
+    }
+}
+
+/// The result of work that must be done in time; a run that hangs fails its test instead of all.
+pub(crate) fn within<T: Send + 'static>(
+    limit: Duration,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Option<T> {
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || sender.send(work()));
+    receiver.recv_timeout(limit).ok()
+}
