@@ -41,6 +41,24 @@ impl Plane {
         self.height(corner) > tolerance_m
     }
 
+    /// Where light from `from` going `towards` meets the plane from its reflecting side, if that is
+    /// in the box around the mirror's triangles, widened by the rounding of heights: `tolerance_m`
+    /// over the sine of the angle to the plane.
+    pub(super) fn crossing(&self, from: Point, towards: Vector, tolerance_m: f64) -> Option<Point> {
+        let descent = -towards.dot(self.normal.to_vector());
+        let height = self.height(from).max(0.0);
+        if descent <= 0.0 {
+            return None;
+        }
+        let at = from + towards * (height / descent);
+        let margin_m = tolerance_m * (2.0 + 2.0 * towards.length() / descent);
+        let within = |low: f64, x: f64, high: f64| low - margin_m <= x && x <= high + margin_m;
+        let inside = within(self.low.x, at.x, self.high.x)
+            && within(self.low.y, at.y, self.high.y)
+            && within(self.low.z, at.z, self.high.z);
+        inside.then_some(at)
+    }
+
     fn include(&mut self, corners: &Triangle) {
         self.area_m2 += corners.area();
         for p in corners.corners {

@@ -7,6 +7,7 @@
 
 mod area;
 mod mirrors;
+mod panes;
 mod source;
 mod visibility;
 
@@ -15,6 +16,7 @@ use super::surface::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use mirrors::Mirrors;
+use panes::Panes;
 pub(super) use source::LuminaireId;
 use source::{Source, SourceKind};
 
@@ -32,7 +34,7 @@ pub(super) struct Lighting<'s> {
     mirrors: Mirrors,
     sources: Vec<Source>,
     area_sources: usize,
-    has_glass: bool,
+    panes: Panes,
 }
 
 impl<'s> Lighting<'s> {
@@ -40,10 +42,10 @@ impl<'s> Lighting<'s> {
     pub(super) fn new(scene: &'s Scene) -> Self {
         let mirrors = Mirrors::find(scene);
         let sources = source::sources(scene, &mirrors);
-        let has_glass = scene.materials().iter().any(|m| m.finish(false).is_none());
+        let panes = Panes::find(scene);
         let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
         let area_sources = sources.iter().filter(is_area).count();
-        Self { scene, mirrors, sources, area_sources, has_glass }
+        Self { scene, mirrors, sources, area_sources, panes }
     }
 
     /// Number of sources, images included.
@@ -58,7 +60,7 @@ impl<'s> Lighting<'s> {
 
     /// Whether there is specular transport that the sources do not cover.
     pub(super) fn leaves_caustics(&self) -> bool {
-        self.has_glass
+        self.panes.exist()
             || self.mirrors.leaves_some_out
             || self.scene.materials().iter().any(has_gloss)
     }
@@ -93,8 +95,11 @@ impl<'s> Lighting<'s> {
         if self.sources.len() <= EXACT_SOURCES {
             return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
         }
-        let weights: Vec<f64> =
-            self.sources.iter().map(|s| source::importance(self.scene, s, at)).collect();
+        let weight = |source: &Source| {
+            let is_in_view = |target| self.chain_is_in_view(source, at, target);
+            source::importance(self.scene, source, at, is_in_view)
+        };
+        let weights: Vec<f64> = self.sources.iter().map(weight).collect();
         let total: f64 = weights.iter().sum();
         if total <= 0.0 {
             return Rgb::BLACK;

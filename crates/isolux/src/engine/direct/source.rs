@@ -222,14 +222,22 @@ fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution {
 }
 
 /// How likely a source should be drawn at a point: in proportion to what it would give without
-/// obstacles, exactly for points, roughly (and never zero) for surfaces.
-pub(super) fn importance(scene: &Scene, source: &Source, at: &SurfacePoint) -> f64 {
+/// obstacles, exactly for points, roughly (and never zero) for surfaces. Images that `is_in_view`
+/// does not see through their mirrors are not drawn.
+pub(super) fn importance(
+    scene: &Scene,
+    source: &Source,
+    at: &SurfacePoint,
+    is_in_view: impl Fn(Target) -> bool,
+) -> f64 {
     match &source.kind {
         SourceKind::Area { emitter, .. } => {
             let area_m2 = emitter.area_sums_m2.last().copied().unwrap_or(0.0);
             let distance_squared = (emitter.centre - at.point).length_squared();
             source.colour.luminance() * area_m2 / (distance_squared + area_m2)
         }
-        _ => unoccluded(scene, source, at).map_or(0.0, |a| a.illuminance_lx.luminance()),
+        _ => unoccluded(scene, source, at)
+            .filter(|arriving| is_in_view(arriving.target))
+            .map_or(0.0, |arriving| arriving.illuminance_lx.luminance()),
     }
 }

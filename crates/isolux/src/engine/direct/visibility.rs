@@ -22,6 +22,9 @@ impl Lighting<'_> {
         target: Target,
         emitter: Option<u32>,
     ) -> Rgb {
+        if !self.chain_is_in_view(source, at, target) {
+            return Rgb::BLACK;
+        }
         let mut from = *at;
         let mut target = target;
         let mut share = Rgb::WHITE;
@@ -40,7 +43,31 @@ impl Lighting<'_> {
         if self.scene.bvh().any_hit(&ray) {
             return Rgb::BLACK;
         }
-        if self.has_glass { share * self.through_glass(ray) } else { share }
+        share * self.through_glass(ray)
+    }
+
+    /// Whether the way to an image goes through its mirrors, obstacles left out: without rays, and
+    /// soon, as most of a room does not see itself in a mirror.
+    pub(super) fn chain_is_in_view(
+        &self,
+        source: &Source,
+        at: &SurfacePoint,
+        mut target: Target,
+    ) -> bool {
+        let mut from = at.point;
+        for &plane in source.chain.iter().rev() {
+            let mirror = &self.mirrors.planes[plane as usize];
+            let towards = match target {
+                Target::Point(image) => image - from,
+                Target::Infinity(direction) => direction.to_vector(),
+            };
+            let Some(crossing) = mirror.crossing(from, towards, self.mirrors.tolerance_m) else {
+                return false;
+            };
+            from = crossing;
+            target = self.unreflected(target, plane);
+        }
+        true
     }
 
     fn unreflected(&self, target: Target, plane: u32) -> Target {
@@ -83,15 +110,15 @@ impl Lighting<'_> {
     fn through_glass(&self, mut ray: Ray) -> Rgb {
         let mut share = Rgb::WHITE;
         for _ in 0..MAX_PANES {
-            let Some(hit) = self.scene.bvh().closest_hit(&ray) else { return share };
+            let Some(hit) = self.panes.closest_hit(&ray) else { return share };
             let surface = SurfacePoint::from_hit(self.scene, &hit);
             let Some(passed) = self.pane_share(&surface, &ray) else { return Rgb::BLACK };
             share = share * passed;
             // The rest of the segment, on the other side of the pane.
             let passed = f64::from(hit.t);
             let rest = Point::from(ray.origin) + Vector::from(ray.direction) * passed;
-            let start = offset_origin(rest, -surface.geometric);
-            ray = Ray { origin: start.to_f32(), t_max: ray.t_max - hit.t, skip: None, ..ray };
+            let origin = offset_origin(rest, -surface.geometric).to_f32();
+            ray = Ray { origin, t_max: ray.t_max - hit.t, skip: Some(hit.triangle), ..ray };
         }
         Rgb::BLACK
     }
