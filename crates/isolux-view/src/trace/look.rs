@@ -14,6 +14,8 @@ use std::f64::consts::PI;
 const SPLIT_DEPTH: u32 = 2;
 /// Weights below half a step of an eight-bit display are not followed.
 const INVISIBLE: f64 = 1.0 / 512.0;
+/// Luminances that differ by less than this share look alike.
+const ALIKE: f64 = 0.03;
 /// Black backs in a row that a camera looks through.
 const MAX_BACKS: u32 = 64;
 
@@ -40,6 +42,17 @@ impl Look {
         sight: Sight::Background,
         surface: None,
     };
+
+    /// Whether two looks see one surface in the same light, as far as a picture can show.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let one_surface = match (&self.surface, &other.surface) {
+            (Some(a), Some(b)) => a.continues(b),
+            (None, None) => true,
+            _ => false,
+        };
+        let (a, b) = (self.luminance_cd_m2.luminance(), other.luminance_cd_m2.luminance());
+        one_surface && self.sight == other.sight && (a - b).abs() <= ALIKE * a.max(b)
+    }
 
     /// As stored in an image.
     pub(super) fn seen(&self) -> Seen {

@@ -16,6 +16,9 @@ use isolux::scene::{Camera, Scene};
 use look::{Look, Looker};
 use rayon::prelude::*;
 
+/// Cells along the side of a pixel from which on some of them can stand for the others.
+const FEWEST_TO_COMPARE: u32 = 3;
+
 /// Looks at a scene. `read` gives the illuminance of a place of a surface, `None` where it is not
 /// known: the bare map, or direct light evaluated afresh with the indirect part interpolated.
 ///
@@ -47,7 +50,8 @@ pub fn trace(
     Ok(LuminanceImage::new(size, samples, middles))
 }
 
-/// One look through each cell of a pixel, at a random place of the cell, rows from the top.
+/// One look through each cell of a pixel, at a random place of the cell, rows from the top. Where
+/// the cells on the diagonal look alike they stand for their columns.
 fn pixel_looks(
     looker: &Looker,
     rays: &ViewRays,
@@ -57,20 +61,25 @@ fn pixel_looks(
 ) -> Vec<Look> {
     let (left, top) = (pixel % size.width() as usize, pixel / size.width() as usize);
     let key = Key::new(looker.settings.seed).with(pixel as u64);
-    (0..per_side * per_side)
-        .map(|cell| {
-            let key = key.with(u64::from(cell));
-            let within = |index: u32, axis: u64| {
-                // A single sample stays in the middle, where contour lines are drawn through.
-                let jitter = if per_side == 1 { 0.5 } else { key.with(axis).uniform() };
-                (f64::from(index) + jitter) / f64::from(per_side)
-            };
-            let x = left as f64 + within(cell % per_side, 0);
-            let y = top as f64 + within(cell / per_side, 1);
-            let (ray, direction) = rays.through(x, y);
-            looker.look(&ray, direction, key.with(2))
-        })
-        .collect()
+    let cell = |cell: u32| {
+        let key = key.with(u64::from(cell));
+        let within = |index: u32, axis: u64| {
+            // A single sample stays in the middle, where contour lines are drawn through.
+            let jitter = if per_side == 1 { 0.5 } else { key.with(axis).uniform() };
+            (f64::from(index) + jitter) / f64::from(per_side)
+        };
+        let x = left as f64 + within(cell % per_side, 0);
+        let y = top as f64 + within(cell / per_side, 1);
+        let (ray, direction) = rays.through(x, y);
+        looker.look(&ray, direction, key.with(2))
+    };
+    let diagonal: Vec<Look> = (0..per_side).map(|k| cell(k * (per_side + 1))).collect();
+    let alike = per_side >= FEWEST_TO_COMPARE && diagonal.iter().all(|l| l.is_like(&diagonal[0]));
+    let look = |k: u32| {
+        let (row, column) = (k / per_side, k % per_side);
+        if alike || row == column { diagonal[column as usize] } else { cell(k) }
+    };
+    (0..per_side * per_side).map(look).collect()
 }
 
 /// The surface in the cell nearest the middle, and the mean reading of the cells on it.
