@@ -3,7 +3,8 @@
 //!
 //! Every luminaire is a source, and so is its image in every planar mirror that it can light, and
 //! the image of that image in the next mirror: virtual luminaires, which are exact. What they do not
-//! cover (curved mirrors, glass, gloss) is left to particles, which ask [`Lighting::covers`].
+//! cover (curved mirrors, glass, gloss, longer chains) is left to particles, which ask
+//! [`Lighting::covers`].
 
 mod area;
 mod mirrors;
@@ -16,7 +17,7 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use mirrors::Mirrors;
 pub(super) use source::LuminaireId;
-use source::{Source, SourceKind};
+use source::{Source, SourceKind, Sources};
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
 const EXACT_SOURCES: usize = 4;
@@ -31,6 +32,8 @@ pub(super) struct Lighting<'s> {
     scene: &'s Scene,
     mirrors: Mirrors,
     sources: Vec<Source>,
+    leaves_chains: bool,
+    left_out: f64,
     area_sources: usize,
     has_glass: bool,
 }
@@ -39,11 +42,11 @@ impl<'s> Lighting<'s> {
     /// Prepares the sources of a scene.
     pub(super) fn new(scene: &'s Scene) -> Self {
         let mirrors = Mirrors::find(scene);
-        let sources = source::sources(scene, &mirrors);
+        let Sources { all: sources, leaves_chains, left_out } = Sources::of(scene, &mirrors);
         let has_glass = scene.materials().iter().any(|m| m.finish(false).is_none());
         let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
         let area_sources = sources.iter().filter(is_area).count();
-        Self { scene, mirrors, sources, area_sources, has_glass }
+        Self { scene, mirrors, sources, leaves_chains, left_out, area_sources, has_glass }
     }
 
     /// Number of sources, images included.
@@ -60,7 +63,13 @@ impl<'s> Lighting<'s> {
     pub(super) fn leaves_caustics(&self) -> bool {
         self.has_glass
             || self.mirrors.leaves_some_out
+            || self.leaves_chains
             || self.scene.materials().iter().any(has_gloss)
+    }
+
+    /// Bound of the share of all light that neither sources nor, without caustics, particles bring.
+    pub(super) fn left_out(&self) -> f64 {
+        if self.leaves_caustics() { 0.0 } else { self.left_out }
     }
 
     /// Whether the light of a luminaire that was reflected by these planar mirrors in this order
