@@ -65,7 +65,9 @@ fn to_checkpoint(state: &RunState) -> Checkpoint {
     };
     let header = serde_json::to_value(&header).expect("plain values always have a JSON value");
     let mut checkpoint = Checkpoint::new(header);
-    for (name, sums) in [("receivers", &state.receivers), ("checks", &state.checks)] {
+    let arrays =
+        [("receivers", &state.receivers), ("checks", &state.checks), ("given_up", &state.given_up)];
+    for (name, sums) in arrays {
         let values: Vec<i64> = sums.iter().flat_map(|s| s.values).collect();
         let squares: Vec<i128> = sums.iter().flat_map(|s| s.squares).collect();
         checkpoint.push(format!("{name}_values"), &values);
@@ -85,6 +87,7 @@ fn from_checkpoint(checkpoint: &Checkpoint) -> Result<RunState, String> {
         increments: header.increments,
         receivers: sums("receivers")?,
         checks: sums("checks")?,
+        given_up: sums("given_up")?,
     })
 }
 

@@ -28,6 +28,16 @@ pub(super) struct Sample {
     pub(super) indirect: Rgb,
 }
 
+/// What an increment took, and what it left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Effort {
+    /// Rays traced.
+    pub(super) rays: u64,
+    /// Mean illuminance that paths given up would have brought to the surfaces, before it is
+    /// reflected there, lx.
+    pub(super) given_up_lx: f64,
+}
+
 /// Sums of one receiver, in units of its run's fixed point.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sums {

@@ -9,7 +9,8 @@ use crate::map::Accuracy;
 /// receivers, so eight give it to a few per cent.
 pub(super) const BELIEVED_INCREMENTS: u64 = 8;
 
-/// The error of the scene so far; `None` while there are too few replicates, or no light at all.
+/// The error of the scene so far; `None` while there are too few replicates, and where nothing is
+/// known: what paths given up would have brought may be more than what is there.
 pub(super) fn accuracy(
     plan: &Plan,
     sums: &Accumulator,
@@ -28,9 +29,15 @@ pub(super) fn accuracy(
         variance += vertex.area_m2 * estimate.variance;
     }
     if !(squared > 0.0 && area > 0.0) {
-        return None;
+        // No light at all is known exactly, if none was lost on the way and the pilot saw none.
+        let dark = area > 0.0 && plan.rms_lx == 0.0 && interpolation.given_up_lx == 0.0;
+        return dark.then_some(NO_ERROR);
     }
     let rms_lx = (squared / area).sqrt();
+    let given_up = given_up_share(plan, interpolation.given_up_lx, rms_lx);
+    if given_up > 1.0 {
+        return None;
+    }
     let statistical = (variance / squared).sqrt();
     let discretization = interpolation.indirect_lx / rms_lx;
     let lookup_lx = if plan.direct_from_map {
@@ -41,7 +48,7 @@ pub(super) fn accuracy(
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign,
     // and so has the mean of the interpolation error where the map is read.
     let (lookup, series) = (lookup_lx.abs() / rms_lx, reflected_series(plan));
-    let bias = lookup * (series * series + 2.0 * series).sqrt();
+    let bias = lookup * (series * series + 2.0 * series).sqrt() + given_up;
     let root = |parts: &[f64]| parts.iter().map(|p| p * p).sum::<f64>().sqrt();
     Some(Accuracy {
         reached: root(&[statistical, discretization, bias]),
@@ -52,8 +59,27 @@ pub(super) fn accuracy(
     })
 }
 
+/// The error of a map without light.
+const NO_ERROR: Accuracy =
+    Accuracy { reached: 0.0, statistical: 0.0, discretization: 0.0, bias: 0.0, interpolated: 0.0 };
+
+/// The light of paths given up, relative, once all surfaces have reflected it: by the balance of
+/// light what arrives is what was sent over what is absorbed. Without bound where all is reflected.
+fn given_up_share(plan: &Plan, given_up_lx: f64, rms_lx: f64) -> f64 {
+    if given_up_lx > 0.0 {
+        given_up_lx / (1.0 - mean_reflectance(plan)).max(0.0) / rms_lx
+    } else {
+        0.0
+    }
+}
+
 /// `rho / (1 - rho)` of the mean reflectance of the surfaces.
 fn reflected_series(plan: &Plan) -> f64 {
+    let rho = mean_reflectance(plan).min(0.99);
+    rho / (1.0 - rho)
+}
+
+fn mean_reflectance(plan: &Plan) -> f64 {
     let (mut area, mut reflected) = (0.0, 0.0);
     for leaf in plan.subdivision.leaves() {
         let (_, origin) = plan.subdivision.node(leaf);
@@ -62,6 +88,5 @@ fn reflected_series(plan: &Plan) -> f64 {
         area += m2;
         reflected += m2 * finish.map_or(0.0, |f| f.diffuse.colour.luminance());
     }
-    let rho = (reflected / area).min(0.99);
-    rho / (1.0 - rho)
+    reflected / area
 }

@@ -1,8 +1,9 @@
 //! Caustics: light that reaches diffuse surfaces over specular ones that virtual luminaires do not
 //! cover, carried by particles.
 
+use super::accumulate::Effort;
 use super::emission::Emission;
-use super::particle::Particle;
+use super::particle::{Particle, scatterings};
 use super::pilot::Plan;
 use super::tally::Tally;
 use crate::sampling::{Key, Sequence};
@@ -13,19 +14,22 @@ use rayon::prelude::*;
 /// Particles a vertex and increment.
 const PARTICLES_A_VERTEX: usize = 16;
 
-/// Caustic illuminance at the vertices that indirect light lives on, and the rays it took.
-pub(super) fn deposit(plan: &Plan, key: Key) -> (Vec<Rgb>, u64) {
-    let nothing = || (vec![Rgb::BLACK; plan.indirect_vertices], 0);
-    if !plan.lighting.leaves_caustics() {
-        return nothing();
-    }
+/// Caustic illuminance at the vertices that indirect light lives on, and what it took.
+pub(super) fn deposit(plan: &Plan, key: Key) -> (Vec<Rgb>, Effort) {
+    let nothing = || (vec![Rgb::BLACK; plan.indirect_vertices], Effort::default());
     let Some(emission) = Emission::new(plan.scene) else { return nothing() };
-    let count = (PARTICLES_A_VERTEX * plan.indirect_vertices).next_power_of_two() as u32;
+    if !plan.lighting.leaves_caustics() {
+        let (black, _) = nothing();
+        let given_up_lx = plan.lighting.left_out() * emission.flux_lm() / plan.area_m2();
+        return (black, Effort { rays: 0, given_up_lx });
+    }
     let tally = Tally::new(plan, emission.flux_lm(), 1);
+    let count = (PARTICLES_A_VERTEX * plan.indirect_vertices).next_power_of_two() as u32;
     let sequence = Sequence::new(key);
+    let most = scatterings(plan.scene);
     let fly = |index: u32| {
         let (scene, lighting) = (plan.scene, plan.lighting);
-        let Some(mut particle) = Particle::emit(&emission, sequence, index, count) else {
+        let Some(mut particle) = Particle::emit(&emission, sequence, index, count, most) else {
             return 0;
         };
         let mut rays = 1;
@@ -39,10 +43,14 @@ pub(super) fn deposit(plan: &Plan, key: Key) -> (Vec<Rgb>, u64) {
             if !particle.scatter_specular(scene, lighting) {
                 break;
             }
+            if particle.is_given_up() {
+                tally.give_up(particle.flux_lm);
+                break;
+            }
             rays += 1;
         }
         rays
     };
     let rays = (0..count).into_par_iter().map(fly).sum();
-    (tally.illuminance(0), rays)
+    (tally.illuminance(0), Effort { rays, given_up_lx: tally.given_up_lx() })
 }

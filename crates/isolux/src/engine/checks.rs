@@ -31,7 +31,8 @@ pub(super) struct Check {
     area_m2: f64,
 }
 
-/// Errors of interpolation over the surface, lx: root mean squares, and the signed mean.
+/// Errors beyond noise, lx: of interpolation over the surface, root mean squares and the signed
+/// mean; and of paths given up.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct InterpolationErrors {
     /// Of the indirect part.
@@ -42,6 +43,8 @@ pub(super) struct InterpolationErrors {
     pub(super) indirect_mean_lx: f64,
     /// Mean of the total error.
     pub(super) total_mean_lx: f64,
+    /// What paths given up would bring in the mean, before it is reflected.
+    pub(super) given_up_lx: f64,
 }
 
 /// Draws the check points of a plan.
@@ -147,5 +150,6 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         total_lx: root(1),
         indirect_mean_lx: mean[0],
         total_mean_lx: mean[1],
+        given_up_lx: 0.0,
     }
 }

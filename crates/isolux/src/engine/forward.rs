@@ -3,10 +3,10 @@
 //! The way of Inspirer (Kopylov, Khodulev, Volevich 1998). An increment is a range of particles with
 //! its own randomization; increments share nothing random.
 
-use super::accumulate::{Accumulator, Sample};
+use super::accumulate::{Accumulator, Effort, Sample};
 use super::direct::Lighting;
 use super::emission::Emission;
-use super::particle::Particle;
+use super::particle::{Particle, scatterings};
 use super::pilot::Plan;
 use super::tally::Tally;
 use crate::sampling::{Key, Sequence};
@@ -27,6 +27,7 @@ pub(super) struct Forward<'p, 's> {
     plan: &'p Plan<'s>,
     emission: Emission<'s>,
     particles: u32,
+    scatterings: u32,
     key: Key,
 }
 
@@ -35,32 +36,33 @@ impl<'p, 's> Forward<'p, 's> {
     pub(super) fn new(plan: &'p Plan<'s>, emission: Emission<'s>, seed: u64) -> Self {
         let particles = (PARTICLES_A_VERTEX * plan.indirect_vertices).clamp(FEWEST, MOST);
         let particles = particles.next_power_of_two() as u32;
-        Self { plan, emission, particles, key: Key::new(seed).with(2) }
+        let (scatterings, key) = (scatterings(plan.scene), Key::new(seed).with(2));
+        Self { plan, emission, particles, scatterings, key }
     }
 
-    /// Adds increment `index`; returns the rays traced.
-    pub(super) fn increment(&self, index: u64, receivers: &mut Accumulator) -> u64 {
+    /// Adds increment `index`.
+    pub(super) fn increment(&self, index: u64, receivers: &mut Accumulator) -> Effort {
         let tally = Tally::new(self.plan, self.emission.flux_lm(), 3);
         let sequence = Sequence::new(self.key.with(index));
         let rays = (0..self.particles)
             .into_par_iter()
             .map(|particle| self.fly(&tally, sequence, particle))
             .sum();
-        let parts = [DIRECT, CAUSTIC, INDIRECT].map(|part| tally.illuminance(part));
-        receivers.add((0..self.plan.indirect_vertices).map(|k| Sample {
+        let parts =
+            [DIRECT, CAUSTIC, INDIRECT].map(|part| self.plan.prolongate(&tally.illuminance(part)));
+        receivers.add((0..self.plan.known.len()).map(|k| Sample {
             direct: parts[DIRECT][k],
             caustic: parts[CAUSTIC][k],
             indirect: parts[INDIRECT][k],
         }));
-        rays
+        Effort { rays, given_up_lx: tally.given_up_lx() }
     }
 
     fn fly(&self, tally: &Tally, sequence: Sequence, index: u32) -> u64 {
         let (scene, lighting) = (self.plan.scene, self.plan.lighting);
-        let Some(mut particle) = Particle::emit(&self.emission, sequence, index, self.particles)
-        else {
-            return 0;
-        };
+        let (count, scatterings) = (self.particles, self.scatterings);
+        let emitted = Particle::emit(&self.emission, sequence, index, count, scatterings);
+        let Some(mut particle) = emitted else { return 0 };
         let mut rays = 0;
         loop {
             rays += 1;
@@ -69,6 +71,10 @@ impl<'p, 's> Forward<'p, 's> {
                 tally.add(part(&particle, lighting), &at, particle.flux_lm);
             }
             if !particle.scatter(scene, lighting) {
+                return rays;
+            }
+            if particle.is_given_up() {
+                tally.give_up(particle.flux_lm);
                 return rays;
             }
         }

@@ -6,7 +6,7 @@
 //! reflections is the fixed point of `E = source + A E`, solved without tracing the rays again.
 
 use super::direct::Lighting;
-use super::path::{Dice, follow};
+use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
 use crate::elements::{Elements, Receiver};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
@@ -97,6 +97,8 @@ struct Rows {
     sources: Vec<Rgb>,
     /// Whether some ray left the scene or came to a surface that could be lit.
     open: Vec<bool>,
+    /// Sum of the shares of rays that were given up on their way over specular surfaces.
+    given_up: f64,
 }
 
 /// The operator of all receivers: one noisy sample of light transport.
@@ -133,13 +135,19 @@ impl Gathering<'_> {
             let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
             let ray = Ray::new(gatherer.origin, direction);
             let mut ends: Vec<(SurfacePoint, Rgb)> = Vec::with_capacity(1);
-            open |= follow(self.scene, ray, direction, &mut dice, |surface, finish, throughput| {
-                match self.end(surface, finish, throughput) {
-                    End::Lit(reflectance) => ends.push((*surface, reflectance)),
-                    End::Black => open = true,
-                    End::Closed => {}
-                }
-            });
+            let end =
+                follow(self.scene, ray, direction, &mut dice, |surface, finish, throughput| {
+                    match self.end(surface, finish, throughput) {
+                        End::Lit(reflectance) => ends.push((*surface, reflectance)),
+                        End::Black => open = true,
+                        End::Closed => {}
+                    }
+                });
+            match end {
+                PathEnd::Left => open = true,
+                PathEnd::Absorbed => {}
+                PathEnd::GivenUp(share) => rows.given_up += share / f64::from(gatherer.rays),
+            }
             for (surface, reflectance) in ends {
                 let weight = reflectance / f64::from(gatherer.rays);
                 if !self.direct_from_map {
@@ -216,13 +224,31 @@ impl Operator {
         self.chunks.iter().flat_map(|rows| rows.open.iter().copied()).collect()
     }
 
+    /// The share of all that is gathered whose rays were given up.
+    pub(super) fn given_up(&self) -> f64 {
+        let receivers: usize = self.chunks.iter().map(|rows| rows.ends.len()).sum();
+        self.chunks.iter().map(|rows| rows.given_up).sum::<f64>() / receivers.max(1) as f64
+    }
+
     /// The fixed point `E = source + A (E + given)` over the first `given.len()` receivers, then one
     /// application for all of them. Starts from `guess`. Ends when a sweep changes nothing beyond
     /// `tolerance`, relative to the root mean square.
     pub(super) fn solve(&self, guess: &[Rgb], given: &[Rgb], tolerance: f64) -> Vec<Rgb> {
+        self.solve_or_give_up(guess, given, tolerance).0
+    }
+
+    /// The same, and the root mean square of what the last sweep changed if the sweeps did not
+    /// settle, else zero.
+    pub(super) fn solve_or_give_up(
+        &self,
+        guess: &[Rgb],
+        given: &[Rgb],
+        tolerance: f64,
+    ) -> (Vec<Rgb>, f64) {
         let with_given =
             |light: &[Rgb]| -> Vec<Rgb> { light.iter().zip(given).map(|(&e, &g)| e + g).collect() };
         let mut light = guess.to_vec();
+        let mut unsettled = 0.0;
         for _ in 0..MAX_SWEEPS {
             let next = self.apply(&with_given(&light));
             let (mut change, mut size) = (0.0, 0.0);
@@ -233,12 +259,13 @@ impl Operator {
             }
             let settled = change <= tolerance * tolerance * size;
             if settled {
-                return next;
+                return (next, 0.0);
             }
+            unsettled = (change / light.len().max(1) as f64).sqrt();
             light = next;
             light.truncate(given.len());
         }
-        self.apply(&with_given(&light))
+        (self.apply(&with_given(&light)), unsettled)
     }
 }
 

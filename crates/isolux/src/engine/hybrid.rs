@@ -4,7 +4,7 @@
 //! the elements that the pilot has fixed. Replicates share nothing random, so their spread tells the
 //! error of their mean.
 
-use super::accumulate::{Accumulator, Sample};
+use super::accumulate::{Accumulator, Effort, Sample};
 use super::caustics;
 use super::checks::{self, Check};
 use super::gather::{Gatherer, Gathering};
@@ -36,14 +36,14 @@ impl<'p, 's> Hybrid<'p, 's> {
         Self { plan, check_direct, rows, key }
     }
 
-    /// Adds increment `index`; returns the rays traced.
+    /// Adds increment `index`.
     pub(super) fn increment(
         &self,
         index: u64,
         receivers: &mut Accumulator,
         checks: &[Check],
         check_sums: &mut Accumulator,
-    ) -> u64 {
+    ) -> Effort {
         let plan = self.plan;
         let key = self.key.with(1 + index);
         let (direct, check_direct) = self.direct(checks, key.with(0));
@@ -60,7 +60,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let given: Vec<Rgb> = (0..plan.indirect_vertices)
             .map(|k| if plan.direct_from_map { caustic[k] + direct[k] } else { caustic[k] })
             .collect();
-        let solved = operator.solve(&plan.guess, &given, TOLERANCE);
+        let (solved, unsettled_lx) = operator.solve_or_give_up(&plan.guess, &given, TOLERANCE);
         let (gathered, fresh) = solved.split_at(plan.indirect_vertices);
         let indirect = plan.prolongate(gathered);
         let caustic = plan.prolongate(&caustic);
@@ -70,7 +70,12 @@ impl<'p, 's> Hybrid<'p, 's> {
             indirect: indirect[k],
         }));
         checks::add(check_sums, checks, fresh, &check_direct, &indirect, &direct);
-        operator.rays + particles
+        // Rays given up would have seen what others see.
+        let unseen_lx = operator.given_up() * plan.rms_lx;
+        Effort {
+            rays: operator.rays + particles.rays,
+            given_up_lx: particles.given_up_lx + unseen_lx + unsettled_lx,
+        }
     }
 
     /// Direct light at vertices and check points: the plan's where it is exact.

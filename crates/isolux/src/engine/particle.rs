@@ -6,9 +6,29 @@ use super::path::{Dice, specular_step};
 use super::scatter::Scattered;
 use super::surface::SurfacePoint;
 use crate::sampling::{CosineHemisphere, Sequence};
-use crate::scene::{Body, Finish, Scene};
+use crate::scene::{Body, Finish, Material, Scene};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray};
+
+/// Light that even the brightest surface leaves after the last scattering of a path.
+const NEGLIGIBLE: f64 = 1e-6;
+/// Bounds of the scatterings of a path. Where nothing absorbs (ideal mirrors, clear glass, white
+/// walls) no number is enough, and the fewest are taken: what is given up is counted.
+const FEWEST_SCATTERINGS: f64 = 128.0;
+const MOST_SCATTERINGS: f64 = 4096.0;
+
+/// Scatterings after which a particle is given up.
+pub(super) fn scatterings(scene: &Scene) -> u32 {
+    let reflected = |finish: &Finish| {
+        let gloss = finish.gloss.map_or(Rgb::BLACK, |gloss| gloss.f0);
+        (finish.diffuse.colour + finish.mirror + gloss).max_channel()
+    };
+    let sides = |m: &Material| [false, true].map(|back| m.finish(back).map_or(0.0, reflected));
+    let largest = scene.materials().iter().flat_map(sides).fold(0.0, f64::max);
+    let enough = libm::log(NEGLIGIBLE) / libm::log(largest);
+    let enough = if largest < 1.0 { enough } else { FEWEST_SCATTERINGS };
+    enough.clamp(FEWEST_SCATTERINGS, MOST_SCATTERINGS) as u32
+}
 
 /// A particle: flux that moves in one direction.
 pub(super) struct Particle {
@@ -20,17 +40,20 @@ pub(super) struct Particle {
     chain: Option<Vec<u32>>,
     dice: Dice,
     at: Option<SurfacePoint>,
+    scatterings_left: u32,
     /// Whether it was reflected diffusely before.
     pub(super) diffused: bool,
 }
 
 impl Particle {
-    /// Particle `index` of `count` that share the flux of all luminaires.
+    /// Particle `index` of `count` that share the flux of all luminaires; it is given up after so
+    /// many scatterings.
     pub(super) fn emit(
         emission: &Emission,
         sequence: Sequence,
         index: u32,
         count: u32,
+        scatterings: u32,
     ) -> Option<Self> {
         let mut dice = Dice::new(sequence, index);
         let emitted = emission.emit(&mut dice)?;
@@ -42,6 +65,7 @@ impl Particle {
             chain: Some(Vec::new()),
             dice,
             at: None,
+            scatterings_left: scatterings,
             diffused: false,
         })
     }
@@ -114,7 +138,13 @@ impl Particle {
         direction.cos(at.geometric) > 0.0
     }
 
+    /// Whether it was scattered so often that it is not followed any longer.
+    pub(super) const fn is_given_up(&self) -> bool {
+        self.scatterings_left == 0
+    }
+
     fn go(&mut self, next: Scattered) {
+        self.scatterings_left -= 1;
         self.ray = next.ray;
         self.direction = next.direction;
         self.flux_lm = self.flux_lm * next.weight;

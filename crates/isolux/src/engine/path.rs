@@ -31,30 +31,40 @@ impl Dice {
     }
 }
 
+/// How a path over specular surfaces ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum PathEnd {
+    /// It leaves the scene.
+    Left,
+    /// It goes on no further than the last surface met.
+    Absorbed,
+    /// Still carrying this share after as many surfaces as are followed.
+    GivenUp(f64),
+}
+
 /// Follows a ray over specular reflection and transmission. Every surface met that is opaque is
-/// handed to `met` with the throughput up to there, before its specular part is followed. Returns
-/// whether the path left the scene.
+/// handed to `met` with the throughput up to there, before its specular part is followed.
 pub(super) fn follow(
     scene: &Scene,
     mut ray: Ray,
     mut direction: Direction,
     dice: &mut Dice,
     mut met: impl FnMut(&SurfacePoint, &Finish, Rgb),
-) -> bool {
+) -> PathEnd {
     let mut throughput = Rgb::WHITE;
     for _ in 0..MAX_SPECULAR {
-        let Some(hit) = scene.bvh().closest_hit(&ray) else { return true };
+        let Some(hit) = scene.bvh().closest_hit(&ray) else { return PathEnd::Left };
         let surface = SurfacePoint::from_hit(scene, &hit);
         let body = &scene.material(hit.triangle).body;
         if let Body::Opaque { front, back } = body {
             met(&surface, if surface.back { back } else { front }, throughput);
         }
         let Some(next) = specular_step(body, &surface, direction, throughput, dice) else {
-            return false;
+            return PathEnd::Absorbed;
         };
         (ray, direction, throughput) = (next.ray, next.direction, throughput * next.weight);
     }
-    false
+    PathEnd::GivenUp(throughput.luminance())
 }
 
 /// One sample of where light goes on without diffuse reflection, with Russian roulette.

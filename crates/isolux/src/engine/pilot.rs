@@ -73,6 +73,11 @@ impl Plan<'_> {
         rays.into_iter().zip(self.known.iter().map(hidden)).map(|(r, k)| r * k).collect()
     }
 
+    /// Area of all elements, m2.
+    pub(super) fn area_m2(&self) -> f64 {
+        self.indirect_errors.iter().map(|e| e.area_m2).sum()
+    }
+
     /// Values for the vertices that only direct light needs: interpolated from their parents.
     pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
         let mut values = coarse.to_vec();

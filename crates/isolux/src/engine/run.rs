@@ -1,8 +1,8 @@
 //! A run: pilot, increments, stop, map.
 
-use super::accumulate::{Accumulator, MAX_INCREMENTS};
+use super::accumulate::{Accumulator, MAX_INCREMENTS, Sample, Sums};
 use super::accuracy::{BELIEVED_INCREMENTS, accuracy};
-use super::checks::{self, Check};
+use super::checks::{self, Check, InterpolationErrors};
 use super::direct::Lighting;
 use super::emission::Emission;
 use super::filter::filter;
@@ -184,7 +184,8 @@ impl<'s> Run<'s, '_> {
             let reached = count >= FEWEST_INCREMENTS
                 && accuracy.zip(progress.target).is_some_and(|(a, goal)| a.reached <= goal);
             self.stopped |= watch(&progress) == Watch::Stop || self.out_of_time();
-            let done = reached || self.stopped || count >= MAX_INCREMENTS;
+            let in_vain = work.is_vain(accuracy);
+            let done = reached || in_vain || self.stopped || count >= MAX_INCREMENTS;
             // No number of increments helps where interpolation alone takes the whole error.
             let hopeless = self.is_hopeless(&work, accuracy);
             if !done && hopeless && self.stage < MOST_STAGES {
@@ -233,6 +234,7 @@ impl<'s> Run<'s, '_> {
             increments: if whole_mesh { work.sums.increments } else { 0 },
             receivers: if whole_mesh { work.sums.sums.clone() } else { Vec::new() },
             checks: if whole_mesh { work.checks.sums.sums.clone() } else { Vec::new() },
+            given_up: if whole_mesh { work.given_up.sums.clone() } else { Vec::new() },
         };
         let time_s = self.elapsed_s();
         Solution { map: self.map(work, accuracy, reached), state, time_s }
@@ -274,6 +276,8 @@ struct Work<'p, 's> {
     engine: Engine<'p, 's>,
     sums: Accumulator,
     checks: Checks,
+    /// What paths given up would bring in the mean.
+    given_up: Accumulator,
     /// Gathering rays of the vertices in an increment.
     rays: Vec<u32>,
 }
@@ -310,22 +314,27 @@ impl<'p, 's> Work<'p, 's> {
                 Engine::Forward(Forward::new(plan, emission, request.seed))
             }
         };
-        Self { plan, engine, sums, checks, rays }
+        Self { plan, engine, sums, checks, given_up: Accumulator::new(1, reference), rays }
     }
 
     fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
         restore(&mut self.sums, &saved.receivers, saved.increments)?;
-        restore(&mut self.checks.sums, &saved.checks, saved.increments)
+        restore(&mut self.checks.sums, &saved.checks, saved.increments)?;
+        restore(&mut self.given_up, &saved.given_up, saved.increments)
     }
 
+    /// Adds one increment; returns the rays traced.
     fn increment(&mut self) -> u64 {
         let index = self.sums.increments;
-        match &self.engine {
+        let effort = match &self.engine {
             Engine::Hybrid(hybrid) => {
                 hybrid.increment(index, &mut self.sums, &self.checks.points, &mut self.checks.sums)
             }
             Engine::Forward(forward) => forward.increment(index, &mut self.sums),
-        }
+        };
+        let direct = Rgb::grey(effort.given_up_lx);
+        self.given_up.add(std::iter::once(Sample { direct, ..Sample::default() }));
+        effort.rays
     }
 
     fn accuracy(&self) -> Option<Accuracy> {
@@ -336,12 +345,22 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Hybrid(_) => checks::errors(&self.checks.sums, &self.checks.points),
             Engine::Forward(_) => tally::errors(self.plan, &self.sums),
         };
-        accuracy(self.plan, &self.sums, &interpolation)
+        let given_up_lx = self.given_up.estimate(0).mean.direct.luminance();
+        let errors = InterpolationErrors { given_up_lx, ..interpolation };
+        accuracy(self.plan, &self.sums, &errors)
+    }
+
+    /// Whether no number of increments will tell how good the map is: there is no light on it, or
+    /// the light that was given up may be more than what is there.
+    fn is_vain(&self, accuracy: Option<Accuracy>) -> bool {
+        let dark = self.plan.rms_lx == 0.0;
+        let given_up = self.given_up.sums != [Sums::default()];
+        self.sums.increments >= FEWEST_INCREMENTS && accuracy.is_none() && (dark || given_up)
     }
 
     /// Whether more increments would change little: noise is a small part of the error.
     fn is_settled(&self, accuracy: Option<Accuracy>) -> bool {
-        accuracy.is_some_and(|a| a.statistical <= 0.25 * a.discretization)
+        accuracy.is_some_and(|a| a.statistical <= 0.25 * libm::hypot(a.discretization, a.bias))
     }
 
     /// Samples of a vertex in an increment; finer vertices are interpolated from coarser ones.

@@ -21,6 +21,8 @@ pub struct RunState {
     pub receivers: Vec<Sums>,
     /// Sums of the check points.
     pub checks: Vec<Sums>,
+    /// Sum of the light on paths that were given up: one, or none where there are no increments.
+    pub given_up: Vec<Sums>,
 }
 
 /// Everything that decides what an increment of a run is.

@@ -26,6 +26,7 @@ pub(super) struct Tally<'p, 's> {
     parts: usize,
     units_per_lm: f64,
     flux: Vec<AtomicI64>,
+    given_up: AtomicI64,
 }
 
 impl<'p, 's> Tally<'p, 's> {
@@ -33,7 +34,25 @@ impl<'p, 's> Tally<'p, 's> {
     pub(super) fn new(plan: &'p Plan<'s>, flux_lm: f64, parts: usize) -> Self {
         let flux = (0..plan.indirect_vertices * parts * 3).map(|_| AtomicI64::new(0)).collect();
         let units_per_lm = UNITS_OF_FLUX / flux_lm;
-        Self { plan, areas_m2: hat_areas_m2(plan), parts, units_per_lm, flux }
+        Self {
+            plan,
+            areas_m2: hat_areas_m2(plan),
+            parts,
+            units_per_lm,
+            flux,
+            given_up: AtomicI64::new(0),
+        }
+    }
+
+    /// Counts the flux of a particle that is not followed any longer.
+    pub(super) fn give_up(&self, flux_lm: Rgb) {
+        let units = (flux_lm.luminance() * self.units_per_lm).round_ties_even() as i64;
+        self.given_up.fetch_add(units, Ordering::Relaxed);
+    }
+
+    /// The illuminance that the flux given up would bring, if it were spread over all surfaces, lx.
+    pub(super) fn given_up_lx(&self) -> f64 {
+        self.given_up.load(Ordering::Relaxed) as f64 / self.units_per_lm / self.plan.area_m2()
     }
 
     /// Deposits flux at a place.

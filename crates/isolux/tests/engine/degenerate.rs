@@ -6,7 +6,7 @@ use crate::rooms::{
 use crate::runs::{METHODS, assert_valid, coarse, run, within};
 use isolux::engine::{MapReader, ProbePoint};
 use isolux::geometry::{Normal, Point};
-use isolux::map::Method;
+use isolux::map::{IlluminationMap, Method, Provenance};
 use isolux::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, Shape};
 use isolux::units::Rgb;
 use std::time::Duration;
@@ -150,14 +150,23 @@ fn size_changes_light_by_the_inverse_square_alone() {
     }
 }
 
-/// A scene that must be solved in time by both methods.
-fn check_ends(make: fn() -> Scene) {
-    for method in METHODS {
+/// Maps by both methods of a scene that must be solved in time.
+fn solved_in_time(make: fn() -> Scene) -> Vec<IlluminationMap> {
+    let one = |method: Method| {
         // On threads of their own, which a run that does not end keeps to itself.
         let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
         let solve = move || threads.install(|| run(&make(), &coarse(method, 150), 9));
-        let map = within(Duration::from_secs(20), solve);
-        assert!(map.is_some(), "{method:?} does not end");
+        let solution = within(Duration::from_secs(20), solve);
+        solution.unwrap_or_else(|| panic!("{method:?} does not end")).expect("a map").map
+    };
+    METHODS.into_iter().map(one).collect()
+}
+
+/// The same, where so much light is given up that nothing is known.
+fn check_given_up(make: fn() -> Scene) {
+    for map in solved_in_time(make) {
+        let Provenance { method, accuracy, complete, .. } = map.provenance;
+        assert!(accuracy.is_none() && !complete, "{method:?}: {accuracy:?}");
     }
 }
 
@@ -168,9 +177,9 @@ fn mirror_box() -> Scene {
 }
 
 #[test]
-#[ignore = "fault: particles fly on for ever between ideal mirrors"]
+
 fn light_shut_in_by_ideal_mirrors_is_given_up() {
-    check_ends(mirror_box);
+    check_given_up(mirror_box);
 }
 
 fn lamp_in_glass() -> Scene {
@@ -180,9 +189,12 @@ fn lamp_in_glass() -> Scene {
 }
 
 #[test]
-#[ignore = "fault: particles fly on for ever in a block of clear glass"]
+
 fn light_caught_in_glass_is_given_up() {
-    check_ends(lamp_in_glass);
+    for map in solved_in_time(lamp_in_glass) {
+        // Total reflection beyond 41.8 degrees keeps 1 - 3 (1 - cos 41.8) of all rays: a quarter.
+        assert!(map.provenance.accuracy.is_none_or(|a| a.bias > 0.1), "{:?}", map.provenance);
+    }
 }
 
 fn white_box() -> Scene {
@@ -191,7 +203,7 @@ fn white_box() -> Scene {
 }
 
 #[test]
-#[ignore = "fault: particles fly on for ever between white walls"]
+
 fn light_shut_in_by_white_walls_is_given_up() {
-    check_ends(white_box);
+    check_given_up(white_box);
 }

@@ -3,7 +3,8 @@
 //!
 //! Every luminaire is a source, and so is its image in every planar mirror that it can light, and
 //! the image of that image in the next mirror: virtual luminaires, which are exact. What they do not
-//! cover (curved mirrors, glass, gloss) is left to particles, which ask [`Lighting::covers`].
+//! cover (curved mirrors, glass, gloss, longer chains) is left to particles, which ask
+//! [`Lighting::covers`].
 
 mod area;
 mod mirrors;
@@ -18,7 +19,7 @@ use crate::units::Rgb;
 use mirrors::Mirrors;
 use panes::Panes;
 pub(super) use source::LuminaireId;
-use source::{Source, SourceKind};
+use source::{Source, SourceKind, Sources};
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
 const EXACT_SOURCES: usize = 4;
@@ -33,6 +34,8 @@ pub(super) struct Lighting<'s> {
     scene: &'s Scene,
     mirrors: Mirrors,
     sources: Vec<Source>,
+    leaves_chains: bool,
+    left_out: f64,
     area_sources: usize,
     panes: Panes,
 }
@@ -41,11 +44,11 @@ impl<'s> Lighting<'s> {
     /// Prepares the sources of a scene.
     pub(super) fn new(scene: &'s Scene) -> Self {
         let mirrors = Mirrors::find(scene);
-        let sources = source::sources(scene, &mirrors);
+        let Sources { all: sources, leaves_chains, left_out } = Sources::of(scene, &mirrors);
         let panes = Panes::find(scene);
         let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
         let area_sources = sources.iter().filter(is_area).count();
-        Self { scene, mirrors, sources, area_sources, panes }
+        Self { scene, mirrors, sources, leaves_chains, left_out, area_sources, panes }
     }
 
     /// Number of sources, images included.
@@ -62,7 +65,13 @@ impl<'s> Lighting<'s> {
     pub(super) fn leaves_caustics(&self) -> bool {
         self.panes.exist()
             || self.mirrors.leaves_some_out
+            || self.leaves_chains
             || self.scene.materials().iter().any(has_gloss)
+    }
+
+    /// Bound of the share of all light that neither sources nor, without caustics, particles bring.
+    pub(super) fn left_out(&self) -> f64 {
+        if self.leaves_caustics() { 0.0 } else { self.left_out }
     }
 
     /// Whether the light of a luminaire that was reflected by these planar mirrors in this order

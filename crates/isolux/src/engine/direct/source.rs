@@ -7,11 +7,11 @@ use crate::scene::{LuminaireKind, Scene};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Normal, Point, Transform, Vector};
 
-/// Reflections in a row that virtual luminaires follow.
+/// Reflections in a row that virtual luminaires follow; longer chains are left to particles.
 const MAX_CHAIN: usize = 6;
-/// Chains whose mirrors leave less than this of the light are left to particles.
+/// Chains whose mirrors leave less than this of the light are left out, and counted as error.
 const LEAST_REFLECTANCE: f64 = 1e-3;
-/// Virtual luminaires for every real one, at most.
+/// Virtual luminaires for every real one, at most; the others are left to particles.
 const MAX_IMAGES: usize = 64;
 
 /// A luminaire of the scene: those without surface first, then emitting surfaces.
@@ -66,21 +66,48 @@ pub(super) enum Target {
 }
 
 /// All sources of a scene.
-pub(super) fn sources(scene: &Scene, mirrors: &Mirrors) -> Vec<Source> {
-    let mut found = Vec::new();
-    for real in real_sources(scene) {
-        let first = found.len();
-        found.push(real);
-        let mut next = first;
-        // Breadth first: images are appended and looked at in turn.
-        while next < found.len() && found.len() - first < MAX_IMAGES {
-            for plane in 0..mirrors.planes.len() {
-                found.extend(image(&found[next], plane as u32, mirrors));
+#[derive(Debug, Default)]
+pub(super) struct Sources {
+    pub(super) all: Vec<Source>,
+    /// Whether some chain of mirrors goes on where images end.
+    pub(super) leaves_chains: bool,
+    /// Bound of the share of all light that is left out because mirrors have dimmed it so much:
+    /// what leaves a luminaire in one direction follows one chain, so the largest share of any.
+    pub(super) left_out: f64,
+}
+
+impl Sources {
+    /// The luminaires of a scene and their images.
+    pub(super) fn of(scene: &Scene, mirrors: &Mirrors) -> Self {
+        let mut found = Self::default();
+        for real in real_sources(scene) {
+            let first = found.all.len();
+            found.all.push(real);
+            let mut next = first;
+            // Breadth first: images are appended and looked at in turn.
+            while next < found.all.len() {
+                let full = found.all.len() - first >= MAX_IMAGES;
+                found.reflect(next, mirrors, full);
+                next += 1;
             }
-            next += 1;
+        }
+        found
+    }
+
+    fn reflect(&mut self, source: usize, mirrors: &Mirrors, full: bool) {
+        for plane in 0..mirrors.planes.len() as u32 {
+            let source = &self.all[source];
+            let Some(image) = image(source, plane, mirrors) else { continue };
+            let kept = chain_reflectance(&image, mirrors);
+            if kept < LEAST_REFLECTANCE {
+                self.left_out = self.left_out.max(kept);
+            } else if full || image.chain.len() > MAX_CHAIN {
+                self.leaves_chains = true;
+            } else {
+                self.all.push(image);
+            }
         }
     }
-    found
 }
 
 fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
@@ -128,16 +155,14 @@ fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
     SourceKind::Area { emitter: Emitter { indices, area_sums_m2, centre }, triangles }
 }
 
-/// The image of a source in a plane; `None` where its light cannot reach the reflecting side, or
-/// where too little of it is left.
+/// The image of a source in a plane; `None` where its light cannot reach the reflecting side.
 fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
     let mirror = &mirrors.planes[plane as usize];
     let colour = source.colour * mirror.reflectance;
-    let kept = mirror.reflectance.max_channel() * chain_reflectance(source, mirrors);
     let meets = source.chain.last().is_none_or(|&last| {
         last != plane && mirrors.planes[last as usize].can_light(mirror, mirrors.tolerance_m)
     });
-    if !meets || source.chain.len() >= MAX_CHAIN || kept < LEAST_REFLECTANCE {
+    if !meets {
         return None;
     }
     let kind = match &source.kind {

@@ -110,7 +110,7 @@ fn particles_carry_the_flux_and_what_is_reflected() {
 }
 
 #[test]
-#[ignore = "fault: vertices that only direct light needs get no light from particles"]
+
 fn particles_light_all_vertices() {
     let request = PilotRequest { target: 0.2, mesh_target: 0.005, seed: 1, max_vertices: 3000 };
     let (lx, _) = forward(&room(), &request);

@@ -224,7 +224,7 @@ fn solid_glass_is_left_to_particles() {
 }
 
 #[test]
-#[ignore = "fault: light that more mirrors in a row would bring than images follow is lost"]
+
 fn chains_of_mirrors_too_long_for_images_are_left_to_particles() {
     let facing_walls = [
         rectangle([0.0, -2.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0], 1),
