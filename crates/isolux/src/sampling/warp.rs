@@ -139,6 +139,11 @@ impl SphericalTriangle {
         })
     }
 
+    /// Directions to the corners.
+    pub const fn corners(&self) -> [Vector; 3] {
+        self.corners
+    }
+
     /// The direction of a point of the unit square; density is one over the solid angle.
     pub fn sample(&self, [u, v]: [f64; 2]) -> Option<Direction> {
         let [a, b, c] = self.corners;

@@ -37,11 +37,6 @@ fn check(name: &str, scene: &Scene, method: Method) {
     let expected_lm = scene.luminous_flux_lm() / (1.0 - REFLECTANCE);
     // The error of a mean is at most the root mean square that the map reports of itself.
     let allowed_lm = 3.0 * accuracy.reached * (squares / area_m2).sqrt() * area_m2;
-    println!(
-        "{name} {method:?} {} allowed {} {accuracy:?}",
-        arriving_lm / expected_lm,
-        allowed_lm / expected_lm
-    );
     assert!(
         (arriving_lm - expected_lm).abs() < allowed_lm,
         "{name}, {method:?}: {arriving_lm} lm arrive of {expected_lm} +- {allowed_lm}"
