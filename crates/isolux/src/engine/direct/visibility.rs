@@ -6,7 +6,7 @@ use crate::engine::scatter::pane;
 use crate::engine::surface::SurfacePoint;
 use crate::scene::Body;
 use crate::units::Rgb;
-use isolux_geometry::{Point, Ray, Vector, offset_origin};
+use isolux_geometry::{Ray, Vector, offset_origin};
 
 /// Thin panes one behind the other that a shadow ray passes.
 const MAX_PANES: usize = 64;
@@ -33,14 +33,11 @@ impl Lighting<'_> {
             from = on_mirror;
             target = self.unreflected(target, plane);
         }
-        let ray = segment(&from, target);
-        // A segment that ends on the emitter must not be stopped by it; one that starts on a
-        // triangle leaves it by its offset.
-        let ray = emitter.map_or(ray, |index| ray.skipping(index));
+        let ray = last_segment(&from, target, emitter);
         if self.scene.bvh().any_hit(&ray) {
             return Rgb::BLACK;
         }
-        if self.has_glass { share * self.through_glass(ray) } else { share }
+        if self.has_glass { share * self.through_glass(ray, target, emitter) } else { share }
     }
 
     fn unreflected(&self, target: Target, plane: u32) -> Target {
@@ -80,18 +77,14 @@ impl Lighting<'_> {
 
     /// What the transparent surfaces on an otherwise free segment let straight through: panes their
     /// transmittance, solid glass nothing (its light is bent: particles bring it).
-    fn through_glass(&self, mut ray: Ray) -> Rgb {
+    fn through_glass(&self, mut ray: Ray, target: Target, emitter: Option<u32>) -> Rgb {
         let mut share = Rgb::WHITE;
         for _ in 0..MAX_PANES {
             let Some(hit) = self.scene.bvh().closest_hit(&ray) else { return share };
             let surface = SurfacePoint::from_hit(self.scene, &hit);
             let Some(passed) = self.pane_share(&surface, &ray) else { return Rgb::BLACK };
             share = share * passed;
-            // The rest of the segment, on the other side of the pane.
-            let passed = f64::from(hit.t);
-            let rest = Point::from(ray.origin) + Vector::from(ray.direction) * passed;
-            let start = offset_origin(rest, -surface.geometric);
-            ray = Ray { origin: start.to_f32(), t_max: ray.t_max - hit.t, skip: None, ..ray };
+            ray = last_segment(&surface.other_side(), target, emitter);
         }
         Rgb::BLACK
     }
@@ -104,6 +97,13 @@ impl Lighting<'_> {
         let direction = Vector::from(ray.direction).direction()?;
         glass.thin.then(|| pane(glass, direction.cos(surface.shading).abs()).transmittance)
     }
+}
+
+/// The segment that ends on the emitter, which must not stop it; a triangle that it starts on it leaves
+/// by its offset.
+fn last_segment(from: &SurfacePoint, target: Target, emitter: Option<u32>) -> Ray {
+    let ray = segment(from, target);
+    emitter.map_or(ray, |index| ray.skipping(index))
 }
 
 fn segment(from: &SurfacePoint, target: Target) -> Ray {
