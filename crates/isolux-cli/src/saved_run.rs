@@ -69,8 +69,10 @@ fn to_checkpoint(state: &RunState) -> Checkpoint {
         [("receivers", &state.receivers), ("checks", &state.checks), ("given_up", &state.given_up)];
     for (name, sums) in arrays {
         let values: Vec<i64> = sums.iter().flat_map(|s| s.values).collect();
+        let totals: Vec<i64> = sums.iter().flat_map(|s| s.totals).collect();
         let squares: Vec<i128> = sums.iter().flat_map(|s| s.squares).collect();
         checkpoint.push(format!("{name}_values"), &values);
+        checkpoint.push(format!("{name}_totals"), &totals);
         checkpoint.push(format!("{name}_squares"), &squares);
     }
     checkpoint
@@ -93,9 +95,11 @@ fn from_checkpoint(checkpoint: &Checkpoint) -> Result<RunState, String> {
 
 fn sums(checkpoint: &Checkpoint, name: &str) -> Result<Vec<Sums>, ArrayError> {
     let values = checkpoint.integers::<i64>(&format!("{name}_values"))?;
+    let totals = checkpoint.integers::<i64>(&format!("{name}_totals"))?;
     let squares = checkpoint.integers::<i128>(&format!("{name}_squares"))?;
     let (values, _) = values.as_chunks::<9>();
+    let (totals, _) = totals.as_chunks::<2>();
     let (squares, _) = squares.as_chunks::<2>();
-    let pairs = values.iter().zip(squares);
-    Ok(pairs.map(|(&values, &squares)| Sums { values, squares }).collect())
+    let rows = values.iter().zip(totals).zip(squares);
+    Ok(rows.map(|((&values, &totals), &squares)| Sums { values, totals, squares }).collect())
 }

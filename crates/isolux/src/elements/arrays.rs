@@ -38,8 +38,8 @@ pub enum ElementArraysError {
     /// An index points nowhere, or a tree is not a tree.
     #[error("{0} refers to something that does not exist")]
     Index(&'static str),
-    /// A number is not finite, or a normal has no direction.
-    #[error("vertex {0} has no position or no normal")]
+    /// A number is not finite, an area negative, or a normal has no direction.
+    #[error("vertex {0} has no position, no normal or no area")]
     Vertex(usize),
 }
 
@@ -107,7 +107,9 @@ fn are_trees(elements: &Elements) -> bool {
 fn vertex(arrays: &ElementArrays, index: usize) -> Result<Vertex, ElementArraysError> {
     let position = Point::from(arrays.positions[index]);
     let normal = Vector::from(arrays.normals[index]).normal();
-    let (Some(normal), true) = (normal, position.is_finite()) else {
+    let area_m2 = arrays.areas_m2[index];
+    let is_finite = position.is_finite() && area_m2.is_finite() && area_m2 >= 0.0;
+    let (Some(normal), true) = (normal, is_finite) else {
         return Err(ElementArraysError::Vertex(index));
     };
     let parents = arrays.parents[index];
@@ -115,7 +117,6 @@ fn vertex(arrays: &ElementArrays, index: usize) -> Result<Vertex, ElementArraysE
     if made && parents.iter().any(|&p| p as usize >= index) {
         return Err(ElementArraysError::Index("the parent of a vertex"));
     }
-    let area_m2 = arrays.areas_m2[index];
     Ok(Vertex { position, normal, parents: made.then_some(parents), area_m2 })
 }
 

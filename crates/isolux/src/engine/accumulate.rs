@@ -6,8 +6,8 @@
 //!
 //! One unit is 2^-24 of the scene's reference illuminance (rounded up to a power of two). A value of
 //! one increment is held to 2^47 units (eight million times the reference; brighter values saturate),
-//! its square to 2^94. So 2^15 increments fit the 63 bits of a sum and the 127 of a sum of squares.
-//! Rounding adds at most half a unit an increment: 3e-8 of the reference.
+//! its square to 2^94. So 2^15 increments fit the 63 bits of a sum, and 2^15 times their sum of
+//! squares fits 127. Rounding adds at most half a unit an increment: 3e-8 of the reference.
 
 use crate::units::Rgb;
 
@@ -43,7 +43,10 @@ pub(super) struct Effort {
 pub struct Sums {
     /// Direct, caustic, indirect; three channels each.
     pub values: [i64; 9],
-    /// Squares of the photometric total and of the photometric indirect and caustic part.
+    /// Photometric total, and photometric indirect and caustic part: rounded by themselves, so not
+    /// quite what the channels make.
+    pub totals: [i64; 2],
+    /// Squares of those.
     pub squares: [i128; 2],
 }
 
@@ -88,9 +91,10 @@ impl Accumulator {
             }
             let indirect = (sample.indirect + sample.caustic).luminance();
             let total = indirect + sample.direct.luminance();
-            for (square, value) in sums.squares.iter_mut().zip([total, indirect]) {
-                let units = i128::from(fixed(value * scale));
-                *square += units * units;
+            for (k, value) in [total, indirect].into_iter().enumerate() {
+                let units = fixed(value * scale);
+                sums.totals[k] += units;
+                sums.squares[k] += i128::from(units) * i128::from(units);
             }
         }
         self.increments += 1;
@@ -98,24 +102,24 @@ impl Accumulator {
 
     /// Mean and its variance at a receiver, from the spread of the increments.
     pub(super) fn estimate(&self, receiver: usize) -> Estimate {
-        let Sums { values, squares } = self.sums[receiver];
+        let Sums { values, totals, squares } = self.sums[receiver];
         let n = self.increments as f64;
         let mean =
             |k: usize| Rgb([0, 1, 2].map(|c| values[3 * k + c] as f64 * self.lux_per_unit / n));
         let mean = Sample { direct: mean(0), caustic: mean(1), indirect: mean(2) };
-        let indirect = (mean.indirect + mean.caustic).luminance();
-        let total = indirect + mean.direct.luminance();
-        let variance = |square: i128, mean: f64| {
-            let mean_square = square as f64 * self.lux_per_unit * self.lux_per_unit / n;
-            // Rounding of the unit and of f64 can make this slightly negative.
-            let spread = (mean_square - mean * mean).max(0.0);
-            if self.increments > 1 { spread / (n - 1.0) } else { f64::INFINITY }
+        let variance = |k: usize| {
+            if self.increments < 2 {
+                return f64::INFINITY;
+            }
+            // n^2 times the mean square deviation, exactly: no digits are lost to the difference,
+            // and what never changes has none.
+            let total = i128::from(totals[k]);
+            // Sums from a file may be anything; those of a run do not saturate.
+            let squares = i128::from(self.increments).saturating_mul(squares[k]);
+            let spread = squares.saturating_sub(total * total).max(0);
+            spread as f64 / (n * n * (n - 1.0)) * self.lux_per_unit * self.lux_per_unit
         };
-        Estimate {
-            mean,
-            variance: variance(squares[0], total),
-            indirect_variance: variance(squares[1], indirect),
-        }
+        Estimate { mean, variance: variance(0), indirect_variance: variance(1) }
     }
 }
 

@@ -24,6 +24,12 @@ impl Dice {
         Self { sequence, index, next_pair: 0 }
     }
 
+    /// A sequence for something that needs many points of its own.
+    pub(super) const fn fork(&mut self) -> Sequence {
+        self.next_pair += 1;
+        self.sequence.fork(self.index, self.next_pair - 1)
+    }
+
     /// The next two numbers.
     pub(super) const fn pair(&mut self) -> [f64; 2] {
         self.next_pair += 1;

@@ -20,11 +20,15 @@ pub(super) struct Scattered {
 
 /// Probability with which the specular part of a finish is followed: its largest reflectance.
 pub(super) fn specular_share(finish: &Finish, surface: &SurfacePoint, incoming: Direction) -> f64 {
-    let gloss = finish.gloss.map_or(Rgb::BLACK, |gloss| {
+    (finish.mirror + gloss_share(finish, surface, incoming)).max_channel().clamp(0.0, 1.0)
+}
+
+/// Reflectance of the gloss if its facets lay in the surface.
+fn gloss_share(finish: &Finish, surface: &SurfacePoint, incoming: Direction) -> Rgb {
+    finish.gloss.map_or(Rgb::BLACK, |gloss| {
         let cos = -incoming.cos(surface.shading);
         schlick(gloss.f0, cos).min(room_for_gloss(finish))
-    });
-    (finish.mirror + gloss).max_channel().clamp(0.0, 1.0)
+    })
 }
 
 /// One sample of the specular part of a finish, weighted as one taken with the probability
@@ -38,7 +42,9 @@ pub(super) fn reflect(
 ) -> Option<Scattered> {
     let share = specular_share(finish, surface, incoming);
     let mirror = finish.mirror.max_channel();
-    let mirror_chance = (mirror / share).min(1.0);
+    let gloss = gloss_share(finish, surface, incoming).max_channel();
+    // Both may be strong in channels of their own: each is drawn by its strongest.
+    let mirror_chance = mirror / (mirror + gloss);
     if pick < mirror_chance {
         let direction = incoming.reflect(surface.shading);
         let weight = finish.mirror * (1.0 / (share * mirror_chance));

@@ -29,6 +29,13 @@ impl Sequence {
         let y = scramble_reversed(sobol_second_reversed(index), key.with(1).bits32());
         [fraction(x), fraction(y)]
     }
+
+    /// A sequence in the place of dimensions `2 pair` and `2 pair + 1` of point `index`, which does
+    /// not depend on this one.
+    pub const fn fork(self, index: u32, pair: u32) -> Self {
+        // Above all 32-bit numbers: no pair has this key.
+        Self { key: self.key.with(1 << 32 | pair as u64).with(index as u64) }
+    }
 }
 
 const fn fraction(bits: u32) -> f64 {

@@ -102,6 +102,9 @@ impl Ggx {
     }
 }
 
+/// Triple product of unit vectors in one plane, by rounding.
+const IN_PLANE: f64 = 8.0 * f64::EPSILON;
+
 /// Directions from a point to a triangle, uniform in solid angle (Arvo 1995, "Stratified sampling
 /// of spherical triangles").
 #[derive(Clone, Copy, Debug)]
@@ -121,6 +124,10 @@ impl SphericalTriangle {
         // Solid angle after van Oosterom and Strackee (1983), stable for small triangles.
         let numerator = a.dot(b.cross(c)).abs();
         let denominator = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
+        // From inside the triangle both its sides would be seen, each as a hemisphere.
+        if numerator <= IN_PLANE && denominator <= IN_PLANE {
+            return None;
+        }
         let solid_angle_sr = 2.0 * libm::atan2(numerator, denominator);
         let (ab, ac) = (a.cross(b).direction()?, a.cross(c).direction()?);
         let angle_a = libm::acos(ab.dot(ac).clamp(-1.0, 1.0));
@@ -130,6 +137,11 @@ impl SphericalTriangle {
             angle_a,
             cos_c: a.dot(b),
         })
+    }
+
+    /// Directions to the corners.
+    pub const fn corners(&self) -> [Vector; 3] {
+        self.corners
     }
 
     /// The direction of a point of the unit square; density is one over the solid angle.

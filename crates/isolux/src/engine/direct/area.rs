@@ -12,8 +12,26 @@ use isolux_geometry::{Point, Vector};
 /// unoccluded illuminance as control; larger ones by area, which costs less and spreads more.
 const TRIANGLES_A_SAMPLE: usize = 32;
 
+/// Directions drawn before one is taken as it is. Over a triangle above the horizon the mean cosine is
+/// above a quarter of the highest, so this happens once in a hundred million.
+const TRIES: usize = 64;
+
+/// A triangle of an emitter, as far as it is above the horizon of a receiver.
+struct Piece {
+    /// From the receiver, m.
+    corners: [Vector; 3],
+    /// Which of the emitter's triangles it belongs to.
+    triangle: usize,
+    /// Projected solid angle: the integral of the cosine at the receiver, sr.
+    steradians: f64,
+}
+
 impl Lighting<'_> {
     /// Illuminance from one emitting surface, by `samples` shadow rays.
+    ///
+    /// Directions are drawn in proportion to the cosine at the receiver, so the share of them that is
+    /// free, times the exact illuminance without obstacles, is an unbiased estimate, and one without
+    /// variance where nothing or everything is hidden.
     pub(super) fn lit_by_area(
         &self,
         source: &Source,
@@ -24,62 +42,28 @@ impl Lighting<'_> {
         dice: &mut Dice,
     ) -> Rgb {
         if triangles.len() > TRIANGLES_A_SAMPLE * samples {
-            let one = |_| self.by_area(source, emitter, triangles, at, dice);
-            return source.colour * ((0..samples).map(one).sum::<Rgb>() / samples as f64);
+            let one = |dice: &mut Dice| self.by_area(source, emitter, triangles, at, dice);
+            return source.colour * mean(samples, dice, one);
         }
-        let parts: Vec<f64> = triangles.iter().map(|t| projected_solid_angle(at, t)).collect();
-        let whole: f64 = parts.iter().sum();
+        let pieces = pieces(at, triangles);
+        let whole: f64 = pieces.iter().map(|p| p.steradians).sum();
         if whole <= 0.0 {
             return Rgb::BLACK;
         }
-        let (mut kept, mut lost, mut seen) = (Rgb::BLACK, Rgb::BLACK, false);
-        for _ in 0..samples {
-            if let Some((value, share)) =
-                self.by_solid_angle(source, emitter, triangles, &parts, whole, at, dice)
-            {
-                kept += share * value;
-                lost += (Rgb::WHITE - share) * value;
-                seen |= !share.is_black();
+        let one = |dice: &mut Dice| {
+            let [pick, accept] = dice.pair();
+            let Some(piece) = drawn(&pieces, pick * whole) else { return Rgb::BLACK };
+            let corners = triangles[piece.triangle];
+            let target = target(piece, corners, at, accept, dice);
+            let is_above = (target - at.point).dot(at.geometric.to_vector()) > 0.0;
+            let index = emitter.indices[piece.triangle];
+            if is_above {
+                self.visibility(source, at, Target::Point(target), Some(index))
+            } else {
+                Rgb::BLACK
             }
-        }
-        // The exact unoccluded value less the estimated shadow has no variance where nothing is in
-        // the way; in full shadow the plain estimate, zero, has none. An image is mostly hidden by
-        // the frame of its mirror.
-        let mostly_free = seen && source.chain.is_empty();
-        let steradians = if mostly_free {
-            Rgb::grey(whole) - lost / samples as f64
-        } else {
-            kept / samples as f64
         };
-        source.colour * steradians
-    }
-
-    /// One direction into the emitter: projected solid angle it stands for, and what is seen of it.
-    #[expect(clippy::too_many_arguments, reason = "the loop above owns the tables")]
-    fn by_solid_angle(
-        &self,
-        source: &Source,
-        emitter: &Emitter,
-        triangles: &[[Point; 3]],
-        parts: &[f64],
-        whole: f64,
-        at: &SurfacePoint,
-        dice: &mut Dice,
-    ) -> Option<(f64, Rgb)> {
-        let [pick, _] = dice.pair();
-        let square = dice.pair();
-        let mut left = pick * whole;
-        let k = parts.iter().position(|&p| {
-            left -= p;
-            left < 0.0
-        })?;
-        let corners = triangles[k];
-        let spherical = SphericalTriangle::new(at.point, corners)?;
-        let direction = spherical.sample(square)?;
-        let cos = facing_cos(direction, at.shading, at.geometric)?;
-        let target = on_plane(at.point, direction.to_vector(), corners)?;
-        let share = self.visibility(source, at, Target::Point(target), Some(emitter.indices[k]));
-        Some((cos * spherical.solid_angle_sr * whole / parts[k], share))
+        source.colour * mean(samples, dice, one) * whole
     }
 
     /// One point of the emitter, uniform by area: projected solid angle times visible share.
@@ -115,6 +99,73 @@ impl Lighting<'_> {
     }
 }
 
+/// Mean of samples that are spread evenly.
+fn mean(samples: usize, dice: &mut Dice, mut one: impl FnMut(&mut Dice) -> Rgb) -> Rgb {
+    if samples == 1 {
+        return one(dice);
+    }
+    let sequence = dice.fork();
+    let sum: Rgb = (0..samples).map(|k| one(&mut Dice::new(sequence, k as u32))).sum();
+    sum / samples as f64
+}
+
+/// The piece at a running sum of projected solid angles.
+fn drawn(pieces: &[Piece], mut sum: f64) -> Option<&Piece> {
+    let found = pieces.iter().find(|piece| {
+        sum -= piece.steradians;
+        sum < 0.0
+    });
+    // Rounding may leave a sliver past the last.
+    found.or(pieces.last())
+}
+
+/// A point of a piece, with a density by direction in proportion to the cosine at the receiver: drawn
+/// uniformly by solid angle, and taken with a chance of its cosine over the highest.
+fn target(
+    piece: &Piece,
+    corners: [Point; 3],
+    at: &SurfacePoint,
+    mut accept: f64,
+    dice: &mut Dice,
+) -> Point {
+    // Too small or too near its plane to be told apart by direction: any point will do.
+    let middle = || at.point + (piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3.0;
+    let Some(spherical) = SphericalTriangle::new(at.point, piece.corners.map(|c| at.point + c))
+    else {
+        return middle();
+    };
+    let highest = highest_cos(spherical.corners(), at.shading.to_vector());
+    let mut direction = None;
+    for _ in 0..TRIES {
+        direction = spherical.sample(dice.pair());
+        if direction.is_none_or(|d| accept * highest < d.cos(at.shading)) {
+            break;
+        }
+        [accept, _] = dice.pair();
+    }
+    direction.and_then(|d| on_plane(at.point, d.to_vector(), corners)).unwrap_or_else(middle)
+}
+
+/// The highest cosine with `up` over a spherical triangle above the horizon.
+fn highest_cos(corners: [Vector; 3], up: Vector) -> f64 {
+    let heights = corners.map(|c| c.dot(up));
+    let mut highest = heights.into_iter().fold(0.0, f64::max);
+    let mut sides = [0.0; 3];
+    for k in 0..3 {
+        let next = (k + 1) % 3;
+        let across = corners[k].cross(corners[next]);
+        sides[k] = across.dot(up);
+        let cos = corners[k].dot(corners[next]);
+        // An arc that rises from both its ends has its highest point between them.
+        if heights[next] > cos * heights[k] && heights[k] > cos * heights[next] {
+            let sine2 = sides[k] * sides[k] / across.length_squared();
+            highest = highest.max((1.0 - sine2).max(0.0).sqrt());
+        }
+    }
+    let has_zenith = sides.iter().all(|&s| s > 0.0) || sides.iter().all(|&s| s < 0.0);
+    if has_zenith { 1.0 } else { highest }
+}
+
 /// Where a ray meets the plane of a triangle.
 fn on_plane(from: Point, direction: Vector, [a, b, c]: [Point; 3]) -> Option<Point> {
     let normal = (b - a).cross(c - a);
@@ -122,41 +173,111 @@ fn on_plane(from: Point, direction: Vector, [a, b, c]: [Point; 3]) -> Option<Poi
     (t > 0.0 && t.is_finite()).then(|| from + direction * t)
 }
 
-/// Projected solid angle (integral of the cosine at the receiver) of a triangle that emits from its
-/// counter-clockwise side: Lambert's formula over the part above the horizon (Lambert 1760; in
-/// Arvo's notation, "The irradiance Jacobian for partially occluded polyhedral sources", 1994).
-fn projected_solid_angle(at: &SurfacePoint, corners: &[Point; 3]) -> f64 {
-    let [a, b, c] = *corners;
-    if (b - a).cross(c - a).dot(at.point - a) <= 0.0 {
-        return 0.0;
-    }
+/// What a receiver sees of triangles that emit from their counter-clockwise side.
+fn pieces(at: &SurfacePoint, triangles: &[[Point; 3]]) -> Vec<Piece> {
     let normal = at.shading.to_vector();
-    let polygon = above_horizon(&corners.map(|p| p - at.point), normal);
-    let mut sum = 0.0;
-    for (k, &from) in polygon.iter().enumerate() {
-        let to = polygon[(k + 1) % polygon.len()];
-        let edge = from.cross(to);
-        if let Some(axis) = edge.direction() {
-            let angle = libm::atan2(edge.length(), from.dot(to));
-            sum += angle * axis.to_vector().dot(normal);
+    let mut pieces = Vec::with_capacity(triangles.len() + 1);
+    for (triangle, &[a, b, c]) in triangles.iter().enumerate() {
+        if (b - a).cross(c - a).dot(at.point - a) <= 0.0 {
+            continue;
+        }
+        let (polygon, count) = above_horizon([a, b, c].map(|p| p - at.point), normal);
+        for k in 2..count {
+            let corners = [polygon[0], polygon[k - 1], polygon[k]];
+            let steradians = projected_solid_angle(&corners, normal);
+            if steradians > 0.0 {
+                pieces.push(Piece { corners, triangle, steradians });
+            }
         }
     }
-    // Seen from the receiver the emitting side turns clockwise.
-    (-0.5 * sum).max(0.0)
+    pieces
 }
 
-/// Sutherland and Hodgman's clip of a triangle at the horizon.
-fn above_horizon(corners: &[Vector; 3], normal: Vector) -> Vec<Vector> {
-    let mut kept = Vec::with_capacity(4);
+/// Projected solid angle of a triangle above the horizon that turns clockwise as seen from the
+/// receiver: Lambert's formula (Lambert 1760; in Arvo's notation, "The irradiance Jacobian for
+/// partially occluded polyhedral sources", 1994).
+fn projected_solid_angle(corners: &[Vector; 3], normal: Vector) -> f64 {
+    let mut sum = 0.0;
     for k in 0..3 {
         let (from, to) = (corners[k], corners[(k + 1) % 3]);
-        let (h0, h1) = (from.dot(normal), to.dot(normal));
-        if h0 >= 0.0 {
-            kept.push(from);
-        }
-        if (h0 > 0.0 && h1 < 0.0) || (h0 < 0.0 && h1 > 0.0) {
-            kept.push(from + (to - from) * (h0 / (h0 - h1)));
+        let edge = from.cross(to);
+        let length = edge.length();
+        if length > 0.0 {
+            sum += libm::atan2(length, from.dot(to)) * edge.dot(normal) / length;
         }
     }
-    kept
+    -0.5 * sum
+}
+
+/// Sutherland and Hodgman's clip of a triangle at the horizon: corners and their number.
+fn above_horizon(corners: [Vector; 3], normal: Vector) -> ([Vector; 4], usize) {
+    let heights = corners.map(|c| c.dot(normal));
+    let (mut kept, mut count) = ([Vector::ZERO; 4], 0);
+    let mut keep = |v: Vector| {
+        kept[count] = v;
+        count += 1;
+    };
+    for k in 0..3 {
+        let next = (k + 1) % 3;
+        let (h0, h1) = (heights[k], heights[next]);
+        if h0 >= 0.0 {
+            keep(corners[k]);
+        }
+        if (h0 > 0.0 && h1 < 0.0) || (h0 < 0.0 && h1 > 0.0) {
+            keep(corners[k] + (corners[next] - corners[k]) * (h0 / (h0 - h1)));
+        }
+    }
+    (kept, count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::{Key, Sequence};
+    use isolux_geometry::Normal;
+
+    /// Triangles in all places about a receiver, as pieces above its horizon.
+    fn random_pieces(count: u64) -> Vec<Piece> {
+        let floor = Point::new(0.0, 0.0, 0.0);
+        let at = SurfacePoint {
+            triangle: 0,
+            back: false,
+            u: 0.0,
+            v: 0.0,
+            point: floor,
+            geometric: Normal::Z,
+            shading: Normal::Z,
+        };
+        let triangle = |k: u64| {
+            let key = Key::new(5).with(k);
+            // Three shapes in turn: any, flat, thin.
+            let flat = [1.0, 0.05, 1.0][(k % 3) as usize];
+            let thin = [1.0, 1.0, 0.05][(k % 3) as usize];
+            let c = |n: u64| 2.0 * key.with(n).uniform() - 1.0;
+            let first = Point::new(c(0), c(1), flat * c(2));
+            let second = Point::new(c(3), c(4), flat * c(5));
+            [first, second, first + Vector::new(c(6), c(7), flat * c(8)) * thin]
+        };
+        let triangles: Vec<[Point; 3]> = (0..count).map(triangle).collect();
+        pieces(&at, &triangles)
+    }
+
+    #[test]
+    fn no_direction_is_higher_than_the_highest_and_a_quarter_is_taken() {
+        let pieces = random_pieces(3000);
+        assert!(pieces.len() > 1000, "{}", pieces.len());
+        for (index, piece) in pieces.iter().enumerate() {
+            let corners = piece.corners.map(|c| Point::ORIGIN + c);
+            let Some(spherical) = SphericalTriangle::new(Point::ORIGIN, corners) else { continue };
+            let highest = highest_cos(spherical.corners(), Vector::new(0.0, 0.0, 1.0));
+            let taken = piece.steradians / (spherical.solid_angle_sr * highest);
+            assert!(taken > 0.25 && taken <= 1.0 + 1e-9, "{corners:?}: {taken}");
+            let sequence = Sequence::new(Key::new(6).with(index as u64));
+            for k in 0..64 {
+                let z = spherical.sample(sequence.pair(k, 0)).unwrap().to_vector().z;
+                // Half the digits of the arcs are lost in thin triangles.
+                assert!(z > -1e-7 && z <= highest + 1e-7, "{corners:?}: {z} above {highest}");
+            }
+        }
+    }
 }

@@ -106,7 +106,7 @@ impl Mirrors {
                 if reflectance.is_black() {
                     continue;
                 }
-                if scene.corner_normals(triangle).is_some_and(|n| n[0].dot(n[1]) < 1.0 - 1e-9) {
+                if scene.corner_normals(triangle).is_some_and(are_turned) {
                     found.leaves_some_out = true;
                     continue;
                 }
@@ -155,6 +155,11 @@ impl Mirrors {
     pub(super) fn of(&self, triangle: u32, back: bool) -> Option<u32> {
         self.sides[triangle as usize][usize::from(back)]
     }
+}
+
+/// Whether corner normals differ, beyond the rounding of normals given in `f32`.
+fn are_turned([a, b, c]: [Normal; 3]) -> bool {
+    a.dot(b).min(a.dot(c)) < 1.0 - 1e-9
 }
 
 fn extent_m(scene: &Scene) -> f64 {

@@ -6,7 +6,7 @@ use crate::engine::scatter::pane;
 use crate::engine::surface::SurfacePoint;
 use crate::scene::Body;
 use crate::units::Rgb;
-use isolux_geometry::{Point, Ray, Vector, offset_origin};
+use isolux_geometry::{Ray, Vector, offset_origin};
 
 /// Thin panes one behind the other that a shadow ray passes.
 const MAX_PANES: usize = 64;
@@ -36,14 +36,11 @@ impl Lighting<'_> {
             from = on_mirror;
             target = self.unreflected(target, plane);
         }
-        let ray = segment(&from, target);
-        // A segment that ends on the emitter must not be stopped by it; one that starts on a
-        // triangle leaves it by its offset.
-        let ray = emitter.map_or(ray, |index| ray.skipping(index));
+        let ray = last_segment(&from, target, emitter);
         if self.scene.bvh().any_hit(&ray) {
             return Rgb::BLACK;
         }
-        share * self.through_glass(ray)
+        share * self.through_glass(ray, target)
     }
 
     /// Whether the way to an image goes through its mirrors, obstacles left out: without rays, and
@@ -107,18 +104,14 @@ impl Lighting<'_> {
 
     /// What the transparent surfaces on an otherwise free segment let straight through: panes their
     /// transmittance, solid glass nothing (its light is bent: particles bring it).
-    fn through_glass(&self, mut ray: Ray) -> Rgb {
+    fn through_glass(&self, mut ray: Ray, target: Target) -> Rgb {
         let mut share = Rgb::WHITE;
         for _ in 0..MAX_PANES {
             let Some(hit) = self.panes.closest_hit(&ray) else { return share };
             let surface = SurfacePoint::from_hit(self.scene, &hit);
             let Some(passed) = self.pane_share(&surface, &ray) else { return Rgb::BLACK };
             share = share * passed;
-            // The rest of the segment, on the other side of the pane.
-            let passed = f64::from(hit.t);
-            let rest = Point::from(ray.origin) + Vector::from(ray.direction) * passed;
-            let origin = offset_origin(rest, -surface.geometric).to_f32();
-            ray = Ray { origin, t_max: ray.t_max - hit.t, skip: Some(hit.triangle), ..ray };
+            ray = segment(&surface.other_side(), target);
         }
         Rgb::BLACK
     }
@@ -131,6 +124,13 @@ impl Lighting<'_> {
         let direction = Vector::from(ray.direction).direction()?;
         glass.thin.then(|| pane(glass, direction.cos(surface.shading).abs()).transmittance)
     }
+}
+
+/// The segment that ends on the emitter, which must not stop it; a triangle that it starts on it leaves
+/// by its offset.
+fn last_segment(from: &SurfacePoint, target: Target, emitter: Option<u32>) -> Ray {
+    let ray = segment(from, target);
+    emitter.map_or(ray, |index| ray.skipping(index))
 }
 
 fn segment(from: &SurfacePoint, target: Target) -> Ray {

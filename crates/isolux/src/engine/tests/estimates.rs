@@ -68,13 +68,11 @@ fn wall() -> Shape {
 }
 
 #[test]
-#[ignore = "fault: one sample that falls below the horizon counts as full shadow"]
 fn of_surfaces_that_cross_the_horizon_it_is_unbiased() {
     check("a wall", &with(vec![wall()], vec![]), [0.0; 3], UP);
 }
 
 #[test]
-#[ignore = "fault: value or shadow is kept by what the sample itself saw"]
 fn of_surfaces_half_in_shadow_it_is_unbiased() {
     // The screen hides what is brightest, the part right above.
     let screen = rectangle([-0.1, -9.0, 0.2], [9.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0);

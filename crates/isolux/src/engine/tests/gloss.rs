@@ -141,7 +141,6 @@ fn check_sum(both: &Finish, gloss: &Finish, mirror: Rgb) {
 }
 
 #[test]
-#[ignore = "fault: with a mirror in one channel and gloss in another the gloss is never drawn"]
 fn mirror_and_gloss_of_different_colours_add() {
     let (mirror, f0) = (Rgb::new(0.5, 0.0, 0.0), Rgb::new(0.0, 0.4, 0.0));
     let both = finish(Rgb::BLACK, mirror, f0, 0.4);

@@ -208,7 +208,6 @@ fn surfaces_shine_through_panes() {
 }
 
 #[test]
-#[ignore = "fault: beyond a pane the glowing surface shades itself when seen at an angle"]
 fn surfaces_shine_through_panes_at_an_angle() {
     for pane_z in [0.1, 0.5, 0.999] {
         [1.0, 2.0, 4.0, 8.0].into_iter().for_each(|x| check_shine(pane_z, x));
@@ -238,7 +237,6 @@ fn chains_of_mirrors_too_long_for_images_are_left_to_particles() {
 }
 
 #[test]
-#[ignore = "fault: the normal of the third corner is not looked at"]
 fn a_mirror_with_one_turned_corner_is_curved() {
     for turned in 0..3 {
         let mut normals = vec![[0.0, 0.0, 1.0]; 3];
