@@ -5,6 +5,7 @@ use crate::failure::{Failure, Outcome};
 use crate::flags::{DemoFlags, LookFlags, ToneName};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
+use crate::solve::Run;
 use crate::summary::{self, Lit};
 use crate::{explain, map_file, render, report, solve, source, viewpoint};
 use isolux::engine::SolveRequest;
@@ -23,7 +24,9 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let request = SolveRequest { accuracy: Some(flags.accuracy), ..SolveRequest::default() };
     note(format!("{}, from {}", scene.name(), path.display()));
     explain::lines(&scene, &request).iter().for_each(note);
-    let solved = solve::solve(&scene, &request, None, &mut Reporter::new(None))?;
+    let source = path.display().to_string();
+    let run = Run { source: &source, output: &files.map, request: &request };
+    let solved = solve::solve(&scene, &run, None, &mut Reporter::new(None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;
     let camera = viewpoint::camera(&scene, None)?;
     let view = render::look(&scene, &solved.solution.map, &camera, PICTURE, false)?;

@@ -135,7 +135,8 @@ pub(crate) fn show_count(count: f64) -> String {
 /// A number with so many significant digits, and no fewer than its whole part has.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
+        // Without the sign of a zero.
+        return format!("{}", value + 0.0);
     }
     let magnitude = value.abs().log10().floor() as i32;
     let decimals = (digits as i32 - 1 - magnitude).clamp(0, 12) as usize;
@@ -221,5 +222,6 @@ mod tests {
         assert_eq!(show_count(3.14e6), "3.14 M");
         assert_eq!(significant(1234.5, 3), "1234");
         assert_eq!(significant(0.0, 3), "0");
+        assert_eq!(significant(-0.0, 3), "0");
     }
 }

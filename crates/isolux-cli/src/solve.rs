@@ -5,6 +5,7 @@ use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::SolveFlags;
 use crate::interrupt::Interrupt;
+use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::{show_bytes, show_seconds};
 use crate::report::Report;
@@ -27,7 +28,8 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     let saved =
         if flags.resume { saved_run::read(&output, asked.request.max_memory_bytes)? } else { None };
     let mut reporter = Reporter::new(flags.progress);
-    let solved = solve(&scene, &asked.request, saved.as_ref(), &mut reporter)?;
+    let run = Run { source: &flags.scene, output: &output, request: &asked.request };
+    let solved = solve(&scene, &run, saved.as_ref(), &mut reporter)?;
     map_file::write(&output, &scene, &solved.solution.map)?;
     let finished = matches!(solved.outcome, Outcome::Done);
     saved_run::keep(&output, &solved.solution.state, finished)?;
@@ -63,20 +65,30 @@ pub(crate) struct Solved {
     pub outcome: Outcome,
 }
 
+/// What is computed from what, and where it goes.
+pub(crate) struct Run<'a> {
+    /// The scene as the user named it.
+    pub source: &'a str,
+    /// The map.
+    pub output: &'a OutputPath,
+    /// What is asked of the engine.
+    pub request: &'a SolveRequest,
+}
+
 /// Computes a map, reports progress, and ends early at a signal.
 pub(crate) fn solve(
     scene: &Scene,
-    request: &SolveRequest,
+    run: &Run,
     saved: Option<&RunState>,
     reporter: &mut Reporter,
 ) -> Result<Solved, Failure> {
     let interrupt = Interrupt::install()?;
-    let solved = engine::solve(scene, request, saved, &mut |progress| {
+    let solved = engine::solve(scene, run.request, saved, &mut |progress| {
         reporter.show(progress);
         if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
     });
     reporter.finish();
-    let solution = solved.map_err(failure)?;
+    let solution = solved.map_err(|error| failure(error, run))?;
     let outcome = match (solution.map.provenance.complete, interrupt.is_requested()) {
         (true, _) => Outcome::Done,
         (false, true) => Outcome::Interrupted,
@@ -86,14 +98,35 @@ pub(crate) fn solve(
 }
 
 /// Sorted by who can mend it.
-pub(crate) fn failure(error: SolveError) -> Failure {
+fn failure(error: SolveError, run: &Run) -> Failure {
+    let source = run.source;
     match error {
         SolveError::Memory { needed, allowed } => Failure::Refused(format!(
-            "the map needs about {}, more than the {} of --max-memory; raise it, or ask for less \
-             with --mesh-accuracy",
+            "{source}: the map needs about {}, more than the {} of --max-memory; raise it, or ask \
+             for less with --mesh-accuracy",
             show_bytes(needed),
             show_bytes(allowed)
         )),
-        other => Failure::bad_input(other),
+        SolveError::NoLight => {
+            Failure::bad_input(format!("{source}: the scene has no light; {}", add_light(source)))
+        }
+        SolveError::NoReceiver => Failure::bad_input(format!(
+            "{source}: all surfaces are mirrors or glass, and none can carry a map; give one of \
+             them a diffuse reflectance"
+        )),
+        SolveError::OtherRun(what) => Failure::bad_input(format!(
+            "{}: the saved run differs in {what}; repeat its flags, or solve without --resume",
+            saved_run::path_beside(run.output.path()).display()
+        )),
+        other => Failure::bad_input(format!("{source}: {other}")),
+    }
+}
+
+/// How to, in this kind of file.
+fn add_light(source: &str) -> &'static str {
+    if source.to_lowercase().ends_with(".toml") {
+        "add a [[luminaire]], or a material with `luminance_cd_m2`"
+    } else {
+        "name the file in a scene.toml, as [[geometry]] with `file`, and add a [[luminaire]] there"
     }
 }

@@ -108,10 +108,16 @@ fn unwritable(path: &Path, error: &io::Error) -> Problem {
         io::ErrorKind::PermissionDenied => "choose a place where you may write",
         _ => "choose another place",
     };
-    // The text of a failure to create a temporary file names that file, which nobody asked for.
-    let cause = error.get_ref().and_then(|wrapped| wrapped.source());
-    let cause = cause.map_or_else(|| error.to_string(), ToString::to_string);
-    problem(path, format!("cannot be written: {cause}"), remedy)
+    problem(path, format!("cannot be written: {}", cause_of(error)), remedy)
+}
+
+/// A failure wrapped by `tempfile` names the temporary file, which nobody asked for: of that one
+/// only the kind is told.
+fn cause_of(error: &io::Error) -> String {
+    match error.get_ref() {
+        Some(_) => io::Error::from(error.kind()).to_string(),
+        None => error.to_string(),
+    }
 }
 
 #[cfg(test)]

@@ -11,12 +11,20 @@ pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
         Some("gltf" | "glb") => gltf::read(path),
         Some("obj") => obj::read(path),
         Some("toml") => scene_toml::read(path),
-        _ => Err(Problem::new(
-            path,
-            "",
-            "is not a scene by its extension",
-            "name a .toml, .gltf, .glb or .obj file",
-        )
-        .into()),
+        other => {
+            let what = "is not a scene by its extension";
+            Err(Problem::new(path, "", what, instead_of(other.unwrap_or_default())).into())
+        }
+    }
+}
+
+/// What to name instead of a file that is near a scene.
+fn instead_of(extension: &str) -> &'static str {
+    match extension {
+        "ies" | "ldt" => "name it in a [[luminaire]] of a scene.toml",
+        "mtl" => "name the .obj file that refers to it",
+        "rad" | "oct" => "convert the Radiance scene to .obj, and name that in a scene.toml",
+        "bin" => "name the .gltf file that refers to it",
+        _ => "name a .toml, .gltf, .glb or .obj file",
     }
 }

@@ -23,6 +23,10 @@ pub(crate) struct Line<'a> {
 
 /// The bytes of a file of at most so many.
 pub(crate) fn read_bounded(path: &Path, most: u64) -> Result<Vec<u8>, Problem> {
+    // A pipe or a device may have no end, or never begin.
+    if !path.metadata().map_err(|error| unreadable(path, &error))?.is_file() {
+        return Err(Problem::new(path, "", "is not a regular file", "give a photometric file"));
+    }
     let mut bytes = Vec::new();
     File::open(path)
         .and_then(|file| file.take(most + 1).read_to_end(&mut bytes))

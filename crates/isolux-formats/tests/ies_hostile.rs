@@ -140,9 +140,12 @@ fn tilt_tables_are_checked() {
 
 #[test]
 fn a_directory_and_an_absent_file_are_told_apart_from_bad_ones() {
-    for path in [env!("CARGO_TARGET_TMPDIR"), "/no/such/lamp.ies"] {
+    for (path, what) in [
+        (env!("CARGO_TARGET_TMPDIR"), "not a regular file"),
+        ("/no/such/lamp.ies", "cannot be read"),
+    ] {
         let found = ies::read(Path::new(path)).unwrap_err().to_string();
-        assert!(found.contains("cannot be read"), "{found}");
+        assert!(found.contains(what), "{found}");
     }
 }
 

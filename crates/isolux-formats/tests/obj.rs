@@ -234,7 +234,7 @@ fn degenerate_and_hostile_files() {
     assert!(list.len() <= 101);
     let crossing = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 3 0\nf 1 2 3 4\n";
     let loaded = read_text(crossing, "").unwrap();
-    assert!(loaded.warnings.iter().any(|w| w.what.contains("cross themselves")));
+    assert!(loaded.warnings.iter().any(|w| w.what.contains("crosses itself")));
 }
 
 #[test]

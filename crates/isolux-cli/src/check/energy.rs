@@ -2,7 +2,8 @@
 
 use super::finding::Finding;
 use crate::quantity::significant;
-use isolux::scene::{Body, Finish, LuminaireKind, Scene};
+use isolux::scene::{Finish, LuminaireKind, Material, Scene, Texture};
+use isolux::units::Rgb;
 
 /// Above this the light of a closed room would take a hundred reflections to die.
 const BRIGHT: f64 = 0.95;
@@ -28,12 +29,12 @@ pub(super) struct Energy {
 impl Energy {
     pub(super) fn of(scene: &Scene) -> Self {
         let (mut area_m2, mut inside_m2, mut reflected_m2) = (0.0, 0.0, 0.0);
+        let reflectances = Reflectances::of(scene);
         for triangle in 0..scene.triangle_count() {
             let area = scene.triangle(triangle).area();
             area_m2 += area;
-            for back in [false, true] {
-                let share = scene.material(triangle).finish(back).map(|f| reflectance(scene, f));
-                if let Some(share) = share.filter(|share| *share > 0.0) {
+            for share in reflectances.of_triangle(scene, triangle) {
+                if share > 0.0 {
                     inside_m2 += area;
                     reflected_m2 += area * share;
                 }
@@ -41,21 +42,23 @@ impl Energy {
         }
         Self {
             area_m2,
-            flux_lm: scene.luminous_flux_lm(),
+            // A sum of nothing is -0.
+            flux_lm: scene.luminous_flux_lm() + 0.0,
             mean_reflectance: if inside_m2 > 0.0 { reflected_m2 / inside_m2 } else { 0.0 },
             inside_m2,
             has_directional: scene
                 .luminaires()
                 .iter()
                 .any(|l| matches!(l.kind, LuminaireKind::Directional { .. })),
-            materials_above_bright: bright_materials(scene),
+            materials_above_bright: bright_materials(scene, &reflectances),
         }
     }
 
     /// What the balance of a closed room gives: flux over absorbing area. `None` for others.
     pub(super) fn mean_illuminance_lx(&self, is_closed: bool) -> Option<f64> {
         let absorbing_m2 = self.inside_m2 * (1.0 - self.mean_reflectance);
-        let applies = is_closed && !self.has_directional && absorbing_m2 > 0.0;
+        let is_lit = self.flux_lm > 0.0 && !self.has_directional;
+        let applies = is_closed && is_lit && absorbing_m2 > 0.0;
         applies.then(|| self.flux_lm / absorbing_m2)
     }
 
@@ -65,7 +68,7 @@ impl Energy {
             found.push(Finding::warning(
                 "scene",
                 "there is no light",
-                "add a luminaire or an emitting material",
+                "name the file in a scene.toml and add a [[luminaire]], or let a material emit",
             ));
         }
         let brightness = if self.area_m2 > 0.0 { self.flux_lm / self.area_m2 } else { 0.0 };
@@ -87,28 +90,40 @@ impl Energy {
     }
 }
 
+/// What front and back of every material reflect; zero for glass.
+struct Reflectances(Vec<[f64; 2]>);
+
+impl Reflectances {
+    fn of(scene: &Scene) -> Self {
+        let means: Vec<Rgb> = scene.textures().iter().map(Texture::mean).collect();
+        let sides = |material: &Material| {
+            [false, true].map(|back| material.finish(back).map_or(0.0, |f| reflectance(f, &means)))
+        };
+        Self(scene.materials().iter().map(sides).collect())
+    }
+
+    fn of_triangle(&self, scene: &Scene, triangle: u32) -> [f64; 2] {
+        self.0[scene.material_index(triangle) as usize]
+    }
+}
+
 /// Share of diffuse light that a finish does not absorb, near enough for a balance.
-fn reflectance(scene: &Scene, finish: &Finish) -> f64 {
-    let texture = finish.diffuse.texture.and_then(|t| scene.textures().get(t as usize));
-    let mean = texture.map_or(finish.diffuse.colour, |t| finish.diffuse.colour * t.mean());
+fn reflectance(finish: &Finish, texture_means: &[Rgb]) -> f64 {
+    let texture = finish.diffuse.texture.and_then(|t| texture_means.get(t as usize));
+    let mean = texture.map_or(finish.diffuse.colour, |t| finish.diffuse.colour * *t);
     let gloss = finish.gloss.map_or(0.0, |g| g.f0.luminance());
     (mean + finish.mirror).luminance() + gloss
 }
 
-fn bright_materials(scene: &Scene) -> Vec<String> {
-    let is_bright = |finish: &Finish| {
-        // A mirror may be perfect, a wall not.
-        finish.mirror.is_black() && reflectance(scene, finish) > BRIGHT
-    };
-    scene
-        .materials()
-        .iter()
-        .filter(|m| match &m.body {
-            Body::Opaque { front, back } => is_bright(front) || is_bright(back),
-            Body::Dielectric(_) => false,
+fn bright_materials(scene: &Scene, reflectances: &Reflectances) -> Vec<String> {
+    let is_bright = |material: &Material, shares: &[f64; 2]| {
+        [false, true].into_iter().zip(shares).any(|(back, share)| {
+            // A mirror may be perfect, a wall not.
+            *share > BRIGHT && material.finish(back).is_some_and(|f| f.mirror.is_black())
         })
-        .map(|m| m.name.clone())
-        .collect()
+    };
+    let all = scene.materials().iter().zip(&reflectances.0);
+    all.filter(|(m, shares)| is_bright(m, shares)).map(|(m, _)| m.name.clone()).collect()
 }
 
 #[cfg(test)]

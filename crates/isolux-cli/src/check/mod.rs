@@ -73,9 +73,11 @@ impl Audit {
 
     fn text(&self) -> String {
         let [x, y, z] = self.size_m.map(|side| significant(side, 3));
-        let mean = self.mean_illuminance_lx.map_or("not a closed room".to_owned(), |lx| {
-            format!("about {} lx, if all light stays inside", significant(lx, 2))
-        });
+        let mean = self
+            .mean_illuminance_lx
+            .map_or("not known: no closed room, or no light".to_owned(), |lx| {
+                format!("about {} lx, if all light stays inside", significant(lx, 2))
+            });
         let mut text = facts(&[
             ("scene", self.scene.clone()),
             ("size", format!("{x} x {y} x {z} m")),

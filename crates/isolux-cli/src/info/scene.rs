@@ -74,7 +74,8 @@ impl Contents {
             cameras: scene.cameras().iter().map(|c| c.name.clone()).collect(),
             groups: scene.groups().to_vec(),
             luminaires: luminaires(scene),
-            luminous_flux_lm: scene.luminous_flux_lm(),
+            // A sum of nothing is -0.
+            luminous_flux_lm: scene.luminous_flux_lm() + 0.0,
             materials: scene.materials().iter().map(surface).collect(),
         }
     }

@@ -49,8 +49,15 @@ pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
     })
 }
 
+/// Statements whose rest is a name, which may hold a `#`.
+const NAMING: [&str; 6] = ["g", "map_Kd", "mtllib", "newmtl", "o", "usemtl"];
+
 fn without_comment(line: &str) -> &str {
-    line.split('#').next().unwrap_or(line).trim()
+    let line = line.trim();
+    match line.split_whitespace().next() {
+        Some(keyword) if NAMING.contains(&keyword) => line,
+        _ => line.split('#').next().unwrap_or(line).trim(),
+    }
 }
 
 /// Finite numbers separated by blanks; `None` if one is not.
@@ -73,6 +80,13 @@ mod tests {
         let found: Vec<_> = statements(text).map(|s| (s.line, s.text.into_owned())).collect();
         let expected = [(3, "v 1 2 3"), (4, "f 1 2  3  4"), (7, "o\tname of it ")];
         assert_eq!(found, expected.map(|(line, text)| (line, text.to_owned())));
+    }
+
+    #[test]
+    fn names_were_cut_at_a_number_sign() {
+        let text = "newmtl Map #1\n  usemtl Wood#2\n#newmtl no\nmap_Kd a#b.png";
+        let found: Vec<_> = statements(text).map(|s| s.text.into_owned()).collect();
+        assert_eq!(found, ["newmtl Map #1", "usemtl Wood#2", "map_Kd a#b.png"]);
     }
 
     #[test]

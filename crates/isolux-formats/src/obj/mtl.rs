@@ -29,8 +29,8 @@ pub(super) fn parse(text: &str, findings: &mut Findings) -> Vec<MtlMaterial> {
         let list: Vec<&str> = unused.iter().map(String::as_str).collect();
         findings.warning(
             "",
-            format!("`{}` not used", list.join("`, `")),
-            "none needed; Kd, map_Kd, Ke, d, Tr, Tf, Ni, illum and mirror Ks are read",
+            format!("statements `{}` are left out", list.join("`, `")),
+            "nothing needs to be done; Kd, map_Kd, Ke, d, Tr, Tf, Ni, illum and mirror Ks are read",
         );
     }
     materials

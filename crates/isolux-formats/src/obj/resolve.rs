@@ -34,10 +34,12 @@ pub(super) fn resolve(file: &ObjFile, materials: Materials, findings: &mut Findi
 }
 
 fn warn_of_faces(lines: &[usize], what: &str, remedy: &str, findings: &mut Findings) {
-    if let Some(&first) = lines.first() {
-        let what = format!("faces, here and in all {}, {what}", lines.len());
-        findings.warning(place(first), what, remedy);
-    }
+    let Some(&first) = lines.first() else { return };
+    let more = match lines.len() {
+        1 => String::new(),
+        count => format!(" (and {} more)", count - 1),
+    };
+    findings.warning(place(first), format!("{what}{more}"), remedy);
 }
 
 /// Warns of a size that another unit would explain.
@@ -88,9 +90,14 @@ impl<'a> Builder<'a> {
                 crossed.push(line);
             }
         }
-        warn_of_faces(&crossed, "cross themselves", "triangulate them before export", findings);
-        let what = "lie exactly on others of the same material and are left out";
-        warn_of_faces(&copied, what, "remove the copies; every face has both sides", findings);
+        warn_of_faces(
+            &crossed,
+            "the face crosses itself",
+            "triangulate it before export",
+            findings,
+        );
+        let what = "the face lies exactly on another of the same material and is left out";
+        warn_of_faces(&copied, what, "remove it; every face has both sides", findings);
         Shape {
             name: self.part.name.clone(),
             positions: self

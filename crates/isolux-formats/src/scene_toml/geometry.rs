@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::import::{self, Import};
 use super::materials::Palette;
+use super::orientation::is_distorting;
 use super::record::GeometryRecord;
 use super::shapes::{Piece, placed};
 use super::spans::{At, Span};
@@ -57,6 +58,12 @@ fn add_lights_and_cameras(
     let keeps_luminaires = entry.get_ref().luminaires.as_ref().is_none_or(|keep| *keep.get_ref());
     let room = !keeps_luminaires
         || context.take_luminaires(&entry.span(), import.luminaire_count(), maps.len());
+    if keeps_luminaires && import.has_aimed_luminaires() && maps.iter().any(is_distorting) {
+        let what = "the placement stretches or shears a file with luminaires: they are turned and \
+                    moved, their beams keep their shape";
+        let remedy = "scale all axes alike, or set `luminaires = false` and place them here";
+        context.warning(&entry.span(), what, remedy);
+    }
     for map in maps {
         if keeps_luminaires && room {
             scene.luminaires.extend(import.luminaires(map));

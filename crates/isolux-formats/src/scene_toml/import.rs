@@ -9,6 +9,7 @@ use super::spans::At;
 use crate::{gltf, obj};
 use isolux::geometry::Direction;
 use isolux::geometry::Transform;
+use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Body, Camera, Finish, Luminaire, LuminaireKind, Material, SceneParts};
 
 /// The units and axes of a file, and what is in it.
@@ -73,6 +74,17 @@ impl Import {
     /// Number of luminaires in the file.
     pub(super) fn luminaire_count(&self) -> usize {
         self.parts.luminaires.len()
+    }
+
+    /// Whether a turn of the file changes where it sends light.
+    pub(super) fn has_aimed_luminaires(&self) -> bool {
+        let is_aimed = |kind: &LuminaireKind| match kind {
+            LuminaireKind::Point { intensity, .. } => {
+                !matches!(intensity, IntensityDistribution::Isotropic { .. })
+            }
+            LuminaireKind::Directional { .. } => true,
+        };
+        self.parts.luminaires.iter().any(|l| is_aimed(&l.kind))
     }
 
     /// A material of the file, taken into the scene when first asked for.
