@@ -40,11 +40,7 @@ pub(super) fn accuracy(
     }
     let statistical = (variance / squared).sqrt();
     let discretization = interpolation.indirect_lx / rms_lx;
-    let lookup_lx = if plan.direct_from_map {
-        interpolation.total_mean_lx
-    } else {
-        interpolation.indirect_mean_lx
-    };
+    let lookup_lx = interpolation.indirect_mean_lx;
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign,
     // and so has the mean of the interpolation error where the map is read.
     let (lookup, series) = (lookup_lx.abs() / rms_lx, reflected_series(plan));

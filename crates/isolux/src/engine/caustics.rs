@@ -12,7 +12,7 @@ use crate::units::Rgb;
 use rayon::prelude::*;
 
 /// Particles a vertex and increment.
-const PARTICLES_A_VERTEX: usize = 16;
+const PARTICLES_A_VERTEX: usize = 4;
 
 /// Caustic illuminance at the vertices that indirect light lives on, and what it took.
 pub(super) fn deposit(plan: &Plan, key: Key) -> (Vec<Rgb>, Effort) {

@@ -41,8 +41,6 @@ pub(super) struct InterpolationErrors {
     pub(super) total_lx: f64,
     /// Mean of the indirect error, with its sign and standard error.
     pub(super) indirect_mean_lx: f64,
-    /// Mean of the total error.
-    pub(super) total_mean_lx: f64,
     /// What paths given up would bring in the mean, before it is reflected.
     pub(super) given_up_lx: f64,
 }
@@ -149,7 +147,6 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         indirect_lx: root(0),
         total_lx: root(1),
         indirect_mean_lx: mean[0],
-        total_mean_lx: mean[1],
         given_up_lx: 0.0,
     }
 }

@@ -75,8 +75,21 @@ pub(super) struct Gathering<'a> {
     pub(super) level: u32,
     /// Which vertices have a value to be read; hidden ones have not.
     pub(super) known: &'a [bool],
-    /// Whether direct light at the ends of rays is read from the map instead of evaluated.
-    pub(super) direct_from_map: bool,
+    pub(super) direct: DirectAtEnds<'a>,
+}
+
+/// Where rays get the direct light of the surfaces that they end on.
+#[derive(Clone, Copy)]
+pub(super) enum DirectAtEnds<'a> {
+    /// Evaluated there: no bias, but a source is drawn where there are many.
+    Evaluated,
+    /// Read from these values of vertices, nodes from number `level` on left out.
+    Read {
+        /// A value a vertex, lx.
+        values: &'a [Rgb],
+        /// As for indirect light, but direct light may live on a finer level.
+        level: u32,
+    },
 }
 
 /// The share of the light of three vertices that arrives at a receiver.
@@ -130,11 +143,11 @@ impl Gathering<'_> {
         let sequence = Sequence::new(key);
         let axis = gatherer.normal.to_direction();
         let (mut source, mut open) = (Rgb::BLACK, false);
+        let mut ends: Vec<(SurfacePoint, Rgb)> = Vec::new();
         for index in 0..gatherer.rays {
             let mut dice = Dice::new(sequence, index);
             let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
             let ray = Ray::new(gatherer.origin, direction);
-            let mut ends: Vec<(SurfacePoint, Rgb)> = Vec::with_capacity(1);
             let end =
                 follow(self.scene, ray, direction, &mut dice, |surface, finish, throughput| {
                     match self.end(surface, finish, throughput) {
@@ -148,17 +161,26 @@ impl Gathering<'_> {
                 PathEnd::Absorbed => {}
                 PathEnd::GivenUp(share) => rows.given_up += share / f64::from(gatherer.rays),
             }
-            for (surface, reflectance) in ends {
+            for (surface, reflectance) in ends.drain(..) {
                 let weight = reflectance / f64::from(gatherer.rays);
-                if !self.direct_from_map {
-                    source += weight * self.lighting.estimate(&surface, &mut dice);
-                }
+                source += weight * self.direct_at(&surface, &mut dice);
                 rows.entries.extend(self.entry(&surface, weight));
             }
         }
         rows.ends.push(rows.entries.len());
         rows.sources.push(source);
         rows.open.push(open);
+    }
+
+    fn direct_at(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+        match self.direct {
+            DirectAtEnds::Evaluated => self.lighting.estimate(at, dice),
+            DirectAtEnds::Read { values, level } => {
+                self.corners(level, at).map_or(Rgb::BLACK, |corners| {
+                    corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
+                })
+            }
+        }
     }
 
     fn end(&self, surface: &SurfacePoint, finish: &Finish, throughput: Rgb) -> End {
@@ -172,13 +194,19 @@ impl Gathering<'_> {
 
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
     fn entry(&self, at: &SurfacePoint, weight: Rgb) -> Option<Entry> {
-        let corners = self.elements.locate_above(self.level, at.triangle, at.back, at.u, at.v)?;
-        let weights = known_weights(corners, self.known)?;
+        let corners = self.corners(self.level, at)?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
-            weights: weights.map(|w| w as f32),
+            weights: corners.map(|(_, weight)| weight as f32),
             reflectance: weight.0.map(|c| c as f32),
         })
+    }
+
+    /// Vertices and weights of a place on a level, over the known ones.
+    fn corners(&self, level: u32, at: &SurfacePoint) -> Option<[(u32, f64); 3]> {
+        let corners = self.elements.locate_above(level, at.triangle, at.back, at.u, at.v)?;
+        let weights = known_weights(corners, self.known)?;
+        Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     }
 }
 

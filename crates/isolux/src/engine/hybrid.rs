@@ -7,7 +7,7 @@
 use super::accumulate::{Accumulator, Effort, Sample};
 use super::caustics;
 use super::checks::{self, Check};
-use super::gather::{Gatherer, Gathering};
+use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::path::Dice;
 use super::pilot::Plan;
 use crate::sampling::{Key, Sequence};
@@ -23,6 +23,7 @@ pub(super) struct Hybrid<'p, 's> {
     plan: &'p Plan<'s>,
     check_direct: Vec<Rgb>,
     rows: Vec<Gatherer>,
+    check_rows: Vec<Gatherer>,
     key: Key,
 }
 
@@ -30,10 +31,10 @@ impl<'p, 's> Hybrid<'p, 's> {
     /// With `rays[k]` gathering rays for vertex k in every increment.
     pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: &[u32], seed: u64) -> Self {
         let key = Key::new(seed).with(1);
-        let vertices = plan.gatherers.iter().zip(rays).map(|(g, &rays)| g.with_rays(rays));
-        let rows = vertices.chain(checks.iter().map(|c| c.gatherer)).collect();
+        let rows = plan.gatherers.iter().zip(rays).map(|(g, &rays)| g.with_rays(rays)).collect();
+        let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
-        Self { plan, check_direct, rows, key }
+        Self { plan, check_direct, rows, check_rows, key }
     }
 
     /// Adds increment `index`.
@@ -54,26 +55,30 @@ impl<'p, 's> Hybrid<'p, 's> {
             elements: &plan.elements,
             level: plan.level,
             known: &plan.known,
-            direct_from_map: plan.direct_from_map,
+            direct: if plan.direct_from_map {
+                DirectAtEnds::Read { values: &direct, level: u32::MAX }
+            } else {
+                DirectAtEnds::Evaluated
+            },
         };
         let operator = gathering.operator(&self.rows, |row| key.with(2).with(row as u64));
-        let given: Vec<Rgb> = (0..plan.indirect_vertices)
-            .map(|k| if plan.direct_from_map { caustic[k] + direct[k] } else { caustic[k] })
-            .collect();
-        let (solved, unsettled_lx) = operator.solve_or_give_up(&plan.guess, &given, TOLERANCE);
-        let (gathered, fresh) = solved.split_at(plan.indirect_vertices);
-        let indirect = plan.prolongate(gathered);
+        let (gathered, unsettled_lx) = operator.solve_or_give_up(&plan.guess, &caustic, TOLERANCE);
+        let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
+        // Check points evaluate what the map reads, so that they see what reading gets wrong.
+        let checking = Gathering { direct: DirectAtEnds::Evaluated, ..gathering };
+        let fresh = checking.operator(&self.check_rows, |row| key.with(3).with(row as u64));
+        let indirect = plan.prolongate(&gathered);
         let caustic = plan.prolongate(&caustic);
         receivers.add((0..direct.len()).map(|k| Sample {
             direct: direct[k],
             caustic: caustic[k],
             indirect: indirect[k],
         }));
-        checks::add(check_sums, checks, fresh, &check_direct, &indirect, &direct);
+        checks::add(check_sums, checks, &fresh.apply(&light), &check_direct, &indirect, &direct);
         // Rays given up would have seen what others see.
         let unseen_lx = operator.given_up() * plan.rms_lx;
         Effort {
-            rays: operator.rays + particles.rays,
+            rays: operator.rays + fresh.rays + particles.rays,
             given_up_lx: particles.given_up_lx + unseen_lx + unsettled_lx,
         }
     }

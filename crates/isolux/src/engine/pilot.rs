@@ -6,7 +6,7 @@
 
 use super::detail::{LeafError, leaf_errors, refine_worst};
 use super::direct::Lighting;
-use super::gather::{Gatherer, Gathering};
+use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::elements::{Elements, Subdivision, Vertex};
@@ -26,7 +26,7 @@ const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
 const PULL_IN: f64 = 2e-3;
 /// With more sources than this, rays read direct light from the map where they end.
-const MOST_SOURCES_EVALUATED: usize = 64;
+const MOST_SOURCES_EVALUATED: usize = 16;
 /// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 2;
@@ -235,21 +235,21 @@ impl<'s> Pilot<'s> {
             elements,
             level: if first == 0 { u32::MAX } else { level },
             known: if first == 0 { &everything } else { &self.known },
-            direct_from_map: self.direct_from_map(),
+            direct: if self.direct_from_map() {
+                let level = if first == 0 { u32::MAX } else { level };
+                DirectAtEnds::Read { values: &self.direct, level }
+            } else {
+                DirectAtEnds::Evaluated
+            },
         };
         let key = self.key.with(2);
         let operator = gathering.operator(&gatherers[first..], |_| key);
         self.traced += operator.rays;
         let new = if first == 0 {
             let black = vec![Rgb::BLACK; gatherers.len()];
-            let given = if self.direct_from_map() { &self.direct } else { &black };
-            operator.solve(&black, given, PILOT_TOLERANCE)
+            operator.solve(&black, &black, PILOT_TOLERANCE)
         } else {
-            let given = |k: usize| {
-                if self.direct_from_map() { self.direct[k] } else { Rgb::BLACK }
-            };
-            let light: Vec<Rgb> = (0..first).map(|k| self.indirect[k] + given(k)).collect();
-            operator.apply(&light)
+            operator.apply(&self.indirect)
         };
         for ((lx, direct), open) in new.iter().zip(&self.direct[first..]).zip(operator.open()) {
             self.known.push(open || !(*lx + *direct).is_black());

@@ -1,7 +1,7 @@
 //! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
 
 use super::direct::Lighting;
-use super::gather::{Gatherer, Gathering};
+use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::map::{Illuminance, IlluminationMap};
@@ -123,7 +123,7 @@ impl<'a> MapReader<'a> {
             elements: &self.map.elements,
             level: u32::MAX,
             known: &self.known,
-            direct_from_map: false,
+            direct: DirectAtEnds::Evaluated,
         };
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);

@@ -13,6 +13,8 @@ pub struct Scene {
     name: String,
     up: UpAxis,
     bvh: Bvh,
+    /// Unit normals of the triangles as planes, read at every hit.
+    geometric_normals: Vec<Normal>,
     /// Shading normals at the corners, for triangles of shapes that have them.
     corner_normals: Vec<Option<[Normal; 3]>>,
     corner_uvs: Vec<Option<[[f64; 2]; 3]>>,
@@ -44,7 +46,11 @@ impl Scene {
             let shape = &parts.shapes[triangle_shape[triangle as usize] as usize];
             matches!(parts.materials[shape.material as usize].body, Body::Dielectric(_))
         };
+        let normal = |triangle| {
+            mesh.triangle(triangle).normal().expect("triangles without area are left out")
+        };
         let mut scene = Self {
+            geometric_normals: (0..mesh.len() as u32).map(normal).collect(),
             bvh: Bvh::build(mesh, is_transparent),
             name: parts.name,
             up: parts.up,
@@ -205,7 +211,7 @@ impl Scene {
 
     /// The normal of the front of a triangle.
     pub fn geometric_normal(&self, triangle: u32) -> Normal {
-        self.triangle(triangle).normal().expect("triangles without area are left out")
+        self.geometric_normals[triangle as usize]
     }
 
     /// The shading normals at the corners of a triangle, where it is not flat.

@@ -118,7 +118,6 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
         indirect_lx: 3.0,
         total_lx: 4.0,
         indirect_mean_lx: -2.0,
-        total_mean_lx: 50.0,
         given_up_lx: 0.0,
     };
     let found = accuracy(&plan, &sums(&plan, 25, 0.1), &errors).unwrap();

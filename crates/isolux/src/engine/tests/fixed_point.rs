@@ -3,7 +3,7 @@
 use super::*;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::direct::Lighting;
-use crate::engine::gather::{Gatherer, Gathering, Operator, known_weights};
+use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, Operator, known_weights};
 use std::f64::consts::PI;
 
 fn elements_of(scene: &Scene, rays: u32) -> (Elements, Vec<Gatherer>) {
@@ -18,13 +18,14 @@ fn elements_of(scene: &Scene, rays: u32) -> (Elements, Vec<Gatherer>) {
 fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer]) -> Operator {
     let lighting = Lighting::new(scene);
     let known = vec![true; elements.vertices().len()];
+    let black = vec![Rgb::BLACK; known.len()];
     let gathering = Gathering {
         scene,
         lighting: &lighting,
         elements,
         level: u32::MAX,
         known: &known,
-        direct_from_map: true,
+        direct: DirectAtEnds::Read { values: &black, level: u32::MAX },
     };
     gathering.operator(gatherers, |k| Key::new(1).with(k as u64))
 }
