@@ -114,7 +114,8 @@ pub(super) fn refine_worst(
     any
 }
 
-fn bisect_twice(subdivision: &mut Subdivision, node: u32) {
+/// Bisects an element and its children.
+pub(super) fn bisect_twice(subdivision: &mut Subdivision, node: u32) {
     subdivision.bisect(node);
     if let Some(split) = subdivision.node(node).0.split {
         subdivision.bisect(split.first_child);

@@ -22,9 +22,9 @@ const CHUNK: usize = 64;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gatherer {
     /// Where rays start.
-    origin: Point,
+    pub(super) origin: Point,
     /// About what they are distributed.
-    normal: Normal,
+    pub(super) normal: Normal,
     /// The place for direct light.
     pub(super) surface: SurfacePoint,
     /// How many rays.

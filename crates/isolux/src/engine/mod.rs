@@ -10,6 +10,7 @@ mod emission;
 mod filter;
 mod forward;
 mod gather;
+mod hidden;
 mod hybrid;
 mod particle;
 mod path;

@@ -4,9 +4,10 @@
 //! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
 //! noise is smooth over surfaces and does not pass for detail.
 
-use super::detail::{LeafError, leaf_errors, refine_worst};
+use super::detail::{LeafError, bisect_twice, leaf_errors, refine_worst};
 use super::direct::Lighting;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
+use super::hidden::Sight;
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::elements::{Elements, Subdivision, Vertex};
@@ -37,6 +38,10 @@ const STALLED: f64 = 0.85;
 const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
 /// Fewest rays of a receiver that is not hidden.
 pub(super) const FEWEST_RAYS: u32 = 8;
+/// Bisections of elements with hidden vertices, and the places in one that are asked whether light
+/// comes there.
+const ROUNDS_FOR_HIDDEN: usize = 4;
+const PLACES_OF_HIDDEN: u32 = 4;
 /// Sweeps of the pilot end when they change less than this.
 const PILOT_TOLERANCE: f64 = 1e-4;
 
@@ -139,6 +144,15 @@ pub(super) fn pilot<'s>(
     let goal = DISCRETIZATION_SHARE * request.target;
     let mut look = pilot.look();
     let most = request.max_vertices.min(MOST_FOR_INDIRECT_LIGHT.max(look.vertices / 2 * 3));
+    for _ in 0..ROUNDS_FOR_HIDDEN {
+        if !pilot.open_up(&look.elements, most) {
+            break;
+        }
+        look = pilot.look();
+        if !go_on(pilot.subdivision.vertex_count(), pilot.traced) {
+            break;
+        }
+    }
     let mut before = f64::INFINITY;
     for _ in 0..MAX_ROUNDS {
         let error = relative_error(&look.errors, look.rms_lx);
@@ -251,11 +265,54 @@ impl<'s> Pilot<'s> {
         } else {
             operator.apply(&self.indirect)
         };
-        for ((lx, direct), open) in new.iter().zip(&self.direct[first..]).zip(operator.open()) {
-            self.known.push(open || !(*lx + *direct).is_black());
+        self.extend_known(elements, gatherers);
+        if first == 0 && !self.known.contains(&true) {
+            // No light at all: what is not closed in is dark.
+            self.known = operator.open();
         }
         self.indirect.extend(new);
         self.solved_nodes = self.subdivision.node_count() as u32;
+    }
+
+    fn sight<'a>(&'a self, elements: &'a Elements, gatherers: &'a [Gatherer]) -> Sight<'a> {
+        let (scene, lighting, key) = (self.scene, self.lighting, self.key.with(3));
+        Sight { scene, lighting, elements, gatherers, key }
+    }
+
+    fn extend_known(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        let mut known = std::mem::take(&mut self.known);
+        self.sight(elements, gatherers).extend_known(&self.direct, &mut known);
+        self.known = known;
+    }
+
+    /// Bisects elements with hidden vertices where light comes to places that see none of the
+    /// others; returns whether there are any.
+    fn open_up(&mut self, elements: &Elements, max_vertices: usize) -> bool {
+        let gatherers = self.gatherers(elements);
+        let sight = self.sight(elements, &gatherers);
+        let is_cut_off = |&node: &u32| {
+            let sequence = Sequence::new(self.key.with(4).with(u64::from(node)));
+            (0..PLACES_OF_HIDDEN).any(|k| {
+                let square = Dice::new(sequence, k).pair();
+                let place = place_in_node(self.scene, &self.subdivision, node, square);
+                sight.is_cut_off(&place, u64::from(node * PLACES_OF_HIDDEN + k), &self.known)
+            })
+        };
+        let hidden: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_hidden(n)).collect();
+        let cut_off: Vec<u32> = hidden.into_par_iter().filter(is_cut_off).collect();
+        for &node in &cut_off {
+            if self.subdivision.vertex_count() < max_vertices {
+                bisect_twice(&mut self.subdivision, node);
+            }
+        }
+        !cut_off.is_empty()
+    }
+
+    /// Whether an element can be bisected and has a hidden vertex.
+    fn has_hidden(&self, node: u32) -> bool {
+        let corners = self.subdivision.node(node).0.vertices;
+        self.subdivision.longest_edge_m(node) > 2.0 * self.least_edge_m
+            && corners.iter().any(|&v| !self.known[v as usize])
     }
 
     /// Refines further for direct light as interpolated, and puts the plan together.
@@ -268,7 +325,6 @@ impl<'s> Pilot<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
         let coarse = self.subdivision.clone();
         let level = coarse.node_count() as u32;
-        let mut known = std::mem::take(&mut self.known);
         let mut elements = look.elements;
         // Best effort: sharp shadow borders would take elements without end, and of emitting surfaces
         // refinement cannot tell noise from borders.
@@ -276,8 +332,9 @@ impl<'s> Pilot<'s> {
         let most = most.min(request.max_vertices);
         let least = self.least_edge_m;
         for _ in 0..MAX_ROUNDS {
-            let luminances: Vec<Option<f64>> =
-                (0..known.len()).map(|k| known[k].then(|| self.direct[k].luminance())).collect();
+            let luminances: Vec<Option<f64>> = (0..self.known.len())
+                .map(|k| self.known[k].then(|| self.direct[k].luminance()))
+                .collect();
             let errors = leaf_errors(&self.subdivision, &elements, &luminances);
             let good = relative_error(&errors, look.rms_lx) <= request.mesh_target;
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
@@ -289,12 +346,14 @@ impl<'s> Pilot<'s> {
             elements = self.subdivision.elements();
             let gatherers = self.gatherers(&elements);
             self.complete_direct(&gatherers);
-            extend_known(&elements, &mut known, &self.direct);
+            self.extend_known(&elements, &gatherers);
         }
         // Once more for all: refinement has moved the receivers on borders.
         let gatherers = self.gatherers(&elements);
         self.direct.clear();
         self.complete_direct(&gatherers);
+        let mut known = std::mem::take(&mut self.known);
+        forget_orphans(&elements, indirect_vertices, &mut known);
         Plan {
             direct_from_map: self.direct_from_map(),
             scene: self.scene,
@@ -314,12 +373,12 @@ impl<'s> Pilot<'s> {
     }
 }
 
-/// Vertices added for direct light are hidden if both ends of their edge are and no light arrives.
-fn extend_known(elements: &Elements, known: &mut Vec<bool>, direct: &[Rgb]) {
-    let first = known.len();
-    for (vertex, direct) in elements.vertices().iter().zip(direct).skip(first) {
-        let ends = vertex.parents.unwrap_or([0, 0]);
-        known.push(!direct.is_black() || ends.iter().any(|&end| known[end as usize]));
+/// Of vertices added for direct light nothing is known where both ends of their edge are hidden:
+/// their indirect light is interpolated from there.
+fn forget_orphans(elements: &Elements, first: usize, known: &mut [bool]) {
+    for (k, vertex) in elements.vertices().iter().enumerate().skip(first) {
+        let ends = vertex.parents.unwrap_or([k as u32; 2]);
+        known[k] &= ends.iter().any(|&end| known[end as usize]);
     }
 }
 
@@ -353,11 +412,19 @@ fn pilot_rays(target: f64) -> u32 {
 }
 
 /// A place of an element of the plan that indirect light lives on.
-pub(super) fn place_in_leaf(plan: &Plan, node: u32, [a, b]: [f64; 2]) -> SurfacePoint {
-    let (_, origin) = plan.subdivision.node(node);
+pub(super) fn place_in_leaf(plan: &Plan, node: u32, square: [f64; 2]) -> SurfacePoint {
+    place_in_node(plan.scene, &plan.subdivision, node, square)
+}
+
+fn place_in_node(
+    scene: &Scene,
+    subdivision: &Subdivision,
+    node: u32,
+    [a, b]: [f64; 2],
+) -> SurfacePoint {
+    let (_, origin) = subdivision.node(node);
     let root = a.sqrt();
-    let leaf = plan.subdivision.triangle(node);
-    let point = leaf.point(root * (1.0 - b), root * b);
-    let [u, v] = plan.scene.triangle(origin.triangle).barycentric(point);
-    SurfacePoint::new(plan.scene, origin.triangle, origin.back, u, v)
+    let point = subdivision.triangle(node).point(root * (1.0 - b), root * b);
+    let [u, v] = scene.triangle(origin.triangle).barycentric(point);
+    SurfacePoint::new(scene, origin.triangle, origin.back, u, v)
 }

@@ -136,7 +136,8 @@ impl<'s> Run<'s, '_> {
         let plan = pilot(scene, lighting, &request, &mut |receivers, rays| {
             self.rays = before + rays;
             let progress = self.progress(Stage::Pilot, 0, receivers as u64, None);
-            self.stopped |= watch(&progress) == Watch::Stop || self.out_of_time();
+            // Who has said stop is not asked again.
+            self.stopped = self.stopped || watch(&progress) == Watch::Stop || self.out_of_time();
             !self.stopped
         });
         self.rays = before + plan.rays;
