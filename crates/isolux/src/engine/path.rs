@@ -1,6 +1,6 @@
 //! Paths over specular surfaces.
 
-use super::scatter::{Scattered, reflect, refract, specular_share};
+use super::scatter::{Scattered, luminance_ratio, reflect, refract, specular_share};
 use super::surface::SurfacePoint;
 use crate::sampling::Sequence;
 use crate::scene::{Body, Finish, Scene};
@@ -48,8 +48,9 @@ pub(super) enum PathEnd {
     GivenUp(f64),
 }
 
-/// Follows a ray over specular reflection and transmission. Every surface met that is opaque is
-/// handed to `met` with the throughput up to there, before its specular part is followed.
+/// Follows a ray back to where light comes from, over specular reflection and transmission. Every
+/// surface met that is opaque is handed to `met` with the throughput of luminance from there, before
+/// its specular part is followed.
 pub(super) fn follow(
     scene: &Scene,
     mut ray: Ray,
@@ -57,17 +58,21 @@ pub(super) fn follow(
     dice: &mut Dice,
     mut met: impl FnMut(&SurfacePoint, &Finish, Rgb),
 ) -> PathEnd {
+    // Without the square of the index where the path is over that where it began: roulette must not
+    // end paths for being in a dense medium, which they may leave again.
     let mut throughput = Rgb::WHITE;
+    let mut luminance_of_start = 1.0;
     for _ in 0..MAX_SPECULAR {
         let Some(hit) = scene.bvh().closest_hit(&ray) else { return PathEnd::Left };
         let surface = SurfacePoint::from_hit(scene, &hit);
         let body = &scene.material(hit.triangle).body;
         if let Body::Opaque { front, back } = body {
-            met(&surface, if surface.back { back } else { front }, throughput);
+            met(&surface, if surface.back { back } else { front }, throughput * luminance_of_start);
         }
         let Some(next) = specular_step(body, &surface, direction, throughput, dice) else {
             return PathEnd::Absorbed;
         };
+        luminance_of_start *= luminance_ratio(body, &surface, next.direction);
         (ray, direction, throughput) = (next.ray, next.direction, throughput * next.weight);
     }
     PathEnd::GivenUp(throughput.luminance())

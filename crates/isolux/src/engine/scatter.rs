@@ -2,7 +2,7 @@
 
 use super::surface::SurfacePoint;
 use crate::sampling::Ggx;
-use crate::scene::{Dielectric, Finish};
+use crate::scene::{Body, Dielectric, Finish};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray, Vector};
 
@@ -143,6 +143,19 @@ pub(super) fn refract(
             let weight = reflected * (1.0 / chance);
             Scattered { ray: surface.leave(direction), direction, weight, mirrored: false }
         }
+    }
+}
+
+/// What luminance is multiplied by, besides [`refract`]'s weight, on the way back from where a path
+/// goes on: light that enters a denser medium is pressed into fewer directions, and luminance over the
+/// square of the index stays (Nicodemus 1963, "Radiance"). Flux needs no such factor.
+pub(super) fn luminance_ratio(body: &Body, surface: &SurfacePoint, onwards: Direction) -> f64 {
+    match body {
+        Body::Dielectric(glass) if !glass.thin && onwards.cos(surface.shading) < 0.0 => {
+            let ior = if surface.back { 1.0 / glass.ior } else { glass.ior };
+            1.0 / (ior * ior)
+        }
+        _ => 1.0,
     }
 }
 

@@ -113,6 +113,8 @@ pub struct SphericalTriangle {
     /// Solid angle, sr.
     pub solid_angle_sr: f64,
     angle_a: f64,
+    sin_a: f64,
+    cos_a: f64,
     cos_c: f64,
 }
 
@@ -131,10 +133,13 @@ impl SphericalTriangle {
         let solid_angle_sr = 2.0 * libm::atan2(numerator, denominator);
         let (ab, ac) = (a.cross(b).direction()?, a.cross(c).direction()?);
         let angle_a = libm::acos(ab.dot(ac).clamp(-1.0, 1.0));
+        let (sin_a, cos_a) = libm::sincos(angle_a);
         (solid_angle_sr > 0.0 && angle_a > 0.0).then_some(Self {
             corners: [a, b, c],
             solid_angle_sr,
             angle_a,
+            sin_a,
+            cos_a,
             cos_c: a.dot(b),
         })
     }
@@ -149,11 +154,10 @@ impl SphericalTriangle {
         let [a, b, c] = self.corners;
         // The sub-triangle a, b, c' that holds the share u of the area; c' lies on the arc a c.
         let (s, t) = libm::sincos(u * self.solid_angle_sr - self.angle_a);
-        let (sin_a, cos_a) = libm::sincos(self.angle_a);
-        let x = t - cos_a;
-        let y = s + sin_a * self.cos_c;
-        let q_numerator = (y * t - x * s) * cos_a - y;
-        let q_denominator = (y * s + x * t) * sin_a;
+        let x = t - self.cos_a;
+        let y = s + self.sin_a * self.cos_c;
+        let q_numerator = (y * t - x * s) * self.cos_a - y;
+        let q_denominator = (y * s + x * t) * self.sin_a;
         let q = if q_denominator == 0.0 { 1.0 } else { q_numerator / q_denominator };
         let on_arc = arc(a, c, q.clamp(-1.0, 1.0))?;
         // Then along the arc from b to c', uniform in the height over b.

@@ -7,9 +7,10 @@ use crate::rooms::{
 };
 use crate::runs::{METHODS, coarse, run};
 use isolux::engine::SolveRequest;
-use isolux::map::Method;
+use isolux::map::{IlluminationMap, Method};
 use isolux::scene::{Material, Scene, Shape};
 use std::f64::consts::PI;
+use std::ops::Range;
 
 const REFLECTANCE: f64 = 0.6;
 const ROOM: [f64; 3] = [3.0, 2.0, 2.5];
@@ -91,8 +92,50 @@ fn of_parallel_mirrors() {
 }
 
 #[test]
-#[ignore = "fault: gathering rays that leave water forget that luminance grows by the square of the index"]
 fn of_water() {
     let surface = rectangle([0.0, 0.0, 1.0], [3.0, 0.0, 0.0], [0.0, 2.0, 0.0], 1);
     check_both("a floor under water", &with(vec![surface], clear_glass(1.33, false)));
+}
+
+/// A pool: where the luminance is the same all around it stays so, but under water it is larger by
+/// the square of the index, and so is the illuminance.
+#[test]
+fn of_even_light_under_water() {
+    let (ior, luminance_cd_m2) = (1.33, 100.0);
+    let [x, y, z] = ROOM;
+    let level_m = 1.0;
+    let water = inward_box([0.0; 3], [x, y, level_m], 0);
+    let air = inward_box([0.0, 0.0, level_m], [x, y, z], 1);
+    // Walls, the floor of the one, the ceiling of the other; the surface between them.
+    let mut shapes: Vec<Shape> = [&water[..5], &air[..4], &air[5..]].concat();
+    shapes.push(rectangle([0.0, 0.0, level_m], [x, 0.0, 0.0], [0.0, y, 0.0], 2));
+    let glow = |times: f64| glowing(times * luminance_cd_m2, REFLECTANCE);
+    let pool = scene(shapes, vec![glow(ior * ior), glow(1.0), clear_glass(ior, false)], vec![]);
+    let air_lx = PI * luminance_cd_m2 / (1.0 - REFLECTANCE);
+    for method in METHODS {
+        let request = SolveRequest { accuracy: Some(0.05), ..coarse(method, 1600) };
+        let map = run(&pool, &request, 16).expect("the scene has light").map;
+        check_level(&map, "water", 0.0..level_m, ior * ior * air_lx);
+        check_level(&map, "air", level_m + 1e-3..z + 1e-3, air_lx);
+    }
+}
+
+/// The mean illuminance of vertices at the heights given.
+fn check_level(map: &IlluminationMap, name: &str, heights_m: Range<f64>, expected_lx: f64) {
+    let (mut arriving_lm, mut area_m2) = (0.0, 0.0);
+    for (value, vertex) in map.values.iter().zip(map.elements.vertices()) {
+        if let Some(value) = value.filter(|_| heights_m.contains(&vertex.position.z)) {
+            arriving_lm += value.illuminance_lx() * vertex.area_m2;
+            area_m2 += vertex.area_m2;
+        }
+    }
+    let mean_lx = arriving_lm / area_m2;
+    let reached = map.provenance.accuracy.expect("enough increments").reached;
+    // As above; and the two parts, which share it, may each have twice the squared error.
+    let allowed_lx = 3.0 * std::f64::consts::SQRT_2 * reached * expected_lx;
+    let method = map.provenance.method;
+    assert!(
+        (mean_lx - expected_lx).abs() < allowed_lx,
+        "{name}, {method:?}: {mean_lx} lx for {expected_lx} +- {allowed_lx}"
+    );
 }

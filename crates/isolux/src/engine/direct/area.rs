@@ -7,6 +7,7 @@ use crate::engine::surface::SurfacePoint;
 use crate::sampling::SphericalTriangle;
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
+use std::cell::OnceCell;
 
 /// Emitters of at most so many triangles a sample are sampled by solid angle, with the exact
 /// unoccluded illuminance as control; larger ones by area, which costs less and spreads more.
@@ -24,6 +25,19 @@ struct Piece {
     triangle: usize,
     /// Projected solid angle: the integral of the cosine at the receiver, sr.
     steradians: f64,
+    /// Its directions and the highest cosine over them, once they are wanted; none where it is too
+    /// small or too near its plane to be told apart by direction.
+    directions: OnceCell<Option<(SphericalTriangle, f64)>>,
+}
+
+impl Piece {
+    fn directions(&self, at: &SurfacePoint) -> Option<(SphericalTriangle, f64)> {
+        *self.directions.get_or_init(|| {
+            let spherical = SphericalTriangle::new(at.point, self.corners.map(|c| at.point + c))?;
+            let highest = highest_cos(spherical.corners(), at.shading.to_vector());
+            Some((spherical, highest))
+        })
+    }
 }
 
 impl Lighting<'_> {
@@ -128,13 +142,8 @@ fn target(
     mut accept: f64,
     dice: &mut Dice,
 ) -> Point {
-    // Too small or too near its plane to be told apart by direction: any point will do.
     let middle = || at.point + (piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3.0;
-    let Some(spherical) = SphericalTriangle::new(at.point, piece.corners.map(|c| at.point + c))
-    else {
-        return middle();
-    };
-    let highest = highest_cos(spherical.corners(), at.shading.to_vector());
+    let Some((spherical, highest)) = piece.directions(at) else { return middle() };
     let mut direction = None;
     for _ in 0..TRIES {
         direction = spherical.sample(dice.pair());
@@ -186,7 +195,8 @@ fn pieces(at: &SurfacePoint, triangles: &[[Point; 3]]) -> Vec<Piece> {
             let corners = [polygon[0], polygon[k - 1], polygon[k]];
             let steradians = projected_solid_angle(&corners, normal);
             if steradians > 0.0 {
-                pieces.push(Piece { corners, triangle, steradians });
+                let directions = OnceCell::new();
+                pieces.push(Piece { corners, triangle, steradians, directions });
             }
         }
     }
