@@ -12,10 +12,12 @@ use isolux_geometry::{Direction, Ray};
 
 /// Light that even the brightest surface leaves after the last scattering of a path.
 const NEGLIGIBLE: f64 = 1e-6;
-/// Bounds of the scatterings of a path. Where nothing absorbs (ideal mirrors, clear glass, white
-/// walls) no number is enough, and the fewest are taken: what is given up is counted.
+/// Bounds of the scatterings of a path.
 const FEWEST_SCATTERINGS: f64 = 128.0;
 const MOST_SCATTERINGS: f64 = 4096.0;
+/// The same where some surface absorbs nothing (an ideal mirror, a white wall): shut in by such no
+/// number would be enough, and among others these are. What is given up is counted.
+const SCATTERINGS_WITHOUT_LOSS: f64 = 64.0;
 
 /// Scatterings after which a particle is given up.
 pub(super) fn scatterings(scene: &Scene) -> u32 {
@@ -25,8 +27,10 @@ pub(super) fn scatterings(scene: &Scene) -> u32 {
     };
     let sides = |m: &Material| [false, true].map(|back| m.finish(back).map_or(0.0, reflected));
     let largest = scene.materials().iter().flat_map(sides).fold(0.0, f64::max);
+    if largest >= 1.0 {
+        return SCATTERINGS_WITHOUT_LOSS as u32;
+    }
     let enough = libm::log(NEGLIGIBLE) / libm::log(largest);
-    let enough = if largest < 1.0 { enough } else { FEWEST_SCATTERINGS };
     enough.clamp(FEWEST_SCATTERINGS, MOST_SCATTERINGS) as u32
 }
 
