@@ -9,17 +9,22 @@ use std::io::Write;
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    written.map_err(|e| match e.kind() {
-        std::io::ErrorKind::BrokenPipe => Failure::ReaderGone,
-        _ => Failure::Refused(format!("cannot write to standard output: {e}")),
-    })
+    written.map_err(unprintable)
 }
 
-/// Prints one JSON value and a line end to standard output.
+fn unprintable(error: std::io::Error) -> Failure {
+    match error.kind() {
+        std::io::ErrorKind::BrokenPipe => Failure::ReaderGone,
+        _ => Failure::Refused(format!("cannot write to standard output: {error}")),
+    }
+}
+
+/// Prints one JSON value and a line end to standard output, as it is made: there may be millions
+/// of readings.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value)
-        .map_err(|e| Failure::Refused(format!("cannot write JSON: {e}")))?;
-    print(&format!("{text}\n"))
+    let mut out = std::io::BufWriter::new(std::io::stdout().lock());
+    let made = serde_json::to_writer_pretty(&mut out, value).map_err(std::io::Error::from);
+    made.and_then(|()| writeln!(out)).and_then(|()| out.flush()).map_err(unprintable)
 }
 
 /// Prints a line for the user to standard error. Nobody may be there to read it.

@@ -20,15 +20,14 @@ const PICTURE: (u32, u32) = (1280, 720);
 pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let path = find_scene()?;
     let files = Files::check(&flags.output)?;
-    let scene = source::read_scene(&path.to_string_lossy())?;
+    let scene = source::read_scene(&path)?;
     let request = SolveRequest { accuracy: Some(flags.accuracy), ..SolveRequest::default() };
     note(format!("{}, from {}", scene.name(), path.display()));
     explain::lines(&scene, &request).iter().for_each(note);
-    let source = path.display().to_string();
-    let run = Run { source: &source, output: &files.map, request: &request };
+    let run = Run { source: &path, output: &files.map, request: &request };
     let solved = solve::solve(&scene, &run, None, &mut Reporter::new(None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;
-    let camera = viewpoint::camera(&scene, None)?;
+    let camera = viewpoint::camera(&scene, None).map_err(Failure::bad_input)?;
     let view = render::look(&scene, &solved.solution.map, &camera, PICTURE, false)?;
     render::write(&files.picture, &render::shown(&view, &look(false))?)?;
     render::write(&files.false_colour, &render::shown(&view, &look(true))?)?;

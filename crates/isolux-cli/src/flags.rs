@@ -53,7 +53,7 @@ const SCENE_HELP: &str =
   isolux solve room.glb -o map.glb --time-limit 5min")]
 pub(crate) struct SolveFlags {
     #[arg(help = SCENE_HELP)]
-    pub scene: String,
+    pub scene: PathBuf,
     /// Where to write the map (.glb)
     #[arg(short, long, value_name = "MAP.glb", required_unless_present = "dry_run")]
     pub output: Option<PathBuf>,
@@ -74,7 +74,7 @@ pub(crate) struct SolveFlags {
     #[arg(long, value_enum, default_value = "hybrid")]
     pub method: MethodName,
     /// Seed of the random numbers: the same seed gives the same bits
-    #[arg(long, default_value_t = 1, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", value_parser = quantity::seed, default_value = "1", allow_hyphen_values = true)]
     pub seed: u64,
     /// Threads to use [default: all there are]; the result does not depend on it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -136,7 +136,7 @@ pub(crate) enum ProgressStyle {
   isolux info lamp.ies --json")]
 pub(crate) struct InfoFlags {
     /// A map (.glb), a scene (.gltf, .glb, .obj, scene.toml, builtin:NAME) or a photometric file (.ies, .ldt)
-    pub file: String,
+    pub file: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -170,7 +170,7 @@ pub(crate) struct RenderFlags {
     /// Where to write the picture (.png)
     #[arg(short, long, value_name = "V.png")]
     pub output: PathBuf,
-    /// Pixels across and down
+    /// Pixels across and down, without the legend of false colours
     #[arg(long, value_name = "WxH", value_parser = quantity::pixels, default_value = "1280x720")]
     pub size: (u32, u32),
     /// Interpolate direct light, too: fast, and what a viewer of the bare map shows
@@ -221,7 +221,7 @@ pub(crate) enum ToneName {
   isolux check builtin:cube --json")]
 pub(crate) struct CheckFlags {
     #[arg(help = SCENE_HELP)]
-    pub scene: String,
+    pub scene: PathBuf,
 }
 
 #[derive(Debug, Args)]

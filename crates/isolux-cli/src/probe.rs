@@ -35,7 +35,10 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
         let points = values.iter().map(|v| Reading::of(v.as_ref())).collect();
         print_json(&Readings { points })?;
     } else {
-        print(&csv(&points, &values))?;
+        print(HEADER)?;
+        for (points, values) in points.chunks(ROWS_AT_ONCE).zip(values.chunks(ROWS_AT_ONCE)) {
+            print(&rows(points, values))?;
+        }
     }
     Ok(Outcome::Done)
 }
@@ -74,10 +77,12 @@ impl Reading {
 }
 
 const HEADER: &str = "x,y,z,nx,ny,nz,illuminance_lx,standard_error_lx,direct_lx,indirect_lx,red_lx,\
-                      green_lx,blue_lx";
+                      green_lx,blue_lx\n";
+/// Rows made before they are printed: the text of ten million would need gigabytes.
+const ROWS_AT_ONCE: usize = 1 << 14;
 
-fn csv(points: &[ProbePoint], values: &[Option<Illuminance>]) -> String {
-    let mut text = format!("{HEADER}\n");
+fn rows(points: &[ProbePoint], values: &[Option<Illuminance>]) -> String {
+    let mut text = String::new();
     for (point, value) in points.iter().zip(values) {
         let reading = Reading::of(value.as_ref());
         let colours = reading.rgb_lx.map_or([None; 3], |rgb| rgb.map(Some));
@@ -105,10 +110,9 @@ mod tests {
 
     #[test]
     fn unknown_values_are_empty_fields() {
-        let text = csv(&[at(1.5)], &[None]);
-        let lines: Vec<&str> = text.lines().collect();
-        assert_eq!(lines[1], "1.5,0,0.5,0,0,1,,,,,,,");
-        assert_eq!(lines[0].split(',').count(), lines[1].split(',').count());
+        let text = rows(&[at(1.5)], &[None]);
+        assert_eq!(text, "1.5,0,0.5,0,0,1,,,,,,,\n");
+        assert_eq!(HEADER.split(',').count(), text.split(',').count());
     }
 
     #[test]

@@ -17,8 +17,10 @@ use serde::Serialize;
 /// Runs the subcommand.
 pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     let output = OutputPath::check(&flags.output, "png")?;
+    check_limits(&flags.look)?;
     let (scene, map) = map_file::read(&flags.map)?;
-    let camera = viewpoint::camera(&scene, flags.camera.as_deref())?;
+    let camera = viewpoint::camera(&scene, flags.camera.as_deref())
+        .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))?;
     let view = look(&scene, &map, &camera, flags.size, flags.interpolated)?;
     let picture = shown(&view, &flags.look)?;
     write(&output, &picture)?;
@@ -34,6 +36,16 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
         print(&report.text())?
     }
     Ok(Outcome::Done)
+}
+
+/// Refuses before minutes are spent on the view.
+fn check_limits(look: &LookFlags) -> Result<(), Failure> {
+    match look.limits {
+        Some((low, _)) if look.logarithmic && low <= 0.0 => Err(Failure::bad_input(format!(
+            "--limits {low}: a logarithmic scale has no zero; start above it, as 1:1000"
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Traces a view over a map: direct light evaluated afresh, or interpolated with the rest.

@@ -5,7 +5,6 @@ use crate::flags::{MethodName, Quality, SolveFlags};
 use crate::output::OutputPath;
 use isolux::engine::SolveRequest;
 use isolux::map::Method;
-use std::path::Path;
 
 /// A solution to compute.
 #[derive(Clone, Debug)]
@@ -20,7 +19,7 @@ pub(crate) struct Solution {
 pub(crate) fn solution(flags: &SolveFlags) -> Result<Solution, Failure> {
     let output = flags.output.as_deref().map(|path| OutputPath::check(path, "glb")).transpose()?;
     if let Some(output) = &output {
-        output.differs_from(Path::new(&flags.scene))?;
+        output.differs_from(&flags.scene)?;
     }
     Ok(Solution { request: request(flags), output })
 }

@@ -12,6 +12,7 @@ use crate::report::Report;
 use crate::{explain, map_file, request, saved_run, source};
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
 use isolux::scene::Scene;
+use std::path::Path;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
@@ -68,7 +69,7 @@ pub(crate) struct Solved {
 /// What is computed from what, and where it goes.
 pub(crate) struct Run<'a> {
     /// The scene as the user named it.
-    pub source: &'a str,
+    pub source: &'a Path,
     /// The map.
     pub output: &'a OutputPath,
     /// What is asked of the engine.
@@ -99,7 +100,7 @@ pub(crate) fn solve(
 
 /// Sorted by who can mend it.
 fn failure(error: SolveError, run: &Run) -> Failure {
-    let source = run.source;
+    let source = run.source.display();
     match error {
         SolveError::Memory { needed, allowed } => Failure::Refused(format!(
             "{source}: the map needs about {}, more than the {} of --max-memory; raise it, or ask \
@@ -107,12 +108,13 @@ fn failure(error: SolveError, run: &Run) -> Failure {
             show_bytes(needed),
             show_bytes(allowed)
         )),
-        SolveError::NoLight => {
-            Failure::bad_input(format!("{source}: the scene has no light; {}", add_light(source)))
-        }
+        SolveError::NoLight => Failure::bad_input(format!(
+            "{source}: the scene has no light; {}",
+            add_light(run.source)
+        )),
         SolveError::NoReceiver => Failure::bad_input(format!(
-            "{source}: all surfaces are mirrors or glass, and none can carry a map; give one of \
-             them a diffuse reflectance"
+            "{source}: no surface can carry a map: all are mirrors, glass or without area; give one \
+             a diffuse reflectance, and check the scales"
         )),
         SolveError::OtherRun(what) => Failure::bad_input(format!(
             "{}: the saved run differs in {what}; repeat its flags, or solve without --resume",
@@ -123,8 +125,8 @@ fn failure(error: SolveError, run: &Run) -> Failure {
 }
 
 /// How to, in this kind of file.
-fn add_light(source: &str) -> &'static str {
-    if source.to_lowercase().ends_with(".toml") {
+fn add_light(source: &Path) -> &'static str {
+    if source.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
         "add a [[luminaire]], or a material with `luminance_cd_m2`"
     } else {
         "name the file in a scene.toml, as [[geometry]] with `file`, and add a [[luminaire]] there"

@@ -11,17 +11,17 @@ use std::path::Path;
 const BUILTIN: &str = "builtin:";
 
 /// Reads a scene and says on standard error what its reader left out or guessed.
-pub(crate) fn read_scene(source: &str) -> Result<Scene, Failure> {
+pub(crate) fn read_scene(source: &Path) -> Result<Scene, Failure> {
     let Loaded { value, warnings } = read_scene_with_warnings(source)?;
     show_warnings(&warnings);
     Ok(value)
 }
 
 /// Reads a scene.
-pub(crate) fn read_scene_with_warnings(source: &str) -> Result<Loaded<Scene>, Failure> {
-    match source.strip_prefix(BUILTIN) {
+pub(crate) fn read_scene_with_warnings(source: &Path) -> Result<Loaded<Scene>, Failure> {
+    match source.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {
         Some(name) => built_in(name).map(|value| Loaded { value, warnings: Vec::new() }),
-        None => from_file(Path::new(source)).map_err(bad_file),
+        None => from_file(source).map_err(bad_file),
     }
 }
 

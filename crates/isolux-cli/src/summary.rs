@@ -9,7 +9,7 @@ use isolux::scene::Scene;
 use serde::Serialize;
 
 /// Objects shown in text; JSON holds all.
-const MAX_SHOWN: usize = 20;
+const MAX_SHOWN: usize = 12;
 
 /// The light on one shape, both sides together.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -1,6 +1,5 @@
 //! The camera of a view: one of the scene's, or one that shows the most of it.
 
-use crate::failure::Failure;
 use isolux::geometry::{Direction, Point, Vector};
 use isolux::scene::{Camera, Scene, UpAxis};
 
@@ -10,19 +9,20 @@ const TOWARDS_CORNER: f64 = 0.86;
 /// A wide angle, as of a 20 mm lens.
 const VERTICAL_FOV_RAD: f64 = 1.15;
 
-/// The camera of that name; without a name, the first one of the scene, or one of our own.
-pub(crate) fn camera(scene: &Scene, name: Option<&str>) -> Result<Camera, Failure> {
+/// The camera of that name, or what is wrong with it; without a name, the first one of the scene,
+/// or one of our own.
+pub(crate) fn camera(scene: &Scene, name: Option<&str>) -> Result<Camera, String> {
     let Some(name) = name else {
         return Ok(scene.cameras().first().cloned().unwrap_or_else(|| overview(scene)));
     };
     scene.cameras().iter().find(|c| c.name == name).cloned().ok_or_else(|| {
         let names: Vec<&str> = scene.cameras().iter().map(|c| c.name.as_str()).collect();
-        Failure::bad_input(match names[..] {
+        match names[..] {
             [] => format!(
                 "there is no camera `{name}`, nor any other; leave --camera out for an overview"
             ),
             _ => format!("there is no camera `{name}`; choose one of {}", names.join(", ")),
-        })
+        }
     })
 }
 
@@ -61,6 +61,6 @@ mod tests {
     #[test]
     fn a_name_that_is_none_is_refused() {
         let scene = Scene::assemble(builtin("cube").unwrap()).unwrap();
-        assert!(matches!(camera(&scene, Some("door")), Err(Failure::BadInput(_))));
+        assert!(camera(&scene, Some("door")).is_err_and(|what| what.contains("`door`")));
     }
 }

@@ -44,7 +44,7 @@ fn the_demo_is_a_furnished_room() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/demo/scene.toml");
     let loaded = load(&path).unwrap_or_else(|p| panic!("{p}"));
     let unexpected: Vec<_> =
-        loaded.warnings.iter().filter(|w| !w.what.contains("lie exactly on others")).collect();
+        loaded.warnings.iter().filter(|w| !w.what.contains("lies exactly on another")).collect();
     assert!(unexpected.is_empty(), "{unexpected:?}");
     let scene = Scene::assemble(loaded.value).unwrap();
     let (low, high) = scene.bvh().mesh().bounds().unwrap();

@@ -138,8 +138,8 @@ fn copies_of_a_face_are_left_out() {
     let loaded = read_text(text, "").unwrap();
     assert_eq!(loaded.value.shapes.iter().map(|s| s.triangles.len()).collect::<Vec<_>>(), [1, 1]);
     let warning =
-        loaded.warnings.iter().find(|w| w.what.contains("lie exactly on others")).unwrap();
-    assert!(warning.place == "line 7" && warning.what.contains("all 2"), "{warning}");
+        loaded.warnings.iter().find(|w| w.what.contains("lies exactly on another")).unwrap();
+    assert!(warning.place == "line 7" && warning.what.contains("(and 1 more)"), "{warning}");
 }
 
 #[test]

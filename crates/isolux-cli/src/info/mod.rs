@@ -7,11 +7,10 @@ mod scene;
 use crate::failure::{Failure, Outcome};
 use crate::flags::InfoFlags;
 use crate::{map_file, source};
-use std::path::Path;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &InfoFlags, json: bool) -> Result<Outcome, Failure> {
-    let path = Path::new(&flags.file);
+    let path = flags.file.as_path();
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("ies") => lamp::show_ies(path, json)?,
@@ -20,7 +19,7 @@ pub(crate) fn run(flags: &InfoFlags, json: bool) -> Result<Outcome, Failure> {
             let (scene, map) = map_file::read(path)?;
             map::show(&scene, &map, json)?;
         }
-        _ => scene::show(&source::read_scene(&flags.file)?, json)?,
+        _ => scene::show(&source::read_scene(path)?, json)?,
     }
     Ok(Outcome::Done)
 }

@@ -18,7 +18,7 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["solve", "builtin:cube", "-o", "m.glb", "--time-limit", "60"], "60s"),
     (&["solve", "builtin:cube", "-o", "m.glb", "--max-memory", "8"], "8GiB"),
     (&["solve", "builtin:cube", "-o", "m.glb", "--threads", "0"], "--threads"),
-    (&["solve", "builtin:cube", "-o", "m.glb", "--seed", "-1"], "--seed"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--seed", "-1"], "whole number"),
     (&["solve", "builtin:cube", "-o", "m.png"], ".glb"),
     (&["solve", "builtin:cube", "-o", "missing/m.glb"], "missing/m.glb"),
     (&["solve", "builtin:cube", "-o", "."], ".glb"),
@@ -43,11 +43,34 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["render", "text.glb", "-o", "v.png", "--size", "0x5"], "1280x720"),
     (&["render", "text.glb", "-o", "v.jpg"], ".png"),
     (&["render", "text.glb", "-o", "v.png", "--scale", "5:1"], "0:500"),
+    (
+        &[
+            "render",
+            "text.glb",
+            "-o",
+            "v.png",
+            "--false-colour",
+            "--logarithmic",
+            "--limits",
+            "0:1",
+        ],
+        "1:1000",
+    ),
+    (
+        &["solve", "dark.toml", "-o", "m.glb"],
+        "dark.toml: the scene has no light; add a [[luminaire]]",
+    ),
+    (&["solve", "latin.toml", "-o", "m.glb"], "latin.toml: line 2: is not UTF-8"),
+    (&["solve", "text.ies", "-o", "m.glb"], "[[luminaire]]"),
     (&["render", "missing.glb", "-o", "v.png"], "missing.glb"),
     (&["check", "missing.toml"], "missing.toml"),
     (&["validate", "--case", "teapot"], "cube"),
     (&["validate", "--seeds", "0"], "--seeds"),
 ];
+
+/// A room without a luminaire.
+const DARK: &str = "[materials.m]\ndiffuse = 0.5\n[[geometry]]\nmaterial = \"m\"\n\
+                    box = { min = [0, 0, 0], max = [4, 4, 3], inward = true }\n";
 
 #[test]
 fn bad_input_is_refused_with_a_reason() {
@@ -56,6 +79,8 @@ fn bad_input_is_refused_with_a_reason() {
     home.file("text.ies", "this is no lamp");
     home.file("text.ldt", "this is no lamp");
     home.file("text.toml", "this is no scene");
+    home.file("dark.toml", DARK);
+    home.file("latin.toml", b"# caf\xc3\xa9\n# caf\xe9\n");
     home.file("empty.obj", "");
     home.file("text.xyz", "this is nothing");
     home.file("empty.glb", "");

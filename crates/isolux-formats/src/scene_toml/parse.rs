@@ -4,6 +4,7 @@ use super::context::Context;
 use super::record::SceneFile;
 use super::spans::{At, Span};
 use serde::de::DeserializeOwned;
+use std::collections::HashSet;
 use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
 
 const KEYS: &str =
@@ -15,7 +16,10 @@ const MOST_RETRIES: usize = 16;
 pub(super) fn parse(text: &str, context: &mut Context) -> SceneFile {
     let (root, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        errors.iter().for_each(|error| report(error, &(0..0), context));
+        // Brackets left open are reported once each, all at the end of the file.
+        let mut told = HashSet::new();
+        let news = errors.iter().filter(|e| told.insert((e.span().map(|s| s.start), e.message())));
+        news.take(MOST_RETRIES).for_each(|error| report(error, &(0..0), context));
         return SceneFile::default();
     }
     let mut entries: Vec<_> = root.into_inner().into_iter().collect();
