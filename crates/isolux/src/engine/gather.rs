@@ -5,6 +5,7 @@
 //! is left open: the ray becomes an entry of a sparse matrix, so that the light of all further
 //! reflections is the fixed point of `E = source + A E`, solved without tracing the rays again.
 
+use super::deadline::Deadline;
 use super::direct::Lighting;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
@@ -127,16 +128,31 @@ impl Gathering<'_> {
         gatherers: &[Gatherer],
         key_of: impl Fn(usize) -> Key + Sync,
     ) -> Operator {
+        let whole = self.operator_until(Deadline::NEVER, gatherers, key_of);
+        whole.expect("without a deadline nothing is given up")
+    }
+
+    /// The same; `None` if the deadline passes meanwhile.
+    pub(super) fn operator_until(
+        &self,
+        deadline: Deadline,
+        gatherers: &[Gatherer],
+        key_of: impl Fn(usize) -> Key + Sync,
+    ) -> Option<Operator> {
         let chunk = |(index, part): (usize, &[Gatherer])| {
+            if deadline.has_passed() {
+                return None;
+            }
             let mut rows = Rows::default();
             for (k, gatherer) in part.iter().enumerate() {
                 self.row(gatherer, key_of(index * CHUNK + k), &mut rows);
             }
-            rows
+            Some(rows)
         };
-        let chunks = gatherers.par_chunks(CHUNK).enumerate().map(chunk).collect();
+        let chunks: Option<Vec<Rows>> =
+            gatherers.par_chunks(CHUNK).enumerate().map(chunk).collect();
         let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum();
-        Operator { chunks, rays }
+        Some(Operator { chunks: chunks?, rays })
     }
 
     fn row(&self, gatherer: &Gatherer, key: Key, rows: &mut Rows) {

@@ -7,6 +7,7 @@
 use super::accumulate::{Accumulator, Effort, Sample};
 use super::caustics;
 use super::checks::{self, Check};
+use super::deadline::Deadline;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::path::Dice;
 use super::pilot::Plan;
@@ -37,17 +38,18 @@ impl<'p, 's> Hybrid<'p, 's> {
         Self { plan, check_direct, rows, check_rows, key }
     }
 
-    /// Adds increment `index`.
+    /// Adds increment `index`; nothing, and `None`, if the deadline passes meanwhile.
     pub(super) fn increment(
         &self,
         index: u64,
         receivers: &mut Accumulator,
         checks: &[Check],
         check_sums: &mut Accumulator,
-    ) -> Effort {
+        deadline: Deadline,
+    ) -> Option<Effort> {
         let plan = self.plan;
         let key = self.key.with(1 + index);
-        let (direct, check_direct) = self.direct(checks, key.with(0));
+        let (direct, check_direct) = self.direct(checks, key.with(0), deadline)?;
         let (caustic, particles) = caustics::deposit(plan, key.with(1));
         let gathering = Gathering {
             scene: plan.scene,
@@ -61,7 +63,8 @@ impl<'p, 's> Hybrid<'p, 's> {
                 DirectAtEnds::Evaluated
             },
         };
-        let operator = gathering.operator(&self.rows, |row| key.with(2).with(row as u64));
+        let operator =
+            gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
         let (gathered, unsettled_lx) = operator.solve_or_give_up(&plan.guess, &caustic, TOLERANCE);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
         // Check points evaluate what the map reads, so that they see what reading gets wrong.
@@ -77,22 +80,29 @@ impl<'p, 's> Hybrid<'p, 's> {
         checks::add(check_sums, checks, &fresh.apply(&light), &check_direct, &indirect, &direct);
         // Rays given up would have seen what others see.
         let unseen_lx = operator.given_up() * plan.rms_lx;
-        Effort {
+        Some(Effort {
             rays: operator.rays + fresh.rays + particles.rays,
             given_up_lx: particles.given_up_lx + unseen_lx + unsettled_lx,
-        }
+        })
     }
 
     /// Direct light at vertices and check points: the plan's where it is exact.
-    fn direct(&self, checks: &[Check], key: Key) -> (Vec<Rgb>, Vec<Rgb>) {
+    fn direct(
+        &self,
+        checks: &[Check],
+        key: Key,
+        deadline: Deadline,
+    ) -> Option<(Vec<Rgb>, Vec<Rgb>)> {
         if self.plan.lighting.is_exact() {
-            return (self.plan.direct.clone(), self.check_direct.clone());
+            return Some((self.plan.direct.clone(), self.check_direct.clone()));
         }
         let vertex = |(k, gatherer): (usize, &Gatherer)| {
-            let sequence = Sequence::new(key.with(k as u64));
-            self.plan.lighting.illuminance(&gatherer.surface, &mut Dice::new(sequence, 0))
+            let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
+            let lighting = self.plan.lighting;
+            (!deadline.has_passed()).then(|| lighting.illuminance(&gatherer.surface, &mut dice))
         };
-        let vertices = self.plan.gatherers.par_iter().enumerate().map(vertex).collect();
-        (vertices, checks::direct(self.plan, checks, key.with(u64::MAX)))
+        let vertices: Option<Vec<Rgb>> =
+            self.plan.gatherers.par_iter().enumerate().map(vertex).collect();
+        Some((vertices?, checks::direct(self.plan, checks, key.with(u64::MAX))))
     }
 }

@@ -4,6 +4,7 @@ mod accumulate;
 mod accuracy;
 mod caustics;
 mod checks;
+mod deadline;
 mod detail;
 mod direct;
 mod emission;

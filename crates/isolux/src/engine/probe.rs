@@ -111,7 +111,8 @@ impl<'a> MapReader<'a> {
 
     /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
     /// indirect light by gathering over the map. Caustics are read from the map where the point is
-    /// on a surface; in free space they are unknown and left out.
+    /// on a surface; in free space they are unknown and left out. The standard error counts the
+    /// interpolation error and the bias of the map as if they were the same everywhere.
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
         let on_surface = self.find_surface(at).map(|s| self.pulled_in(s));
         let gatherer = on_surface
@@ -129,7 +130,9 @@ impl<'a> MapReader<'a> {
         let replicates = settings.replicates.max(2);
         let rows = vec![gatherer; replicates as usize];
         let values = gathering.operator(&rows, |k| key.with(k as u64)).apply(&self.light);
-        let (indirect_lx, indirect_variance) = mean_and_variance(&values);
+        let (indirect_lx, variance) = mean_and_variance(&values);
+        let looked_up = self.lookup_error() * indirect_lx.luminance();
+        let indirect_variance = variance + looked_up * looked_up;
         let caustic_lx = on_surface
             .and_then(|s| self.map.interpolate(s.triangle, s.back, s.u, s.v))
             .map_or(Rgb::BLACK, |stored| stored.caustic_lx);
@@ -142,6 +145,12 @@ impl<'a> MapReader<'a> {
             indirect_standard_error_lx: indirect_variance.sqrt(),
             samples: u64::from(replicates) * u64::from(settings.rays),
         }
+    }
+
+    /// What the map that gathering rays read may be off by, other than by noise, relative.
+    fn lookup_error(&self) -> f64 {
+        let accuracy = self.map.provenance.accuracy;
+        accuracy.map_or(0.0, |a| (a.bias * a.bias + a.discretization * a.discretization).sqrt())
     }
 
     fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {

@@ -3,6 +3,7 @@
 use super::accumulate::{Accumulator, MAX_INCREMENTS, Sample, Sums};
 use super::accuracy::{BELIEVED_INCREMENTS, accuracy};
 use super::checks::{self, Check, InterpolationErrors};
+use super::deadline::Deadline;
 use super::direct::Lighting;
 use super::emission::Emission;
 use super::filter::filter;
@@ -17,10 +18,12 @@ use crate::map::{Accuracy, FilterReport, Illuminance, IlluminationMap, Method, P
 use crate::sampling::Key;
 use crate::scene::Scene;
 use crate::units::Rgb;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Increments before a run may stop at its accuracy: the estimates of single receivers need them.
 const FEWEST_INCREMENTS: u64 = 16;
+/// Share of the time limit after which elements are refined no further.
+const PILOT_SHARE: f64 = 0.4;
 /// Meshes tried before a run settles for what it has.
 const MOST_STAGES: u32 = 4;
 /// Accuracy that elements are made for where none is asked.
@@ -54,14 +57,27 @@ pub fn solve(
 ) -> Result<Solution, SolveError> {
     check(scene, request)?;
     let identity = RunIdentity::of(scene, request);
-    let resume = resume.filter(|state| state.increments > 0);
     if let Some(state) = resume {
         identity.check(&state.identity)?;
     }
+    let resume = resume.filter(|state| state.increments > 0);
     let lighting = Lighting::new(scene);
     let started = Instant::now();
-    let mut run = Run { scene, request, identity, started, rays: 0, stopped: false, stage: 1 };
-    run.stage = resume.map_or(1, |state| state.stage.clamp(1, MOST_STAGES));
+    let mut run = Run {
+        scene,
+        request,
+        identity,
+        started,
+        rays: 0,
+        stopped: false,
+        cut: false,
+        stage: 1,
+        saved_stage: 0,
+    };
+    if let Some(state) = resume {
+        run.stage = state.stage.clamp(1, MOST_STAGES);
+        run.saved_stage = run.stage;
+    }
     loop {
         let plan = run.pilot(&lighting, watch);
         let saved = resume.filter(|state| state.stage == run.stage);
@@ -102,7 +118,11 @@ struct Run<'s, 'r> {
     rays: u64,
     /// Stopped by the watcher or the clock before the mesh was complete.
     stopped: bool,
+    /// Refinement ended before its goal, for lack of time.
+    cut: bool,
     stage: u32,
+    /// The stage that a saved run had come to; none is 0.
+    saved_stage: u32,
 }
 
 impl<'s> Run<'s, '_> {
@@ -112,6 +132,12 @@ impl<'s> Run<'s, '_> {
 
     fn out_of_time(&self) -> bool {
         self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
+    }
+
+    /// Whether what is left of the time is better spent on increments than on finer elements.
+    fn refined_long_enough(&self) -> bool {
+        let is_over = |limit: Duration| self.elapsed_s() >= PILOT_SHARE * limit.as_secs_f64();
+        self.request.time_limit.is_some_and(is_over)
     }
 
     /// The accuracy that the elements of this stage are made for.
@@ -138,7 +164,9 @@ impl<'s> Run<'s, '_> {
             let progress = self.progress(Stage::Pilot, 0, receivers as u64, None);
             // Who has said stop is not asked again.
             self.stopped = self.stopped || watch(&progress) == Watch::Stop || self.out_of_time();
-            !self.stopped
+            self.cut |= self.stage != self.saved_stage && self.refined_long_enough();
+            // The elements of a saved run are made again, whole, or what it has would be lost.
+            self.stage == self.saved_stage || !(self.stopped || self.cut)
         });
         self.rays = before + plan.rays;
         plan
@@ -171,14 +199,14 @@ impl<'s> Run<'s, '_> {
         watch: &mut dyn FnMut(&Progress) -> Watch,
     ) -> Result<Outcome, SolveError> {
         let mut work = Work::new(plan, self.request, self.mesh_for());
-        if let Some(state) = saved.filter(|_| !self.stopped) {
+        if let Some(state) = saved {
             work.restore(state)?;
             self.rays = state.rays;
         }
         let pace = Pace { started_s: self.elapsed_s(), before: work.sums.increments };
-        let whole_mesh = !self.stopped;
+        let whole_mesh = saved.is_some() || !(self.stopped || self.cut);
         loop {
-            self.rays += work.increment();
+            self.stopped |= !self.advance(&mut work);
             let accuracy = work.accuracy();
             let progress = self.report(&work, accuracy, pace);
             let count = work.sums.increments;
@@ -189,7 +217,8 @@ impl<'s> Run<'s, '_> {
             let done = reached || in_vain || self.stopped || count >= MAX_INCREMENTS;
             // No number of increments helps where interpolation alone takes the whole error.
             let hopeless = self.is_hopeless(&work, accuracy);
-            if !done && hopeless && self.stage < MOST_STAGES {
+            let finer = self.stage < MOST_STAGES && !self.refined_long_enough();
+            if !done && hopeless && finer {
                 return Ok(Outcome::TooCoarse);
             }
             if done || (hopeless && work.is_settled(accuracy)) {
@@ -198,6 +227,18 @@ impl<'s> Run<'s, '_> {
                 )));
             }
         }
+    }
+
+    /// One more increment; false if the time is over before it is whole, and there is one already.
+    fn advance(&mut self, work: &mut Work) -> bool {
+        if self.stopped && work.sums.increments > 0 {
+            return false;
+        }
+        let end = self.request.time_limit.and_then(|limit| self.started.checked_add(limit));
+        let deadline = if work.sums.increments > 0 { Deadline(end) } else { Deadline::NEVER };
+        let rays = work.increment(deadline);
+        self.rays += rays.unwrap_or(0);
+        rays.is_some()
     }
 
     fn report(&self, work: &Work, accuracy: Option<Accuracy>, pace: Pace) -> Progress {
@@ -209,7 +250,8 @@ impl<'s> Run<'s, '_> {
             .and_then(|(a, goal)| predict::increments_needed(&a, count, goal));
         let prediction = needed.map(|needed| {
             let needed = needed.max(FEWEST_INCREMENTS as f64);
-            let each_s = (progress.elapsed_s - pace.started_s) / (count - pace.before) as f64;
+            let each_s =
+                (progress.elapsed_s - pace.started_s) / (count - pace.before).max(1) as f64;
             predict::finish(needed, count, each_s, progress.elapsed_s)
         });
         Progress { prediction, ..progress }
@@ -324,18 +366,19 @@ impl<'p, 's> Work<'p, 's> {
         restore(&mut self.given_up, &saved.given_up, saved.increments)
     }
 
-    /// Adds one increment; returns the rays traced.
-    fn increment(&mut self) -> u64 {
+    /// Adds one increment; returns the rays traced, or nothing if the deadline passes before.
+    fn increment(&mut self, deadline: Deadline) -> Option<u64> {
         let index = self.sums.increments;
         let effort = match &self.engine {
             Engine::Hybrid(hybrid) => {
-                hybrid.increment(index, &mut self.sums, &self.checks.points, &mut self.checks.sums)
+                let Checks { points, sums } = &mut self.checks;
+                hybrid.increment(index, &mut self.sums, points, sums, deadline)?
             }
             Engine::Forward(forward) => forward.increment(index, &mut self.sums),
         };
         let direct = Rgb::grey(effort.given_up_lx);
         self.given_up.add(std::iter::once(Sample { direct, ..Sample::default() }));
-        effort.rays
+        Some(effort.rays)
     }
 
     fn accuracy(&self) -> Option<Accuracy> {
@@ -373,14 +416,10 @@ impl<'p, 's> Work<'p, 's> {
     fn values(&self, filtered: bool) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
         let vertices = self.plan.known.len();
         let mut values: Vec<Option<Illuminance>> = (0..vertices).map(|k| self.value(k)).collect();
-        if !filtered {
-            return (values, None);
-        }
-        let report = match self.engine {
-            Engine::Hybrid(_) => self.filter(&mut values, false),
-            Engine::Forward(_) => self.filter(&mut values, true),
-        };
-        (values, Some(report))
+        let by_particles = matches!(self.engine, Engine::Forward(_));
+        let report = filtered.then(|| self.filter(&mut values, by_particles));
+        values.iter_mut().flatten().for_each(without_negative_light);
+        (values, report)
     }
 
     /// Filters indirect light and caustics, and direct light where particles brought it.
@@ -424,6 +463,19 @@ impl<'p, 's> Work<'p, 's> {
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
             samples: self.sums.increments * self.samples(vertex),
         })
+    }
+}
+
+/// Takes back what noise and overshooting deposits of particles have put below zero, so that the
+/// total is not negative, with direct light afresh or without: it can only come nearer to the truth.
+fn without_negative_light(value: &mut Illuminance) {
+    let direct = value.direct_lx - value.caustic_lx;
+    for k in 0..3 {
+        let indirect = value.indirect_lx.0[k].max(0.0);
+        let caustic = value.caustic_lx.0[k].max(-indirect);
+        value.indirect_lx.0[k] = indirect;
+        value.caustic_lx.0[k] = caustic;
+        value.direct_lx.0[k] = direct.0[k].max(-(indirect + caustic)) + caustic;
     }
 }
 

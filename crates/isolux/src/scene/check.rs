@@ -6,7 +6,6 @@ use super::{
 };
 use crate::photometry::IntensityDistribution;
 use crate::units::Rgb;
-use isolux_geometry::Point;
 
 /// Reflectances may exceed one by this much: the rounding of decimal fractions and byte colours.
 const ENERGY_ROUNDING: f64 = 1e-6;
@@ -56,15 +55,26 @@ fn problem(place: Place, what: impl Into<String>, remedy: impl Into<String>) -> 
 
 type Report<'a> = &'a mut dyn FnMut(String, String);
 
+/// Coordinates that the ray kernel can multiply three times over in `f32`, m: beyond the orbit of
+/// the Moon.
+const FARTHEST_M: f64 = 1e9;
+
 fn check_shape(shape: &Shape, materials: usize, report: Report) {
     let vertices = shape.positions.len();
     let mut say = |what: String, remedy: &str| report(what, remedy.into());
-    let representable = |p: &&[f64; 3]| Point::from(**p).to_f32().iter().all(|c| c.is_finite());
+    let representable = |p: &&[f64; 3]| p.iter().all(|c| c.is_finite());
     let unplaced = vertices - shape.positions.iter().filter(representable).count();
     if unplaced > 0 {
         say(
             format!("{unplaced} vertices have a coordinate that is not a finite number"),
             "remove them or export the geometry again",
+        );
+    }
+    let far = shape.positions.iter().flatten().filter(|c| c.is_finite() && c.abs() > FARTHEST_M);
+    if let Some(farthest) = far.copied().reduce(|a, b| if a.abs() > b.abs() { a } else { b }) {
+        say(
+            format!("a coordinate of {farthest:e} m lies beyond {FARTHEST_M:e} m"),
+            "check the unit, and remove stray vertices",
         );
     }
     let stray = shape.triangles.iter().flatten().filter(|&&v| v as usize >= vertices).count();
