@@ -87,24 +87,40 @@ fn detail(elements: &Elements, values: &[Option<f64>], vertex: u32, reach_m: f64
 /// (Dörfler 1996).
 const MARKED_SHARE: f64 = 0.75;
 
-/// Bisects the worst elements, twice each so that both directions are halved, leaving alone those
-/// with edges below `least_edge_m`. Returns whether anything was bisected.
+/// How far refinement goes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Refinement {
+    /// No element may have a larger error, however small it is: corners of rooms take no share of
+    /// the error of the scene, but are looked at.
+    pub(super) most_error: f64,
+    /// Elements with edges below this are left alone, m.
+    pub(super) least_edge_m: f64,
+    pub(super) max_vertices: usize,
+}
+
+/// Bisects the worst elements, twice each so that both directions are halved. Returns whether
+/// anything was bisected.
 pub(super) fn refine_worst(
     subdivision: &mut Subdivision,
     errors: &[LeafError],
-    least_edge_m: f64,
-    max_vertices: usize,
+    how_far: Refinement,
 ) -> bool {
+    let Refinement { most_error, least_edge_m, max_vertices } = how_far;
     let mut worst: Vec<&LeafError> = errors
         .iter()
         .filter(|e| e.error > 0.0 && subdivision.longest_edge_m(e.node) > 2.0 * least_edge_m)
         .collect();
     // Ties in the order of the nodes: the same mesh on every machine.
-    worst.sort_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
+    let single = |e: &LeafError| e.error > most_error;
+    worst.sort_by(|a, b| {
+        let by_share = || b.squared().total_cmp(&a.squared());
+        single(b).cmp(&single(a)).then_with(by_share).then(a.node.cmp(&b.node))
+    });
     let total: f64 = worst.iter().map(|e| e.squared()).sum();
     let (mut marked, mut any) = (0.0, false);
     for error in worst {
-        if marked >= MARKED_SHARE * total || subdivision.vertex_count() >= max_vertices {
+        let enough = marked >= MARKED_SHARE * total && !single(error);
+        if enough || subdivision.vertex_count() >= max_vertices {
             break;
         }
         marked += error.squared();

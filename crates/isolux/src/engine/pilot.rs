@@ -4,7 +4,7 @@
 //! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
 //! noise is smooth over surfaces and does not pass for detail.
 
-use super::detail::{LeafError, bisect_twice, leaf_errors, refine_worst};
+use super::detail::{LeafError, Refinement, bisect_twice, leaf_errors, refine_worst};
 use super::direct::Lighting;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
@@ -21,13 +21,15 @@ const FIRST_VERTICES: f64 = 1500.0;
 /// Rounds of refinement at most.
 const MAX_ROUNDS: usize = 16;
 /// The part of the accuracy asked for that interpolating indirect light may take.
-const DISCRETIZATION_SHARE: f64 = 0.4;
+const DISCRETIZATION_SHARE: f64 = 0.5;
+/// The error of a single element that is refined even where it is small, in accuracies asked for.
+const SINGLE_SHARE: f64 = 1.0;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
 const PULL_IN: f64 = 2e-3;
 /// With more sources than this, rays read direct light from the map where they end.
-const MOST_SOURCES_EVALUATED: usize = 16;
+const MOST_SOURCES_EVALUATED: usize = 8;
 /// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 2;
@@ -163,8 +165,12 @@ pub(super) fn pilot<'s>(
             break;
         }
         before = error;
-        let least = pilot.least_edge_m;
-        if !refine_worst(&mut pilot.subdivision, &look.errors, least, most) {
+        let how_far = Refinement {
+            most_error: SINGLE_SHARE * request.target * look.rms_lx,
+            least_edge_m: pilot.least_edge_m,
+            max_vertices: most,
+        };
+        if !refine_worst(&mut pilot.subdivision, &look.errors, how_far) {
             break;
         }
         look = pilot.look();
@@ -329,8 +335,11 @@ impl<'s> Pilot<'s> {
         // Best effort: sharp shadow borders would take elements without end, and of emitting surfaces
         // refinement cannot tell noise from borders.
         let most = (MOST_FOR_DIRECT_LIGHT * indirect_vertices).max(ALWAYS_FOR_DIRECT_LIGHT);
-        let most = most.min(request.max_vertices);
-        let least = self.least_edge_m;
+        let how_far = Refinement {
+            most_error: f64::INFINITY,
+            least_edge_m: self.least_edge_m,
+            max_vertices: most.min(request.max_vertices),
+        };
         for _ in 0..MAX_ROUNDS {
             let luminances: Vec<Option<f64>> = (0..self.known.len())
                 .map(|k| self.known[k].then(|| self.direct[k].luminance()))
@@ -340,7 +349,7 @@ impl<'s> Pilot<'s> {
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
             }
-            if !refine_worst(&mut self.subdivision, &errors, least, most) {
+            if !refine_worst(&mut self.subdivision, &errors, how_far) {
                 break;
             }
             elements = self.subdivision.elements();
@@ -396,11 +405,12 @@ pub(super) fn rms(elements: &Elements, known: &[bool], value: impl Fn(usize) -> 
 /// it stands for, which makes the error of the scene least for the rays traced. Vertices of the
 /// coarsest mesh get all, no vertex less than a small net.
 fn shared_rays(vertices: &[Vertex], most: u32) -> Vec<u32> {
+    let fewest = (most / 2).max(FEWEST_RAYS.min(most));
     let area_m2: f64 = vertices.iter().map(|v| v.area_m2).sum();
     let one = |vertex: &Vertex| {
         let share = (vertex.area_m2 * FIRST_VERTICES / area_m2).sqrt();
         let wanted = (share * f64::from(most)).min(f64::from(most)) as u32;
-        wanted.next_power_of_two().clamp(FEWEST_RAYS.min(most), most)
+        wanted.next_power_of_two().clamp(fewest, most)
     };
     vertices.iter().map(one).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::elements::Subdivision;
-use crate::engine::detail::{LeafError, leaf_errors, refine_worst};
+use crate::engine::detail::{LeafError, Refinement, leaf_errors, refine_worst};
 
 fn patch(edge_m: f64) -> Subdivision {
     let shape = rectangle([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0);
@@ -42,6 +42,10 @@ fn true_rms(subdivision: &Subdivision, f: impl Fn(Point) -> f64) -> f64 {
         }
     }
     (sum / area).sqrt()
+}
+
+fn until(least_edge_m: f64, max_vertices: usize) -> Refinement {
+    Refinement { most_error: f64::INFINITY, least_edge_m, max_vertices }
 }
 
 #[test]
@@ -100,7 +104,7 @@ fn the_worst_are_bisected_and_the_others_are_not() {
     let step = |p: Point| Some(if p.x < 0.26 { 10.0 } else { 0.0 });
     for _ in 0..4 {
         let errors = errors_of(&subdivision, step);
-        assert!(refine_worst(&mut subdivision, &errors, 1e-3, usize::MAX));
+        assert!(refine_worst(&mut subdivision, &errors, until(1e-3, usize::MAX)));
     }
     let size = |low: f64, high: f64| {
         let inside = |&n: &u32| {
@@ -121,14 +125,17 @@ fn refinement_ends_at_its_bounds() {
     let bend = |p: Point| Some(p.x * p.x);
     let errors = errors_of(&subdivision, bend);
     assert!(
-        !refine_worst(&mut subdivision, &errors, 1.0, usize::MAX),
+        !refine_worst(&mut subdivision, &errors, until(1.0, usize::MAX)),
         "all edges are short enough"
     );
-    assert!(!refine_worst(&mut subdivision, &errors, 1e-3, before), "there are vertices enough");
+    assert!(
+        !refine_worst(&mut subdivision, &errors, until(1e-3, before)),
+        "there are vertices enough"
+    );
     let none = errors_of(&subdivision, |_| Some(1.0));
-    assert!(!refine_worst(&mut subdivision, &none, 1e-3, usize::MAX), "there is no error");
+    assert!(!refine_worst(&mut subdivision, &none, until(1e-3, usize::MAX)), "there is no error");
     assert_eq!(subdivision.vertex_count(), before);
-    assert!(refine_worst(&mut subdivision, &errors, 1e-3, before + 10));
+    assert!(refine_worst(&mut subdivision, &errors, until(1e-3, before + 10)));
     // The last element marked is bisected whole, with what that takes.
     assert!(subdivision.vertex_count() <= before + 30);
 }
