@@ -1,6 +1,6 @@
 //! `isolux demo`: a real interior end to end, from nothing.
 
-use crate::console::{facts, note, print, print_json};
+use crate::console::{Note, facts, note, print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{DemoFlags, LookFlags, ToneName};
 use crate::output::OutputPath;
@@ -22,8 +22,8 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let files = Files::check(&flags.output)?;
     let scene = source::read_scene(&path)?;
     let request = SolveRequest { accuracy: Some(flags.accuracy), ..SolveRequest::default() };
-    note(format!("{}, from {}", scene.name(), path.display()));
-    explain::lines(&scene, &request).iter().for_each(note);
+    note(Note::Info, format!("{}, from {}", scene.name(), path.display()));
+    explain::lines(&scene, &request).iter().for_each(|line| note(Note::Info, line));
     let run = Run { source: &path, output: &files.map, request: &request };
     let solved = solve::solve(&scene, &run, None, &mut Reporter::new(None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;

@@ -34,7 +34,7 @@ fn main() -> ExitCode {
     let flags = Flags::parse();
     let end = run(&flags);
     if let Err(failure) = &end {
-        failure.lines().iter().for_each(console::note);
+        failure.lines().iter().for_each(|(kind, line)| console::note(*kind, line));
     }
     exit_code(&end)
 }
