@@ -1,10 +1,9 @@
-//! What is printed: results on standard output, everything else on standard error.
+//! What is printed on standard output: results.
 
 use crate::failure::Failure;
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle, presets};
 use serde::Serialize;
 use std::io::Write;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Prints text to standard output.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
@@ -26,57 +25,6 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     let made = serde_json::to_writer_pretty(&mut out, value).map_err(std::io::Error::from);
     made.and_then(|()| writeln!(out)).and_then(|()| out.flush()).map_err(unprintable)
-}
-
-/// Whether all lines on standard error are JSON objects.
-static NOTES_ARE_JSON: AtomicBool = AtomicBool::new(false);
-
-/// From now on every line on standard error is a JSON object.
-pub(crate) fn note_as_json() {
-    NOTES_ARE_JSON.store(true, Ordering::Relaxed);
-}
-
-/// What a line on standard error is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Note {
-    /// Keeps the command from its result.
-    Error,
-    /// The machine, or a limit, keeps the command from its result.
-    Refused,
-    /// Left out or guessed.
-    Warning,
-    /// Good to know.
-    Info,
-}
-
-impl Note {
-    /// In front of the line, or the key of its object.
-    fn name(self) -> &'static str {
-        match self {
-            Self::Error => "error",
-            Self::Refused => "refused",
-            Self::Warning => "warning",
-            Self::Info => "note",
-        }
-    }
-
-    fn line(self, text: &str, as_json: bool) -> String {
-        match (as_json, self) {
-            (true, _) => serde_json::json!({ self.name(): text }).to_string(),
-            (false, Self::Info) => text.to_owned(),
-            (false, _) => format!("{}: {text}", self.name()),
-        }
-    }
-}
-
-/// Prints a line for the user to standard error.
-pub(crate) fn note(kind: Note, text: impl std::fmt::Display) {
-    line(kind.line(&text.to_string(), NOTES_ARE_JSON.load(Ordering::Relaxed)));
-}
-
-/// Prints a line to standard error as it is. Nobody may be there to read it.
-pub(crate) fn line(line: impl std::fmt::Display) {
-    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// One line, under the header.
@@ -117,17 +65,4 @@ fn starts_as_number(cell: &str) -> bool {
 fn finished(table: &Table) -> String {
     let lines: Vec<String> = table.lines().map(|l| l.trim_end().to_owned()).collect();
     lines.join("\n") + "\n"
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_note_is_a_line_or_an_object() {
-        let text = "a \"b\": c";
-        assert_eq!(Note::Warning.line(text, false), "warning: a \"b\": c");
-        assert_eq!(Note::Info.line(text, false), text);
-        assert_eq!(Note::Error.line(text, true), r#"{"error":"a \"b\": c"}"#);
-    }
 }

@@ -1,8 +1,9 @@
 //! `isolux demo`: a real interior end to end, from nothing.
 
-use crate::console::{Note, facts, note, print, print_json};
+use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{DemoFlags, LookFlags, ToneName};
+use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::solve::Run;

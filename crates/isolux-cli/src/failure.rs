@@ -1,6 +1,6 @@
 //! How a run of the command ends.
 
-use crate::console::Note;
+use crate::notes::Note;
 use std::fmt::Display;
 use std::process::ExitCode;
 

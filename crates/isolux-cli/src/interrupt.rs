@@ -1,7 +1,7 @@
 //! Ctrl-C and termination while a map is computed.
 
-use crate::console::{Note, note};
 use crate::failure::Failure;
+use crate::notes::{Note, note};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 

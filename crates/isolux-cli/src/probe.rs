@@ -1,8 +1,9 @@
 //! `isolux probe`: values of a map at points.
 
-use crate::console::{Note, note, print, print_json};
+use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ProbeFlags;
+use crate::notes::{Note, note};
 use crate::{map_file, points};
 use isolux::engine::{ExactSettings, MapReader, ProbePoint};
 use isolux::map::Illuminance;

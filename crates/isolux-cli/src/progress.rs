@@ -1,7 +1,7 @@
 //! Progress on standard error: a bar, lines, or JSON lines.
 
-use crate::console::{self, Note, note};
 use crate::flags::ProgressStyle;
+use crate::notes::{self, Note, note};
 use crate::quantity::{show_count, show_seconds, show_share};
 use indicatif::{ProgressBar, ProgressStyle as BarStyle};
 use isolux::engine::{Progress, Stage};
@@ -60,7 +60,7 @@ impl Reporter {
             }
             Shape::Lines => note(Note::Info, line(progress)),
             Shape::Json => {
-                console::line(serde_json::to_string(&Report::of(progress)).unwrap_or_default());
+                notes::line(serde_json::to_string(&Report::of(progress)).unwrap_or_default());
             }
             Shape::Silent => {}
         }

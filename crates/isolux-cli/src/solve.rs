@@ -1,10 +1,11 @@
 //! `isolux solve`: a scene to a map.
 
-use crate::console::{Note, facts, note, note_as_json, print, print_json};
+use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::{ProgressStyle, SolveFlags};
 use crate::interrupt::Interrupt;
+use crate::notes::{Note, note, note_as_json};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::{show_bytes, show_seconds};

@@ -1,7 +1,7 @@
 //! Scenes by path or by name.
 
-use crate::console::{Note, note};
 use crate::failure::Failure;
+use crate::notes::{Note, note};
 use isolux::scene::{Scene, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, builtin};
 use isolux_formats::{Loaded, Problem, Problems};

@@ -1,9 +1,10 @@
 //! `isolux validate`: the cases with exact answers.
 
-use crate::console::{Note, note, print, print_json, table};
+use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ValidateFlags;
 use crate::interrupt::Interrupt;
+use crate::notes::{Note, note};
 use crate::quantity::{show_seconds, show_share, significant};
 use crate::request;
 use isolux::engine::Watch;
