@@ -1,4 +1,4 @@
-//! What is printed: results on standard output, everything else on standard error.
+//! What is printed on standard output: results.
 
 use crate::failure::Failure;
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle, presets};
@@ -25,11 +25,6 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     let mut out = std::io::BufWriter::new(std::io::stdout().lock());
     let made = serde_json::to_writer_pretty(&mut out, value).map_err(std::io::Error::from);
     made.and_then(|()| writeln!(out)).and_then(|()| out.flush()).map_err(unprintable)
-}
-
-/// Prints a line for the user to standard error. Nobody may be there to read it.
-pub(crate) fn note(line: impl std::fmt::Display) {
-    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// One line, under the header.

@@ -1,8 +1,9 @@
 //! `isolux demo`: a real interior end to end, from nothing.
 
-use crate::console::{facts, note, print, print_json};
+use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{DemoFlags, LookFlags, ToneName};
+use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::solve::Run;
@@ -22,8 +23,8 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let files = Files::check(&flags.output)?;
     let scene = source::read_scene(&path)?;
     let request = SolveRequest { accuracy: Some(flags.accuracy), ..SolveRequest::default() };
-    note(format!("{}, from {}", scene.name(), path.display()));
-    explain::lines(&scene, &request).iter().for_each(note);
+    note(Note::Info, format!("{}, from {}", scene.name(), path.display()));
+    explain::lines(&scene, &request).iter().for_each(|line| note(Note::Info, line));
     let run = Run { source: &path, output: &files.map, request: &request };
     let solved = solve::solve(&scene, &run, None, &mut Reporter::new(None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;

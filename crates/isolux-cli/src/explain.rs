@@ -1,6 +1,6 @@
 //! What a run will do, and why, in sentences.
 
-use crate::quantity::{show_bytes, show_seconds, show_share, significant};
+use crate::quantity::{flux, show_bytes, show_seconds, show_share};
 use isolux::engine::SolveRequest;
 use isolux::map::Method;
 use isolux::scene::{LuminaireKind, Scene};
@@ -26,11 +26,11 @@ fn light(scene: &Scene) -> String {
     let is_parallel = |kind: &LuminaireKind| matches!(kind, LuminaireKind::Directional { .. });
     let parallel = scene.luminaires().iter().filter(|l| is_parallel(&l.kind)).count();
     format!(
-        "Light comes from {} point luminaires, {parallel} parallel ones and {} emitting surfaces, {} \
-         lm in all.",
+        "Light comes from {} point luminaires, {parallel} parallel ones and {} emitting surfaces; \
+         luminous flux {}.",
         scene.luminaires().len() - parallel,
         scene.area_luminaires().len(),
-        significant(scene.luminous_flux_lm(), 3)
+        flux(scene.luminous_flux_lm(), parallel > 0)
     )
 }
 

@@ -1,5 +1,6 @@
 //! How a run of the command ends.
 
+use crate::notes::Note;
 use std::fmt::Display;
 use std::process::ExitCode;
 
@@ -34,12 +35,13 @@ impl Failure {
     }
 
     /// What to print on standard error, a line each.
-    pub(crate) fn lines(&self) -> Vec<String> {
+    pub(crate) fn lines(&self) -> Vec<(Note, String)> {
         match self {
             Self::BadInput(problems) => {
-                problems.iter().flat_map(|p| p.lines()).map(|l| format!("error: {l}")).collect()
+                let lines = problems.iter().flat_map(|p| p.lines());
+                lines.map(|line| (Note::Error, line.to_owned())).collect()
             }
-            Self::Refused(why) => vec![format!("refused: {why}")],
+            Self::Refused(why) => vec![(Note::Refused, why.clone())],
             Self::ReaderGone => Vec::new(),
         }
     }

@@ -124,7 +124,7 @@ pub(crate) enum MethodName {
 pub(crate) enum ProgressStyle {
     /// One line that changes
     Bar,
-    /// One JSON object a line
+    /// One JSON object a line, warnings and errors, too
     Json,
     /// Nothing
     None,

@@ -1,6 +1,7 @@
 //! Ctrl-C and termination while a map is computed.
 
 use crate::failure::Failure;
+use crate::notes::{Note, note};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -17,7 +18,7 @@ impl Interrupt {
             if flag.swap(true, Ordering::Relaxed) {
                 std::process::exit(130);
             }
-            crate::console::note("stopping after this increment; once more to stop at once");
+            note(Note::Info, "stopping after this increment; once more to stop at once");
         };
         ctrlc::set_handler(handler)
             .map_err(|e| Failure::Refused(format!("cannot listen to Ctrl-C: {e}")))?;

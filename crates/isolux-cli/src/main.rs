@@ -10,6 +10,7 @@ mod flags;
 mod info;
 mod interrupt;
 mod map_file;
+mod notes;
 mod output;
 mod points;
 mod probe;
@@ -34,7 +35,7 @@ fn main() -> ExitCode {
     let flags = Flags::parse();
     let end = run(&flags);
     if let Err(failure) = &end {
-        failure.lines().iter().for_each(console::note);
+        failure.lines().iter().for_each(|(kind, line)| notes::note(*kind, line));
     }
     exit_code(&end)
 }

@@ -8,6 +8,8 @@ use std::path::Path;
 
 /// No more is read: ten million points.
 const MAX_BYTES: u64 = 1 << 30;
+/// Read before it is decided whether it is text.
+const FIRST_BYTES: u64 = 1 << 12;
 /// Problems shown; a file with more of them is another kind of file.
 const MAX_PROBLEMS: usize = 20;
 
@@ -16,13 +18,21 @@ pub(crate) fn read(path: &Path) -> Result<Vec<ProbePoint>, Failure> {
     let name =
         if path == Path::new("-") { "standard input".into() } else { path.to_string_lossy() };
     let fail = |e| Failure::bad_input(format!("{name}: cannot be read ({e}); check the path"));
-    let mut bytes = Vec::new();
-    if path == Path::new("-") {
-        std::io::stdin().lock().take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(fail)?;
+    let source: Box<dyn Read> = if path == Path::new("-") {
+        Box::new(std::io::stdin().lock())
     } else {
-        let file = std::fs::File::open(path).map_err(fail)?;
-        file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(fail)?;
+        Box::new(std::fs::File::open(path).map_err(fail)?)
+    };
+    let mut source = source.take(MAX_BYTES + 1);
+    let mut bytes = Vec::new();
+    // Text has no zero bytes: what is no text need not be read to its end, if it has one.
+    source.by_ref().take(FIRST_BYTES).read_to_end(&mut bytes).map_err(fail)?;
+    if bytes.contains(&0) {
+        return Err(Failure::bad_input(format!(
+            "{name}: is not text; write x y z nx ny nz, one a line"
+        )));
     }
+    source.read_to_end(&mut bytes).map_err(fail)?;
     if bytes.len() as u64 > MAX_BYTES {
         return Err(Failure::bad_input(format!("{name}: larger than 1 GiB; split it")));
     }

@@ -1,8 +1,9 @@
 //! `isolux probe`: values of a map at points.
 
-use crate::console::{note, print, print_json};
+use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ProbeFlags;
+use crate::notes::{Note, note};
 use crate::{map_file, points};
 use isolux::engine::{ExactSettings, MapReader, ProbePoint};
 use isolux::map::Illuminance;
@@ -25,11 +26,12 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
     let values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
     let unknown = values.iter().filter(|v| v.is_none()).count();
     if unknown > 0 {
-        note(format!(
-            "warning: {unknown} of {} points lie on no surface with a known value; move them onto one, \
-             or use --exact",
+        let text = format!(
+            "{unknown} of {} points lie on no surface with a known value; move them onto one, or use \
+             --exact",
             points.len()
-        ));
+        );
+        note(Note::Warning, text);
     }
     if json {
         let points = values.iter().map(|v| Reading::of(v.as_ref())).collect();

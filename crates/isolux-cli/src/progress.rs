@@ -1,7 +1,7 @@
 //! Progress on standard error: a bar, lines, or JSON lines.
 
-use crate::console::note;
 use crate::flags::ProgressStyle;
+use crate::notes::{self, Note, note};
 use crate::quantity::{show_count, show_seconds, show_share};
 use indicatif::{ProgressBar, ProgressStyle as BarStyle};
 use isolux::engine::{Progress, Stage};
@@ -58,8 +58,10 @@ impl Reporter {
                 bar.set_position((share_done(progress) * BAR_STEPS as f64) as u64);
                 bar.set_message(line(progress));
             }
-            Shape::Lines => note(line(progress)),
-            Shape::Json => note(serde_json::to_string(&Report::of(progress)).unwrap_or_default()),
+            Shape::Lines => note(Note::Info, line(progress)),
+            Shape::Json => {
+                notes::line(serde_json::to_string(&Report::of(progress)).unwrap_or_default());
+            }
             Shape::Silent => {}
         }
     }

@@ -102,6 +102,17 @@ pub(crate) fn exposure(text: &str) -> Result<Exposure, String> {
     })
 }
 
+/// Luminous flux for reading. Parallel light has none: it is given by its illuminance, and how much
+/// of it enters depends on the scene.
+pub(crate) fn flux(lm: f64, has_parallel: bool) -> String {
+    match (lm > 0.0, has_parallel) {
+        (false, true) => "none: parallel light alone".to_owned(),
+        (true, true) => format!("{} lm, and parallel light", significant(lm, 3)),
+        // A sum of nothing is -0.
+        (_, false) => format!("{} lm", significant(lm + 0.0, 3)),
+    }
+}
+
 /// Bytes for reading: `1.5 GiB`.
 pub(crate) fn show_bytes(bytes: u64) -> String {
     let units = [("TiB", 40), ("GiB", 30), ("MiB", 20), ("KiB", 10)];
@@ -151,6 +162,13 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parallel_light_has_no_flux() {
+        assert_eq!(flux(0.0, true), "none: parallel light alone");
+        assert_eq!(flux(2500.0, true), "2500 lm, and parallel light");
+        assert_eq!(flux(-0.0, false), "0 lm");
+    }
 
     #[test]
     fn shares() {

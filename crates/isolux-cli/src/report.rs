@@ -65,7 +65,7 @@ impl Report {
             ("error", reached),
             ("  from noise", share(self.accuracy_statistical)),
             ("  from interpolation", share(self.accuracy_discretization)),
-            ("  from light looked up", share(self.accuracy_bias)),
+            ("  from lookups and light given up", share(self.accuracy_bias)),
             ("error of the bare map", share(self.accuracy_interpolated)),
             ("time", show_seconds(self.time_s)),
             ("receivers", self.receivers.to_string()),

@@ -1,10 +1,11 @@
 //! `isolux solve`: a scene to a map.
 
-use crate::console::{facts, note, print, print_json};
+use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
-use crate::flags::SolveFlags;
+use crate::flags::{ProgressStyle, SolveFlags};
 use crate::interrupt::Interrupt;
+use crate::notes::{Note, note, note_as_json};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::{show_bytes, show_seconds};
@@ -16,11 +17,14 @@ use std::path::Path;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
+    if flags.progress == Some(ProgressStyle::Json) {
+        note_as_json();
+    }
     let asked = request::solution(flags)?;
     request::use_threads(flags.threads)?;
     let scene = source::read_scene(&flags.scene)?;
     if flags.explain {
-        explain::lines(&scene, &asked.request).iter().for_each(note);
+        explain::lines(&scene, &asked.request).iter().for_each(|line| note(Note::Info, line));
     }
     let Some(output) = asked.output.filter(|_| !flags.dry_run) else {
         return dry_run(&scene, &asked.request, json);

@@ -1,7 +1,7 @@
 //! Scenes by path or by name.
 
-use crate::console::note;
 use crate::failure::Failure;
+use crate::notes::{Note, note};
 use isolux::scene::{Scene, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, builtin};
 use isolux_formats::{Loaded, Problem, Problems};
@@ -28,7 +28,7 @@ pub(crate) fn read_scene_with_warnings(source: &Path) -> Result<Loaded<Scene>, F
 /// Warnings are for the user, whatever is printed.
 pub(crate) fn show_warnings(warnings: &[Problem]) {
     for warning in warnings {
-        note(format!("warning: {warning}"));
+        note(Note::Warning, warning);
     }
 }
 

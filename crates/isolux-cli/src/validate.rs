@@ -1,9 +1,10 @@
 //! `isolux validate`: the cases with exact answers.
 
-use crate::console::{note, print, print_json, table};
+use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ValidateFlags;
 use crate::interrupt::Interrupt;
+use crate::notes::{Note, note};
 use crate::quantity::{show_seconds, show_share, significant};
 use crate::request;
 use isolux::engine::Watch;
@@ -23,7 +24,7 @@ pub(crate) fn run(flags: &ValidateFlags, json: bool) -> Result<Outcome, Failure>
     let interrupt = Interrupt::install()?;
     let settings = ValidateSettings::default();
     let table = validate_all(&cases, &methods, &seeds, &settings, &mut |row| {
-        note(line(row));
+        note(Note::Info, line(row));
         if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
     });
     if json {

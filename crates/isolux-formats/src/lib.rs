@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod checkpoint;
+mod extent;
 mod findings;
 pub mod gltf;
 pub mod ies;

@@ -252,3 +252,14 @@ fn file_that_cannot_be_read() {
     assert!(problems.contains("no such.obj"), "{problems}");
     assert!(obj::read(&scenes()).unwrap_err().to_string().contains("not a regular file"));
 }
+
+#[test]
+fn gloss_that_is_left_out_is_one_warning() {
+    let obj = format!("{TRIANGLE}usemtl n\nf 1 3 2\nusemtl o\nf 3 2 1\n");
+    let mtl = "newmtl m\nKd 1 1 1\nKs 1 1 1\nnewmtl n\nKd 1 1 1\nKs 1 1 1\nnewmtl o\nKd 1 1 1\n";
+    let loaded = read_text(&obj, mtl).unwrap();
+    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    let gloss: Vec<&String> = warnings.iter().filter(|w| w.contains("gloss Ks")).collect();
+    assert_eq!(gloss.len(), 1, "{warnings:#?}");
+    assert!(gloss[0].contains("`m` (and 1 more)"), "{}", gloss[0]);
+}

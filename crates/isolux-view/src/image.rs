@@ -84,19 +84,23 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The mean of readings of one piece of surface. Their errors are common to them, so the mean
-    /// keeps the mean error.
-    pub(crate) fn mean(readings: impl Iterator<Item = Self>) -> Option<Self> {
-        let (mut illuminance, mut error, mut count) = (0.0, 0.0, 0.0);
+    /// The mean of readings of one piece of surface, and its standard error from their spread. The
+    /// errors of the map are common to them, so the mean keeps the mean error.
+    pub(crate) fn mean(readings: impl Iterator<Item = Self>) -> Option<(Self, f32)> {
+        let (mut illuminance, mut error, mut squares, mut count) = (0.0, 0.0, 0.0, 0.0);
         for reading in readings {
-            illuminance += f64::from(reading.illuminance_lx);
+            let lux = f64::from(reading.illuminance_lx);
+            illuminance += lux;
+            squares += lux * lux;
             error += f64::from(reading.standard_error_lx);
             count += 1.0;
         }
-        (count > 0.0).then_some(Self {
-            illuminance_lx: (illuminance / count) as f32,
-            standard_error_lx: (error / count) as f32,
-        })
+        let mean = illuminance / count;
+        let variance = (squares / count - mean * mean).max(0.0) / f64::max(count - 1.0, 1.0);
+        (count > 0.0).then_some((
+            Self { illuminance_lx: mean as f32, standard_error_lx: (error / count) as f32 },
+            variance.sqrt() as f32,
+        ))
     }
 }
 
@@ -147,6 +151,7 @@ pub struct LuminanceImage {
     samples_per_pixel: u32,
     samples: Vec<Seen>,
     middles: Vec<Option<Middle>>,
+    has_shadow_noise: bool,
 }
 
 /// The middle of a pixel.
@@ -155,14 +160,22 @@ pub(crate) struct Middle {
     pub(crate) surface: Surface,
     /// Mean over the samples of the pixel on the same piece of surface.
     pub(crate) reading: Option<Reading>,
+    /// Standard error of that mean, from the spread of the samples, lx: shadow rays are few.
+    pub(crate) noise_lx: f32,
 }
 
 impl LuminanceImage {
-    /// Pixel by pixel, rows from the top; `samples` pixel after pixel.
-    pub(crate) fn new(size: Size, samples: Vec<Seen>, middles: Vec<Option<Middle>>) -> Self {
+    /// Pixel by pixel, rows from the top; `samples` pixel after pixel. Readings of the light of
+    /// emitting surfaces have the noise of a few shadow rays.
+    pub(crate) fn new(
+        size: Size,
+        samples: Vec<Seen>,
+        middles: Vec<Option<Middle>>,
+        has_shadow_noise: bool,
+    ) -> Self {
         debug_assert!(samples.len().is_multiple_of(size.pixels()));
         let samples_per_pixel = (samples.len() / size.pixels()) as u32;
-        Self { size, samples_per_pixel, samples, middles }
+        Self { size, samples_per_pixel, samples, middles, has_shadow_noise }
     }
 
     /// Width and height.
@@ -193,6 +206,16 @@ impl LuminanceImage {
     /// Illuminance of the surface in the middle of a pixel: the mean over the samples on it.
     pub fn reading(&self, pixel: usize) -> Option<Reading> {
         self.middles[pixel]?.reading
+    }
+
+    /// Whether readings may have the noise of shadow rays.
+    pub(crate) fn has_shadow_noise(&self) -> bool {
+        self.has_shadow_noise
+    }
+
+    /// What the middle of a pixel shows.
+    pub(crate) fn middle(&self, pixel: usize) -> Option<&Middle> {
+        self.middles[pixel].as_ref()
     }
 
     /// The surface in the middle of a pixel.

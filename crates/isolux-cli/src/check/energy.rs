@@ -22,7 +22,8 @@ pub(super) struct Energy {
     pub mean_reflectance: f64,
     /// Area of the sides that are not black.
     inside_m2: f64,
-    has_directional: bool,
+    /// Sources of parallel light.
+    pub parallel: usize,
     materials_above_bright: Vec<String>,
 }
 
@@ -46,10 +47,11 @@ impl Energy {
             flux_lm: scene.luminous_flux_lm() + 0.0,
             mean_reflectance: if inside_m2 > 0.0 { reflected_m2 / inside_m2 } else { 0.0 },
             inside_m2,
-            has_directional: scene
+            parallel: scene
                 .luminaires()
                 .iter()
-                .any(|l| matches!(l.kind, LuminaireKind::Directional { .. })),
+                .filter(|l| matches!(l.kind, LuminaireKind::Directional { .. }))
+                .count(),
             materials_above_bright: bright_materials(scene, &reflectances),
         }
     }
@@ -57,14 +59,14 @@ impl Energy {
     /// What the balance of a closed room gives: flux over absorbing area. `None` for others.
     pub(super) fn mean_illuminance_lx(&self, is_closed: bool) -> Option<f64> {
         let absorbing_m2 = self.inside_m2 * (1.0 - self.mean_reflectance);
-        let is_lit = self.flux_lm > 0.0 && !self.has_directional;
+        let is_lit = self.flux_lm > 0.0 && self.parallel == 0;
         let applies = is_closed && is_lit && absorbing_m2 > 0.0;
         applies.then(|| self.flux_lm / absorbing_m2)
     }
 
     pub(super) fn findings(&self) -> Vec<Finding> {
         let mut found = Vec::new();
-        if self.flux_lm <= 0.0 && !self.has_directional {
+        if self.flux_lm <= 0.0 && self.parallel == 0 {
             found.push(Finding::warning(
                 "scene",
                 "there is no light",

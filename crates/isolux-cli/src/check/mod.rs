@@ -10,7 +10,7 @@ use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
-use crate::quantity::{show_bytes, show_seconds, significant};
+use crate::quantity::{flux, show_bytes, show_seconds, significant};
 use crate::source;
 use finding::Finding;
 use isolux::engine::SolveRequest;
@@ -37,6 +37,8 @@ struct Audit {
     size_m: [f64; 3],
     area_m2: f64,
     luminaires: usize,
+    /// Of them, sources of parallel light, which have an illuminance but no flux.
+    parallel: usize,
     emitting_surfaces: usize,
     luminous_flux_lm: f64,
     mean_reflectance: f64,
@@ -61,6 +63,7 @@ impl Audit {
             size_m: extent.size_m,
             area_m2: energy.area_m2,
             luminaires: scene.luminaires().len(),
+            parallel: energy.parallel,
             emitting_surfaces: scene.area_luminaires().len(),
             luminous_flux_lm: energy.flux_lm,
             mean_reflectance: energy.mean_reflectance,
@@ -86,7 +89,7 @@ impl Audit {
             ("open edges", self.open_edges.to_string()),
             ("luminaires", self.luminaires.to_string()),
             ("emitting surfaces", self.emitting_surfaces.to_string()),
-            ("luminous flux", format!("{} lm", significant(self.luminous_flux_lm, 3))),
+            ("luminous flux", flux(self.luminous_flux_lm, self.parallel > 0)),
             ("mean reflectance", significant(self.mean_reflectance, 2)),
             ("mean illuminance", mean),
             ("receivers at 1 %", format!("about {}", self.estimate.receivers)),

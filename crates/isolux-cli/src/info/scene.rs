@@ -2,7 +2,7 @@
 
 use crate::console::{facts, print, print_json, table};
 use crate::failure::Failure;
-use crate::quantity::significant;
+use crate::quantity::{flux, significant};
 use isolux::geometry::Point;
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Body, Finish, LuminaireKind, Material, Scene, UpAxis};
@@ -10,6 +10,9 @@ use serde::Serialize;
 
 /// Materials shown in text; JSON holds all.
 const MAX_SHOWN: usize = 30;
+
+/// Light that has an illuminance but no flux.
+const DIRECTIONAL: &str = "directional";
 
 /// Prints a scene.
 pub(super) fn show(scene: &Scene, json: bool) -> Result<(), Failure> {
@@ -80,6 +83,10 @@ impl Contents {
         }
     }
 
+    fn has_parallel(&self) -> bool {
+        self.luminaires.iter().any(|l| l.kind == DIRECTIONAL)
+    }
+
     fn text(&self) -> String {
         let corner = |c: Option<[f64; 3]>| {
             let [x, y, z] = c.unwrap_or_default().map(|c| significant(c, 3));
@@ -98,10 +105,14 @@ impl Contents {
             ("textures", self.textures.to_string()),
             ("cameras", list(&self.cameras)),
             ("light groups", list(&self.groups)),
-            ("luminous flux", format!("{} lm", significant(self.luminous_flux_lm, 3))),
+            ("luminous flux", flux(self.luminous_flux_lm, self.has_parallel())),
         ]);
         let light = |l: &Luminaires| {
-            vec![l.kind.to_owned(), l.count.to_string(), significant(l.luminous_flux_lm, 3)]
+            let lm = match l.kind {
+                DIRECTIONAL => "-".to_owned(),
+                _ => significant(l.luminous_flux_lm, 3),
+            };
+            vec![l.kind.to_owned(), l.count.to_string(), lm]
         };
         let rows: Vec<Vec<String>> = self.luminaires.iter().map(light).collect();
         text += &format!("\n{}", table(&["light", "count", "lm"], &rows));
@@ -143,7 +154,7 @@ fn luminaires(scene: &Scene) -> Vec<Luminaires> {
             LuminaireKind::Point { intensity, .. } => {
                 add(distribution(intensity), intensity.luminous_flux_lm());
             }
-            LuminaireKind::Directional { .. } => add("directional", 0.0),
+            LuminaireKind::Directional { .. } => add(DIRECTIONAL, 0.0),
         }
     }
     scene.area_luminaires().iter().for_each(|area| add("surface", area.luminous_flux_lm()));

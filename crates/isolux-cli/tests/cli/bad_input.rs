@@ -108,3 +108,11 @@ fn every_subcommand_has_help_with_an_example() {
     }
     assert_eq!(home.run(&["--version"]).code, 0);
 }
+
+#[cfg(unix)]
+#[test]
+fn points_without_end_that_are_no_text_are_refused_at_once() {
+    let home = Home::new();
+    let ran = home.run(&["probe", "m.glb", "--points", "/dev/zero"]);
+    assert!(ran.code == 2 && ran.err.contains("/dev/zero: is not text"), "{ran:?}");
+}

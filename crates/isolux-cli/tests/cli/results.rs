@@ -116,3 +116,32 @@ fn check_finds_the_cube_in_order() {
     let warnings = json["findings"].as_array().unwrap().iter();
     assert_eq!(warnings.filter(|f| f["severity"] == "warning").count(), 0, "{json}");
 }
+
+/// A room with an unknown material and a glossy one, written as an OBJ file.
+const WARNED: &str = "mtllib w.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 2 0\nv 1 2 0\nv 0 2 1\n\
+                      usemtl nowhere\nf 1 3 2\nusemtl lamp\nf 4 5 6\n";
+
+#[test]
+fn with_json_progress_every_line_of_standard_error_is_an_object() {
+    let home = Home::new();
+    home.file("w.obj", WARNED);
+    home.file("w.mtl", "newmtl lamp\nKd 0.5 0.5 0.5\nKe 10 10 10\nKs 0.1 0.1 0.1\n");
+    let keys = |arguments: &[&str], code: i32| -> Vec<String> {
+        let ran = home.run(arguments);
+        assert_eq!(ran.code, code, "{ran:?}");
+        let object = |line: &str| -> serde_json::Map<String, serde_json::Value> {
+            serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}"))
+        };
+        ran.err.lines().filter_map(|line| object(line).keys().next().cloned()).collect()
+    };
+    let flags = ["--quality", "draft", "--explain", "--progress", "json"];
+    let found = keys(&[&["solve", "w.obj", "-o", "w.glb"], &flags[..]].concat(), 0);
+    for key in ["warning", "note", "accuracy"] {
+        assert!(found.iter().any(|k| k == key), "{key}: {found:?}");
+    }
+    let missing = keys(&[&["solve", "no.obj", "-o", "w.glb"], &flags[..]].concat(), 2);
+    assert_eq!(missing, ["error"]);
+    let refused =
+        keys(&[&["solve", "w.obj", "-o", "w.glb", "--max-memory", "1kB"], &flags[..]].concat(), 4);
+    assert_eq!(refused.last().map(String::as_str), Some("refused"), "{refused:?}");
+}

@@ -27,6 +27,7 @@ mod texcoord;
 mod topology;
 mod uri;
 
+use crate::extent::{IMPLAUSIBLE_EXTENT_M, largest_side_m};
 use crate::source::read_bytes;
 use crate::{Loaded, Problems};
 use buffers::Document;
@@ -64,6 +65,13 @@ fn or_fail<T>(result: Result<T, Flaw>, notes: &mut Notes) -> Result<T, Problems>
 fn resolve(document: &Document, placed: &[Placed], path: &Path, notes: &mut Notes) -> SceneParts {
     let mut surfaces = Surfaces::new(document);
     let shapes = meshes::shapes(document, placed, &mut surfaces, notes);
+    let largest_m = largest_side_m(&shapes);
+    if largest_m > IMPLAUSIBLE_EXTENT_M {
+        notes.warn(Flaw::new(
+            format!("glTF is in metres; so read, it is {largest_m:.0} m large"),
+            "if it was exported in another unit, scale its root node, or set the unit at the export",
+        ));
+    }
     let luminaires = luminaires::luminaires(document, placed, notes);
     let cameras = cameras::cameras(document, placed, notes);
     let (materials, textures) = surfaces.into_parts();

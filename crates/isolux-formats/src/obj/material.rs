@@ -4,7 +4,7 @@ use super::lines::place;
 use super::mtl;
 use super::record::{MtlMaterial, Named, ObjFile};
 use crate::findings::Findings;
-use crate::{picture, source};
+use crate::{Loaded, Problem, picture, source};
 use isolux::scene::{Body, Dielectric, Finish, Material, Texture};
 use isolux::units::Rgb;
 use std::collections::HashMap;
@@ -52,6 +52,7 @@ pub(super) fn read_libraries(
         }
     }
     let mut reader = Reader {
+        glossy: None,
         root,
         is_replaced,
         known,
@@ -62,6 +63,9 @@ pub(super) fn read_libraries(
     for part in &file.parts {
         let index = reader.material(part.material.as_ref(), findings);
         reader.materials.of_part.push(index);
+    }
+    if let Some(glossy) = reader.glossy.take() {
+        findings.absorb::<()>(Ok(Loaded { value: (), warnings: vec![glossy.warning()] }));
     }
     reader.materials
 }
@@ -91,6 +95,33 @@ struct Reader<'a> {
     made: HashMap<Option<String>, u32>,
     pictures: HashMap<PathBuf, Option<u32>>,
     materials: Materials,
+    glossy: Option<Glossy>,
+}
+
+/// Materials whose gloss is left out.
+struct Glossy {
+    file: PathBuf,
+    line: usize,
+    first: String,
+    more: usize,
+}
+
+impl Glossy {
+    fn warning(self) -> Problem {
+        let more = if self.more > 0 { format!(" (and {} more)", self.more) } else { String::new() };
+        let what = format!(
+            "material `{}`{more}: its gloss Ks, Ns is left out, because MTL does not say how much \
+             light it reflects",
+            self.first
+        );
+        let remedy = "assign a material of scene.toml with `gloss`, or set illum 3 for a mirror";
+        Problem::new(&self.file, place(self.line), what, remedy)
+    }
+}
+
+/// Whether a material has highlights and is no mirror.
+fn is_glossy(record: &MtlMaterial) -> bool {
+    !matches!(record.illum, Some(3 | 5)) && record.ks.is_some_and(|ks| !ks.is_black())
 }
 
 impl Reader<'_> {
@@ -137,10 +168,23 @@ impl Reader<'_> {
             Some(glass) => Material { name: record.name.clone(), body: Body::Dielectric(glass) },
             None => {
                 let mut finish = finish(record, findings);
+                if is_glossy(record) {
+                    self.note_gloss(record, findings.file());
+                }
                 let base = source::directory_of(findings.file()).to_owned();
                 finish.diffuse.texture =
                     record.map_kd.as_ref().and_then(|named| self.picture(&base, named, findings));
                 Material::two_sided(record.name.clone(), finish)
+            }
+        }
+    }
+
+    fn note_gloss(&mut self, record: &MtlMaterial, file: &Path) {
+        match &mut self.glossy {
+            Some(known) => known.more += 1,
+            None => {
+                let (file, first) = (file.to_owned(), record.name.clone());
+                self.glossy = Some(Glossy { file, line: record.line, first, more: 0 });
             }
         }
     }
@@ -226,12 +270,6 @@ fn finish(record: &MtlMaterial, findings: &mut Findings) -> Finish {
                 "lower Ks or Kd",
             );
         }
-    } else if !ks.is_black() {
-        say(
-            "its gloss Ks, Ns is left out, because MTL does not say how much light it reflects"
-                .into(),
-            "assign a material of scene.toml with `gloss`, or set illum 3 for a mirror",
-        );
     }
     finish.luminance_cd_m2 = record.ke.unwrap_or(Rgb::BLACK);
     if finish.is_emitter() {

@@ -4,14 +4,12 @@ use super::copies::{Copies, Places};
 use super::lines::place;
 use super::material::Materials;
 use super::record::{Corner, ObjFile, Part};
+use crate::extent::IMPLAUSIBLE_EXTENT_M;
 use crate::findings::Findings;
 use crate::polygon;
 use isolux::geometry::Point;
 use isolux::scene::{SceneParts, Shape, UpAxis};
 use std::collections::HashMap;
-
-/// A scene wider than this many metres was more likely written in centimetres or millimetres.
-const IMPLAUSIBLE_EXTENT_M: f64 = 100.0;
 
 /// The scene of a file whose indices are all valid.
 pub(super) fn resolve(file: &ObjFile, materials: Materials, findings: &mut Findings) -> SceneParts {

@@ -305,3 +305,12 @@ fn data_uris_and_files_beside() {
     let with_mark = format!("\u{feff}{}", file.json);
     assert!(read_in(directory.path(), "scene.gltf", with_mark.as_bytes()).is_ok());
 }
+
+#[test]
+fn a_size_that_another_unit_would_explain_is_warned_of() {
+    let mut file = File::triangle();
+    let corners = floats(&[0.0, 0.0, 0.0, 556.0, 0.0, 0.0, 0.0, 548.0, 0.0]);
+    let positions = file.accessor(&corners, "VEC3", FLOAT, 3);
+    file.primitive()["attributes"]["POSITION"] = json!(positions);
+    assert_warns(&file.load(), "", "556 m large");
+}

@@ -1,5 +1,6 @@
 //! The quantity shown, pixel by pixel.
 
+use super::smooth;
 use crate::image::{LuminanceImage, Reading, Seen, Sight};
 
 /// What a chart shows.
@@ -51,13 +52,21 @@ impl Quantity {
     }
 }
 
-/// The value in the middle of every pixel. Luminaires have none of what a map holds: they are drawn
+/// The value in the middle of every pixel, lux without the noise of shadow rays. Luminaires have none of what a map holds: they are drawn
 /// white.
 pub(super) fn values(image: &LuminanceImage, quantity: Quantity) -> Vec<Option<f64>> {
+    let smooth = match quantity {
+        Quantity::Illuminance => smooth::illuminances_lx(image),
+        _ => Vec::new(),
+    };
     let read = |pixel| {
         let emits = |seen: &Seen| seen.sight == Sight::Emitter;
         let shown = !image.samples(pixel).iter().any(emits);
-        image.reading(pixel).filter(|_| shown).and_then(|reading| quantity.read(reading))
+        let value = || match quantity {
+            Quantity::Illuminance => smooth[pixel],
+            _ => image.reading(pixel).and_then(|reading| quantity.read(reading)),
+        };
+        shown.then(value).flatten()
     };
     let bright = |pixel| {
         let known = image.samples(pixel).iter().any(|s| quantity.of(s).is_some());

@@ -5,6 +5,7 @@ mod contour;
 mod field;
 mod legend;
 mod scale;
+mod smooth;
 
 pub use colour_map::ColourMap;
 pub use field::Quantity;

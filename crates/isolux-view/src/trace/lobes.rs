@@ -55,7 +55,8 @@ pub(super) fn opaque(at: &Arrival, finish: &Finish, facets: u32, key: Key) -> Ve
             let cos = -at.direction.cos(at.normal);
             lobes.push(Lobe::sharp(fresnel(gloss, spare, cos), at.mirror()));
         } else {
-            lobes.extend((0..facets).filter_map(|k| facet(at, gloss, spare, (k, facets), key)));
+            let places = spread(facets, key);
+            lobes.extend(places.filter_map(|place| facet(at, gloss, spare, place, facets)));
         }
     }
     lobes
@@ -82,17 +83,24 @@ fn fresnel(gloss: &Gloss, spare: Rgb, cos: f64) -> Rgb {
     Rgb([0, 1, 2].map(channel))
 }
 
-/// One facet of a stratum (k of n) of the visible ones: Fresnel's share of what leaves unmasked
-/// (Heitz 2018, "Sampling the GGX distribution of visible normals").
-fn facet(at: &Arrival, gloss: &Gloss, spare: Rgb, (k, n): (u32, u32), key: Key) -> Option<Lobe> {
+/// The places of n facets in the unit square: Hammersley's points, shifted at random.
+fn spread(n: u32, key: Key) -> impl Iterator<Item = [f64; 2]> {
+    let [x, y] = [0, 1].map(|axis| key.with(axis).uniform());
+    (0..n).map(move |k| {
+        let mirrored = f64::from(k.reverse_bits()) / 2f64.powi(32);
+        [(mirrored + x).fract(), ((f64::from(k) + y) / f64::from(n))]
+    })
+}
+
+/// One of n visible facets: Fresnel's share of what leaves unmasked (Heitz 2018, "Sampling the GGX
+/// distribution of visible normals").
+fn facet(at: &Arrival, gloss: &Gloss, spare: Rgb, place: [f64; 2], n: u32) -> Option<Lobe> {
     let axis = at.normal.to_direction();
     let (u, v) = axis.frame();
     let towards = -at.direction;
     let view = Vector::new(towards.dot(u), towards.dot(v), towards.dot(axis).max(1e-6));
-    let key = key.with(u64::from(k));
-    let stratum = (f64::from(k) + key.with(0).uniform()) / f64::from(n);
     let ggx = Ggx { alpha: gloss.alpha };
-    let half = ggx.sample(view, [key.with(1).uniform(), stratum]);
+    let half = ggx.sample(view, place);
     let out = half * (2.0 * view.dot(half)) - view;
     let direction = axis.from_local(out.direction()?.to_vector());
     if out.z <= 0.0 || direction.cos(at.flat) <= 0.0 {

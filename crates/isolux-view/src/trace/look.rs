@@ -14,6 +14,8 @@ use std::f64::consts::PI;
 const SPLIT_DEPTH: u32 = 2;
 /// Weights below half a step of an eight-bit display are not followed.
 const INVISIBLE: f64 = 1.0 / 512.0;
+/// What is seen with less weight need not be sharp.
+const FAINT: f64 = 0.1;
 /// Luminances that differ by less than this share look alike.
 const ALIKE: f64 = 0.03;
 /// Black backs in a row that a camera looks through.
@@ -30,7 +32,11 @@ pub(super) struct Looker<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look {
     luminance_cd_m2: Rgb,
+    /// The same without what gloss shows: that is smooth over several pixels, but noisy.
+    sharp_cd_m2: Rgb,
     pub(super) reading: Option<Reading>,
+    /// The illuminance that was read, in its colours.
+    light_lx: Rgb,
     sight: Sight,
     pub(super) surface: Option<Surface>,
 }
@@ -38,20 +44,18 @@ pub(super) struct Look {
 impl Look {
     pub(super) const NOTHING: Self = Self {
         luminance_cd_m2: Rgb::BLACK,
+        sharp_cd_m2: Rgb::BLACK,
         reading: None,
+        light_lx: Rgb::BLACK,
         sight: Sight::Background,
         surface: None,
     };
 
     /// Whether two looks see one surface in the same light, as far as a picture can show.
     pub(super) fn is_like(&self, other: &Self) -> bool {
-        let one_surface = match (&self.surface, &other.surface) {
-            (Some(a), Some(b)) => a.continues(b),
-            (None, None) => true,
-            _ => false,
-        };
-        let (a, b) = (self.luminance_cd_m2.luminance(), other.luminance_cd_m2.luminance());
-        one_surface && self.sight == other.sight && (a - b).abs() <= ALIKE * a.max(b)
+        let one_surface = is_one_surface(&self.surface, &other.surface);
+        let is_alike = are_alike(self.sharp_cd_m2, other.sharp_cd_m2);
+        one_surface && self.sight == other.sight && is_alike
     }
 
     /// As stored in an image.
@@ -60,6 +64,15 @@ impl Look {
             luminance_cd_m2: self.luminance_cd_m2.0.map(|c| c as f32),
             reading: self.reading,
             sight: self.sight,
+        }
+    }
+
+    /// This look with light of the surface's own and what it shows of others.
+    fn shining(self, own_cd_m2: Rgb, specular: &Specular) -> Self {
+        Self {
+            luminance_cd_m2: own_cd_m2 + specular.luminance_cd_m2,
+            sharp_cd_m2: own_cd_m2 + specular.sharp_cd_m2,
+            ..self
         }
     }
 
@@ -73,23 +86,91 @@ impl Look {
     }
 }
 
+fn are_alike(one: Rgb, other: Rgb) -> bool {
+    let (a, b) = (one.luminance(), other.luminance());
+    (a - b).abs() <= ALIKE * a.max(b)
+}
+
+/// What was read beside a place of a surface, where it is the same on all sides: at least two looks.
+fn lent(surface: &Surface, near: &[Look]) -> Option<(Reading, Rgb)> {
+    let is_here = |look: &&Look| look.surface.is_some_and(|other| surface.continues(&other));
+    let mut here = near.iter().filter(is_here);
+    let first = here.next()?;
+    let rest = here.try_fold(0, |count: u32, look| {
+        let agrees = look.reading.is_some() && are_alike(first.light_lx, look.light_lx);
+        agrees.then_some(count + 1)
+    });
+    let reading = first.reading.filter(|_| rest.is_some_and(|count| count > 0))?;
+    Some((reading, first.light_lx))
+}
+
+/// Whether two looks, of which each may have met nothing, see one smooth piece of surface.
+fn is_one_surface(one: &Option<Surface>, other: &Option<Surface>) -> bool {
+    match (one, other) {
+        (Some(a), Some(b)) => a.continues(b),
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+/// What a ray of the camera meets first.
+#[derive(Clone, Copy)]
+pub(super) struct Meeting {
+    hit: Option<Hit>,
+    direction: Direction,
+    surface: Option<Surface>,
+    /// Whether the picture of another place is sharp in it.
+    is_clear: bool,
+}
+
+impl Meeting {
+    /// Whether both meet one smooth piece of surface that shows nothing else sharply.
+    pub(super) fn continues(&self, other: &Self) -> bool {
+        !self.is_clear && !other.is_clear && is_one_surface(&self.surface, &other.surface)
+    }
+}
+
 /// How far a look has come.
 #[derive(Clone, Copy)]
-struct Progress {
+struct Progress<'a> {
     depth: u32,
+    /// Other looks of the camera near this one.
+    near: &'a [Look],
+    /// Facets of a glossy surface to look along.
+    facets: u32,
     /// What one cd/m2 from here adds to the picture.
     weight: Rgb,
-    /// Whether a glossy surface lies on the way.
+    /// Whether a glossy surface lies on the way, or a faint mirror.
     blurred: bool,
     key: Key,
 }
 
+/// The weighted sum over the lobes of a surface, and the look along the strongest of them.
+#[derive(Default)]
+struct Specular {
+    luminance_cd_m2: Rgb,
+    sharp_cd_m2: Rgb,
+    strongest: Option<Look>,
+}
+
 impl Looker<'_> {
-    /// The look along a ray of the camera.
-    pub(super) fn look(&self, ray: &Ray, direction: Direction, key: Key) -> Look {
-        let start = Progress { depth: 0, weight: Rgb::WHITE, blurred: false, key };
-        match self.camera_hit(*ray, direction) {
-            Some(hit) => self.at(&hit, direction, start),
+    /// What a ray of the camera meets.
+    pub(super) fn meet(&self, ray: &Ray, direction: Direction) -> Meeting {
+        let hit = self.camera_hit(*ray, direction);
+        let is_clear = |hit: &Hit| {
+            let finish = self.scene.material(hit.triangle).finish(hit.back);
+            finish.is_none_or(|finish| !finish.mirror.is_black())
+        };
+        let surface = hit.and_then(|hit| self.bare(&hit, &self.arrival(&hit, direction)).surface);
+        Meeting { hit, direction, surface, is_clear: hit.as_ref().is_some_and(is_clear) }
+    }
+
+    /// The look at what a ray of the camera met, along `facets` of a glossy surface. What was seen
+    /// near there spares a reading.
+    pub(super) fn look(&self, meeting: &Meeting, near: &[Look], facets: u32, key: Key) -> Look {
+        let start = Progress { depth: 0, facets, near, weight: Rgb::WHITE, blurred: false, key };
+        match &meeting.hit {
+            Some(hit) => self.at(hit, meeting.direction, start),
             None => Look::NOTHING,
         }
     }
@@ -115,15 +196,19 @@ impl Looker<'_> {
         Ray::new(origin, direction).skipping(hit.triangle)
     }
 
-    fn at(&self, hit: &Hit, direction: Direction, progress: Progress) -> Look {
+    fn arrival(&self, hit: &Hit, direction: Direction) -> Arrival {
         let scene = self.scene;
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
         let flat = turned(scene.geometric_normal(hit.triangle), hit.back);
         let smooth = turned(scene.shading_normal(hit.triangle, u, v), hit.back);
         // A smoothed normal may turn away from a grazing ray.
         let normal = if direction.cos(smooth) < 0.0 { smooth } else { flat };
-        let arrival = Arrival { direction, normal, flat };
-        match &scene.material(hit.triangle).body {
+        Arrival { direction, normal, flat }
+    }
+
+    fn at(&self, hit: &Hit, direction: Direction, progress: Progress) -> Look {
+        let arrival = self.arrival(hit, direction);
+        match &self.scene.material(hit.triangle).body {
             Body::Opaque { front, back } => {
                 let finish = if hit.back { back } else { front };
                 self.at_opaque(hit, &arrival, finish, progress)
@@ -135,22 +220,16 @@ impl Looker<'_> {
     fn at_opaque(&self, hit: &Hit, at: &Arrival, finish: &Finish, progress: Progress) -> Look {
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
         let diffuse = self.scene.diffuse_reflectance(finish, hit.triangle, u, v);
-        let facets = if progress.depth == 0 { self.settings.gloss_samples.max(1) } else { 1 };
-        let lobes = lobes::opaque(at, finish, facets, progress.key.with(0));
-        let (specular, strongest) = self.follow(hit, lobes, progress);
+        let lobes = lobes::opaque(at, finish, progress.facets, progress.key.with(0));
+        let specular = self.follow(hit, lobes, progress);
         if finish.is_pure_mirror() {
-            let luminance_cd_m2 = specular + finish.luminance_cd_m2;
-            return Look { luminance_cd_m2, ..strongest.unwrap_or(self.bare(hit, at)) };
+            let behind = specular.strongest.unwrap_or(self.bare(hit, at));
+            return behind.shining(finish.luminance_cd_m2, &specular);
         }
-        let point = SurfacePoint {
-            triangle: hit.triangle,
-            back: hit.back,
-            u,
-            v,
-            blurred: progress.blurred,
-        };
-        let read = (self.read)(point);
-        let lux = read.map_or(Rgb::BLACK, |e| e.total_lx());
+        let bare = self.bare(hit, at);
+        let known = bare.surface.and_then(|surface| lent(&surface, progress.near));
+        let read = known.or_else(|| self.reading(hit, progress.blurred));
+        let (reading, light_lx) = read.map_or((None, Rgb::BLACK), |(r, lx)| (Some(r), lx));
         let sight = if finish.is_emitter() {
             Sight::Emitter
         } else if read.is_none() && !diffuse.is_black() {
@@ -158,21 +237,26 @@ impl Looker<'_> {
         } else {
             Sight::Surface
         };
-        Look {
-            luminance_cd_m2: finish.luminance_cd_m2 + diffuse * lux / PI + specular,
-            reading: read.map(|e| Reading {
-                illuminance_lx: e.illuminance_lx() as f32,
-                standard_error_lx: e.standard_error_lx as f32,
-            }),
-            sight,
-            ..self.bare(hit, at)
-        }
+        let own_cd_m2 = finish.luminance_cd_m2 + diffuse * light_lx / PI;
+        Look { reading, light_lx, sight, ..bare }.shining(own_cd_m2, &specular)
+    }
+
+    /// What the map says of the place of a hit.
+    fn reading(&self, hit: &Hit, blurred: bool) -> Option<(Reading, Rgb)> {
+        let (u, v) = (f64::from(hit.u), f64::from(hit.v));
+        let read =
+            (self.read)(SurfacePoint { triangle: hit.triangle, back: hit.back, u, v, blurred })?;
+        let reading = Reading {
+            illuminance_lx: read.illuminance_lx() as f32,
+            standard_error_lx: read.standard_error_lx as f32,
+        };
+        Some((reading, read.total_lx()))
     }
 
     fn at_dielectric(&self, hit: &Hit, at: &Arrival, glass: &Dielectric, p: Progress) -> Look {
         let lobes = lobes::dielectric(at, glass, hit.back);
-        let (luminance_cd_m2, strongest) = self.follow(hit, lobes, p);
-        Look { luminance_cd_m2, ..strongest.unwrap_or(self.bare(hit, at)) }
+        let specular = self.follow(hit, lobes, p);
+        specular.strongest.unwrap_or(self.bare(hit, at)).shining(Rgb::BLACK, &specular)
     }
 
     /// A surface of which nothing is known but that it is there.
@@ -187,31 +271,43 @@ impl Looker<'_> {
         Look { sight: Sight::Surface, surface: Some(surface), ..Look::NOTHING }
     }
 
-    /// The weighted sum over lobes, and the look along the strongest of them.
-    fn follow(&self, hit: &Hit, lobes: Vec<Lobe>, progress: Progress) -> (Rgb, Option<Look>) {
-        let mut sum = Rgb::BLACK;
-        let mut strongest: Option<(f64, Look)> = None;
+    fn follow(&self, hit: &Hit, lobes: Vec<Lobe>, progress: Progress) -> Specular {
+        let mut sum = Specular::default();
+        let mut strongest = 0.0;
         if progress.depth >= self.settings.depth {
-            return (sum, None);
+            return sum;
         }
         for (index, lobe) in self.chosen(lobes, progress) {
             let weight = progress.weight * lobe.weight;
-            if weight.max_channel() < INVISIBLE {
+            if weight.max_channel() < INVISIBLE / f64::from(progress.facets) {
                 continue;
             }
-            let key = progress.key.with(1 + index as u64);
-            let blurred = progress.blurred || lobe.blurred;
-            let next = Progress { depth: progress.depth + 1, weight, blurred, key };
-            let ray = self.onwards(hit, lobe.direction);
-            let found = self.scene.bvh().closest_hit(&ray);
-            let look = found.map_or(Look::NOTHING, |hit| self.at(&hit, lobe.direction, next));
-            sum += lobe.weight * look.luminance_cd_m2;
+            let look = self.along(hit, index, &lobe, Progress { weight, ..progress });
+            sum.luminance_cd_m2 += lobe.weight * look.luminance_cd_m2;
+            if !lobe.blurred {
+                sum.sharp_cd_m2 += lobe.weight * look.sharp_cd_m2;
+            }
             let strength = lobe.weight.luminance();
-            if strongest.is_none_or(|(known, _)| strength > known) {
-                strongest = Some((strength, look.through(index)));
+            if sum.strongest.is_none() || strength > strongest {
+                strongest = strength;
+                sum.strongest = Some(look.through(index));
             }
         }
-        (sum, strongest.map(|(_, look)| look))
+        sum
+    }
+
+    /// The look from a surface along one of its lobes.
+    fn along(&self, hit: &Hit, index: usize, lobe: &Lobe, progress: Progress) -> Look {
+        let next = Progress {
+            depth: progress.depth + 1,
+            facets: 1,
+            near: &[],
+            blurred: progress.blurred || lobe.blurred || progress.weight.max_channel() < FAINT,
+            key: progress.key.with(1 + index as u64),
+            ..progress
+        };
+        let found = self.scene.bvh().closest_hit(&self.onwards(hit, lobe.direction));
+        found.map_or(Look::NOTHING, |hit| self.at(&hit, lobe.direction, next))
     }
 
     /// All lobes, or deep down one of them at random, its weight over its probability.

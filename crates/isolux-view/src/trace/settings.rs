@@ -11,7 +11,8 @@ pub struct SurfacePoint {
     pub u: f64,
     /// Weight of the third corner.
     pub v: f64,
-    /// Whether it is seen by gloss, which blurs it: a cheap reading is then as good as a fine one.
+    /// Whether it is seen by gloss, which blurs it, or faintly in a pane: a cheap reading is then as
+    /// good as a fine one.
     pub blurred: bool,
 }
 
@@ -22,7 +23,8 @@ pub struct TraceSettings {
     pub samples_per_side: u32,
     /// Mirrors, panes and glossy surfaces followed in a row; behind the last one is black.
     pub depth: u32,
-    /// Facets looked along at a glossy surface that is seen directly; one behind a mirror.
+    /// Facets looked along in a pixel at a glossy surface that is seen directly, shared out among its
+    /// samples; one a sample behind a mirror.
     pub gloss_samples: u32,
     /// Whether the camera looks through the black backs of one-sided materials, into a room from
     /// outside. Reflections never do.
@@ -38,7 +40,7 @@ impl TraceSettings {
     pub const FINE: Self = Self {
         samples_per_side: 3,
         depth: 8,
-        gloss_samples: 4,
+        gloss_samples: 9,
         through_black_backs: false,
         seed: 1,
     };

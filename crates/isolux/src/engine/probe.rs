@@ -13,6 +13,9 @@ use isolux_geometry::{Direction, Normal, Point, Ray};
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
 
+/// Shadow rays to every emitting surface in a reading for a picture.
+const GLANCE_SAMPLES: usize = 4;
+
 /// A point counts as on a surface within this share of the scene's extent.
 const REACH_SHARE: f64 = 1e-4;
 
@@ -78,7 +81,7 @@ impl<'a> MapReader<'a> {
         Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
     }
 
-    /// The same by one shadow ray for every emitting surface, for pictures, which take a mean over
+    /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
     /// many places anyway: noisy, and the standard error leaves that noise out. `number` tells
     /// readings of one place apart.
     pub fn glance(
@@ -92,7 +95,7 @@ impl<'a> MapReader<'a> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
         let sequence = Sequence::new(place_key(at.point).with(number));
-        let direct = self.lighting.sampled(&at, 1, &mut Dice::new(sequence, 0));
+        let direct = self.lighting.sampled(&at, GLANCE_SAMPLES, &mut Dice::new(sequence, 0));
         Some(Illuminance {
             direct_lx: direct + stored.caustic_lx,
             standard_error_lx: stored.indirect_standard_error_lx,

@@ -1,0 +1,68 @@
+//! What is printed on standard error: everything but results.
+
+use std::io::Write;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether all lines on standard error are JSON objects.
+static NOTES_ARE_JSON: AtomicBool = AtomicBool::new(false);
+
+/// From now on every line on standard error is a JSON object.
+pub(crate) fn note_as_json() {
+    NOTES_ARE_JSON.store(true, Ordering::Relaxed);
+}
+
+/// What a line on standard error is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Note {
+    /// Keeps the command from its result.
+    Error,
+    /// The machine, or a limit, keeps the command from its result.
+    Refused,
+    /// Left out or guessed.
+    Warning,
+    /// Good to know.
+    Info,
+}
+
+impl Note {
+    /// In front of the line, or the key of its object.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Refused => "refused",
+            Self::Warning => "warning",
+            Self::Info => "note",
+        }
+    }
+
+    fn line(self, text: &str, as_json: bool) -> String {
+        match (as_json, self) {
+            (true, _) => serde_json::json!({ self.name(): text }).to_string(),
+            (false, Self::Info) => text.to_owned(),
+            (false, _) => format!("{}: {text}", self.name()),
+        }
+    }
+}
+
+/// Prints a line for the user to standard error.
+pub(crate) fn note(kind: Note, text: impl std::fmt::Display) {
+    line(kind.line(&text.to_string(), NOTES_ARE_JSON.load(Ordering::Relaxed)));
+}
+
+/// Prints a line to standard error as it is. Nobody may be there to read it.
+pub(crate) fn line(line: impl std::fmt::Display) {
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_note_is_a_line_or_an_object() {
+        let text = "a \"b\": c";
+        assert_eq!(Note::Warning.line(text, false), "warning: a \"b\": c");
+        assert_eq!(Note::Info.line(text, false), text);
+        assert_eq!(Note::Error.line(text, true), r#"{"error":"a \"b\": c"}"#);
+    }
+}
