@@ -8,18 +8,18 @@ use rayon::prelude::*;
 use serde::Serialize;
 use std::time::Instant;
 
-/// Elements, sums and gathered rays of a receiver, as the engine counts them.
-const BYTES_A_RECEIVER: u64 = 2400;
+/// Elements, sums and gathered rays of a receiver: 2900 in the demo interior.
+const BYTES_A_RECEIVER: u64 = 2900;
 /// Mesh and hierarchy of a triangle: 3 vertices, normals, texture coordinates, and its nodes.
 const BYTES_A_TRIANGLE: u64 = 400;
-/// Receivers that refinement adds at 1 %: 4,000 in the empty cube, 19,000 in Cornell boxes; it goes
+/// Receivers that refinement adds at 1 %: 3,000 in the empty cube, 34,000 in Cornell boxes; it goes
 /// with the inverse of the accuracy.
 const REFINED_AT_ONE_PERCENT: f64 = 15_000.0;
 /// The engine starts with at least so many receivers.
 const FEWEST_RECEIVERS: u64 = 1500;
 /// Rays of a receiver at 1 %, pilots and increments together; it goes with the inverse of the
-/// accuracy.
-const RAYS_A_RECEIVER_AT_ONE_PERCENT: f64 = 1500.0;
+/// accuracy. 500 in the cube, 300 to 450 in Cornell boxes, 1200 in the demo interior.
+const RAYS_A_RECEIVER_AT_ONE_PERCENT: f64 = 600.0;
 /// What a run traces in the time of so many bare rays: the rest is direct light and bookkeeping.
 /// Between 4 and 10 in the cube, Cornell boxes and the demo interior.
 const BARE_RAYS_A_RAY: f64 = 6.0;

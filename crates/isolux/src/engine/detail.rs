@@ -87,11 +87,15 @@ fn detail(elements: &Elements, values: &[Option<f64>], vertex: u32, reach_m: f64
 /// (Dörfler 1996).
 const MARKED_SHARE: f64 = 0.75;
 
+/// One in so many elements may be bisected in a round for its own error alone: corners are few, but
+/// along edges there is no end of elements.
+const SINGLE_OF_ALL: usize = 64;
+
 /// How far refinement goes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refinement {
-    /// No element may have a larger error, however small it is: corners of rooms take no share of
-    /// the error of the scene, but are looked at.
+    /// Elements with larger errors come first, however small they are: corners of rooms take no
+    /// share of the error of the scene, but are looked at.
     pub(super) most_error: f64,
     /// Elements with edges below this are left alone, m.
     pub(super) least_edge_m: f64,
@@ -111,15 +115,14 @@ pub(super) fn refine_worst(
         .filter(|e| e.error > 0.0 && subdivision.longest_edge_m(e.node) > 2.0 * least_edge_m)
         .collect();
     // Ties in the order of the nodes: the same mesh on every machine.
-    let single = |e: &LeafError| e.error > most_error;
-    worst.sort_by(|a, b| {
-        let by_share = || b.squared().total_cmp(&a.squared());
-        single(b).cmp(&single(a)).then_with(by_share).then(a.node.cmp(&b.node))
-    });
+    worst.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.node.cmp(&b.node)));
+    let single = worst.iter().take_while(|e| e.error > most_error).count();
+    let single = single.min(worst.len() / SINGLE_OF_ALL);
+    worst[single..].sort_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
     let total: f64 = worst.iter().map(|e| e.squared()).sum();
     let (mut marked, mut any) = (0.0, false);
-    for error in worst {
-        let enough = marked >= MARKED_SHARE * total && !single(error);
+    for (rank, error) in worst.into_iter().enumerate() {
+        let enough = marked >= MARKED_SHARE * total && rank >= single;
         if enough || subdivision.vertex_count() >= max_vertices {
             break;
         }

@@ -34,8 +34,9 @@ const MOST_SOURCES_EVALUATED: usize = 8;
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 2;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
-/// A round that leaves more than this of the error was in vain.
-const STALLED: f64 = 0.85;
+/// A round in which the error falls with a lower power of the vertices was in vain. Where functions
+/// are smooth it is one; chasing light that comes in through narrow places, less for some rounds.
+const LEAST_ORDER: f64 = 0.25;
 /// Vertices for indirect light, unless the scene has nearly as many from the start.
 const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
 /// Fewest rays of a receiver that is not hidden.
@@ -155,16 +156,17 @@ pub(super) fn pilot<'s>(
             break;
         }
     }
-    let mut before = f64::INFINITY;
+    let mut before = (f64::INFINITY, look.vertices as f64);
     for _ in 0..MAX_ROUNDS {
         let error = relative_error(&look.errors, look.rms_lx);
         // Where bisection no longer helps, what is left is noise: the check points will tell.
-        let stalled = error > STALLED * before;
+        let vertices = look.vertices as f64;
+        let stalled = error > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
         let done = error <= goal || stalled;
         if done || !go_on(pilot.subdivision.vertex_count(), pilot.traced) {
             break;
         }
-        before = error;
+        before = (error, vertices);
         let how_far = Refinement {
             most_error: SINGLE_SHARE * request.target * look.rms_lx,
             least_edge_m: pilot.least_edge_m,
