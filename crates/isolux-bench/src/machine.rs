@@ -34,8 +34,18 @@ fn processor() -> Option<String> {
 }
 
 fn compiler() -> Option<String> {
-    let output = Command::new("rustc").arg("--version").output().ok()?;
-    Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
+    said_by("rustc", &["--version"])
+}
+
+/// The commit that was measured, marked where the files differ from it.
+pub(crate) fn revision() -> Option<String> {
+    said_by("git", &["describe", "--always", "--dirty", "--exclude", "*"])
+}
+
+fn said_by(program: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).output().ok()?;
+    let said = String::from_utf8(output.stdout).ok()?;
+    output.status.success().then(|| said.trim().to_owned())
 }
 
 fn load() -> Option<f64> {

@@ -18,7 +18,7 @@ mod table;
 use clap::Parser;
 use embree::Embree;
 use report::{Effort, Report};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Measures the ray kernel of isolux, and Embree beside it.
@@ -70,22 +70,28 @@ fn run(arguments: &Arguments) -> Result<String, String> {
     let loaded = Embree::load();
     let (embree, missing) = (loaded.as_ref().ok(), loaded.as_ref().err());
     let mut report = Report::new(embree, arguments.effort());
+    let results = arguments.save.then(results_folder).transpose()?;
     for make in scene::all() {
         let scene = make();
         eprintln!("{}: {} triangles ...", scene.name, scene.mesh.len());
         report.scenes.push(report::scene(&scene, embree, &report.effort)?);
     }
     let json = serde_json::to_string_pretty(&report).map_err(|e| e.to_string())?;
-    if arguments.save {
-        save(&report.date, &json)?;
+    if let Some(folder) = results {
+        let file = folder.join(format!("rays-{}.json", report.date));
+        std::fs::write(&file, format!("{json}\n")).map_err(|e| unwritable(&file, &e))?;
     }
     let table = || table::render(&report, missing.map(String::as_str));
     Ok(if arguments.json { json } else { table() })
 }
 
-fn save(date: &str, json: &str) -> Result<(), String> {
+/// The folder of committed results, made before anything is measured.
+fn results_folder() -> Result<PathBuf, String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("results");
-    let file = folder.join(format!("rays-{date}.json"));
-    let written = std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(&file, json));
-    written.map_err(|e| format!("{}: {e}", file.display()))
+    std::fs::create_dir_all(&folder).map_err(|e| unwritable(&folder, &e))?;
+    Ok(folder)
+}
+
+fn unwritable(path: &Path, error: &std::io::Error) -> String {
+    format!("{}: {error}", path.display())
 }

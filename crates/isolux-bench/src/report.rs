@@ -3,7 +3,7 @@
 use crate::building::{self, Build};
 use crate::embree::Embree;
 use crate::leaks::{self, Leaks};
-use crate::machine::{Machine, date};
+use crate::machine::{Machine, date, revision};
 use crate::random::Random;
 use crate::rates::{Query, Rates, measure};
 use crate::rays::Surfaces;
@@ -23,6 +23,7 @@ pub(crate) struct Effort {
 #[derive(Debug, Serialize)]
 pub(crate) struct Report {
     pub(crate) date: String,
+    pub(crate) revision: Option<String>,
     pub(crate) machine: Machine,
     /// `None` where there is none.
     pub(crate) embree_version: Option<String>,
@@ -47,6 +48,7 @@ impl Report {
         let version = |e: &Embree| e.version().map(|part| part.to_string()).join(".");
         Self {
             date: date(),
+            revision: revision(),
             machine: Machine::this(),
             embree_version: embree.map(version),
             effort,
