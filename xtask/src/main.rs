@@ -1,6 +1,7 @@
 //! Chores of the workspace, run as `cargo xtask COMMAND`.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks")]
 
+mod bench;
 mod judge;
 mod smoke;
 mod test;
@@ -12,7 +13,9 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 cargo xtask test    everything that must hold before a change lands
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
-cargo xtask smoke   of it, the command line from scene to values, and the outside judges";
+cargo xtask smoke   of it, the command line from scene to values, and the outside judges
+cargo xtask bench setup   download Embree 4.4 into target/embree
+cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -21,11 +24,15 @@ fn main() -> ExitCode {
         ["test"] => test::run(root),
         ["tidy"] => tidy::run(root),
         ["smoke"] => test::smoke_and_judge(root),
+        ["bench", "setup"] => bench::setup(root),
+        ["bench", "rays", ref arguments @ ..] => bench::rays(root, arguments),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {
         Ok(summary) => {
-            println!("{summary}");
+            if !summary.is_empty() {
+                println!("{summary}");
+            }
             ExitCode::SUCCESS
         }
         Err(message) => {

@@ -14,7 +14,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("isolux-view", &["isolux"]),
     ("isolux-cli", READERS),
     ("isolux-python", READERS),
-    ("isolux-bench", READERS),
+    ("isolux-bench", &["isolux", "isolux-geometry"]),
 ];
 
 pub(super) fn check(tree: &Tree) -> Vec<Finding> {
