@@ -1,11 +1,11 @@
 //! Where a ray enters and leaves boxes: conservative, so that no hit is lost.
 //!
-//! The triangle test moves corners by rounding: by at most 5 u D in each coordinate, D the greatest
+//! The triangle test moves corners by rounding: by at most 6 u D in each coordinate, D the greatest
 //! distance along an axis between the origin and a corner, u = 2^-24 the unit roundoff (a rounding
-//! each of the difference to the origin, the slope, its product with the depth, and the last
-//! difference, which is up to 2 D). The exact line meets a convex combination of moved corners,
-//! and `t` is rounded once more (u D). So the point `origin + t direction` lies within 6 u D of the
-//! triangle's box. The box test `plane / direction - origin / direction` itself errs by less than
+//! of the difference to the origin, two of the slope, one of its product with the depth, and that of
+//! the last difference, which is up to 2 D). The exact line meets a convex combination of moved
+//! corners, and `t` is rounded once more (u D). So the point `origin + t direction` lies within 7 u D
+//! of the triangle's box. The box test `plane / direction - origin / direction` itself errs by less than
 //! 6 u (M + |origin|) / |direction|, M the largest coordinate of the scene, and D <= M + |origin|.
 //! Boxes widened by 16 u (M + |origin|) contain every hit of their triangles, wherever the
 //! ray starts.

@@ -32,6 +32,8 @@ pub(super) struct Shear {
     pub(super) origin: [f32; 3],
     /// Direction in `x` and `y` for each unit of `z`.
     pub(super) slope: [f32; 2],
+    /// Inverse of `depth`.
+    pub(super) per_depth: f32,
     /// Component of the direction along `z`.
     depth: f64,
     /// Open end of the interval searched.
@@ -54,13 +56,22 @@ impl Shear {
         }
         let axes = CYCLES[if z == largest { 2 } else { usize::from(y == largest) }];
         let depth = direction[axes[2]];
+        let per_depth = 1.0 / depth;
         Some(Self {
             axes,
             origin: [origin[axes[0]], origin[axes[1]], origin[axes[2]]],
-            slope: [direction[axes[0]] / depth, direction[axes[1]] / depth],
+            slope: [direction[axes[0]] * per_depth, direction[axes[1]] * per_depth],
+            per_depth,
             depth: f64::from(depth),
             t_max,
         })
+    }
+
+    /// No triangle whose corners, as `depth * per_depth`, all lie farther away is met up to `t_far`:
+    /// three roundings of theirs, and one of `t`, are less than that.
+    #[inline(always)]
+    pub(super) fn beyond(t_far: f32) -> f32 {
+        t_far * (1.0 + 4.0 * f32::EPSILON)
     }
 
     /// A corner, given axis by axis, in the sheared space.
@@ -100,6 +111,7 @@ impl Shear {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting {
     pub(super) t: f32,
+    /// The weights of the second and third corner, and of all three.
     v: f64,
     w: f64,
     sum: f64,
@@ -128,15 +140,15 @@ fn cross(p: [f64; 3], q: [f64; 3]) -> f64 {
     p[0] * q[1] - p[1] * q[0]
 }
 
-/// Whether the first hit comes before the second: nearer, or as near and on a front where the other
-/// is on a back, or else of lower index. A strict total order, so that the closest hit does not
-/// depend on the order in which triangles are tried.
+/// Whether the first meeting, with triangle `a.0`, comes before the second: nearer, or as near and
+/// on a front where the other is on a back, or else of lower index. A strict total order, so that
+/// the closest hit does not depend on the order in which triangles are tried.
 #[inline(always)]
-pub(super) fn comes_before(a: &Hit, b: &Hit) -> bool {
-    if a.t != b.t {
-        return a.t < b.t;
+pub(super) fn comes_before(a: (u32, &Meeting), b: (u32, &Meeting)) -> bool {
+    if a.1.t != b.1.t {
+        return a.1.t < b.1.t;
     }
-    (a.back, a.triangle) < (b.back, b.triangle)
+    (a.1.back, a.0) < (b.1.back, b.0)
 }
 
 /// The corners of a triangle the kernel can meet; `None` where an index is out of range or a
