@@ -2,8 +2,8 @@
 #![allow(unsafe_code, reason = "vector instructions, reached only where the processor has them")]
 
 use super::slabs::Slabs;
-use super::traverse::{Entry, Lanes};
-use super::triangle_test::Shear;
+use super::traverse::{Entry, Lanes, Met};
+use super::triangle_test::{FAR, Meeting, Shear};
 use super::wide::{Leaf, Node, Reference, WideTree};
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
@@ -15,6 +15,8 @@ pub(super) struct Avx2;
 
 // SAFETY: `push_met` writes the first `count_ones` of eight entries, which it was given.
 unsafe impl Lanes<WIDTH> for Avx2 {
+    type Meetings = [__m256; 4];
+
     #[inline(always)]
     unsafe fn push_met(
         node: &Node<WIDTH>,
@@ -58,8 +60,9 @@ unsafe impl Lanes<WIDTH> for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn candidates(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> u32 {
-        // SAFETY: the caller sees to the instructions.
+    unsafe fn meet(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> Met<[__m256; 4]> {
+        // SAFETY: the caller sees to the instructions. A row of a leaf is followed by as many words
+        // as there are lanes, and more.
         unsafe {
             let a = sheared(leaf, 0, first, shear);
             let b = sheared(leaf, 1, first, shear);
@@ -69,15 +72,37 @@ unsafe impl Lanes<WIDTH> for Avx2 {
             let front = _mm256_cmp_ps::<_CMP_GE_OQ>(_mm256_min_ps(u, _mm256_min_ps(v, w)), zero);
             let back = _mm256_cmp_ps::<_CMP_LE_OQ>(_mm256_max_ps(u, _mm256_max_ps(v, w)), zero);
             let inside = _mm256_or_ps(front, back);
-            let per_depth = _mm256_set1_ps(shear.per_depth);
-            let [t_a, t_b, t_c] = [a[2], b[2], c[2]].map(|depth| _mm256_mul_ps(depth, per_depth));
-            let farthest = _mm256_max_ps(t_a, _mm256_max_ps(t_b, t_c));
-            let nearest = _mm256_min_ps(t_a, _mm256_min_ps(t_b, t_c));
-            let t_end = _mm256_set1_ps(Shear::beyond(t_far));
-            let ahead = _mm256_cmp_ps::<_CMP_GT_OQ>(farthest, zero);
-            let near = _mm256_cmp_ps::<_CMP_LE_OQ>(nearest, t_end);
-            _mm256_movemask_ps(_mm256_and_ps(inside, _mm256_and_ps(ahead, near))) as u32
+            let sum = _mm256_add_ps(u, _mm256_add_ps(v, w));
+            let size = _mm256_andnot_ps(_mm256_set1_ps(-0.0), sum);
+            let least = _mm256_loadu_ps(leaf.least_sums(first));
+            let distance2 = _mm256_add_ps(_mm256_mul_ps(a[0], a[0]), _mm256_mul_ps(a[1], a[1]));
+            let far = _mm256_mul_ps(distance2, _mm256_set1_ps(FAR));
+            let sure = _mm256_cmp_ps::<_CMP_GE_OQ>(size, _mm256_max_ps(least, far));
+            let depths = _mm256_add_ps(
+                _mm256_mul_ps(u, a[2]),
+                _mm256_add_ps(_mm256_mul_ps(v, b[2]), _mm256_mul_ps(w, c[2])),
+            );
+            let t = _mm256_mul_ps(_mm256_div_ps(depths, sum), _mm256_set1_ps(shear.per_depth));
+            let ahead = _mm256_cmp_ps::<_CMP_GT_OQ>(t, zero);
+            let near = _mm256_cmp_ps::<_CMP_LE_OQ>(t, _mm256_set1_ps(t_far));
+            let met = _mm256_and_ps(inside, _mm256_and_ps(ahead, near));
+            Met {
+                surely: _mm256_movemask_ps(_mm256_and_ps(met, sure)) as u32,
+                perhaps: _mm256_movemask_ps(_mm256_andnot_ps(sure, inside)) as u32,
+                meetings: [t, v, w, sum],
+            }
         }
+    }
+
+    #[inline(always)]
+    unsafe fn meeting(meetings: &[__m256; 4], lane: usize, shear: &Shear) -> Meeting {
+        let [t, v, w, sum] = meetings.map(|lanes| {
+            let mut numbers = [0.0_f32; WIDTH];
+            // SAFETY: the caller sees to the instructions; as many numbers as lanes are written.
+            unsafe { _mm256_storeu_ps(numbers.as_mut_ptr(), lanes) };
+            numbers[lane % WIDTH]
+        });
+        shear.meeting(t, v, w, sum)
     }
 
     #[inline(always)]
@@ -100,7 +125,7 @@ unsafe fn sheared(leaf: &Leaf<'_>, corner: usize, first: usize, shear: &Shear) -
     // SAFETY: a row of a leaf is followed by eight words and more.
     unsafe {
         let from_origin = |axis: usize, k: usize| {
-            let row = leaf.row(corner, axis, first);
+            let row = leaf.coordinates(corner, axis, first);
             _mm256_sub_ps(_mm256_loadu_ps(row), _mm256_set1_ps(shear.origin[k]))
         };
         let depth = from_origin(z, 2);

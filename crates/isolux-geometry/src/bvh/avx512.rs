@@ -2,8 +2,8 @@
 #![allow(unsafe_code, reason = "vector instructions, reached only where the processor has them")]
 
 use super::slabs::Slabs;
-use super::traverse::{Entry, Lanes};
-use super::triangle_test::Shear;
+use super::traverse::{Entry, Lanes, Met};
+use super::triangle_test::{FAR, Meeting, Shear};
 use super::wide::{Leaf, Node, Reference, WideTree};
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
@@ -15,6 +15,8 @@ pub(super) struct Avx512;
 
 // SAFETY: `push_met` writes the first eight entries, and the last eight where more are met.
 unsafe impl Lanes<WIDTH> for Avx512 {
+    type Meetings = [__m512; 4];
+
     #[inline(always)]
     unsafe fn push_met(
         node: &Node<WIDTH>,
@@ -59,8 +61,9 @@ unsafe impl Lanes<WIDTH> for Avx512 {
     }
 
     #[inline(always)]
-    unsafe fn candidates(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> u32 {
-        // SAFETY: the caller sees to the instructions.
+    unsafe fn meet(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> Met<[__m512; 4]> {
+        // SAFETY: the caller sees to the instructions. A row of a leaf is followed by as many words
+        // as there are lanes, and more.
         unsafe {
             let a = sheared(leaf, 0, first, shear);
             let b = sheared(leaf, 1, first, shear);
@@ -72,15 +75,36 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             let front = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(least, zero);
             let back = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(most, zero);
             let inside = front | back;
-            let per_depth = _mm512_set1_ps(shear.per_depth);
-            let [t_a, t_b, t_c] = [a[2], b[2], c[2]].map(|depth| _mm512_mul_ps(depth, per_depth));
-            let farthest = _mm512_max_ps(t_a, _mm512_max_ps(t_b, t_c));
-            let nearest = _mm512_min_ps(t_a, _mm512_min_ps(t_b, t_c));
-            let t_end = _mm512_set1_ps(Shear::beyond(t_far));
-            let ahead = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(farthest, zero);
-            let near = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(nearest, t_end);
-            u32::from(inside & ahead & near)
+            let sum = _mm512_add_ps(u, _mm512_add_ps(v, w));
+            let least = _mm512_loadu_ps(leaf.least_sums(first));
+            let distance2 = _mm512_add_ps(_mm512_mul_ps(a[0], a[0]), _mm512_mul_ps(a[1], a[1]));
+            let far = _mm512_mul_ps(distance2, _mm512_set1_ps(FAR));
+            let least = _mm512_max_ps(least, far);
+            let sure = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(_mm512_abs_ps(sum), least);
+            let depths = _mm512_add_ps(
+                _mm512_mul_ps(u, a[2]),
+                _mm512_add_ps(_mm512_mul_ps(v, b[2]), _mm512_mul_ps(w, c[2])),
+            );
+            let t = _mm512_mul_ps(_mm512_div_ps(depths, sum), _mm512_set1_ps(shear.per_depth));
+            let ahead = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(t, zero);
+            let near = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(t, _mm512_set1_ps(t_far));
+            Met {
+                surely: u32::from(inside & sure & ahead & near),
+                perhaps: u32::from(inside & !sure),
+                meetings: [t, v, w, sum],
+            }
         }
+    }
+
+    #[inline(always)]
+    unsafe fn meeting(meetings: &[__m512; 4], lane: usize, shear: &Shear) -> Meeting {
+        let [t, v, w, sum] = meetings.map(|lanes| {
+            let mut numbers = [0.0_f32; WIDTH];
+            // SAFETY: the caller sees to the instructions; as many numbers as lanes are written.
+            unsafe { _mm512_storeu_ps(numbers.as_mut_ptr(), lanes) };
+            numbers[lane % WIDTH]
+        });
+        shear.meeting(t, v, w, sum)
     }
 
     #[inline(always)]
@@ -103,7 +127,7 @@ unsafe fn sheared(leaf: &Leaf<'_>, corner: usize, first: usize, shear: &Shear) -
     // SAFETY: a row of a leaf is followed by sixteen words and more.
     unsafe {
         let from_origin = |axis: usize, k: usize| {
-            let row = leaf.row(corner, axis, first);
+            let row = leaf.coordinates(corner, axis, first);
             _mm512_sub_ps(_mm512_loadu_ps(row), _mm512_set1_ps(shear.origin[k]))
         };
         let depth = from_origin(z, 2);

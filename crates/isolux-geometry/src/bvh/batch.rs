@@ -12,8 +12,7 @@ use std::slice::Iter;
 /// Rays in flight.
 const IN_FLIGHT: usize = 16;
 
-/// Answers about many rays, in any order: `tell` is given the place of the ray and what was found,
-/// `None` for rays that can meet nothing.
+/// Answers about many rays, in any order: `tell` is given the place of the ray and what was found.
 ///
 /// # Safety
 /// The processor has the instructions of `L`.
@@ -21,7 +20,7 @@ const IN_FLIGHT: usize = 16;
 pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
     tree: &WideTree<W>,
     rays: &[Ray],
-    mut tell: impl FnMut(usize, Option<Q::Answer>),
+    mut tell: impl FnMut(usize, Q::Answer),
 ) {
     let mut waiting = rays.iter().enumerate();
     let mut stacks = [const { Stack::<W>::new() }; IN_FLIGHT];
@@ -41,7 +40,7 @@ pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
                     continue;
                 }
             }
-            tell(*place, Some(walk.answer()));
+            tell(*place, walk.answer());
             stack.clear();
             *slot = depart(tree, &mut waiting, &mut tell);
             in_flight -= usize::from(slot.is_none());
@@ -54,12 +53,12 @@ pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
 fn depart<const W: usize, Q: Query>(
     tree: &WideTree<W>,
     waiting: &mut Enumerate<Iter<'_, Ray>>,
-    tell: &mut impl FnMut(usize, Option<Q::Answer>),
+    tell: &mut impl FnMut(usize, Q::Answer),
 ) -> Option<(usize, Walk<Q>)> {
     for (place, ray) in waiting {
         match tree.root.zip(Shear::new(ray)) {
             Some((root, shear)) => return Some((place, Walk::new(root, ray, shear, tree.reach))),
-            None => tell(place, None),
+            None => tell(place, Q::NOTHING),
         }
     }
     None

@@ -108,7 +108,7 @@ impl Kernel {
 
     /// The answer about one ray.
     #[inline]
-    pub(super) fn trace<Q: Query>(&self, ray: &Ray) -> Option<Q::Answer> {
+    pub(super) fn trace<Q: Query>(&self, ray: &Ray) -> Q::Answer {
         match self {
             // SAFETY: no special instructions are needed.
             Self::Portable(tree) => unsafe { trace::<_, Portable, Q>(tree, ray) },
@@ -125,7 +125,7 @@ impl Kernel {
     pub(super) fn trace_many<Q: Query>(
         &self,
         rays: &[Ray],
-        tell: impl FnMut(usize, Option<Q::Answer>),
+        tell: impl FnMut(usize, Q::Answer),
     ) {
         match self {
             // SAFETY: no special instructions are needed.
@@ -142,7 +142,7 @@ impl Kernel {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-fn trace_with_avx2<Q: Query>(tree: &WideTree<8>, ray: &Ray) -> Option<Q::Answer> {
+fn trace_with_avx2<Q: Query>(tree: &WideTree<8>, ray: &Ray) -> Q::Answer {
     // SAFETY: this function has the instructions.
     unsafe { trace::<_, Avx2, Q>(tree, ray) }
 }
@@ -152,7 +152,7 @@ fn trace_with_avx2<Q: Query>(tree: &WideTree<8>, ray: &Ray) -> Option<Q::Answer>
 fn trace_many_with_avx2<Q: Query>(
     tree: &WideTree<8>,
     rays: &[Ray],
-    tell: impl FnMut(usize, Option<Q::Answer>),
+    tell: impl FnMut(usize, Q::Answer),
 ) {
     // SAFETY: this function has the instructions.
     unsafe { trace_many::<_, Avx2, Q>(tree, rays, tell) }
@@ -160,7 +160,7 @@ fn trace_many_with_avx2<Q: Query>(
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-fn trace_with_avx512<Q: Query>(tree: &WideTree<16>, ray: &Ray) -> Option<Q::Answer> {
+fn trace_with_avx512<Q: Query>(tree: &WideTree<16>, ray: &Ray) -> Q::Answer {
     // SAFETY: this function has the instructions.
     unsafe { trace::<_, Avx512, Q>(tree, ray) }
 }
@@ -170,7 +170,7 @@ fn trace_with_avx512<Q: Query>(tree: &WideTree<16>, ray: &Ray) -> Option<Q::Answ
 fn trace_many_with_avx512<Q: Query>(
     tree: &WideTree<16>,
     rays: &[Ray],
-    tell: impl FnMut(usize, Option<Q::Answer>),
+    tell: impl FnMut(usize, Q::Answer),
 ) {
     // SAFETY: this function has the instructions.
     unsafe { trace_many::<_, Avx512, Q>(tree, rays, tell) }

@@ -27,6 +27,7 @@ use bounds::Bounds;
 use build::Primitive;
 use instructions::Kernel;
 use traverse::{Any, Closest};
+use triangle_test::{REACH, corners, longest_edge};
 use wide::{Labelled, TRANSPARENT};
 
 /// Answers ray queries over a triangle mesh.
@@ -35,9 +36,9 @@ use wide::{Labelled, TRANSPARENT};
 /// the same `t`, a front counts before a back and then the lower index. Between triangles that
 /// share an edge (the same two positions, bit for bit) or a corner no ray passes.
 ///
-/// Rays that are not finite meet nothing, nor do those whose origin is more than 2^40 m away or
-/// whose direction is shorter than 2^-40 or longer than 2^40. Triangles with a corner that is not
-/// finite or has a coordinate beyond 2^40 m are never met, nor are triangles without area.
+/// Rays that are not finite meet nothing, nor do those whose origin is more than 2^38 m away or
+/// whose direction is shorter than 2^-38 or longer than 2^38. Triangles with a corner that is not
+/// finite or has a coordinate beyond 2^38 m are never met, nor are triangles without area.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     mesh: TriangleMesh,
@@ -65,13 +66,14 @@ impl Bvh {
     ) -> Self {
         assert!(mesh.len() <= build::MAX_TRIANGLES, "more than 2^28 triangles");
         let primitives = (0..mesh.len() as u32).filter_map(|triangle| {
-            let corners = triangle_test::corners(&mesh, triangle)?;
-            Some(Primitive { bounds: Bounds::around(&corners), triangle })
+            let corners = corners(&mesh, triangle)?;
+            let beside = REACH * longest_edge(&corners);
+            Some(Primitive { bounds: Bounds::around(&corners).widened(beside), triangle })
         });
         let binary = build::build(primitives.collect());
         let labelled = |triangle: u32| {
             let mark = if is_transparent(triangle) { TRANSPARENT } else { 0 };
-            let corners = triangle_test::corners(&mesh, triangle).unwrap_or_default();
+            let corners = corners(&mesh, triangle).unwrap_or_default();
             Labelled { corners, label: triangle | mark }
         };
         let kernel = Kernel::collapse(instructions, &binary, labelled);
@@ -89,13 +91,15 @@ impl Bvh {
     }
 
     /// The first triangle that the ray meets, transparent or not.
+    #[inline]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        self.kernel.trace::<Closest>(ray).flatten()
+        self.kernel.trace::<Closest>(ray)
     }
 
     /// Whether the ray meets any triangle that is not transparent.
+    #[inline]
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        self.kernel.trace::<Any>(ray).unwrap_or(false)
+        self.kernel.trace::<Any>(ray)
     }
 
     /// [`Bvh::closest_hit`] of many rays.
@@ -104,7 +108,7 @@ impl Bvh {
     /// If there are not as many places for hits as rays.
     pub fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         assert_eq!(rays.len(), hits.len(), "a place for every hit");
-        self.kernel.trace_many::<Closest>(rays, |place, hit| hits[place] = hit.flatten());
+        self.kernel.trace_many::<Closest>(rays, |place, hit| hits[place] = hit);
     }
 
     /// [`Bvh::any_hit`] of many rays.
@@ -113,6 +117,6 @@ impl Bvh {
     /// If there are not as many places for answers as rays.
     pub fn any_hits(&self, rays: &[Ray], are_hit: &mut [bool]) {
         assert_eq!(rays.len(), are_hit.len(), "a place for every answer");
-        self.kernel.trace_many::<Any>(rays, |place, hit| are_hit[place] = hit.unwrap_or(false));
+        self.kernel.trace_many::<Any>(rays, |place, hit| are_hit[place] = hit);
     }
 }

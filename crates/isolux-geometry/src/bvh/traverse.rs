@@ -8,13 +8,16 @@ use super::wide::{Leaf, MAX_WIDTH, Node, Reference, TRANSPARENT, WideTree};
 use crate::{Hit, Ray};
 use std::mem::MaybeUninit;
 
-/// The tests of `W` boxes and `W` triangles at once. They only sift: what is hit is decided by
-/// [`Shear::meet`], hence the same bits for every implementation.
+/// The tests of `W` boxes and `W` triangles at once. Box tests only sift; triangle tests give the
+/// bits of [`Shear::meet`].
 ///
 /// # Safety
 /// Implementations write only to the entries that they are given, and initialize as many as they
 /// say. Callers see to it that the processor has the instructions of the implementation.
 pub(super) unsafe trait Lanes<const W: usize> {
+    /// What is known of `W` meetings.
+    type Meetings;
+
     /// Writes an entry for each child that the ray meets up to `t_far`, and returns their number.
     /// Entries behind them may be overwritten.
     ///
@@ -27,18 +30,32 @@ pub(super) unsafe trait Lanes<const W: usize> {
         free: &mut [MaybeUninit<Entry>; W],
     ) -> usize;
 
-    /// A bit for each triangle, from `first` on, that the line of the ray may meet at
-    /// `0 < t <= t_far`. Bits of lanes beyond the leaf have no meaning.
+    /// Tries `W` triangles from `first` on. Bits of lanes beyond the leaf have no meaning.
     ///
     /// # Safety
     /// See [`Lanes`].
-    unsafe fn candidates(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> u32;
+    unsafe fn meet(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> Met<Self::Meetings>;
+
+    /// The meeting of a lane.
+    ///
+    /// # Safety
+    /// See [`Lanes`].
+    unsafe fn meeting(meetings: &Self::Meetings, lane: usize, shear: &Shear) -> Meeting;
 
     /// Asks for the memory that a step at a reference will read.
     ///
     /// # Safety
     /// See [`Lanes`].
     unsafe fn prefetch(tree: &WideTree<W>, reference: Reference);
+}
+
+/// Which triangles a ray meets.
+pub(super) struct Met<M> {
+    /// A bit for each triangle met at `0 < t <= t_far`.
+    pub(super) surely: u32,
+    /// A bit for each that [`Shear::meet_exactly`] must decide.
+    pub(super) perhaps: u32,
+    pub(super) meetings: M,
 }
 
 /// A reference (low half) and the distance at which the ray enters it (high half: distances are not
@@ -69,14 +86,16 @@ pub(super) trait Query {
     /// Whether nearer children come first.
     const ORDERED: bool;
     type Answer;
+    /// About rays that can meet nothing.
+    const NOTHING: Self::Answer;
 
     fn new(ray: &Ray, shear: &Shear) -> Self;
 
     /// Nothing beyond is of interest.
     fn t_far(&self) -> f32;
 
-    /// Looks at one triangle of a leaf; true when nothing more can be learned.
-    fn look_at(&mut self, shear: &Shear, leaf: &Leaf<'_>, triangle: usize) -> bool;
+    /// Takes note of a meeting with a triangle up to `t_far`; true when nothing more can be learned.
+    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) -> bool;
 
     fn answer(&self) -> Self::Answer;
 }
@@ -91,10 +110,11 @@ pub(super) struct Closest {
 impl Query for Closest {
     const ORDERED: bool = true;
     type Answer = Option<Hit>;
+    const NOTHING: Option<Hit> = None;
 
     #[inline(always)]
     fn new(ray: &Ray, shear: &Shear) -> Self {
-        Self { skip: skipped(ray), t_far: shear.t_max, closest: None }
+        Self { skip: skipped(ray), t_far: shear.t_last, closest: None }
     }
 
     #[inline(always)]
@@ -103,14 +123,15 @@ impl Query for Closest {
     }
 
     #[inline(always)]
-    fn look_at(&mut self, shear: &Shear, leaf: &Leaf<'_>, triangle: usize) -> bool {
-        let index = leaf.label(triangle) & !TRANSPARENT;
-        let meeting = shear.meet(|corner, axis| leaf.coordinate(corner, axis, triangle));
-        if let Some(meeting) = meeting.filter(|m| m.t <= self.t_far && index != self.skip)
-            && self.closest.is_none_or(|best| comes_before((index, &meeting), (best.0, &best.1)))
-        {
-            self.t_far = meeting.t;
-            self.closest = Some((index, meeting));
+    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) -> bool {
+        let index = label & !TRANSPARENT;
+        if index != self.skip {
+            let meeting = meeting();
+            let is_first = |best: (u32, Meeting)| comes_before((index, &meeting), (best.0, &best.1));
+            if self.closest.is_none_or(is_first) {
+                self.t_far = meeting.t;
+                self.closest = Some((index, meeting));
+            }
         }
         false
     }
@@ -124,30 +145,28 @@ impl Query for Closest {
 /// Whether anything is hit.
 pub(super) struct Any {
     skip: u32,
-    t_max: f32,
+    t_far: f32,
     is_hit: bool,
 }
 
 impl Query for Any {
     const ORDERED: bool = false;
     type Answer = bool;
+    const NOTHING: bool = false;
 
     #[inline(always)]
     fn new(ray: &Ray, shear: &Shear) -> Self {
-        Self { skip: skipped(ray), t_max: shear.t_max, is_hit: false }
+        Self { skip: skipped(ray), t_far: shear.t_last, is_hit: false }
     }
 
     #[inline(always)]
     fn t_far(&self) -> f32 {
-        self.t_max
+        self.t_far
     }
 
     #[inline(always)]
-    fn look_at(&mut self, shear: &Shear, leaf: &Leaf<'_>, triangle: usize) -> bool {
-        let label = leaf.label(triangle);
-        let is_seen = label < TRANSPARENT && label != self.skip;
-        let corner = |corner: usize, axis: usize| leaf.coordinate(corner, axis, triangle);
-        self.is_hit = is_seen && shear.meet(corner).is_some();
+    fn note(&mut self, label: u32, _: impl FnOnce() -> Meeting) -> bool {
+        self.is_hit = label < TRANSPARENT && label != self.skip;
         self.is_hit
     }
 
@@ -163,7 +182,7 @@ fn skipped(ray: &Ray) -> u32 {
     ray.skip.unwrap_or(u32::MAX)
 }
 
-/// The answer about one ray; `None` for rays that can meet nothing.
+/// The answer about one ray.
 ///
 /// # Safety
 /// The processor has the instructions of `L`.
@@ -171,13 +190,13 @@ fn skipped(ray: &Ray) -> u32 {
 pub(super) unsafe fn trace<const W: usize, L: Lanes<W>, Q: Query>(
     tree: &WideTree<W>,
     ray: &Ray,
-) -> Option<Q::Answer> {
-    let (root, shear) = (tree.root?, Shear::new(ray)?);
+) -> Q::Answer {
+    let Some((root, shear)) = tree.root.zip(Shear::new(ray)) else { return Q::NOTHING };
     let mut stack = Stack::<W>::new();
     let mut walk = Walk::<Q>::new(root, ray, shear, tree.reach);
     // SAFETY: as the caller says.
     while unsafe { walk.step::<W, L>(tree, &mut stack) } {}
-    Some(walk.answer())
+    walk.answer()
 }
 
 /// A ray on its way.
@@ -234,21 +253,9 @@ impl<Q: Query> Walk<Q> {
                 return true;
             }
         } else {
-            let leaf = tree.leaf(reference);
-            let mut first = 0;
-            while first < leaf.count {
-                // SAFETY: as the caller says.
-                let lanes =
-                    unsafe { L::candidates(&leaf, first, &self.shear, self.query.t_far()) };
-                let mut candidates = lanes & ((2 << (leaf.count - first - 1)) - 1);
-                while candidates != 0 {
-                    let triangle = first + candidates.trailing_zeros() as usize;
-                    candidates &= candidates - 1;
-                    if self.query.look_at(&self.shear, &leaf, triangle) {
-                        return false;
-                    }
-                }
-                first += W;
+            // SAFETY: as the caller says.
+            if unsafe { self.look_at::<W, L>(&tree.leaf(reference)) } {
+                return false;
             }
         }
         loop {
@@ -261,6 +268,55 @@ impl<Q: Query> Walk<Q> {
                 return true;
             }
         }
+    }
+}
+
+impl<Q: Query> Walk<Q> {
+    /// Tries the triangles of a leaf; true when nothing more can be learned.
+    ///
+    /// # Safety
+    /// The processor has the instructions of `L`.
+    #[inline(always)]
+    unsafe fn look_at<const W: usize, L: Lanes<W>>(&mut self, leaf: &Leaf<'_>) -> bool {
+        let mut first = 0;
+        while first < leaf.count {
+            // SAFETY: as the caller says.
+            let met = unsafe { L::meet(leaf, first, &self.shear, self.query.t_far()) };
+            let lanes = (2 << (leaf.count - first - 1)) - 1;
+            let mut surely = met.surely & lanes;
+            while surely != 0 {
+                let lane = surely.trailing_zeros() as usize;
+                surely &= surely - 1;
+                // SAFETY: as the caller says.
+                let meeting = || unsafe { L::meeting(&met.meetings, lane, &self.shear) };
+                if self.query.note(leaf.label(first + lane), meeting) {
+                    return true;
+                }
+            }
+            if met.perhaps & lanes != 0 && self.look_closely(leaf, first, met.perhaps & lanes) {
+                return true;
+            }
+            first += W;
+        }
+        false
+    }
+
+    /// The same for triangles seen close to edge-on.
+    #[cold]
+    #[inline(never)]
+    fn look_closely(&mut self, leaf: &Leaf<'_>, first: usize, mut lanes: u32) -> bool {
+        while lanes != 0 {
+            let triangle = first + lanes.trailing_zeros() as usize;
+            lanes &= lanes - 1;
+            let corner = |corner: usize, axis: usize| leaf.coordinate(corner, axis, triangle);
+            let meeting = self.shear.meet_exactly(corner);
+            if let Some(meeting) = meeting.filter(|m| m.t <= self.query.t_far())
+                && self.query.note(leaf.label(triangle), || meeting)
+            {
+                return true;
+            }
+        }
+        false
     }
 }
 

@@ -5,6 +5,7 @@
 //! after row of as many numbers as it has triangles.
 
 use super::memory::{LINE, Line, with_capacity, words_mut};
+use super::triangle_test::least_sum;
 use std::marker::PhantomData;
 
 /// A node: the boxes of `W` children and what is in them.
@@ -33,8 +34,8 @@ pub(super) const MAX_WIDTH: usize = 16;
 /// Greatest number of triangles of a leaf.
 pub(super) const MAX_LEAF: usize = 16;
 
-/// Rows of a leaf: nine of coordinates, by corner and axis, then the labels.
-const ROWS: usize = 10;
+/// Rows of a leaf: nine of coordinates, by corner and axis, the least sums, and the labels.
+const ROWS: usize = 11;
 
 /// Marks the label of a triangle that `any_hit` does not see; the rest is the index of the triangle.
 pub(super) const TRANSPARENT: u32 = 1 << 31;
@@ -58,28 +59,37 @@ impl Leaf<'_> {
     /// One coordinate of the triangles from `first` on. [`MAX_LEAF`] numbers can be read, of which
     /// those behind the last triangle have no meaning.
     #[inline(always)]
-    pub(super) fn row(&self, corner: usize, axis: usize, first: usize) -> *const f32 {
-        debug_assert!(corner < 3 && axis < 3 && first < self.count);
-        self.words.wrapping_add((3 * corner + axis) * self.count + first).cast()
+    pub(super) fn coordinates(&self, corner: usize, axis: usize, first: usize) -> *const f32 {
+        self.row(3 * corner + axis, first)
+    }
+
+    /// The same of [`least_sum`](super::triangle_test::least_sum).
+    #[inline(always)]
+    pub(super) fn least_sums(&self, first: usize) -> *const f32 {
+        self.row(ROWS - 2, first)
+    }
+
+    #[inline(always)]
+    fn row(&self, row: usize, first: usize) -> *const f32 {
+        debug_assert!(row < ROWS && first < self.count);
+        self.words.wrapping_add(row * self.count + first).cast()
     }
 
     #[inline(always)]
     pub(super) fn coordinate(&self, corner: usize, axis: usize, triangle: usize) -> f32 {
-        debug_assert!(triangle < self.count);
         // SAFETY: within the leaf, where the row is.
         #[allow(unsafe_code, reason = "a number of a tree that cannot change, without a check")]
         unsafe {
-            *self.row(corner, axis, triangle)
+            *self.coordinates(corner, axis, triangle)
         }
     }
 
     #[inline(always)]
     pub(super) fn label(&self, triangle: usize) -> u32 {
-        debug_assert!(triangle < self.count);
         // SAFETY: the last row of the leaf.
         #[allow(unsafe_code, reason = "a number of a tree that cannot change, without a check")]
         unsafe {
-            *self.words.add((ROWS - 1) * self.count + triangle)
+            *self.row(ROWS - 1, triangle).cast()
         }
     }
 }
@@ -204,6 +214,7 @@ impl<const W: usize> Builder<W> {
             for (row, x) in triangle.corners.iter().flatten().enumerate() {
                 words[row * count + place] = x.to_bits();
             }
+            words[(ROWS - 2) * count + place] = least_sum(&triangle.corners).to_bits();
             words[(ROWS - 1) * count + place] = triangle.label;
         }
         Ok(Reference(Reference::LEAF | (count as u32 - 1) << Reference::COUNT_SHIFT | line))
