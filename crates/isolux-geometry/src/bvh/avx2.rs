@@ -24,24 +24,24 @@ unsafe impl Lanes<WIDTH> for Avx2 {
         t_far: f32,
         free: &mut [MaybeUninit<Entry>; WIDTH],
     ) -> usize {
-        let [x, y, z] = slabs.entry_planes;
+        let (near, far) = slabs.rows(node);
         // SAFETY: the caller sees to the instructions. Rows of a node have eight lanes and lie on
         // multiples of 32 bytes; the two stores of 32 bytes fill the eight entries.
         unsafe {
-            let crossing = |axis: usize, plane: usize, offset: &[f32; 3]| {
-                let planes = _mm256_load_ps(node.planes[plane].as_ptr());
+            let crossing = |axis: usize, planes: &[f32; WIDTH], offset: &[f32; 3]| {
+                let planes = _mm256_load_ps(planes.as_ptr());
                 let inverse = _mm256_set1_ps(slabs.inverse[axis]);
                 bits(_mm256_fmsub_ps(planes, inverse, _mm256_set1_ps(offset[axis])))
             };
             // As integers: negative numbers order the wrong way round among themselves, but none
             // of them is the greatest beside zero, and the least is one where any is.
             let enter = _mm256_max_epi32(
-                _mm256_max_epi32(crossing(0, x, &slabs.enter), crossing(1, y, &slabs.enter)),
-                _mm256_max_epi32(crossing(2, z, &slabs.enter), _mm256_setzero_si256()),
+                _mm256_max_epi32(crossing(0, near[0], &slabs.enter), crossing(1, near[1], &slabs.enter)),
+                _mm256_max_epi32(crossing(2, near[2], &slabs.enter), _mm256_setzero_si256()),
             );
             let leave = _mm256_min_epi32(
-                _mm256_min_epi32(crossing(0, x ^ 1, &slabs.leave), crossing(1, y ^ 1, &slabs.leave)),
-                _mm256_min_epi32(crossing(2, z ^ 1, &slabs.leave), bits(_mm256_set1_ps(t_far))),
+                _mm256_min_epi32(crossing(0, far[0], &slabs.leave), crossing(1, far[1], &slabs.leave)),
+                _mm256_min_epi32(crossing(2, far[2], &slabs.leave), bits(_mm256_set1_ps(t_far))),
             );
             let missed = _mm256_castsi256_ps(_mm256_cmpgt_epi32(enter, leave));
             let met = !_mm256_movemask_ps(missed) as u32 & 0xff;
@@ -60,7 +60,13 @@ unsafe impl Lanes<WIDTH> for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn meet(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> Met<[__m256; 4]> {
+    unsafe fn meet(
+        leaf: &Leaf<'_>,
+        first: usize,
+        lanes: u32,
+        shear: &Shear,
+        t_far: f32,
+    ) -> Option<Met<[__m256; 4]>> {
         // SAFETY: the caller sees to the instructions. A row of a leaf is followed by as many words
         // as there are lanes, and more.
         unsafe {
@@ -71,7 +77,10 @@ unsafe impl Lanes<WIDTH> for Avx2 {
             let zero = _mm256_setzero_ps();
             let front = _mm256_cmp_ps::<_CMP_GE_OQ>(_mm256_min_ps(u, _mm256_min_ps(v, w)), zero);
             let back = _mm256_cmp_ps::<_CMP_LE_OQ>(_mm256_max_ps(u, _mm256_max_ps(v, w)), zero);
-            let inside = _mm256_or_ps(front, back);
+            let inside = _mm256_movemask_ps(_mm256_or_ps(front, back)) as u32 & lanes;
+            if inside == 0 {
+                return None;
+            }
             let sum = _mm256_add_ps(u, _mm256_add_ps(v, w));
             let size = _mm256_andnot_ps(_mm256_set1_ps(-0.0), sum);
             let least = _mm256_loadu_ps(leaf.least_sums(first));
@@ -85,12 +94,12 @@ unsafe impl Lanes<WIDTH> for Avx2 {
             let t = _mm256_mul_ps(_mm256_div_ps(depths, sum), _mm256_set1_ps(shear.per_depth));
             let ahead = _mm256_cmp_ps::<_CMP_GT_OQ>(t, zero);
             let near = _mm256_cmp_ps::<_CMP_LE_OQ>(t, _mm256_set1_ps(t_far));
-            let met = _mm256_and_ps(inside, _mm256_and_ps(ahead, near));
-            Met {
-                surely: _mm256_movemask_ps(_mm256_and_ps(met, sure)) as u32,
-                perhaps: _mm256_movemask_ps(_mm256_andnot_ps(sure, inside)) as u32,
+            let met = _mm256_and_ps(sure, _mm256_and_ps(ahead, near));
+            Some(Met {
+                surely: inside & _mm256_movemask_ps(met) as u32,
+                perhaps: inside & !_mm256_movemask_ps(sure) as u32,
                 meetings: [t, v, w, sum],
-            }
+            })
         }
     }
 

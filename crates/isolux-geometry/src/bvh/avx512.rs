@@ -24,24 +24,24 @@ unsafe impl Lanes<WIDTH> for Avx512 {
         t_far: f32,
         free: &mut [MaybeUninit<Entry>; WIDTH],
     ) -> usize {
-        let [x, y, z] = slabs.entry_planes;
+        let (near, far) = slabs.rows(node);
         // SAFETY: the caller sees to the instructions. Rows of a node have sixteen lanes and lie on
         // multiples of 64 bytes; each store of 64 bytes fills eight entries.
         unsafe {
-            let crossing = |axis: usize, plane: usize, offset: &[f32; 3]| {
-                let planes = _mm512_load_ps(node.planes[plane].as_ptr());
+            let crossing = |axis: usize, planes: &[f32; WIDTH], offset: &[f32; 3]| {
+                let planes = _mm512_load_ps(planes.as_ptr());
                 let inverse = _mm512_set1_ps(slabs.inverse[axis]);
                 bits(_mm512_fmsub_ps(planes, inverse, _mm512_set1_ps(offset[axis])))
             };
             // As integers: negative numbers order the wrong way round among themselves, but none
             // of them is the greatest beside zero, and the least is one where any is.
             let enter = _mm512_max_epi32(
-                _mm512_max_epi32(crossing(0, x, &slabs.enter), crossing(1, y, &slabs.enter)),
-                _mm512_max_epi32(crossing(2, z, &slabs.enter), _mm512_setzero_si512()),
+                _mm512_max_epi32(crossing(0, near[0], &slabs.enter), crossing(1, near[1], &slabs.enter)),
+                _mm512_max_epi32(crossing(2, near[2], &slabs.enter), _mm512_setzero_si512()),
             );
             let leave = _mm512_min_epi32(
-                _mm512_min_epi32(crossing(0, x ^ 1, &slabs.leave), crossing(1, y ^ 1, &slabs.leave)),
-                _mm512_min_epi32(crossing(2, z ^ 1, &slabs.leave), bits(_mm512_set1_ps(t_far))),
+                _mm512_min_epi32(crossing(0, far[0], &slabs.leave), crossing(1, far[1], &slabs.leave)),
+                _mm512_min_epi32(crossing(2, far[2], &slabs.leave), bits(_mm512_set1_ps(t_far))),
             );
             let met = _mm512_cmple_epi32_mask(enter, leave);
             let count = met.count_ones() as usize;
@@ -61,7 +61,13 @@ unsafe impl Lanes<WIDTH> for Avx512 {
     }
 
     #[inline(always)]
-    unsafe fn meet(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> Met<[__m512; 4]> {
+    unsafe fn meet(
+        leaf: &Leaf<'_>,
+        first: usize,
+        lanes: u32,
+        shear: &Shear,
+        t_far: f32,
+    ) -> Option<Met<[__m512; 4]>> {
         // SAFETY: the caller sees to the instructions. A row of a leaf is followed by as many words
         // as there are lanes, and more.
         unsafe {
@@ -74,7 +80,10 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             let most = _mm512_max_ps(u, _mm512_max_ps(v, w));
             let front = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(least, zero);
             let back = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(most, zero);
-            let inside = front | back;
+            let inside = u32::from(front | back) & lanes;
+            if inside == 0 {
+                return None;
+            }
             let sum = _mm512_add_ps(u, _mm512_add_ps(v, w));
             let least = _mm512_loadu_ps(leaf.least_sums(first));
             let distance2 = _mm512_add_ps(_mm512_mul_ps(a[0], a[0]), _mm512_mul_ps(a[1], a[1]));
@@ -88,11 +97,11 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             let t = _mm512_mul_ps(_mm512_div_ps(depths, sum), _mm512_set1_ps(shear.per_depth));
             let ahead = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(t, zero);
             let near = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(t, _mm512_set1_ps(t_far));
-            Met {
-                surely: u32::from(inside & sure & ahead & near),
-                perhaps: u32::from(inside & !sure),
+            Some(Met {
+                surely: inside & u32::from(sure & ahead & near),
+                perhaps: inside & !u32::from(sure),
                 meetings: [t, v, w, sum],
-            }
+            })
         }
     }
 

@@ -41,7 +41,6 @@ pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
                 }
             }
             tell(*place, walk.answer());
-            stack.clear();
             *slot = depart(tree, &mut waiting, &mut tell);
             in_flight -= usize::from(slot.is_none());
         }

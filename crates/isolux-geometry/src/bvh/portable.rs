@@ -22,14 +22,13 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
         t_far: f32,
         free: &mut [MaybeUninit<Entry>; W],
     ) -> usize {
-        let Slabs { inverse, enter, leave, entry_planes } = slabs;
+        let Slabs { inverse, enter, leave, .. } = slabs;
+        let (near, far) = slabs.rows(node);
         let (mut t_enter, mut t_leave) = ([0.0_f32; W], [t_far; W]);
         for axis in 0..3 {
-            let near = &node.planes[entry_planes[axis]];
-            let far = &node.planes[entry_planes[axis] ^ 1];
             for lane in 0..W {
-                let a = near[lane] * inverse[axis] - enter[axis];
-                let b = far[lane] * inverse[axis] - leave[axis];
+                let a = near[axis][lane] * inverse[axis] - enter[axis];
+                let b = far[axis][lane] * inverse[axis] - leave[axis];
                 t_enter[lane] = if a > t_enter[lane] { a } else { t_enter[lane] };
                 t_leave[lane] = if b < t_leave[lane] { b } else { t_leave[lane] };
             }
@@ -49,9 +48,10 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
     unsafe fn meet(
         leaf: &Leaf<'_>,
         first: usize,
+        lanes: u32,
         shear: &Shear,
         t_far: f32,
-    ) -> Met<[[f32; W]; 4]> {
+    ) -> Option<Met<[[f32; W]; 4]>> {
         let Shear { axes, origin, slope, per_depth, .. } = shear;
         // SAFETY: `W` numbers of a row can be read, and any bits are a number.
         let numbers = |row: *const f32| unsafe { *row.cast::<[f32; W]>() };
@@ -66,27 +66,34 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
                 z[corner][lane] = depth;
             }
         }
-        let least_sums = numbers(leaf.least_sums(first));
-        let [mut t, mut v, mut w, mut sum] = [[0.0_f32; W]; 4];
-        let (mut surely, mut perhaps) = (0, 0);
+        let [mut u, mut v, mut w] = [[0.0_f32; W]; 3];
+        let mut inside = 0;
         for lane in 0..W {
             let cross = |p: usize, q: usize| x[p][lane] * y[q][lane] - y[p][lane] * x[q][lane];
-            let u = cross(2, 1);
-            (v[lane], w[lane]) = (cross(0, 2), cross(1, 0));
-            let is_front = (u >= 0.0) & (v[lane] >= 0.0) & (w[lane] >= 0.0);
-            let is_back = (u <= 0.0) & (v[lane] <= 0.0) & (w[lane] <= 0.0);
-            let is_inside = is_front | is_back;
-            sum[lane] = u + (v[lane] + w[lane]);
+            (u[lane], v[lane], w[lane]) = (cross(2, 1), cross(0, 2), cross(1, 0));
+            let is_front = (u[lane] >= 0.0) & (v[lane] >= 0.0) & (w[lane] >= 0.0);
+            let is_back = (u[lane] <= 0.0) & (v[lane] <= 0.0) & (w[lane] <= 0.0);
+            inside |= u32::from(is_front | is_back) << lane;
+        }
+        inside &= lanes;
+        if inside == 0 {
+            return None;
+        }
+        let least_sums = numbers(leaf.least_sums(first));
+        let [mut t, mut sum] = [[0.0_f32; W]; 2];
+        let (mut met, mut sure) = (0, 0);
+        for lane in 0..W {
+            sum[lane] = u[lane] + (v[lane] + w[lane]);
             let distance2 = x[0][lane] * x[0][lane] + y[0][lane] * y[0][lane];
             let size = sum[lane].abs();
             let is_sure = (size >= least_sums[lane]) & (size >= distance2 * FAR);
-            let depths = u * z[0][lane] + (v[lane] * z[1][lane] + w[lane] * z[2][lane]);
+            let depths = u[lane] * z[0][lane] + (v[lane] * z[1][lane] + w[lane] * z[2][lane]);
             t[lane] = depths / sum[lane] * per_depth;
-            let is_met = (t[lane] > 0.0) & (t[lane] <= t_far);
-            surely |= u32::from(is_inside & is_sure & is_met) << lane;
-            perhaps |= u32::from(is_inside & !is_sure) << lane;
+            sure |= u32::from(is_sure) << lane;
+            met |= u32::from((t[lane] > 0.0) & (t[lane] <= t_far)) << lane;
         }
-        Met { surely, perhaps, meetings: [t, v, w, sum] }
+        let meetings = [t, v, w, sum];
+        Some(Met { surely: inside & sure & met, perhaps: inside & !sure, meetings })
     }
 
     #[inline(always)]

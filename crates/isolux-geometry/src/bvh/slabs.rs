@@ -12,6 +12,7 @@
 //! 32 u (M + |origin|) contain every hit of their triangles, wherever the ray starts.
 
 use super::triangle_test::{LARGEST, greater};
+use super::wide::Node;
 use crate::Ray;
 
 /// What underflow may do to a depth, metres: the smallest number over the least sum of weights, and
@@ -26,9 +27,8 @@ pub(super) struct Slabs {
     pub(super) enter: [f32; 3],
     /// Offsets for the planes through which it leaves, widened.
     pub(super) leave: [f32; 3],
-    /// Of the planes of a node, that of each axis through which the ray enters; the other one
-    /// differs in the last bit.
-    pub(super) entry_planes: [usize; 3],
+    /// Of the planes of a node, that of each axis through which the ray enters.
+    entry_planes: [usize; 3],
 }
 
 impl Slabs {
@@ -56,5 +56,18 @@ impl Slabs {
             leave: [leave(0), leave(1), leave(2)],
             entry_planes: [entry(0), entry(1), entry(2)],
         }
+    }
+
+    /// The rows of planes through which the ray enters, and those through which it leaves.
+    #[inline(always)]
+    pub(super) fn rows<'n, const W: usize>(
+        &self,
+        node: &'n Node<W>,
+    ) -> ([&'n [f32; W]; 3], [&'n [f32; W]; 3]) {
+        // SAFETY: of the six planes, `new` chose 2 `axis` or 2 `axis` + 1.
+        #[allow(unsafe_code, reason = "a check a row would cost as much as the row")]
+        let row = |plane: usize| unsafe { node.planes.get_unchecked(plane) };
+        let enter = self.entry_planes.map(row);
+        (enter, self.entry_planes.map(|plane| row(plane ^ 1)))
     }
 }

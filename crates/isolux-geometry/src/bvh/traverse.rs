@@ -30,11 +30,17 @@ pub(super) unsafe trait Lanes<const W: usize> {
         free: &mut [MaybeUninit<Entry>; W],
     ) -> usize;
 
-    /// Tries `W` triangles from `first` on. Bits of lanes beyond the leaf have no meaning.
+    /// Tries the triangles from `first` on, of which there are some in the `lanes` given.
     ///
     /// # Safety
     /// See [`Lanes`].
-    unsafe fn meet(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> Met<Self::Meetings>;
+    unsafe fn meet(
+        leaf: &Leaf<'_>,
+        first: usize,
+        lanes: u32,
+        shear: &Shear,
+        t_far: f32,
+    ) -> Option<Met<Self::Meetings>>;
 
     /// The meeting of a lane.
     ///
@@ -82,7 +88,7 @@ impl Entry {
 }
 
 /// What a walk looks for.
-pub(super) trait Query {
+pub(super) trait Query: Copy {
     /// Whether nearer children come first.
     const ORDERED: bool;
     type Answer;
@@ -94,13 +100,17 @@ pub(super) trait Query {
     /// Nothing beyond is of interest.
     fn t_far(&self) -> f32;
 
-    /// Takes note of a meeting with a triangle up to `t_far`; true when nothing more can be learned.
-    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) -> bool;
+    /// Takes note of a meeting with a triangle up to `t_far`.
+    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting);
+
+    /// Whether nothing more can be learned.
+    fn is_done(&self) -> bool;
 
     fn answer(&self) -> Self::Answer;
 }
 
 /// The closest hit.
+#[derive(Clone, Copy)]
 pub(super) struct Closest {
     skip: u32,
     t_far: f32,
@@ -123,7 +133,7 @@ impl Query for Closest {
     }
 
     #[inline(always)]
-    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) -> bool {
+    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) {
         let index = label & !TRANSPARENT;
         if index != self.skip {
             let meeting = meeting();
@@ -133,6 +143,10 @@ impl Query for Closest {
                 self.closest = Some((index, meeting));
             }
         }
+    }
+
+    #[inline(always)]
+    fn is_done(&self) -> bool {
         false
     }
 
@@ -143,6 +157,7 @@ impl Query for Closest {
 }
 
 /// Whether anything is hit.
+#[derive(Clone, Copy)]
 pub(super) struct Any {
     skip: u32,
     t_far: f32,
@@ -165,8 +180,12 @@ impl Query for Any {
     }
 
     #[inline(always)]
-    fn note(&mut self, label: u32, _: impl FnOnce() -> Meeting) -> bool {
-        self.is_hit = label < TRANSPARENT && label != self.skip;
+    fn note(&mut self, label: u32, _: impl FnOnce() -> Meeting) {
+        self.is_hit |= label < TRANSPARENT && label != self.skip;
+    }
+
+    #[inline(always)]
+    fn is_done(&self) -> bool {
         self.is_hit
     }
 
@@ -206,13 +225,16 @@ pub(super) struct Walk<Q> {
     query: Q,
     /// What to look at next.
     current: Reference,
+    /// Number of entries on the stack. Not kept with them: what lies beside an array that is indexed
+    /// does not stay in a register.
+    waiting: usize,
 }
 
 impl<Q: Query> Walk<Q> {
     #[inline(always)]
     pub(super) fn new(root: Reference, ray: &Ray, shear: Shear, reach: f32) -> Self {
         let (slabs, query) = (Slabs::new(ray, reach), Q::new(ray, &shear));
-        Self { shear, slabs, query, current: root }
+        Self { shear, slabs, query, current: root, waiting: 0 }
     }
 
     /// What the next step looks at.
@@ -238,7 +260,7 @@ impl<Q: Query> Walk<Q> {
     ) -> bool {
         let reference = self.current;
         if !reference.is_leaf() {
-            let free = stack.free();
+            let free = stack.above(self.waiting);
             // SAFETY: as the caller says.
             let met = unsafe {
                 L::push_met(tree.node(reference), &self.slabs, self.query.t_far(), free)
@@ -248,8 +270,8 @@ impl<Q: Query> Walk<Q> {
                     // SAFETY: `push_met` initialized as many.
                     sort_nearest_last(unsafe { free[..met].assume_init_mut() });
                 }
-                stack.len += met;
-                self.current = stack.pop_unchecked().reference();
+                self.waiting += met - 1;
+                self.current = stack.entry(self.waiting).reference();
                 return true;
             }
         } else {
@@ -258,16 +280,15 @@ impl<Q: Query> Walk<Q> {
                 return false;
             }
         }
-        loop {
-            if stack.len == 0 {
-                return false;
-            }
-            let entry = stack.pop_unchecked();
+        while self.waiting > 0 {
+            self.waiting -= 1;
+            let entry = stack.entry(self.waiting);
             if entry.t() <= self.query.t_far() {
                 self.current = entry.reference();
                 return true;
             }
         }
+        false
     }
 }
 
@@ -280,82 +301,84 @@ impl<Q: Query> Walk<Q> {
     unsafe fn look_at<const W: usize, L: Lanes<W>>(&mut self, leaf: &Leaf<'_>) -> bool {
         let mut first = 0;
         while first < leaf.count {
-            // SAFETY: as the caller says.
-            let met = unsafe { L::meet(leaf, first, &self.shear, self.query.t_far()) };
             let lanes = (2 << (leaf.count - first - 1)) - 1;
-            let mut surely = met.surely & lanes;
+            let start = first;
+            first += W;
+            // SAFETY: as the caller says.
+            let met = unsafe { L::meet(leaf, start, lanes, &self.shear, self.query.t_far()) };
+            let Some(met) = met else { continue };
+            let mut surely = met.surely;
             while surely != 0 {
                 let lane = surely.trailing_zeros() as usize;
                 surely &= surely - 1;
                 // SAFETY: as the caller says.
                 let meeting = || unsafe { L::meeting(&met.meetings, lane, &self.shear) };
-                if self.query.note(leaf.label(first + lane), meeting) {
+                self.query.note(leaf.label(start + lane), meeting);
+                if self.query.is_done() {
                     return true;
                 }
             }
-            if met.perhaps & lanes != 0 && self.look_closely(leaf, first, met.perhaps & lanes) {
-                return true;
+            if met.perhaps != 0 {
+                // A copy goes in and comes back: what is lent to a call does not stay in registers.
+                let query = look_closely(self.query, self.shear, *leaf, start, met.perhaps);
+                self.query = query;
+                if query.is_done() {
+                    return true;
+                }
             }
-            first += W;
         }
         false
     }
+}
 
-    /// The same for triangles seen close to edge-on.
-    #[cold]
-    #[inline(never)]
-    fn look_closely(&mut self, leaf: &Leaf<'_>, first: usize, mut lanes: u32) -> bool {
-        while lanes != 0 {
-            let triangle = first + lanes.trailing_zeros() as usize;
-            lanes &= lanes - 1;
-            let corner = |corner: usize, axis: usize| leaf.coordinate(corner, axis, triangle);
-            let meeting = self.shear.meet_exactly(corner);
-            if let Some(meeting) = meeting.filter(|m| m.t <= self.query.t_far())
-                && self.query.note(leaf.label(triangle), || meeting)
-            {
-                return true;
-            }
+/// Tries triangles that are seen close to edge-on.
+#[cold]
+#[inline(never)]
+fn look_closely<Q: Query>(
+    mut query: Q,
+    shear: Shear,
+    leaf: Leaf<'_>,
+    first: usize,
+    mut lanes: u32,
+) -> Q {
+    while lanes != 0 && !query.is_done() {
+        let triangle = first + lanes.trailing_zeros() as usize;
+        lanes &= lanes - 1;
+        let corner = |corner: usize, axis: usize| leaf.coordinate(corner, axis, triangle);
+        if let Some(meeting) = shear.meet_exactly(corner).filter(|m| m.t <= query.t_far()) {
+            query.note(leaf.label(triangle), || meeting);
         }
-        false
     }
+    query
 }
 
 /// Entries of a stack: what the nodes on the longest path may leave, and room for one node more.
 const STACK: usize = MAX_DEPTH as usize * (MAX_WIDTH - 1) + MAX_WIDTH;
 
 /// What is still to be visited, next on top.
-pub(super) struct Stack<const W: usize> {
-    entries: [MaybeUninit<Entry>; STACK],
-    len: usize,
-}
+pub(super) struct Stack<const W: usize>([MaybeUninit<Entry>; STACK]);
 
 impl<const W: usize> Stack<W> {
     #[inline(always)]
     pub(super) const fn new() -> Self {
-        Self { entries: [const { MaybeUninit::uninit() }; STACK], len: 0 }
+        Self([const { MaybeUninit::uninit() }; STACK])
     }
 
+    /// Room for the children of a node above so many entries.
     #[inline(always)]
-    pub(super) fn clear(&mut self) {
-        self.len = 0;
-    }
-
-    /// Room for the children of a node.
-    #[inline(always)]
-    fn free(&mut self) -> &mut [MaybeUninit<Entry>; W] {
-        debug_assert!(self.len + W <= STACK);
+    fn above(&mut self, waiting: usize) -> &mut [MaybeUninit<Entry>; W] {
+        debug_assert!(waiting + W <= STACK);
         // SAFETY: a node leaves at most `W - 1` entries when one of its children is taken, and no
         // path has more than `MAX_DEPTH` nodes: see `STACK`.
-        unsafe { &mut *self.entries.as_mut_ptr().add(self.len).cast() }
+        unsafe { &mut *self.0.as_mut_ptr().add(waiting).cast() }
     }
 
-    /// The top of a stack that is not empty.
+    /// One of the entries written by `push_met`.
     #[inline(always)]
-    fn pop_unchecked(&mut self) -> Entry {
-        debug_assert!(self.len > 0);
-        self.len -= 1;
-        // SAFETY: the caller saw an entry, and all up to `len` were written by `push_met`.
-        unsafe { self.entries.get_unchecked(self.len).assume_init() }
+    fn entry(&self, index: usize) -> Entry {
+        debug_assert!(index < STACK);
+        // SAFETY: only asked for entries below those that were counted by `push_met`.
+        unsafe { self.0.get_unchecked(index).assume_init() }
     }
 }
 
