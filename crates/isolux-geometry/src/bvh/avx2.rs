@@ -3,7 +3,7 @@
 
 use super::slabs::Slabs;
 use super::traverse::{Entry, Lanes, Met};
-use super::triangle_test::{FAR, Meeting, Shear};
+use super::triangle_test::{Meeting, Shear, TRUSTED, TRUSTED_M2};
 use super::wide::{Leaf, Node, Reference, WideTree};
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
@@ -13,20 +13,17 @@ const WIDTH: usize = 8;
 /// Needs AVX2, FMA, BMI1, BMI2, LZCNT and POPCNT.
 pub(super) struct Avx2;
 
-// SAFETY: `push_met` writes the first `count_ones` of eight entries, which it was given.
+// SAFETY: `push` writes all of the eight entries, which it was given.
 unsafe impl Lanes<WIDTH> for Avx2 {
     type Meetings = [__m256; 4];
 
+    type Distances = __m256i;
+
     #[inline(always)]
-    unsafe fn push_met(
-        node: &Node<WIDTH>,
-        slabs: &Slabs,
-        t_far: f32,
-        free: &mut [MaybeUninit<Entry>; WIDTH],
-    ) -> usize {
+    unsafe fn children_met(node: &Node<WIDTH>, slabs: &Slabs, t_far: f32) -> (__m256i, u32) {
         let (near, far) = slabs.rows(node);
         // SAFETY: the caller sees to the instructions. Rows of a node have eight lanes and lie on
-        // multiples of 32 bytes; the two stores of 32 bytes fill the eight entries.
+        // multiples of 32 bytes.
         unsafe {
             let crossing = |axis: usize, planes: &[f32; WIDTH], offset: &[f32; 3]| {
                 let planes = _mm256_load_ps(planes.as_ptr());
@@ -44,10 +41,23 @@ unsafe impl Lanes<WIDTH> for Avx2 {
                 _mm256_min_epi32(crossing(2, far[2], &slabs.leave), bits(_mm256_set1_ps(t_far))),
             );
             let missed = _mm256_castsi256_ps(_mm256_cmpgt_epi32(enter, leave));
-            let met = !_mm256_movemask_ps(missed) as u32 & 0xff;
+            (enter, !_mm256_movemask_ps(missed) as u32 & 0xff)
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn push(
+        node: &Node<WIDTH>,
+        distances: __m256i,
+        met: u32,
+        free: &mut [MaybeUninit<Entry>; WIDTH],
+    ) {
+        // SAFETY: the caller sees to the instructions; two stores of 32 bytes fill eight entries.
+        unsafe {
             // The lanes met move to the front, distance above child.
-            let order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(ORDER[met as usize] as i64));
-            let t = _mm256_permutevar8x32_epi32(enter, order);
+            let order = ORDER[met as usize & 0xff] as i64;
+            let order = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(order));
+            let t = _mm256_permutevar8x32_epi32(distances, order);
             let children = _mm256_load_si256(node.children.as_ptr().cast());
             let child = _mm256_permutevar8x32_epi32(children, order);
             let low = _mm256_unpacklo_epi32(child, t);
@@ -55,7 +65,6 @@ unsafe impl Lanes<WIDTH> for Avx2 {
             let to: *mut __m256i = free.as_mut_ptr().cast();
             _mm256_storeu_si256(to, _mm256_permute2x128_si256::<0x20>(low, high));
             _mm256_storeu_si256(to.add(1), _mm256_permute2x128_si256::<0x31>(low, high));
-            met.count_ones() as usize
         }
     }
 
@@ -82,11 +91,14 @@ unsafe impl Lanes<WIDTH> for Avx2 {
                 return None;
             }
             let sum = _mm256_add_ps(u, _mm256_add_ps(v, w));
+            let farthest2 =
+                _mm256_max_ps(distance2(&a), _mm256_max_ps(distance2(&b), distance2(&c)));
+            let trusted = _mm256_add_ps(
+                _mm256_mul_ps(farthest2, _mm256_set1_ps(TRUSTED)),
+                _mm256_set1_ps(TRUSTED_M2),
+            );
             let size = _mm256_andnot_ps(_mm256_set1_ps(-0.0), sum);
-            let least = _mm256_loadu_ps(leaf.least_sums(first));
-            let distance2 = _mm256_add_ps(_mm256_mul_ps(a[0], a[0]), _mm256_mul_ps(a[1], a[1]));
-            let far = _mm256_mul_ps(distance2, _mm256_set1_ps(FAR));
-            let sure = _mm256_cmp_ps::<_CMP_GE_OQ>(size, _mm256_max_ps(least, far));
+            let sure = _mm256_cmp_ps::<_CMP_GE_OQ>(size, trusted);
             let depths = _mm256_add_ps(
                 _mm256_mul_ps(u, a[2]),
                 _mm256_add_ps(_mm256_mul_ps(v, b[2]), _mm256_mul_ps(w, c[2])),
@@ -94,12 +106,13 @@ unsafe impl Lanes<WIDTH> for Avx2 {
             let t = _mm256_mul_ps(_mm256_div_ps(depths, sum), _mm256_set1_ps(shear.per_depth));
             let ahead = _mm256_cmp_ps::<_CMP_GT_OQ>(t, zero);
             let near = _mm256_cmp_ps::<_CMP_LE_OQ>(t, _mm256_set1_ps(t_far));
-            let met = _mm256_and_ps(sure, _mm256_and_ps(ahead, near));
-            Some(Met {
-                surely: inside & _mm256_movemask_ps(met) as u32,
-                perhaps: inside & !_mm256_movemask_ps(sure) as u32,
-                meetings: [t, v, w, sum],
-            })
+            let within = _mm256_movemask_ps(_mm256_and_ps(ahead, near)) as u32;
+            let sure = _mm256_movemask_ps(sure) as u32;
+            let met = inside & (within | !sure);
+            if met == 0 {
+                return None;
+            }
+            Some(Met { surely: met & sure, perhaps: met & !sure, meetings: [t, v, w, sum] })
         }
     }
 
@@ -152,6 +165,16 @@ unsafe fn sheared(leaf: &Leaf<'_>, corner: usize, first: usize, shear: &Shear) -
 unsafe fn cross(p: &[__m256; 3], q: &[__m256; 3]) -> __m256 {
     // SAFETY: the caller sees to the instructions.
     unsafe { _mm256_sub_ps(_mm256_mul_ps(p[0], q[1]), _mm256_mul_ps(p[1], q[0])) }
+}
+
+/// The squared distances of sheared corners from the ray.
+///
+/// # Safety
+/// Needs the instructions of [`Avx2`].
+#[inline(always)]
+unsafe fn distance2([x, y, _]: &[__m256; 3]) -> __m256 {
+    // SAFETY: the caller sees to the instructions.
+    unsafe { _mm256_add_ps(_mm256_mul_ps(*x, *x), _mm256_mul_ps(*y, *y)) }
 }
 
 /// # Safety

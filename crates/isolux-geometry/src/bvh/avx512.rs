@@ -3,7 +3,7 @@
 
 use super::slabs::Slabs;
 use super::traverse::{Entry, Lanes, Met};
-use super::triangle_test::{FAR, Meeting, Shear};
+use super::triangle_test::{Meeting, Shear, TRUSTED, TRUSTED_M2};
 use super::wide::{Leaf, Node, Reference, WideTree};
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
@@ -13,20 +13,17 @@ const WIDTH: usize = 16;
 /// Needs AVX-512 F, VL, DQ and BW, and what [`Avx2`](super::avx2::Avx2) needs.
 pub(super) struct Avx512;
 
-// SAFETY: `push_met` writes the first eight entries, and the last eight where more are met.
+// SAFETY: `push` writes the first eight entries, and the last eight where more are met.
 unsafe impl Lanes<WIDTH> for Avx512 {
     type Meetings = [__m512; 4];
 
+    type Distances = __m512i;
+
     #[inline(always)]
-    unsafe fn push_met(
-        node: &Node<WIDTH>,
-        slabs: &Slabs,
-        t_far: f32,
-        free: &mut [MaybeUninit<Entry>; WIDTH],
-    ) -> usize {
+    unsafe fn children_met(node: &Node<WIDTH>, slabs: &Slabs, t_far: f32) -> (__m512i, u32) {
         let (near, far) = slabs.rows(node);
         // SAFETY: the caller sees to the instructions. Rows of a node have sixteen lanes and lie on
-        // multiples of 64 bytes; each store of 64 bytes fills eight entries.
+        // multiples of 64 bytes.
         unsafe {
             let crossing = |axis: usize, planes: &[f32; WIDTH], offset: &[f32; 3]| {
                 let planes = _mm512_load_ps(planes.as_ptr());
@@ -43,20 +40,30 @@ unsafe impl Lanes<WIDTH> for Avx512 {
                 _mm512_min_epi32(crossing(0, far[0], &slabs.leave), crossing(1, far[1], &slabs.leave)),
                 _mm512_min_epi32(crossing(2, far[2], &slabs.leave), bits(_mm512_set1_ps(t_far))),
             );
-            let met = _mm512_cmple_epi32_mask(enter, leave);
-            let count = met.count_ones() as usize;
+            (enter, u32::from(_mm512_cmple_epi32_mask(enter, leave)))
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn push(
+        node: &Node<WIDTH>,
+        distances: __m512i,
+        met: u32,
+        free: &mut [MaybeUninit<Entry>; WIDTH],
+    ) {
+        // SAFETY: the caller sees to the instructions; each store of 64 bytes fills eight entries.
+        unsafe {
             // The lanes met move to the front, distance above child.
-            let t = _mm512_maskz_compress_epi32(met, enter);
+            let t = _mm512_maskz_compress_epi32(met as u16, distances);
             let children = _mm512_load_si512(node.children.as_ptr().cast());
-            let child = _mm512_maskz_compress_epi32(met, children);
+            let child = _mm512_maskz_compress_epi32(met as u16, children);
             let to: *mut __m512i = free.as_mut_ptr().cast();
             let first = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
             _mm512_storeu_si512(to, _mm512_permutex2var_epi32(child, first, t));
-            if count > WIDTH / 2 {
+            if met.count_ones() as usize > WIDTH / 2 {
                 let last = _mm512_add_epi32(first, _mm512_set1_epi32(8));
                 _mm512_storeu_si512(to.add(1), _mm512_permutex2var_epi32(child, last, t));
             }
-            count
         }
     }
 
@@ -85,11 +92,13 @@ unsafe impl Lanes<WIDTH> for Avx512 {
                 return None;
             }
             let sum = _mm512_add_ps(u, _mm512_add_ps(v, w));
-            let least = _mm512_loadu_ps(leaf.least_sums(first));
-            let distance2 = _mm512_add_ps(_mm512_mul_ps(a[0], a[0]), _mm512_mul_ps(a[1], a[1]));
-            let far = _mm512_mul_ps(distance2, _mm512_set1_ps(FAR));
-            let least = _mm512_max_ps(least, far);
-            let sure = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(_mm512_abs_ps(sum), least);
+            let farthest2 =
+                _mm512_max_ps(distance2(&a), _mm512_max_ps(distance2(&b), distance2(&c)));
+            let trusted = _mm512_add_ps(
+                _mm512_mul_ps(farthest2, _mm512_set1_ps(TRUSTED)),
+                _mm512_set1_ps(TRUSTED_M2),
+            );
+            let sure = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(_mm512_abs_ps(sum), trusted);
             let depths = _mm512_add_ps(
                 _mm512_mul_ps(u, a[2]),
                 _mm512_add_ps(_mm512_mul_ps(v, b[2]), _mm512_mul_ps(w, c[2])),
@@ -97,11 +106,12 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             let t = _mm512_mul_ps(_mm512_div_ps(depths, sum), _mm512_set1_ps(shear.per_depth));
             let ahead = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(t, zero);
             let near = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(t, _mm512_set1_ps(t_far));
-            Some(Met {
-                surely: inside & u32::from(sure & ahead & near),
-                perhaps: inside & !u32::from(sure),
-                meetings: [t, v, w, sum],
-            })
+            let met = inside & u32::from((ahead & near) | !sure);
+            if met == 0 {
+                return None;
+            }
+            let sure = u32::from(sure);
+            Some(Met { surely: met & sure, perhaps: met & !sure, meetings: [t, v, w, sum] })
         }
     }
 
@@ -162,4 +172,14 @@ unsafe fn cross(p: &[__m512; 3], q: &[__m512; 3]) -> __m512 {
 unsafe fn bits(x: __m512) -> __m512i {
     // SAFETY: the caller sees to the instructions.
     unsafe { _mm512_castps_si512(x) }
+}
+
+/// The squared distances of sheared corners from the ray.
+///
+/// # Safety
+/// Needs the instructions of [`Avx512`].
+#[inline(always)]
+unsafe fn distance2([x, y, _]: &[__m512; 3]) -> __m512 {
+    // SAFETY: the caller sees to the instructions.
+    unsafe { _mm512_add_ps(_mm512_mul_ps(*x, *x), _mm512_mul_ps(*y, *y)) }
 }

@@ -2,7 +2,7 @@
 //! an instruction, others go on.
 #![allow(unsafe_code, reason = "vector instructions, reached only where the processor has them")]
 
-use super::traverse::{Lanes, Query, Stack, Walk};
+use super::traverse::{Constants, Lanes, Query, Stack, Walk};
 use super::triangle_test::Shear;
 use super::wide::WideTree;
 use crate::Ray;
@@ -32,10 +32,10 @@ pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
     }
     while in_flight > 0 {
         for (slot, stack) in walks.iter_mut().zip(&mut stacks) {
-            let Some((place, walk)) = slot else { continue };
+            let Some((place, constants, walk)) = slot else { continue };
             // SAFETY: as the caller says.
             unsafe {
-                if walk.step::<W, L>(tree, stack) {
+                if walk.step::<W, L>(tree, constants, stack) {
                     L::prefetch(tree, walk.next());
                     continue;
                 }
@@ -53,10 +53,10 @@ fn depart<const W: usize, Q: Query>(
     tree: &WideTree<W>,
     waiting: &mut Enumerate<Iter<'_, Ray>>,
     tell: &mut impl FnMut(usize, Q::Answer),
-) -> Option<(usize, Walk<Q>)> {
+) -> Option<(usize, Constants, Walk<Q>)> {
     for (place, ray) in waiting {
         match tree.root.zip(Shear::new(ray)) {
-            Some((root, shear)) => return Some((place, Walk::new(root, ray, shear, tree.reach))),
+            Some((root, shear)) => return Some((place, Constants::new(ray, shear, tree.reach), Walk::new(root, Q::new(ray, &shear)))),
             None => tell(place, Q::NOTHING),
         }
     }

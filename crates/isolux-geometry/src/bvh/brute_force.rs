@@ -2,7 +2,7 @@
 //!
 //! Slow, and kept as the oracle: the hierarchy returns the same hits bit for bit.
 
-use super::triangle_test::{Meeting, Shear, comes_before, corners, least_sum};
+use super::triangle_test::{Meeting, Shear, comes_before, corners};
 use crate::{Hit, Ray, TriangleMesh};
 
 /// The first triangle that the ray meets: see [`Bvh::closest_hit`](super::Bvh::closest_hit).
@@ -33,8 +33,7 @@ fn meetings(mesh: &TriangleMesh, ray: &Ray) -> impl Iterator<Item = (u32, Meetin
         (0..mesh.len() as u32).filter(move |&triangle| Some(triangle) != skip).filter_map(
             move |triangle| {
                 let corners = corners(mesh, triangle)?;
-                let corner = |corner: usize, axis: usize| corners[corner][axis];
-                Some((triangle, shear.meet(corner, least_sum(&corners))?))
+                Some((triangle, shear.meet(|corner, axis| corners[corner][axis])?))
             },
         )
     })

@@ -3,7 +3,7 @@
 
 use super::slabs::Slabs;
 use super::traverse::{Entry, Lanes, Met};
-use super::triangle_test::{FAR, Meeting, Shear};
+use super::triangle_test::{Meeting, Shear, TRUSTED, TRUSTED_M2, greater};
 use super::wide::{Leaf, Node, Reference, WideTree};
 use std::mem::MaybeUninit;
 
@@ -15,13 +15,10 @@ pub(super) struct Portable;
 unsafe impl<const W: usize> Lanes<W> for Portable {
     type Meetings = [[f32; W]; 4];
 
+    type Distances = [f32; W];
+
     #[inline(always)]
-    unsafe fn push_met(
-        node: &Node<W>,
-        slabs: &Slabs,
-        t_far: f32,
-        free: &mut [MaybeUninit<Entry>; W],
-    ) -> usize {
+    unsafe fn children_met(node: &Node<W>, slabs: &Slabs, t_far: f32) -> ([f32; W], u32) {
         let Slabs { inverse, enter, leave, .. } = slabs;
         let (near, far) = slabs.rows(node);
         let (mut t_enter, mut t_leave) = ([0.0_f32; W], [t_far; W]);
@@ -33,15 +30,23 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
                 t_leave[lane] = if b < t_leave[lane] { b } else { t_leave[lane] };
             }
         }
-        let mut met =
+        let met =
             (0..W).fold(0_u32, |met, lane| met | u32::from(t_enter[lane] <= t_leave[lane]) << lane);
-        let count = met.count_ones() as usize;
-        for entry in &mut free[..count] {
-            let lane = met.trailing_zeros() as usize;
+        (t_enter, met)
+    }
+
+    #[inline(always)]
+    unsafe fn push(
+        node: &Node<W>,
+        distances: [f32; W],
+        mut met: u32,
+        free: &mut [MaybeUninit<Entry>; W],
+    ) {
+        for entry in &mut free[..met.count_ones() as usize] {
+            let lane = met.trailing_zeros();
             met &= met - 1;
-            entry.write(Entry::new(t_enter[lane], node.children[lane]));
+            entry.write(Entry::new(distances[lane as usize % W], node.child(lane)));
         }
-        count
     }
 
     #[inline(always)]
@@ -79,21 +84,23 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
         if inside == 0 {
             return None;
         }
-        let least_sums = numbers(leaf.least_sums(first));
         let [mut t, mut sum] = [[0.0_f32; W]; 2];
-        let (mut met, mut sure) = (0, 0);
+        let (mut within, mut sure) = (0, 0);
         for lane in 0..W {
             sum[lane] = u[lane] + (v[lane] + w[lane]);
-            let distance2 = x[0][lane] * x[0][lane] + y[0][lane] * y[0][lane];
-            let size = sum[lane].abs();
-            let is_sure = (size >= least_sums[lane]) & (size >= distance2 * FAR);
+            let distance2 = |k: usize| x[k][lane] * x[k][lane] + y[k][lane] * y[k][lane];
+            let farthest2 = greater(distance2(0), greater(distance2(1), distance2(2)));
+            let is_sure = sum[lane].abs() >= farthest2 * TRUSTED + TRUSTED_M2;
             let depths = u[lane] * z[0][lane] + (v[lane] * z[1][lane] + w[lane] * z[2][lane]);
             t[lane] = depths / sum[lane] * per_depth;
             sure |= u32::from(is_sure) << lane;
-            met |= u32::from((t[lane] > 0.0) & (t[lane] <= t_far)) << lane;
+            within |= u32::from((t[lane] > 0.0) & (t[lane] <= t_far)) << lane;
         }
-        let meetings = [t, v, w, sum];
-        Some(Met { surely: inside & sure & met, perhaps: inside & !sure, meetings })
+        let met = inside & (within | !sure);
+        if met == 0 {
+            return None;
+        }
+        Some(Met { surely: met & sure, perhaps: met & !sure, meetings: [t, v, w, sum] })
     }
 
     #[inline(always)]

@@ -18,17 +18,26 @@ pub(super) unsafe trait Lanes<const W: usize> {
     /// What is known of `W` meetings.
     type Meetings;
 
-    /// Writes an entry for each child that the ray meets up to `t_far`, and returns their number.
-    /// Entries behind them may be overwritten.
+    /// Where the ray enters `W` boxes.
+    type Distances: Copy;
+
+    /// Where the ray enters the children, and a bit for each that it meets up to `t_far`.
     ///
     /// # Safety
     /// See [`Lanes`].
-    unsafe fn push_met(
+    unsafe fn children_met(node: &Node<W>, slabs: &Slabs, t_far: f32) -> (Self::Distances, u32);
+
+    /// Writes an entry for each child `met`, in the order of the lanes. Entries behind them may be
+    /// overwritten.
+    ///
+    /// # Safety
+    /// See [`Lanes`].
+    unsafe fn push(
         node: &Node<W>,
-        slabs: &Slabs,
-        t_far: f32,
+        distances: Self::Distances,
+        met: u32,
         free: &mut [MaybeUninit<Entry>; W],
-    ) -> usize;
+    );
 
     /// Tries the triangles from `first` on, of which there are some in the `lanes` given.
     ///
@@ -212,16 +221,28 @@ pub(super) unsafe fn trace<const W: usize, L: Lanes<W>, Q: Query>(
 ) -> Q::Answer {
     let Some((root, shear)) = tree.root.zip(Shear::new(ray)) else { return Q::NOTHING };
     let mut stack = Stack::<W>::new();
-    let mut walk = Walk::<Q>::new(root, ray, shear, tree.reach);
+    let constants = Constants::new(ray, shear, tree.reach);
+    let mut walk = Walk::<Q>::new(root, Q::new(ray, &shear));
     // SAFETY: as the caller says.
-    while unsafe { walk.step::<W, L>(tree, &mut stack) } {}
+    while unsafe { walk.step::<W, L>(tree, &constants, &mut stack) } {}
     walk.answer()
+}
+
+/// What the tests need to know about a ray.
+pub(super) struct Constants {
+    shear: Shear,
+    slabs: Slabs,
+}
+
+impl Constants {
+    #[inline(always)]
+    pub(super) fn new(ray: &Ray, shear: Shear, reach: f32) -> Self {
+        Self { shear, slabs: Slabs::new(ray, reach) }
+    }
 }
 
 /// A ray on its way.
 pub(super) struct Walk<Q> {
-    shear: Shear,
-    slabs: Slabs,
     query: Q,
     /// What to look at next.
     current: Reference,
@@ -232,9 +253,8 @@ pub(super) struct Walk<Q> {
 
 impl<Q: Query> Walk<Q> {
     #[inline(always)]
-    pub(super) fn new(root: Reference, ray: &Ray, shear: Shear, reach: f32) -> Self {
-        let (slabs, query) = (Slabs::new(ray, reach), Q::new(ray, &shear));
-        Self { shear, slabs, query, current: root, waiting: 0 }
+    pub(super) fn new(root: Reference, query: Q) -> Self {
+        Self { query, current: root, waiting: 0 }
     }
 
     /// What the next step looks at.
@@ -256,28 +276,33 @@ impl<Q: Query> Walk<Q> {
     pub(super) unsafe fn step<const W: usize, L: Lanes<W>>(
         &mut self,
         tree: &WideTree<W>,
+        constants: &Constants,
         stack: &mut Stack<W>,
     ) -> bool {
-        let reference = self.current;
-        if !reference.is_leaf() {
-            let free = stack.above(self.waiting);
+        if self.current.is_leaf() {
             // SAFETY: as the caller says.
-            let met = unsafe {
-                L::push_met(tree.node(reference), &self.slabs, self.query.t_far(), free)
-            };
-            if met > 0 {
-                if met == 2 || (Q::ORDERED && met > 2) {
-                    // SAFETY: `push_met` initialized as many.
-                    sort_nearest_last(unsafe { free[..met].assume_init_mut() });
-                }
-                self.waiting += met - 1;
-                self.current = stack.entry(self.waiting).reference();
-                return true;
+            if unsafe { self.look_at::<W, L>(&tree.leaf(self.current), &constants.shear) } {
+                return false;
             }
         } else {
+            let node = tree.node(self.current);
             // SAFETY: as the caller says.
-            if unsafe { self.look_at::<W, L>(&tree.leaf(reference)) } {
-                return false;
+            let (distances, met) =
+                unsafe { L::children_met(node, &constants.slabs, self.query.t_far()) };
+            if met.is_power_of_two() {
+                self.current = node.child(met.trailing_zeros());
+                return true;
+            }
+            if met != 0 {
+                let free = stack.above(self.waiting);
+                // SAFETY: as the caller says; `push` initializes as many as are met.
+                let entries = unsafe {
+                    L::push(node, distances, met, free);
+                    free[..met.count_ones() as usize].assume_init_mut()
+                };
+                self.waiting += entries.len() - 1;
+                self.current = nearest_last::<Q>(entries).reference();
+                return true;
             }
         }
         while self.waiting > 0 {
@@ -298,21 +323,21 @@ impl<Q: Query> Walk<Q> {
     /// # Safety
     /// The processor has the instructions of `L`.
     #[inline(always)]
-    unsafe fn look_at<const W: usize, L: Lanes<W>>(&mut self, leaf: &Leaf<'_>) -> bool {
+    unsafe fn look_at<const W: usize, L: Lanes<W>>(&mut self, leaf: &Leaf<'_>, shear: &Shear) -> bool {
         let mut first = 0;
         while first < leaf.count {
             let lanes = (2 << (leaf.count - first - 1)) - 1;
             let start = first;
             first += W;
             // SAFETY: as the caller says.
-            let met = unsafe { L::meet(leaf, start, lanes, &self.shear, self.query.t_far()) };
+            let met = unsafe { L::meet(leaf, start, lanes, shear, self.query.t_far()) };
             let Some(met) = met else { continue };
             let mut surely = met.surely;
             while surely != 0 {
                 let lane = surely.trailing_zeros() as usize;
                 surely &= surely - 1;
                 // SAFETY: as the caller says.
-                let meeting = || unsafe { L::meeting(&met.meetings, lane, &self.shear) };
+                let meeting = || unsafe { L::meeting(&met.meetings, lane, shear) };
                 self.query.note(leaf.label(start + lane), meeting);
                 if self.query.is_done() {
                     return true;
@@ -320,7 +345,7 @@ impl<Q: Query> Walk<Q> {
             }
             if met.perhaps != 0 {
                 // A copy goes in and comes back: what is lent to a call does not stay in registers.
-                let query = look_closely(self.query, self.shear, *leaf, start, met.perhaps);
+                let query = look_closely(self.query, *shear, *leaf, start, met.perhaps);
                 self.query = query;
                 if query.is_done() {
                     return true;
@@ -373,24 +398,26 @@ impl<const W: usize> Stack<W> {
         unsafe { &mut *self.0.as_mut_ptr().add(waiting).cast() }
     }
 
-    /// One of the entries written by `push_met`.
+    /// One of the entries written by `Lanes::push`.
     #[inline(always)]
     fn entry(&self, index: usize) -> Entry {
         debug_assert!(index < STACK);
-        // SAFETY: only asked for entries below those that were counted by `push_met`.
+        // SAFETY: only asked for entries below those that were counted when they were pushed.
         unsafe { self.0.get_unchecked(index).assume_init() }
     }
 }
 
-/// By exchanges where there are few, else by insertion.
+/// Sorts entries, two or more, by exchanges where there are few, and returns the last.
 #[inline(always)]
-fn sort_nearest_last(entries: &mut [Entry]) {
+fn nearest_last<Q: Query>(entries: &mut [Entry]) -> Entry {
     match entries {
         [a, b] => order(a, b),
+        _ if !Q::ORDERED => entries[entries.len() - 1],
         [a, b, c] => {
             order(a, b);
             order(b, c);
             order(a, b);
+            *c
         }
         [a, b, c, d] => {
             order(a, b);
@@ -398,14 +425,20 @@ fn sort_nearest_last(entries: &mut [Entry]) {
             order(a, c);
             order(b, d);
             order(b, c);
+            *d
         }
-        _ => sort_by_insertion(entries),
+        _ => {
+            sort_by_insertion(entries);
+            entries[entries.len() - 1]
+        }
     }
 }
 
+/// Exchanges two entries if need be, and returns the nearer.
 #[inline(always)]
-fn order(a: &mut Entry, b: &mut Entry) {
+fn order(a: &mut Entry, b: &mut Entry) -> Entry {
     (*a, *b) = ((*a).max(*b), (*a).min(*b));
+    *b
 }
 
 #[inline(always)]

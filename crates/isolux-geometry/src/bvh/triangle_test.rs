@@ -7,17 +7,14 @@
 //!
 //! A rounded edge function may vanish but never has the wrong sign: rounding keeps the order of its
 //! two products. Zero counts as inside, so none of the triangles around a point is lost. What the
-//! roundings do spoil are the weights. With u = 2^-24 the unit roundoff, m the largest sheared
-//! coordinate and s the sum of the edge functions, the point that the weights stand for lies up to
-//! 12 u m^3 / s beside the ray. For a ray within a triangle whose longest edge is L (along any axis)
-//! m <= 2 L, so that distance is at most 2^-10 L unless s < [`LEAST_SUM`] L^2; boxes are that much
-//! larger than their triangles (see [`REACH`]). Triangles seen so close to edge-on are decided anew
-//! in `f64`, where products of `f32` numbers are exact, and so are the signs.
-//!
-//! That a ray whose edge functions agree lies within the triangle is itself true up to roundings
-//! only: to 12 u m^2 / s <= 2^-13 (m / L)^2 longest edges. That bounds m, unless m is thousands of L
-//! to begin with and all is rounding. So where a corner is farther from the ray than fits the sum
-//! ([`FAR`]), the triangle is decided in `f64`, too.
+//! roundings do spoil are the weights. With u = 2^-24 the unit roundoff, m the distance of the
+//! farthest corner from the ray in the sheared space and s the sum of the edge functions, the point
+//! that the weights stand for lies up to 12 u m^3 / s beside the ray. Where s >= [`TRUSTED`] m^2 that
+//! is less than m / 2000, so the ray passes within the triangle or close to it, m is no more than
+//! sqrt(8) times the longest edge along any axis, and the distance less than [`REACH`] of that edge;
+//! boxes are so much larger than their triangles. Triangles with a smaller sum, seen close to
+//! edge-on, are decided anew in `f64`, where products of `f32` numbers are exact, and so are the
+//! signs.
 
 use crate::{Hit, Ray};
 
@@ -29,16 +26,12 @@ pub(super) const LARGEST: f32 = (1_u64 << 38) as f32;
 /// How far beside its triangle, in longest edges, a point that is hit may lie.
 pub(super) const REACH: f32 = 1.0 / 1024.0;
 
-/// Sums of the edge functions below this many squares of the longest edge are not trusted: twelve
-/// unit roundoffs times (2 L)^3 over L [`REACH`].
-const LEAST_SUM: f32 = 12.0 * 8.0 * (0.5 * f32::EPSILON) / REACH;
+/// Least sum of the edge functions that is trusted, in squared distances of the farthest corner:
+/// twelve unit roundoffs times sqrt(8), over [`REACH`], rounded up.
+pub(super) const TRUSTED: f32 = 36.0 * (0.5 * f32::EPSILON) / REACH;
 
-/// Nor are those below this share of the squared distance of the first corner: within a triangle that
-/// distance is at most sqrt(8) L.
-pub(super) const FAR: f32 = LEAST_SUM / 8.0;
-
-/// Nor are those from which on the weights would lose precision to underflow, m2.
-const LEAST_SUM_M2: f32 = 1.0 / (1_u128 << 80) as f32;
+/// And in any case, m2: below, the weights lose precision to underflow.
+pub(super) const TRUSTED_M2: f32 = 1.0 / (1_u128 << 80) as f32;
 
 /// The axes in cyclic order, by the last of them.
 const CYCLES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
@@ -96,12 +89,8 @@ impl Shear {
     }
 
     /// Where the ray meets a triangle within `0 < t < t_max`. `corner` gives the coordinates by
-    /// corner and axis, `least_sum` is that of [`least_sum`].
-    pub(super) fn meet(
-        &self,
-        corner: impl Fn(usize, usize) -> f32,
-        least_sum: f32,
-    ) -> Option<Meeting> {
+    /// corner and axis.
+    pub(super) fn meet(&self, corner: impl Fn(usize, usize) -> f32) -> Option<Meeting> {
         let [a, b, c] = [0, 1, 2].map(|k| self.sheared(|axis| corner(k, axis)));
         let (u, v, w) = (cross(c, b), cross(a, c), cross(b, a));
         let is_front = (u >= 0.0) & (v >= 0.0) & (w >= 0.0);
@@ -110,8 +99,8 @@ impl Shear {
             return None;
         }
         let sum = u + (v + w);
-        let distance2 = a[0] * a[0] + a[1] * a[1];
-        if (sum.abs() >= least_sum) & (sum.abs() >= distance2 * FAR) {
+        let farthest2 = distance2(a).max(distance2(b)).max(distance2(c));
+        if sum.abs() >= farthest2 * TRUSTED + TRUSTED_M2 {
             let t = (u * a[2] + (v * b[2] + w * c[2])) / sum * self.per_depth;
             ((t > 0.0) & (t <= self.t_last)).then_some(self.meeting(t, v, w, sum))
         } else {
@@ -144,12 +133,6 @@ impl Shear {
         let is_met = (is_front | is_back) & (t > 0.0) & (t <= self.t_last);
         is_met.then_some(Meeting { t, v, w, sum, back })
     }
-}
-
-/// Below which sum of the edge functions a triangle is decided by [`Shear::meet_exactly`].
-pub(super) fn least_sum(corners: &[[f32; 3]; 3]) -> f32 {
-    let edge = longest_edge(corners);
-    (LEAST_SUM * edge * edge).max(LEAST_SUM_M2)
 }
 
 /// The longest edge along any axis.
@@ -187,8 +170,12 @@ pub(super) fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
 }
 
+/// The squared distance of a sheared corner from the ray.
+fn distance2([x, y, _]: [f32; 3]) -> f32 {
+    x * x + y * y
+}
+
 /// The edge function.
-#[inline(always)]
 fn cross(p: [f32; 3], q: [f32; 3]) -> f32 {
     p[0] * q[1] - p[1] * q[0]
 }

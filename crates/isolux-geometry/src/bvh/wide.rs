@@ -5,7 +5,6 @@
 //! after row of as many numbers as it has triangles.
 
 use super::memory::{LINE, Line, with_capacity, words_mut};
-use super::triangle_test::least_sum;
 use std::marker::PhantomData;
 
 /// A node: the boxes of `W` children and what is in them.
@@ -24,6 +23,12 @@ impl<const W: usize> Node<W> {
         Self { planes: [low, high, low, high, low, high], children: [Reference(0); W] }
     };
 
+    /// The child in a lane.
+    #[inline(always)]
+    pub(super) fn child(&self, lane: u32) -> Reference {
+        self.children[lane as usize % W]
+    }
+
     /// Cache lines of a node.
     pub(super) const LINES: usize = size_of::<Self>() / size_of::<Line>();
 }
@@ -34,8 +39,8 @@ pub(super) const MAX_WIDTH: usize = 16;
 /// Greatest number of triangles of a leaf.
 pub(super) const MAX_LEAF: usize = 16;
 
-/// Rows of a leaf: nine of coordinates, by corner and axis, the least sums, and the labels.
-const ROWS: usize = 11;
+/// Rows of a leaf: nine of coordinates, by corner and axis, and the labels.
+const ROWS: usize = 10;
 
 /// Marks the label of a triangle that `any_hit` does not see; the rest is the index of the triangle.
 pub(super) const TRANSPARENT: u32 = 1 << 31;
@@ -61,12 +66,6 @@ impl Leaf<'_> {
     #[inline(always)]
     pub(super) fn coordinates(&self, corner: usize, axis: usize, first: usize) -> *const f32 {
         self.row(3 * corner + axis, first)
-    }
-
-    /// The same of [`least_sum`](super::triangle_test::least_sum).
-    #[inline(always)]
-    pub(super) fn least_sums(&self, first: usize) -> *const f32 {
-        self.row(ROWS - 2, first)
     }
 
     #[inline(always)]
@@ -214,7 +213,6 @@ impl<const W: usize> Builder<W> {
             for (row, x) in triangle.corners.iter().flatten().enumerate() {
                 words[row * count + place] = x.to_bits();
             }
-            words[(ROWS - 2) * count + place] = least_sum(&triangle.corners).to_bits();
             words[(ROWS - 1) * count + place] = triangle.label;
         }
         Ok(Reference(Reference::LEAF | (count as u32 - 1) << Reference::COUNT_SHIFT | line))
