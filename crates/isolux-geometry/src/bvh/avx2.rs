@@ -82,7 +82,7 @@ unsafe impl Lanes<WIDTH> for Avx2 {
             let a = sheared(leaf, 0, first, shear);
             let b = sheared(leaf, 1, first, shear);
             let c = sheared(leaf, 2, first, shear);
-            let (u, v, w) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
+            let ((u, of_u), (v, of_v), (w, of_w)) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
             let zero = _mm256_setzero_ps();
             let front = _mm256_cmp_ps::<_CMP_GE_OQ>(_mm256_min_ps(u, _mm256_min_ps(v, w)), zero);
             let back = _mm256_cmp_ps::<_CMP_LE_OQ>(_mm256_max_ps(u, _mm256_max_ps(v, w)), zero);
@@ -91,40 +91,42 @@ unsafe impl Lanes<WIDTH> for Avx2 {
                 return None;
             }
             let sum = _mm256_add_ps(u, _mm256_add_ps(v, w));
-            let farthest2 =
-                _mm256_max_ps(distance2(&a), _mm256_max_ps(distance2(&b), distance2(&c)));
+            let product = _mm256_max_ps(size_of(of_u), _mm256_max_ps(size_of(of_v), size_of(of_w)));
             let trusted = _mm256_add_ps(
-                _mm256_mul_ps(farthest2, _mm256_set1_ps(TRUSTED)),
+                _mm256_mul_ps(product, _mm256_set1_ps(TRUSTED)),
                 _mm256_set1_ps(TRUSTED_M2),
             );
-            let size = _mm256_andnot_ps(_mm256_set1_ps(-0.0), sum);
+            let size = size_of(sum);
             let sure = _mm256_cmp_ps::<_CMP_GE_OQ>(size, trusted);
             let depths = _mm256_add_ps(
                 _mm256_mul_ps(u, a[2]),
                 _mm256_add_ps(_mm256_mul_ps(v, b[2]), _mm256_mul_ps(w, c[2])),
             );
-            let t = _mm256_mul_ps(_mm256_div_ps(depths, sum), _mm256_set1_ps(shear.per_depth));
-            let ahead = _mm256_cmp_ps::<_CMP_GT_OQ>(t, zero);
-            let near = _mm256_cmp_ps::<_CMP_LE_OQ>(t, _mm256_set1_ps(t_far));
+            // The distance times the size of the sum; dividing can wait for those that are left.
+            let signed = _mm256_xor_ps(depths, _mm256_and_ps(sum, _mm256_set1_ps(-0.0)));
+            let distance = _mm256_mul_ps(signed, _mm256_set1_ps(shear.per_depth));
+            let end = _mm256_mul_ps(size, _mm256_set1_ps(Shear::beyond(t_far)));
+            let ahead = _mm256_cmp_ps::<_CMP_GE_OQ>(distance, zero);
+            let near = _mm256_cmp_ps::<_CMP_LE_OQ>(distance, end);
             let within = _mm256_movemask_ps(_mm256_and_ps(ahead, near)) as u32;
             let sure = _mm256_movemask_ps(sure) as u32;
             let met = inside & (within | !sure);
             if met == 0 {
                 return None;
             }
-            Some(Met { surely: met & sure, perhaps: met & !sure, meetings: [t, v, w, sum] })
+            Some(Met { likely: met & sure, perhaps: met & !sure, meetings: [depths, v, w, sum] })
         }
     }
 
     #[inline(always)]
     unsafe fn meeting(meetings: &[__m256; 4], lane: usize, shear: &Shear) -> Meeting {
-        let [t, v, w, sum] = meetings.map(|lanes| {
+        let [depths, v, w, sum] = meetings.map(|lanes| {
             let mut numbers = [0.0_f32; WIDTH];
             // SAFETY: the caller sees to the instructions; as many numbers as lanes are written.
             unsafe { _mm256_storeu_ps(numbers.as_mut_ptr(), lanes) };
             numbers[lane % WIDTH]
         });
-        shear.meeting(t, v, w, sum)
+        shear.meeting(depths, v, w, sum)
     }
 
     #[inline(always)]
@@ -156,25 +158,28 @@ unsafe fn sheared(leaf: &Leaf<'_>, corner: usize, first: usize, shear: &Shear) -
     }
 }
 
-/// The edge functions. Not fused: rounded products order as the exact ones do, so that the sign of
-/// their difference is never the wrong one.
+/// The edge functions, and the second of their two products. Not fused: rounded products order as
+/// the exact ones do, so that the sign of their difference is never the wrong one.
 ///
 /// # Safety
 /// Needs the instructions of [`Avx2`].
 #[inline(always)]
-unsafe fn cross(p: &[__m256; 3], q: &[__m256; 3]) -> __m256 {
+unsafe fn cross(p: &[__m256; 3], q: &[__m256; 3]) -> (__m256, __m256) {
     // SAFETY: the caller sees to the instructions.
-    unsafe { _mm256_sub_ps(_mm256_mul_ps(p[0], q[1]), _mm256_mul_ps(p[1], q[0])) }
+    unsafe {
+        let second = _mm256_mul_ps(p[1], q[0]);
+        (_mm256_sub_ps(_mm256_mul_ps(p[0], q[1]), second), second)
+    }
 }
 
-/// The squared distances of sheared corners from the ray.
+/// Numbers without their signs.
 ///
 /// # Safety
 /// Needs the instructions of [`Avx2`].
 #[inline(always)]
-unsafe fn distance2([x, y, _]: &[__m256; 3]) -> __m256 {
+unsafe fn size_of(x: __m256) -> __m256 {
     // SAFETY: the caller sees to the instructions.
-    unsafe { _mm256_add_ps(_mm256_mul_ps(*x, *x), _mm256_mul_ps(*y, *y)) }
+    unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), x) }
 }
 
 /// # Safety

@@ -81,7 +81,7 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             let a = sheared(leaf, 0, first, shear);
             let b = sheared(leaf, 1, first, shear);
             let c = sheared(leaf, 2, first, shear);
-            let (u, v, w) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
+            let ((u, of_u), (v, of_v), (w, of_w)) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
             let zero = _mm512_setzero_ps();
             let least = _mm512_min_ps(u, _mm512_min_ps(v, w));
             let most = _mm512_max_ps(u, _mm512_max_ps(v, w));
@@ -92,38 +92,42 @@ unsafe impl Lanes<WIDTH> for Avx512 {
                 return None;
             }
             let sum = _mm512_add_ps(u, _mm512_add_ps(v, w));
-            let farthest2 =
-                _mm512_max_ps(distance2(&a), _mm512_max_ps(distance2(&b), distance2(&c)));
+            // The greatest of them without their signs.
+            let product = _mm512_range_ps::<0b1011>(of_u, _mm512_range_ps::<0b1011>(of_v, of_w));
             let trusted = _mm512_add_ps(
-                _mm512_mul_ps(farthest2, _mm512_set1_ps(TRUSTED)),
+                _mm512_mul_ps(product, _mm512_set1_ps(TRUSTED)),
                 _mm512_set1_ps(TRUSTED_M2),
             );
-            let sure = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(_mm512_abs_ps(sum), trusted);
+            let size = _mm512_abs_ps(sum);
+            let sure = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(size, trusted);
             let depths = _mm512_add_ps(
                 _mm512_mul_ps(u, a[2]),
                 _mm512_add_ps(_mm512_mul_ps(v, b[2]), _mm512_mul_ps(w, c[2])),
             );
-            let t = _mm512_mul_ps(_mm512_div_ps(depths, sum), _mm512_set1_ps(shear.per_depth));
-            let ahead = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(t, zero);
-            let near = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(t, _mm512_set1_ps(t_far));
+            // The distance times the size of the sum; dividing can wait for those that are left.
+            let signed = _mm512_xor_ps(depths, _mm512_and_ps(sum, _mm512_set1_ps(-0.0)));
+            let distance = _mm512_mul_ps(signed, _mm512_set1_ps(shear.per_depth));
+            let end = _mm512_mul_ps(size, _mm512_set1_ps(Shear::beyond(t_far)));
+            let ahead = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(distance, zero);
+            let near = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(distance, end);
             let met = inside & u32::from((ahead & near) | !sure);
             if met == 0 {
                 return None;
             }
             let sure = u32::from(sure);
-            Some(Met { surely: met & sure, perhaps: met & !sure, meetings: [t, v, w, sum] })
+            Some(Met { likely: met & sure, perhaps: met & !sure, meetings: [depths, v, w, sum] })
         }
     }
 
     #[inline(always)]
     unsafe fn meeting(meetings: &[__m512; 4], lane: usize, shear: &Shear) -> Meeting {
-        let [t, v, w, sum] = meetings.map(|lanes| {
+        let [depths, v, w, sum] = meetings.map(|lanes| {
             let mut numbers = [0.0_f32; WIDTH];
             // SAFETY: the caller sees to the instructions; as many numbers as lanes are written.
             unsafe { _mm512_storeu_ps(numbers.as_mut_ptr(), lanes) };
             numbers[lane % WIDTH]
         });
-        shear.meeting(t, v, w, sum)
+        shear.meeting(depths, v, w, sum)
     }
 
     #[inline(always)]
@@ -155,15 +159,18 @@ unsafe fn sheared(leaf: &Leaf<'_>, corner: usize, first: usize, shear: &Shear) -
     }
 }
 
-/// The edge functions. Not fused: rounded products order as the exact ones do, so that the sign of
-/// their difference is never the wrong one.
+/// The edge functions, and the second of their two products. Not fused: rounded products order as
+/// the exact ones do, so that the sign of their difference is never the wrong one.
 ///
 /// # Safety
 /// Needs the instructions of [`Avx512`].
 #[inline(always)]
-unsafe fn cross(p: &[__m512; 3], q: &[__m512; 3]) -> __m512 {
+unsafe fn cross(p: &[__m512; 3], q: &[__m512; 3]) -> (__m512, __m512) {
     // SAFETY: the caller sees to the instructions.
-    unsafe { _mm512_sub_ps(_mm512_mul_ps(p[0], q[1]), _mm512_mul_ps(p[1], q[0])) }
+    unsafe {
+        let second = _mm512_mul_ps(p[1], q[0]);
+        (_mm512_sub_ps(_mm512_mul_ps(p[0], q[1]), second), second)
+    }
 }
 
 /// # Safety
@@ -172,14 +179,4 @@ unsafe fn cross(p: &[__m512; 3], q: &[__m512; 3]) -> __m512 {
 unsafe fn bits(x: __m512) -> __m512i {
     // SAFETY: the caller sees to the instructions.
     unsafe { _mm512_castps_si512(x) }
-}
-
-/// The squared distances of sheared corners from the ray.
-///
-/// # Safety
-/// Needs the instructions of [`Avx512`].
-#[inline(always)]
-unsafe fn distance2([x, y, _]: &[__m512; 3]) -> __m512 {
-    // SAFETY: the caller sees to the instructions.
-    unsafe { _mm512_add_ps(_mm512_mul_ps(*x, *x), _mm512_mul_ps(*y, *y)) }
 }

@@ -84,29 +84,32 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
         if inside == 0 {
             return None;
         }
-        let [mut t, mut sum] = [[0.0_f32; W]; 2];
+        let [mut depths, mut sum] = [[0.0_f32; W]; 2];
+        let t_end = Shear::beyond(t_far);
         let (mut within, mut sure) = (0, 0);
         for lane in 0..W {
             sum[lane] = u[lane] + (v[lane] + w[lane]);
-            let distance2 = |k: usize| x[k][lane] * x[k][lane] + y[k][lane] * y[k][lane];
-            let farthest2 = greater(distance2(0), greater(distance2(1), distance2(2)));
-            let is_sure = sum[lane].abs() >= farthest2 * TRUSTED + TRUSTED_M2;
-            let depths = u[lane] * z[0][lane] + (v[lane] * z[1][lane] + w[lane] * z[2][lane]);
-            t[lane] = depths / sum[lane] * per_depth;
+            let size = sum[lane].abs();
+            let second = |p: usize, q: usize| (y[p][lane] * x[q][lane]).abs();
+            let product = greater(second(2, 1), greater(second(0, 2), second(1, 0)));
+            let is_sure = size >= product * TRUSTED + TRUSTED_M2;
+            depths[lane] = u[lane] * z[0][lane] + (v[lane] * z[1][lane] + w[lane] * z[2][lane]);
+            // The distance times the size of the sum; dividing can wait for those that are left.
+            let distance = if sum[lane] < 0.0 { -depths[lane] } else { depths[lane] } * per_depth;
             sure |= u32::from(is_sure) << lane;
-            within |= u32::from((t[lane] > 0.0) & (t[lane] <= t_far)) << lane;
+            within |= u32::from((distance >= 0.0) & (distance <= size * t_end)) << lane;
         }
         let met = inside & (within | !sure);
         if met == 0 {
             return None;
         }
-        Some(Met { surely: met & sure, perhaps: met & !sure, meetings: [t, v, w, sum] })
+        Some(Met { likely: met & sure, perhaps: met & !sure, meetings: [depths, v, w, sum] })
     }
 
     #[inline(always)]
     unsafe fn meeting(meetings: &[[f32; W]; 4], lane: usize, shear: &Shear) -> Meeting {
-        let [t, v, w, sum] = meetings.map(|numbers| numbers[lane % W]);
-        shear.meeting(t, v, w, sum)
+        let [depths, v, w, sum] = meetings.map(|numbers| numbers[lane % W]);
+        shear.meeting(depths, v, w, sum)
     }
 
     #[inline(always)]

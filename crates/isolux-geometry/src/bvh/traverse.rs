@@ -66,8 +66,8 @@ pub(super) unsafe trait Lanes<const W: usize> {
 
 /// Which triangles a ray meets.
 pub(super) struct Met<M> {
-    /// A bit for each triangle met at `0 < t <= t_far`.
-    pub(super) surely: u32,
+    /// A bit for each triangle met at `0 < t <= t_far`, and maybe for some met a little beyond.
+    pub(super) likely: u32,
     /// A bit for each that [`Shear::meet_exactly`] must decide.
     pub(super) perhaps: u32,
     pub(super) meetings: M,
@@ -109,7 +109,7 @@ pub(super) trait Query: Copy {
     /// Nothing beyond is of interest.
     fn t_far(&self) -> f32;
 
-    /// Takes note of a meeting with a triangle up to `t_far`.
+    /// Takes note of a meeting with a triangle, if it is one up to `t_far`.
     fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting);
 
     /// Whether nothing more can be learned.
@@ -147,7 +147,7 @@ impl Query for Closest {
         if index != self.skip {
             let meeting = meeting();
             let is_first = |best: (u32, Meeting)| comes_before((index, &meeting), (best.0, &best.1));
-            if self.closest.is_none_or(is_first) {
+            if meeting.is_within(self.t_far) && self.closest.is_none_or(is_first) {
                 self.t_far = meeting.t;
                 self.closest = Some((index, meeting));
             }
@@ -189,8 +189,9 @@ impl Query for Any {
     }
 
     #[inline(always)]
-    fn note(&mut self, label: u32, _: impl FnOnce() -> Meeting) {
-        self.is_hit |= label < TRANSPARENT && label != self.skip;
+    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) {
+        let is_seen = label < TRANSPARENT && label != self.skip;
+        self.is_hit |= is_seen && meeting().is_within(self.t_far);
     }
 
     #[inline(always)]
@@ -332,10 +333,10 @@ impl<Q: Query> Walk<Q> {
             // SAFETY: as the caller says.
             let met = unsafe { L::meet(leaf, start, lanes, shear, self.query.t_far()) };
             let Some(met) = met else { continue };
-            let mut surely = met.surely;
-            while surely != 0 {
-                let lane = surely.trailing_zeros() as usize;
-                surely &= surely - 1;
+            let mut likely = met.likely;
+            while likely != 0 {
+                let lane = likely.trailing_zeros() as usize;
+                likely &= likely - 1;
                 // SAFETY: as the caller says.
                 let meeting = || unsafe { L::meeting(&met.meetings, lane, shear) };
                 self.query.note(leaf.label(start + lane), meeting);
@@ -370,7 +371,7 @@ fn look_closely<Q: Query>(
         let triangle = first + lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;
         let corner = |corner: usize, axis: usize| leaf.coordinate(corner, axis, triangle);
-        if let Some(meeting) = shear.meet_exactly(corner).filter(|m| m.t <= query.t_far()) {
+        if let Some(meeting) = shear.meet_exactly(corner) {
             query.note(leaf.label(triangle), || meeting);
         }
     }

@@ -7,14 +7,15 @@
 //!
 //! A rounded edge function may vanish but never has the wrong sign: rounding keeps the order of its
 //! two products. Zero counts as inside, so none of the triangles around a point is lost. What the
-//! roundings do spoil are the weights. With u = 2^-24 the unit roundoff, m the distance of the
-//! farthest corner from the ray in the sheared space and s the sum of the edge functions, the point
-//! that the weights stand for lies up to 12 u m^3 / s beside the ray. Where s >= [`TRUSTED`] m^2 that
-//! is less than m / 2000, so the ray passes within the triangle or close to it, m is no more than
-//! sqrt(8) times the longest edge along any axis, and the distance less than [`REACH`] of that edge;
-//! boxes are so much larger than their triangles. Triangles with a smaller sum, seen close to
-//! edge-on, are decided anew in `f64`, where products of `f32` numbers are exact, and so are the
-//! signs.
+//! roundings do spoil are the weights. With u = 2^-24 the unit roundoff, p the greatest product in the
+//! edge functions, s their sum, and m the distance of the farthest corner from the ray in the sheared
+//! space, the point that the weights stand for lies up to 12 u p m / s beside the ray. Where
+//! s >= [`TRUSTED`] p that is less than m / 2000, so the ray passes within the triangle or close to
+//! it, m is no more than sqrt(8) times the longest edge along any axis, and the distance less than
+//! [`REACH`] of that edge; boxes are so much larger than their triangles. (Of the two products of an
+//! edge function the second one is enough: it differs from the first by no more than s.) Triangles
+//! with a smaller sum, seen close to edge-on, are decided anew in `f64`, where products of `f32`
+//! numbers are exact, and so are the signs.
 
 use crate::{Hit, Ray};
 
@@ -26,8 +27,8 @@ pub(super) const LARGEST: f32 = (1_u64 << 38) as f32;
 /// How far beside its triangle, in longest edges, a point that is hit may lie.
 pub(super) const REACH: f32 = 1.0 / 1024.0;
 
-/// Least sum of the edge functions that is trusted, in squared distances of the farthest corner:
-/// twelve unit roundoffs times sqrt(8), over [`REACH`], rounded up.
+/// Least sum of the edge functions that is trusted, in products of coordinates: twelve unit roundoffs
+/// times sqrt(8), over [`REACH`], rounded up.
 pub(super) const TRUSTED: f32 = 36.0 * (0.5 * f32::EPSILON) / REACH;
 
 /// And in any case, m2: below, the weights lose precision to underflow.
@@ -99,20 +100,29 @@ impl Shear {
             return None;
         }
         let sum = u + (v + w);
-        let farthest2 = distance2(a).max(distance2(b)).max(distance2(c));
-        if sum.abs() >= farthest2 * TRUSTED + TRUSTED_M2 {
-            let t = (u * a[2] + (v * b[2] + w * c[2])) / sum * self.per_depth;
-            ((t > 0.0) & (t <= self.t_last)).then_some(self.meeting(t, v, w, sum))
+        let [of_u, of_v, of_w] = [c[1] * b[0], a[1] * c[0], b[1] * a[0]].map(f32::abs);
+        if sum.abs() >= of_u.max(of_v).max(of_w) * TRUSTED + TRUSTED_M2 {
+            let meeting = self.meeting(u * a[2] + (v * b[2] + w * c[2]), v, w, sum);
+            meeting.is_within(self.t_last).then_some(meeting)
         } else {
             self.meet_exactly(corner)
         }
     }
 
-    /// A meeting at `t`, by the second and third weight and the sum of all.
+    /// A meeting by the weighted sum of the depths, the second and third weight, and the sum of all
+    /// weights.
     #[inline(always)]
-    pub(super) fn meeting(&self, t: f32, v: f32, w: f32, sum: f32) -> Meeting {
+    pub(super) fn meeting(&self, depths: f32, v: f32, w: f32, sum: f32) -> Meeting {
+        let t = depths / sum * self.per_depth;
         let [v, w, sum] = [v, w, sum].map(f64::from);
         Meeting { t, v, w, sum, back: (sum < 0.0) != (self.per_depth < 0.0) }
+    }
+
+    /// Meetings with greater `|depths * per_depth| / |sum|` lie beyond `t_far`: the two roundings of
+    /// `t`, and those here, are less than that.
+    #[inline(always)]
+    pub(super) fn beyond(t_far: f32) -> f32 {
+        t_far * (1.0 + 8.0 * f32::EPSILON)
     }
 
     /// The same with exact edge functions.
@@ -156,6 +166,12 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
+    /// Whether it lies between the origin and `t_far`.
+    #[inline(always)]
+    pub(super) fn is_within(&self, t_far: f32) -> bool {
+        (self.t > 0.0) & (self.t <= t_far)
+    }
+
     /// With the index of the triangle met.
     #[inline(always)]
     pub(super) fn of(self, triangle: u32) -> Hit {
@@ -168,11 +184,6 @@ impl Meeting {
 #[inline(always)]
 pub(super) fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
-}
-
-/// The squared distance of a sheared corner from the ray.
-fn distance2([x, y, _]: [f32; 3]) -> f32 {
-    x * x + y * y
 }
 
 /// The edge function.

@@ -1,8 +1,9 @@
 //! The tree that rays walk: nodes with 8 or 16 children and leaves of up to 16 triangles, both laid
 //! out component by component, so that one vector instruction treats many of them.
 //!
-//! Nodes and leaves share one run of cache lines. A leaf takes no more room than its triangles: row
-//! after row of as many numbers as it has triangles.
+//! A leaf takes no more room than its triangles: row after row of as many numbers as it has triangles.
+//! Nodes lie apart from leaves: they are few, and rays go through the same ones over and over, so
+//! they should share cache lines and pages with each other only.
 
 use super::memory::{LINE, Line, with_capacity, words_mut};
 use std::marker::PhantomData;
@@ -134,7 +135,8 @@ impl Reference {
 /// The tree, `W` children to a node.
 #[derive(Clone, Debug)]
 pub(super) struct WideTree<const W: usize> {
-    lines: Vec<Line>,
+    nodes: Vec<Line>,
+    leaves: Vec<Line>,
     /// `None` over no triangles.
     pub(super) root: Option<Reference>,
     /// Largest coordinate without its sign, metres.
@@ -144,17 +146,17 @@ pub(super) struct WideTree<const W: usize> {
 impl<const W: usize> WideTree<W> {
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        self.lines.capacity() * size_of::<Line>()
+        (self.nodes.capacity() + self.leaves.capacity()) * size_of::<Line>()
     }
 
     #[inline(always)]
     pub(super) fn node(&self, reference: Reference) -> &Node<W> {
-        debug_assert!(!reference.is_leaf() && reference.node() + Node::<W>::LINES <= self.lines.len());
+        debug_assert!(!reference.is_leaf() && reference.node() + Node::<W>::LINES <= self.nodes.len());
         // SAFETY: a reference to a node comes from `Builder::add_node`, which appended all its
         // lines. Lines are never taken away and are aligned as nodes are, and any bits are a node.
         #[allow(unsafe_code, reason = "bits of lines seen as a node, without a check per step")]
         unsafe {
-            &*self.lines.as_ptr().add(reference.node()).cast()
+            &*self.nodes.as_ptr().add(reference.node()).cast()
         }
     }
 
@@ -162,20 +164,19 @@ impl<const W: usize> WideTree<W> {
     pub(super) fn leaf(&self, reference: Reference) -> Leaf<'_> {
         debug_assert!(reference.is_leaf());
         let (line, count) = reference.leaf();
-        let words = self.lines.as_ptr().wrapping_add(line).cast();
+        let words = self.leaves.as_ptr().wrapping_add(line).cast();
         Leaf { words, count, tree: PhantomData }
     }
 
     /// The first line of what stands at a reference, and the number of its lines.
     #[inline(always)]
     pub(super) fn lines_of(&self, reference: Reference) -> (*const Line, usize) {
-        let (line, lines) = if reference.is_leaf() {
+        if reference.is_leaf() {
             let (line, count) = reference.leaf();
-            (line, Leaf::lines(count))
+            (self.leaves.as_ptr().wrapping_add(line), Leaf::lines(count))
         } else {
-            (reference.node(), Node::<W>::LINES)
-        };
-        (self.lines.as_ptr().wrapping_add(line), lines)
+            (self.nodes.as_ptr().wrapping_add(reference.node()), Node::<W>::LINES)
+        }
     }
 }
 
@@ -185,7 +186,10 @@ pub(super) struct TooLarge;
 
 /// A tree that grows.
 #[derive(Debug, Default)]
-pub(super) struct Builder<const W: usize>(Vec<Line>);
+pub(super) struct Builder<const W: usize> {
+    nodes: Vec<Line>,
+    leaves: Vec<Line>,
+}
 
 impl<const W: usize> Builder<W> {
     /// Lines behind the last leaf, which vector loads of its last rows may touch.
@@ -193,12 +197,12 @@ impl<const W: usize> Builder<W> {
 
     /// Appends room for a node.
     pub(super) fn add_node(&mut self) -> Result<Reference, TooLarge> {
-        Ok(Reference(self.add_lines(Node::<W>::LINES)?))
+        Ok(Reference(add_lines(&mut self.nodes, Node::<W>::LINES)?))
     }
 
     /// Fills the room of a node.
     pub(super) fn set_node(&mut self, reference: Reference, node: &Node<W>) {
-        let place = words_mut(&mut self.0[reference.node()..]);
+        let place = words_mut(&mut self.nodes[reference.node()..]);
         let rows = node.planes.iter().flatten().map(|x| x.to_bits());
         let children = node.children.iter().map(|child| child.0);
         place.iter_mut().zip(rows.chain(children)).for_each(|(word, bits)| *word = bits);
@@ -207,8 +211,8 @@ impl<const W: usize> Builder<W> {
     /// Appends a leaf of 1 to [`MAX_LEAF`] triangles.
     pub(super) fn add_leaf(&mut self, triangles: &[Labelled]) -> Result<Reference, TooLarge> {
         let count = triangles.len();
-        let line = self.add_lines(Leaf::lines(count))?;
-        let words = words_mut(&mut self.0[line as usize..]);
+        let line = add_lines(&mut self.leaves, Leaf::lines(count))?;
+        let words = words_mut(&mut self.leaves[line as usize..]);
         for (place, triangle) in triangles.iter().enumerate() {
             for (row, x) in triangle.corners.iter().flatten().enumerate() {
                 words[row * count + place] = x.to_bits();
@@ -220,16 +224,22 @@ impl<const W: usize> Builder<W> {
 
     /// The tree, in no more memory than it needs.
     pub(super) fn finish(self, root: Option<Reference>, reach: f32) -> WideTree<W> {
-        let mut lines = with_capacity(self.0.len() + Self::BEHIND);
-        lines.extend_from_slice(&self.0);
-        lines.resize(self.0.len() + Self::BEHIND, Line::default());
-        WideTree { lines, root, reach }
+        let Self { nodes, leaves } = self;
+        WideTree { nodes: packed(&nodes, 0), leaves: packed(&leaves, Self::BEHIND), root, reach }
     }
+}
 
-    /// Appends lines of zeros and returns the number of the first.
-    fn add_lines(&mut self, lines: usize) -> Result<u32, TooLarge> {
-        let first = self.0.len();
-        self.0.resize(first + lines, Line::default());
-        if first < Reference::LINES { Ok(first as u32) } else { Err(TooLarge) }
-    }
+/// Appends lines of zeros and returns the number of the first.
+fn add_lines(to: &mut Vec<Line>, lines: usize) -> Result<u32, TooLarge> {
+    let first = to.len();
+    to.resize(first + lines, Line::default());
+    if first < Reference::LINES { Ok(first as u32) } else { Err(TooLarge) }
+}
+
+/// The same lines, and so many of zeros, in memory of just that size.
+fn packed(lines: &[Line], behind: usize) -> Vec<Line> {
+    let mut packed = with_capacity(lines.len() + behind);
+    packed.extend_from_slice(lines);
+    packed.resize(lines.len() + behind, Line::default());
+    packed
 }
