@@ -79,9 +79,11 @@ unsafe impl Lanes<WIDTH> for Avx2 {
         // SAFETY: the caller sees to the instructions. A row of a leaf is followed by as many words
         // as there are lanes, and more.
         unsafe {
-            let a = sheared(leaf, 0, first, shear);
-            let b = sheared(leaf, 1, first, shear);
-            let c = sheared(leaf, 2, first, shear);
+            let rows = leaf.first_corners(shear.axes, first);
+            let corner = |k: usize| rows.map(|row| row.wrapping_add(k * leaf.to_next_corner()));
+            let a = sheared(corner(0), shear);
+            let b = sheared(corner(1), shear);
+            let c = sheared(corner(2), shear);
             let ((u, of_u), (v, of_v), (w, of_w)) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
             let zero = _mm256_setzero_ps();
             let front = _mm256_cmp_ps::<_CMP_GE_OQ>(_mm256_min_ps(u, _mm256_min_ps(v, w)), zero);
@@ -120,12 +122,10 @@ unsafe impl Lanes<WIDTH> for Avx2 {
 
     #[inline(always)]
     unsafe fn meeting(meetings: &[__m256; 4], lane: usize, shear: &Shear) -> Meeting {
-        let [depths, v, w, sum] = meetings.map(|lanes| {
-            let mut numbers = [0.0_f32; WIDTH];
-            // SAFETY: the caller sees to the instructions; as many numbers as lanes are written.
-            unsafe { _mm256_storeu_ps(numbers.as_mut_ptr(), lanes) };
-            numbers[lane % WIDTH]
-        });
+        let [depths, v, w, sum] = meetings;
+        // SAFETY: the caller sees to the instructions.
+        let [depths, v, w, sum] =
+            unsafe { [one(*depths, lane), one(*v, lane), one(*w, lane), one(*sum, lane)] };
         shear.meeting(depths, v, w, sum)
     }
 
@@ -144,12 +144,10 @@ unsafe impl Lanes<WIDTH> for Avx2 {
 /// # Safety
 /// Needs the instructions of [`Avx2`].
 #[inline(always)]
-unsafe fn sheared(leaf: &Leaf<'_>, corner: usize, first: usize, shear: &Shear) -> [__m256; 3] {
-    let [x, y, z] = shear.axes;
+unsafe fn sheared([x, y, z]: [*const f32; 3], shear: &Shear) -> [__m256; 3] {
     // SAFETY: a row of a leaf is followed by eight words and more.
     unsafe {
-        let from_origin = |axis: usize, k: usize| {
-            let row = leaf.coordinates(corner, axis, first);
+        let from_origin = |row: *const f32, k: usize| {
             _mm256_sub_ps(_mm256_loadu_ps(row), _mm256_set1_ps(shear.origin[k]))
         };
         let depth = from_origin(z, 2);
@@ -180,6 +178,18 @@ unsafe fn cross(p: &[__m256; 3], q: &[__m256; 3]) -> (__m256, __m256) {
 unsafe fn size_of(x: __m256) -> __m256 {
     // SAFETY: the caller sees to the instructions.
     unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), x) }
+}
+
+/// The number in a lane.
+///
+/// # Safety
+/// Needs the instructions of [`Avx2`].
+#[inline(always)]
+unsafe fn one(lanes: __m256, lane: usize) -> f32 {
+    let mut numbers = [0.0_f32; WIDTH];
+    // SAFETY: the caller sees to the instructions; as many numbers as lanes are written.
+    unsafe { _mm256_storeu_ps(numbers.as_mut_ptr(), lanes) };
+    numbers[lane % WIDTH]
 }
 
 /// # Safety

@@ -78,9 +78,11 @@ unsafe impl Lanes<WIDTH> for Avx512 {
         // SAFETY: the caller sees to the instructions. A row of a leaf is followed by as many words
         // as there are lanes, and more.
         unsafe {
-            let a = sheared(leaf, 0, first, shear);
-            let b = sheared(leaf, 1, first, shear);
-            let c = sheared(leaf, 2, first, shear);
+            let rows = leaf.first_corners(shear.axes, first);
+            let corner = |k: usize| rows.map(|row| row.wrapping_add(k * leaf.to_next_corner()));
+            let a = sheared(corner(0), shear);
+            let b = sheared(corner(1), shear);
+            let c = sheared(corner(2), shear);
             let ((u, of_u), (v, of_v), (w, of_w)) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
             let zero = _mm512_setzero_ps();
             let least = _mm512_min_ps(u, _mm512_min_ps(v, w));
@@ -121,12 +123,10 @@ unsafe impl Lanes<WIDTH> for Avx512 {
 
     #[inline(always)]
     unsafe fn meeting(meetings: &[__m512; 4], lane: usize, shear: &Shear) -> Meeting {
-        let [depths, v, w, sum] = meetings.map(|lanes| {
-            let mut numbers = [0.0_f32; WIDTH];
-            // SAFETY: the caller sees to the instructions; as many numbers as lanes are written.
-            unsafe { _mm512_storeu_ps(numbers.as_mut_ptr(), lanes) };
-            numbers[lane % WIDTH]
-        });
+        let [depths, v, w, sum] = meetings;
+        // SAFETY: the caller sees to the instructions.
+        let [depths, v, w, sum] =
+            unsafe { [one(*depths, lane), one(*v, lane), one(*w, lane), one(*sum, lane)] };
         shear.meeting(depths, v, w, sum)
     }
 
@@ -145,12 +145,10 @@ unsafe impl Lanes<WIDTH> for Avx512 {
 /// # Safety
 /// Needs the instructions of [`Avx512`].
 #[inline(always)]
-unsafe fn sheared(leaf: &Leaf<'_>, corner: usize, first: usize, shear: &Shear) -> [__m512; 3] {
-    let [x, y, z] = shear.axes;
+unsafe fn sheared([x, y, z]: [*const f32; 3], shear: &Shear) -> [__m512; 3] {
     // SAFETY: a row of a leaf is followed by sixteen words and more.
     unsafe {
-        let from_origin = |axis: usize, k: usize| {
-            let row = leaf.coordinates(corner, axis, first);
+        let from_origin = |row: *const f32, k: usize| {
             _mm512_sub_ps(_mm512_loadu_ps(row), _mm512_set1_ps(shear.origin[k]))
         };
         let depth = from_origin(z, 2);
@@ -171,6 +169,18 @@ unsafe fn cross(p: &[__m512; 3], q: &[__m512; 3]) -> (__m512, __m512) {
         let second = _mm512_mul_ps(p[1], q[0]);
         (_mm512_sub_ps(_mm512_mul_ps(p[0], q[1]), second), second)
     }
+}
+
+/// The number in a lane.
+///
+/// # Safety
+/// Needs the instructions of [`Avx512`].
+#[inline(always)]
+unsafe fn one(lanes: __m512, lane: usize) -> f32 {
+    let mut numbers = [0.0_f32; WIDTH];
+    // SAFETY: the caller sees to the instructions; as many numbers as lanes are written.
+    unsafe { _mm512_storeu_ps(numbers.as_mut_ptr(), lanes) };
+    numbers[lane % WIDTH]
 }
 
 /// # Safety

@@ -62,8 +62,9 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
         let numbers = |row: *const f32| unsafe { *row.cast::<[f32; W]>() };
         let (mut x, mut y, mut z) = ([[0.0_f32; W]; 3], [[0.0; W]; 3], [[0.0; W]; 3]);
         for corner in 0..3 {
-            let [row_x, row_y, row_z] =
-                axes.map(|axis| numbers(leaf.coordinates(corner, axis, first)));
+            let to_corner = corner * leaf.to_next_corner();
+            let rows = leaf.first_corners(*axes, first);
+            let [row_x, row_y, row_z] = rows.map(|row| numbers(row.wrapping_add(to_corner)));
             for lane in 0..W {
                 let depth = row_z[lane] - origin[2];
                 x[corner][lane] = row_x[lane] - origin[0] - slope[0] * depth;

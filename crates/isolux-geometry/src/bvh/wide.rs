@@ -62,11 +62,18 @@ impl Leaf<'_> {
         (ROWS * count).div_ceil(LINE)
     }
 
-    /// One coordinate of the triangles from `first` on. [`MAX_LEAF`] numbers can be read, of which
-    /// those behind the last triangle have no meaning.
+    /// Three coordinates of the first corners of the triangles from `first` on; those of the next
+    /// corners follow after [`Leaf::to_next_corner`]. [`MAX_LEAF`] numbers can be read, of which those
+    /// behind the last triangle have no meaning.
     #[inline(always)]
-    pub(super) fn coordinates(&self, corner: usize, axis: usize, first: usize) -> *const f32 {
-        self.row(3 * corner + axis, first)
+    pub(super) fn first_corners(&self, axes: [usize; 3], first: usize) -> [*const f32; 3] {
+        axes.map(|axis| self.row(axis, first))
+    }
+
+    /// Numbers from the coordinates of one corner to those of the next.
+    #[inline(always)]
+    pub(super) fn to_next_corner(&self) -> usize {
+        3 * self.count
     }
 
     #[inline(always)]
@@ -80,7 +87,7 @@ impl Leaf<'_> {
         // SAFETY: within the leaf, where the row is.
         #[allow(unsafe_code, reason = "a number of a tree that cannot change, without a check")]
         unsafe {
-            *self.coordinates(corner, axis, triangle)
+            *self.row(3 * corner + axis, triangle)
         }
     }
 
