@@ -19,6 +19,10 @@ use crate::Ray;
 /// far more.
 const LEAST_MARGIN_M: f32 = 1.0 / (1_u64 << 60) as f32;
 
+/// A component of a direction so small that the ray does not leave its place along the axis by more
+/// than D 2^-38, as the greatest is 1 / [`LARGEST`] or more: with it there is no division by zero.
+const LEAST: f32 = 1.0 / (LARGEST * LARGEST);
+
 /// What the box test needs to know about a ray. A plane at `p` is met at `p * inverse - offset`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slabs {
@@ -39,12 +43,9 @@ impl Slabs {
         let Ray { origin, direction, .. } = *ray;
         let greatest = |v: [f32; 3]| greater(greater(v[0].abs(), v[1].abs()), v[2].abs());
         let margin = 16.0 * f32::EPSILON * (reach + greatest(origin)) + LEAST_MARGIN_M;
-        // A component so small that the ray does not leave its place along the axis: no division by
-        // zero, and no more than D 2^-38 away from the ray.
-        let least = greatest(direction) / LARGEST;
         let inverse = |axis: usize| {
             let d = direction[axis];
-            1.0 / if d.abs() < least { least.copysign(d) } else { d }
+            1.0 / if d.abs() < LEAST { LEAST.copysign(d) } else { d }
         };
         let inverse = [inverse(0), inverse(1), inverse(2)];
         let enter = |axis: usize| origin[axis] * inverse[axis] + margin * inverse[axis].abs();
