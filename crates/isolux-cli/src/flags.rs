@@ -44,7 +44,7 @@ pub(crate) enum Command {
 }
 
 const SCENE_HELP: &str =
-    "Path of a scene (.gltf, .glb, .obj, scene.toml), builtin:cube or builtin:sphere";
+    "Path of a scene (.gltf, .glb, .obj, scene.toml), builtin:cube, builtin:sphere or builtin:hall";
 
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::notes::{Note, note};
 use isolux::scene::{Scene, SceneProblem};
-use isolux_compare::{BUILTIN_NAMES, builtin};
+use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
 use isolux_formats::{Loaded, Problem, Problems};
 use std::path::Path;
 
@@ -38,12 +38,15 @@ pub(crate) fn bad_file(problems: Problems) -> Failure {
 }
 
 fn built_in(name: &str) -> Result<Scene, Failure> {
-    let Some(parts) = builtin(name) else {
+    let parts = builtin(name).map_err(|error| {
         let names = BUILTIN_NAMES.map(|known| format!("{BUILTIN}{known}")).join(", ");
-        return Err(Failure::bad_input(format!(
-            "there is no scene `{BUILTIN}{name}`; choose one of {names}"
-        )));
-    };
+        Failure::bad_input(match error {
+            BuiltinError::Unknown => {
+                format!("there is no scene `{BUILTIN}{name}`; choose one of {names}")
+            }
+            BuiltinError::Variant(error) => format!("{BUILTIN}{name}: {error}"),
+        })
+    })?;
     Scene::assemble(parts).map_err(|problems| {
         Failure::BadInput(problems.iter().map(|p| format!("{BUILTIN}{name}: {p}")).collect())
     })

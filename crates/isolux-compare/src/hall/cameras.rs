@@ -1,0 +1,31 @@
+//! Points of view.
+
+use isolux::geometry::{Direction, Point};
+use isolux::scene::Camera;
+
+/// Name, eye, what it looks at (m), vertical opening angle (degrees).
+const VIEWS: [(&str, [f64; 3], [f64; 3], f64); 6] = [
+    ("overview", [35.3, 16.9, 3.3], [10.0, 8.0, 0.6], 58.0),
+    ("colonnade", [34.4, 7.1, 1.7], [8.0, 8.7, 1.7], 50.0),
+    ("nave", [34.2, 10.2, 1.7], [0.0, 12.1, 1.6], 55.0),
+    ("desk", [10.4, 1.3, 1.55], [12.6, 4.4, 0.85], 55.0),
+    ("mirror", [6.2, 13.6, 1.65], [0.0, 11.6, 1.5], 60.0),
+    ("meeting", [30.6, 7.2, 1.7], [35.0, 2.6, 0.9], 60.0),
+];
+
+pub(super) fn cameras() -> Vec<Camera> {
+    VIEWS
+        .iter()
+        .map(|&(name, eye, target, fov_deg)| {
+            let position = Point::from(eye);
+            let direction = (Point::from(target) - position).direction();
+            Camera {
+                name: name.into(),
+                position,
+                direction: direction.expect("a view looks somewhere"),
+                up: Direction::Z,
+                vertical_fov_rad: fov_deg.to_radians(),
+            }
+        })
+        .collect()
+}
