@@ -48,7 +48,7 @@ const GREY: [f64; 3] = [1.0; 3];
 
 /// Name and look, in the order of [`Surface`].
 const ALL: [(Surface, &str, Look); 23] = [
-    (S::Floor, "carpet", Matt(0.25, [1.0, 0.95, 0.86])),
+    (S::Floor, "parquet", Matt(0.30, [1.0, 0.83, 0.64])),
     (S::Ceiling, "ceiling", Matt(0.80, GREY)),
     (S::Wall, "wall", Matt(0.65, [1.0, 0.97, 0.91])),
     (S::Column, "column", Matt(0.60, [1.0, 0.96, 0.88])),
