@@ -1,9 +1,9 @@
 //! What stands in the hall.
 
 use super::room::column_x_m;
+use super::size::{BAY_M, COLUMNS, GAP_M, LENGTH_M, WIDTH_M};
 use super::solid::{Form, Solid};
 use super::surface::Surface;
-use super::{BAY_M, COLUMNS, GAP_M, LENGTH_M, WIDTH_M};
 use isolux::geometry::{Point, Vector};
 use isolux::sampling::Key;
 use isolux::units::sincos_deg;

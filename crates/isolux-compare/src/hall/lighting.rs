@@ -3,7 +3,7 @@
 
 use super::lamps::lamps;
 use super::room::{BEAM_BOTTOM_M, HALF_BEAM_M, PROFILE_BOTTOM_M, PROFILES, column_x_m};
-use super::{COLUMNS, HEIGHT_M, LENGTH_M, ROWS_M, WIDTH_M};
+use super::size::{COLUMNS, HEIGHT_M, LENGTH_M, ROWS_M, WIDTH_M};
 use isolux::geometry::{Direction, Point, Vector};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Luminaire, LuminaireKind, UpAxis, world_from_luminaire};
@@ -12,7 +12,7 @@ use isolux::units::{Rgb, sincos_deg};
 /// Light groups.
 pub(super) const GROUPS: [&str; 3] = ["downlights", "desks", "walls"];
 /// Shares of the full flux at which the standard hall has 300 to 800 lx on its desks.
-const DIMMING: [f64; 3] = [0.1, 0.2, 0.25];
+const DIMMING: [f64; 3] = [0.06, 0.12, 0.15];
 const DOWNLIGHT: usize = 0;
 const BATWING: usize = 1;
 const WASHER: usize = 2;
@@ -239,7 +239,7 @@ fn on_ring(centre: [f64; 2], radius_m: f64, z_m: f64, count: u32) -> Vec<Hung> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hall::Variant;
+    use crate::hall::variant::Variant;
 
     #[test]
     fn the_standard_zones_hold_the_standard_number() {

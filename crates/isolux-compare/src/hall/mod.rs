@@ -11,6 +11,7 @@ mod furniture;
 mod lamps;
 mod lighting;
 mod room;
+mod size;
 mod solid;
 mod surface;
 #[cfg(test)]
@@ -21,21 +22,6 @@ pub use lamps::{Lamp, lamps};
 pub use variant::{Variant, VariantError};
 
 use isolux::scene::{SceneParts, UpAxis};
-
-/// From the west wall to the east wall, m.
-const LENGTH_M: f64 = 36.0;
-/// From the south wall to the north wall, m.
-const WIDTH_M: f64 = 24.0;
-/// From the floor to the ceiling, m.
-const HEIGHT_M: f64 = 4.0;
-/// Columns stand this far apart along the hall, the first and last half of it from the walls, m.
-const BAY_M: f64 = 6.0;
-/// Number of columns in a row.
-const COLUMNS: u32 = 6;
-/// The rows of columns, distance from the south wall, m.
-const ROWS_M: [f64; 2] = [8.0, 16.0];
-/// Between solids that touch: what is coplanar is decided by rounding.
-const GAP_M: f64 = 0.001;
 
 /// The hall in one of its variants.
 pub fn parts(variant: Variant) -> SceneParts {

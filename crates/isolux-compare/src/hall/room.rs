@@ -1,8 +1,8 @@
 //! The building: shell, columns, beams, and what is fixed to them.
 
+use super::size::{BAY_M, COLUMNS, GAP_M, HEIGHT_M, LENGTH_M, ROWS_M, WIDTH_M};
 use super::solid::{Form, Solid};
 use super::surface::Surface;
-use super::{BAY_M, COLUMNS, GAP_M, HEIGHT_M, LENGTH_M, ROWS_M, WIDTH_M};
 use isolux::geometry::{Point, Vector};
 
 /// Large plain surfaces are divided less than what stands between them.

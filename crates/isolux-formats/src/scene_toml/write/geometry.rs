@@ -1,7 +1,7 @@
 //! Shapes as one glTF file: a mesh each, named as the shape, of a material that is named as in the
 //! `scene.toml`, which says what it is.
 
-use super::SceneFile;
+use super::file::SceneFile;
 use super::materials::names;
 use super::text::quoted;
 use isolux::scene::{Body, Dielectric, Finish, Material, SceneParts, Shape, UpAxis};

@@ -1,6 +1,6 @@
 //! Photometric files behind the distributions of luminaires.
 
-use super::SceneFile;
+use super::file::SceneFile;
 use super::numbers::shortest;
 use crate::ies::{self, Photometry};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};

@@ -3,6 +3,7 @@
 //! (Shading normals, texture coordinates, and tilted luminaires come back rounded.)
 
 mod arrays;
+mod file;
 mod geometry;
 mod lamps;
 mod luminaires;
@@ -10,25 +11,11 @@ mod materials;
 mod numbers;
 mod text;
 
+pub use file::SceneFile;
 pub use lamps::NamedPhotometry;
 
 use crate::png::{self, PngError};
 use isolux::scene::{SceneParts, Texture, UpAxis};
-
-/// A file by its name within the folder of the scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneFile {
-    /// Name without folders.
-    pub name: String,
-    /// Contents.
-    pub bytes: Vec<u8>,
-}
-
-impl SceneFile {
-    fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
-        Self { name: name.into(), bytes: bytes.into() }
-    }
-}
 
 /// All files of a scene, `scene.toml` first. Photometric files that luminaires were made from, if
 /// they are known, are used as they are, with a dimming; others are made.
