@@ -2,6 +2,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks")]
 
 mod bench;
+mod hall;
 mod judge;
 mod smoke;
 mod test;
@@ -15,7 +16,9 @@ cargo xtask test    everything that must hold before a change lands
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask bench setup   download Embree 4.4 into target/embree
-cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]";
+cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
+cargo xtask bench hall    time to an accuracy against triangles and luminaires
+                          [--json] [--quick] [--accuracy 1%] [--time-limit 600s] [--threads 2]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -25,6 +28,7 @@ fn main() -> ExitCode {
         ["tidy"] => tidy::run(root),
         ["smoke"] => test::smoke_and_judge(root),
         ["bench", "setup"] => bench::setup(root),
+        ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),
         ["bench", "rays", ref arguments @ ..] => bench::rays(root, arguments),
         _ => Err(USAGE.to_owned()),
     };

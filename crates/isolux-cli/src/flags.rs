@@ -39,12 +39,14 @@ pub(crate) enum Command {
     Check(CheckFlags),
     /// Run the cases with exact answers
     Validate(ValidateFlags),
+    /// Write a scene as files to open and edit
+    Scene(SceneFlags),
     /// Solve a real interior and draw it, from nothing
     Demo(DemoFlags),
 }
 
-const SCENE_HELP: &str =
-    "Path of a scene (.gltf, .glb, .obj, scene.toml), builtin:cube or builtin:sphere";
+const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, scene.toml), builtin:cube, builtin:sphere, builtin:hall or a \
+     variant of it (builtin:hall,triangles=1e6,luminaires=100)";
 
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
@@ -240,6 +242,24 @@ pub(crate) struct ValidateFlags {
     /// Repetitions with different seeds
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     pub seeds: u32,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux scene builtin:hall -o hall
+  isolux scene builtin:hall,triangles=1e5,luminaires=500 -o hall-fine
+
+The folder gets scene.toml, scene.gltf with scene.bin, and photometric files. Reading scene.toml gives
+the scene again, with the same hash if its geometry is flat.")]
+pub(crate) struct SceneFlags {
+    #[arg(help = SCENE_HELP)]
+    pub scene: PathBuf,
+    /// Folder for the files
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// Replace files that are there
+    #[arg(long)]
+    pub force: bool,
 }
 
 #[derive(Debug, Args)]

@@ -20,6 +20,7 @@ mod render;
 mod report;
 mod request;
 mod saved_run;
+mod scene;
 mod solve;
 mod source;
 mod summary;
@@ -48,6 +49,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Check(flags) => check::run(flags, json),
         Command::Render(flags) => render::run(flags, json),
         Command::Validate(flags) => validate::run(flags, json),
+        Command::Scene(flags) => scene::run(flags, json),
         Command::Demo(flags) => demo::run(flags, json),
         Command::Info(flags) => info::run(flags, json),
     }

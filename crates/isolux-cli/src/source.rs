@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use crate::notes::{Note, note};
-use isolux::scene::{Scene, SceneProblem};
-use isolux_compare::{BUILTIN_NAMES, builtin};
+use isolux::scene::{Scene, SceneParts, SceneProblem};
+use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
 use isolux_formats::{Loaded, Problem, Problems};
 use std::path::Path;
 
@@ -19,9 +19,20 @@ pub(crate) fn read_scene(source: &Path) -> Result<Scene, Failure> {
 
 /// Reads a scene.
 pub(crate) fn read_scene_with_warnings(source: &Path) -> Result<Loaded<Scene>, Failure> {
+    let Loaded { value, warnings } = read_parts(source)?;
+    let value = Scene::assemble(value).map_err(|problems| {
+        let file = source;
+        let problem = |p: SceneProblem| Problem::new(file, p.place.to_string(), p.what, p.remedy);
+        bad_file(Problems(problems.into_iter().map(problem).collect()))
+    })?;
+    Ok(Loaded { value, warnings })
+}
+
+/// Reads what a scene is made of.
+pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
     match source.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {
         Some(name) => built_in(name).map(|value| Loaded { value, warnings: Vec::new() }),
-        None => from_file(source).map_err(bad_file),
+        None => isolux_formats::load(source).map_err(bad_file),
     }
 }
 
@@ -37,24 +48,14 @@ pub(crate) fn bad_file(problems: Problems) -> Failure {
     Failure::BadInput(problems.0.iter().map(ToString::to_string).collect())
 }
 
-fn built_in(name: &str) -> Result<Scene, Failure> {
-    let Some(parts) = builtin(name) else {
+fn built_in(name: &str) -> Result<SceneParts, Failure> {
+    builtin(name).map_err(|error| {
         let names = BUILTIN_NAMES.map(|known| format!("{BUILTIN}{known}")).join(", ");
-        return Err(Failure::bad_input(format!(
-            "there is no scene `{BUILTIN}{name}`; choose one of {names}"
-        )));
-    };
-    Scene::assemble(parts).map_err(|problems| {
-        Failure::BadInput(problems.iter().map(|p| format!("{BUILTIN}{name}: {p}")).collect())
+        Failure::bad_input(match error {
+            BuiltinError::Unknown => {
+                format!("there is no scene `{BUILTIN}{name}`; choose one of {names}")
+            }
+            BuiltinError::Variant(error) => format!("{BUILTIN}{name}: {error}"),
+        })
     })
-}
-
-/// By the extension of its name.
-fn from_file(path: &Path) -> Result<Loaded<Scene>, Problems> {
-    let Loaded { value, warnings } = isolux_formats::load(path)?;
-    let value = Scene::assemble(value).map_err(|problems| {
-        let problem = |p: SceneProblem| Problem::new(path, p.place.to_string(), p.what, p.remedy);
-        Problems(problems.into_iter().map(problem).collect())
-    })?;
-    Ok(Loaded { value, warnings })
 }

@@ -1,17 +1,35 @@
 //! Scenes known by name.
 
 use crate::case::{cube, sphere};
+use crate::hall::{self, Variant, VariantError};
 use isolux::scene::SceneParts;
 
 /// Names that [`builtin`] knows.
-pub const BUILTIN_NAMES: [&str; 2] = ["cube", "sphere"];
+pub const BUILTIN_NAMES: [&str; 3] = ["cube", "sphere", "hall"];
 
-/// A scene by its name.
-pub fn builtin(name: &str) -> Option<SceneParts> {
+/// Why there is no scene of a name.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BuiltinError {
+    /// No scene is called so.
+    #[error("there is no such scene")]
+    Unknown,
+    /// The scene has no such variant.
+    #[error(transparent)]
+    Variant(#[from] VariantError),
+}
+
+/// A scene by its name: `cube`, `sphere`, `hall` or a [`Variant`] of it.
+pub fn builtin(name: &str) -> Result<SceneParts, BuiltinError> {
     match name {
-        "cube" => Some(cube::parts()),
-        "sphere" => Some(sphere::parts()),
-        _ => None,
+        "cube" => Ok(cube::parts()),
+        "sphere" => Ok(sphere::parts()),
+        _ => {
+            let settings = name.strip_prefix("hall").ok_or(BuiltinError::Unknown)?;
+            if !settings.is_empty() && !settings.starts_with(',') {
+                return Err(BuiltinError::Unknown);
+            }
+            Ok(hall::parts(Variant::parse(settings)?))
+        }
     }
 }
 
@@ -21,9 +39,12 @@ mod tests {
 
     #[test]
     fn knows_its_names_and_no_others() {
-        for name in BUILTIN_NAMES {
+        for name in BUILTIN_NAMES.into_iter().chain(["hall,triangles=20000,luminaires=100"]) {
             assert_eq!(builtin(name).unwrap().name, name);
         }
-        assert_eq!(builtin("teapot"), None);
+        for name in ["teapot", "hallway", "cube,triangles=9", ""] {
+            assert_eq!(builtin(name), Err(BuiltinError::Unknown), "{name}");
+        }
+        assert!(matches!(builtin("hall,luminaires=1"), Err(BuiltinError::Variant(_))));
     }
 }

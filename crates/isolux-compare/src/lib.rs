@@ -1,5 +1,5 @@
-//! Is it right, and by how much: scenes with exact answers, measures of error, and the table of all
-//! cases through all engines.
+//! Is it right, and by how much: scenes with exact answers, the practical scene, measures of error, and
+//! the table of all cases through all engines.
 //!
 //! [`case::cases`] is the closed list; [`validate`] runs one case through one engine and gives a row
 //! of plain values; [`validate_all`] makes the table. Writing it is left to others.
@@ -7,6 +7,7 @@
 mod builtin;
 pub mod case;
 mod expectation;
+pub mod hall;
 pub mod lambert;
 mod measure;
 pub mod metric;
@@ -16,7 +17,7 @@ pub mod statistics;
 pub mod tolerance;
 mod validate;
 
-pub use builtin::{BUILTIN_NAMES, builtin};
+pub use builtin::{BUILTIN_NAMES, BuiltinError, builtin};
 pub use expectation::{Bound, Case, Expectation, Quantity};
 pub use measure::{
     CubeError, GridError, MeasureError, MeasuredPoint, SphereError, measure_cube, measure_sphere,

@@ -1,7 +1,7 @@
 //! IES LM-63 photometric files, editions 1986, 1991, 1995, 2002 and 2019.
 //!
 //! [`read`] and [`parse`] give the file as written, an [`IesFile`]; [`IesFile::resolve`] gives the
-//! distribution an engine uses. See the README beside this file for what is read how, and why.
+//! distribution an engine uses; [`write`] makes a file. See the README beside this file for what is read how, and why.
 
 mod audit;
 mod edition;
@@ -13,6 +13,7 @@ mod read;
 mod record;
 mod resolve;
 mod tilt;
+mod write;
 
 pub use edition::Edition;
 pub use opening::{LuminousOpening, OpeningShape};
@@ -20,3 +21,4 @@ pub use parse::parse;
 pub use read::read;
 pub use record::{IesFile, Keyword, LampFactor, LengthUnit, PhotometricType, RecordLines};
 pub use tilt::{LampGeometry, Tilt, TiltTable};
+pub use write::{Photometry, write};

@@ -1,7 +1,6 @@
 //! Cameras.
 
 use super::context::Context;
-use super::orientation::up_direction;
 use super::quantity::plain;
 use super::record::CameraRecord;
 use super::spans::At;
@@ -50,7 +49,7 @@ fn camera(entry: &At<CameraRecord>, name: String, context: &mut Context) -> Opti
 fn up(record: &CameraRecord, direction: Direction, context: &mut Context) -> Option<Direction> {
     let is_parallel = |up: Direction| up.dot(direction).abs() > 1.0 - PARALLEL;
     let Some(given) = &record.up else {
-        let usual = up_direction(context.up);
+        let usual = context.up.direction();
         return Some(match context.up {
             _ if !is_parallel(usual) => usual,
             UpAxis::Z => Direction::Y,

@@ -2,14 +2,13 @@
 
 use super::chromaticity;
 use super::context::Context;
-use super::orientation::{up_direction, world_from_luminaire};
 use super::photometry::{self, Files};
 use super::quantity::{Triple, plain};
 use super::record::{ArrayRecord, DirectionalRecord, GroupRecord, LuminaireRecord};
 use super::spans::{At, Span};
 use isolux::geometry::{Direction, Point, Vector};
 use isolux::photometry::IntensityDistribution;
-use isolux::scene::{Luminaire, LuminaireKind, SceneParts};
+use isolux::scene::{Luminaire, LuminaireKind, SceneParts, world_from_luminaire};
 use isolux::units::Rgb;
 use std::collections::HashMap;
 
@@ -189,7 +188,7 @@ enum Aim {
 impl Aim {
     fn new(record: &LuminaireRecord, context: &mut Context) -> Option<Self> {
         match (&record.target, &record.direction) {
-            (None, None) => Some(Self::Along(-up_direction(context.up))),
+            (None, None) => Some(Self::Along(-context.up.direction())),
             (None, Some(direction)) => direction_of(direction, context).map(Self::Along),
             (Some(target), None) => {
                 Some(Self::At(point_m(*target.get_ref(), context), target.span()))

@@ -18,10 +18,13 @@ mod resolve;
 mod shapes;
 mod spans;
 mod sphere;
+mod write;
 
 use crate::{Loaded, Problem, Problems, source};
 use isolux::scene::SceneParts;
 use std::path::Path;
+
+pub use write::{NamedPhotometry, SceneFile, write};
 
 const MOST_BYTES: u64 = 64 << 20;
 

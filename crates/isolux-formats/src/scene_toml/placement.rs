@@ -1,12 +1,12 @@
 //! Where geometry stands in the scene.
 
 use super::context::Context;
-use super::orientation::sincos_deg;
 use super::quantity::plain;
 use super::record::{PlacementRecord, ScaleRecord};
 use super::spans::At;
 use isolux::geometry::{Transform, Vector};
 use isolux::scene::UpAxis;
+use isolux::units::sincos_deg;
 
 /// The map a placement describes: scale, then turns about the scene's x, y and z axes in this
 /// order, then the shift; or a matrix. `None` after a problem.

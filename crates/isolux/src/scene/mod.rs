@@ -5,6 +5,7 @@
 
 mod assemble;
 mod check;
+mod hanging;
 mod hash;
 mod luminaire;
 mod material;
@@ -14,6 +15,7 @@ mod texture;
 mod view;
 
 pub use assemble::Scene;
+pub use hanging::world_from_luminaire;
 pub use luminaire::{AreaLuminaire, Luminaire, LuminaireKind};
 pub use material::{Body, Dielectric, Finish, Gloss, Material, Reflectance};
 pub use parts::{SceneParts, Shape, UpAxis};

@@ -1,6 +1,7 @@
 //! The plain description that readers fill.
 
 use super::{Camera, Luminaire, Material, Texture};
+use isolux_geometry::Direction;
 use serde::{Deserialize, Serialize};
 
 /// Everything a scene is made of, unchecked.
@@ -50,4 +51,14 @@ pub enum UpAxis {
     /// +z, as in most lighting software.
     #[default]
     Z,
+}
+
+impl UpAxis {
+    /// The direction that points up.
+    pub const fn direction(self) -> Direction {
+        match self {
+            Self::Y => Direction::Y,
+            Self::Z => Direction::Z,
+        }
+    }
 }

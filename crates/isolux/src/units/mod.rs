@@ -1,5 +1,7 @@
-//! Colour quantities.
+//! Colour quantities and angles.
 
+mod angle;
 mod rgb;
 
+pub use angle::sincos_deg;
 pub use rgb::Rgb;

@@ -1,0 +1,132 @@
+//! `isolux scene`: the files of a scene, to open and edit.
+
+use crate::console::{print, print_json};
+use crate::failure::{Failure, Outcome};
+use crate::flags::SceneFlags;
+use crate::source;
+use isolux_compare::hall::{Lamp, lamps};
+use isolux_formats::ies::Photometry;
+use isolux_formats::scene_toml::{NamedPhotometry, SceneFile, write};
+use isolux_formats::{Loaded, atomic};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &SceneFlags, json: bool) -> Result<Outcome, Failure> {
+    let Loaded { value: parts, warnings } = source::read_parts(&flags.scene)?;
+    source::show_warnings(&warnings);
+    let known: Vec<NamedPhotometry> = lamps().into_iter().map(photometry).collect();
+    let files = write(&parts, &known).map_err(Failure::bad_input)?;
+    let folder = folder(&flags.output)?;
+    let paths: Vec<PathBuf> = files.iter().map(|file| folder.join(&file.name)).collect();
+    refuse_to_replace(&paths, flags.force)?;
+    for (SceneFile { bytes, .. }, path) in files.iter().zip(&paths) {
+        atomic::write(path, bytes).map_err(|problem| Failure::Refused(problem.to_string()))?;
+    }
+    let paths = paths.iter().map(|path| path.display().to_string()).collect();
+    let written = Written { scene: parts.name, files: paths };
+    if json {
+        print_json(&written)?
+    } else {
+        print(&format!("{}\n", written.files.join("\n")))?
+    }
+    Ok(Outcome::Done)
+}
+
+/// What was written.
+#[derive(Serialize)]
+struct Written {
+    scene: String,
+    files: Vec<String>,
+}
+
+/// The folder, made if it is not there.
+fn folder(path: &Path) -> Result<PathBuf, Failure> {
+    std::fs::create_dir_all(path).map_err(|e| {
+        let folder = path.display();
+        Failure::bad_input(format!("{folder}: cannot be created ({e}); choose another folder"))
+    })?;
+    Ok(path.to_owned())
+}
+
+/// A folder may hold what somebody has edited.
+fn refuse_to_replace(paths: &[PathBuf], force: bool) -> Result<(), Failure> {
+    match paths.iter().find(|path| !force && path.exists()) {
+        Some(path) => Err(Failure::bad_input(format!(
+            "{}: exists; choose another folder, or replace it with --force",
+            path.display()
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn photometry(lamp: Lamp) -> NamedPhotometry {
+    let keyword = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+    NamedPhotometry {
+        name: format!("{}.ies", lamp.name),
+        photometry: Photometry {
+            keywords: vec![
+                keyword("TEST", "computed from a closed form, measured by nobody"),
+                keyword("TESTLAB", "none"),
+                keyword("ISSUEDATE", "2026-11-21"),
+                keyword("MANUFAC", "isolux"),
+                keyword("LUMCAT", lamp.name),
+                keyword("LUMINAIRE", lamp.description),
+                keyword("LAMP", "LED"),
+            ],
+            input_watts: lamp.watts,
+            opening_m: lamp.opening_m,
+            planes_deg: lamp.planes_deg,
+            gammas_deg: lamp.gammas_deg,
+            candela: lamp.candela,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use isolux::scene::Scene;
+
+    fn hash(source: &Path) -> String {
+        Scene::assemble(source::read_parts(source).unwrap().value).unwrap().hash()
+    }
+
+    /// Arrays that fill their rows and arrays that do not, single luminaires, turned and not.
+    #[test]
+    fn files_give_the_scene_again() {
+        for name in [
+            "builtin:hall",
+            "builtin:hall,triangles=12000,luminaires=101",
+            "builtin:hall,luminaires=5000",
+        ] {
+            let home = tempfile::tempdir().unwrap();
+            let output = home.path().join("made");
+            let scene = PathBuf::from(name);
+            run(&SceneFlags { scene: scene.clone(), output: output.clone(), force: false }, true)
+                .unwrap();
+            let written = output.join("scene.toml");
+            let Loaded { value, warnings } = source::read_parts(&written).unwrap();
+            assert_eq!(warnings, [], "{name}");
+            assert_eq!(value.name, name.strip_prefix("builtin:").unwrap());
+            assert_eq!(hash(&written), hash(&scene), "{name}");
+            assert_eq!(
+                value.cameras.len(),
+                source::read_parts(&scene).unwrap().value.cameras.len()
+            );
+        }
+    }
+
+    #[test]
+    fn files_are_not_replaced_unasked() {
+        let home = tempfile::tempdir().unwrap();
+        let flags = |force| SceneFlags {
+            scene: "builtin:cube".into(),
+            output: home.path().to_owned(),
+            force,
+        };
+        assert!(run(&flags(false), true).is_ok());
+        assert!(matches!(run(&flags(false), true), Err(Failure::BadInput(_))));
+        assert!(run(&flags(true), true).is_ok());
+    }
+}

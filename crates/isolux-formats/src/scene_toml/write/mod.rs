@@ -1,0 +1,70 @@
+//! A scene to files that can be opened and edited: `scene.toml`, its geometry as glTF, photometric
+//! files, textures. Reading them gives the same scene, and of flat geometry the same scene hash.
+//! (Shading normals, texture coordinates, and tilted luminaires come back rounded.)
+
+mod arrays;
+mod file;
+mod geometry;
+mod lamps;
+mod luminaires;
+mod materials;
+mod numbers;
+mod text;
+
+pub use file::SceneFile;
+pub use lamps::NamedPhotometry;
+
+use crate::png::{self, PngError};
+use isolux::scene::{SceneParts, Texture, UpAxis};
+
+/// All files of a scene, `scene.toml` first. Photometric files that luminaires were made from, if
+/// they are known, are used as they are, with a dimming; others are made.
+pub fn write(parts: &SceneParts, known: &[NamedPhotometry]) -> Result<Vec<SceneFile>, PngError> {
+    let catalogue = lamps::Catalogue::of(parts, known);
+    let mut toml = head(parts);
+    toml += &materials::text(parts);
+    toml += &geometry::text(parts);
+    toml += &luminaires::text(parts, &catalogue);
+    toml += &cameras(parts);
+    let mut files = vec![SceneFile::new("scene.toml", toml)];
+    files.extend(geometry::files(parts));
+    files.extend(catalogue.files());
+    for (index, texture) in parts.textures.iter().enumerate() {
+        files.push(SceneFile::new(materials::texture_name(index as u32), picture(texture)?));
+    }
+    Ok(files)
+}
+
+fn head(parts: &SceneParts) -> String {
+    let up = match parts.up {
+        UpAxis::Y => "y",
+        UpAxis::Z => "z",
+    };
+    format!("name = {}\nup = \"{up}\"\nunits = \"m\"\n", text::quoted(&parts.name))
+}
+
+fn picture(texture: &Texture) -> Result<Vec<u8>, PngError> {
+    png::encode(texture.width, texture.height, texture.srgb.as_chunks().0)
+}
+
+/// Directions to a millionth: a camera is no part of what is computed.
+fn cameras(parts: &SceneParts) -> String {
+    let mut toml = String::new();
+    for camera in &parts.cameras {
+        let fov_deg = numbers::shortest(camera.vertical_fov_rad.to_degrees(), |deg| {
+            deg.to_radians() == camera.vertical_fov_rad
+        });
+        toml += "\n[[camera]]\n";
+        toml += &format!("name = {}\n", text::quoted(&camera.name));
+        toml += &format!("position = {}\n", text::triple(camera.position.into()));
+        let rounded = |direction: isolux::geometry::Direction| {
+            text::triple(<[f64; 3]>::from(direction.to_vector()).map(numbers::to_millionth))
+        };
+        toml += &format!("direction = {}\n", rounded(camera.direction));
+        if camera.up != parts.up.direction() {
+            toml += &format!("up = {}\n", rounded(camera.up));
+        }
+        toml += &format!("vertical_fov_deg = {}\n", text::number(fov_deg));
+    }
+    toml
+}
