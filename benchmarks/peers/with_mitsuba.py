@@ -10,7 +10,6 @@ import library
 import scene as scenes
 
 EFFORT = "integrator:samples"
-INTEGRATORS = ("path", "ptracer")
 # The camera of `ptracer`: an octant is seen from its corner within 110 degrees.
 PIXELS = 64
 FIELD_DEG = 112.0
@@ -20,7 +19,7 @@ LAUNCH = 1 << 22
 
 
 def main():
-    flags = arguments.parser(__doc__ + f" Integrators: 0 path, 1 ptracer.", EFFORT).parse_args()
+    flags = arguments.parser(__doc__ + " Integrators: 0 path, 1 ptracer.", EFFORT).parse_args()
     os.environ.setdefault("DRJIT_LIBLLVM_PATH", library.llvm())
     scene = scenes.read(flags.scene)
     points = scene.points(flags.points)
@@ -46,7 +45,7 @@ def by_path(scene, points, samples, seed):
     integrator = mi.load_dict({"type": "path", "max_depth": -1, "rr_depth": 8})
     count = len(points.positions)
     per_launch = max(1, min(samples, LAUNCH // count))
-    origins = np.repeat(np.array(scene.just_inside(points), dtype=np.float32), per_launch, axis=0)
+    origins = np.repeat(np.array(scene.just_inside(points, 1e-4), dtype=np.float32), per_launch, axis=0)
     towards = np.repeat(-np.array(points.normals, dtype=np.float32), per_launch, axis=0)
     origin, direction = mi.Point3f(origins.T), mi.Vector3f(towards.T)
     total, launches = np.zeros(count), -(-samples // per_launch)

@@ -66,7 +66,7 @@ def options(scene, flags, cache):
     beyond = 0.0 if scene.has_mirrors() else scene.mean_luminance_cd_m2()
     words = f"-I -h -fdd -w- -n {flags.threads} -ab {bounces:.0f} -aa {accuracy} -ar {resolution:.0f}"
     words += f" -ad {divisions:.0f} -as {supersamples:.0f} -av {beyond} {beyond} {beyond} -aw 0"
-    words += " -ds 0 -dj 0 -dt 0 -dc 1 -dr 3 -dp 0 -lr 12 -lw 1e-5 -st 0"
+    words += " -ds 0 -dj 0 -dt 0 -dc 1 -dr 3 -dp 0 -lr 60 -lw 1e-7 -st 0"
     return [*words.split(), "-af", cache]
 
 
