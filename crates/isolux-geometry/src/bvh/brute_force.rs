@@ -2,18 +2,18 @@
 //!
 //! Slow, and kept as the oracle: the hierarchy returns the same hits bit for bit.
 
-use super::triangle_test::{Shear, comes_before, corners};
+use super::triangle_test::{Meeting, Shear, comes_before, corners, least_sum};
 use crate::{Hit, Ray, TriangleMesh};
 
 /// The first triangle that the ray meets: see [`Bvh::closest_hit`](super::Bvh::closest_hit).
 pub fn closest_hit(mesh: &TriangleMesh, ray: &Ray) -> Option<Hit> {
-    let mut closest: Option<Hit> = None;
-    for hit in hits(mesh, ray) {
-        if closest.as_ref().is_none_or(|best| comes_before(&hit, best)) {
-            closest = Some(hit);
+    let mut closest: Option<(u32, Meeting)> = None;
+    for (triangle, meeting) in meetings(mesh, ray) {
+        if closest.is_none_or(|best| comes_before((triangle, &meeting), (best.0, &best.1))) {
+            closest = Some((triangle, meeting));
         }
     }
-    closest
+    closest.map(|(triangle, meeting)| meeting.of(triangle))
 }
 
 /// Whether the ray meets any triangle that is not transparent: see
@@ -24,12 +24,17 @@ pub fn any_hit(mesh: &TriangleMesh, is_transparent: impl Fn(u32) -> bool, ray: &
 
 /// All triangles that the ray meets, in the order of their indices.
 pub fn hits(mesh: &TriangleMesh, ray: &Ray) -> impl Iterator<Item = Hit> {
+    meetings(mesh, ray).map(|(triangle, meeting)| meeting.of(triangle))
+}
+
+fn meetings(mesh: &TriangleMesh, ray: &Ray) -> impl Iterator<Item = (u32, Meeting)> {
     let skip = ray.skip;
     Shear::new(ray).into_iter().flat_map(move |shear| {
         (0..mesh.len() as u32).filter(move |&triangle| Some(triangle) != skip).filter_map(
             move |triangle| {
                 let corners = corners(mesh, triangle)?;
-                Some(shear.meet(|corner, axis| corners[corner][axis])?.of(triangle))
+                let corner = |corner: usize, axis: usize| corners[corner][axis];
+                Some((triangle, shear.meet(corner, least_sum(&corners))?))
             },
         )
     })

@@ -13,7 +13,7 @@ const BINS: usize = 32;
 const PARALLEL: usize = 4096;
 
 /// Greatest number of nodes on a path from the root to a leaf, less one: bounds all recursion.
-const MAX_DEPTH: u32 = 34;
+pub(super) const MAX_DEPTH: u32 = 34;
 
 /// Greatest number of triangles: more could not keep to [`MAX_DEPTH`] and to the bits of a
 /// reference in the wide tree.

@@ -7,30 +7,33 @@
 
 use super::bounds::Bounds;
 use super::build::BinaryNode;
-use super::wide::{Block, Node, Reference, WIDTH, WideTree};
+use super::wide::{Builder, Labelled, MAX_LEAF, Node, Reference, TooLarge, WideTree};
 
-/// Cost of testing a block of triangles, in tests of a node.
-const BLOCK_COST: f32 = 1.0;
+/// Cost of testing as many triangles as there are lanes, in tests of a node.
+const TRIANGLES_COST: f32 = 1.0;
 
-/// Collapses the binary hierarchy. `block_of` fills a block from up to eight triangles.
-pub(super) fn collapse(binary: &[BinaryNode], block_of: impl Fn(&[u32]) -> Block) -> WideTree {
-    let Some(top) = binary.first() else { return WideTree::default() };
-    let mut emit = Emit { forests: Forests::new(binary), block_of, tree: WideTree::default() };
-    emit.tree.reach = top.bounds.reach();
-    emit.tree.root = Some(emit.subtree(0));
-    emit.tree
+/// Collapses the binary hierarchy; `triangle` gives what a leaf holds.
+pub(super) fn collapse<const W: usize>(
+    binary: &[BinaryNode],
+    triangle: impl Fn(u32) -> Labelled,
+) -> Result<WideTree<W>, TooLarge> {
+    let Some(top) = binary.first() else { return Ok(Builder::default().finish(None, 0.0)) };
+    let mut emit =
+        Emit { forests: Forests::<W>::new(binary), triangle, builder: Builder::default() };
+    let root = emit.subtree(0)?;
+    Ok(emit.builder.finish(Some(root), top.bounds.reach()))
 }
 
 /// The least costs, and what attains them.
-struct Forests<'a> {
+struct Forests<'a, const W: usize> {
     binary: &'a [BinaryNode],
-    /// `cost[n][i - 1]` for at most `i` wide children in place of node `n`.
-    cost: Vec<[f32; WIDTH - 1]>,
+    /// `cost[n][i]` for at most `i` wide children in place of node `n`; none for `i` = 0.
+    cost: Vec<[f32; W]>,
 }
 
-impl<'a> Forests<'a> {
+impl<'a, const W: usize> Forests<'a, W> {
     fn new(binary: &'a [BinaryNode]) -> Self {
-        let mut forests = Self { binary, cost: vec![[0.0; WIDTH - 1]; binary.len()] };
+        let mut forests = Self { binary, cost: vec![[0.0; W]; binary.len()] };
         // Children stand behind their parents.
         for index in (0..binary.len()).rev() {
             forests.cost[index] = forests.costs_at(index);
@@ -38,34 +41,41 @@ impl<'a> Forests<'a> {
         forests
     }
 
-    fn costs_at(&self, index: usize) -> [f32; WIDTH - 1] {
+    fn costs_at(&self, index: usize) -> [f32; W] {
         let leaf = self.leaf_cost(index);
-        let Some(children) = self.binary[index].children(index) else {
-            return [leaf; WIDTH - 1];
-        };
-        let mut costs = [leaf.min(self.node_cost(index, children)); WIDTH - 1];
-        for places in 2..WIDTH {
-            costs[places - 1] = costs[places - 2].min(self.share(children, places).0);
+        let Some(children) = self.binary[index].children(index) else { return [leaf; W] };
+        let [first, second] = children.map(|child| &self.cost[child]);
+        // Of each number of places, shared in the best way; the last is for a node of its own.
+        let mut shared = [f32::INFINITY; W];
+        let mut all_places = f32::INFINITY;
+        for k in 1..W {
+            for places in k + 1..W {
+                shared[places] = shared[places].min(first[k] + second[places - k]);
+            }
+            all_places = all_places.min(first[k] + second[W - k]);
         }
-        costs
+        let node = self.binary[index].bounds.half_area() + all_places;
+        let mut least = leaf.min(node);
+        shared[0] = least;
+        for cost in &mut shared[1..] {
+            least = least.min(*cost);
+            *cost = least;
+        }
+        shared
     }
 
     fn leaf_cost(&self, index: usize) -> f32 {
         let node = &self.binary[index];
-        let blocks = node.count.div_ceil(WIDTH as u32);
-        if blocks as usize > Reference::MAX_BLOCKS {
+        if node.count as usize > MAX_LEAF {
             return f32::INFINITY;
         }
-        node.bounds.half_area() * blocks as f32 * BLOCK_COST
-    }
-
-    fn node_cost(&self, index: usize, children: [usize; 2]) -> f32 {
-        self.binary[index].bounds.half_area() + self.share(children, WIDTH).0
+        let steps = node.count.div_ceil(W as u32);
+        node.bounds.half_area() * steps as f32 * TRIANGLES_COST
     }
 
     /// How best to share `places` between two siblings: the cost and the places of the first.
     fn share(&self, [first, second]: [usize; 2], places: usize) -> (f32, usize) {
-        let cost = |k: usize| self.cost[first][k - 1] + self.cost[second][places - k - 1];
+        let cost = |k: usize| self.cost[first][k] + self.cost[second][places - k];
         (1..places)
             .map(|k| (cost(k), k))
             .fold((f32::INFINITY, 1), |best, next| if next.0 < best.0 { next } else { best })
@@ -74,7 +84,10 @@ impl<'a> Forests<'a> {
     /// Whether a leaf is the cheapest for node `index`.
     fn is_leaf(&self, index: usize) -> bool {
         match self.binary[index].children(index) {
-            Some(children) => self.leaf_cost(index) <= self.node_cost(index, children),
+            Some(children) => {
+                let node = self.binary[index].bounds.half_area() + self.share(children, W).0;
+                self.leaf_cost(index) <= node
+            }
             None => true,
         }
     }
@@ -84,7 +97,7 @@ impl<'a> Forests<'a> {
         match self.binary[index].children(index) {
             Some(children) if places > 1 => {
                 let (cost, first) = self.share(children, places);
-                if cost < self.cost[index][places - 2] {
+                if cost < self.cost[index][places - 1] {
                     self.roots(children[0], first, roots);
                     self.roots(children[1], places - first, roots);
                 } else {
@@ -97,55 +110,53 @@ impl<'a> Forests<'a> {
 
     /// The binary nodes that become the children of a wide node in place of `index`.
     fn wide_children(&self, children: [usize; 2]) -> Vec<usize> {
-        let (_, first) = self.share(children, WIDTH);
-        let mut roots = Vec::with_capacity(WIDTH);
+        let (_, first) = self.share(children, W);
+        let mut roots = Vec::with_capacity(W);
         self.roots(children[0], first, &mut roots);
-        self.roots(children[1], WIDTH - first, &mut roots);
+        self.roots(children[1], W - first, &mut roots);
         roots
     }
 }
 
 /// Writes the wide tree, depth first, so that what a ray visits in turn lies close together.
-struct Emit<'a, F> {
-    forests: Forests<'a>,
-    block_of: F,
-    tree: WideTree,
+struct Emit<'a, F, const W: usize> {
+    forests: Forests<'a, W>,
+    triangle: F,
+    builder: Builder<W>,
 }
 
-impl<F: Fn(&[u32]) -> Block> Emit<'_, F> {
+impl<F: Fn(u32) -> Labelled, const W: usize> Emit<'_, F, W> {
     /// Recursion is bounded by the depth of the binary hierarchy.
-    fn subtree(&mut self, index: usize) -> Reference {
+    fn subtree(&mut self, index: usize) -> Result<Reference, TooLarge> {
         match self.forests.binary[index].children(index) {
             Some(children) if !self.forests.is_leaf(index) => self.node(children),
             _ => self.leaf(index),
         }
     }
 
-    fn node(&mut self, children: [usize; 2]) -> Reference {
-        let place = self.tree.nodes.len();
-        self.tree.nodes.push(Node::EMPTY);
+    fn node(&mut self, children: [usize; 2]) -> Result<Reference, TooLarge> {
+        let reference = self.builder.add_node()?;
+        let mut node = Node::EMPTY;
         for (lane, child) in self.forests.wide_children(children).into_iter().enumerate() {
-            let reference = self.subtree(child);
-            let bounds = self.forests.binary[child].bounds;
-            self.tree.nodes[place].set_child(lane, &bounds, reference);
+            node.set_child(lane, &self.forests.binary[child].bounds, self.subtree(child)?);
         }
-        Reference::node(place)
+        self.builder.set_node(reference, &node);
+        Ok(reference)
     }
 
-    fn leaf(&mut self, index: usize) -> Reference {
+    fn leaf(&mut self, index: usize) -> Result<Reference, TooLarge> {
         // A subtree over n triangles fills 2 n - 1 consecutive nodes.
         let size = 2 * self.forests.binary[index].count as usize - 1;
         let below = &self.forests.binary[index..index + size];
         let mut triangles: Vec<u32> =
             below.iter().filter(|node| node.count == 1).map(BinaryNode::triangle).collect();
         triangles.sort_unstable();
-        let first = self.tree.blocks.len();
-        self.tree.blocks.extend(triangles.chunks(WIDTH).map(&self.block_of));
-        Reference::leaf(first, self.tree.blocks.len() - first)
+        let triangles: Vec<Labelled> = triangles.into_iter().map(&self.triangle).collect();
+        self.builder.add_leaf(&triangles)
     }
 }
 
-impl Node {
+impl<const W: usize> Node<W> {
     fn set_child(&mut self, lane: usize, bounds: &Bounds, child: Reference) {
         for axis in 0..3 {
             self.planes[2 * axis][lane] = bounds.low[axis];

@@ -1,11 +1,16 @@
-//! Which instructions the kernel uses. The answers are the same bits.
+//! Which instructions the kernel uses, each with the tree that suits it. The answers are the same
+//! bits.
+#![allow(unsafe_code, reason = "vector instructions, reached only where the processor has them")]
 
 #[cfg(target_arch = "x86_64")]
-use super::avx2;
+use super::{avx2::Avx2, avx512::Avx512};
+use super::batch::trace_many;
+use super::build::BinaryNode;
+use super::collapse::collapse;
 use super::portable::Portable;
-use super::traverse;
-use super::wide::WideTree;
-use crate::{Hit, Ray};
+use super::traverse::{Query, trace};
+use super::wide::{Labelled, TooLarge, WideTree};
+use crate::Ray;
 
 /// A set of instructions that the kernel has code for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,53 +19,159 @@ pub enum InstructionSet {
     Portable,
     /// AVX2 and FMA of x86-64, eight lanes.
     Avx2,
+    /// AVX-512 (F, VL, DQ, BW) of x86-64, sixteen lanes.
+    Avx512,
 }
 
 impl InstructionSet {
     /// All of them, the fastest last.
-    pub const ALL: [Self; 2] = [Self::Portable, Self::Avx2];
-}
+    pub const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
 
-/// The code for an instruction set that this processor has.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Kernel {
-    Portable,
-    #[cfg(target_arch = "x86_64")]
-    Avx2(avx2::Available),
-}
-
-impl Kernel {
-    /// `None` where this processor lacks the instructions.
-    pub(super) fn of(set: InstructionSet) -> Option<Self> {
-        match set {
-            InstructionSet::Portable => Some(Self::Portable),
+    /// Whether this processor has them.
+    pub fn is_available(self) -> bool {
+        match self {
+            Self::Portable => true,
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => avx2::Available::detect().map(Self::Avx2),
+            Self::Avx2 => has_avx2(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => has_avx2() && has_avx512(),
             #[cfg(not(target_arch = "x86_64"))]
-            InstructionSet::Avx2 => None,
+            Self::Avx2 | Self::Avx512 => false,
         }
     }
 
     /// The fastest on this processor.
-    pub(super) fn fastest() -> Self {
-        InstructionSet::ALL.into_iter().rev().find_map(Self::of).unwrap_or(Self::Portable)
+    pub fn fastest() -> Self {
+        let available = |set: &Self| set.is_available();
+        Self::ALL.into_iter().rev().find(available).unwrap_or(Self::Portable)
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn has_avx2() -> bool {
+    is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("fma")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("lzcnt")
+        && is_x86_feature_detected!("popcnt")
+}
+
+#[cfg(target_arch = "x86_64")]
+fn has_avx512() -> bool {
+    is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512vl")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512bw")
+}
+
+/// A tree, and the code that walks it. Those of vector instructions exist only where the processor
+/// has them: [`Kernel::collapse`] alone makes them.
+#[derive(Clone, Debug)]
+pub(super) enum Kernel {
+    Portable(WideTree<8>),
+    #[cfg(target_arch = "x86_64")]
+    Avx2(WideTree<8>),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(WideTree<16>),
+}
+
+impl Kernel {
+    /// From the binary hierarchy, for a set of instructions that is available.
+    pub(super) fn collapse(
+        set: InstructionSet,
+        binary: &[BinaryNode],
+        triangle: impl Fn(u32) -> Labelled + Sync,
+    ) -> Result<Self, TooLarge> {
+        assert!(set.is_available(), "this processor has no {set:?}");
+        Ok(match set {
+            InstructionSet::Portable => Self::Portable(collapse(binary, triangle)?),
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx2 => Self::Avx2(collapse(binary, triangle)?),
+            #[cfg(target_arch = "x86_64")]
+            InstructionSet::Avx512 => Self::Avx512(collapse(binary, triangle)?),
+            #[cfg(not(target_arch = "x86_64"))]
+            InstructionSet::Avx2 | InstructionSet::Avx512 => unreachable!("not available"),
+        })
     }
 
-    #[inline]
-    pub(super) fn closest_hit(self, tree: &WideTree, ray: &Ray) -> Option<Hit> {
+    /// Bytes of the tree.
+    pub(super) fn bytes(&self) -> usize {
         match self {
-            Self::Portable => traverse::closest_hit::<Portable>(tree, ray),
+            Self::Portable(tree) => tree.bytes(),
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2(available) => available.closest_hit(tree, ray),
+            Self::Avx2(tree) => tree.bytes(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(tree) => tree.bytes(),
         }
     }
 
+    /// The answer about one ray.
     #[inline]
-    pub(super) fn any_hit(self, tree: &WideTree, ray: &Ray) -> bool {
+    pub(super) fn trace<Q: Query>(&self, ray: &Ray) -> Q::Answer {
         match self {
-            Self::Portable => traverse::any_hit::<Portable>(tree, ray),
+            // SAFETY: no special instructions are needed.
+            Self::Portable(tree) => unsafe { trace::<_, Portable, Q>(tree, ray) },
+            // SAFETY: the kernel exists, so the processor has the instructions.
             #[cfg(target_arch = "x86_64")]
-            Self::Avx2(available) => available.any_hit(tree, ray),
+            Self::Avx2(tree) => unsafe { trace_with_avx2::<Q>(tree, ray) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(tree) => unsafe { trace_with_avx512::<Q>(tree, ray) },
         }
     }
+
+    /// The answers about many rays, by their place, in any order.
+    pub(super) fn trace_many<Q: Query>(
+        &self,
+        rays: &[Ray],
+        tell: impl FnMut(usize, Q::Answer),
+    ) {
+        match self {
+            // SAFETY: no special instructions are needed.
+            Self::Portable(tree) => unsafe { trace_many::<_, Portable, Q>(tree, rays, tell) },
+            // SAFETY: the kernel exists, so the processor has the instructions.
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(tree) => unsafe { trace_many_with_avx2::<Q>(tree, rays, tell) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(tree) => unsafe { trace_many_with_avx512::<Q>(tree, rays, tell) },
+        }
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn trace_with_avx2<Q: Query>(tree: &WideTree<8>, ray: &Ray) -> Q::Answer {
+    // SAFETY: this function has the instructions.
+    unsafe { trace::<_, Avx2, Q>(tree, ray) }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn trace_many_with_avx2<Q: Query>(
+    tree: &WideTree<8>,
+    rays: &[Ray],
+    tell: impl FnMut(usize, Q::Answer),
+) {
+    // SAFETY: this function has the instructions.
+    unsafe { trace_many::<_, Avx2, Q>(tree, rays, tell) }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn trace_with_avx512<Q: Query>(tree: &WideTree<16>, ray: &Ray) -> Q::Answer {
+    // SAFETY: this function has the instructions.
+    unsafe { trace::<_, Avx512, Q>(tree, ray) }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
+fn trace_many_with_avx512<Q: Query>(
+    tree: &WideTree<16>,
+    rays: &[Ray],
+    tell: impl FnMut(usize, Q::Answer),
+) {
+    // SAFETY: this function has the instructions.
+    unsafe { trace_many::<_, Avx512, Q>(tree, rays, tell) }
 }

@@ -5,11 +5,15 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod batch;
 mod bounds;
 pub mod brute_force;
 mod build;
 mod collapse;
 mod instructions;
+mod memory;
 mod portable;
 mod slabs;
 mod traverse;
@@ -22,7 +26,9 @@ pub use instructions::InstructionSet;
 use bounds::Bounds;
 use build::Primitive;
 use instructions::Kernel;
-use wide::{Block, WideTree};
+use traverse::{Any, Closest};
+use triangle_test::{REACH, corners, longest_edge};
+use wide::{Labelled, TRANSPARENT};
 
 /// Answers ray queries over a triangle mesh.
 ///
@@ -30,13 +36,12 @@ use wide::{Block, WideTree};
 /// the same `t`, a front counts before a back and then the lower index. Between triangles that
 /// share an edge (the same two positions, bit for bit) or a corner no ray passes.
 ///
-/// Rays that are not finite meet nothing, nor do those whose origin is more than 2^40 m away or
-/// whose direction is shorter than 2^-40 or longer than 2^40. Triangles with a corner that is not
-/// finite or has a coordinate beyond 2^40 m are never met, nor are triangles without area.
+/// Rays that are not finite meet nothing, nor do those whose origin is more than 2^38 m away or
+/// whose direction is shorter than 2^-38 or longer than 2^38. Triangles with a corner that is not
+/// finite or has a coordinate beyond 2^38 m are never met, nor are triangles without area.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     mesh: TriangleMesh,
-    tree: WideTree,
     kernel: Kernel,
 }
 
@@ -46,22 +51,33 @@ impl Bvh {
     ///
     /// # Panics
     /// If there are more than 2^28 triangles.
-    pub fn build(mesh: TriangleMesh, is_transparent: impl Fn(u32) -> bool) -> Self {
-        assert!(mesh.len() <= build::MAX_TRIANGLES, "more than 2^28 triangles");
-        let primitives = (0..mesh.len() as u32).filter_map(|triangle| {
-            let corners = triangle_test::corners(&mesh, triangle)?;
-            Some(Primitive { bounds: Bounds::around(&corners), triangle })
-        });
-        let binary = build::build(primitives.collect());
-        let tree =
-            collapse::collapse(&binary, |triangles| block(&mesh, &is_transparent, triangles));
-        Self { mesh, tree, kernel: Kernel::fastest() }
+    pub fn build(mesh: TriangleMesh, is_transparent: impl Fn(u32) -> bool + Sync) -> Self {
+        Self::build_for(InstructionSet::fastest(), mesh, is_transparent)
     }
 
-    /// The same hierarchy walked with the given instructions instead of the fastest, for
-    /// measurement and tests; `None` where this processor lacks them.
-    pub fn with_instructions(self, set: InstructionSet) -> Option<Self> {
-        Some(Self { kernel: Kernel::of(set)?, ..self })
+    /// The same for other instructions than the fastest, for measurement and tests.
+    ///
+    /// # Panics
+    /// Also where this processor lacks the instructions.
+    pub fn build_for(
+        instructions: InstructionSet,
+        mesh: TriangleMesh,
+        is_transparent: impl Fn(u32) -> bool + Sync,
+    ) -> Self {
+        assert!(mesh.len() <= build::MAX_TRIANGLES, "more than 2^28 triangles");
+        let primitives = (0..mesh.len() as u32).filter_map(|triangle| {
+            let corners = corners(&mesh, triangle)?;
+            let beside = REACH * longest_edge(&corners);
+            Some(Primitive { bounds: Bounds::around(&corners).widened(beside), triangle })
+        });
+        let binary = build::build(primitives.collect());
+        let labelled = |triangle: u32| {
+            let mark = if is_transparent(triangle) { TRANSPARENT } else { 0 };
+            let corners = corners(&mesh, triangle).unwrap_or_default();
+            Labelled { corners, label: triangle | mark }
+        };
+        let kernel = Kernel::collapse(instructions, &binary, labelled);
+        Self { kernel: kernel.expect("fewer lines than references reach"), mesh }
     }
 
     /// The triangles.
@@ -69,27 +85,38 @@ impl Bvh {
         &self.mesh
     }
 
+    /// Bytes of the tree, beside the mesh.
+    pub fn bytes(&self) -> usize {
+        self.kernel.bytes()
+    }
+
     /// The first triangle that the ray meets, transparent or not.
+    #[inline]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        self.kernel.closest_hit(&self.tree, ray)
+        self.kernel.trace::<Closest>(ray)
     }
 
     /// Whether the ray meets any triangle that is not transparent.
+    #[inline]
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        self.kernel.any_hit(&self.tree, ray)
+        self.kernel.trace::<Any>(ray)
     }
-}
 
-/// The block of up to eight triangles.
-fn block(mesh: &TriangleMesh, is_transparent: &impl Fn(u32) -> bool, triangles: &[u32]) -> Block {
-    let mut block = Block::EMPTY;
-    for (lane, &triangle) in triangles.iter().enumerate() {
-        let Some(corners) = triangle_test::corners(mesh, triangle) else { continue };
-        for (lanes, position) in block.corners.iter_mut().flatten().zip(corners.iter().flatten()) {
-            lanes[lane] = *position;
-        }
-        let mark = if is_transparent(triangle) { Block::TRANSPARENT } else { 0 };
-        block.labels[lane] = triangle | mark;
+    /// [`Bvh::closest_hit`] of many rays.
+    ///
+    /// # Panics
+    /// If there are not as many places for hits as rays.
+    pub fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        assert_eq!(rays.len(), hits.len(), "a place for every hit");
+        self.kernel.trace_many::<Closest>(rays, |place, hit| hits[place] = hit);
     }
-    block
+
+    /// [`Bvh::any_hit`] of many rays.
+    ///
+    /// # Panics
+    /// If there are not as many places for answers as rays.
+    pub fn any_hits(&self, rays: &[Ray], are_hit: &mut [bool]) {
+        assert_eq!(rays.len(), are_hit.len(), "a place for every answer");
+        self.kernel.trace_many::<Any>(rays, |place, hit| are_hit[place] = hit);
+    }
 }

@@ -1,17 +1,22 @@
 //! Where a ray enters and leaves boxes: conservative, so that no hit is lost.
 //!
-//! The triangle test moves corners by rounding: by at most 5 u D in each coordinate, D the greatest
+//! The triangle test moves corners by rounding: by at most 6 u D in each coordinate, D the greatest
 //! distance along an axis between the origin and a corner, u = 2^-24 the unit roundoff (a rounding
-//! each of the difference to the origin, the slope, its product with the depth, and the last
-//! difference, which is up to 2 D). The exact line meets a convex combination of moved corners,
-//! and `t` is rounded once more (u D). So the point `origin + t direction` lies within 6 u D of the
-//! triangle's box. The box test `plane / direction - origin / direction` itself errs by less than
-//! 6 u (M + |origin|) / |direction|, M the largest coordinate of the scene, and D <= M + |origin|.
-//! Boxes widened by 16 u (M + |origin|) contain every hit of their triangles, wherever the
-//! ray starts.
+//! of the difference to the origin, two of the slope, one of its product with the depth, and that of
+//! the last difference, which is up to 2 D). The ray passes a convex combination of moved corners at
+//! a distance for which the boxes allow (`triangle_test::REACH`), at a depth that is rounded ten
+//! times more (three products, two sums, the sum of the weights, division, and the step to `t`).
+//! So the point `origin + t direction` lies within 16 u D of the triangle's box. The box test
+//! `plane / direction - origin / direction` itself errs by less than 6 u (M + |origin|) /
+//! |direction|, M the largest coordinate of the scene, and D <= M + |origin|. Boxes widened by
+//! 32 u (M + |origin|) contain every hit of their triangles, wherever the ray starts.
 
 use super::triangle_test::{LARGEST, greater};
 use crate::Ray;
+
+/// What underflow may do to a depth, metres: the smallest number over the least sum of weights, and
+/// far more.
+const LEAST_MARGIN_M: f32 = 1.0 / (1_u64 << 60) as f32;
 
 /// What the box test needs to know about a ray. A plane at `p` is met at `p * inverse - offset`.
 #[derive(Clone, Copy, Debug)]
@@ -33,9 +38,9 @@ impl Slabs {
     pub(super) fn new(ray: &Ray, reach: f32) -> Self {
         let Ray { origin, direction, .. } = *ray;
         let greatest = |v: [f32; 3]| greater(greater(v[0].abs(), v[1].abs()), v[2].abs());
-        let margin = 8.0 * f32::EPSILON * (reach + greatest(origin)) + f32::MIN_POSITIVE;
+        let margin = 16.0 * f32::EPSILON * (reach + greatest(origin)) + LEAST_MARGIN_M;
         // A component so small that the ray does not leave its place along the axis: no division by
-        // zero, and no more than D 2^-40 away from the ray.
+        // zero, and no more than D 2^-38 away from the ray.
         let least = greatest(direction) / LARGEST;
         let inverse = |axis: usize| {
             let d = direction[axis];

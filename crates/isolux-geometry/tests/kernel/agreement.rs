@@ -9,7 +9,7 @@ use isolux_geometry::{Bvh, Ray, TriangleMesh};
 #[track_caller]
 fn check(mesh: &TriangleMesh, rays: impl IntoIterator<Item = Ray>) -> usize {
     let is_transparent = |triangle: u32| triangle.is_multiple_of(3);
-    let kernels = room::kernels(&Bvh::build(mesh.clone(), is_transparent));
+    let kernels = room::kernels(mesh, is_transparent);
     let mut hits = 0;
     for ray in rays {
         let expected = brute_force::closest_hit(mesh, &ray);

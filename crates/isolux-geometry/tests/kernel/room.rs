@@ -158,8 +158,8 @@ pub(crate) fn aimed(ray: Ray, target: [f32; 3]) -> Ray {
     Ray { direction: [0, 1, 2].map(|axis| target[axis] - ray.origin[axis]), ..ray }
 }
 
-/// The same hierarchy with every set of instructions that this processor has.
-pub(crate) fn kernels(bvh: &Bvh) -> Vec<Bvh> {
-    let with = |set| bvh.clone().with_instructions(set);
-    InstructionSet::ALL.into_iter().filter_map(with).collect()
+/// A hierarchy for every set of instructions that this processor has.
+pub(crate) fn kernels(mesh: &TriangleMesh, is_transparent: impl Fn(u32) -> bool + Sync) -> Vec<Bvh> {
+    let build = |set| Bvh::build_for(set, mesh.clone(), &is_transparent);
+    InstructionSet::ALL.into_iter().filter(|set| set.is_available()).map(build).collect()
 }

@@ -1,0 +1,65 @@
+//! Many rays at a time, several of them in flight: while one waits for memory or for the result of
+//! an instruction, others go on.
+#![allow(unsafe_code, reason = "vector instructions, reached only where the processor has them")]
+
+use super::traverse::{Lanes, Query, Stack, Walk};
+use super::triangle_test::Shear;
+use super::wide::WideTree;
+use crate::Ray;
+use std::iter::Enumerate;
+use std::slice::Iter;
+
+/// Rays in flight.
+const IN_FLIGHT: usize = 16;
+
+/// Answers about many rays, in any order: `tell` is given the place of the ray and what was found.
+///
+/// # Safety
+/// The processor has the instructions of `L`.
+#[inline(always)]
+pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
+    tree: &WideTree<W>,
+    rays: &[Ray],
+    mut tell: impl FnMut(usize, Q::Answer),
+) {
+    let mut waiting = rays.iter().enumerate();
+    let mut stacks = [const { Stack::<W>::new() }; IN_FLIGHT];
+    let mut walks = [const { None }; IN_FLIGHT];
+    let mut in_flight = 0;
+    for walk in &mut walks {
+        *walk = depart::<W, Q>(tree, &mut waiting, &mut tell);
+        in_flight += usize::from(walk.is_some());
+    }
+    while in_flight > 0 {
+        for (slot, stack) in walks.iter_mut().zip(&mut stacks) {
+            let Some((place, walk)) = slot else { continue };
+            // SAFETY: as the caller says.
+            unsafe {
+                if walk.step::<W, L>(tree, stack) {
+                    L::prefetch(tree, walk.next());
+                    continue;
+                }
+            }
+            tell(*place, walk.answer());
+            stack.clear();
+            *slot = depart(tree, &mut waiting, &mut tell);
+            in_flight -= usize::from(slot.is_none());
+        }
+    }
+}
+
+/// The next ray that can meet anything.
+#[inline(always)]
+fn depart<const W: usize, Q: Query>(
+    tree: &WideTree<W>,
+    waiting: &mut Enumerate<Iter<'_, Ray>>,
+    tell: &mut impl FnMut(usize, Q::Answer),
+) -> Option<(usize, Walk<Q>)> {
+    for (place, ray) in waiting {
+        match tree.root.zip(Shear::new(ray)) {
+            Some((root, shear)) => return Some((place, Walk::new(root, ray, shear, tree.reach))),
+            None => tell(place, Q::NOTHING),
+        }
+    }
+    None
+}
