@@ -102,14 +102,15 @@ class Scene:
         flux_lm = sum(4.0 * math.pi * lamp.intensity_cd for lamp in self.luminaires)
         return reflectance * flux_lm / (whole_m2 * (1.0 - reflectance)) / math.pi
 
-    def just_inside(self, point_set, lift=1e-6):
-        """The points moved off their surface by a share of the scene, and off its edges by a millionth of the
-        way to its middle (light falls off like a root there), where a ray can start."""
+    def just_inside(self, point_set):
+        """The points moved off their surface by a share of the scene, and off its edges by as much of the way to
+        its middle, where a ray can start. (Nearer, the renderers' own tolerances show at edges.)"""
+        share = 1e-5
         low, high = self.box()
         centre = [0.5 * (a + b) for a, b in zip(low, high)]
-        lift_m = lift * self.size_m()
+        lift_m = share * self.size_m()
         return [
-            [x + 1e-6 * (c - x) + lift_m * n for x, c, n in zip(position, centre, normal)]
+            [x + share * (c - x) + lift_m * n for x, c, n in zip(position, centre, normal)]
             for position, normal in zip(point_set.positions, point_set.normals)
         ]
 

@@ -3,6 +3,7 @@ time does not: it stands for looking into the map."""
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -16,6 +17,8 @@ EFFORT = "accuracy"
 def main():
     flags = arguments.parser(__doc__, EFFORT).parse_args()
     program = os.environ.get("ISOLUX") or "isolux"
+    if not shutil.which(program):
+        raise SystemExit(f"there is no program {program}; build isolux and name it in ISOLUX")
     scene = scenes.read(flags.scene)
     points = scene.points(flags.points)
     map_file, places = flags.folder / f"{scene.name}.glb", flags.folder / "points.pts"

@@ -45,7 +45,7 @@ def by_path(scene, points, samples, seed):
     integrator = mi.load_dict({"type": "path", "max_depth": -1, "rr_depth": 8})
     count = len(points.positions)
     per_launch = max(1, min(samples, LAUNCH // count))
-    origins = np.repeat(np.array(scene.just_inside(points, 1e-4), dtype=np.float32), per_launch, axis=0)
+    origins = np.repeat(np.array(scene.just_inside(points), dtype=np.float32), per_launch, axis=0)
     towards = np.repeat(-np.array(points.normals, dtype=np.float32), per_launch, axis=0)
     origin, direction = mi.Point3f(origins.T), mi.Vector3f(towards.T)
     total, launches = np.zeros(count), -(-samples // per_launch)

@@ -5,6 +5,7 @@ theirs alone.
 """
 
 import array
+import importlib.util
 import math
 import os
 import subprocess
@@ -54,9 +55,10 @@ def main():
 
 def programs():
     """The folder of Radiance's programs inside the Python package, and their environment."""
-    import importlib.util
-
-    package = Path(importlib.util.find_spec("pyradiance").origin).parent
+    found = importlib.util.find_spec("pyradiance")
+    if not found:
+        raise SystemExit("there is no Radiance; install the Python package pyradiance")
+    package = Path(found.origin).parent
     return package / "bin", {**os.environ, "RAYPATH": f".:{package / 'lib'}"}
 
 

@@ -3,6 +3,7 @@
 
 mod bench;
 mod judge;
+mod peers;
 mod smoke;
 mod test;
 mod tidy;
@@ -15,7 +16,8 @@ cargo xtask test    everything that must hold before a change lands
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask bench setup   download Embree 4.4 into target/embree
-cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]";
+cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
+cargo xtask bench peers   error against time beside Radiance, Mitsuba and LuxCore [--json] [--quick] [--only NAME ...] [--save]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -26,6 +28,7 @@ fn main() -> ExitCode {
         ["smoke"] => test::smoke_and_judge(root),
         ["bench", "setup"] => bench::setup(root),
         ["bench", "rays", ref arguments @ ..] => bench::rays(root, arguments),
+        ["bench", "peers", ref arguments @ ..] => peers::run(root, arguments),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

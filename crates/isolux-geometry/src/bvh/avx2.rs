@@ -40,7 +40,10 @@ unsafe impl Lanes<WIDTH> for Avx2 {
                 _mm256_max_epi32(crossing(2, z, &slabs.enter), _mm256_setzero_si256()),
             );
             let leave = _mm256_min_epi32(
-                _mm256_min_epi32(crossing(0, x ^ 1, &slabs.leave), crossing(1, y ^ 1, &slabs.leave)),
+                _mm256_min_epi32(
+                    crossing(0, x ^ 1, &slabs.leave),
+                    crossing(1, y ^ 1, &slabs.leave),
+                ),
                 _mm256_min_epi32(crossing(2, z ^ 1, &slabs.leave), bits(_mm256_set1_ps(t_far))),
             );
             let missed = _mm256_castsi256_ps(_mm256_cmpgt_epi32(enter, leave));
@@ -130,7 +133,11 @@ unsafe fn sheared(leaf: &Leaf<'_>, corner: usize, first: usize, shear: &Shear) -
         };
         let depth = from_origin(z, 2);
         let moved = |k: usize| _mm256_mul_ps(_mm256_set1_ps(shear.slope[k]), depth);
-        [_mm256_sub_ps(from_origin(x, 0), moved(0)), _mm256_sub_ps(from_origin(y, 1), moved(1)), depth]
+        [
+            _mm256_sub_ps(from_origin(x, 0), moved(0)),
+            _mm256_sub_ps(from_origin(y, 1), moved(1)),
+            depth,
+        ]
     }
 }
 

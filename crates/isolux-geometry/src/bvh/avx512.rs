@@ -40,7 +40,10 @@ unsafe impl Lanes<WIDTH> for Avx512 {
                 _mm512_max_epi32(crossing(2, z, &slabs.enter), _mm512_setzero_si512()),
             );
             let leave = _mm512_min_epi32(
-                _mm512_min_epi32(crossing(0, x ^ 1, &slabs.leave), crossing(1, y ^ 1, &slabs.leave)),
+                _mm512_min_epi32(
+                    crossing(0, x ^ 1, &slabs.leave),
+                    crossing(1, y ^ 1, &slabs.leave),
+                ),
                 _mm512_min_epi32(crossing(2, z ^ 1, &slabs.leave), bits(_mm512_set1_ps(t_far))),
             );
             let met = _mm512_cmple_epi32_mask(enter, leave);
@@ -132,7 +135,11 @@ unsafe fn sheared(leaf: &Leaf<'_>, corner: usize, first: usize, shear: &Shear) -
         };
         let depth = from_origin(z, 2);
         let moved = |k: usize| _mm512_mul_ps(_mm512_set1_ps(shear.slope[k]), depth);
-        [_mm512_sub_ps(from_origin(x, 0), moved(0)), _mm512_sub_ps(from_origin(y, 1), moved(1)), depth]
+        [
+            _mm512_sub_ps(from_origin(x, 0), moved(0)),
+            _mm512_sub_ps(from_origin(y, 1), moved(1)),
+            depth,
+        ]
     }
 }
 

@@ -1,5 +1,8 @@
 //! The tests of many boxes and triangles in plain Rust, for every machine.
-#![allow(unsafe_code, reason = "`Lanes` is for vector instructions; nothing here needs its promise")]
+#![allow(
+    unsafe_code,
+    reason = "`Lanes` is for vector instructions; nothing here needs its promise"
+)]
 
 use super::slabs::Slabs;
 use super::traverse::{Entry, Lanes, Met};
@@ -46,12 +49,7 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
     }
 
     #[inline(always)]
-    unsafe fn meet(
-        leaf: &Leaf<'_>,
-        first: usize,
-        shear: &Shear,
-        t_far: f32,
-    ) -> Met<[[f32; W]; 4]> {
+    unsafe fn meet(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> Met<[[f32; W]; 4]> {
         let Shear { axes, origin, slope, per_depth, .. } = shear;
         // SAFETY: `W` numbers of a row can be read, and any bits are a number.
         let numbers = |row: *const f32| unsafe { *row.cast::<[f32; W]>() };

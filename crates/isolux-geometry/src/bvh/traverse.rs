@@ -1,9 +1,12 @@
 //! How a ray walks the wide tree: near children first, what lies behind the closest hit never.
-#![allow(unsafe_code, reason = "a stack that is not cleared for every ray, and vector instructions")]
+#![allow(
+    unsafe_code,
+    reason = "a stack that is not cleared for every ray, and vector instructions"
+)]
 
+use super::build::MAX_DEPTH;
 use super::slabs::Slabs;
 use super::triangle_test::{Meeting, Shear, comes_before};
-use super::build::MAX_DEPTH;
 use super::wide::{Leaf, MAX_WIDTH, Node, Reference, TRANSPARENT, WideTree};
 use crate::{Hit, Ray};
 use std::mem::MaybeUninit;
@@ -34,7 +37,8 @@ pub(super) unsafe trait Lanes<const W: usize> {
     ///
     /// # Safety
     /// See [`Lanes`].
-    unsafe fn meet(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32) -> Met<Self::Meetings>;
+    unsafe fn meet(leaf: &Leaf<'_>, first: usize, shear: &Shear, t_far: f32)
+    -> Met<Self::Meetings>;
 
     /// The meeting of a lane.
     ///
@@ -127,7 +131,8 @@ impl Query for Closest {
         let index = label & !TRANSPARENT;
         if index != self.skip {
             let meeting = meeting();
-            let is_first = |best: (u32, Meeting)| comes_before((index, &meeting), (best.0, &best.1));
+            let is_first =
+                |best: (u32, Meeting)| comes_before((index, &meeting), (best.0, &best.1));
             if self.closest.is_none_or(is_first) {
                 self.t_far = meeting.t;
                 self.closest = Some((index, meeting));
@@ -240,9 +245,8 @@ impl<Q: Query> Walk<Q> {
         if !reference.is_leaf() {
             let free = stack.free();
             // SAFETY: as the caller says.
-            let met = unsafe {
-                L::push_met(tree.node(reference), &self.slabs, self.query.t_far(), free)
-            };
+            let met =
+                unsafe { L::push_met(tree.node(reference), &self.slabs, self.query.t_far(), free) };
             if met > 0 {
                 if met == 2 || (Q::ORDERED && met > 2) {
                     // SAFETY: `push_met` initialized as many.
