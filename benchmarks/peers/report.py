@@ -54,11 +54,12 @@ def table(rows):
     renderers = list(dict.fromkeys(r for row in rows for r in row["times"]))
     lines = [["scene", "points", "error", *renderers, "best peer / isolux"]]
     for row in rows:
-        ratio = row["best_peer_over_isolux"]
+        ratio, own = row["best_peer_over_isolux"], row["times"].get(OWN)
+        at_least = ">" if own and own["mark"] == "<" else ""
         lines.append([
             row["scene"], row["points"], f"{100 * row['error']:g} %",
             *(shown(row["times"].get(r), r in row["times"]) for r in renderers),
-            f"{ratio:.3g}" if ratio else "-",
+            f"{at_least}{ratio:.3g}" if ratio else "-",
         ])
     widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
     text = ["  ".join(cell.ljust(w) for cell, w in zip(line, widths)).rstrip() for line in lines]
@@ -67,7 +68,7 @@ def table(rows):
 
 NOTES = (
     "Whole-process time at which the error (root mean square of relative differences from the exact "
-    "values) is reached.\n< its cheapest run is already better; ~ extrapolated, at most by a factor of 2 in "
+    "values) is reached.\n< its cheapest run is already better, which makes the last column a bound; ~ extrapolated, at most by a factor of 2 in "
     "error; never: not with these efforts."
 )
 

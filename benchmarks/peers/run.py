@@ -49,6 +49,7 @@ def main():
         bench = Bench(flags, environment, Path(folder))
         for run in bench.in_turn():
             result["runs"].append(run)
+    result["machine"]["load_after"] = os.getloadavg()[0]
     result["levels"] = report.levels(result)
     save(result, flags.results)
     print(json.dumps(result, indent=1) if flags.json else report.table(result["levels"]))
