@@ -4,6 +4,7 @@
 mod bench;
 mod hall;
 mod judge;
+mod peers;
 mod smoke;
 mod test;
 mod tidy;
@@ -18,7 +19,9 @@ cargo xtask smoke   of it, the command line from scene to values, and the outsid
 cargo xtask bench setup   download Embree 4.4 into target/embree
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
 cargo xtask bench hall    time to an accuracy against triangles and luminaires
-                          [--json] [--quick] [--accuracy 1%] [--time-limit 600s] [--threads 2]";
+                          [--json] [--quick] [--accuracy 1%] [--time-limit 600s] [--threads 2]
+cargo xtask bench peers   error against time beside Radiance, Mitsuba and LuxCore
+                          [--json] [--quick] [--only NAME ...] [--save]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -30,6 +33,7 @@ fn main() -> ExitCode {
         ["bench", "setup"] => bench::setup(root),
         ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),
         ["bench", "rays", ref arguments @ ..] => bench::rays(root, arguments),
+        ["bench", "peers", ref arguments @ ..] => peers::run(root, arguments),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

@@ -20,7 +20,8 @@ mod validate;
 pub use builtin::{BUILTIN_NAMES, BuiltinError, builtin};
 pub use expectation::{Bound, Case, Expectation, Quantity};
 pub use measure::{
-    CubeError, GridError, MeasureError, MeasuredPoint, SphereError, measure_cube, measure_sphere,
+    CubeError, GridError, MeasureError, MeasuredPoint, SphereError, cube_grid, measure_cube,
+    measure_sphere, sphere_grid,
 };
 pub use validate::{
     Calibration, Reading, ValidateError, ValidateRow, ValidateSettings, ValidateTable, Verdict,

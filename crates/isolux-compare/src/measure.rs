@@ -88,12 +88,10 @@ pub fn measure_cube(scene: &Scene, map: &IlluminationMap) -> Result<CubeError, M
 
 /// The error of a map of SPHERE.
 pub fn measure_sphere(scene: &Scene, map: &IlluminationMap) -> Result<SphereError, MeasureError> {
-    let expected_lx = |at: &ProbePoint| sphere::direct_lx(at.position) + sphere::ambient_lx();
     let at = sphere::centre();
     let reader = MapReader::new(scene, map);
-    let centre = measured(&reader, 'C', at, expected_lx(&at))?;
-    let grid: Vec<(ProbePoint, f64)> =
-        sphere::grid(SPHERE_GRID).into_iter().map(|at| (at, expected_lx(&at))).collect();
+    let centre = measured(&reader, 'C', at, sphere::total_lx(&at))?;
+    let grid = sphere_grid();
     Ok(SphereError {
         centre,
         centre_error: (centre.measured_lx / centre.expected_lx - 1.0).abs(),
@@ -101,8 +99,13 @@ pub fn measure_sphere(scene: &Scene, map: &IlluminationMap) -> Result<SphereErro
     })
 }
 
-/// Middles of the cells of one face and their exact totals, computed once.
-fn cube_grid() -> &'static [(ProbePoint, f64)] {
+/// 16 x 16 places of equal area over SPHERE and their exact totals, lx.
+pub fn sphere_grid() -> Vec<(ProbePoint, f64)> {
+    sphere::grid(SPHERE_GRID).into_iter().map(|at| (at, sphere::total_lx(&at))).collect()
+}
+
+/// Middles of the 32 x 32 cells of the floor of CUBE and their exact totals in lx, computed once.
+pub fn cube_grid() -> &'static [(ProbePoint, f64)] {
     static GRID: LazyLock<Vec<(ProbePoint, f64)>> = LazyLock::new(|| {
         let reference = cube::reference::cube_reference();
         let half = CUBE_GRID / 2;

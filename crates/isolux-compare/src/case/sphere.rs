@@ -80,6 +80,11 @@ pub fn ambient_lx() -> f64 {
     *AMBIENT
 }
 
+/// Direct and indirect illuminance at a place of the unit sphere, lx.
+pub fn total_lx(at: &ProbePoint) -> f64 {
+    direct_lx(at.position) + ambient_lx()
+}
+
 /// Indirect illuminance thrown by one lumen received, 1/m2.
 fn exchange() -> f64 {
     let factor = MIRRORS.iter().map(|k| 1.0 + k).product::<f64>() / 4.0;

@@ -33,11 +33,17 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             // As integers: negative numbers order the wrong way round among themselves, but none
             // of them is the greatest beside zero, and the least is one where any is.
             let enter = _mm512_max_epi32(
-                _mm512_max_epi32(crossing(0, near[0], &slabs.enter), crossing(1, near[1], &slabs.enter)),
+                _mm512_max_epi32(
+                    crossing(0, near[0], &slabs.enter),
+                    crossing(1, near[1], &slabs.enter),
+                ),
                 _mm512_max_epi32(crossing(2, near[2], &slabs.enter), _mm512_setzero_si512()),
             );
             let leave = _mm512_min_epi32(
-                _mm512_min_epi32(crossing(0, far[0], &slabs.leave), crossing(1, far[1], &slabs.leave)),
+                _mm512_min_epi32(
+                    crossing(0, far[0], &slabs.leave),
+                    crossing(1, far[1], &slabs.leave),
+                ),
                 _mm512_min_epi32(crossing(2, far[2], &slabs.leave), bits(_mm512_set1_ps(t_far))),
             );
             (enter, u32::from(_mm512_cmple_epi32_mask(enter, leave)))
@@ -153,7 +159,11 @@ unsafe fn sheared([x, y, z]: [*const f32; 3], shear: &Shear) -> [__m512; 3] {
         };
         let depth = from_origin(z, 2);
         let moved = |k: usize| _mm512_mul_ps(_mm512_set1_ps(shear.slope[k]), depth);
-        [_mm512_sub_ps(from_origin(x, 0), moved(0)), _mm512_sub_ps(from_origin(y, 1), moved(1)), depth]
+        [
+            _mm512_sub_ps(from_origin(x, 0), moved(0)),
+            _mm512_sub_ps(from_origin(y, 1), moved(1)),
+            depth,
+        ]
     }
 }
 

@@ -56,7 +56,13 @@ fn depart<const W: usize, Q: Query>(
 ) -> Option<(usize, Constants, Walk<Q>)> {
     for (place, ray) in waiting {
         match tree.root.zip(Shear::new(ray)) {
-            Some((root, shear)) => return Some((place, Constants::new(ray, shear, tree.reach), Walk::new(root, Q::new(ray, &shear)))),
+            Some((root, shear)) => {
+                return Some((
+                    place,
+                    Constants::new(ray, shear, tree.reach),
+                    Walk::new(root, Q::new(ray, &shear)),
+                ));
+            }
             None => tell(place, Q::NOTHING),
         }
     }

@@ -29,7 +29,10 @@ impl Bounds {
 
     /// The box larger by so much on all sides, and by a rounding.
     pub(super) fn widened(self, by: f32) -> Self {
-        Self { low: self.low.map(|x| (x - by).next_down()), high: self.high.map(|x| (x + by).next_up()) }
+        Self {
+            low: self.low.map(|x| (x - by).next_down()),
+            high: self.high.map(|x| (x + by).next_up()),
+        }
     }
 
     /// Half the surface, m2: in proportion to it random lines meet the box. Zero for the empty box.

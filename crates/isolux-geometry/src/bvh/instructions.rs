@@ -2,14 +2,14 @@
 //! bits.
 #![allow(unsafe_code, reason = "vector instructions, reached only where the processor has them")]
 
-#[cfg(target_arch = "x86_64")]
-use super::{avx2::Avx2, avx512::Avx512};
 use super::batch::trace_many;
 use super::build::BinaryNode;
 use super::collapse::collapse;
 use super::portable::Portable;
 use super::traverse::{Query, trace};
 use super::wide::{Labelled, TooLarge, WideTree};
+#[cfg(target_arch = "x86_64")]
+use super::{avx2::Avx2, avx512::Avx512};
 use crate::Ray;
 
 /// A set of instructions that the kernel has code for.
@@ -122,11 +122,7 @@ impl Kernel {
     }
 
     /// The answers about many rays, by their place, in any order.
-    pub(super) fn trace_many<Q: Query>(
-        &self,
-        rays: &[Ray],
-        tell: impl FnMut(usize, Q::Answer),
-    ) {
+    pub(super) fn trace_many<Q: Query>(&self, rays: &[Ray], tell: impl FnMut(usize, Q::Answer)) {
         match self {
             // SAFETY: no special instructions are needed.
             Self::Portable(tree) => unsafe { trace_many::<_, Portable, Q>(tree, rays, tell) },

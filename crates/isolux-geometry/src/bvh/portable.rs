@@ -1,5 +1,8 @@
 //! The tests of many boxes and triangles in plain Rust, for every machine.
-#![allow(unsafe_code, reason = "`Lanes` is for vector instructions; nothing here needs its promise")]
+#![allow(
+    unsafe_code,
+    reason = "`Lanes` is for vector instructions; nothing here needs its promise"
+)]
 
 use super::slabs::Slabs;
 use super::traverse::{Entry, Lanes, Met};

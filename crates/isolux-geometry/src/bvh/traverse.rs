@@ -1,9 +1,12 @@
 //! How a ray walks the wide tree: near children first, what lies behind the closest hit never.
-#![allow(unsafe_code, reason = "a stack that is not cleared for every ray, and vector instructions")]
+#![allow(
+    unsafe_code,
+    reason = "a stack that is not cleared for every ray, and vector instructions"
+)]
 
+use super::build::MAX_DEPTH;
 use super::slabs::Slabs;
 use super::triangle_test::{Meeting, Shear, comes_before};
-use super::build::MAX_DEPTH;
 use super::wide::{Leaf, MAX_WIDTH, Node, Reference, TRANSPARENT, WideTree};
 use crate::{Hit, Ray};
 use std::mem::MaybeUninit;
@@ -146,7 +149,8 @@ impl Query for Closest {
         let index = label & !TRANSPARENT;
         if index != self.skip {
             let meeting = meeting();
-            let is_first = |best: (u32, Meeting)| comes_before((index, &meeting), (best.0, &best.1));
+            let is_first =
+                |best: (u32, Meeting)| comes_before((index, &meeting), (best.0, &best.1));
             if meeting.is_within(self.t_far) && self.closest.is_none_or(is_first) {
                 self.t_far = meeting.t;
                 self.closest = Some((index, meeting));
@@ -324,7 +328,11 @@ impl<Q: Query> Walk<Q> {
     /// # Safety
     /// The processor has the instructions of `L`.
     #[inline(always)]
-    unsafe fn look_at<const W: usize, L: Lanes<W>>(&mut self, leaf: &Leaf<'_>, shear: &Shear) -> bool {
+    unsafe fn look_at<const W: usize, L: Lanes<W>>(
+        &mut self,
+        leaf: &Leaf<'_>,
+        shear: &Shear,
+    ) -> bool {
         let mut first = 0;
         while first < leaf.count {
             let lanes = (2 << (leaf.count - first - 1)) - 1;

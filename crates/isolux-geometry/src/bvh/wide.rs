@@ -158,7 +158,9 @@ impl<const W: usize> WideTree<W> {
 
     #[inline(always)]
     pub(super) fn node(&self, reference: Reference) -> &Node<W> {
-        debug_assert!(!reference.is_leaf() && reference.node() + Node::<W>::LINES <= self.nodes.len());
+        debug_assert!(
+            !reference.is_leaf() && reference.node() + Node::<W>::LINES <= self.nodes.len()
+        );
         // SAFETY: a reference to a node comes from `Builder::add_node`, which appended all its
         // lines. Lines are never taken away and are aligned as nodes are, and any bits are a node.
         #[allow(unsafe_code, reason = "bits of lines seen as a node, without a check per step")]

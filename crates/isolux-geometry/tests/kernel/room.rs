@@ -159,7 +159,10 @@ pub(crate) fn aimed(ray: Ray, target: [f32; 3]) -> Ray {
 }
 
 /// A hierarchy for every set of instructions that this processor has.
-pub(crate) fn kernels(mesh: &TriangleMesh, is_transparent: impl Fn(u32) -> bool + Sync) -> Vec<Bvh> {
+pub(crate) fn kernels(
+    mesh: &TriangleMesh,
+    is_transparent: impl Fn(u32) -> bool + Sync,
+) -> Vec<Bvh> {
     let build = |set| Bvh::build_for(set, mesh.clone(), &is_transparent);
     InstructionSet::ALL.into_iter().filter(|set| set.is_available()).map(build).collect()
 }

@@ -1,0 +1,51 @@
+"""What is run: for every scene and set of points, each renderer's efforts from the cheapest upwards.
+
+The numbers of an effort are named in the renderer's script. Each ladder holds, of the settings tried, those
+that nothing of the same renderer beats in both time and error; `quick` is how many of them end soon.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """The efforts of one renderer at the points of one scene."""
+
+    scene: str
+    points: str
+    renderer: str
+    efforts: list
+    quick: int
+
+
+# Renderers that are left out, and why: it is said in the results.
+CANNOT = {
+    ("sphere", "luxcore"): "its baker traces paths from the surface, and none finds a point lamp in a mirror",
+}
+
+LADDERS = [
+    Ladder(
+        "cube", "map", "isolux",
+        ["0.2", "0.05", "0.02", "0.01", "0.006", "0.003", "0.002", "0.001"], 6,
+    ),
+    Ladder(
+        "cube", "map", "radiance",
+        ["0.5:64:0:4:4", "0.4:64:0:16:5", "0.3:128:32:32:5", "0.2:256:0:64:5", "0.15:512:0:32:5",
+         "0.1:1024:0:64:6"], 4,
+    ),
+    Ladder("cube", "map", "mitsuba", ["0:64", "0:256", "0:1024", "0:4096", "0:16384", "0:65536"], 3),
+    Ladder("cube", "map", "luxcore", ["32:16", "64:16", "64:64", "64:256"], 2),
+    Ladder("cube", "paper", "isolux", ["0.2", "0.05", "0.01", "0.003"], 3),
+    Ladder(
+        "cube", "paper", "radiance",
+        ["0.4:64:0:16:5", "0.3:128:32:32:5", "0.2:256:0:64:5", "0.2:1024:0:64:5", "0.1:1024:0:64:6"], 3,
+    ),
+    Ladder("cube", "paper", "mitsuba", ["0:1024", "0:16384", "0:65536", "0:262144", "0:1048576"], 4),
+    Ladder("sphere", "map", "isolux", ["0.2", "0.05", "0.02", "0.01", "0.006", "0.003", "0.001"], 5),
+    Ladder(
+        "sphere", "map", "radiance",
+        ["0.5:64:0:8:3", "0.5:256:0:8:6", "0.4:512:0:8:8", "0.2:256:0:8:12", "0.15:512:0:8:12",
+         "0.1:1024:0:8:12"], 4,
+    ),
+    Ladder("sphere", "map", "mitsuba", ["1:16", "1:64", "1:256", "1:1024", "1:4096"], 3),
+]

@@ -1,0 +1,28 @@
+"""The shared library that compiles Mitsuba's kernels."""
+
+import ctypes.util
+import glob
+import os
+import re
+
+
+def llvm():
+    """Path of the newest libLLVM that is installed, or of the one named in DRJIT_LIBLLVM_PATH."""
+    chosen = os.environ.get("DRJIT_LIBLLVM_PATH")
+    if chosen:
+        return chosen
+    found = {}
+    for folder in ("/usr/lib/*", "/usr/lib", "/usr/lib/llvm-*/lib", "/usr/local/lib"):
+        for path in glob.glob(f"{folder}/libLLVM*.so*"):
+            version = re.search(r"libLLVM(?:-|\.so\.)(\d+)", path)
+            if version:
+                found[int(version[1])] = path
+    if found:
+        return found[max(found)]
+    elsewhere = ctypes.util.find_library("LLVM")
+    if elsewhere:
+        return elsewhere
+    raise SystemExit(
+        "there is no libLLVM, which Mitsuba compiles its kernels with; install Debian's package "
+        "libllvm19 (or a newer libllvm), or name a library in DRJIT_LIBLLVM_PATH"
+    )

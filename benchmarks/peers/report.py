@@ -1,0 +1,122 @@
+"""What a run of the whole found, as a table and as a picture."""
+
+import math
+import statistics
+
+import curve
+
+LEVELS = [0.01, 0.003, 0.001]
+OWN = "isolux"
+COLOURS = {"isolux": "#c1121f", "radiance": "#1d6fb8", "mitsuba": "#2a8a4a", "luxcore": "#8a5a00"}
+MARKERS = {"isolux": "o", "radiance": "s", "mitsuba": "^", "luxcore": "D"}
+
+
+def pairs(result, scene, points, renderer):
+    """(median time of the whole process, root mean square error) of every effort that gave a map."""
+    found = []
+    for run in result["runs"]:
+        if (run["scene"], run["points"], run["renderer"]) == (scene, points, renderer) and run["errors"]:
+            squares = statistics.fmean(error * error for error in run["errors"])
+            found.append((statistics.median(run["whole_s"]), math.sqrt(squares)))
+    return found
+
+
+def panels(result):
+    """Scenes with their points, in the order they were run, and the renderers of each."""
+    found = {}
+    for run in result["runs"]:
+        names = found.setdefault((run["scene"], run["points"]), [])
+        if run["renderer"] not in names:
+            names.append(run["renderer"])
+    return found
+
+
+def levels(result):
+    """For every panel and level the time of each renderer, and the best peer's over isolux'."""
+    rows = []
+    for (scene, points), renderers in panels(result).items():
+        for level in LEVELS:
+            times = {r: curve.reached(pairs(result, scene, points, r), level) for r in renderers}
+            peers = [t.time_s for r, t in times.items() if r != OWN and t]
+            own = times.get(OWN)
+            rows.append({
+                "scene": scene,
+                "points": points,
+                "error": level,
+                "times": {r: t and {"time_s": t.time_s, "mark": t.mark} for r, t in times.items()},
+                "best_peer_over_isolux": min(peers) / own.time_s if peers and own else None,
+            })
+    return rows
+
+
+def table(rows):
+    """Of `levels`, for the terminal."""
+    renderers = list(dict.fromkeys(r for row in rows for r in row["times"]))
+    lines = [["scene", "points", "error", *renderers, "best peer / isolux"]]
+    for row in rows:
+        ratio, own = row["best_peer_over_isolux"], row["times"].get(OWN)
+        at_least = ">" if own and own["mark"] == "<" else ""
+        lines.append([
+            row["scene"], row["points"], f"{100 * row['error']:g} %",
+            *(shown(row["times"].get(r), r in row["times"]) for r in renderers),
+            f"{at_least}{ratio:.3g}" if ratio else "-",
+        ])
+    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
+    text = ["  ".join(cell.ljust(w) for cell, w in zip(line, widths)).rstrip() for line in lines]
+    return "\n".join([*text, "", NOTES])
+
+
+NOTES = (
+    "Whole-process time at which the error (root mean square of relative differences from the exact "
+    "values) is reached.\n< its cheapest run is already better, which makes the last column a bound; ~ extrapolated, at most by a factor of 2 in "
+    "error; never: not with these efforts."
+)
+
+
+def shown(time, was_run):
+    if not was_run:
+        return "-"
+    return f"{time['mark']}{time['time_s']:.3g} s" if time else "never"
+
+
+def plot(result, path):
+    """Error against time, one panel for a scene and its points."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    matplotlib.rcParams["svg.hashsalt"] = "isolux"
+    import matplotlib.pyplot as plt
+
+    all_panels = panels(result)
+    figure, axes = plt.subplots(1, len(all_panels), figsize=(5.2 * len(all_panels), 4.6), squeeze=False)
+    for axis, ((scene, points), renderers) in zip(axes[0], all_panels.items()):
+        for renderer in renderers:
+            draw(axis, renderer, sorted(pairs(result, scene, points, renderer)))
+        for level in LEVELS:
+            axis.axhline(100 * level, color="0.8", linewidth=0.8, zorder=0)
+        axis.set(xscale="log", yscale="log", xlabel="time of the whole process, s", ylabel="error, %")
+        axis.set_title(f"{scene.upper()}, {'whole map' if points == 'map' else 'points of the paper'}")
+        axis.xaxis.set_major_formatter(plain())
+        axis.yaxis.set_major_formatter(plain())
+        axis.grid(True, which="major", color="0.92")
+        axis.legend(frameon=False)
+    machine = result["machine"]
+    figure.suptitle(f"{machine['processor']}, {result['threads']} threads, {result['date']}", fontsize=9)
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+    plt.close(figure)
+
+
+def draw(axis, renderer, found):
+    if found:
+        times_s, errors = zip(*found)
+        axis.plot(
+            times_s, [100 * e for e in errors], label=renderer, color=COLOURS[renderer],
+            marker=MARKERS[renderer], markersize=5, linewidth=2.2 if renderer == OWN else 1.3,
+        )
+
+
+def plain():
+    from matplotlib.ticker import FuncFormatter
+
+    return FuncFormatter(lambda value, _: f"{value:g}")

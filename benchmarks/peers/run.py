@@ -1,0 +1,174 @@
+"""Runs isolux and its peers in turn over the scenes, and says who reaches which error in what time."""
+
+import argparse
+import datetime
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import ladders
+import library
+import machine
+import report
+import scene as scenes
+
+HERE = Path(__file__).parent
+# Runs shorter than this are repeated with other seeds: their times scatter most.
+SHORT_S = 3.0
+REPETITIONS = 3
+# Then a run is given up.
+TOO_LONG_S = 400.0
+
+
+def main():
+    flags = arguments()
+    libllvm = library.llvm()
+    environment = {
+        **os.environ, "ISOLUX": str(flags.isolux.resolve()), "DRJIT_LIBLLVM_PATH": libllvm,
+        "OMP_NUM_THREADS": str(flags.threads),
+    }
+    result = {
+        "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d"),
+        "revision": flags.revision,
+        "machine": machine.machine(),
+        "versions": machine.versions(flags.isolux, libllvm),
+        "threads": flags.threads,
+        "quick": flags.quick,
+        "error": "weighted root mean square of relative differences from the exact values",
+        "cannot": [
+            {"scene": scene, "renderer": renderer, "reason": reason}
+            for (scene, renderer), reason in ladders.CANNOT.items()
+        ],
+        "runs": [],
+    }
+    with tempfile.TemporaryDirectory(prefix="isolux-peers-") as folder:
+        bench = Bench(flags, environment, Path(folder))
+        for run in bench.in_turn():
+            result["runs"].append(run)
+    result["machine"]["load_after"] = os.getloadavg()[0]
+    result["levels"] = report.levels(result)
+    save(result, flags.results)
+    print(json.dumps(result, indent=1) if flags.json else report.table(result["levels"]))
+
+
+def arguments():
+    flags = argparse.ArgumentParser(description=__doc__)
+    flags.add_argument("--isolux", type=Path, required=True, help="the program")
+    flags.add_argument("--scenes", type=Path, required=True, help="folder of NAME.json, from the example `peers`")
+    flags.add_argument("--results", type=Path, required=True, help="folder for the result and its picture")
+    flags.add_argument("--revision", default="unknown", help="of isolux, for the record")
+    flags.add_argument("--threads", type=int, default=2)
+    flags.add_argument("--quick", action="store_true", help="only the efforts that end soon")
+    flags.add_argument("--json", action="store_true", help="print the result instead of a table")
+    flags.add_argument("--only", nargs="+", metavar="RENDERER", default=[], help="leave the others out")
+    given = flags.parse_args()
+    known = sorted({ladder.renderer for ladder in ladders.LADDERS})
+    strangers = [name for name in given.only if name not in known]
+    if strangers:
+        flags.error(f"there is no renderer `{strangers[0]}`; choose from {', '.join(known)}")
+    for path in (given.isolux, given.scenes):
+        if not path.exists():
+            flags.error(f"{path} is not there; `cargo xtask bench peers` makes it")
+    if not 1 <= given.threads <= 1024:
+        flags.error("--threads: from 1 to 1024")
+    given.results.mkdir(parents=True, exist_ok=True)
+    return given
+
+
+class Bench:
+    """The runs of one bench."""
+
+    def __init__(self, flags, environment, folder):
+        self.flags, self.environment, self.folder = flags, environment, folder
+        self.ladders = [
+            ladder for ladder in ladders.LADDERS if not flags.only or ladder.renderer in flags.only
+        ]
+        self.points = {
+            (ladder.scene, ladder.points): scenes.read(self.scene(ladder)).points(ladder.points)
+            for ladder in self.ladders
+        }
+
+    def scene(self, ladder):
+        return self.flags.scenes / f"{ladder.scene}.json"
+
+    def in_turn(self):
+        """Every renderer's first effort, then every renderer's second, and so on, scene by scene."""
+        for place in dict.fromkeys((ladder.scene, ladder.points) for ladder in self.ladders):
+            here = [ladder for ladder in self.ladders if (ladder.scene, ladder.points) == place]
+            # Compiled kernels and files are read from caches from the second run on: not what is measured.
+            for ladder in here:
+                self.once(ladder, ladder.efforts[0], 1)
+            for step in range(max(len(ladder.efforts) for ladder in here)):
+                for ladder in here:
+                    if step < (ladder.quick if self.flags.quick else len(ladder.efforts)):
+                        yield self.measured(ladder, ladder.efforts[step])
+
+    def measured(self, ladder, effort):
+        """One effort, more than once if it is short."""
+        found = [self.once(ladder, effort, 1)]
+        if found[0] and found[0]["whole_s"] < SHORT_S:
+            found += [self.once(ladder, effort, seed) for seed in range(2, REPETITIONS + 1)]
+        found = [one for one in found if one]
+        run = {
+            "scene": ladder.scene, "points": ladder.points, "renderer": ladder.renderer, "effort": effort,
+            "whole_s": [round(one["whole_s"], 4) for one in found],
+            "trace_s": [round(one["trace_s"], 4) for one in found],
+            "errors": [one["error"] for one in found if one["error"] is not None],
+            "reported_errors": [one["reported_error"] for one in found if one["reported_error"]],
+        }
+        say(f"{ladder.scene} {ladder.points} {ladder.renderer} {effort}: " + said(run))
+        return run
+
+    def once(self, ladder, effort, seed):
+        """Time and error of one run; None if it failed, which is said."""
+        output = self.folder / "values.json"
+        output.unlink(missing_ok=True)
+        command = [
+            sys.executable, HERE / f"with_{ladder.renderer}.py", self.scene(ladder), "--points", ladder.points,
+            "--effort", effort, "--threads", str(self.flags.threads), "--seed", str(seed),
+            "--folder", self.folder, "--output", output,
+        ]
+        started = time.perf_counter()
+        try:
+            ended = subprocess.run(
+                command, env=self.environment, capture_output=True, text=True, timeout=TOO_LONG_S
+            )
+        except subprocess.TimeoutExpired:
+            say(f"{ladder.renderer} {effort}: given up after {TOO_LONG_S:.0f} s")
+            return None
+        whole_s = time.perf_counter() - started
+        if ended.returncode != 0 or not output.is_file():
+            say(f"{ladder.renderer} {effort}: {' '.join(ended.stderr.split()[-60:])}")
+            return None
+        found = json.loads(output.read_text())
+        return {
+            "whole_s": found.get("whole_s", whole_s),
+            "trace_s": found["trace_s"],
+            "error": self.points[ladder.scene, ladder.points].error(found["values_lx"]),
+            "reported_error": found.get("reported_error"),
+        }
+
+
+def said(run):
+    if not run["errors"]:
+        return "no map"
+    return f"{100 * run['errors'][0]:.3f} % in {run['whole_s'][0]:.2f} s"
+
+
+def save(result, folder):
+    path = folder / f"peers-{result['date']}.json"
+    path.write_text(json.dumps(result, indent=1) + "\n")
+    report.plot(result, path.with_suffix(".svg"))
+    say(f"saved {path.name} and its picture in {folder}")
+
+
+def say(line):
+    print(line, file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

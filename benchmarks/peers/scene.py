@@ -1,0 +1,163 @@
+"""A scene as the exporter wrote it: what every renderer is given, and what it must find."""
+
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Triangles of one material; `sphere` is what they stand for, if anything: (centre, radius_m)."""
+
+    name: str
+    positions: list
+    triangles: list
+    material: int
+    sphere: tuple | None
+
+    def outline(self):
+        """The corners of a polygon that is written as a fan of triangles, else None."""
+        last = len(self.positions)
+        fan = [[0, k - 1, k] for k in range(2, last)]
+        return list(range(last)) if self.triangles == fan else None
+
+    def area_m2(self):
+        return sum(_area(*(self.positions[v] for v in corners)) for corners in self.triangles)
+
+
+@dataclass(frozen=True)
+class Material:
+    """A front that is diffuse or a mirror, reflectances of red, green and blue."""
+
+    name: str
+    diffuse: tuple
+    mirror: tuple
+
+
+@dataclass(frozen=True)
+class PointLuminaire:
+    """An isotropic point."""
+
+    name: str
+    position: tuple
+    intensity_cd: float
+
+
+@dataclass(frozen=True)
+class PointSet:
+    """Places, inward normals, exact illuminances, and how much each place counts."""
+
+    name: str
+    positions: list
+    normals: list
+    expected_lx: list
+    weights: list
+
+    def error(self, values_lx):
+        """Weighted root mean square of relative differences; None where a value is missing."""
+        if len(values_lx) != len(self.expected_lx):
+            raise SystemExit(f"{len(values_lx)} values for {len(self.expected_lx)} points")
+        if any(v is None or not math.isfinite(v) for v in values_lx):
+            return None
+        rows = zip(values_lx, self.expected_lx, self.weights)
+        total = sum(weight * (value / expected - 1.0) ** 2 for value, expected, weight in rows)
+        return math.sqrt(total / sum(self.weights))
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Everything a renderer needs."""
+
+    name: str
+    shapes: list
+    materials: list
+    luminaires: list
+    point_sets: list
+
+    def points(self, name):
+        for point_set in self.point_sets:
+            if point_set.name == name:
+                return point_set
+        names = ", ".join(p.name for p in self.point_sets)
+        raise SystemExit(f"{self.name} has no points `{name}`; choose one of {names}")
+
+    def size_m(self):
+        """The longest edge of its box."""
+        low, high = self.box()
+        return max(b - a for a, b in zip(low, high))
+
+    def box(self):
+        positions = [p for shape in self.shapes for p in shape.positions]
+        return [[pick(p[k] for p in positions) for k in range(3)] for pick in (min, max)]
+
+    def has_mirrors(self):
+        return any(max(m.mirror) > 0 for m in self.materials)
+
+    def mean_luminance_cd_m2(self):
+        """Of a closed scene without mirrors, by the balance of energy: what is absorbed is emitted."""
+        areas = [(s.area_m2(), luminance(self.materials[s.material].diffuse)) for s in self.shapes]
+        whole_m2 = sum(area for area, _ in areas)
+        reflectance = sum(area * r for area, r in areas) / whole_m2
+        flux_lm = sum(4.0 * math.pi * lamp.intensity_cd for lamp in self.luminaires)
+        return reflectance * flux_lm / (whole_m2 * (1.0 - reflectance)) / math.pi
+
+    def just_inside(self, point_set):
+        """The points moved off their surface by a share of the scene, and off its edges by as much of the way to
+        its middle, where a ray can start. (Nearer, the renderers' own tolerances show at edges.)"""
+        share = 1e-5
+        low, high = self.box()
+        centre = [0.5 * (a + b) for a, b in zip(low, high)]
+        lift_m = share * self.size_m()
+        return [
+            [x + share * (c - x) + lift_m * n for x, c, n in zip(position, centre, normal)]
+            for position, normal in zip(point_set.positions, point_set.normals)
+        ]
+
+
+def read(path):
+    """The scene of a file."""
+    try:
+        record = json.loads(Path(path).read_text())
+    except OSError as e:
+        raise SystemExit(f"{path}: cannot be read ({e.strerror}); check the path") from None
+    except ValueError as e:
+        raise SystemExit(f"{path}: is not JSON ({e}); write it with the example `peers`") from None
+    try:
+        return Scene(
+            name=record["name"],
+            shapes=[_shape(s) for s in record["shapes"]],
+            materials=[_material(m) for m in record["materials"]],
+            luminaires=[_luminaire(lamp) for lamp in record["luminaires"]],
+            point_sets=[PointSet(**p) for p in record["point_sets"]],
+        )
+    except (KeyError, TypeError) as e:
+        raise SystemExit(f"{path}: is no scene of ours ({e!r}); write it with the example `peers`") from None
+
+
+def luminance(rgb):
+    """Of linear Rec. 709."""
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
+
+
+def _shape(record):
+    sphere = record["sphere"] and (tuple(record["sphere"]["centre"]), record["sphere"]["radius_m"])
+    return Shape(record["name"], record["positions"], record["triangles"], record["material"], sphere)
+
+
+def _material(record):
+    front = record["body"]["opaque"]["front"]
+    return Material(record["name"], tuple(front["diffuse"]["colour"]), tuple(front["mirror"]))
+
+
+def _luminaire(record):
+    point = record["kind"]["point"]
+    return PointLuminaire(
+        record["name"], tuple(point["position"]), point["intensity"]["isotropic"]["intensity_cd"]
+    )
+
+
+def _area(a, b, c):
+    u, v = ([q - p for p, q in zip(a, end)] for end in (b, c))
+    cross = [u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3] for k in range(3)]
+    return 0.5 * math.sqrt(sum(x * x for x in cross))

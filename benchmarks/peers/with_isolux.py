@@ -1,0 +1,46 @@
+"""isolux: `isolux solve`, a process by itself, whose time counts; then `isolux probe` at the points, whose
+time does not: it stands for looking into the map."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+
+import arguments
+import scene as scenes
+
+EFFORT = "accuracy"
+
+
+def main():
+    flags = arguments.parser(__doc__, EFFORT).parse_args()
+    program = os.environ.get("ISOLUX") or "isolux"
+    if not shutil.which(program):
+        raise SystemExit(f"there is no program {program}; build isolux and name it in ISOLUX")
+    scene = scenes.read(flags.scene)
+    points = scene.points(flags.points)
+    map_file, places = flags.folder / f"{scene.name}.glb", flags.folder / "points.pts"
+    solve = [program, "solve", f"builtin:{scene.name}", "-o", map_file, "--json", "--progress", "none"]
+    solve += ["--accuracy", str(flags.effort[0]), "--seed", str(flags.seed)]
+    solve += ["--threads", str(flags.threads)]
+    started = time.perf_counter()
+    said = subprocess.run(solve, stdout=subprocess.PIPE, check=True).stdout
+    whole_s = time.perf_counter() - started
+    summary = json.loads(said)
+    rows = zip(points.positions, points.normals)
+    places.write_text("".join(" ".join(map(repr, [*p, *n])) + "\n" for p, n in rows))
+    probe = [program, "probe", map_file, "--points", places, "--json"]
+    found = json.loads(subprocess.run(probe, stdout=subprocess.PIPE, check=True).stdout)
+    arguments.write(
+        flags.output,
+        values_lx=[point["illuminance_lx"] for point in found["points"]],
+        trace_s=summary["time_s"],
+        whole_s=whole_s,
+        reported_error=summary["accuracy_reached"],
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,101 @@
+//! The bench against other renderers: what `benchmarks/peers/run.py` needs, then that.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Scenes of the bench, as built in.
+const SCENES: [&str; 2] = ["cube", "sphere"];
+
+/// Measures isolux beside its peers; the arguments go on to the script, but for `--save`, which
+/// keeps the result in the repository.
+pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
+    let source = root.join("benchmarks").join("peers");
+    let folder = root.join("target").join("peers");
+    let python = environment(&source, &folder.join("venv"))?;
+    let isolux = build(root)?;
+    let scenes = folder.join("scenes");
+    export(root, &scenes)?;
+    let (save, rest): (Vec<&str>, Vec<&str>) = arguments.iter().partition(|a| **a == "--save");
+    let results = if save.is_empty() { folder.join("results") } else { source.join("results") };
+    let mut bench = Command::new(python);
+    bench.arg(source.join("run.py")).arg("--isolux").arg(isolux);
+    bench.arg("--scenes").arg(scenes).arg("--results").arg(results);
+    bench.args(["--revision", &revision(root)]).args(rest);
+    wait(&mut bench, "the bench of peers")?;
+    Ok(String::new())
+}
+
+/// Tests of the scripts themselves, for which no other renderer is installed.
+pub(crate) fn check(root: &Path) -> Result<String, String> {
+    let python = Command::new("python3").arg("--version").output();
+    if !python.is_ok_and(|output| output.status.success()) {
+        return Ok("skipped, as it is optional: python3 is not installed".to_owned());
+    }
+    let folder = root.join("benchmarks").join("peers");
+    let tests = ["-B", "-m", "unittest", "--quiet"];
+    wait(Command::new("python3").args(tests).current_dir(folder), "python3 -m unittest")?;
+    Ok("the scripts refuse what they should".to_owned())
+}
+
+/// A virtual environment with the pinned packages, made anew when they change; its Python.
+fn environment(source: &Path, folder: &Path) -> Result<PathBuf, String> {
+    let python = folder.join("bin").join("python");
+    let list = source.join("requirements.txt");
+    let pinned = read(&list)?;
+    let installed = folder.join("installed.txt");
+    if std::fs::read_to_string(&installed).is_ok_and(|text| text == pinned) {
+        return Ok(python);
+    }
+    wait(Command::new("python3").args(["-m", "venv", "--clear"]).arg(folder), "python3 -m venv")?;
+    let pip = ["-m", "pip", "install", "--quiet", "--only-binary", ":all:", "-r"];
+    wait(Command::new(&python).args(pip).arg(&list), "pip")?;
+    std::fs::write(&installed, pinned).map_err(|e| format!("{}: {e}", installed.display()))?;
+    Ok(python)
+}
+
+/// Builds isolux as it is shipped; where it is.
+fn build(root: &Path) -> Result<PathBuf, String> {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
+    let built = root.join(target.unwrap_or_else(|| "target".into()));
+    let arguments = ["build", "--release", "--quiet", "--package", "isolux-cli"];
+    wait(cargo().args(arguments).current_dir(root), "cargo build")?;
+    Ok(built.join("release").join(format!("isolux{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// Scenes with exact points, each as JSON.
+fn export(root: &Path, folder: &Path) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    for scene in SCENES {
+        let path = folder.join(format!("{scene}.json"));
+        let file = std::fs::File::create(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let example = ["run", "--release", "--quiet", "-p", "isolux-compare", "--example", "peers"];
+        let mut command = cargo();
+        command.args(example).args(["--", scene]).current_dir(root).stdout(Stdio::from(file));
+        wait(&mut command, "the example `peers`")?;
+    }
+    Ok(())
+}
+
+/// The commit measured, marked where files differ from it.
+fn revision(root: &Path) -> String {
+    let describe = ["describe", "--always", "--dirty"];
+    let said = Command::new("git").args(describe).current_dir(root).output();
+    let said = said.ok().filter(|output| output.status.success());
+    said.map_or("unknown".to_owned(), |s| String::from_utf8_lossy(&s.stdout).trim().to_owned())
+}
+
+fn cargo() -> Command {
+    Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+fn wait(command: &mut Command, what: &str) -> Result<(), String> {
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{what}: {status}")),
+        Err(e) => Err(format!("cannot run {what}: {e}")),
+    }
+}
