@@ -36,10 +36,10 @@ fn check_file(file: &File) -> Vec<Finding> {
         .collect()
 }
 
-/// `unsafe fn` passes the duty to its caller, in its documentation (`clippy::missing_safety_doc`).
+/// `unsafe fn` and `unsafe trait` pass the duty on, in their documentation (`clippy::missing_safety_doc`).
 fn is_declaration(code: &str) -> bool {
     let after = code["unsafe".len()..].trim_start();
-    after.starts_with("fn ") || after.starts_with("extern ")
+    ["fn ", "extern ", "trait "].iter().any(|item| after.starts_with(item))
 }
 
 fn is_explained(text: &str, line: usize) -> bool {

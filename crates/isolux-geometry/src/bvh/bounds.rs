@@ -42,12 +42,6 @@ impl Bounds {
         if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
     }
 
-    /// Twice the centre.
-    #[inline(always)]
-    pub(super) fn centre_doubled(&self) -> [f32; 3] {
-        std::array::from_fn(|axis| self.low[axis] + self.high[axis])
-    }
-
     /// The largest coordinate without its sign; zero for the empty box.
     pub(super) fn reach(&self) -> f32 {
         let corners = self.low.iter().chain(&self.high);

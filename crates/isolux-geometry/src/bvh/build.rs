@@ -1,16 +1,21 @@
-//! The binary hierarchy: split where the surface area heuristic, over bins, costs least.
+//! The binary hierarchy: split where the surface area heuristic costs least.
 //!
-//! After Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies". A subtree over
-//! `n` triangles fills exactly `2 n - 1` consecutive nodes, so halves are built in parallel in
-//! place and the result does not depend on the number of threads.
+//! After Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies": over bins where
+//! triangles are many, over all places where they are few. A subtree over `n` triangles fills exactly
+//! `2 n - 1` consecutive nodes, so halves are built in parallel in place and the result does not
+//! depend on the number of threads.
 
 use super::bounds::Bounds;
+use super::extent::Extent;
 
 /// Bins along each axis.
 const BINS: usize = 32;
 
+/// Up to so many triangles, every place to split is tried.
+const FEW: usize = 12;
+
 /// From this many triangles on, both halves are built at the same time.
-const PARALLEL: usize = 4096;
+pub(super) const PARALLEL: usize = 4096;
 
 /// Greatest number of nodes on a path from the root to a leaf, less one: bounds all recursion.
 pub(super) const MAX_DEPTH: u32 = 34;
@@ -19,11 +24,22 @@ pub(super) const MAX_DEPTH: u32 = 34;
 /// reference in the wide tree.
 pub(super) const MAX_TRIANGLES: usize = 1 << 28;
 
-/// A triangle to build over.
+/// A triangle to build over: its box, and its index in the fourth lane.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Primitive {
-    pub(super) bounds: Bounds,
-    pub(super) triangle: u32,
+pub(super) struct Primitive(Extent);
+
+impl Primitive {
+    /// Makes an index a normal number: some processors are slow with those next to zero.
+    const NORMAL: u32 = 1 << 30;
+
+    pub(super) fn new(bounds: &Bounds, triangle: u32) -> Self {
+        debug_assert!((triangle as usize) < MAX_TRIANGLES);
+        Self(Extent::of(bounds, f32::from_bits(triangle | Self::NORMAL)))
+    }
+
+    fn triangle(&self) -> u32 {
+        self.0.fourth().to_bits() & !Self::NORMAL
+    }
 }
 
 /// A node of the binary hierarchy. The first child of an inner node follows it.
@@ -56,27 +72,50 @@ impl BinaryNode {
 pub(super) fn build(mut primitives: Vec<Primitive>) -> Vec<BinaryNode> {
     let mut nodes = vec![BinaryNode::UNBUILT; (2 * primitives.len()).saturating_sub(1)];
     if !nodes.is_empty() {
-        fill(&mut nodes, &mut primitives, 0);
+        let around = Around::of(&primitives);
+        fill(&mut nodes, &mut primitives, around, 0);
     }
     nodes
 }
 
-fn fill(nodes: &mut [BinaryNode], primitives: &mut [Primitive], depth: u32) {
+/// The box around primitives, and that around their centres, doubled.
+#[derive(Clone, Copy)]
+struct Around {
+    bounds: Extent,
+    centres: Extent,
+}
+
+impl Around {
+    const NOTHING: Self = Self { bounds: Extent::EMPTY, centres: Extent::EMPTY };
+
+    #[inline(always)]
+    fn add(&mut self, primitive: &Primitive) {
+        self.bounds = self.bounds.union(&primitive.0);
+        self.centres = self.centres.with(primitive.0.centre_doubled());
+    }
+
+    fn of(primitives: &[Primitive]) -> Self {
+        let mut around = Self::NOTHING;
+        primitives.iter().for_each(|primitive| around.add(primitive));
+        around
+    }
+}
+
+fn fill(nodes: &mut [BinaryNode], primitives: &mut [Primitive], around: Around, depth: u32) {
     let count = primitives.len();
     let Some((node, below)) = nodes.split_first_mut() else { return };
+    node.bounds = around.bounds.bounds();
     node.count = count as u32;
     if let [only] = primitives {
-        node.bounds = only.bounds;
-        node.link = only.triangle;
+        node.link = only.triangle();
         return;
     }
-    let (bounds, middle) = split(primitives, MAX_DEPTH - depth);
-    node.bounds = bounds;
+    let (middle, halves) = split(primitives, &around.centres, MAX_DEPTH - depth);
     node.link = 2 * middle as u32;
     let (first, second) = primitives.split_at_mut(middle);
     let (first_nodes, second_nodes) = below.split_at_mut(2 * middle - 1);
-    let mut fill_first = || fill(first_nodes, first, depth + 1);
-    let mut fill_second = || fill(second_nodes, second, depth + 1);
+    let mut fill_first = || fill(first_nodes, first, halves[0], depth + 1);
+    let mut fill_second = || fill(second_nodes, second, halves[1], depth + 1);
     if count < PARALLEL {
         fill_first();
         fill_second();
@@ -85,27 +124,27 @@ fn fill(nodes: &mut [BinaryNode], primitives: &mut [Primitive], depth: u32) {
     }
 }
 
-/// Orders the primitives so that those of the first child come before `middle`, which is returned
-/// with the bounds of all.
-fn split(primitives: &mut [Primitive], levels_left: u32) -> (Bounds, usize) {
-    let (mut bounds, mut centres) = (Bounds::EMPTY, Bounds::EMPTY);
-    for primitive in primitives.iter() {
-        bounds = bounds.union(primitive.bounds);
-        let centre = primitive.bounds.centre_doubled();
-        centres = centres.union(Bounds { low: centre, high: centre });
-    }
+/// Orders two or more primitives so that those of the first child come before the place returned,
+/// with what is around both halves.
+fn split(primitives: &mut [Primitive], centres: &Extent, levels_left: u32) -> (usize, [Around; 2]) {
     let count = primitives.len();
     // Once a level is lost to an uneven split, halving must still end in time.
-    let must_halve = ceil_log2(count) >= levels_left;
-    let middle = if must_halve {
-        halve(primitives, &centres)
-    } else {
-        match cheapest_plane(primitives, &centres) {
-            Some(plane) => partition(primitives, |p| plane.is_first(p)),
-            None => count / 2,
-        }
-    };
-    (bounds, middle)
+    if ceil_log2(count) >= levels_left {
+        let middle = halve(primitives, centres);
+        return around_halves(primitives, middle);
+    }
+    if count <= FEW {
+        let middle = few::cheapest_order(primitives);
+        return around_halves(primitives, middle);
+    }
+    match Grid::new(centres).cheapest_plane(primitives) {
+        Some(plane) => partition(primitives, |p| plane.is_first(p)),
+        None => around_halves(primitives, count / 2),
+    }
+}
+
+fn around_halves(primitives: &[Primitive], middle: usize) -> (usize, [Around; 2]) {
+    (middle, [Around::of(&primitives[..middle]), Around::of(&primitives[middle..])])
 }
 
 fn ceil_log2(count: usize) -> u32 {
@@ -113,56 +152,88 @@ fn ceil_log2(count: usize) -> u32 {
 }
 
 /// Halves by number across the longest axis of the centres.
-fn halve(primitives: &mut [Primitive], centres: &Bounds) -> usize {
-    let extent = |axis: usize| centres.high[axis] - centres.low[axis];
-    let axis = (1..3).fold(0, |best, axis| if extent(axis) > extent(best) { axis } else { best });
+fn halve(primitives: &mut [Primitive], centres: &Extent) -> usize {
+    let size = centres.size();
+    let axis = (1..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
     let middle = primitives.len() / 2;
     primitives.select_nth_unstable_by(middle, |a, b| {
-        let key = |p: &Primitive| p.bounds.centre_doubled()[axis];
-        key(a).total_cmp(&key(b)).then(a.triangle.cmp(&b.triangle))
+        let key = |p: &Primitive| p.0.centre_doubled()[axis];
+        key(a).total_cmp(&key(b)).then(a.triangle().cmp(&b.triangle()))
     });
     middle
 }
 
-/// Moves those of the first kind to the front and returns their number.
-fn partition(primitives: &mut [Primitive], is_first: impl Fn(&Primitive) -> bool) -> usize {
-    let mut middle = 0;
+/// Moves those of the first kind to the front.
+fn partition(
+    primitives: &mut [Primitive],
+    is_first: impl Fn(&Primitive) -> bool,
+) -> (usize, [Around; 2]) {
+    let (mut middle, mut first, mut second) = (0, Around::NOTHING, Around::NOTHING);
     for i in 0..primitives.len() {
-        if is_first(&primitives[i]) {
+        let primitive = primitives[i];
+        if is_first(&primitive) {
+            first.add(&primitive);
             primitives.swap(i, middle);
             middle += 1;
+        } else {
+            second.add(&primitive);
         }
     }
-    middle
+    (middle, [first, second])
 }
 
-/// How centres are sorted into bins along one axis.
+/// How centres are sorted into bins along all axes.
 #[derive(Clone, Copy)]
-struct Axis {
-    axis: usize,
-    low: f32,
-    bins_per_metre: f32,
+struct Grid {
+    low: [f32; 4],
+    /// Zero along an axis where all centres coincide.
+    bins_per_metre: [f32; 4],
 }
 
-impl Axis {
-    /// `None` where all centres coincide along the axis.
-    fn new(axis: usize, centres: &Bounds) -> Option<Self> {
-        let (low, high) = (centres.low[axis], centres.high[axis]);
-        // Short of the whole number of bins by more than the roundings of `bin`.
-        let bins_per_metre = BINS as f32 * (1.0 - 8.0 * f32::EPSILON) / (high - low);
-        (high > low && bins_per_metre.is_finite()).then_some(Self { axis, low, bins_per_metre })
+impl Grid {
+    fn new(centres: &Extent) -> Self {
+        // Short of the whole number of bins by more than the roundings of `bins`.
+        let per_metre = centres.size().map(|size| BINS as f32 * (1.0 - 8.0 * f32::EPSILON) / size);
+        let bins_per_metre = per_metre.map(|x| if x.is_finite() && x > 0.0 { x } else { 0.0 });
+        Self { low: centres.low(), bins_per_metre }
     }
 
     #[inline(always)]
-    fn bin(&self, primitive: &Primitive) -> usize {
-        let centre = primitive.bounds.low[self.axis] + primitive.bounds.high[self.axis];
-        (((centre - self.low) * self.bins_per_metre) as usize).min(BINS - 1)
+    fn bins(&self, primitive: &Primitive) -> [usize; 4] {
+        let centre = primitive.0.centre_doubled();
+        std::array::from_fn(|k| {
+            (((centre[k] - self.low[k]) * self.bins_per_metre[k]) as i32 as usize).min(BINS - 1)
+        })
+    }
+
+    /// The plane with the least sum of area times number on both sides; `None` where all centres
+    /// coincide.
+    fn cheapest_plane(&self, primitives: &[Primitive]) -> Option<Plane> {
+        let mut bins = [[(Extent::EMPTY, 0_u32); BINS]; 3];
+        for primitive in primitives {
+            let places = self.bins(primitive);
+            for (bins, place) in bins.iter_mut().zip(places) {
+                let (extent, count) = &mut bins[place];
+                *extent = extent.union(&primitive.0);
+                *count += 1;
+            }
+        }
+        let mut cheapest: Option<Plane> = None;
+        for axis in (0..3).filter(|&axis| self.bins_per_metre[axis] > 0.0) {
+            for (first_bins, cost) in costs(&bins[axis]) {
+                if cheapest.as_ref().is_none_or(|best| cost < best.cost) {
+                    cheapest = Some(Plane { grid: *self, axis, first_bins, cost });
+                }
+            }
+        }
+        cheapest
     }
 }
 
 /// A plane between two bins.
 struct Plane {
-    axis: Axis,
+    grid: Grid,
+    axis: usize,
     first_bins: usize,
     cost: f32,
 }
@@ -170,54 +241,76 @@ struct Plane {
 impl Plane {
     #[inline(always)]
     fn is_first(&self, primitive: &Primitive) -> bool {
-        self.axis.bin(primitive) < self.first_bins
+        self.grid.bins(primitive)[self.axis] < self.first_bins
     }
 }
 
-/// The plane with the least sum of area times number on both sides; `None` where all centres
-/// coincide.
-fn cheapest_plane(primitives: &[Primitive], centres: &Bounds) -> Option<Plane> {
-    let mut cheapest: Option<Plane> = None;
-    for axis in (0..3).filter_map(|axis| Axis::new(axis, centres)) {
-        let bins = Bins::of(primitives, &axis);
-        for (first_bins, cost) in bins.costs() {
-            if cheapest.as_ref().is_none_or(|best| cost < best.cost) {
-                cheapest = Some(Plane { axis, first_bins, cost });
+/// For each plane with something on both sides, how many bins lie before it and what it costs.
+fn costs(bins: &[(Extent, u32); BINS]) -> impl Iterator<Item = (usize, f32)> {
+    let mut second = [(0.0_f32, 0_u32); BINS];
+    let (mut count, mut extent) = (0, Extent::EMPTY);
+    for bin in (1..BINS).rev() {
+        count += bins[bin].1;
+        extent = extent.union(&bins[bin].0);
+        second[bin] = (extent.half_area() * count as f32, count);
+    }
+    let (mut count, mut extent) = (0, Extent::EMPTY);
+    (1..BINS).filter_map(move |bin| {
+        count += bins[bin - 1].1;
+        extent = extent.union(&bins[bin - 1].0);
+        let (second_cost, second_count) = second[bin];
+        let is_split = count > 0 && second_count > 0;
+        is_split.then(|| (bin, extent.half_area() * count as f32 + second_cost))
+    })
+}
+
+/// Splits of a few primitives.
+mod few {
+    use super::{Extent, FEW, Primitive};
+
+    /// Sorts two or more primitives along the axis, and returns the place, that cost least.
+    pub(super) fn cheapest_order(primitives: &mut [Primitive]) -> usize {
+        let mut cheapest = (f32::INFINITY, 0, primitives.len() / 2);
+        for axis in 0..3 {
+            sort(primitives, axis);
+            for (place, cost) in costs(primitives) {
+                if cost < cheapest.0 {
+                    cheapest = (cost, axis, place);
+                }
             }
         }
-    }
-    cheapest
-}
-
-struct Bins([(u32, Bounds); BINS]);
-
-impl Bins {
-    fn of(primitives: &[Primitive], axis: &Axis) -> Self {
-        let mut bins = [(0, Bounds::EMPTY); BINS];
-        for primitive in primitives {
-            let (count, bounds) = &mut bins[axis.bin(primitive)];
-            *count += 1;
-            *bounds = bounds.union(primitive.bounds);
+        let (_, axis, place) = cheapest;
+        if axis != 2 {
+            sort(primitives, axis);
         }
-        Self(bins)
+        place
     }
 
-    /// For each plane with something on both sides, how many bins lie before it and what it costs.
-    fn costs(&self) -> impl Iterator<Item = (usize, f32)> {
-        let mut second = [(0.0_f32, 0_u32); BINS];
-        let (mut count, mut bounds) = (0, Bounds::EMPTY);
-        for bin in (1..BINS).rev() {
-            count += self.0[bin].0;
-            bounds = bounds.union(self.0[bin].1);
-            second[bin] = (bounds.half_area() * count as f32, count);
+    /// By insertion; equal centres by index, so that the order before does not matter.
+    fn sort(primitives: &mut [Primitive], axis: usize) {
+        let key = |p: &Primitive| (p.0.centre_doubled()[axis], p.triangle());
+        for i in 1..primitives.len() {
+            let (primitive, mut place) = (primitives[i], i);
+            while place > 0 && key(&primitives[place - 1]) > key(&primitive) {
+                primitives[place] = primitives[place - 1];
+                place -= 1;
+            }
+            primitives[place] = primitive;
         }
-        let (mut count, mut bounds) = (0, Bounds::EMPTY);
-        (1..BINS).filter_map(move |bin| {
-            count += self.0[bin - 1].0;
-            bounds = bounds.union(self.0[bin - 1].1);
-            let (second_cost, second_count) = second[bin];
-            (count > 0 && second_count > 0)
-                .then(|| (bin, bounds.half_area() * count as f32 + second_cost))
+    }
+
+    fn costs(primitives: &[Primitive]) -> impl Iterator<Item = (usize, f32)> {
+        let count = primitives.len();
+        let mut second = [0.0_f32; FEW];
+        let mut extent = Extent::EMPTY;
+        for place in (1..count).rev() {
+            extent = extent.union(&primitives[place].0);
+            second[place] = extent.half_area() * (count - place) as f32;
+        }
+        let mut extent = Extent::EMPTY;
+        (1..count).map(move |place| {
+            extent = extent.union(&primitives[place - 1].0);
+            (place, extent.half_area() * place as f32 + second[place])
         })
     }
 }
@@ -233,7 +326,7 @@ mod tests {
             let size = growth.powf(k);
             let low = [size * (0.1 * k).cos(), size * (0.1 * k).sin(), k % 7.0];
             let bounds = Bounds { low, high: low.map(|x| x + 0.1 * size) };
-            Primitive { bounds, triangle }
+            Primitive::new(&bounds, triangle)
         };
         (0..count).map(primitive).collect()
     }

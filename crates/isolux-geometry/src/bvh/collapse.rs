@@ -6,7 +6,7 @@
 //! of what lies below a binary node when at most so many wide children may stand for it.
 
 use super::bounds::Bounds;
-use super::build::BinaryNode;
+use super::build::{BinaryNode, PARALLEL};
 use super::wide::{Builder, Labelled, MAX_LEAF, Node, Reference, TooLarge, WideTree};
 
 /// Cost of testing as many triangles as there are lanes, in tests of a node.
@@ -33,44 +33,13 @@ struct Forests<'a, const W: usize> {
 
 impl<'a, const W: usize> Forests<'a, W> {
     fn new(binary: &'a [BinaryNode]) -> Self {
-        let mut forests = Self { binary, cost: vec![[0.0; W]; binary.len()] };
-        // Children stand behind their parents.
-        for index in (0..binary.len()).rev() {
-            forests.cost[index] = forests.costs_at(index);
-        }
-        forests
-    }
-
-    fn costs_at(&self, index: usize) -> [f32; W] {
-        let leaf = self.leaf_cost(index);
-        let Some(children) = self.binary[index].children(index) else { return [leaf; W] };
-        let [first, second] = children.map(|child| &self.cost[child]);
-        // Of each number of places, shared in the best way; the last is for a node of its own.
-        let mut shared = [f32::INFINITY; W];
-        let mut all_places = f32::INFINITY;
-        for k in 1..W {
-            for places in k + 1..W {
-                shared[places] = shared[places].min(first[k] + second[places - k]);
-            }
-            all_places = all_places.min(first[k] + second[W - k]);
-        }
-        let node = self.binary[index].bounds.half_area() + all_places;
-        let mut least = leaf.min(node);
-        shared[0] = least;
-        for cost in &mut shared[1..] {
-            least = least.min(*cost);
-            *cost = least;
-        }
-        shared
+        let mut cost = vec![[0.0; W]; binary.len()];
+        fill_costs(binary, &mut cost);
+        Self { binary, cost }
     }
 
     fn leaf_cost(&self, index: usize) -> f32 {
-        let node = &self.binary[index];
-        if node.count as usize > MAX_LEAF {
-            return f32::INFINITY;
-        }
-        let steps = node.count.div_ceil(W as u32);
-        node.bounds.half_area() * steps as f32 * TRIANGLES_COST
+        leaf_cost::<W>(&self.binary[index])
     }
 
     /// How best to share `places` between two siblings: the cost and the places of the first.
@@ -116,6 +85,62 @@ impl<'a, const W: usize> Forests<'a, W> {
         self.roots(children[1], W - first, &mut roots);
         roots
     }
+}
+
+/// Fills in the costs at a node and below; both are slices over its subtree.
+fn fill_costs<const W: usize>(binary: &[BinaryNode], cost: &mut [[f32; W]]) {
+    let (Some(node), Some((here, below))) = (binary.first(), cost.split_first_mut()) else {
+        return;
+    };
+    let leaf = leaf_cost::<W>(node);
+    let Some([first, second]) = node.children(0) else {
+        *here = [leaf; W];
+        return;
+    };
+    let (first_costs, second_costs) = below.split_at_mut(second - first);
+    let mut fill_first = || fill_costs(&binary[first..second], first_costs);
+    let mut fill_second = || fill_costs(&binary[second..], second_costs);
+    if (node.count as usize) < PARALLEL {
+        fill_first();
+        fill_second();
+    } else {
+        rayon::join(fill_first, fill_second);
+    }
+    *here = costs_over(node.bounds.half_area(), leaf, &first_costs[0], &second_costs[0]);
+}
+
+/// The costs at an inner node of the given area, from the cost of a leaf in its place and the costs
+/// at its children.
+fn costs_over<const W: usize>(
+    half_area: f32,
+    leaf: f32,
+    first: &[f32; W],
+    second: &[f32; W],
+) -> [f32; W] {
+    // Of each number of places, shared in the best way; all of them are for a node of its own.
+    let mut shared = [f32::INFINITY; W];
+    let mut all_places = f32::INFINITY;
+    for k in 1..W {
+        for places in k + 1..W {
+            shared[places] = shared[places].min(first[k] + second[places - k]);
+        }
+        all_places = all_places.min(first[k] + second[W - k]);
+    }
+    let mut least = leaf.min(half_area + all_places);
+    shared[0] = least;
+    for cost in &mut shared[1..] {
+        least = least.min(*cost);
+        *cost = least;
+    }
+    shared
+}
+
+fn leaf_cost<const W: usize>(node: &BinaryNode) -> f32 {
+    if node.count as usize > MAX_LEAF {
+        return f32::INFINITY;
+    }
+    let steps = node.count.div_ceil(W as u32);
+    node.bounds.half_area() * steps as f32 * TRIANGLES_COST
 }
 
 /// Writes the wide tree, depth first, so that what a ray visits in turn lies close together.

@@ -12,6 +12,7 @@ mod bounds;
 pub mod brute_force;
 mod build;
 mod collapse;
+mod extent;
 mod instructions;
 mod memory;
 mod portable;
@@ -26,6 +27,7 @@ pub use instructions::InstructionSet;
 use bounds::Bounds;
 use build::Primitive;
 use instructions::Kernel;
+use rayon::prelude::*;
 use traverse::{Any, Closest};
 use triangle_test::{REACH, corners, longest_edge};
 use wide::{Labelled, TRANSPARENT};
@@ -65,10 +67,10 @@ impl Bvh {
         is_transparent: impl Fn(u32) -> bool + Sync,
     ) -> Self {
         assert!(mesh.len() <= build::MAX_TRIANGLES, "more than 2^28 triangles");
-        let primitives = (0..mesh.len() as u32).filter_map(|triangle| {
+        let primitives = (0..mesh.len() as u32).into_par_iter().filter_map(|triangle| {
             let corners = corners(&mesh, triangle)?;
             let beside = REACH * longest_edge(&corners);
-            Some(Primitive { bounds: Bounds::around(&corners).widened(beside), triangle })
+            Some(Primitive::new(&Bounds::around(&corners).widened(beside), triangle))
         });
         let binary = build::build(primitives.collect());
         let labelled = |triangle: u32| {
