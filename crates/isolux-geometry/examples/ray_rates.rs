@@ -7,7 +7,7 @@
 #[allow(dead_code, reason = "the tests use the rest")]
 mod room;
 
-use isolux_geometry::bvh::InstructionSet;
+use isolux_geometry::bvh::{InstructionSet, Preset};
 use isolux_geometry::{Bvh, Ray};
 use room::Random;
 use std::hint::black_box;
@@ -33,7 +33,7 @@ fn main() {
             println!("{set:?}: not on this processor");
             continue;
         }
-        let bvh = Bvh::build_for(set, bvh.mesh().clone(), |_| false);
+        let bvh = Bvh::build_with(Preset::Medium, set, bvh.mesh().clone(), |_| false);
         let closest = rate(&walk, |ray| bvh.closest_hit(ray).is_some());
         let any = rate(&segments, |ray| bvh.any_hit(ray));
         println!("{:10} {closest:>20} {any:>20}", format!("{set:?}"));

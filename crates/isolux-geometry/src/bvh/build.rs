@@ -7,6 +7,40 @@
 
 use super::bounds::Bounds;
 use super::extent::Extent;
+use std::ops::Range;
+
+/// How much work to put into a hierarchy. The answers are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Preset {
+    /// Half the time and memory for building, rays about a quarter slower.
+    Fast,
+    /// For all but very large scenes.
+    Medium,
+}
+
+impl Preset {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Fast, Self::Medium];
+
+    /// From this many triangles on building takes longer than most scenes are worth.
+    const VERY_MANY: usize = 4_000_000;
+
+    /// What suits so many triangles.
+    pub fn for_triangles(count: usize) -> Self {
+        if count < Self::VERY_MANY { Self::Medium } else { Self::Fast }
+    }
+
+    /// Along which axes to look for the cheapest plane.
+    fn axes(self, centres: &Extent) -> Range<usize> {
+        match self {
+            Self::Fast => {
+                let axis = longest(centres);
+                axis..axis + 1
+            }
+            Self::Medium => 0..3,
+        }
+    }
+}
 
 /// Bins along each axis.
 const BINS: usize = 32;
@@ -69,11 +103,11 @@ impl BinaryNode {
 }
 
 /// The hierarchy over the primitives, root first; empty for none of them.
-pub(super) fn build(mut primitives: Vec<Primitive>) -> Vec<BinaryNode> {
+pub(super) fn build(preset: Preset, mut primitives: Vec<Primitive>) -> Vec<BinaryNode> {
     let mut nodes = vec![BinaryNode::UNBUILT; (2 * primitives.len()).saturating_sub(1)];
     if !nodes.is_empty() {
         let around = Around::of(&primitives);
-        fill(&mut nodes, &mut primitives, around, 0);
+        fill(preset, &mut nodes, &mut primitives, around, 0);
     }
     nodes
 }
@@ -101,7 +135,13 @@ impl Around {
     }
 }
 
-fn fill(nodes: &mut [BinaryNode], primitives: &mut [Primitive], around: Around, depth: u32) {
+fn fill(
+    preset: Preset,
+    nodes: &mut [BinaryNode],
+    primitives: &mut [Primitive],
+    around: Around,
+    depth: u32,
+) {
     let count = primitives.len();
     let Some((node, below)) = nodes.split_first_mut() else { return };
     node.bounds = around.bounds.bounds();
@@ -110,12 +150,12 @@ fn fill(nodes: &mut [BinaryNode], primitives: &mut [Primitive], around: Around, 
         node.link = only.triangle();
         return;
     }
-    let (middle, halves) = split(primitives, &around.centres, MAX_DEPTH - depth);
+    let (middle, halves) = split(preset, primitives, &around.centres, MAX_DEPTH - depth);
     node.link = 2 * middle as u32;
     let (first, second) = primitives.split_at_mut(middle);
     let (first_nodes, second_nodes) = below.split_at_mut(2 * middle - 1);
-    let mut fill_first = || fill(first_nodes, first, halves[0], depth + 1);
-    let mut fill_second = || fill(second_nodes, second, halves[1], depth + 1);
+    let mut fill_first = || fill(preset, first_nodes, first, halves[0], depth + 1);
+    let mut fill_second = || fill(preset, second_nodes, second, halves[1], depth + 1);
     if count < PARALLEL {
         fill_first();
         fill_second();
@@ -126,7 +166,12 @@ fn fill(nodes: &mut [BinaryNode], primitives: &mut [Primitive], around: Around, 
 
 /// Orders two or more primitives so that those of the first child come before the place returned,
 /// with what is around both halves.
-fn split(primitives: &mut [Primitive], centres: &Extent, levels_left: u32) -> (usize, [Around; 2]) {
+fn split(
+    preset: Preset,
+    primitives: &mut [Primitive],
+    centres: &Extent,
+    levels_left: u32,
+) -> (usize, [Around; 2]) {
     let count = primitives.len();
     // Once a level is lost to an uneven split, halving must still end in time.
     if ceil_log2(count) >= levels_left {
@@ -137,7 +182,7 @@ fn split(primitives: &mut [Primitive], centres: &Extent, levels_left: u32) -> (u
         let middle = few::cheapest_order(primitives);
         return around_halves(primitives, middle);
     }
-    match Grid::new(centres).cheapest_plane(primitives) {
+    match Grid::new(centres).cheapest_plane(primitives, preset.axes(centres)) {
         Some(plane) => partition(primitives, |p| plane.is_first(p)),
         None => around_halves(primitives, count / 2),
     }
@@ -151,10 +196,14 @@ fn ceil_log2(count: usize) -> u32 {
     usize::BITS - (count - 1).leading_zeros()
 }
 
+fn longest(centres: &Extent) -> usize {
+    let size = centres.size();
+    (1..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best })
+}
+
 /// Halves by number across the longest axis of the centres.
 fn halve(primitives: &mut [Primitive], centres: &Extent) -> usize {
-    let size = centres.size();
-    let axis = (1..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
+    let axis = longest(centres);
     let middle = primitives.len() / 2;
     primitives.select_nth_unstable_by(middle, |a, b| {
         let key = |p: &Primitive| p.0.centre_doubled()[axis];
@@ -206,20 +255,20 @@ impl Grid {
         })
     }
 
-    /// The plane with the least sum of area times number on both sides; `None` where all centres
-    /// coincide.
-    fn cheapest_plane(&self, primitives: &[Primitive]) -> Option<Plane> {
+    /// The plane across one of the axes with the least sum of area times number on both sides; `None`
+    /// where all centres coincide.
+    fn cheapest_plane(&self, primitives: &[Primitive], axes: Range<usize>) -> Option<Plane> {
         let mut bins = [[(Extent::EMPTY, 0_u32); BINS]; 3];
         for primitive in primitives {
             let places = self.bins(primitive);
-            for (bins, place) in bins.iter_mut().zip(places) {
-                let (extent, count) = &mut bins[place];
+            for axis in axes.clone() {
+                let (extent, count) = &mut bins[axis][places[axis]];
                 *extent = extent.union(&primitive.0);
                 *count += 1;
             }
         }
         let mut cheapest: Option<Plane> = None;
-        for axis in (0..3).filter(|&axis| self.bins_per_metre[axis] > 0.0) {
+        for axis in axes.filter(|&axis| self.bins_per_metre[axis] > 0.0) {
             for (first_bins, cost) in costs(&bins[axis]) {
                 if cheapest.as_ref().is_none_or(|best| cost < best.cost) {
                     cheapest = Some(Plane { grid: *self, axis, first_bins, cost });
@@ -317,7 +366,7 @@ mod few {
 
 #[cfg(test)]
 mod tests {
-    use super::{BinaryNode, Bounds, MAX_DEPTH, Primitive, build};
+    use super::{BinaryNode, Bounds, MAX_DEPTH, Preset, Primitive, build};
 
     /// Boxes along a spiral, of sizes that differ by orders of magnitude.
     fn primitives(count: u32, growth: f32) -> Vec<Primitive> {
@@ -342,7 +391,7 @@ mod tests {
     fn the_number_of_threads_changes_nothing() {
         let with_threads = |count: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
-            pool.install(|| build(primitives(20_000, 1.0001)))
+            pool.install(|| build(Preset::Medium, primitives(20_000, 1.0001)))
         };
         let one = with_threads(1);
         assert_eq!(one.len(), 39_999);
@@ -351,14 +400,16 @@ mod tests {
 
     #[test]
     fn every_triangle_has_one_leaf_and_the_depth_is_bounded() {
-        for (count, growth) in [(1, 1.0), (2, 1.0), (1000, 1.0), (2000, 1.01), (6000, 0.99)] {
-            let nodes = build(primitives(count, growth));
+        let cases = [(1, 1.0), (2, 1.0), (1000, 1.0), (2000, 1.01), (6000, 0.99)];
+        for (preset, (count, growth)) in Preset::ALL.into_iter().flat_map(|p| cases.map(|c| (p, c)))
+        {
+            let nodes = build(preset, primitives(count, growth));
             let leaves = nodes.iter().filter(|node| node.count == 1);
             let mut triangles: Vec<u32> = leaves.map(BinaryNode::triangle).collect();
             triangles.sort_unstable();
             assert!(triangles.into_iter().eq(0..count));
-            assert!(depth(&nodes, 0) <= MAX_DEPTH, "{count} {growth}");
+            assert!(depth(&nodes, 0) <= MAX_DEPTH, "{preset:?} {count} {growth}");
         }
-        assert!(build(Vec::new()).is_empty());
+        assert!(build(Preset::Medium, Vec::new()).is_empty());
     }
 }

@@ -3,10 +3,11 @@
 //! Which descendants become the children of a wide node, and which subtrees become leaves, is
 //! decided by dynamic programming over the binary nodes (Ylitie, Karras, Laine 2017, "Efficient
 //! Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 3), over the least cost
-//! of what lies below a binary node when at most so many wide children may stand for it.
+//! of what lies below a binary node when at most so many wide children may stand for it. Where time
+//! and memory count for more, the child with the largest box is opened until there are enough.
 
 use super::bounds::Bounds;
-use super::build::{BinaryNode, PARALLEL};
+use super::build::{BinaryNode, PARALLEL, Preset};
 use super::wide::{Builder, Labelled, MAX_LEAF, Node, Reference, TooLarge, WideTree};
 
 /// Cost of testing as many triangles as there are lanes, in tests of a node.
@@ -14,14 +15,61 @@ const TRIANGLES_COST: f32 = 1.0;
 
 /// Collapses the binary hierarchy; `triangle` gives what a leaf holds.
 pub(super) fn collapse<const W: usize>(
+    preset: Preset,
     binary: &[BinaryNode],
     triangle: impl Fn(u32) -> Labelled,
 ) -> Result<WideTree<W>, TooLarge> {
+    match preset {
+        Preset::Fast => emit(binary, Largest::<W>(binary), triangle),
+        Preset::Medium => emit(binary, Forests::<W>::new(binary), triangle),
+    }
+}
+
+fn emit<const W: usize>(
+    binary: &[BinaryNode],
+    plan: impl Plan,
+    triangle: impl Fn(u32) -> Labelled,
+) -> Result<WideTree<W>, TooLarge> {
     let Some(top) = binary.first() else { return Ok(Builder::default().finish(None, 0.0)) };
-    let mut emit =
-        Emit { forests: Forests::<W>::new(binary), triangle, builder: Builder::default() };
+    let mut emit = Emit { binary, plan, triangle, builder: Builder::default() };
     let root = emit.subtree(0)?;
     Ok(emit.builder.finish(Some(root), top.bounds.reach()))
+}
+
+/// What becomes of binary nodes.
+trait Plan {
+    /// Whether node `index`, which has children, becomes a leaf.
+    fn is_leaf(&self, index: usize) -> bool;
+
+    /// The binary nodes that become the children of a wide node in place of one with the given
+    /// children.
+    fn wide_children(&self, children: [usize; 2]) -> Vec<usize>;
+}
+
+/// Opens the child with the largest box.
+struct Largest<'a, const W: usize>(&'a [BinaryNode]);
+
+impl<const W: usize> Plan for Largest<'_, W> {
+    fn is_leaf(&self, index: usize) -> bool {
+        self.0[index].count as usize <= W.min(MAX_LEAF)
+    }
+
+    fn wide_children(&self, children: [usize; 2]) -> Vec<usize> {
+        let mut wide = children.to_vec();
+        while wide.len() < W {
+            let opened = wide.iter().enumerate().filter(|(_, node)| !self.is_leaf(**node));
+            let area = |node: usize| self.0[node].bounds.half_area();
+            let largest = opened.max_by(|a, b| area(*a.1).total_cmp(&area(*b.1)));
+            let Some((place, below)) =
+                largest.and_then(|(place, &node)| Some((place, self.0[node].children(node)?)))
+            else {
+                break;
+            };
+            wide[place] = below[0];
+            wide.push(below[1]);
+        }
+        wide
+    }
 }
 
 /// The least costs, and what attains them.
@@ -38,27 +86,12 @@ impl<'a, const W: usize> Forests<'a, W> {
         Self { binary, cost }
     }
 
-    fn leaf_cost(&self, index: usize) -> f32 {
-        leaf_cost::<W>(&self.binary[index])
-    }
-
     /// How best to share `places` between two siblings: the cost and the places of the first.
     fn share(&self, [first, second]: [usize; 2], places: usize) -> (f32, usize) {
         let cost = |k: usize| self.cost[first][k] + self.cost[second][places - k];
         (1..places)
             .map(|k| (cost(k), k))
             .fold((f32::INFINITY, 1), |best, next| if next.0 < best.0 { next } else { best })
-    }
-
-    /// Whether a leaf is the cheapest for node `index`.
-    fn is_leaf(&self, index: usize) -> bool {
-        match self.binary[index].children(index) {
-            Some(children) => {
-                let node = self.binary[index].bounds.half_area() + self.share(children, W).0;
-                self.leaf_cost(index) <= node
-            }
-            None => true,
-        }
     }
 
     /// The binary nodes that take the place of node `index` among at most `places` wide children.
@@ -76,8 +109,16 @@ impl<'a, const W: usize> Forests<'a, W> {
             _ => roots.push(index),
         }
     }
+}
 
-    /// The binary nodes that become the children of a wide node in place of `index`.
+impl<const W: usize> Plan for Forests<'_, W> {
+    fn is_leaf(&self, index: usize) -> bool {
+        self.binary[index].children(index).is_none_or(|children| {
+            let node = self.binary[index].bounds.half_area() + self.share(children, W).0;
+            leaf_cost::<W>(&self.binary[index]) <= node
+        })
+    }
+
     fn wide_children(&self, children: [usize; 2]) -> Vec<usize> {
         let (_, first) = self.share(children, W);
         let mut roots = Vec::with_capacity(W);
@@ -144,17 +185,18 @@ fn leaf_cost<const W: usize>(node: &BinaryNode) -> f32 {
 }
 
 /// Writes the wide tree, depth first, so that what a ray visits in turn lies close together.
-struct Emit<'a, F, const W: usize> {
-    forests: Forests<'a, W>,
+struct Emit<'a, P, F, const W: usize> {
+    binary: &'a [BinaryNode],
+    plan: P,
     triangle: F,
     builder: Builder<W>,
 }
 
-impl<F: Fn(u32) -> Labelled, const W: usize> Emit<'_, F, W> {
+impl<P: Plan, F: Fn(u32) -> Labelled, const W: usize> Emit<'_, P, F, W> {
     /// Recursion is bounded by the depth of the binary hierarchy.
     fn subtree(&mut self, index: usize) -> Result<Reference, TooLarge> {
-        match self.forests.binary[index].children(index) {
-            Some(children) if !self.forests.is_leaf(index) => self.node(children),
+        match self.binary[index].children(index) {
+            Some(children) if !self.plan.is_leaf(index) => self.node(children),
             _ => self.leaf(index),
         }
     }
@@ -162,8 +204,8 @@ impl<F: Fn(u32) -> Labelled, const W: usize> Emit<'_, F, W> {
     fn node(&mut self, children: [usize; 2]) -> Result<Reference, TooLarge> {
         let reference = self.builder.add_node()?;
         let mut node = Node::EMPTY;
-        for (lane, child) in self.forests.wide_children(children).into_iter().enumerate() {
-            node.set_child(lane, &self.forests.binary[child].bounds, self.subtree(child)?);
+        for (lane, child) in self.plan.wide_children(children).into_iter().enumerate() {
+            node.set_child(lane, &self.binary[child].bounds, self.subtree(child)?);
         }
         self.builder.set_node(reference, &node);
         Ok(reference)
@@ -171,8 +213,8 @@ impl<F: Fn(u32) -> Labelled, const W: usize> Emit<'_, F, W> {
 
     fn leaf(&mut self, index: usize) -> Result<Reference, TooLarge> {
         // A subtree over n triangles fills 2 n - 1 consecutive nodes.
-        let size = 2 * self.forests.binary[index].count as usize - 1;
-        let below = &self.forests.binary[index..index + size];
+        let size = 2 * self.binary[index].count as usize - 1;
+        let below = &self.binary[index..index + size];
         let mut triangles: Vec<u32> =
             below.iter().filter(|node| node.count == 1).map(BinaryNode::triangle).collect();
         triangles.sort_unstable();

@@ -3,7 +3,7 @@
 #![allow(unsafe_code, reason = "vector instructions, reached only where the processor has them")]
 
 use super::batch::trace_many;
-use super::build::BinaryNode;
+use super::build::{BinaryNode, Preset};
 use super::collapse::collapse;
 use super::portable::Portable;
 use super::traverse::{Query, trace};
@@ -79,17 +79,18 @@ pub(super) enum Kernel {
 impl Kernel {
     /// From the binary hierarchy, for a set of instructions that is available.
     pub(super) fn collapse(
+        preset: Preset,
         set: InstructionSet,
         binary: &[BinaryNode],
         triangle: impl Fn(u32) -> Labelled + Sync,
     ) -> Result<Self, TooLarge> {
         assert!(set.is_available(), "this processor has no {set:?}");
         Ok(match set {
-            InstructionSet::Portable => Self::Portable(collapse(binary, triangle)?),
+            InstructionSet::Portable => Self::Portable(collapse(preset, binary, triangle)?),
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx2 => Self::Avx2(collapse(binary, triangle)?),
+            InstructionSet::Avx2 => Self::Avx2(collapse(preset, binary, triangle)?),
             #[cfg(target_arch = "x86_64")]
-            InstructionSet::Avx512 => Self::Avx512(collapse(binary, triangle)?),
+            InstructionSet::Avx512 => Self::Avx512(collapse(preset, binary, triangle)?),
             #[cfg(not(target_arch = "x86_64"))]
             InstructionSet::Avx2 | InstructionSet::Avx512 => unreachable!("not available"),
         })

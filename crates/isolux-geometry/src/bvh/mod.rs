@@ -22,6 +22,7 @@ mod triangle_test;
 mod wide;
 
 use crate::{Hit, Ray, TriangleMesh};
+pub use build::Preset;
 pub use instructions::InstructionSet;
 
 use bounds::Bounds;
@@ -54,14 +55,17 @@ impl Bvh {
     /// # Panics
     /// If there are more than 2^28 triangles.
     pub fn build(mesh: TriangleMesh, is_transparent: impl Fn(u32) -> bool + Sync) -> Self {
-        Self::build_for(InstructionSet::fastest(), mesh, is_transparent)
+        let preset = Preset::for_triangles(mesh.len());
+        Self::build_with(preset, InstructionSet::fastest(), mesh, is_transparent)
     }
 
-    /// The same for other instructions than the fastest, for measurement and tests.
+    /// The same with a preset and instructions other than those that suit the scene and the
+    /// processor, for measurement and tests.
     ///
     /// # Panics
     /// Also where this processor lacks the instructions.
-    pub fn build_for(
+    pub fn build_with(
+        preset: Preset,
         instructions: InstructionSet,
         mesh: TriangleMesh,
         is_transparent: impl Fn(u32) -> bool + Sync,
@@ -72,13 +76,13 @@ impl Bvh {
             let beside = REACH * longest_edge(&corners);
             Some(Primitive::new(&Bounds::around(&corners).widened(beside), triangle))
         });
-        let binary = build::build(primitives.collect());
+        let binary = build::build(preset, primitives.collect());
         let labelled = |triangle: u32| {
             let mark = if is_transparent(triangle) { TRANSPARENT } else { 0 };
             let corners = corners(&mesh, triangle).unwrap_or_default();
             Labelled { corners, label: triangle | mark }
         };
-        let kernel = Kernel::collapse(instructions, &binary, labelled);
+        let kernel = Kernel::collapse(preset, instructions, &binary, labelled);
         Self { kernel: kernel.expect("fewer lines than references reach"), mesh }
     }
 

@@ -1,6 +1,6 @@
 //! A closed room with furniture, all of it welded closed surfaces, and random rays in it.
 
-use isolux_geometry::bvh::InstructionSet;
+use isolux_geometry::bvh::{InstructionSet, Preset};
 use isolux_geometry::{Bvh, Ray, TriangleMesh};
 use std::collections::HashMap;
 
@@ -158,11 +158,14 @@ pub(crate) fn aimed(ray: Ray, target: [f32; 3]) -> Ray {
     Ray { direction: [0, 1, 2].map(|axis| target[axis] - ray.origin[axis]), ..ray }
 }
 
-/// A hierarchy for every set of instructions that this processor has.
+/// A hierarchy for every preset and every set of instructions that this processor has.
 pub(crate) fn kernels(
     mesh: &TriangleMesh,
     is_transparent: impl Fn(u32) -> bool + Sync,
 ) -> Vec<Bvh> {
-    let build = |set| Bvh::build_for(set, mesh.clone(), &is_transparent);
-    InstructionSet::ALL.into_iter().filter(|set| set.is_available()).map(build).collect()
+    let available = InstructionSet::ALL.into_iter().filter(|set| set.is_available());
+    available
+        .flat_map(|set| Preset::ALL.map(|preset| (preset, set)))
+        .map(|(preset, set)| Bvh::build_with(preset, set, mesh.clone(), &is_transparent))
+        .collect()
 }
