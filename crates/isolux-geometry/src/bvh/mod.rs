@@ -29,7 +29,7 @@ use bounds::Bounds;
 use build::Primitive;
 use instructions::Kernel;
 use rayon::prelude::*;
-use traverse::{Any, Closest};
+use traverse::{Any, Closest, Query};
 use triangle_test::{REACH, corners, longest_edge};
 use wide::{Labelled, TRANSPARENT};
 
@@ -46,7 +46,15 @@ use wide::{Labelled, TRANSPARENT};
 pub struct Bvh {
     mesh: TriangleMesh,
     kernel: Kernel,
+    /// Whether rays that come together are walked together.
+    in_flight: bool,
 }
+
+/// Trees of up to so many bytes, where a walk is a few steps, each waiting for the one before.
+const TINY: usize = 8 << 10;
+
+/// Trees beyond so many bytes, where a step waits for memory: about the second-level cache of a core.
+const BEYOND_CACHE: usize = 2 << 20;
 
 impl Bvh {
     /// Builds the hierarchy. `is_transparent` says for every triangle whether [`Bvh::any_hit`]
@@ -83,7 +91,15 @@ impl Bvh {
             Labelled { corners, label: triangle | mark }
         };
         let kernel = Kernel::collapse(preset, instructions, &binary, labelled);
-        Self { kernel: kernel.expect("fewer lines than references reach"), mesh }
+        let kernel = kernel.expect("fewer lines than references reach");
+        let in_flight = kernel.bytes() <= TINY || kernel.bytes() > BEYOND_CACHE;
+        Self { mesh, kernel, in_flight }
+    }
+
+    /// Has [`Bvh::closest_hits`] and [`Bvh::any_hits`] walk several rays in turn, or not, whatever
+    /// suits the size of the tree: for measurement and tests.
+    pub fn in_flight(self, in_flight: bool) -> Self {
+        Self { in_flight, ..self }
     }
 
     /// The triangles.
@@ -108,13 +124,12 @@ impl Bvh {
         self.kernel.trace::<Any>(ray)
     }
 
-    /// [`Bvh::closest_hit`] of many rays.
+    /// [`Bvh::closest_hit`] of many rays: faster than one by one in tiny scenes and in large ones.
     ///
     /// # Panics
     /// If there are not as many places for hits as rays.
     pub fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        assert_eq!(rays.len(), hits.len(), "a place for every hit");
-        self.kernel.trace_many::<Closest>(rays, |place, hit| hits[place] = hit);
+        self.trace_all::<Closest>(rays, hits);
     }
 
     /// [`Bvh::any_hit`] of many rays.
@@ -122,7 +137,17 @@ impl Bvh {
     /// # Panics
     /// If there are not as many places for answers as rays.
     pub fn any_hits(&self, rays: &[Ray], are_hit: &mut [bool]) {
-        assert_eq!(rays.len(), are_hit.len(), "a place for every answer");
-        self.kernel.trace_many::<Any>(rays, |place, hit| are_hit[place] = hit);
+        self.trace_all::<Any>(rays, are_hit);
+    }
+
+    fn trace_all<Q: Query>(&self, rays: &[Ray], answers: &mut [Q::Answer]) {
+        assert_eq!(rays.len(), answers.len(), "a place for every answer");
+        if self.in_flight {
+            self.kernel.trace_many::<Q>(rays, |place, answer| answers[place] = answer);
+        } else {
+            for (ray, answer) in rays.iter().zip(answers) {
+                *answer = self.kernel.trace::<Q>(ray);
+            }
+        }
     }
 }

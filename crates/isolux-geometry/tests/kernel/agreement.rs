@@ -10,6 +10,8 @@ use isolux_geometry::{Bvh, Ray, TriangleMesh};
 fn check(mesh: &TriangleMesh, rays: impl IntoIterator<Item = Ray>) -> usize {
     let is_transparent = |triangle: u32| triangle.is_multiple_of(3);
     let kernels = room::kernels(mesh, is_transparent);
+    let rays: Vec<Ray> = rays.into_iter().collect();
+    check_together(mesh, is_transparent, &kernels, &rays);
     let mut hits = 0;
     for ray in rays {
         let expected = brute_force::closest_hit(mesh, &ray);
@@ -29,6 +31,26 @@ fn check(mesh: &TriangleMesh, rays: impl IntoIterator<Item = Ray>) -> usize {
         hits += usize::from(expected.is_some());
     }
     hits
+}
+
+/// Compares rays that are asked about together.
+#[track_caller]
+fn check_together(
+    mesh: &TriangleMesh,
+    is_transparent: impl Fn(u32) -> bool,
+    kernels: &[Bvh],
+    rays: &[Ray],
+) {
+    let closest: Vec<_> = rays.iter().map(|ray| brute_force::closest_hit(mesh, ray)).collect();
+    let any: Vec<bool> =
+        rays.iter().map(|ray| brute_force::any_hit(mesh, &is_transparent, ray)).collect();
+    let (mut hits, mut are_hit) = (vec![None; rays.len()], vec![false; rays.len()]);
+    for bvh in kernels.iter().flat_map(|bvh| [true, false].map(|b| bvh.clone().in_flight(b))) {
+        bvh.closest_hits(rays, &mut hits);
+        assert!(hits == closest);
+        bvh.any_hits(rays, &mut are_hit);
+        assert!(are_hit == any);
+    }
 }
 
 fn random_rays(count: usize) -> Vec<Ray> {
