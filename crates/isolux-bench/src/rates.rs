@@ -1,11 +1,10 @@
 //! Rays a second: both kernels in turns, so that what else the machine does meets them alike.
 
 use crate::clock::ThreadClock;
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, Together};
 use crate::statistics::{Spread, spread};
-use isolux_geometry::Ray;
+use isolux_geometry::{Bvh, Ray};
 use serde::Serialize;
-use std::hint::black_box;
 use std::sync::Barrier;
 
 /// What is asked about each ray.
@@ -22,9 +21,13 @@ pub(crate) struct Rates {
     pub(crate) query: Query,
     pub(crate) threads: usize,
     pub(crate) isolux_mrays_per_s: Spread,
+    /// Asked about a thousand rays at a time.
+    pub(crate) together_mrays_per_s: Spread,
     pub(crate) embree_mrays_per_s: Option<Spread>,
     /// Of isolux to Embree, turn by turn.
     pub(crate) ratio: Option<Spread>,
+    /// The same for rays that isolux is asked about together.
+    pub(crate) together_ratio: Option<Spread>,
     /// Of this number of threads to one, turn by turn, for isolux.
     pub(crate) scaling: Spread,
     /// Share of the rays that hit.
@@ -36,6 +39,7 @@ pub(crate) struct Rates {
 /// Rates of one turn, by number of threads less one.
 struct Turn {
     isolux: [f64; THREADS],
+    together: [f64; THREADS],
     embree: Option<[f64; THREADS]>,
 }
 
@@ -44,7 +48,7 @@ const THREADS: usize = 2;
 
 /// Measures one query with one and with two threads.
 pub(crate) fn measure(
-    isolux: &impl Kernel,
+    isolux: &Bvh,
     embree: Option<&impl Kernel>,
     query: Query,
     rays: &[Ray],
@@ -63,8 +67,10 @@ pub(crate) fn measure(
             query,
             threads,
             isolux_mrays_per_s: per_turn(&|t| t.isolux[threads - 1]),
+            together_mrays_per_s: per_turn(&|t| t.together[threads - 1]),
             embree_mrays_per_s: per_turn_with_embree(&|_, embree| embree),
             ratio: per_turn_with_embree(&|t, embree| t.isolux[threads - 1] / embree),
+            together_ratio: per_turn_with_embree(&|t, embree| t.together[threads - 1] / embree),
             scaling: per_turn(&|t| t.isolux[threads - 1] / t.isolux[0]),
             hit_share: hits as f64 / rays.len() as f64,
             differing,
@@ -72,21 +78,26 @@ pub(crate) fn measure(
     })
 }
 
-/// Both kernels, the first one first in every other turn.
+/// All kernels, the last one first in every other turn.
 fn turn(
-    isolux: &impl Kernel,
+    isolux: &Bvh,
     embree: Option<&impl Kernel>,
     query: Query,
     rays: &[Ray],
     number: usize,
 ) -> Turn {
-    let mut turn = Turn { isolux: [0.0; THREADS], embree: embree.map(|_| [0.0; THREADS]) };
+    let embree_rates = embree.map(|_| [0.0; THREADS]);
+    let mut turn = Turn { isolux: [0.0; THREADS], together: [0.0; THREADS], embree: embree_rates };
     for threads in 1..=THREADS {
-        for is_isolux in if number.is_multiple_of(2) { [true, false] } else { [false, true] } {
-            if is_isolux {
-                turn.isolux[threads - 1] = rate(isolux, query, rays, threads);
-            } else if let (Some(rates), Some(embree)) = (&mut turn.embree, embree) {
-                rates[threads - 1] = rate(embree, query, rays, threads);
+        let place = threads - 1;
+        for kernel in if number.is_multiple_of(2) { [0, 1, 2] } else { [2, 1, 0] } {
+            match (kernel, &mut turn.embree, embree) {
+                (0, ..) => turn.isolux[place] = rate(isolux, query, rays, threads),
+                (1, ..) => turn.together[place] = rate(&Together(isolux), query, rays, threads),
+                (_, Some(rates), Some(embree)) => {
+                    rates[place] = rate(embree, query, rays, threads);
+                }
+                _ => {}
             }
         }
     }
@@ -109,10 +120,10 @@ fn rate(kernel: &impl Kernel, query: Query, rays: &[Ray], threads: usize) -> f64
 
 fn rate_of_thread(kernel: &impl Kernel, query: Query, rays: [&[Ray]; 2]) -> f64 {
     let clock = ThreadClock::start();
-    for ray in rays.into_iter().flatten() {
+    for rays in rays {
         match query {
-            Query::ClosestHit => drop(black_box(kernel.closest(ray))),
-            Query::AnyHit => drop(black_box(kernel.any(ray))),
+            Query::ClosestHit => kernel.ask_closest(rays),
+            Query::AnyHit => kernel.ask_any(rays),
         }
     }
     let count: usize = rays.iter().map(|part| part.len()).sum();

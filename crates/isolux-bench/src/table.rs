@@ -71,6 +71,12 @@ fn rate_rows(rates: &Rates) -> Vec<[String; 4]> {
         optional(rates.embree_mrays_per_s, |s| format!("{:.2}", s.median)),
         optional(rates.ratio, with_quartiles),
     ]];
+    rows.push([
+        format!("{query}, {threads} thread{plural}, rays together"),
+        format!("{:.2}", rates.together_mrays_per_s.median),
+        optional(rates.embree_mrays_per_s, |s| format!("{:.2}", s.median)),
+        optional(rates.together_ratio, with_quartiles),
+    ]);
     if threads > 1 {
         let scaling = format!("{query}, {threads} threads to one");
         rows.push([scaling, with_quartiles(rates.scaling), String::new(), String::new()]);

@@ -14,7 +14,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("isolux-view", &["isolux"]),
     ("isolux-cli", READERS),
     ("isolux-python", READERS),
-    ("isolux-bench", &["isolux", "isolux-geometry"]),
+    ("isolux-bench", &["isolux-compare", "isolux-geometry"]),
 ];
 
 pub(super) fn check(tree: &Tree) -> Vec<Finding> {

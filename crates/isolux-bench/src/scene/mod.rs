@@ -1,20 +1,46 @@
-//! The scenes: closed rooms that stay the same from run to run.
+//! The scenes: rooms that stay the same from run to run.
 
 mod hall;
 mod solids;
 
+use isolux_compare::hall::Variant;
 use isolux_geometry::TriangleMesh;
 use solids::Fronts;
 
-/// A closed room and the name it goes by.
+/// A room and the name it goes by.
 pub(crate) struct Scene {
     pub(crate) name: &'static str,
     pub(crate) mesh: TriangleMesh,
 }
 
-/// All scenes, the smallest first: 12, 10,000 and 1,000,000 triangles.
-pub(crate) fn all() -> [fn() -> Scene; 3] {
-    [cube, hall_of_ten_thousand, hall_of_a_million]
+/// All scenes: 12, 10,000 and 1,000,000 triangles in closed rooms, and the practical scene.
+pub(crate) fn all() -> [fn() -> Scene; 5] {
+    let [cube, hall, fine_hall] = CLOSED;
+    [cube, hall, practical, fine_hall, fine_practical]
+}
+
+/// Rooms that no ray can leave.
+const CLOSED: [fn() -> Scene; 3] = [cube, hall_of_ten_thousand, hall_of_a_million];
+
+/// The scene `builtin:hall`, without its luminaires.
+fn practical() -> Scene {
+    Scene { name: "builtin:hall", mesh: surfaces_of(Variant::STANDARD) }
+}
+
+/// The same surfaces divided into a hundred times as many triangles.
+fn fine_practical() -> Scene {
+    let fine = Variant { triangles: 1_000_000, ..Variant::STANDARD };
+    Scene { name: "builtin:hall,triangles=1e6", mesh: surfaces_of(fine) }
+}
+
+fn surfaces_of(variant: Variant) -> TriangleMesh {
+    let mut mesh = TriangleMesh::default();
+    for shape in isolux_compare::hall::parts(variant).shapes {
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(shape.positions.iter().map(|p| p.map(|x| x as f32)));
+        mesh.triangles.extend(shape.triangles.iter().map(|t| t.map(|k| k + first)));
+    }
+    mesh
 }
 
 /// A room of 10 m seen from inside.
@@ -51,7 +77,7 @@ mod tests {
 
     #[test]
     fn scenes_are_closed_deterministic_and_of_their_size() {
-        for (make, triangles) in all().into_iter().zip([12, 10_000, 1_000_000]) {
+        for (make, triangles) in CLOSED.into_iter().zip([12, 10_000, 1_000_000]) {
             let scene = make();
             assert_eq!(scene.mesh.len(), triangles, "{}", scene.name);
             assert_eq!(open_edges(&scene.mesh), 0, "{}", scene.name);
@@ -62,7 +88,7 @@ mod tests {
     /// What touches or crosses the shell could let a ray start outside.
     #[test]
     fn the_furniture_stands_inside_the_shell() {
-        for make in all() {
+        for make in CLOSED {
             let mesh = make().mesh;
             let (low, high) = mesh.bounds().unwrap();
             let on_shell = |p: [f32; 3]| {

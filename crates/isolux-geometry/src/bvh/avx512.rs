@@ -85,7 +85,7 @@ unsafe impl Lanes<WIDTH> for Avx512 {
         // as there are lanes, and more.
         unsafe {
             let rows = leaf.first_corners(shear.axes, first);
-            let corner = |k: usize| rows.map(|row| row.wrapping_add(k * leaf.to_next_corner()));
+            let corner = |k: usize| rows.map(|row| row.wrapping_add(k * leaf.corner_stride()));
             let a = sheared(corner(0), shear);
             let b = sheared(corner(1), shear);
             let c = sheared(corner(2), shear);

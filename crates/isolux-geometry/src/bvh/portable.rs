@@ -65,7 +65,7 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
         let numbers = |row: *const f32| unsafe { *row.cast::<[f32; W]>() };
         let (mut x, mut y, mut z) = ([[0.0_f32; W]; 3], [[0.0; W]; 3], [[0.0; W]; 3]);
         for corner in 0..3 {
-            let to_corner = corner * leaf.to_next_corner();
+            let to_corner = corner * leaf.corner_stride();
             let rows = leaf.first_corners(*axes, first);
             let [row_x, row_y, row_z] = rows.map(|row| numbers(row.wrapping_add(to_corner)));
             for lane in 0..W {

@@ -63,7 +63,7 @@ impl Leaf<'_> {
     }
 
     /// Three coordinates of the first corners of the triangles from `first` on; those of the next
-    /// corners follow after [`Leaf::to_next_corner`]. [`MAX_LEAF`] numbers can be read, of which those
+    /// corners follow after [`Leaf::corner_stride`]. [`MAX_LEAF`] numbers can be read, of which those
     /// behind the last triangle have no meaning.
     #[inline(always)]
     pub(super) fn first_corners(&self, axes: [usize; 3], first: usize) -> [*const f32; 3] {
@@ -72,7 +72,7 @@ impl Leaf<'_> {
 
     /// Numbers from the coordinates of one corner to those of the next.
     #[inline(always)]
-    pub(super) fn to_next_corner(&self) -> usize {
+    pub(super) fn corner_stride(&self) -> usize {
         3 * self.count
     }
 
