@@ -13,6 +13,7 @@ pub mod brute_force;
 mod build;
 mod collapse;
 mod extent;
+mod instances;
 mod instructions;
 mod memory;
 mod portable;
@@ -23,6 +24,7 @@ mod wide;
 
 use crate::{Hit, Ray, TriangleMesh};
 pub use build::Preset;
+pub use instances::{Instance, InstanceProblem, InstancedBvh};
 pub use instructions::InstructionSet;
 
 use bounds::Bounds;

@@ -2,5 +2,6 @@
 
 mod agreement;
 mod degenerate;
+mod instances;
 mod room;
 mod watertight;
