@@ -178,6 +178,7 @@ impl<const W: usize> WideTree<W> {
     }
 
     /// The first line of what stands at a reference, and the number of its lines.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(super) fn lines_of(&self, reference: Reference) -> (*const Line, usize) {
         if reference.is_leaf() {
