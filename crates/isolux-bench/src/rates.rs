@@ -109,6 +109,7 @@ fn rate(kernel: &impl Kernel, query: Query, rays: &[Ray], threads: usize) -> f64
     let start = Barrier::new(threads);
     std::thread::scope(|scope| {
         let run = |thread: usize| {
+            stay_on_processor(thread);
             let (later, first) = rays.split_at(thread * rays.len() / threads);
             start.wait();
             rate_of_thread(kernel, query, [first, later])
@@ -117,6 +118,19 @@ fn rate(kernel: &impl Kernel, query: Query, rays: &[Ray], threads: usize) -> f64
         threads.into_iter().map(|thread| thread.join().unwrap_or(f64::NAN)).sum()
     })
 }
+
+/// Keeps this thread where it is: one that wanders leaves what it has cached behind. Where that cannot
+/// be asked for, it may wander.
+#[cfg(target_os = "linux")]
+fn stay_on_processor(number: usize) {
+    use rustix::thread::{CpuSet, sched_setaffinity};
+    let mut only = CpuSet::new();
+    only.set(number);
+    let _refused = sched_setaffinity(None, &only);
+}
+
+#[cfg(not(target_os = "linux"))]
+fn stay_on_processor(_: usize) {}
 
 fn rate_of_thread(kernel: &impl Kernel, query: Query, rays: [&[Ray]; 2]) -> f64 {
     let clock = ThreadClock::start();
