@@ -1,0 +1,216 @@
+//! Luminaires without surface as a tree of clusters, each with a sphere around it and a table of
+//! where its light goes.
+
+use super::lobe::{Lobe, Lobes};
+use crate::photometry::IntensityDistribution;
+use crate::scene::{LuminaireKind, Scene};
+use isolux_geometry::{Point, Vector};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Luminaires of a leaf at most.
+pub(super) const GROUP: usize = 16;
+
+/// A luminaire, as far as drawing it needs.
+#[derive(Clone, Debug)]
+pub(super) struct Lamp {
+    pub(super) position: Point,
+    /// Axes of its frame in the world.
+    pub(super) frame: [Vector; 3],
+    pub(super) lobe: Lobe,
+    /// Highest intensity times the luminance of its colour, cd.
+    pub(super) peak_cd: f64,
+    /// Its number in the scene.
+    pub(super) luminaire: u32,
+}
+
+/// A cluster of lamps.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub(super) centre: Point,
+    pub(super) radius_m: f64,
+    pub(super) lobe: Lobe,
+    /// The axes of `lobe`, where that is not the world's.
+    pub(super) frame: Option<u32>,
+    pub(super) peak_cd: f64,
+    /// Its lamps.
+    pub(super) first: u32,
+    pub(super) count: u32,
+    /// The second of its halves; the first follows it. None for a leaf.
+    pub(super) second: Option<u32>,
+}
+
+/// All of them, in the order of the tree.
+#[derive(Debug, Default)]
+pub(super) struct Tree {
+    pub(super) lamps: Vec<Lamp>,
+    pub(super) nodes: Vec<Node>,
+    pub(super) lobes: Lobes,
+}
+
+impl Tree {
+    /// The tree of a scene's luminaires; those without light are left out.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let mut tree = Self::default();
+        let mut kinds = Kinds::default();
+        for (index, luminaire) in scene.luminaires().iter().enumerate() {
+            let LuminaireKind::Point { position, world_from_luminaire, intensity } =
+                &luminaire.kind
+            else {
+                continue;
+            };
+            let peak_cd = intensity.max_intensity_cd() * luminaire.colour.luminance();
+            if peak_cd > 0.0 {
+                tree.lamps.push(Lamp {
+                    position: *position,
+                    frame: world_from_luminaire.columns,
+                    lobe: kinds.lobe(intensity, &mut tree.lobes),
+                    peak_cd,
+                    luminaire: index as u32,
+                });
+            }
+        }
+        if !tree.lamps.is_empty() {
+            tree.build(0, tree.lamps.len());
+        }
+        tree
+    }
+
+    /// Appends the cluster of a range of lamps and its parts.
+    fn build(&mut self, first: usize, end: usize) -> u32 {
+        let index = self.nodes.len();
+        let (centre, radius_m, widest) = sphere(&self.lamps[first..end]);
+        let lobe = self.lamps[first].lobe;
+        self.nodes.push(Node {
+            centre,
+            radius_m,
+            lobe,
+            frame: Some(first as u32),
+            peak_cd: 0.0,
+            first: first as u32,
+            count: (end - first) as u32,
+            second: None,
+        });
+        if end - first > GROUP {
+            let middle = first.midpoint(end);
+            let along = |l: &Lamp| l.position.to_vector().component(widest);
+            self.lamps[first..end].select_nth_unstable_by(middle - first, |a, b| {
+                along(a).total_cmp(&along(b)).then(a.luminaire.cmp(&b.luminaire))
+            });
+            self.build(first, middle);
+            self.nodes[index].second = Some(self.build(middle, end));
+        } else {
+            // The halves are the same on every machine, the order inside is not.
+            self.lamps[first..end].sort_unstable_by_key(|l| l.luminaire);
+            self.nodes[index].lobe = self.lamps[first].lobe;
+        }
+        self.find_lobe(index);
+        index as u32
+    }
+
+    /// The table of a cluster whose parts have theirs: one for all, if all are alike, or a mixture.
+    fn find_lobe(&mut self, index: usize) {
+        let node = &self.nodes[index];
+        let lamps = &self.lamps[node.first as usize..][..node.count as usize];
+        let peak_cd = lamps.iter().map(|l| l.peak_cd).sum();
+        let one = &lamps[0];
+        let alike = lamps.iter().all(|l| l.lobe == one.lobe && l.frame == one.frame);
+        let (lobe, frame) = if alike {
+            (one.lobe, Some(node.first))
+        } else {
+            let mixed = match node.second {
+                None => self
+                    .lobes
+                    .mix(lamps.iter().map(|l| (l.lobe, Some(&l.frame), l.peak_cd / peak_cd))),
+                Some(second) => {
+                    let halves = [&self.nodes[index + 1], &self.nodes[second as usize]];
+                    self.lobes.mix(halves.into_iter().map(|half| {
+                        let frame = half.frame.map(|lamp| &self.lamps[lamp as usize].frame);
+                        (half.lobe, frame, half.peak_cd / peak_cd)
+                    }))
+                }
+            };
+            (mixed, None)
+        };
+        let node = &mut self.nodes[index];
+        (node.lobe, node.frame, node.peak_cd) = (lobe, frame, peak_cd);
+    }
+}
+
+/// A sphere around lamps, and the axis along which they spread most.
+fn sphere(lamps: &[Lamp]) -> (Point, f64, usize) {
+    let first = lamps[0].position;
+    let (low, high) = lamps.iter().fold((first, first), |(low, high), l| {
+        let p = l.position;
+        (
+            Point::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z)),
+            Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z)),
+        )
+    });
+    let centre = low.lerp(high, 0.5);
+    let radius_m = lamps.iter().map(|l| (l.position - centre).length()).fold(0.0, f64::max);
+    let size = high - low;
+    let widest = if size.x >= size.y && size.x >= size.z {
+        0
+    } else if size.y >= size.z {
+        1
+    } else {
+        2
+    };
+    // The roundings of a length and of those that follow.
+    (centre, radius_m * (1.0 + 1e-12), widest)
+}
+
+/// Tables already made, by distribution.
+#[derive(Default)]
+struct Kinds {
+    by_address: HashMap<usize, Lobe>,
+    by_shape: HashMap<blake3::Hash, Lobe>,
+}
+
+impl Kinds {
+    /// The table of a distribution; luminaires that differ in power alone share one.
+    fn lobe(&mut self, intensity: &IntensityDistribution, lobes: &mut Lobes) -> Lobe {
+        let address = match intensity {
+            IntensityDistribution::Web(web) => Some(Arc::as_ptr(web) as usize),
+            _ => None,
+        };
+        if let Some(lobe) = address.and_then(|a| self.by_address.get(&a)) {
+            return *lobe;
+        }
+        let made = self.by_shape.entry(shape(intensity));
+        let lobe = *made.or_insert_with(|| lobes.add(intensity));
+        if let Some(address) = address {
+            self.by_address.insert(address, lobe);
+        }
+        lobe
+    }
+}
+
+/// Names a distribution up to its power.
+fn shape(intensity: &IntensityDistribution) -> blake3::Hash {
+    let mut hasher = blake3::Hasher::new();
+    let mut numbers = |numbers: &mut dyn Iterator<Item = f64>| {
+        numbers.for_each(|n| {
+            hasher.update(&n.to_bits().to_le_bytes());
+        });
+    };
+    match intensity {
+        IntensityDistribution::Isotropic { .. } => numbers(&mut [0.0].into_iter()),
+        IntensityDistribution::CosinePower { exponent, .. } => {
+            numbers(&mut [1.0, *exponent].into_iter());
+        }
+        IntensityDistribution::Spot { inner_rad, outer_rad, .. } => {
+            numbers(&mut [2.0, *inner_rad, *outer_rad].into_iter());
+        }
+        IntensityDistribution::Web(web) => {
+            let most_cd = web.max_intensity_cd().max(f64::MIN_POSITIVE);
+            numbers(&mut [3.0, web.planes_deg().len() as f64].into_iter());
+            numbers(&mut web.planes_deg().iter().copied());
+            numbers(&mut web.gammas_deg().iter().copied());
+            // Six digits, so that the rounding of a factor does not tell them apart; zero stays.
+            numbers(&mut web.candela().iter().map(|cd| (cd / most_cd * 1e6).ceil()));
+        }
+    }
+    hasher.finalize()
+}
