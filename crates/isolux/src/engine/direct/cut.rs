@@ -11,7 +11,7 @@ use isolux_geometry::{Point, Vector};
 const TIGHT: f64 = 0.25;
 
 /// A receiver as reflected by a chain of mirrors, back to where the luminaires are.
-pub(super) struct View<'a> {
+pub(in crate::engine) struct View<'a> {
     tree: &'a Tree,
     /// Which chain.
     pub(super) chain: usize,
@@ -33,7 +33,7 @@ struct Window<'a> {
 
 /// A cluster or a single lamp of the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(in crate::engine) enum Part {
     Node(u32),
     Lamp(u32),
 }
@@ -41,22 +41,22 @@ pub(super) enum Part {
 /// A part of the tree as seen in a view, with an estimate of the illuminance it would give without
 /// obstacles, lx; zero only if that is zero.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Seen {
+pub(in crate::engine) struct Seen {
     pub(super) view: usize,
     pub(super) part: Part,
     pub(super) weight: f64,
 }
 
 /// The views of a receiver and a partition of all that it sees in them.
-pub(super) struct Cut<'a> {
+pub(in crate::engine) struct Cut<'a> {
     pub(super) views: Vec<View<'a>>,
-    pub(super) seen: Vec<Seen>,
+    pub(in crate::engine) seen: Vec<Seen>,
     pub(super) total: f64,
 }
 
 impl Lighting<'_> {
     /// What a receiver sees of the luminaires without surface and their images.
-    pub(super) fn cut(&self, at: &SurfacePoint) -> Cut<'_> {
+    pub(in crate::engine) fn cut(&self, at: &SurfacePoint) -> Cut<'_> {
         let views: Vec<View> =
             (0..self.chains.len()).filter_map(|chain| self.view(chain, at)).collect();
         let mut seen = Vec::with_capacity(256);
@@ -98,23 +98,20 @@ impl View<'_> {
                 seen.push(Seen { view: index, part, weight });
             }
         };
-        let mut waiting = [0_u32; 64];
-        // The tree halves: its depth is at most the bits of a number of luminaires.
-        let mut count = usize::from(!self.tree.nodes.is_empty());
-        while count > 0 {
-            count -= 1;
-            let number = waiting[count];
+        let mut waiting = Vec::with_capacity(64);
+        waiting.extend((!self.tree.nodes.is_empty()).then_some(0));
+        while let Some(number) = waiting.pop() {
             let node = &self.tree.nodes[number as usize];
             let to = node.centre - self.point;
+            if node.radius_m * node.radius_m <= TIGHT * TIGHT * to.length_squared() {
+                take(Part::Node(number), self.node_weight(node));
+                continue;
+            }
             if self.is_out_of_view(to, node) {
                 continue;
             }
-            if node.radius_m * node.radius_m <= TIGHT * TIGHT * to.length_squared() {
-                take(Part::Node(number), self.node_weight(node));
-            } else if let Some(second) = node.second {
-                waiting[count] = second;
-                waiting[count + 1] = number + 1;
-                count += 2;
+            if let Some(second) = node.second {
+                waiting.extend([second, number + 1]);
             } else {
                 for lamp in node.first..node.first + node.count {
                     take(Part::Lamp(lamp), self.lamp_weight(&self.tree.lamps[lamp as usize]));

@@ -10,6 +10,7 @@
 use super::Lighting;
 use super::cut::{Cut, Part, Seen, View};
 use super::source::{self, Source, Target};
+use super::tree::Node;
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::units::Rgb;
@@ -30,13 +31,21 @@ struct Candidate<'s> {
 struct Comb(f64);
 
 impl Comb {
+    /// The number of the first tooth at or after a place of zero or more.
+    fn tooth_from(self, place: f64) -> u32 {
+        let teeth = place - self.0;
+        let whole = teeth as u32;
+        whole + u32::from(teeth > f64::from(whole))
+    }
+
     /// Whether a tooth lies in `[from, to)`.
     fn meets(self, from: f64, to: f64) -> bool {
-        (from - self.0).ceil() < (to - self.0).ceil()
+        self.tooth_from(from) < self.tooth_from(to)
     }
 }
 
 /// A part of the tree between two places of the comb.
+#[derive(Clone, Copy)]
 struct Span {
     part: Part,
     from: f64,
@@ -79,20 +88,15 @@ impl Lighting<'_> {
         comb: Comb,
     ) -> Vec<Candidate<'_>> {
         let mut found = Vec::with_capacity(count);
-        let mut waiting = Vec::with_capacity(64);
+        let mut waiting: Vec<Span> = Vec::with_capacity(64);
         let (mut from, scale) = (0.0, count as f64 / cut.total);
         for &Seen { view, part, weight } in &cut.seen {
             let to = from + weight * scale;
             if comb.meets(from, to) {
                 waiting.push(Span { part, from, to });
-                let view = &cut.views[view];
+                let seeing = Seeing { view: &cut.views[view], at, comb };
                 while let Some(span) = waiting.pop() {
-                    match span.part {
-                        Part::Lamp(lamp) => {
-                            found.extend(self.candidate(view, lamp, at, span.to - span.from));
-                        }
-                        Part::Node(node) => self.divide(view, node, &span, comb, &mut waiting),
-                    }
+                    self.choose(&seeing, &span, &mut waiting, &mut found);
                 }
             }
             from = to;
@@ -100,48 +104,98 @@ impl Lighting<'_> {
         found
     }
 
-    /// Divides the span of a cluster among its parts and keeps those under a tooth, the last first.
-    fn divide(&self, view: &View, node: u32, span: &Span, comb: Comb, parts: &mut Vec<Span>) {
-        let own = &self.tree.nodes[node as usize];
-        let mut weights = [0.0; super::tree::GROUP];
-        let (count, part): (usize, &dyn Fn(usize) -> Part) = match own.second {
-            Some(second) => (2, &move |k| Part::Node(if k == 0 { node + 1 } else { second })),
-            None => (own.count as usize, &|k| Part::Lamp(own.first + k as u32)),
-        };
-        let mut total = 0.0;
-        for (k, weight) in weights[..count].iter_mut().enumerate() {
-            *weight = view.weight(part(k));
-            total += *weight;
-        }
-        if total <= 0.0 {
-            return;
-        }
-        let first = parts.len();
-        let (mut sum, mut from) = (0.0, span.from);
-        for (k, weight) in weights[..count].iter().enumerate() {
-            sum += weight;
-            let to = span.from + (span.to - span.from) * (sum / total);
-            if comb.meets(from, to) {
-                parts.push(Span { part: part(k), from, to });
+    /// Chooses a lamp or lamps under the teeth of a span, or divides it.
+    fn choose<'s>(
+        &'s self,
+        seeing: &Seeing,
+        span: &Span,
+        waiting: &mut Vec<Span>,
+        found: &mut Vec<Candidate<'s>>,
+    ) {
+        match span.part {
+            Part::Lamp(lamp) => found.extend(self.candidate(seeing, lamp, span.to - span.from)),
+            Part::Node(number) => {
+                let node = &self.tree.nodes[number as usize];
+                match node.second {
+                    _ if node.frame.is_some() => self.choose_alike(seeing, span, node, found),
+                    Some(second) => {
+                        divide(seeing, span, [number + 1, second].map(Part::Node), waiting);
+                    }
+                    None => {
+                        let lamps = node.first..node.first + node.count;
+                        divide(seeing, span, lamps.map(Part::Lamp), waiting);
+                    }
+                }
             }
-            from = to;
         }
-        parts[first..].reverse();
+    }
+
+    /// Chooses among lamps of one kind by their power alone.
+    fn choose_alike<'s>(
+        &'s self,
+        seeing: &Seeing,
+        span: &Span,
+        node: &Node,
+        found: &mut Vec<Candidate<'s>>,
+    ) {
+        let (first, end) = (node.first as usize, (node.first + node.count) as usize);
+        let sums_cd = &self.tree.peak_sums_cd[first..=end];
+        let scale = (span.to - span.from) / (sums_cd[sums_cd.len() - 1] - sums_cd[0]);
+        let mut last = None;
+        let comb = seeing.comb;
+        for tooth in comb.tooth_from(span.from)..comb.tooth_from(span.to) {
+            let sum_cd = sums_cd[0] + (f64::from(tooth) + comb.0 - span.from) / scale;
+            let lamp = sums_cd.partition_point(|&s| s <= sum_cd).clamp(1, end - first) - 1;
+            if last != Some(lamp) {
+                let width = (sums_cd[lamp + 1] - sums_cd[lamp]) * scale;
+                found.extend(self.candidate(seeing, (first + lamp) as u32, width));
+            }
+            last = Some(lamp);
+        }
     }
 
     /// What a lamp chosen with a width under the comb gives.
-    fn candidate(
-        &self,
-        view: &View,
-        lamp: u32,
-        at: &SurfacePoint,
-        width: f64,
-    ) -> Option<Candidate<'_>> {
-        let luminaire = self.tree.lamps[lamp as usize].luminaire;
-        let source = self.image(luminaire as usize, &self.chains[view.chain])?;
+    fn candidate(&self, seeing: &Seeing, lamp: u32, width: f64) -> Option<Candidate<'_>> {
+        let Seeing { view, at, .. } = *seeing;
+        let source = &self.sources[self.images.get(lamp, view.chain)?];
         let in_view = |target| self.chain_is_in_view(source, at, target);
         let arriving = source::unoccluded_if(self.scene, source, at, in_view)?;
         let weighted_lx = arriving.illuminance_lx / width.min(1.0);
         Some(Candidate { source, target: arriving.target, weighted_lx })
     }
+}
+
+/// Who looks, and the comb.
+struct Seeing<'a> {
+    view: &'a View<'a>,
+    at: &'a SurfacePoint,
+    comb: Comb,
+}
+
+/// Divides a span among parts by their weights, and keeps those under a tooth, the last first.
+fn divide(
+    seeing: &Seeing,
+    span: &Span,
+    parts: impl IntoIterator<Item = Part>,
+    waiting: &mut Vec<Span>,
+) {
+    let first = waiting.len();
+    let mut sum = 0.0;
+    for part in parts {
+        let from = sum;
+        sum += seeing.view.weight(part);
+        waiting.push(Span { part, from, to: sum });
+    }
+    let place = |s: f64| span.from + (span.to - span.from) * (s / sum);
+    let mut kept = first;
+    for k in first..waiting.len() {
+        let Span { part, from, to } = waiting[k];
+        let (from, to) = (place(from), place(to));
+        if sum > 0.0 && seeing.comb.meets(from, to) {
+            waiting[kept] = Span { part, from, to };
+            kept += 1;
+        }
+    }
+    waiting.truncate(kept);
+    waiting[first..].reverse();
 }

@@ -25,7 +25,7 @@ use panes::Panes;
 pub(super) use source::LuminaireId;
 use source::{Source, SourceKind, Sources};
 use std::collections::BTreeSet;
-use tree::Tree;
+use tree::{Images, Tree};
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
 const EXACT_SOURCES: usize = 4;
@@ -57,6 +57,7 @@ pub(super) struct Lighting<'s> {
     /// The sources that are points, where they are many, by luminaire and chain.
     tree: Tree,
     chains: Vec<Vec<u32>>,
+    images: Images,
     /// The other ones.
     others: Vec<u32>,
     points: usize,
@@ -78,7 +79,10 @@ impl<'s> Lighting<'s> {
         let tree = if points > DRAWN_AT_ENDS { Tree::of(scene) } else { Tree::default() };
         let of_points = sources.iter().filter(|s| is_point(s)).map(|s| &s.chain);
         let chains: BTreeSet<&Vec<u32>> = of_points.collect();
-        let chains = chains.into_iter().cloned().collect();
+        let chains: Vec<Vec<u32>> = chains.into_iter().cloned().collect();
+        let images = Images::of(&tree, chains.len(), |luminaire, chain| {
+            image(&sources, &starts, luminaire as usize, &chains[chain])
+        });
         Self {
             scene,
             mirrors,
@@ -90,6 +94,7 @@ impl<'s> Lighting<'s> {
             panes,
             tree,
             chains,
+            images,
             others,
             points,
         }
@@ -130,14 +135,7 @@ impl<'s> Lighting<'s> {
             LuminaireId::Luminaire(k) => k as usize,
             LuminaireId::Area(k) => self.scene.luminaires().len() + k as usize,
         };
-        chain.is_empty() || self.image(number, chain).is_some()
-    }
-
-    /// The image of a luminaire by a chain of mirrors; emitting surfaces are counted after the
-    /// luminaires without.
-    fn image(&self, luminaire: usize, chain: &[u32]) -> Option<&Source> {
-        let own = &self.sources[self.starts[luminaire]..self.starts[luminaire + 1]];
-        own.iter().find(|s| s.chain == chain)
+        chain.is_empty() || image(&self.sources, &self.starts, number, chain).is_some()
     }
 
     /// The planar mirror that a side of a triangle belongs to.
@@ -221,6 +219,13 @@ impl<'s> Lighting<'s> {
         };
         arriving.illuminance_lx * self.visibility(source, at, arriving.target, None)
     }
+}
+
+/// The source that is the image of a luminaire by a chain of mirrors; emitting surfaces are counted
+/// after the luminaires without.
+fn image(sources: &[Source], starts: &[usize], luminaire: usize, chain: &[u32]) -> Option<usize> {
+    let (first, end) = (starts[luminaire], starts[luminaire + 1]);
+    sources[first..end].iter().position(|s| s.chain == chain).map(|k| first + k)
 }
 
 fn has_gloss(material: &crate::scene::Material) -> bool {

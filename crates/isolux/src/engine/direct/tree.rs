@@ -11,6 +11,11 @@ use std::sync::Arc;
 /// Luminaires of a leaf at most.
 pub(super) const GROUP: usize = 16;
 
+/// Clusters of at most so many are divided by kind before they are divided in space, if the most
+/// frequent kind has a share that is not below one in so many.
+const SMALL: usize = 128;
+const FEW: usize = 8;
+
 /// A luminaire, as far as drawing it needs.
 #[derive(Clone, Debug)]
 pub(super) struct Lamp {
@@ -44,6 +49,8 @@ pub(super) struct Node {
 #[derive(Debug, Default)]
 pub(super) struct Tree {
     pub(super) lamps: Vec<Lamp>,
+    /// Running sums of their highest intensities, starting with zero.
+    pub(super) peak_sums_cd: Vec<f64>,
     pub(super) nodes: Vec<Node>,
     pub(super) lobes: Lobes,
 }
@@ -73,6 +80,13 @@ impl Tree {
         if !tree.lamps.is_empty() {
             tree.build(0, tree.lamps.len());
         }
+        let mut sum_cd = 0.0;
+        tree.peak_sums_cd = std::iter::once(0.0)
+            .chain(tree.lamps.iter().map(|l| {
+                sum_cd += l.peak_cd;
+                sum_cd
+            }))
+            .collect();
         tree
     }
 
@@ -80,29 +94,24 @@ impl Tree {
     fn build(&mut self, first: usize, end: usize) -> u32 {
         let index = self.nodes.len();
         let (centre, radius_m, widest) = sphere(&self.lamps[first..end]);
-        let lobe = self.lamps[first].lobe;
         self.nodes.push(Node {
             centre,
             radius_m,
-            lobe,
-            frame: Some(first as u32),
+            lobe: self.lamps[first].lobe,
+            frame: None,
             peak_cd: 0.0,
             first: first as u32,
             count: (end - first) as u32,
             second: None,
         });
         if end - first > GROUP {
-            let middle = first.midpoint(end);
-            let along = |l: &Lamp| l.position.to_vector().component(widest);
-            self.lamps[first..end].select_nth_unstable_by(middle - first, |a, b| {
-                along(a).total_cmp(&along(b)).then(a.luminaire.cmp(&b.luminaire))
-            });
+            let lamps = &mut self.lamps[first..end];
+            let middle = first + divide_by_kind(lamps).unwrap_or_else(|| halve(lamps, widest));
             self.build(first, middle);
             self.nodes[index].second = Some(self.build(middle, end));
         } else {
             // The halves are the same on every machine, the order inside is not.
             self.lamps[first..end].sort_unstable_by_key(|l| l.luminaire);
-            self.nodes[index].lobe = self.lamps[first].lobe;
         }
         self.find_lobe(index);
         index as u32
@@ -114,7 +123,7 @@ impl Tree {
         let lamps = &self.lamps[node.first as usize..][..node.count as usize];
         let peak_cd = lamps.iter().map(|l| l.peak_cd).sum();
         let one = &lamps[0];
-        let alike = lamps.iter().all(|l| l.lobe == one.lobe && l.frame == one.frame);
+        let alike = lamps.iter().all(|l| l.is_like(one));
         let (lobe, frame) = if alike {
             (one.lobe, Some(node.first))
         } else {
@@ -135,6 +144,39 @@ impl Tree {
         let node = &mut self.nodes[index];
         (node.lobe, node.frame, node.peak_cd) = (lobe, frame, peak_cd);
     }
+}
+
+impl Lamp {
+    /// Whether it sends its light the same ways as another.
+    fn is_like(&self, other: &Self) -> bool {
+        self.lobe == other.lobe && self.frame == other.frame
+    }
+}
+
+/// Puts the lower half along an axis first; returns how many that are.
+fn halve(lamps: &mut [Lamp], axis: usize) -> usize {
+    let along = |l: &Lamp| l.position.to_vector().component(axis);
+    let middle = lamps.len() / 2;
+    lamps.select_nth_unstable_by(middle, |a, b| {
+        along(a).total_cmp(&along(b)).then(a.luminaire.cmp(&b.luminaire))
+    });
+    middle
+}
+
+/// Puts the lamps of one kind first, if these are neither all nor few, and the cluster small enough for
+/// its parts to stay together; returns how many that are.
+fn divide_by_kind(lamps: &mut [Lamp]) -> Option<usize> {
+    if lamps.len() > SMALL {
+        return None;
+    }
+    let count = |kind: &Lamp| lamps.iter().filter(|l| l.is_like(kind)).count();
+    let kind = lamps.iter().max_by_key(|l| (count(l), std::cmp::Reverse(l.luminaire)))?.clone();
+    let alike = count(&kind);
+    if alike == lamps.len() || alike * FEW < lamps.len() {
+        return None;
+    }
+    lamps.sort_unstable_by_key(|l| (!l.is_like(&kind), l.luminaire));
+    Some(alike)
 }
 
 /// A sphere around lamps, and the axis along which they spread most.
@@ -213,4 +255,30 @@ fn shape(intensity: &IntensityDistribution) -> blake3::Hash {
         }
     }
     hasher.finalize()
+}
+
+/// Which source is the image of a lamp by a chain of mirrors.
+#[derive(Debug, Default)]
+pub(super) struct Images {
+    chains: usize,
+    /// One more than the number of the source; zero where there is no image.
+    sources: Vec<u32>,
+}
+
+impl Images {
+    /// Of all lamps of a tree, where `find` knows the source of a luminaire and chain.
+    pub(super) fn of(
+        tree: &Tree,
+        chains: usize,
+        find: impl Fn(u32, usize) -> Option<usize>,
+    ) -> Self {
+        let all = tree.lamps.iter().flat_map(|l| (0..chains).map(move |c| (l.luminaire, c)));
+        let sources = all.map(|(l, c)| find(l, c).map_or(0, |k| k as u32 + 1)).collect();
+        Self { chains, sources }
+    }
+
+    /// The number of a source.
+    pub(super) fn get(&self, lamp: u32, chain: usize) -> Option<usize> {
+        (self.sources[lamp as usize * self.chains + chain] as usize).checked_sub(1)
+    }
 }

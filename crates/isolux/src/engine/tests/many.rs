@@ -129,3 +129,31 @@ fn one_luminaire_of_many_is_unbiased() {
     let (largest, _) = deviation(&scene, estimate, receivers(40));
     assert!(largest < SIGMAS, "{largest} standard errors");
 }
+
+#[test]
+#[ignore]
+fn timing() {
+    for count in [600, 2626, 20_000, 100_000] {
+        let scene = hall(count);
+        let t = std::time::Instant::now();
+        let lighting = Lighting::new(&scene);
+        let new = t.elapsed();
+        let points: Vec<_> = receivers(2000).collect();
+        let cpu = || {
+            let s = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap();
+            s.split(' ').next().unwrap().parse::<f64>().unwrap() * 1e-3
+        };
+        let t = cpu();
+        let n: usize = points.iter().map(|at| lighting.cut(at).seen.len()).sum();
+        let cut = (cpu() - t) / 2000.0;
+        let t = cpu();
+        let e: f64 =
+            points.iter().map(|at| lighting.illuminance(at, &mut dice(3)).luminance()).sum();
+        let all = (cpu() - t) / 2000.0;
+        println!("{count}: new {new:?} cut {cut:.1} us ({} seen) whole {all:.1} us {e}", n / 2000);
+    }
+    let scene = hall(2626);
+    let estimate =
+        |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| lighting.illuminance(at, dice);
+    println!("{:?}", deviation(&scene, estimate, receivers(60)));
+}
