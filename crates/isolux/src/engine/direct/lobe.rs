@@ -8,6 +8,7 @@
 
 use crate::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux_geometry::{Direction, Vector};
+use std::collections::HashMap;
 
 /// Spreads that every table is made for: the plain texel, then neighbourhoods that double, then
 /// the whole sphere.
@@ -34,6 +35,8 @@ const STRETCH: f64 = 1.5;
 #[derive(Debug, Default)]
 pub(super) struct Lobes {
     values: Vec<f32>,
+    /// For tables of both sizes and every step, the neighbours of each texel.
+    around: HashMap<(usize, i32), Vec<[u16; 9]>>,
 }
 
 /// One of the tables.
@@ -104,6 +107,17 @@ impl Lobes {
         self.read(lobe, level, local)
     }
 
+    /// The neighbours of all texels at a distance of `step`.
+    fn around(&mut self, size: usize, step: i32) -> &[[u16; 9]] {
+        self.around.entry((size, step)).or_insert_with(|| {
+            let near = |texel: usize, k: i32| {
+                let (i, j) = ((texel % size) as i32, (texel / size) as i32);
+                folded(i + (k % 3 - 1) * step, j + (k / 3 - 1) * step, size as i32) as u16
+            };
+            (0..size * size).map(|texel| std::array::from_fn(|k| near(texel, k as i32))).collect()
+        })
+    }
+
     /// What a texel of a mixture takes in of a finer table.
     fn wide_texel(&self, lobe: Lobe, local: Vector) -> f64 {
         self.read(lobe, if lobe.size as usize > MIXED_SIZE { 1 } else { 0 }, local)
@@ -118,12 +132,12 @@ impl Lobes {
     /// Appends the tables of all spreads.
     fn push(&mut self, mut texels: Texels) -> Lobe {
         let first = self.values.len() as u32;
-        texels.blur_borders();
+        texels.blur_borders(self.around(texels.size, 1));
         for level in 0..SPREADS {
             match level {
                 0 => {}
                 last if last == SPREADS - 1 => texels.spread_everywhere(),
-                _ => texels.spread(1 << (level - 1)),
+                _ => texels.spread(self.around(texels.size, 1 << (level - 1))),
             }
             // Of a single direction the most is taken: what is drawn then has no heavy weight.
             let share = if level == 0 { 1.0 } else { LEAST_SHARE };
@@ -154,32 +168,24 @@ impl Texels {
     }
 
     /// Borders of light may pass between samples: beside light no texel is wholly dark.
-    fn blur_borders(&mut self) {
+    fn blur_borders(&mut self, around: &[[u16; 9]]) {
         let sharp = std::mem::take(&mut self.highest);
         self.highest.clone_from(&sharp);
         let means = self.means.clone();
-        self.spread(1);
+        self.spread(around);
         self.means = means;
         for (blurred, sharp) in self.highest.iter_mut().zip(sharp) {
             *blurred = sharp.max(BORDER_SHARE * *blurred);
         }
     }
 
-    /// Takes in the neighbours at a distance of `step` texels.
-    fn spread(&mut self, step: i32) {
-        let size = self.size;
-        let (mut means, mut highest) = (Vec::new(), Vec::new());
-        for texel in 0..size * size {
-            let (i, j) = ((texel % size) as i32, (texel / size) as i32);
-            let (mut sum, mut most) = (0.0, 0.0_f64);
-            for (di, dj) in (-1..=1).flat_map(|dj| (-1..=1).map(move |di| (di, dj))) {
-                let near = folded(i + di * step, j + dj * step, size as i32);
-                sum += self.means[near];
-                most = most.max(self.highest[near]);
-            }
-            means.push(sum / 9.0);
-            highest.push(most);
-        }
+    /// Takes in the neighbours.
+    fn spread(&mut self, around: &[[u16; 9]]) {
+        let mean = |near: &[u16; 9]| near.iter().map(|&k| self.means[k as usize]).sum::<f64>();
+        let most =
+            |near: &[u16; 9]| near.iter().map(|&k| self.highest[k as usize]).fold(0.0, f64::max);
+        let means = around.iter().map(|near| mean(near) / 9.0).collect();
+        let highest = around.iter().map(most).collect();
         (self.means, self.highest) = (means, highest);
     }
 

@@ -58,7 +58,7 @@ pub(super) struct Lighting<'s> {
     tree: Tree,
     chains: Vec<Vec<u32>>,
     images: Images,
-    /// The other ones.
+    /// The ones that are not in the tree.
     others: Vec<u32>,
     points: usize,
 }
@@ -73,10 +73,10 @@ impl<'s> Lighting<'s> {
         let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
         let area_sources = sources.iter().filter(is_area).count();
         let is_point = |s: &Source| matches!(s.kind, SourceKind::Point { .. });
-        let others: Vec<u32> =
-            (0..sources.len() as u32).filter(|&k| !is_point(&sources[k as usize])).collect();
-        let points = sources.len() - others.len();
+        let points = sources.iter().filter(|s| is_point(s)).count();
         let tree = if points > DRAWN_AT_ENDS { Tree::of(scene) } else { Tree::default() };
+        let is_other = |&k: &u32| tree.lamps.is_empty() || !is_point(&sources[k as usize]);
+        let others = (0..sources.len() as u32).filter(is_other).collect();
         let of_points = sources.iter().filter(|s| is_point(s)).map(|s| &s.chain);
         let chains: BTreeSet<&Vec<u32>> = of_points.collect();
         let chains: Vec<Vec<u32>> = chains.into_iter().cloned().collect();
@@ -156,8 +156,7 @@ impl<'s> Lighting<'s> {
             return self.by_all(at, samples, dice);
         }
         let points = self.lit_by_many(&self.cut(at), at, RAYS_TO_MANY, dice);
-        let others = self.others.iter().map(|&k| &self.sources[k as usize]);
-        others.fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
+        self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
     }
 
     /// The same with a look at every source: what choosing among many is measured against.
@@ -175,14 +174,9 @@ impl<'s> Lighting<'s> {
             let is_in_view = |target| self.chain_is_in_view(source, at, target);
             source::importance(self.scene, source, at, is_in_view)
         };
-        let drawn_by_tree = !self.tree.lamps.is_empty();
-        let cut = drawn_by_tree.then(|| self.cut(at));
+        let cut = (!self.tree.lamps.is_empty()).then(|| self.cut(at));
         let of_tree = cut.as_ref().map_or(0.0, |cut| cut.total);
-        let single = || {
-            let all = (0..self.sources.len() as u32).filter(|_| !drawn_by_tree);
-            all.chain(self.others.iter().copied().filter(|_| drawn_by_tree))
-        };
-        let weights: Vec<f64> = single().map(|k| weight(&self.sources[k as usize])).collect();
+        let weights: Vec<f64> = self.others().map(weight).collect();
         let total: f64 = of_tree + weights.iter().sum::<f64>();
         if total <= 0.0 {
             return Rgb::BLACK;
@@ -198,9 +192,14 @@ impl<'s> Lighting<'s> {
         });
         // Rounding may leave a sliver past the last weight.
         let drawn = drawn.or_else(|| weights.iter().rposition(|&w| w > 0.0));
-        drawn.zip(single().nth(drawn.unwrap_or(0))).map_or(Rgb::BLACK, |(k, source)| {
-            self.lit_by(&self.sources[source as usize], at, 1, dice) * (total / weights[k])
+        drawn.zip(self.others().nth(drawn.unwrap_or(0))).map_or(Rgb::BLACK, |(k, source)| {
+            self.lit_by(source, at, 1, dice) * (total / weights[k])
         })
+    }
+
+    /// The sources that are not in the tree.
+    fn others(&self) -> impl Iterator<Item = &Source> {
+        self.others.iter().map(|&k| &self.sources[k as usize])
     }
 
     fn lit_by(&self, source: &Source, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
