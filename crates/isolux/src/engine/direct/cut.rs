@@ -5,7 +5,7 @@ use super::lobe::turned;
 use super::mirrors::Plane;
 use super::tree::{Lamp, Node, Tree};
 use crate::engine::surface::SurfacePoint;
-use isolux_geometry::{Point, Vector};
+use isolux_geometry::{Direction, Point, Vector};
 
 /// A cluster is taken as one if its radius is at most this share of its distance.
 const TIGHT: f64 = 0.25;
@@ -153,12 +153,24 @@ impl View<'_> {
             let above = height + radius_m;
             above * above / (4.0 * radius_m * distance)
         };
-        let local = match node.frame {
-            Some(lamp) => turned(&self.tree.lamps[lamp as usize].frame, -to),
+        let local = match node.kind {
+            Some(kind) => turned(&self.tree.kinds[kind as usize].frame, -to),
             None => -to,
         };
         let shape = self.tree.lobes.towards(node.lobe, radius_m / distance, local);
         self.reflectance * node.peak_cd * shape * cos / distance2
+    }
+
+    /// How light of a lamp reaches the receiver, if that faces it.
+    pub(super) fn reaching(&self, position: Point, frame: &[Vector; 3]) -> Option<Reaching> {
+        let to = position - self.point;
+        let towards = to.direction()?.to_vector();
+        let cos = self.shading.dot(towards);
+        if !(cos > 0.0 && self.geometric.dot(towards) > 0.0) {
+            return None;
+        }
+        let local = turned(frame, -towards).direction()?;
+        Some(Reaching { local, per_cd: cos / to.length_squared() })
     }
 
     fn lamp_weight(&self, lamp: &Lamp) -> f64 {
@@ -171,9 +183,18 @@ impl View<'_> {
             return 0.0;
         }
         let distance2 = to.length_squared();
-        let shape = self.tree.lobes.towards(lamp.lobe, 0.0, turned(&lamp.frame, -to));
+        let kind = &self.tree.kinds[lamp.kind as usize];
+        let shape = self.tree.lobes.towards(kind.lobe, 0.0, turned(&kind.frame, -to));
         self.reflectance * lamp.peak_cd * shape * height / (distance2 * distance2.sqrt())
     }
+}
+
+/// Light of a lamp on its way to a receiver.
+pub(super) struct Reaching {
+    /// Where it leaves, in the frame of the lamp.
+    pub(super) local: Direction,
+    /// Illuminance for every candela, without mirrors and obstacles, lx.
+    pub(super) per_cd: f64,
 }
 
 impl Window<'_> {

@@ -46,6 +46,13 @@ pub(super) struct Lobe {
     size: u32,
 }
 
+impl Lobe {
+    /// Tells it from others.
+    pub(super) const fn number(self) -> usize {
+        self.first as usize
+    }
+}
+
 /// Mean and highest value of every texel.
 struct Texels {
     size: usize,

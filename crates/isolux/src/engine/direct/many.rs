@@ -9,7 +9,7 @@
 
 use super::Lighting;
 use super::cut::{Cut, Part, Seen, View};
-use super::source::{self, Source, Target};
+use super::source::{self, Target};
 use super::tree::Node;
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
@@ -20,7 +20,7 @@ const EVALUATED_A_RAY: usize = 4;
 
 /// A luminaire or image under a tooth.
 struct Candidate<'s> {
-    source: &'s Source,
+    chain: &'s [u32],
     target: Target,
     /// What it would give without obstacles over the chance of having been chosen, lx.
     weighted_lx: Rgb,
@@ -71,7 +71,7 @@ impl Lighting<'_> {
             let width = rays as f64 * (candidate.weighted_lx.luminance() / total);
             let end = place + width;
             if comb.meets(place, end) {
-                let share = self.visibility(candidate.source, at, candidate.target, None);
+                let share = self.visibility(candidate.chain, at, candidate.target, None);
                 sum += candidate.weighted_lx * share / width.min(1.0);
             }
             place = end;
@@ -117,7 +117,7 @@ impl Lighting<'_> {
             Part::Node(number) => {
                 let node = &self.tree.nodes[number as usize];
                 match node.second {
-                    _ if node.frame.is_some() => self.choose_alike(seeing, span, node, found),
+                    _ if node.kind.is_some() => self.choose_alike(seeing, span, node, found),
                     Some(second) => {
                         divide(seeing, span, [number + 1, second].map(Part::Node), waiting);
                     }
@@ -145,7 +145,7 @@ impl Lighting<'_> {
         let comb = seeing.comb;
         for tooth in comb.tooth_from(span.from)..comb.tooth_from(span.to) {
             let sum_cd = sums_cd[0] + (f64::from(tooth) + comb.0 - span.from) / scale;
-            let lamp = sums_cd.partition_point(|&s| s <= sum_cd).clamp(1, end - first) - 1;
+            let lamp = place_in(sums_cd, sum_cd);
             if last != Some(lamp) {
                 let width = (sums_cd[lamp + 1] - sums_cd[lamp]) * scale;
                 found.extend(self.candidate(seeing, (first + lamp) as u32, width));
@@ -157,12 +157,34 @@ impl Lighting<'_> {
     /// What a lamp chosen with a width under the comb gives.
     fn candidate(&self, seeing: &Seeing, lamp: u32, width: f64) -> Option<Candidate<'_>> {
         let Seeing { view, at, .. } = *seeing;
-        let source = &self.sources[self.images.get(lamp, view.chain)?];
-        let in_view = |target| self.chain_is_in_view(source, at, target);
-        let arriving = source::unoccluded_if(self.scene, source, at, in_view)?;
-        let weighted_lx = arriving.illuminance_lx / width.min(1.0);
-        Some(Candidate { source, target: arriving.target, weighted_lx })
+        let chain: &[u32] = &self.chains[view.chain];
+        if !chain.is_empty() && !self.images.has(lamp, view.chain) {
+            return None;
+        }
+        let lamp = &self.tree.lamps[lamp as usize];
+        let planes = chain.iter().map(|&p| &self.mirrors.planes[p as usize]);
+        let target = Target::Point(planes.clone().fold(lamp.position, |p, plane| plane.image(p)));
+        if !self.chain_is_in_view(chain, at, target) {
+            return None;
+        }
+        let kind = &self.tree.kinds[lamp.kind as usize];
+        let reaching = view.reaching(lamp.position, &kind.frame)?;
+        let candela = source::intensity(self.scene, kind.luminaire).intensity_cd(reaching.local);
+        let colour = planes.fold(lamp.colour, |colour, plane| colour * plane.reflectance);
+        let weighted_lx = colour * (candela * reaching.per_cd / width.min(1.0));
+        (!weighted_lx.is_black()).then_some(Candidate { chain, target, weighted_lx })
     }
+}
+
+/// The interval of running sums that a sum lies in: where it lies if all are alike, else searched for.
+fn place_in(sums: &[f64], sum: f64) -> usize {
+    let last = sums.len() - 2;
+    let share = (sum - sums[0]) / (sums[last + 1] - sums[0]);
+    let guess = ((share * (last + 1) as f64) as usize).min(last);
+    if sums[guess] <= sum && sum < sums[guess + 1] {
+        return guess;
+    }
+    sums.partition_point(|&s| s <= sum).clamp(1, last + 1) - 1
 }
 
 /// Who looks, and the comb.

@@ -81,7 +81,7 @@ impl<'s> Lighting<'s> {
         let chains: BTreeSet<&Vec<u32>> = of_points.collect();
         let chains: Vec<Vec<u32>> = chains.into_iter().cloned().collect();
         let images = Images::of(&tree, chains.len(), |luminaire, chain| {
-            image(&sources, &starts, luminaire as usize, &chains[chain])
+            image(&sources, &starts, luminaire as usize, &chains[chain]).is_some()
         });
         Self {
             scene,
@@ -171,7 +171,7 @@ impl<'s> Lighting<'s> {
             return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
         }
         let weight = |source: &Source| {
-            let is_in_view = |target| self.chain_is_in_view(source, at, target);
+            let is_in_view = |target| self.chain_is_in_view(&source.chain, at, target);
             source::importance(self.scene, source, at, is_in_view)
         };
         let cut = (!self.tree.lamps.is_empty()).then(|| self.cut(at));
@@ -212,11 +212,11 @@ impl<'s> Lighting<'s> {
     }
 
     fn lit_by_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {
-        let in_view = |target| self.chain_is_in_view(source, at, target);
+        let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
         let Some(arriving) = source::unoccluded_if(self.scene, source, at, in_view) else {
             return Rgb::BLACK;
         };
-        arriving.illuminance_lx * self.visibility(source, at, arriving.target, None)
+        arriving.illuminance_lx * self.visibility(&source.chain, at, arriving.target, None)
     }
 }
 

@@ -253,7 +253,8 @@ pub(super) fn facing_cos(towards: Direction, shading: Normal, geometric: Normal)
     (cos > 0.0 && towards.cos(geometric) > 0.0).then_some(cos)
 }
 
-fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution {
+/// The distribution of a luminaire that is a point.
+pub(super) fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution {
     match &scene.luminaires()[luminaire as usize].kind {
         LuminaireKind::Point { intensity, .. } => intensity,
         LuminaireKind::Directional { .. } => {

@@ -4,6 +4,7 @@
 use super::lobe::{Lobe, Lobes};
 use crate::photometry::IntensityDistribution;
 use crate::scene::{LuminaireKind, Scene};
+use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -16,16 +17,25 @@ pub(super) const GROUP: usize = 16;
 const SMALL: usize = 128;
 const FEW: usize = 8;
 
-/// A luminaire, as far as drawing it needs.
+/// A luminaire, in a line of the cache.
 #[derive(Clone, Debug)]
 pub(super) struct Lamp {
     pub(super) position: Point,
-    /// Axes of its frame in the world.
-    pub(super) frame: [Vector; 3],
-    pub(super) lobe: Lobe,
+    pub(super) colour: Rgb,
+    /// Its number in the scene.
+    pub(super) luminaire: u32,
+    pub(super) kind: u32,
     /// Highest intensity times the luminance of its colour, cd.
     pub(super) peak_cd: f64,
-    /// Its number in the scene.
+}
+
+/// Lamps of the same distribution that hang the same way.
+#[derive(Clone, Debug)]
+pub(super) struct Kind {
+    /// Axes of the frame in the world.
+    pub(super) frame: [Vector; 3],
+    pub(super) lobe: Lobe,
+    /// One of them, which has the distribution of all.
     pub(super) luminaire: u32,
 }
 
@@ -35,8 +45,8 @@ pub(super) struct Node {
     pub(super) centre: Point,
     pub(super) radius_m: f64,
     pub(super) lobe: Lobe,
-    /// The axes of `lobe`, where that is not the world's.
-    pub(super) frame: Option<u32>,
+    /// The kind of all its lamps; none where they differ: then the axes of `lobe` are the world's.
+    pub(super) kind: Option<u32>,
     pub(super) peak_cd: f64,
     /// Its lamps.
     pub(super) first: u32,
@@ -49,6 +59,7 @@ pub(super) struct Node {
 #[derive(Debug, Default)]
 pub(super) struct Tree {
     pub(super) lamps: Vec<Lamp>,
+    pub(super) kinds: Vec<Kind>,
     /// Running sums of their highest intensities, starting with zero.
     pub(super) peak_sums_cd: Vec<f64>,
     pub(super) nodes: Vec<Node>,
@@ -68,15 +79,20 @@ impl Tree {
             };
             let peak_cd = intensity.max_intensity_cd() * luminaire.colour.luminance();
             if peak_cd > 0.0 {
+                let luminaire_index = index as u32;
+                let frame = world_from_luminaire.columns;
+                let lobe = kinds.lobe(intensity, &mut tree.lobes);
+                let kind = kinds.kind(intensity, Kind { frame, lobe, luminaire: luminaire_index });
                 tree.lamps.push(Lamp {
                     position: *position,
-                    frame: world_from_luminaire.columns,
-                    lobe: kinds.lobe(intensity, &mut tree.lobes),
+                    colour: luminaire.colour,
+                    luminaire: luminaire_index,
+                    kind,
                     peak_cd,
-                    luminaire: index as u32,
                 });
             }
         }
+        tree.kinds = kinds.all;
         if !tree.lamps.is_empty() {
             tree.build(0, tree.lamps.len());
         }
@@ -97,8 +113,8 @@ impl Tree {
         self.nodes.push(Node {
             centre,
             radius_m,
-            lobe: self.lamps[first].lobe,
-            frame: None,
+            lobe: self.kinds[self.lamps[first].kind as usize].lobe,
+            kind: None,
             peak_cd: 0.0,
             first: first as u32,
             count: (end - first) as u32,
@@ -122,19 +138,20 @@ impl Tree {
         let node = &self.nodes[index];
         let lamps = &self.lamps[node.first as usize..][..node.count as usize];
         let peak_cd = lamps.iter().map(|l| l.peak_cd).sum();
-        let one = &lamps[0];
-        let alike = lamps.iter().all(|l| l.is_like(one));
-        let (lobe, frame) = if alike {
-            (one.lobe, Some(node.first))
+        let kind_of = |kind: u32| &self.kinds[kind as usize];
+        let kind = lamps[0].kind;
+        let (lobe, kind) = if lamps.iter().all(|l| l.kind == kind) {
+            (kind_of(kind).lobe, Some(kind))
         } else {
             let mixed = match node.second {
-                None => self
-                    .lobes
-                    .mix(lamps.iter().map(|l| (l.lobe, Some(&l.frame), l.peak_cd / peak_cd))),
+                None => self.lobes.mix(lamps.iter().map(|l| {
+                    let kind = kind_of(l.kind);
+                    (kind.lobe, Some(&kind.frame), l.peak_cd / peak_cd)
+                })),
                 Some(second) => {
                     let halves = [&self.nodes[index + 1], &self.nodes[second as usize]];
                     self.lobes.mix(halves.into_iter().map(|half| {
-                        let frame = half.frame.map(|lamp| &self.lamps[lamp as usize].frame);
+                        let frame = half.kind.map(|kind| &kind_of(kind).frame);
                         (half.lobe, frame, half.peak_cd / peak_cd)
                     }))
                 }
@@ -142,14 +159,7 @@ impl Tree {
             (mixed, None)
         };
         let node = &mut self.nodes[index];
-        (node.lobe, node.frame, node.peak_cd) = (lobe, frame, peak_cd);
-    }
-}
-
-impl Lamp {
-    /// Whether it sends its light the same ways as another.
-    fn is_like(&self, other: &Self) -> bool {
-        self.lobe == other.lobe && self.frame == other.frame
+        (node.lobe, node.kind, node.peak_cd) = (lobe, kind, peak_cd);
     }
 }
 
@@ -169,13 +179,13 @@ fn divide_by_kind(lamps: &mut [Lamp]) -> Option<usize> {
     if lamps.len() > SMALL {
         return None;
     }
-    let count = |kind: &Lamp| lamps.iter().filter(|l| l.is_like(kind)).count();
-    let kind = lamps.iter().max_by_key(|l| (count(l), std::cmp::Reverse(l.luminaire)))?.clone();
-    let alike = count(&kind);
+    let count = |kind: u32| lamps.iter().filter(|l| l.kind == kind).count();
+    let kind = lamps.iter().map(|l| l.kind).max_by_key(|&kind| (count(kind), kind))?;
+    let alike = count(kind);
     if alike == lamps.len() || alike * FEW < lamps.len() {
         return None;
     }
-    lamps.sort_unstable_by_key(|l| (!l.is_like(&kind), l.luminaire));
+    lamps.sort_unstable_by_key(|l| (l.kind != kind, l.luminaire));
     Some(alike)
 }
 
@@ -208,9 +218,25 @@ fn sphere(lamps: &[Lamp]) -> (Point, f64, usize) {
 struct Kinds {
     by_address: HashMap<usize, Lobe>,
     by_shape: HashMap<blake3::Hash, Lobe>,
+    all: Vec<Kind>,
+    by_parts: HashMap<(usize, u64, [[u64; 3]; 3]), u32>,
 }
 
 impl Kinds {
+    /// The number of a kind.
+    fn kind(&mut self, intensity: &IntensityDistribution, kind: Kind) -> u32 {
+        let of = match intensity {
+            IntensityDistribution::Web(web) => (Arc::as_ptr(web) as usize, 0),
+            // One of these is told by its table and power.
+            other => (kind.lobe.number(), other.max_intensity_cd().to_bits()),
+        };
+        let frame = kind.frame.map(|axis| [axis.x, axis.y, axis.z].map(f64::to_bits));
+        *self.by_parts.entry((of.0, of.1, frame)).or_insert_with(|| {
+            self.all.push(kind);
+            self.all.len() as u32 - 1
+        })
+    }
+
     /// The table of a distribution; luminaires that differ in power alone share one.
     fn lobe(&mut self, intensity: &IntensityDistribution, lobes: &mut Lobes) -> Lobe {
         let address = match intensity {
@@ -257,28 +283,22 @@ fn shape(intensity: &IntensityDistribution) -> blake3::Hash {
     hasher.finalize()
 }
 
-/// Which source is the image of a lamp by a chain of mirrors.
+/// Which lamps have an image by which chain of mirrors.
 #[derive(Debug, Default)]
 pub(super) struct Images {
     chains: usize,
-    /// One more than the number of the source; zero where there is no image.
-    sources: Vec<u32>,
+    exist: Vec<bool>,
 }
 
 impl Images {
-    /// Of all lamps of a tree, where `find` knows the source of a luminaire and chain.
-    pub(super) fn of(
-        tree: &Tree,
-        chains: usize,
-        find: impl Fn(u32, usize) -> Option<usize>,
-    ) -> Self {
+    /// Of all lamps of a tree, where `exists` knows it of a luminaire and chain.
+    pub(super) fn of(tree: &Tree, chains: usize, exists: impl Fn(u32, usize) -> bool) -> Self {
         let all = tree.lamps.iter().flat_map(|l| (0..chains).map(move |c| (l.luminaire, c)));
-        let sources = all.map(|(l, c)| find(l, c).map_or(0, |k| k as u32 + 1)).collect();
-        Self { chains, sources }
+        Self { chains, exist: all.map(|(l, c)| exists(l, c)).collect() }
     }
 
-    /// The number of a source.
-    pub(super) fn get(&self, lamp: u32, chain: usize) -> Option<usize> {
-        (self.sources[lamp as usize * self.chains + chain] as usize).checked_sub(1)
+    /// Whether a lamp has one.
+    pub(super) fn has(&self, lamp: u32, chain: usize) -> bool {
+        self.exist[lamp as usize * self.chains + chain]
     }
 }
