@@ -8,10 +8,10 @@ use crate::engine::surface::SurfacePoint;
 use isolux_geometry::{Direction, Point, Vector};
 
 /// A cluster is taken as one if its radius is at most this share of its distance.
-const TIGHT: f64 = 0.25;
+const TIGHT: f64 = 0.4;
 
 /// A receiver as reflected by a chain of mirrors, back to where the luminaires are.
-pub(in crate::engine) struct View<'a> {
+pub(super) struct View<'a> {
     tree: &'a Tree,
     /// Which chain.
     pub(super) chain: usize,
@@ -33,7 +33,7 @@ struct Window<'a> {
 
 /// A cluster or a single lamp of the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::engine) enum Part {
+pub(super) enum Part {
     Node(u32),
     Lamp(u32),
 }
@@ -41,22 +41,22 @@ pub(in crate::engine) enum Part {
 /// A part of the tree as seen in a view, with an estimate of the illuminance it would give without
 /// obstacles, lx; zero only if that is zero.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::engine) struct Seen {
+pub(super) struct Seen {
     pub(super) view: usize,
     pub(super) part: Part,
     pub(super) weight: f64,
 }
 
 /// The views of a receiver and a partition of all that it sees in them.
-pub(in crate::engine) struct Cut<'a> {
+pub(super) struct Cut<'a> {
     pub(super) views: Vec<View<'a>>,
-    pub(in crate::engine) seen: Vec<Seen>,
+    pub(super) seen: Vec<Seen>,
     pub(super) total: f64,
 }
 
 impl Lighting<'_> {
     /// What a receiver sees of the luminaires without surface and their images.
-    pub(in crate::engine) fn cut(&self, at: &SurfacePoint) -> Cut<'_> {
+    pub(super) fn cut(&self, at: &SurfacePoint) -> Cut<'_> {
         let views: Vec<View> =
             (0..self.chains.len()).filter_map(|chain| self.view(chain, at)).collect();
         let mut seen = Vec::with_capacity(256);

@@ -8,6 +8,7 @@
 
 mod area;
 mod cut;
+mod kind;
 mod lobe;
 mod many;
 mod mirrors;

@@ -1,16 +1,14 @@
 //! Luminaires without surface as a tree of clusters, each with a sphere around it and a table of
 //! where its light goes.
 
+use super::kind::{Kind, Kinds};
 use super::lobe::{Lobe, Lobes};
-use crate::photometry::IntensityDistribution;
 use crate::scene::{LuminaireKind, Scene};
 use crate::units::Rgb;
-use isolux_geometry::{Point, Vector};
-use std::collections::HashMap;
-use std::sync::Arc;
+use isolux_geometry::Point;
 
 /// Luminaires of a leaf at most.
-pub(super) const GROUP: usize = 16;
+const GROUP: usize = 16;
 
 /// Clusters of at most so many are divided by kind before they are divided in space, if the most
 /// frequent kind has a share that is not below one in so many.
@@ -27,16 +25,6 @@ pub(super) struct Lamp {
     pub(super) kind: u32,
     /// Highest intensity times the luminance of its colour, cd.
     pub(super) peak_cd: f64,
-}
-
-/// Lamps of the same distribution that hang the same way.
-#[derive(Clone, Debug)]
-pub(super) struct Kind {
-    /// Axes of the frame in the world.
-    pub(super) frame: [Vector; 3],
-    pub(super) lobe: Lobe,
-    /// One of them, which has the distribution of all.
-    pub(super) luminaire: u32,
 }
 
 /// A cluster of lamps.
@@ -211,76 +199,6 @@ fn sphere(lamps: &[Lamp]) -> (Point, f64, usize) {
     };
     // The roundings of a length and of those that follow.
     (centre, radius_m * (1.0 + 1e-12), widest)
-}
-
-/// Tables already made, by distribution.
-#[derive(Default)]
-struct Kinds {
-    by_address: HashMap<usize, Lobe>,
-    by_shape: HashMap<blake3::Hash, Lobe>,
-    all: Vec<Kind>,
-    by_parts: HashMap<(usize, u64, [[u64; 3]; 3]), u32>,
-}
-
-impl Kinds {
-    /// The number of a kind.
-    fn kind(&mut self, intensity: &IntensityDistribution, kind: Kind) -> u32 {
-        let of = match intensity {
-            IntensityDistribution::Web(web) => (Arc::as_ptr(web) as usize, 0),
-            // One of these is told by its table and power.
-            other => (kind.lobe.number(), other.max_intensity_cd().to_bits()),
-        };
-        let frame = kind.frame.map(|axis| [axis.x, axis.y, axis.z].map(f64::to_bits));
-        *self.by_parts.entry((of.0, of.1, frame)).or_insert_with(|| {
-            self.all.push(kind);
-            self.all.len() as u32 - 1
-        })
-    }
-
-    /// The table of a distribution; luminaires that differ in power alone share one.
-    fn lobe(&mut self, intensity: &IntensityDistribution, lobes: &mut Lobes) -> Lobe {
-        let address = match intensity {
-            IntensityDistribution::Web(web) => Some(Arc::as_ptr(web) as usize),
-            _ => None,
-        };
-        if let Some(lobe) = address.and_then(|a| self.by_address.get(&a)) {
-            return *lobe;
-        }
-        let made = self.by_shape.entry(shape(intensity));
-        let lobe = *made.or_insert_with(|| lobes.add(intensity));
-        if let Some(address) = address {
-            self.by_address.insert(address, lobe);
-        }
-        lobe
-    }
-}
-
-/// Names a distribution up to its power.
-fn shape(intensity: &IntensityDistribution) -> blake3::Hash {
-    let mut hasher = blake3::Hasher::new();
-    let mut numbers = |numbers: &mut dyn Iterator<Item = f64>| {
-        numbers.for_each(|n| {
-            hasher.update(&n.to_bits().to_le_bytes());
-        });
-    };
-    match intensity {
-        IntensityDistribution::Isotropic { .. } => numbers(&mut [0.0].into_iter()),
-        IntensityDistribution::CosinePower { exponent, .. } => {
-            numbers(&mut [1.0, *exponent].into_iter());
-        }
-        IntensityDistribution::Spot { inner_rad, outer_rad, .. } => {
-            numbers(&mut [2.0, *inner_rad, *outer_rad].into_iter());
-        }
-        IntensityDistribution::Web(web) => {
-            let most_cd = web.max_intensity_cd().max(f64::MIN_POSITIVE);
-            numbers(&mut [3.0, web.planes_deg().len() as f64].into_iter());
-            numbers(&mut web.planes_deg().iter().copied());
-            numbers(&mut web.gammas_deg().iter().copied());
-            // Six digits, so that the rounding of a factor does not tell them apart; zero stays.
-            numbers(&mut web.candela().iter().map(|cd| (cd / most_cd * 1e6).ceil()));
-        }
-    }
-    hasher.finalize()
 }
 
 /// Which lamps have an image by which chain of mirrors.

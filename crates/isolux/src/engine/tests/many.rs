@@ -40,7 +40,8 @@ fn lamps(count: u64) -> Vec<Luminaire> {
         let q = [3, 4, 5, 6].map(|n| number(k, n));
         let length = q.iter().map(|c| c * c).sum::<f64>().sqrt();
         let turned = Transform::rotation(q.map(|c| c / length));
-        let world_from_luminaire = if patch % 2 == 0 { Transform::IDENTITY } else { turned };
+        let world_from_luminaire =
+            if patch.is_multiple_of(2) { Transform::IDENTITY } else { turned };
         let intensity =
             if patch % 4 == 3 { web.scaled(1.0 + 0.1 * number(k, 7)) } else { kind(patch) };
         Luminaire {
@@ -128,32 +129,4 @@ fn one_luminaire_of_many_is_unbiased() {
         |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| lighting.estimate(at, dice);
     let (largest, _) = deviation(&scene, estimate, receivers(40));
     assert!(largest < SIGMAS, "{largest} standard errors");
-}
-
-#[test]
-#[ignore]
-fn timing() {
-    for count in [600, 2626, 20_000, 100_000] {
-        let scene = hall(count);
-        let t = std::time::Instant::now();
-        let lighting = Lighting::new(&scene);
-        let new = t.elapsed();
-        let points: Vec<_> = receivers(2000).collect();
-        let cpu = || {
-            let s = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap();
-            s.split(' ').next().unwrap().parse::<f64>().unwrap() * 1e-3
-        };
-        let t = cpu();
-        let n: usize = points.iter().map(|at| lighting.cut(at).seen.len()).sum();
-        let cut = (cpu() - t) / 2000.0;
-        let t = cpu();
-        let e: f64 =
-            points.iter().map(|at| lighting.illuminance(at, &mut dice(3)).luminance()).sum();
-        let all = (cpu() - t) / 2000.0;
-        println!("{count}: new {new:?} cut {cut:.1} us ({} seen) whole {all:.1} us {e}", n / 2000);
-    }
-    let scene = hall(2626);
-    let estimate =
-        |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| lighting.illuminance(at, dice);
-    println!("{:?}", deviation(&scene, estimate, receivers(60)));
 }
