@@ -14,10 +14,14 @@ use super::pilot::Plan;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
+use std::time::Instant;
 
 /// Sweeps of the fixed point end when they change less than this, relative to the light: far below
 /// the noise of an increment, which is above 1e-4 at the rays it has.
 const TOLERANCE: f64 = 1e-6;
+
+/// One receiver in so many is tried to tell how long an increment takes.
+const TRIED: usize = 64;
 
 /// The engine, ready for increments.
 pub(super) struct Hybrid<'p, 's> {
@@ -36,6 +40,39 @@ impl<'p, 's> Hybrid<'p, 's> {
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
         Self { plan, check_direct, rows, check_rows, key }
+    }
+
+    /// Time that an increment takes, s, roughly: a part of its receivers is tried.
+    pub(super) fn pace_s(&self) -> f64 {
+        let started = Instant::now();
+        let lighting = self.plan.lighting;
+        let rows: Vec<Gatherer> = self.rows.iter().step_by(TRIED).copied().collect();
+        let gathering = Gathering {
+            scene: self.plan.scene,
+            lighting,
+            elements: &self.plan.elements,
+            level: self.plan.level,
+            known: &self.plan.known,
+            direct: self.direct_at_ends(&self.plan.direct),
+        };
+        gathering.operator(&rows, |row| self.key.with(0).with(row as u64));
+        if !lighting.is_exact() {
+            let key = self.key.with(0).with(1);
+            let all: Vec<_> = self.plan.gatherers.iter().step_by(TRIED).collect();
+            all.par_iter().enumerate().for_each(|(k, gatherer)| {
+                let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
+                lighting.illuminance(&gatherer.surface, &mut dice);
+            });
+        }
+        started.elapsed().as_secs_f64() * TRIED as f64
+    }
+
+    fn direct_at_ends<'a>(&self, values: &'a [Rgb]) -> DirectAtEnds<'a> {
+        if self.plan.direct_from_map {
+            DirectAtEnds::Read { values, level: u32::MAX }
+        } else {
+            DirectAtEnds::Evaluated
+        }
     }
 
     /// Adds increment `index`; nothing, and `None`, if the deadline passes meanwhile.
@@ -57,11 +94,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             elements: &plan.elements,
             level: plan.level,
             known: &plan.known,
-            direct: if plan.direct_from_map {
-                DirectAtEnds::Read { values: &direct, level: u32::MAX }
-            } else {
-                DirectAtEnds::Evaluated
-            },
+            direct: self.direct_at_ends(&direct),
         };
         let operator =
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;

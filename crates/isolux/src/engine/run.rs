@@ -24,6 +24,8 @@ use std::time::{Duration, Instant};
 const FEWEST_INCREMENTS: u64 = 16;
 /// Share of the time limit after which elements are refined no further.
 const PILOT_SHARE: f64 = 0.4;
+/// Halvings of the rays of an increment at most, where time is short.
+const MOST_HALVINGS: u32 = 8;
 /// Meshes tried before a run settles for what it has.
 const MOST_STAGES: u32 = 4;
 /// Accuracy that elements are made for where none is asked.
@@ -198,7 +200,10 @@ impl<'s> Run<'s, '_> {
         saved: Option<&RunState>,
         watch: &mut dyn FnMut(&Progress) -> Watch,
     ) -> Result<Outcome, SolveError> {
-        let mut work = Work::new(plan, self.request, self.mesh_for());
+        let mut work = Work::new(plan, self.request, self.mesh_for(), 0);
+        if saved.is_none() {
+            work = self.affordable(work);
+        }
         if let Some(state) = saved {
             work.restore(state)?;
             self.rays = state.rays;
@@ -227,6 +232,21 @@ impl<'s> Run<'s, '_> {
                 )));
             }
         }
+    }
+
+    /// The same with fewer rays an increment, if the time left is too short to know how good the map
+    /// is: the mesh, too, is what the time allowed then.
+    fn affordable<'p>(&mut self, work: Work<'p, 's>) -> Work<'p, 's> {
+        let Some(limit) = self.request.time_limit else { return work };
+        let Engine::Hybrid(hybrid) = &work.engine else { return work };
+        let left_s = (limit.as_secs_f64() - self.elapsed_s()).max(0.0);
+        let too_slow = hybrid.pace_s() * BELIEVED_INCREMENTS as f64 / left_s;
+        if too_slow <= 1.0 {
+            return work;
+        }
+        self.cut = true;
+        let halvings = libm::log2(too_slow).ceil().min(f64::from(MOST_HALVINGS));
+        Work::new(work.plan, self.request, self.mesh_for(), halvings as u32)
     }
 
     /// One more increment; false if the time is over before it is whole, and there is one already.
@@ -337,9 +357,11 @@ struct Checks {
 }
 
 impl<'p, 's> Work<'p, 's> {
-    fn new(plan: &'p Plan<'s>, request: &SolveRequest, target: f64) -> Self {
+    /// With the rays of an increment halved so many times.
+    fn new(plan: &'p Plan<'s>, request: &SolveRequest, target: f64, halvings: u32) -> Self {
         let reference = plan.rms_lx;
         let most = gathering_rays(target, plan.indirect_vertices, request.max_memory_bytes);
+        let most = (most >> halvings).max(1);
         let rays = plan.rays_of_vertices(most);
         let points = match request.method {
             Method::Hybrid => checks::draw(plan, most, Key::new(request.seed).with(3)),

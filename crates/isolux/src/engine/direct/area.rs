@@ -72,7 +72,7 @@ impl Lighting<'_> {
             let is_above = (target - at.point).dot(at.geometric.to_vector()) > 0.0;
             let index = emitter.indices[piece.triangle];
             if is_above {
-                self.visibility(source, at, Target::Point(target), Some(index))
+                self.visibility(&source.chain, at, Target::Point(target), Some(index))
             } else {
                 Rgb::BLACK
             }
@@ -109,7 +109,8 @@ impl Lighting<'_> {
             return Rgb::BLACK;
         }
         let steradians = cos * cos_there * total_m2 / to_target.length_squared();
-        self.visibility(source, at, Target::Point(target), Some(emitter.indices[k])) * steradians
+        self.visibility(&source.chain, at, Target::Point(target), Some(emitter.indices[k]))
+            * steradians
     }
 }
 

@@ -52,11 +52,15 @@ impl Plane {
         }
         let at = from + towards * (height / descent);
         let margin_m = tolerance_m * (2.0 + 2.0 * towards.length() / descent);
+        self.is_near(at, margin_m).then_some(at)
+    }
+
+    /// Whether a point is in the box around the mirror's triangles, widened by a margin.
+    pub(super) fn is_near(&self, at: Point, margin_m: f64) -> bool {
         let within = |low: f64, x: f64, high: f64| low - margin_m <= x && x <= high + margin_m;
-        let inside = within(self.low.x, at.x, self.high.x)
+        within(self.low.x, at.x, self.high.x)
             && within(self.low.y, at.y, self.high.y)
-            && within(self.low.z, at.z, self.high.z);
-        inside.then_some(at)
+            && within(self.low.z, at.z, self.high.z)
     }
 
     fn include(&mut self, corners: &Triangle) {

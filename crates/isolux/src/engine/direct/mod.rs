@@ -7,9 +7,14 @@
 //! [`Lighting::covers`].
 
 mod area;
+mod cut;
+mod kind;
+mod lobe;
+mod many;
 mod mirrors;
 mod panes;
 mod source;
+mod tree;
 mod visibility;
 
 use super::path::Dice;
@@ -20,9 +25,19 @@ use mirrors::Mirrors;
 use panes::Panes;
 pub(super) use source::LuminaireId;
 use source::{Source, SourceKind, Sources};
+use std::collections::BTreeSet;
+use tree::{Images, Tree};
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
 const EXACT_SOURCES: usize = 4;
+
+/// Points among the sources from which on they are drawn by their tree at the ends of gathering rays,
+/// and at receivers.
+const DRAWN_AT_ENDS: usize = 32;
+const DRAWN_AT_RECEIVERS: usize = 512;
+
+/// Shadow rays to points in one replicate at a receiver, where they are many.
+const RAYS_TO_MANY: usize = 16;
 
 /// Samples that all emitting surfaces together get at a receiver in one replicate, and the fewest
 /// for one of them.
@@ -34,21 +49,56 @@ pub(super) struct Lighting<'s> {
     scene: &'s Scene,
     mirrors: Mirrors,
     sources: Vec<Source>,
+    /// Where those of every luminaire start.
+    starts: Vec<usize>,
     leaves_chains: bool,
     left_out: f64,
     area_sources: usize,
     panes: Panes,
+    /// The sources that are points, where they are many, by luminaire and chain.
+    tree: Tree,
+    chains: Vec<Vec<u32>>,
+    images: Images,
+    /// The ones that are not in the tree.
+    others: Vec<u32>,
+    points: usize,
 }
 
 impl<'s> Lighting<'s> {
     /// Prepares the sources of a scene.
     pub(super) fn new(scene: &'s Scene) -> Self {
         let mirrors = Mirrors::find(scene);
-        let Sources { all: sources, leaves_chains, left_out } = Sources::of(scene, &mirrors);
+        let Sources { all: sources, starts, leaves_chains, left_out } =
+            Sources::of(scene, &mirrors);
         let panes = Panes::find(scene);
         let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
         let area_sources = sources.iter().filter(is_area).count();
-        Self { scene, mirrors, sources, leaves_chains, left_out, area_sources, panes }
+        let is_point = |s: &Source| matches!(s.kind, SourceKind::Point { .. });
+        let points = sources.iter().filter(|s| is_point(s)).count();
+        let tree = if points > DRAWN_AT_ENDS { Tree::of(scene) } else { Tree::default() };
+        let is_other = |&k: &u32| tree.lamps.is_empty() || !is_point(&sources[k as usize]);
+        let others = (0..sources.len() as u32).filter(is_other).collect();
+        let of_points = sources.iter().filter(|s| is_point(s)).map(|s| &s.chain);
+        let chains: BTreeSet<&Vec<u32>> = of_points.collect();
+        let chains: Vec<Vec<u32>> = chains.into_iter().cloned().collect();
+        let images = Images::of(&tree, chains.len(), |luminaire, chain| {
+            image(&sources, &starts, luminaire as usize, &chains[chain]).is_some()
+        });
+        Self {
+            scene,
+            mirrors,
+            sources,
+            starts,
+            leaves_chains,
+            left_out,
+            area_sources,
+            panes,
+            tree,
+            chains,
+            images,
+            others,
+            points,
+        }
     }
 
     /// Number of sources, images included.
@@ -56,9 +106,14 @@ impl<'s> Lighting<'s> {
         self.sources.len()
     }
 
-    /// Whether direct light has an exact value at every point: no emitting surface.
+    /// Whether direct light has an exact value at every point: no emitting surface, and few enough
+    /// luminaires to ask them all.
     pub(super) fn is_exact(&self) -> bool {
-        self.area_sources == 0
+        self.area_sources == 0 && !self.has_many()
+    }
+
+    fn has_many(&self) -> bool {
+        self.points > DRAWN_AT_RECEIVERS
     }
 
     /// Whether there is specular transport that the sources do not cover.
@@ -77,8 +132,11 @@ impl<'s> Lighting<'s> {
     /// Whether the light of a luminaire that was reflected by these planar mirrors in this order
     /// is part of direct light here.
     pub(super) fn covers(&self, luminaire: LuminaireId, chain: &[u32]) -> bool {
-        chain.is_empty()
-            || self.sources.iter().any(|s| s.luminaire == luminaire && s.chain == chain)
+        let number = match luminaire {
+            LuminaireId::Luminaire(k) => k as usize,
+            LuminaireId::Area(k) => self.scene.luminaires().len() + k as usize,
+        };
+        chain.is_empty() || image(&self.sources, &self.starts, number, chain).is_some()
     }
 
     /// The planar mirror that a side of a triangle belongs to.
@@ -86,8 +144,8 @@ impl<'s> Lighting<'s> {
         self.mirrors.of(triangle, back)
     }
 
-    /// Direct illuminance from all sources: exact for points and parallel light, sampled for
-    /// emitting surfaces.
+    /// Direct illuminance from all sources: exact for parallel light, and for points where they are
+    /// few; sampled for emitting surfaces.
     pub(super) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
         let samples = (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES);
         self.sampled(at, samples, dice)
@@ -95,7 +153,16 @@ impl<'s> Lighting<'s> {
 
     /// The same with `samples` shadow rays for every emitting surface.
     pub(super) fn sampled(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
-        self.sources.iter().map(|source| self.lit_by(source, at, samples, dice)).sum()
+        if !self.has_many() {
+            return self.by_all(at, samples, dice);
+        }
+        let points = self.lit_by_many(&self.cut(at), at, RAYS_TO_MANY, dice);
+        self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
+    }
+
+    /// The same with a look at every source: what choosing among many is measured against.
+    pub(super) fn by_all(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
+        self.sources.iter().map(|s| self.lit_by(s, at, samples, dice)).sum()
     }
 
     /// An unbiased estimate of the direct illuminance by few shadow rays, for the ends of
@@ -105,25 +172,35 @@ impl<'s> Lighting<'s> {
             return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
         }
         let weight = |source: &Source| {
-            let is_in_view = |target| self.chain_is_in_view(source, at, target);
+            let is_in_view = |target| self.chain_is_in_view(&source.chain, at, target);
             source::importance(self.scene, source, at, is_in_view)
         };
-        let weights: Vec<f64> = self.sources.iter().map(weight).collect();
-        let total: f64 = weights.iter().sum();
+        let cut = (!self.tree.lamps.is_empty()).then(|| self.cut(at));
+        let of_tree = cut.as_ref().map_or(0.0, |cut| cut.total);
+        let weights: Vec<f64> = self.others().map(weight).collect();
+        let total: f64 = of_tree + weights.iter().sum::<f64>();
         if total <= 0.0 {
             return Rgb::BLACK;
         }
         let [pick, _] = dice.pair();
-        let mut left = pick * total;
+        let mut left = pick * total - of_tree;
+        if let Some(cut) = cut.filter(|_| left < 0.0) {
+            return self.lit_by_many(&cut, at, 1, dice) * (total / of_tree);
+        }
         let drawn = weights.iter().position(|&w| {
             left -= w;
             left < 0.0
         });
         // Rounding may leave a sliver past the last weight.
         let drawn = drawn.or_else(|| weights.iter().rposition(|&w| w > 0.0));
-        drawn.map_or(Rgb::BLACK, |k| {
-            self.lit_by(&self.sources[k], at, 1, dice) * (total / weights[k])
+        drawn.zip(self.others().nth(drawn.unwrap_or(0))).map_or(Rgb::BLACK, |(k, source)| {
+            self.lit_by(source, at, 1, dice) * (total / weights[k])
         })
+    }
+
+    /// The sources that are not in the tree.
+    fn others(&self) -> impl Iterator<Item = &Source> {
+        self.others.iter().map(|&k| &self.sources[k as usize])
     }
 
     fn lit_by(&self, source: &Source, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
@@ -136,9 +213,19 @@ impl<'s> Lighting<'s> {
     }
 
     fn lit_by_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {
-        let Some(arriving) = source::unoccluded(self.scene, source, at) else { return Rgb::BLACK };
-        arriving.illuminance_lx * self.visibility(source, at, arriving.target, None)
+        let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
+        let Some(arriving) = source::unoccluded_if(self.scene, source, at, in_view) else {
+            return Rgb::BLACK;
+        };
+        arriving.illuminance_lx * self.visibility(&source.chain, at, arriving.target, None)
     }
+}
+
+/// The source that is the image of a luminaire by a chain of mirrors; emitting surfaces are counted
+/// after the luminaires without.
+fn image(sources: &[Source], starts: &[usize], luminaire: usize, chain: &[u32]) -> Option<usize> {
+    let (first, end) = (starts[luminaire], starts[luminaire + 1]);
+    sources[first..end].iter().position(|s| s.chain == chain).map(|k| first + k)
 }
 
 fn has_gloss(material: &crate::scene::Material) -> bool {

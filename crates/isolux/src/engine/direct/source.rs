@@ -69,6 +69,8 @@ pub(super) enum Target {
 #[derive(Debug, Default)]
 pub(super) struct Sources {
     pub(super) all: Vec<Source>,
+    /// Where those of every luminaire start, and where the last ones end.
+    pub(super) starts: Vec<usize>,
     /// Whether some chain of mirrors goes on where images end.
     pub(super) leaves_chains: bool,
     /// Bound of the share of all light that is left out because mirrors have dimmed it so much:
@@ -82,6 +84,7 @@ impl Sources {
         let mut found = Self::default();
         for real in real_sources(scene) {
             let first = found.all.len();
+            found.starts.push(first);
             found.all.push(real);
             let mut next = first;
             // Breadth first: images are appended and looked at in turn.
@@ -91,6 +94,7 @@ impl Sources {
                 next += 1;
             }
         }
+        found.starts.push(found.all.len());
         found
     }
 
@@ -211,22 +215,34 @@ fn transposed(rotation: &Transform) -> Transform {
     Transform { columns: [row(0), row(1), row(2)], translation: Vector::ZERO }
 }
 
-/// What a point or parallel source would give without obstacles; `None` where it faces away.
-pub(super) fn unoccluded(scene: &Scene, source: &Source, at: &SurfacePoint) -> Option<Arriving> {
-    let (towards, lx, target) = match &source.kind {
-        SourceKind::Point { luminaire, position, local_from_world } => {
-            let to_source = *position - at.point;
-            let towards = to_source.direction()?;
-            let local = local_from_world.vector(-towards.to_vector()).direction()?;
-            let candela = intensity(scene, *luminaire).intensity_cd(local);
-            (towards, candela / to_source.length_squared(), Target::Point(*position))
+/// What a point or parallel source would give without obstacles; `None` where it faces away, or is
+/// not in view.
+pub(super) fn unoccluded_if(
+    scene: &Scene,
+    source: &Source,
+    at: &SurfacePoint,
+    is_in_view: impl Fn(Target) -> bool,
+) -> Option<Arriving> {
+    let (towards, target) = match &source.kind {
+        SourceKind::Point { position, .. } => {
+            ((*position - at.point).direction()?, Target::Point(*position))
         }
-        SourceKind::Directional { towards, illuminance_lx } => {
-            (*towards, *illuminance_lx, Target::Infinity(*towards))
-        }
+        SourceKind::Directional { towards, .. } => (*towards, Target::Infinity(*towards)),
         SourceKind::Area { .. } => return None,
     };
     let cos = facing_cos(towards, at.shading, at.geometric)?;
+    if !is_in_view(target) {
+        return None;
+    }
+    let lx = match &source.kind {
+        SourceKind::Point { luminaire, position, local_from_world } => {
+            let local = local_from_world.vector(-towards.to_vector()).direction()?;
+            let candela = intensity(scene, *luminaire).intensity_cd(local);
+            candela / (*position - at.point).length_squared()
+        }
+        SourceKind::Directional { illuminance_lx, .. } => *illuminance_lx,
+        SourceKind::Area { .. } => return None,
+    };
     let illuminance_lx = source.colour * (lx * cos);
     (!illuminance_lx.is_black()).then_some(Arriving { illuminance_lx, target })
 }
@@ -237,7 +253,8 @@ pub(super) fn facing_cos(towards: Direction, shading: Normal, geometric: Normal)
     (cos > 0.0 && towards.cos(geometric) > 0.0).then_some(cos)
 }
 
-fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution {
+/// The distribution of a luminaire that is a point.
+pub(super) fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution {
     match &scene.luminaires()[luminaire as usize].kind {
         LuminaireKind::Point { intensity, .. } => intensity,
         LuminaireKind::Directional { .. } => {
@@ -261,8 +278,7 @@ pub(super) fn importance(
             let distance_squared = (emitter.centre - at.point).length_squared();
             source.colour.luminance() * area_m2 / (distance_squared + area_m2)
         }
-        _ => unoccluded(scene, source, at)
-            .filter(|arriving| is_in_view(arriving.target))
+        _ => unoccluded_if(scene, source, at, is_in_view)
             .map_or(0.0, |arriving| arriving.illuminance_lx.luminance()),
     }
 }

@@ -1,7 +1,7 @@
 //! What of a source's light reaches a receiver: along its chain of mirrors, through thin panes.
 
 use super::Lighting;
-use super::source::{Source, Target};
+use super::source::Target;
 use crate::engine::scatter::pane;
 use crate::engine::surface::SurfacePoint;
 use crate::scene::Body;
@@ -17,18 +17,18 @@ impl Lighting<'_> {
     /// is the emitting triangle, which does not shade itself.
     pub(super) fn visibility(
         &self,
-        source: &Source,
+        chain: &[u32],
         at: &SurfacePoint,
         target: Target,
         emitter: Option<u32>,
     ) -> Rgb {
-        if !self.chain_is_in_view(source, at, target) {
+        if !self.chain_is_in_view(chain, at, target) {
             return Rgb::BLACK;
         }
         let mut from = *at;
         let mut target = target;
         let mut share = Rgb::WHITE;
-        for &plane in source.chain.iter().rev() {
+        for &plane in chain.iter().rev() {
             let Some((passed, on_mirror)) = self.meet_mirror(&from, target, plane) else {
                 return Rgb::BLACK;
             };
@@ -47,12 +47,12 @@ impl Lighting<'_> {
     /// soon, as most of a room does not see itself in a mirror.
     pub(super) fn chain_is_in_view(
         &self,
-        source: &Source,
+        chain: &[u32],
         at: &SurfacePoint,
         mut target: Target,
     ) -> bool {
         let mut from = at.point;
-        for &plane in source.chain.iter().rev() {
+        for &plane in chain.iter().rev() {
             let mirror = &self.mirrors.planes[plane as usize];
             let towards = match target {
                 Target::Point(image) => image - from,

@@ -9,6 +9,7 @@ mod estimates;
 mod fixed_point;
 mod glass;
 mod gloss;
+mod many;
 mod mirrors;
 mod sums;
 

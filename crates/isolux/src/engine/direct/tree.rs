@@ -1,0 +1,222 @@
+//! Luminaires without surface as a tree of clusters, each with a sphere around it and a table of
+//! where its light goes.
+
+use super::kind::{Kind, Kinds};
+use super::lobe::{Lobe, Lobes};
+use crate::scene::{LuminaireKind, Scene};
+use crate::units::Rgb;
+use isolux_geometry::Point;
+
+/// Luminaires of a leaf at most.
+const GROUP: usize = 16;
+
+/// Clusters of at most so many are divided by kind before they are divided in space, if the most
+/// frequent kind has a share that is not below one in so many.
+const SMALL: usize = 128;
+const FEW: usize = 8;
+
+/// A luminaire, in a line of the cache.
+#[derive(Clone, Debug)]
+pub(super) struct Lamp {
+    pub(super) position: Point,
+    pub(super) colour: Rgb,
+    /// Its number in the scene.
+    pub(super) luminaire: u32,
+    pub(super) kind: u32,
+    /// Highest intensity times the luminance of its colour, cd.
+    pub(super) peak_cd: f64,
+}
+
+/// A cluster of lamps.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub(super) centre: Point,
+    pub(super) radius_m: f64,
+    pub(super) lobe: Lobe,
+    /// The kind of all its lamps; none where they differ: then the axes of `lobe` are the world's.
+    pub(super) kind: Option<u32>,
+    pub(super) peak_cd: f64,
+    /// Its lamps.
+    pub(super) first: u32,
+    pub(super) count: u32,
+    /// The second of its halves; the first follows it. None for a leaf.
+    pub(super) second: Option<u32>,
+}
+
+/// All of them, in the order of the tree.
+#[derive(Debug, Default)]
+pub(super) struct Tree {
+    pub(super) lamps: Vec<Lamp>,
+    pub(super) kinds: Vec<Kind>,
+    /// Running sums of their highest intensities, starting with zero.
+    pub(super) peak_sums_cd: Vec<f64>,
+    pub(super) nodes: Vec<Node>,
+    pub(super) lobes: Lobes,
+}
+
+impl Tree {
+    /// The tree of a scene's luminaires; those without light are left out.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let mut tree = Self::default();
+        let mut kinds = Kinds::default();
+        for (index, luminaire) in scene.luminaires().iter().enumerate() {
+            let LuminaireKind::Point { position, world_from_luminaire, intensity } =
+                &luminaire.kind
+            else {
+                continue;
+            };
+            let peak_cd = intensity.max_intensity_cd() * luminaire.colour.luminance();
+            if peak_cd > 0.0 {
+                let luminaire_index = index as u32;
+                let frame = world_from_luminaire.columns;
+                let lobe = kinds.lobe(intensity, &mut tree.lobes);
+                let kind = kinds.kind(intensity, Kind { frame, lobe, luminaire: luminaire_index });
+                tree.lamps.push(Lamp {
+                    position: *position,
+                    colour: luminaire.colour,
+                    luminaire: luminaire_index,
+                    kind,
+                    peak_cd,
+                });
+            }
+        }
+        tree.kinds = kinds.all;
+        if !tree.lamps.is_empty() {
+            tree.build(0, tree.lamps.len());
+        }
+        let mut sum_cd = 0.0;
+        tree.peak_sums_cd = std::iter::once(0.0)
+            .chain(tree.lamps.iter().map(|l| {
+                sum_cd += l.peak_cd;
+                sum_cd
+            }))
+            .collect();
+        tree
+    }
+
+    /// Appends the cluster of a range of lamps and its parts.
+    fn build(&mut self, first: usize, end: usize) -> u32 {
+        let index = self.nodes.len();
+        let (centre, radius_m, widest) = sphere(&self.lamps[first..end]);
+        self.nodes.push(Node {
+            centre,
+            radius_m,
+            lobe: self.kinds[self.lamps[first].kind as usize].lobe,
+            kind: None,
+            peak_cd: 0.0,
+            first: first as u32,
+            count: (end - first) as u32,
+            second: None,
+        });
+        if end - first > GROUP {
+            let lamps = &mut self.lamps[first..end];
+            let middle = first + divide_by_kind(lamps).unwrap_or_else(|| halve(lamps, widest));
+            self.build(first, middle);
+            self.nodes[index].second = Some(self.build(middle, end));
+        } else {
+            // The halves are the same on every machine, the order inside is not.
+            self.lamps[first..end].sort_unstable_by_key(|l| l.luminaire);
+        }
+        self.find_lobe(index);
+        index as u32
+    }
+
+    /// The table of a cluster whose parts have theirs: one for all, if all are alike, or a mixture.
+    fn find_lobe(&mut self, index: usize) {
+        let node = &self.nodes[index];
+        let lamps = &self.lamps[node.first as usize..][..node.count as usize];
+        let peak_cd = lamps.iter().map(|l| l.peak_cd).sum();
+        let kind_of = |kind: u32| &self.kinds[kind as usize];
+        let kind = lamps[0].kind;
+        let (lobe, kind) = if lamps.iter().all(|l| l.kind == kind) {
+            (kind_of(kind).lobe, Some(kind))
+        } else {
+            let mixed = match node.second {
+                None => self.lobes.mix(lamps.iter().map(|l| {
+                    let kind = kind_of(l.kind);
+                    (kind.lobe, Some(&kind.frame), l.peak_cd / peak_cd)
+                })),
+                Some(second) => {
+                    let halves = [&self.nodes[index + 1], &self.nodes[second as usize]];
+                    self.lobes.mix(halves.into_iter().map(|half| {
+                        let frame = half.kind.map(|kind| &kind_of(kind).frame);
+                        (half.lobe, frame, half.peak_cd / peak_cd)
+                    }))
+                }
+            };
+            (mixed, None)
+        };
+        let node = &mut self.nodes[index];
+        (node.lobe, node.kind, node.peak_cd) = (lobe, kind, peak_cd);
+    }
+}
+
+/// Puts the lower half along an axis first; returns how many that are.
+fn halve(lamps: &mut [Lamp], axis: usize) -> usize {
+    let along = |l: &Lamp| l.position.to_vector().component(axis);
+    let middle = lamps.len() / 2;
+    lamps.select_nth_unstable_by(middle, |a, b| {
+        along(a).total_cmp(&along(b)).then(a.luminaire.cmp(&b.luminaire))
+    });
+    middle
+}
+
+/// Puts the lamps of one kind first, if these are neither all nor few, and the cluster small enough for
+/// its parts to stay together; returns how many that are.
+fn divide_by_kind(lamps: &mut [Lamp]) -> Option<usize> {
+    if lamps.len() > SMALL {
+        return None;
+    }
+    let count = |kind: u32| lamps.iter().filter(|l| l.kind == kind).count();
+    let kind = lamps.iter().map(|l| l.kind).max_by_key(|&kind| (count(kind), kind))?;
+    let alike = count(kind);
+    if alike == lamps.len() || alike * FEW < lamps.len() {
+        return None;
+    }
+    lamps.sort_unstable_by_key(|l| (l.kind != kind, l.luminaire));
+    Some(alike)
+}
+
+/// A sphere around lamps, and the axis along which they spread most.
+fn sphere(lamps: &[Lamp]) -> (Point, f64, usize) {
+    let first = lamps[0].position;
+    let (low, high) = lamps.iter().fold((first, first), |(low, high), l| {
+        let p = l.position;
+        (
+            Point::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z)),
+            Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z)),
+        )
+    });
+    let centre = low.lerp(high, 0.5);
+    let radius_m = lamps.iter().map(|l| (l.position - centre).length()).fold(0.0, f64::max);
+    let size = high - low;
+    let widest = if size.x >= size.y && size.x >= size.z {
+        0
+    } else if size.y >= size.z {
+        1
+    } else {
+        2
+    };
+    // The roundings of a length and of those that follow.
+    (centre, radius_m * (1.0 + 1e-12), widest)
+}
+
+/// Which lamps have an image by which chain of mirrors.
+#[derive(Debug, Default)]
+pub(super) struct Images {
+    chains: usize,
+    exist: Vec<bool>,
+}
+
+impl Images {
+    /// Of all lamps of a tree, where `exists` knows it of a luminaire and chain.
+    pub(super) fn of(tree: &Tree, chains: usize, exists: impl Fn(u32, usize) -> bool) -> Self {
+        let all = tree.lamps.iter().flat_map(|l| (0..chains).map(move |c| (l.luminaire, c)));
+        Self { chains, exist: all.map(|(l, c)| exists(l, c)).collect() }
+    }
+
+    /// Whether a lamp has one.
+    pub(super) fn has(&self, lamp: u32, chain: usize) -> bool {
+        self.exist[lamp as usize * self.chains + chain]
+    }
+}

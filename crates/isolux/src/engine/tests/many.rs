@@ -1,0 +1,132 @@
+//! Many luminaires by few shadow rays, against all of them one by one.
+
+use super::*;
+use crate::engine::direct::Lighting;
+use crate::engine::gather::Gatherer;
+use crate::engine::surface::SurfacePoint;
+use crate::photometry::PhotometricWeb;
+use std::sync::Arc;
+
+/// Uniform numbers of [-1, 1).
+fn number(k: u64, n: u64) -> f64 {
+    2.0 * Key::new(9).with(k).with(n).uniform() - 1.0
+}
+
+/// A web with a dark half, a peak narrower than a texel of the tables, and a hard edge.
+fn peaked() -> IntensityDistribution {
+    let gammas = vec![0.0, 20.0, 20.5, 21.0, 60.0, 60.1, 90.0];
+    let lit = [100.0, 80.0, 4000.0, 80.0, 120.0, 0.0, 0.0];
+    let dark = [100.0, 10.0, 10.0, 5.0, 0.0, 0.0, 0.0];
+    let web =
+        PhotometricWeb::new(vec![0.0, 90.0, 180.0, 270.0], gammas, [lit, lit, dark, dark].concat());
+    IntensityDistribution::Web(Arc::new(web.unwrap()))
+}
+
+fn kind(k: u64) -> IntensityDistribution {
+    match k % 4 {
+        0 => IntensityDistribution::CosinePower { peak_cd: 100.0, exponent: 3.0 },
+        1 => IntensityDistribution::Spot { peak_cd: 900.0, inner_rad: 0.2, outer_rad: 0.2001 },
+        2 => IntensityDistribution::Isotropic { intensity_cd: 30.0 },
+        _ => peaked(),
+    }
+}
+
+/// Luminaires below a ceiling, in patches of one kind, every second patch turned any way.
+fn lamps(count: u64) -> Vec<Luminaire> {
+    let web = kind(3);
+    let lamp = |k: u64| {
+        let patch = k / 60;
+        let position = Point::new(8.0 * number(k, 0), 8.0 * number(k, 1), 2.5 + 0.2 * number(k, 2));
+        let q = [3, 4, 5, 6].map(|n| number(k, n));
+        let length = q.iter().map(|c| c * c).sum::<f64>().sqrt();
+        let turned = Transform::rotation(q.map(|c| c / length));
+        let world_from_luminaire =
+            if patch.is_multiple_of(2) { Transform::IDENTITY } else { turned };
+        let intensity =
+            if patch % 4 == 3 { web.scaled(1.0 + 0.1 * number(k, 7)) } else { kind(patch) };
+        Luminaire {
+            colour: Rgb::new(1.0, 0.5 + 0.4 * number(k, 8), 0.2),
+            ..luminaire(LuminaireKind::Point { position, world_from_luminaire, intensity })
+        }
+    };
+    (0..count).map(lamp).collect()
+}
+
+/// A floor with screens that hide a good part of the luminaires, and two mirrors that see each other.
+fn hall(count: u64) -> Scene {
+    let mirror = Material::one_sided("mirror", Finish::mirror(Rgb::new(0.8, 0.7, 0.6)));
+    let mut shapes = vec![
+        rectangle([-9.0, -9.0, 0.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0),
+        rectangle([-9.0, -4.0, 0.0], [0.0, 8.0, 0.0], [0.0, 0.0, 2.0], 1),
+        rectangle([9.0, 3.0, 0.5], [0.0, -8.0, 0.0], [0.0, 0.0, 2.0], 1),
+    ];
+    for k in 0..12 {
+        let corner = [7.0 * number(k, 20), 7.0 * number(k, 21), 0.8 + number(k, 22)];
+        let (u, v) = ([1.5, 0.4 * number(k, 23), 0.0], [0.3, 1.5, 0.5 * number(k, 24)]);
+        shapes.push(rectangle(corner, u, v, 0));
+        shapes.push(rectangle(corner, v, u, 0));
+    }
+    scene(shapes, vec![painted(Rgb::grey(0.5)), mirror], lamps(count))
+}
+
+/// Receivers on the floor, on the ceiling's height looking down or aside, and tilted.
+fn receivers(count: u64) -> impl Iterator<Item = SurfacePoint> {
+    (0..count).map(|k| {
+        let height = if k % 3 == 0 { 1e-3 } else { 1.2 + 1.1 * number(k, 30) };
+        let place = Point::new(8.5 * number(k, 31), 8.5 * number(k, 32), height);
+        let tilt = if k % 3 == 0 { 0.0 } else { 1.0 };
+        let normal = Vector::new(tilt * number(k, 33), tilt * number(k, 34), 0.5);
+        Gatherer::in_space(place, normal.normal().unwrap(), 0).surface
+    })
+}
+
+/// Largest deviation of means of many estimates from all luminaires one by one, in standard errors, and
+/// the spread of one estimate, relative.
+fn deviation(
+    scene: &Scene,
+    estimate: impl Fn(&Lighting, &SurfacePoint, &mut Dice) -> Rgb,
+    receivers: impl Iterator<Item = SurfacePoint>,
+) -> (f64, f64) {
+    let lighting = Lighting::new(scene);
+    let (mut largest, mut spread) = (0.0_f64, 0.0);
+    let mut count = 0.0;
+    for at in receivers {
+        let exact = lighting.by_all(&at, 1, &mut dice(0));
+        let values: Vec<Rgb> =
+            (0..TRIALS).map(|seed| estimate(&lighting, &at, &mut dice(seed))).collect();
+        for channel in 0..3 {
+            let (mean, error) = mean_and_error(values.iter().map(|v| v.0[channel]));
+            let rounding = RAY_ROUNDING * exact.0[channel];
+            largest = largest.max((mean - exact.0[channel]).abs() / (error + rounding).max(1e-300));
+            let relative = error * (TRIALS as f64).sqrt() / exact.0[channel].max(1e-300);
+            spread += relative * relative;
+            count += 1.0;
+        }
+    }
+    (largest, (spread / count).sqrt())
+}
+
+/// Estimates a receiver.
+const TRIALS: u64 = 1000;
+
+#[test]
+fn many_luminaires_by_few_rays_are_unbiased() {
+    let scene = hall(600);
+    assert!(!Lighting::new(&scene).is_exact());
+    let estimate =
+        |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| lighting.illuminance(at, dice);
+    let (largest, spread) = deviation(&scene, estimate, receivers(40));
+    assert!(largest < SIGMAS, "{largest} standard errors");
+    // Sixteen looks, a good half of the luminaires hidden: independent ones would spread by a
+    // quarter at best.
+    assert!(spread < 0.2, "{spread}");
+}
+
+#[test]
+fn one_luminaire_of_many_is_unbiased() {
+    let scene = hall(100);
+    let estimate =
+        |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| lighting.estimate(at, dice);
+    let (largest, _) = deviation(&scene, estimate, receivers(40));
+    assert!(largest < SIGMAS, "{largest} standard errors");
+}
