@@ -38,7 +38,7 @@ pub struct Interval {
     pub standard_error_lx: f64,
     /// Independent values behind it, less one.
     pub degrees_of_freedom: f64,
-    /// What the map reports of other errors, a root mean square over the scene.
+    /// What the reading counts of other errors that the map reports.
     pub rest_lx: f64,
     /// How far the answer itself may be off.
     pub bound_lx: f64,
@@ -182,13 +182,15 @@ fn look(scene: &Scene, map: &IlluminationMap, places: &[Place]) -> Option<Observ
     let accuracy = map.provenance.accuracy?;
     let reader = MapReader::new(scene, map);
     let rms_lx = rms_lx(places.iter().map(|p| p.total_lx));
-    let rest_lx = accuracy.discretization.hypot(accuracy.bias) * rms_lx;
     let freedom = map.provenance.increments.saturating_sub(1).max(1) as f64;
     let reading = |place: &Place| {
         let found = reader.probe(place.at)?;
+        let whole_lx = found.indirect_standard_error_lx;
+        let standard_error_lx = reader.by_replicates(found).indirect_standard_error_lx;
+        let rest_lx = (whole_lx * whole_lx - standard_error_lx * standard_error_lx).max(0.0).sqrt();
         Some(Interval {
             error_lx: value_lx(place.quantity, &found) - place.expected_lx,
-            standard_error_lx: found.indirect_standard_error_lx,
+            standard_error_lx,
             degrees_of_freedom: freedom,
             rest_lx,
             bound_lx: place.bound_lx + RAY_KERNEL_POSITION * place.total_lx,

@@ -271,11 +271,9 @@ impl<'s> Run<'s, '_> {
         let count = work.sums.increments;
         let receivers = work.sums.sums.len() as u64;
         let progress = self.progress(Stage::Increments, count, receivers, accuracy);
-        let needed = accuracy
-            .zip(self.request.accuracy)
-            .and_then(|(a, goal)| predict::increments_needed(&a, count, goal));
+        let goal = self.request.accuracy;
+        let needed = goal.and_then(|goal| work.increments_needed(accuracy, goal));
         let prediction = needed.map(|needed| {
-            let needed = needed.max(FEWEST_INCREMENTS as f64);
             let each_s =
                 (progress.elapsed_s - pace.started_s) / (count - pace.before).max(1) as f64;
             predict::finish(needed, count, each_s, progress.elapsed_s)

@@ -1,7 +1,7 @@
 //! The increments on one mesh: an engine, what it has summed, and the map that makes.
 
 use super::accumulate::{Accumulator, Sample, Sums};
-use super::accuracy::{BELIEVED_INCREMENTS, accuracy};
+use super::accuracy::{BELIEVED_INCREMENTS, accuracy, early_statistical};
 use super::checks::{self, Check, InterpolationErrors};
 use super::deadline::Deadline;
 use super::emission::Emission;
@@ -9,6 +9,7 @@ use super::filter::filter;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
 use super::pilot::{FEWEST_RAYS, Plan};
+use super::predict;
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
 use super::tally;
@@ -98,6 +99,20 @@ impl<'p, 's> Work<'p, 's> {
         let given_up_lx = self.given_up.estimate(0).mean.direct.luminance();
         let errors = InterpolationErrors { given_up_lx, ..interpolation };
         accuracy(self.plan, &self.sums, &errors)
+    }
+
+    /// The increments that a target will take in all; `None` if it cannot be reached. Until the error is
+    /// believed, by noise alone; from one increment, what elements and rays are made for.
+    pub(super) fn increments_needed(&self, accuracy: Option<Accuracy>, target: f64) -> Option<f64> {
+        let count = self.sums.increments;
+        let needed = if count < BELIEVED_INCREMENTS {
+            let statistical = early_statistical(self.plan, &self.sums).unwrap_or(0.0);
+            let share = statistical / target;
+            Some(count as f64 * share * share)
+        } else {
+            accuracy.and_then(|a| predict::increments_needed(&a, count, target))
+        };
+        needed.map(|needed| needed.max(FEWEST_INCREMENTS as f64))
     }
 
     /// Whether no number of increments will tell how good the map is: there is no light on it, or
