@@ -166,6 +166,7 @@ mod tests {
             rays: 3_000_000,
             elapsed_s: 2.0,
             prediction: Some(Prediction { finish_s: 5.0, earliest_s: 4.0, latest_s: 8.0 }),
+            ends: false,
         };
         assert_eq!(
             line(&progress),

@@ -5,6 +5,7 @@
 //! of plain values; [`validate_all`] makes the table. Writing it is left to others.
 
 mod builtin;
+pub mod calibrate;
 pub mod case;
 mod expectation;
 pub mod hall;

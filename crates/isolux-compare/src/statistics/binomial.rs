@@ -25,6 +25,18 @@ pub fn accepted_outliers(trials: u64, probability: f64, significance: f64) -> u6
     low
 }
 
+/// The interval of a probability after `count` events in `trials` (Clopper and Pearson 1934). Neither
+/// needs to be whole, so that trials that hang together can be counted for fewer.
+pub fn binomial_interval(count: f64, trials: f64, confidence: f64) -> [f64; 2] {
+    let tail = 0.5 * (1.0 - confidence);
+    let quantile =
+        |level: f64, a: f64, b: f64| super::invert(level, 0.0, 1.0, |p| incomplete_beta(p, a, b));
+    let missing = trials - count;
+    let low = if count > 0.0 { quantile(tail, count, missing + 1.0) } else { 0.0 };
+    let high = if missing > 0.0 { quantile(1.0 - tail, count + 1.0, missing) } else { 1.0 };
+    [low, high]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -58,5 +70,16 @@ mod tests {
         }
         assert_eq!(accepted_outliers(0, 0.5, 1e-3), 0);
         assert_eq!(accepted_outliers(100, 0.0, 1e-3), 0);
+    }
+
+    #[test]
+    fn intervals_end_where_what_was_seen_becomes_unlikely() {
+        let [low, high] = binomial_interval(190.0, 200.0, 0.95);
+        assert!((binomial_tail(189, 200, low) - 0.025).abs() < 1e-9, "{low}");
+        assert!((1.0 - binomial_tail(190, 200, high) - 0.025).abs() < 1e-9, "{high}");
+        // The rule of three, for a tail of 2.5 %: 3.69 of so many.
+        let [low, high] = binomial_interval(200.0, 200.0, 0.95);
+        assert!((low - 0.025_f64.powf(1.0 / 200.0)).abs() < 1e-9 && high == 1.0);
+        assert_eq!(binomial_interval(0.0, 200.0, 0.95)[0], 0.0);
     }
 }

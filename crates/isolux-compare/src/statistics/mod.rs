@@ -6,7 +6,7 @@ mod normal;
 mod special;
 mod student;
 
-pub use binomial::{accepted_outliers, binomial_tail};
+pub use binomial::{accepted_outliers, binomial_interval, binomial_tail};
 pub use chi_square::chi_square_cdf;
 pub use normal::{normal_cdf, normal_quantile};
 pub use student::{student_cdf, student_quantile, student_two_sided};

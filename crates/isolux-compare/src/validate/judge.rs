@@ -12,7 +12,7 @@ use crate::expectation::Expectation;
 use crate::statistics::accepted_outliers;
 use crate::tolerance::SIGNIFICANCE;
 use isolux::engine::MapReader;
-use isolux::map::IlluminationMap;
+use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::Scene;
 
 /// What was counted in one map.
@@ -31,7 +31,7 @@ pub(super) fn count(scene: &Scene, map: &IlluminationMap, expected: &[Expectatio
     let allowance = Allowance::of(map);
     let reader = MapReader::new(scene, map);
     let found: Vec<Option<Reading>> =
-        expected.iter().map(|e| Some(allowance.reading(e, &reader.probe(e.at)?))).collect();
+        expected.iter().map(|e| Some(allowance.reading(e, &by_replicates(&reader, e)?))).collect();
     let readings = || found.iter().flatten();
     let statistical = || readings().filter(|r| r.is_statistical());
     let trials = statistical().count() as u64;
@@ -49,6 +49,11 @@ pub(super) fn count(scene: &Scene, map: &IlluminationMap, expected: &[Expectatio
         count.verdict = Verdict::Fail { reason };
     }
     count
+}
+
+/// What the map reports of other errors is allowed by itself.
+fn by_replicates(reader: &MapReader, expectation: &Expectation) -> Option<Illuminance> {
+    reader.probe(expectation.at).map(|found| reader.by_replicates(found))
 }
 
 fn complaint(count: &Count, found: &[Option<Reading>], map: &IlluminationMap) -> Option<String> {

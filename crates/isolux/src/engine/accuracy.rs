@@ -19,15 +19,7 @@ pub(super) fn accuracy(
     if sums.increments < BELIEVED_INCREMENTS {
         return None;
     }
-    let (mut area, mut squared, mut variance) = (0.0, 0.0, 0.0);
-    for (k, vertex) in plan.elements.vertices().iter().enumerate().filter(|&(k, _)| plan.known[k]) {
-        let estimate = sums.estimate(k);
-        let mean = &estimate.mean;
-        let lx = (mean.direct + mean.caustic + mean.indirect).luminance();
-        area += vertex.area_m2;
-        squared += vertex.area_m2 * lx * lx;
-        variance += vertex.area_m2 * estimate.variance;
-    }
+    let Pooled { area_m2: area, squared, variance } = Pooled::of(plan, sums);
     if !(squared > 0.0 && area > 0.0) {
         // No light at all is known exactly, if none was lost on the way and the pilot saw none.
         let dark = area > 0.0 && plan.rms_lx == 0.0 && interpolation.given_up_lx == 0.0;
@@ -53,6 +45,36 @@ pub(super) fn accuracy(
         bias,
         interpolated: root(&[statistical, interpolation.total_lx / rms_lx, bias]),
     })
+}
+
+/// The statistical error alone, from two replicates on: not believed by anyone, but good enough to
+/// say when a run may end.
+pub(super) fn early_statistical(plan: &Plan, sums: &Accumulator) -> Option<f64> {
+    let Pooled { squared, variance, .. } = Pooled::of(plan, sums);
+    (sums.increments >= 2 && squared > 0.0).then(|| (variance / squared).sqrt())
+}
+
+/// Over the known vertices, weighted by area: squares of the light and variances of its mean.
+struct Pooled {
+    area_m2: f64,
+    squared: f64,
+    variance: f64,
+}
+
+impl Pooled {
+    fn of(plan: &Plan, sums: &Accumulator) -> Self {
+        let mut pooled = Self { area_m2: 0.0, squared: 0.0, variance: 0.0 };
+        let vertices = plan.elements.vertices().iter().enumerate();
+        for (k, vertex) in vertices.filter(|&(k, _)| plan.known[k]) {
+            let estimate = sums.estimate(k);
+            let mean = &estimate.mean;
+            let lx = (mean.direct + mean.caustic + mean.indirect).luminance();
+            pooled.area_m2 += vertex.area_m2;
+            pooled.squared += vertex.area_m2 * lx * lx;
+            pooled.variance += vertex.area_m2 * estimate.variance;
+        }
+        pooled
+    }
 }
 
 /// The error of a map without light.

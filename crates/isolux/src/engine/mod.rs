@@ -24,6 +24,7 @@ mod scatter;
 mod state;
 mod surface;
 mod tally;
+mod work;
 
 #[cfg(test)]
 mod tests;
@@ -31,5 +32,5 @@ mod tests;
 pub use accumulate::Sums;
 pub use probe::{ExactSettings, MapReader, ProbePoint};
 pub use request::{Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
-pub use run::{Solution, solve};
+pub use run::{Solution, Watcher, solve, solve_with_maps};
 pub use state::{RunIdentity, RunState};

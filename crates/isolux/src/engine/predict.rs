@@ -16,9 +16,8 @@ pub(super) fn increments_needed(accuracy: &Accuracy, increments: u64, target: f6
     (left > 0.0).then(|| increments as f64 * statistical / left)
 }
 
-/// The finishing time, from the time the increments have taken so far.
-pub(super) fn finish(needed: f64, increments: u64, started_s: f64, now_s: f64) -> Prediction {
-    let each_s = (now_s - started_s) / increments as f64;
+/// The finishing time after `increments` of those needed, if each takes `each_s`.
+pub(super) fn finish(needed: f64, increments: u64, each_s: f64, now_s: f64) -> Prediction {
     let left = (needed - increments as f64).max(0.0);
     let finish_s = now_s + left * each_s;
     // The variance behind `needed` comes from `increments` replicates: its relative standard

@@ -53,6 +53,8 @@ pub struct MapReader<'a> {
     known: Vec<bool>,
     light: Vec<Rgb>,
     reach_m: f64,
+    /// Error of what is read from vertices that replicates do not tell, over the indirect light.
+    unseen: f64,
 }
 
 impl<'a> MapReader<'a> {
@@ -69,12 +71,31 @@ impl<'a> MapReader<'a> {
             known: map.values.iter().map(Option::is_some).collect(),
             light: map.values.iter().map(reflected).collect(),
             reach_m: REACH_SHARE * extent_m,
+            unseen: unseen_share(map),
         }
     }
 
+    /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
+    /// alone, without the interpolation error and the bias of the map.
+    pub fn by_replicates(&self, reading: Illuminance) -> Illuminance {
+        let unseen_lx = self.unseen_lx(&reading);
+        let less = |error: f64| (error * error - unseen_lx * unseen_lx).max(0.0).sqrt();
+        Illuminance {
+            standard_error_lx: less(reading.standard_error_lx),
+            indirect_standard_error_lx: less(reading.indirect_standard_error_lx),
+            ..reading
+        }
+    }
+
+    /// In proportion to the indirect light, so that over the scene it is what the map reports.
+    fn unseen_lx(&self, reading: &Illuminance) -> f64 {
+        self.unseen * reading.indirect_lx.luminance().abs()
+    }
+
     /// The illuminance at barycentric weights `(1 - u - v, u, v)` of a side of a triangle: direct
-    /// light evaluated afresh there, indirect light and caustics interpolated. `None` where the
-    /// map knows nothing.
+    /// light evaluated afresh there, indirect light and caustics interpolated. The standard error
+    /// counts, beside that of replicates, the interpolation error and the bias that the map
+    /// reports for the scene, in proportion to the indirect light. `None` where the map knows nothing.
     pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
@@ -158,10 +179,11 @@ impl<'a> MapReader<'a> {
 
     fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {
         let (direct, variance) = self.direct(at);
-        let indirect = stored.indirect_standard_error_lx;
+        let indirect = libm::hypot(stored.indirect_standard_error_lx, self.unseen_lx(&stored));
         Illuminance {
             direct_lx: direct + stored.caustic_lx,
             standard_error_lx: (indirect * indirect + variance).sqrt(),
+            indirect_standard_error_lx: indirect,
             ..stored
         }
     }
@@ -219,6 +241,25 @@ impl<'a> MapReader<'a> {
             }
             _ => at,
         }
+    }
+}
+
+/// Discretization and bias are relative to all light, what they are errors of is the indirect part.
+fn unseen_share(map: &IlluminationMap) -> f64 {
+    let Some(accuracy) = map.provenance.accuracy else { return 0.0 };
+    let squares = |lx: fn(&Illuminance) -> f64| -> f64 {
+        let known = map.elements.vertices().iter().zip(&map.values);
+        known
+            .filter_map(|(v, e)| Some((v.area_m2, lx(e.as_ref()?))))
+            .map(|(m2, lx)| m2 * lx * lx)
+            .sum()
+    };
+    let indirect = squares(|v| v.indirect_lx.luminance());
+    if indirect > 0.0 {
+        let share = squares(Illuminance::illuminance_lx) / indirect;
+        share.sqrt() * libm::hypot(accuracy.discretization, accuracy.bias)
+    } else {
+        0.0
     }
 }
 

@@ -66,6 +66,8 @@ pub struct Progress {
     pub elapsed_s: f64,
     /// When it will be done; `None` until it can be said.
     pub prediction: Option<Prediction>,
+    /// Whether the run ends here of itself.
+    pub ends: bool,
 }
 
 /// A predicted finishing time, s since the start, with an interval of 90 %.
@@ -84,6 +86,8 @@ pub struct Prediction {
 pub enum Watch {
     /// Go on.
     Continue,
+    /// Go on even where the run would end of itself, on the same elements.
+    Insist,
     /// Stop after this increment, with a valid map.
     Stop,
 }

@@ -165,7 +165,7 @@ fn increments_needed_follow_the_inverse_square() {
 
 #[test]
 fn predictions_lie_in_their_interval_and_sharpen() {
-    let at = |increments| predict::finish(100.0, increments, 3.0, 3.0 + 0.5 * increments as f64);
+    let at = |increments| predict::finish(100.0, increments, 0.5, 3.0 + 0.5 * increments as f64);
     for increments in [1, 8, 50, 99] {
         let p = at(increments);
         assert!((p.finish_s - 53.0).abs() < 1e-9);
@@ -174,6 +174,6 @@ fn predictions_lie_in_their_interval_and_sharpen() {
     }
     assert!(at(50).latest_s - at(50).earliest_s < at(8).latest_s - at(8).earliest_s);
     // Done already: now.
-    let done = predict::finish(5.0, 20, 0.0, 10.0);
+    let done = predict::finish(5.0, 20, 0.5, 10.0);
     assert_eq!((done.earliest_s, done.finish_s, done.latest_s), (10.0, 10.0, 10.0));
 }

@@ -1,5 +1,7 @@
 //! `isolux validate`: the cases with exact answers.
 
+mod calibrate;
+
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ValidateFlags;
@@ -16,11 +18,12 @@ use isolux_compare::{
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ValidateFlags, json: bool) -> Result<Outcome, Failure> {
+    if flags.calibrate {
+        return calibrate::run(flags, json);
+    }
     let cases = chosen(flags.case.as_deref())?;
-    let methods = flags
-        .method
-        .map_or(vec![Method::Hybrid, Method::Forward], |name| vec![request::method(name)]);
-    let seeds: Vec<u64> = (1..=u64::from(flags.seeds)).collect();
+    let methods = methods(flags);
+    let seeds = seeds(flags.seeds.unwrap_or(1));
     let interrupt = Interrupt::install()?;
     let settings = ValidateSettings::default();
     let table = validate_all(&cases, &methods, &seeds, &settings, &mut |row| {
@@ -38,6 +41,15 @@ pub(crate) fn run(flags: &ValidateFlags, json: bool) -> Result<Outcome, Failure>
         (false, true) => Outcome::CheckFailed,
         (false, false) => Outcome::Done,
     })
+}
+
+fn methods(flags: &ValidateFlags) -> Vec<Method> {
+    let both = vec![Method::Hybrid, Method::Forward];
+    flags.method.map_or(both, |name| vec![request::method(name)])
+}
+
+fn seeds(count: u32) -> Vec<u64> {
+    (1..=u64::from(count)).collect()
 }
 
 fn chosen(name: Option<&str>) -> Result<Vec<Case>, Failure> {
