@@ -1,6 +1,6 @@
 //! `isolux validate --calibrate`: whether reported errors are the errors that are made.
 
-use super::{chosen, methods, seeds};
+use super::chosen::{chosen, methods, seeds};
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ValidateFlags;

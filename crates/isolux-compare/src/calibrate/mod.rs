@@ -8,6 +8,7 @@
 //! Seeds are independent; readings of one map are not. So uncertainties come from the spread over seeds.
 
 mod coverage;
+mod error;
 mod observe;
 mod places;
 mod prediction;
@@ -15,13 +16,14 @@ mod scene_figure;
 mod table;
 
 pub use coverage::{CONFIDENCES, Coverage, Judgement};
+pub use error::CalibrateError;
 pub use observe::{Interval, Observation, Observed, Stage};
 pub use places::Place;
 pub use prediction::{Decile, PredictionTable, predict_scene};
 pub use scene_figure::SceneFigure;
 pub use table::{
-    CalibrateError, Calibrated, CalibratedCase, CalibratedReceiver, CalibratedStage, StoppingBias,
-    Trial, calibrate, calibrate_observed, trial,
+    Calibrated, CalibratedCase, CalibratedReceiver, CalibratedStage, StoppingBias, Trial,
+    calibrate, calibrate_observed, trial,
 };
 
 use isolux::engine::SolveRequest;

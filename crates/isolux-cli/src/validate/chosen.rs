@@ -1,0 +1,29 @@
+//! What the flags choose.
+
+use crate::failure::Failure;
+use crate::flags::ValidateFlags;
+use crate::request;
+use isolux::map::Method;
+use isolux_compare::Case;
+use isolux_compare::case::{cases, find};
+
+/// Which engines.
+pub(super) fn methods(flags: &ValidateFlags) -> Vec<Method> {
+    let both = vec![Method::Hybrid, Method::Forward];
+    flags.method.map_or(both, |name| vec![request::method(name)])
+}
+
+/// So many seeds.
+pub(super) fn seeds(count: u32) -> Vec<u64> {
+    (1..=u64::from(count)).collect()
+}
+
+/// Which cases.
+pub(super) fn chosen(name: Option<&str>) -> Result<Vec<Case>, Failure> {
+    let Some(name) = name else { return Ok(cases()) };
+    find(name).map(|case| vec![case]).ok_or_else(|| {
+        let names: Vec<&str> = cases().iter().map(|case| case.name).collect();
+        let names = names.join(", ");
+        Failure::bad_input(format!("there is no case `{name}`; choose one of {names}"))
+    })
+}
