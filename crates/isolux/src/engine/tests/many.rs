@@ -117,8 +117,8 @@ fn many_luminaires_by_few_rays_are_unbiased() {
         |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| lighting.illuminance(at, dice);
     let (largest, spread) = deviation(&scene, estimate, receivers(40));
     assert!(largest < SIGMAS, "{largest} standard errors");
-    // Sixteen looks, a good half of the luminaires hidden: independent ones would spread by a
-    // quarter at best.
+    // Measured 0.14 to 0.15 on a hall like this; a look at sixteen drawn without a comb, of which half are
+    // hidden, spreads by a quarter.
     assert!(spread < 0.2, "{spread}");
 }
 
