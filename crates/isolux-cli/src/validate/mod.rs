@@ -1,6 +1,8 @@
 //! `isolux validate`: the cases with exact answers.
 
 mod calibrate;
+mod calibrated_text;
+mod chosen;
 
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
@@ -9,11 +11,10 @@ use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use crate::quantity::{show_seconds, show_share, significant};
 use crate::request;
+use chosen::{chosen, methods, seeds};
 use isolux::engine::Watch;
-use isolux::map::Method;
-use isolux_compare::case::{cases, find};
 use isolux_compare::{
-    Calibration, Case, ValidateRow, ValidateSettings, ValidateTable, Verdict, validate_all,
+    Calibration, ValidateRow, ValidateSettings, ValidateTable, Verdict, validate_all,
 };
 
 /// Runs the subcommand.
@@ -40,24 +41,6 @@ pub(crate) fn run(flags: &ValidateFlags, json: bool) -> Result<Outcome, Failure>
         (true, _) => Outcome::Interrupted,
         (false, true) => Outcome::CheckFailed,
         (false, false) => Outcome::Done,
-    })
-}
-
-fn methods(flags: &ValidateFlags) -> Vec<Method> {
-    let both = vec![Method::Hybrid, Method::Forward];
-    flags.method.map_or(both, |name| vec![request::method(name)])
-}
-
-fn seeds(count: u32) -> Vec<u64> {
-    (1..=u64::from(count)).collect()
-}
-
-fn chosen(name: Option<&str>) -> Result<Vec<Case>, Failure> {
-    let Some(name) = name else { return Ok(cases()) };
-    find(name).map(|case| vec![case]).ok_or_else(|| {
-        let names: Vec<&str> = cases().iter().map(|case| case.name).collect();
-        let names = names.join(", ");
-        Failure::bad_input(format!("there is no case `{name}`; choose one of {names}"))
     })
 }
 

@@ -1,6 +1,7 @@
 //! Whether runs end when they said they would.
 
-use super::table::{CalibrateError, spread};
+use super::error::CalibrateError;
+use super::scene_figure::spread;
 use crate::statistics::binomial_interval;
 use isolux::engine::{Prediction, SolveRequest, Watch, solve};
 use isolux::map::Method;

@@ -57,6 +57,11 @@ pub(super) fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     sorted.get((share * last as f64).round() as usize).copied()
 }
 
+/// Fewest, median and most of sorted values.
+pub(super) fn spread(sorted: &[f64]) -> Option<[f64; 3]> {
+    Some([quantile(sorted, 0.0)?, quantile(sorted, 0.5)?, quantile(sorted, 1.0)?])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

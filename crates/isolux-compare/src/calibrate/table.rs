@@ -1,44 +1,20 @@
 //! Cases over many seeds, and what comes of it.
 
-use super::CalibrateSettings;
 use super::coverage::{CONFIDENCES, Coverage, Judgement};
+use super::error::CalibrateError;
 use super::observe::{Interval, Observation, Observed, Stage, observe};
 use super::places::{Place, places};
 use super::prediction::PredictionTable;
-use super::scene_figure::{SceneFigure, quantile};
+use super::scene_figure::SceneFigure;
+use super::settings::CalibrateSettings;
 use crate::expectation::{Case, Quantity};
-use isolux::engine::{SolveError, SolveRequest, Watch};
+use isolux::engine::{SolveRequest, Watch};
 use isolux::map::Method;
-use isolux::scene::{Scene, SceneProblem};
+use isolux::scene::Scene;
 use serde::Serialize;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Instant;
-
-/// Why there is no calibration.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CalibrateError {
-    /// The case is not a scene: a fault of this crate.
-    #[error("case `{case}` is not a scene: {problem}")]
-    Scene {
-        /// Its name.
-        case: &'static str,
-        /// The first problem.
-        problem: SceneProblem,
-    },
-    /// The engine gave no map.
-    #[error("case `{case}`: {error}")]
-    Solve {
-        /// Its name.
-        case: &'static str,
-        /// Why.
-        error: SolveError,
-    },
-    /// The machine gave no thread.
-    #[error("no thread to run on: {0}")]
-    Thread(String),
-}
 
 /// All that was calibrated.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -341,11 +317,6 @@ fn stopping_bias(fixed_increments: u64, runs: &[Observed]) -> Option<StoppingBia
     let standard_error = (squares / (n * (n - 1.0))).sqrt();
     let runs = differences.len() as u64;
     (runs > 1).then_some(StoppingBias { fixed_increments, runs, difference, standard_error })
-}
-
-/// Fewest, median and most of sorted values.
-pub(super) fn spread(sorted: &[f64]) -> Option<[f64; 3]> {
-    Some([quantile(sorted, 0.0)?, quantile(sorted, 0.5)?, quantile(sorted, 1.0)?])
 }
 
 #[cfg(test)]
