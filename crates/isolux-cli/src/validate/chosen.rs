@@ -1,4 +1,4 @@
-//! What the flags choose.
+//! Which cases, engines and seeds.
 
 use crate::failure::Failure;
 use crate::flags::ValidateFlags;
@@ -7,18 +7,15 @@ use isolux::map::Method;
 use isolux_compare::Case;
 use isolux_compare::case::{cases, find};
 
-/// Which engines.
 pub(super) fn methods(flags: &ValidateFlags) -> Vec<Method> {
     let both = vec![Method::Hybrid, Method::Forward];
     flags.method.map_or(both, |name| vec![request::method(name)])
 }
 
-/// So many seeds.
 pub(super) fn seeds(count: u32) -> Vec<u64> {
     (1..=u64::from(count)).collect()
 }
 
-/// Which cases.
 pub(super) fn chosen(name: Option<&str>) -> Result<Vec<Case>, Failure> {
     let Some(name) = name else { return Ok(cases()) };
     find(name).map(|case| vec![case]).ok_or_else(|| {

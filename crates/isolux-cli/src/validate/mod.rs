@@ -1,6 +1,7 @@
 //! `isolux validate`: the cases with exact answers.
 
 mod calibrate;
+mod calibrated_text;
 mod chosen;
 
 use crate::console::{print, print_json, table};

@@ -1,4 +1,4 @@
-//! What keeps a calibration from being made.
+//! What can go wrong.
 
 use isolux::engine::SolveError;
 use isolux::scene::SceneProblem;

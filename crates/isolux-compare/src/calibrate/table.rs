@@ -1,12 +1,12 @@
 //! Cases over many seeds, and what comes of it.
 
-use super::CalibrateSettings;
 use super::coverage::{CONFIDENCES, Coverage, Judgement};
 use super::error::CalibrateError;
 use super::observe::{Interval, Observation, Observed, Stage, observe};
 use super::places::{Place, places};
 use super::prediction::PredictionTable;
 use super::scene_figure::SceneFigure;
+use super::settings::CalibrateSettings;
 use crate::expectation::{Case, Quantity};
 use isolux::engine::{SolveRequest, Watch};
 use isolux::map::Method;
@@ -317,4 +317,79 @@ fn stopping_bias(fixed_increments: u64, runs: &[Observed]) -> Option<StoppingBia
     let standard_error = (squares / (n * (n - 1.0))).sqrt();
     let runs = differences.len() as u64;
     (runs > 1).then_some(StoppingBias { fixed_increments, runs, difference, standard_error })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::find;
+
+    /// Coarse, so that it takes a second.
+    fn settings(threads: usize) -> CalibrateSettings {
+        CalibrateSettings { accuracy: 0.1, threads, ..CalibrateSettings::default() }
+    }
+
+    fn observed(threads: usize) -> (Case, Vec<Observed>) {
+        let case = find("cube").expect("a case");
+        let go_on = &mut |_: &Observed| Watch::Continue;
+        let seeds = [1, 2, 3, 4];
+        let runs = runs(&case, Method::Hybrid, &seeds, &settings(threads), Some(12), go_on);
+        (case, runs.expect("CUBE has light"))
+    }
+
+    /// Errors said to be so many times what they are said to be.
+    fn saying(factor: f64, runs: &[Observed]) -> Vec<Observed> {
+        let mut runs = runs.to_vec();
+        let stages = runs.iter_mut().flat_map(|run| &mut run.stages);
+        for reading in stages.flat_map(|(_, o)| &mut o.readings).flatten() {
+            reading.standard_error_lx *= factor;
+            reading.rest_lx *= factor;
+        }
+        runs
+    }
+
+    #[test]
+    fn stages_are_seen_in_order_on_any_number_of_threads() {
+        let (case, runs) = observed(1);
+        assert_eq!(observed(3).1, runs);
+        let table = calibrate_observed(&case, Method::Hybrid, 0.1, 12, &runs);
+        let at =
+            |stage: Stage| table.stages.iter().find(|s| s.stage == stage).map(|s| s.increments[1]);
+        assert_eq!(at(Stage::FirstBelieved), Some(8));
+        assert_eq!(at(Stage::FixedWork), Some(12));
+        assert_eq!(at(Stage::FourTimes), Some(32));
+        assert!(at(Stage::AtStop).is_some_and(|n| n >= 16));
+        assert_eq!((table.runs, table.reached), (4, 4));
+        assert!(table.stages.iter().all(|s| s.unknown == 0 && s.runs == 4));
+    }
+
+    #[test]
+    fn an_engine_made_overconfident_is_found_out() {
+        let (case, runs) = observed(2);
+        let kept = |factor: f64| {
+            let runs = saying(factor, &runs);
+            calibrate_observed(&case, Method::Hybrid, 0.1, 12, &runs).is_kept()
+        };
+        assert!(kept(1.5), "errors said too large break no promise");
+        assert!(!kept(0.1));
+    }
+
+    #[test]
+    fn stopping_on_a_lucky_dip_is_found() {
+        let interval = |error_lx: f64| Interval {
+            error_lx,
+            standard_error_lx: 1.0,
+            degrees_of_freedom: 1e9,
+            rest_lx: 0.0,
+            bound_lx: 0.0,
+        };
+        let (_, runs) = observed(2);
+        let mut dipped = runs.clone();
+        for (stage, observation) in dipped.iter_mut().flat_map(|run| &mut run.stages) {
+            let error_lx = if *stage == Stage::AtStop { 3.0 } else { 0.0 };
+            observation.readings = vec![Some(interval(error_lx)); 20];
+        }
+        assert!(stopping_bias(12, &dipped).is_some_and(|bias| bias.is_found()));
+        assert!(stopping_bias(12, &runs).is_none_or(|bias| !bias.is_found()));
+    }
 }

@@ -53,8 +53,8 @@ pub struct MapReader<'a> {
     known: Vec<bool>,
     light: Vec<Rgb>,
     reach_m: f64,
-    /// Error of what is read from vertices that replicates do not tell, over the indirect light.
-    unseen: f64,
+    /// Error of what is read from vertices that replicates do not tell, lx.
+    unseen_lx: f64,
 }
 
 impl<'a> MapReader<'a> {
@@ -71,15 +71,15 @@ impl<'a> MapReader<'a> {
             known: map.values.iter().map(Option::is_some).collect(),
             light: map.values.iter().map(reflected).collect(),
             reach_m: REACH_SHARE * extent_m,
-            unseen: unseen_share(map),
+            unseen_lx: unseen_lx(map),
         }
     }
 
     /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
     /// alone, without the interpolation error and the bias of the map.
     pub fn by_replicates(&self, reading: Illuminance) -> Illuminance {
-        let unseen_lx = self.unseen_lx(&reading);
-        let less = |error: f64| (error * error - unseen_lx * unseen_lx).max(0.0).sqrt();
+        let unseen = self.unseen_lx * self.unseen_lx;
+        let less = |error: f64| (error * error - unseen).max(0.0).sqrt();
         Illuminance {
             standard_error_lx: less(reading.standard_error_lx),
             indirect_standard_error_lx: less(reading.indirect_standard_error_lx),
@@ -87,15 +87,10 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// In proportion to the indirect light, so that over the scene it is what the map reports.
-    fn unseen_lx(&self, reading: &Illuminance) -> f64 {
-        self.unseen * reading.indirect_lx.luminance().abs()
-    }
-
     /// The illuminance at barycentric weights `(1 - u - v, u, v)` of a side of a triangle: direct
     /// light evaluated afresh there, indirect light and caustics interpolated. The standard error
     /// counts, beside that of replicates, the interpolation error and the bias that the map
-    /// reports for the scene, in proportion to the indirect light. `None` where the map knows nothing.
+    /// reports for the scene, the same everywhere. `None` where the map knows nothing.
     pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
@@ -179,7 +174,7 @@ impl<'a> MapReader<'a> {
 
     fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {
         let (direct, variance) = self.direct(at);
-        let indirect = libm::hypot(stored.indirect_standard_error_lx, self.unseen_lx(&stored));
+        let indirect = libm::hypot(stored.indirect_standard_error_lx, self.unseen_lx);
         Illuminance {
             direct_lx: direct + stored.caustic_lx,
             standard_error_lx: (indirect * indirect + variance).sqrt(),
@@ -244,23 +239,19 @@ impl<'a> MapReader<'a> {
     }
 }
 
-/// Discretization and bias are relative to all light, what they are errors of is the indirect part.
-fn unseen_share(map: &IlluminationMap) -> f64 {
+/// Discretization and bias as reported: a share of the root mean square of the light, evenly. (In
+/// proportion to the indirect light fewer intervals hold the truth: dark edges err most.)
+fn unseen_lx(map: &IlluminationMap) -> f64 {
     let Some(accuracy) = map.provenance.accuracy else { return 0.0 };
-    let squares = |lx: fn(&Illuminance) -> f64| -> f64 {
-        let known = map.elements.vertices().iter().zip(&map.values);
-        known
-            .filter_map(|(v, e)| Some((v.area_m2, lx(e.as_ref()?))))
-            .map(|(m2, lx)| m2 * lx * lx)
-            .sum()
-    };
-    let indirect = squares(|v| v.indirect_lx.luminance());
-    if indirect > 0.0 {
-        let share = squares(Illuminance::illuminance_lx) / indirect;
-        share.sqrt() * libm::hypot(accuracy.discretization, accuracy.bias)
-    } else {
-        0.0
+    let (mut area_m2, mut squared) = (0.0, 0.0);
+    for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
+        let Some(value) = value else { continue };
+        let lx = value.illuminance_lx();
+        area_m2 += vertex.area_m2;
+        squared += vertex.area_m2 * lx * lx;
     }
+    let share = libm::hypot(accuracy.discretization, accuracy.bias);
+    if area_m2 > 0.0 { share * (squared / area_m2).sqrt() } else { 0.0 }
 }
 
 /// Random numbers belong to the place, so that neighbours are independent.

@@ -4,7 +4,7 @@ use crate::rooms::{
     clear_glass, glowing, inward_box, lamp, outward_box, painted, rectangle, scene,
 };
 use crate::runs::{METHODS, coarse, run};
-use isolux::engine::{Solution, SolveRequest, Stage, Watch, solve};
+use isolux::engine::{Progress, Solution, SolveRequest, Stage, Watch, solve, solve_with_maps};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Finish, Gloss, Material, Scene};
 use isolux::units::Rgb;
@@ -83,11 +83,60 @@ fn a_run_stopped_and_resumed_gives_the_same_bits() {
         let whole = run(&scene, &request, 12).expect("the scene has light");
         let part = run(&scene, &request, 5).expect("the scene has light");
         assert_eq!(part.state.increments, 5);
-        let stop = &mut |p: &isolux::engine::Progress| {
+        let stop = &mut |p: &Progress| {
             let enough = p.stage == Stage::Increments && p.increments >= 12;
             if enough { Watch::Stop } else { Watch::Continue }
         };
         let resumed = solve(&scene, &request, Some(&part.state), stop).expect("the same run");
         assert_eq!(written(&resumed.map), written(&whole.map), "{method:?}");
     }
+}
+
+#[test]
+fn a_map_looked_at_on_the_way_is_that_of_a_run_stopped_there() {
+    let scene = everything();
+    for method in METHODS {
+        let request = coarse(method, 250);
+        let (mut looked, mut ended_at) = (None, None);
+        let watch = &mut |p: &Progress, map: &dyn Fn() -> Option<IlluminationMap>| {
+            assert_eq!(map().is_some(), p.stage == Stage::Increments);
+            if p.ends && ended_at.is_none() {
+                (looked, ended_at) = (map(), Some(p.increments));
+            }
+            match ended_at {
+                Some(end) if p.increments > end + 2 => Watch::Stop,
+                Some(_) => Watch::Insist,
+                None => Watch::Continue,
+            }
+        };
+        let on = solve_with_maps(&scene, &request, None, watch).expect("the scene has light");
+        let itself = solve(&scene, &request, None, &mut |_| Watch::Continue).expect("the same");
+        let end = itself.map.provenance.increments;
+        assert_eq!((ended_at, on.state.increments), (Some(end), end + 3), "{method:?}");
+        let looked = looked.expect("a map at the end");
+        assert_eq!(looked.values, itself.map.values, "{method:?}");
+        assert_eq!(looked.provenance.accuracy, itself.map.provenance.accuracy, "{method:?}");
+    }
+}
+
+#[test]
+fn increments_are_predicted_from_the_first_on_and_not_charged_for_the_pilot() {
+    let scene = everything();
+    let (mut pilot_s, mut seen) = (0.0, 0);
+    let watch = &mut |p: &Progress| {
+        if p.stage == Stage::Pilot {
+            pilot_s = p.elapsed_s;
+            return Watch::Continue;
+        }
+        let finish_s = p.prediction.expect("a target has a time").finish_s;
+        // At an accuracy of one hundred per cent the fewest increments are enough.
+        let left = 16_u64.saturating_sub(p.increments) as f64 / p.increments as f64;
+        let latest_s = p.elapsed_s + left * (p.elapsed_s - pilot_s);
+        assert!(finish_s >= p.elapsed_s && finish_s <= latest_s + 1e-9, "{p:?} {pilot_s}");
+        seen += 1;
+        Watch::Continue
+    };
+    let request = coarse(isolux::map::Method::Hybrid, 250);
+    solve(&scene, &request, None, watch).expect("the scene has light");
+    assert_eq!(seen, 16);
 }
