@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let name = std::env::args().nth(1).unwrap_or_default();
-    let (Some(parts), Some(points)) = (builtin(&name), point_sets(&name)) else {
+    let (Some(parts), Some(points)) = (builtin(&name).ok(), point_sets(&name)) else {
         eprintln!("there are no exact points for a scene `{name}`; choose cube or sphere");
         return ExitCode::from(2);
     };
