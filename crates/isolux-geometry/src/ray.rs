@@ -120,6 +120,34 @@ mod tests {
             }
         }
 
+        /// The same where the coordinates of the point, and with them the bound of their rounding
+        /// errors, are much smaller than the triangle; and a ray that starts as close to it on the
+        /// other side meets it.
+        #[test]
+        fn offset_origins_count_however_close(
+            corners in [[-3.0..3.0, -3.0..3.0, -3.0..3.0], [-3.0..3.0, -3.0..3.0, -3.0..3.0]],
+            (u, v) in (0.1..0.4, 0.1..0.4),
+            nearness in 1e-4..1.0,
+            local in [-1.0..1.0, -1.0..1.0, 0.05..1.0],
+        ) {
+            // The third corner so that the point is this near to where coordinates are zero.
+            let [a, b] = corners.map(|v| Vector::from(v) + Vector::new(1.0, 1.0, 1.0) * nearness);
+            let c = (Vector::new(1.0, 1.0, 1.0) * nearness - a * (1.0 - u - v) - b * u) / v;
+            let stored = |v: Vector| Point::from((Point::ORIGIN + v).to_f32());
+            let triangle = Triangle { corners: [a, b, c].map(stored) };
+            prop_assume!(triangle.area() > 0.01);
+            let normal = triangle.normal().unwrap();
+            for normal in [normal, -normal] {
+                let origin = offset_origin(triangle.point(u, v), normal);
+                let up = normal.to_direction();
+                let local = Vector::from(local).direction().unwrap().to_vector();
+                let direction = up.from_local(local);
+                let kernel = kernel(&triangle);
+                prop_assert_eq!(kernel.closest_hit(&Ray::new(origin, direction)), None);
+                prop_assert!(kernel.any_hit(&Ray::new(origin, -direction)));
+            }
+        }
+
         /// What lies at the end of a segment does not block it, what lies before it does.
         #[test]
         fn segments_leave_out_their_end(

@@ -89,7 +89,7 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             let a = sheared(corner(0), shear);
             let b = sheared(corner(1), shear);
             let c = sheared(corner(2), shear);
-            let ((u, of_u), (v, of_v), (w, of_w)) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
+            let (u, v, w) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
             let zero = _mm512_setzero_ps();
             let least = _mm512_min_ps(u, _mm512_min_ps(v, w));
             let most = _mm512_max_ps(u, _mm512_max_ps(v, w));
@@ -100,14 +100,16 @@ unsafe impl Lanes<WIDTH> for Avx512 {
                 return None;
             }
             let sum = _mm512_add_ps(u, _mm512_add_ps(v, w));
-            // The greatest of them without their signs.
-            let product = _mm512_range_ps::<0b1011>(of_u, _mm512_range_ps::<0b1011>(of_v, of_w));
-            let trusted = _mm512_add_ps(
-                _mm512_mul_ps(product, _mm512_set1_ps(TRUSTED)),
+            let larger = |x: __m512, y: __m512| _mm512_range_ps::<0b1011>(x, y);
+            let across = larger(larger(larger(a[0], a[1]), larger(b[0], b[1])), larger(c[0], c[1]));
+            let all = larger(across, larger(a[2], larger(b[2], c[2])));
+            let square = _mm512_mul_ps(across, across);
+            let least = _mm512_add_ps(
+                _mm512_mul_ps(square, _mm512_set1_ps(TRUSTED)),
                 _mm512_set1_ps(TRUSTED_M2),
             );
             let size = _mm512_abs_ps(sum);
-            let sure = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(size, trusted);
+            let trusted = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(size, least);
             let depths = _mm512_add_ps(
                 _mm512_mul_ps(u, a[2]),
                 _mm512_add_ps(_mm512_mul_ps(v, b[2]), _mm512_mul_ps(w, c[2])),
@@ -115,6 +117,12 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             // The distance times the size of the sum; dividing can wait for those that are left.
             let signed = _mm512_xor_ps(depths, _mm512_and_ps(sum, _mm512_set1_ps(-0.0)));
             let distance = _mm512_mul_ps(signed, _mm512_set1_ps(shear.per_depth));
+            let close = _mm512_mul_ps(
+                _mm512_mul_ps(across, _mm512_mul_ps(all, all)),
+                _mm512_set1_ps(shear.close),
+            );
+            // Written so that a NaN is unsure.
+            let sure = trusted & _mm512_cmp_ps_mask::<_CMP_GT_OQ>(_mm512_abs_ps(distance), close);
             let end = _mm512_mul_ps(size, _mm512_set1_ps(Shear::beyond(t_far)));
             let ahead = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(distance, zero);
             let near = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(distance, end);
@@ -167,18 +175,15 @@ unsafe fn sheared([x, y, z]: [*const f32; 3], shear: &Shear) -> [__m512; 3] {
     }
 }
 
-/// The edge functions, and the second of their two products. Not fused: rounded products order as
-/// the exact ones do, so that the sign of their difference is never the wrong one.
+/// The edge functions. Not fused: rounded products order as the exact ones do, so that the sign of
+/// their difference is never the wrong one.
 ///
 /// # Safety
 /// Needs the instructions of [`Avx512`].
 #[inline(always)]
-unsafe fn cross(p: &[__m512; 3], q: &[__m512; 3]) -> (__m512, __m512) {
+unsafe fn cross(p: &[__m512; 3], q: &[__m512; 3]) -> __m512 {
     // SAFETY: the caller sees to the instructions.
-    unsafe {
-        let second = _mm512_mul_ps(p[1], q[0]);
-        (_mm512_sub_ps(_mm512_mul_ps(p[0], q[1]), second), second)
-    }
+    unsafe { _mm512_sub_ps(_mm512_mul_ps(p[0], q[1]), _mm512_mul_ps(p[1], q[0])) }
 }
 
 /// The number in a lane.

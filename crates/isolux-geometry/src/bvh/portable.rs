@@ -94,13 +94,17 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
         for lane in 0..W {
             sum[lane] = u[lane] + (v[lane] + w[lane]);
             let size = sum[lane].abs();
-            let second = |p: usize, q: usize| (y[p][lane] * x[q][lane]).abs();
-            let product = greater(second(2, 1), greater(second(0, 2), second(1, 0)));
-            let is_sure = size >= product * TRUSTED + TRUSTED_M2;
+            let larger = |of: &[[f32; W]; 3]| {
+                greater(of[0][lane].abs(), greater(of[1][lane].abs(), of[2][lane].abs()))
+            };
+            let across = greater(larger(&x), larger(&y));
+            let all = greater(across, larger(&z));
+            let is_trusted = size >= across * across * TRUSTED + TRUSTED_M2;
             depths[lane] = u[lane] * z[0][lane] + (v[lane] * z[1][lane] + w[lane] * z[2][lane]);
             // The distance times the size of the sum; dividing can wait for those that are left.
             let distance = if sum[lane] < 0.0 { -depths[lane] } else { depths[lane] } * per_depth;
-            sure |= u32::from(is_sure) << lane;
+            let close = across * (all * all) * shear.close;
+            sure |= u32::from(is_trusted & (distance.abs() > close)) << lane;
             within |= u32::from((distance >= 0.0) & (distance <= size * t_end)) << lane;
         }
         let met = inside & (within | !sure);

@@ -112,6 +112,9 @@ pub(super) trait Query: Copy {
     /// Nothing beyond is of interest.
     fn t_far(&self) -> f32;
 
+    /// Whether meetings with the triangle of this label are of no interest.
+    fn is_blind_to(&self, label: u32) -> bool;
+
     /// Takes note of a meeting with a triangle, if it is one up to `t_far`.
     fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting);
 
@@ -145,9 +148,14 @@ impl Query for Closest {
     }
 
     #[inline(always)]
+    fn is_blind_to(&self, label: u32) -> bool {
+        label & !TRANSPARENT == self.skip
+    }
+
+    #[inline(always)]
     fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) {
-        let index = label & !TRANSPARENT;
-        if index != self.skip {
+        if !self.is_blind_to(label) {
+            let index = label & !TRANSPARENT;
             let meeting = meeting();
             let is_first =
                 |best: (u32, Meeting)| comes_before((index, &meeting), (best.0, &best.1));
@@ -193,9 +201,13 @@ impl Query for Any {
     }
 
     #[inline(always)]
+    fn is_blind_to(&self, label: u32) -> bool {
+        label >= TRANSPARENT || label == self.skip
+    }
+
+    #[inline(always)]
     fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) {
-        let is_seen = label < TRANSPARENT && label != self.skip;
-        self.is_hit |= is_seen && meeting().is_within(self.t_far);
+        self.is_hit |= !self.is_blind_to(label) && meeting().is_within(self.t_far);
     }
 
     #[inline(always)]
@@ -352,12 +364,18 @@ impl<Q: Query> Walk<Q> {
                     return true;
                 }
             }
-            if met.perhaps != 0 {
-                // A copy goes in and comes back: what is lent to a call does not stay in registers.
-                let query = look_closely(self.query, *shear, *leaf, start, met.perhaps);
-                self.query = query;
-                if query.is_done() {
-                    return true;
+            let mut perhaps = met.perhaps;
+            while perhaps != 0 {
+                let triangle = start + perhaps.trailing_zeros() as usize;
+                perhaps &= perhaps - 1;
+                // Most often the triangle that the ray starts on.
+                if !self.query.is_blind_to(leaf.label(triangle)) {
+                    // A copy goes in and comes back: what is lent to a call does not stay in
+                    // registers.
+                    self.query = look_closely(self.query, *shear, *leaf, triangle);
+                    if self.query.is_done() {
+                        return true;
+                    }
                 }
             }
         }
@@ -365,23 +383,13 @@ impl<Q: Query> Walk<Q> {
     }
 }
 
-/// Tries triangles that are seen close to edge-on.
+/// Tries a triangle that is seen close to edge-on or met close to the origin.
 #[cold]
 #[inline(never)]
-fn look_closely<Q: Query>(
-    mut query: Q,
-    shear: Shear,
-    leaf: Leaf<'_>,
-    first: usize,
-    mut lanes: u32,
-) -> Q {
-    while lanes != 0 && !query.is_done() {
-        let triangle = first + lanes.trailing_zeros() as usize;
-        lanes &= lanes - 1;
-        let corner = |corner: usize, axis: usize| leaf.coordinate(corner, axis, triangle);
-        if let Some(meeting) = shear.meet_exactly(corner) {
-            query.note(leaf.label(triangle), || meeting);
-        }
+fn look_closely<Q: Query>(mut query: Q, shear: Shear, leaf: Leaf<'_>, triangle: usize) -> Q {
+    let corner = |corner: usize, axis: usize| leaf.coordinate(corner, axis, triangle);
+    if let Some(meeting) = shear.meet_exactly(corner) {
+        query.note(leaf.label(triangle), || meeting);
     }
     query
 }

@@ -7,17 +7,25 @@
 //!
 //! A rounded edge function may vanish but never has the wrong sign: rounding keeps the order of its
 //! two products. Zero counts as inside, so none of the triangles around a point is lost. What the
-//! roundings do spoil are the weights. With u = 2^-24 the unit roundoff, p the greatest product in the
-//! edge functions, s their sum, and m the distance of the farthest corner from the ray in the sheared
-//! space, the point that the weights stand for lies up to 12 u p m / s beside the ray. Where
-//! s >= [`TRUSTED`] p that is less than m / 2000, so the ray passes within the triangle or close to
-//! it, m is no more than sqrt(8) times the longest edge along any axis, and the distance less than
-//! [`REACH`] of that edge; boxes are so much larger than their triangles. (Of the two products of an
-//! edge function the second one is enough: it differs from the first by no more than s.) Triangles
-//! with a smaller sum, seen close to edge-on, are decided anew in `f64`, where products of `f32`
-//! numbers are exact, and so are the signs.
+//! roundings do spoil are the weights and with them the distance. With u = 2^-24 the unit roundoff, m
+//! the largest sheared coordinate across the ray, M the same or the largest depth, whichever is
+//! greater, and s the sum of the edge functions:
+//!
+//! - The point that the weights stand for lies up to 12 u m^3 / s beside the ray. Where
+//!   s >= [`TRUSTED`] m^2 that is less than m / 2000, so the ray passes within the triangle or close
+//!   to it, m is no more than sqrt(8) times the longest edge along any axis, and the distance less
+//!   than [`REACH`] of that edge; boxes are so much larger than their triangles.
+//! - A weight is off by 4 u m^2 for its own roundings and by 4 m u (2 m + 3 M) for those of the
+//!   sheared corners; the three of them times the depths, and the roundings of these (5 u M s, where
+//!   s <= 6 m^2), make 102 u m M^2 at most. Meetings that close ([`CLOSE`]) to the origin may lie on
+//!   either side of it.
+//!
+//! Triangles of a smaller sum, seen close to edge-on, and those met close to the origin are decided
+//! anew in `f64`: products of `f32` numbers are exact there, and so are the signs of the edge
+//! functions; and the distance is that to the plane of the triangle's own corners, not of the sheared
+//! ones. So a ray that starts beside a plane meets it if it goes there, and only then, however near.
 
-use crate::{Hit, Ray};
+use crate::{Hit, Ray, Vector};
 
 /// Largest coordinate, metres, and largest (inverse: smallest) length of a direction the kernel
 /// takes, 2^38: up to here no intermediate result overflows. Rays beyond it meet nothing and
@@ -27,12 +35,15 @@ pub(super) const LARGEST: f32 = (1_u64 << 38) as f32;
 /// How far beside its triangle, in longest edges, a point that is hit may lie.
 pub(super) const REACH: f32 = 1.0 / 1024.0;
 
-/// Least sum of the edge functions that is trusted, in products of coordinates: twelve unit roundoffs
-/// times sqrt(8), over [`REACH`], rounded up.
+/// Least sum of the edge functions that is trusted, in squares of the largest coordinate across the
+/// ray: twelve unit roundoffs times sqrt(8), over [`REACH`], rounded up.
 pub(super) const TRUSTED: f32 = 36.0 * (0.5 * f32::EPSILON) / REACH;
 
-/// And in any case, m2: below, the weights lose precision to underflow.
-pub(super) const TRUSTED_M2: f32 = 1.0 / (1_u128 << 80) as f32;
+/// And in any case, m2: below, weights and distances lose precision to underflow.
+pub(super) const TRUSTED_M2: f32 = 1.0 / (1_u64 << 60) as f32;
+
+/// Within how much of the origin a meeting is decided anew: 102 unit roundoffs, rounded up.
+pub(super) const CLOSE: f32 = 128.0 * (0.5 * f32::EPSILON);
 
 /// The axes in cyclic order, by the last of them.
 const CYCLES: [[usize; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
@@ -44,10 +55,14 @@ pub(super) struct Shear {
     pub(super) axes: [usize; 3],
     /// The origin along those axes.
     pub(super) origin: [f32; 3],
+    /// The direction along those axes.
+    direction: [f32; 3],
     /// Direction in `x` and `y` for each unit of `z`.
     pub(super) slope: [f32; 2],
     /// Inverse of the direction along `z`.
     pub(super) per_depth: f32,
+    /// [`CLOSE`] for each unit of the direction along `z`.
+    pub(super) close: f32,
     /// The last `t` of the interval searched, whose end is open.
     pub(super) t_last: f32,
 }
@@ -67,12 +82,16 @@ impl Shear {
             return None;
         }
         let axes = CYCLES[if z == largest { 2 } else { usize::from(y == largest) }];
-        let per_depth = 1.0 / direction[axes[2]];
+        let along = |v: [f32; 3]| [v[axes[0]], v[axes[1]], v[axes[2]]];
+        let (origin, direction) = (along(origin), along(direction));
+        let per_depth = 1.0 / direction[2];
         Some(Self {
             axes,
-            origin: [origin[axes[0]], origin[axes[1]], origin[axes[2]]],
-            slope: [direction[axes[0]] * per_depth, direction[axes[1]] * per_depth],
+            origin,
+            direction,
+            slope: [direction[0] * per_depth, direction[1] * per_depth],
             per_depth,
+            close: CLOSE * per_depth.abs(),
             t_last: t_max.next_down(),
         })
     }
@@ -100,9 +119,14 @@ impl Shear {
             return None;
         }
         let sum = u + (v + w);
-        let [of_u, of_v, of_w] = [c[1] * b[0], a[1] * c[0], b[1] * a[0]].map(f32::abs);
-        if sum.abs() >= of_u.max(of_v).max(of_w) * TRUSTED + TRUSTED_M2 {
-            let meeting = self.meeting(u * a[2] + (v * b[2] + w * c[2]), v, w, sum);
+        let depths = u * a[2] + (v * b[2] + w * c[2]);
+        let across = largest([a[0], a[1], b[0], b[1], c[0], c[1]]);
+        let all = greater(across, largest([a[2], b[2], c[2]]));
+        let size = sum.abs();
+        let distance = if sum < 0.0 { -depths } else { depths } * self.per_depth;
+        let close = across * (all * all) * self.close;
+        if (size >= across * across * TRUSTED + TRUSTED_M2) & (distance.abs() > close) {
+            let meeting = self.meeting(depths, v, w, sum);
             meeting.is_within(self.t_last).then_some(meeting)
         } else {
             self.meet_exactly(corner)
@@ -125,23 +149,43 @@ impl Shear {
         t_far * (1.0 + 8.0 * f32::EPSILON)
     }
 
-    /// The same with exact edge functions.
+    /// The same with exact edge functions, and the distance to the plane of the triangle.
     #[cold]
     #[inline(never)]
     pub(super) fn meet_exactly(&self, corner: impl Fn(usize, usize) -> f32) -> Option<Meeting> {
-        let sheared = |k: usize| self.sheared(|axis| corner(k, axis)).map(f64::from);
-        let [a, b, c] = [0, 1, 2].map(sheared);
+        let [a, b, c] = [0, 1, 2].map(|k| self.sheared(|axis| corner(k, axis)).map(f64::from));
         let cross = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
         let (u, v, w) = (cross(c, b), cross(a, c), cross(b, a));
         let is_front = (u >= 0.0) & (v >= 0.0) & (w >= 0.0);
         let is_back = (u <= 0.0) & (v <= 0.0) & (w <= 0.0);
         let sum = u + v + w;
-        let t = (u * a[2] + v * b[2] + w * c[2]) / sum * f64::from(self.per_depth);
-        let t = t as f32;
+        // A triangle seen exactly edge-on has no sum of weights.
+        if !(is_front | is_back) || sum == 0.0 {
+            return None;
+        }
+        let along_z = f64::from(self.direction[2]);
+        let [nearest, farthest] = [f64::min, f64::max]
+            .map(|of: fn(f64, f64) -> f64| of(a[2] / along_z, of(b[2] / along_z, c[2] / along_z)));
+        // Seen so close to edge-on that its sheared corners stand for another plane than the true
+        // ones, it is met all the same, somewhere on it.
+        let t = match self.plane_met(corner) {
+            Some(t) => t.clamp(nearest, farthest),
+            None => (u * a[2] + v * b[2] + w * c[2]) / sum / along_z,
+        };
         let back = (sum < 0.0) != (self.per_depth < 0.0);
-        // A triangle seen exactly edge-on has no sum of weights, and then `t` is NaN.
-        let is_met = (is_front | is_back) & (t > 0.0) & (t <= self.t_last);
-        is_met.then_some(Meeting { t, v, w, sum, back })
+        let t = t as f32;
+        ((t > 0.0) & (t <= self.t_last)).then_some(Meeting { t, v, w, sum, back })
+    }
+
+    /// Where the ray meets the plane of a triangle; `None` where it runs along it.
+    fn plane_met(&self, corner: impl Fn(usize, usize) -> f32) -> Option<f64> {
+        let [x, y, z] = self.axes;
+        let [a, b, c] = [0, 1, 2]
+            .map(|k| Vector::from([corner(k, x), corner(k, y), corner(k, z)].map(f64::from)));
+        let normal = (b - a).cross(c - a);
+        let towards = normal.dot(Vector::from(self.direction.map(f64::from)));
+        let away = normal.dot(a - Vector::from(self.origin.map(f64::from)));
+        (towards != 0.0).then(|| away / towards)
     }
 }
 
@@ -184,6 +228,11 @@ impl Meeting {
 #[inline(always)]
 pub(super) fn greater(a: f32, b: f32) -> f32 {
     if a > b { a } else { b }
+}
+
+/// The greatest of some numbers without their signs.
+fn largest<const N: usize>(numbers: [f32; N]) -> f32 {
+    numbers.into_iter().fold(0.0, |most, x| greater(most, x.abs()))
 }
 
 /// The edge function.
