@@ -3,7 +3,7 @@
 
 use super::slabs::Slabs;
 use super::traverse::{Entry, Lanes, Met};
-use super::triangle_test::{Meeting, Shear, TRUSTED, TRUSTED_M2};
+use super::triangle_test::{NEAR, Shear, TRUSTED, TRUSTED_M2};
 use super::wide::{Leaf, Node, Reference, WideTree};
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
@@ -100,16 +100,7 @@ unsafe impl Lanes<WIDTH> for Avx512 {
                 return None;
             }
             let sum = _mm512_add_ps(u, _mm512_add_ps(v, w));
-            let larger = |x: __m512, y: __m512| _mm512_range_ps::<0b1011>(x, y);
-            let across = larger(larger(larger(a[0], a[1]), larger(b[0], b[1])), larger(c[0], c[1]));
-            let all = larger(across, larger(a[2], larger(b[2], c[2])));
-            let square = _mm512_mul_ps(across, across);
-            let least = _mm512_add_ps(
-                _mm512_mul_ps(square, _mm512_set1_ps(TRUSTED)),
-                _mm512_set1_ps(TRUSTED_M2),
-            );
             let size = _mm512_abs_ps(sum);
-            let trusted = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(size, least);
             let depths = _mm512_add_ps(
                 _mm512_mul_ps(u, a[2]),
                 _mm512_add_ps(_mm512_mul_ps(v, b[2]), _mm512_mul_ps(w, c[2])),
@@ -117,31 +108,22 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             // The distance times the size of the sum; dividing can wait for those that are left.
             let signed = _mm512_xor_ps(depths, _mm512_and_ps(sum, _mm512_set1_ps(-0.0)));
             let distance = _mm512_mul_ps(signed, _mm512_set1_ps(shear.per_depth));
-            let close = _mm512_mul_ps(
-                _mm512_mul_ps(across, _mm512_mul_ps(all, all)),
-                _mm512_set1_ps(shear.close),
-            );
-            // Written so that a NaN is unsure.
-            let sure = trusted & _mm512_cmp_ps_mask::<_CMP_GT_OQ>(_mm512_abs_ps(distance), close);
+            let sure = sure([&a, &b, &c], [least, most], size, depths);
             let end = _mm512_mul_ps(size, _mm512_set1_ps(Shear::beyond(t_far)));
             let ahead = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(distance, zero);
             let near = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(distance, end);
-            let met = inside & u32::from((ahead & near) | !sure);
+            let met = inside & (u32::from(ahead & near) | !sure);
             if met == 0 {
                 return None;
             }
-            let sure = u32::from(sure);
             Some(Met { likely: met & sure, perhaps: met & !sure, meetings: [depths, v, w, sum] })
         }
     }
 
     #[inline(always)]
-    unsafe fn meeting(meetings: &[__m512; 4], lane: usize, shear: &Shear) -> Meeting {
-        let [depths, v, w, sum] = meetings;
+    unsafe fn sums(meetings: &[__m512; 4], lane: usize) -> [f32; 4] {
         // SAFETY: the caller sees to the instructions.
-        let [depths, v, w, sum] =
-            unsafe { [one(*depths, lane), one(*v, lane), one(*w, lane), one(*sum, lane)] };
-        shear.meeting(depths, v, w, sum)
+        meetings.map(|numbers| unsafe { one(numbers, lane) })
     }
 
     #[inline(always)]
@@ -172,6 +154,45 @@ unsafe fn sheared([x, y, z]: [*const f32; 3], shear: &Shear) -> [__m512; 3] {
             _mm512_sub_ps(from_origin(y, 1), moved(1)),
             depth,
         ]
+    }
+}
+
+/// A bit for each triangle that `f32` decides, from its corners, the least and the greatest edge
+/// function, the size of their sum, and the weighted sum of depths, to the bits of [`Shear`]. None
+/// where anything is NaN.
+///
+/// # Safety
+/// Needs the instructions of [`Avx512`].
+#[inline(always)]
+unsafe fn sure(
+    [a, b, c]: [&[__m512; 3]; 3],
+    [least, most]: [__m512; 2],
+    size: __m512,
+    depths: __m512,
+) -> u32 {
+    // SAFETY: the caller sees to the instructions.
+    unsafe {
+        let larger = |x: __m512, y: __m512| _mm512_range_ps::<0b1011>(x, y);
+        let across = larger(larger(larger(a[0], a[1]), larger(b[0], b[1])), larger(c[0], c[1]));
+        let all = larger(across, larger(a[2], larger(b[2], c[2])));
+        let square = _mm512_mul_ps(across, across);
+        let enough = _mm512_add_ps(
+            _mm512_mul_ps(square, _mm512_set1_ps(TRUSTED)),
+            _mm512_set1_ps(TRUSTED_M2),
+        );
+        let range = _mm512_sub_ps(
+            _mm512_max_ps(a[2], _mm512_max_ps(b[2], c[2])),
+            _mm512_min_ps(a[2], _mm512_min_ps(b[2], c[2])),
+        );
+        let of_range = _mm512_mul_ps(_mm512_mul_ps(across, range), _mm512_set1_ps(NEAR[0]));
+        let of_size = _mm512_mul_ps(size, _mm512_set1_ps(NEAR[1]));
+        let near = _mm512_mul_ps(all, _mm512_add_ps(of_range, of_size));
+        let trusted = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(size, enough);
+        let away = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(_mm512_abs_ps(depths), near);
+        let zero = _mm512_setzero_ps();
+        let front = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(least, zero);
+        let back = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(most, zero);
+        u32::from(trusted & away & (front | back))
     }
 }
 
