@@ -3,7 +3,7 @@
 use crate::kernel::Kernel;
 use crate::random::Random;
 use crate::rays::Surfaces;
-use isolux_geometry::TriangleMesh;
+use isolux_geometry::Bvh;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -26,13 +26,8 @@ pub(crate) struct Leaks {
 const CHUNK: u64 = 1 << 14;
 
 /// Counts over so many rays, with all threads; the same rays for any number of them.
-pub(crate) fn count(
-    mesh: &TriangleMesh,
-    isolux: &impl Kernel,
-    embree: Option<&impl Kernel>,
-    rays: u64,
-) -> Leaks {
-    let surfaces = Surfaces::new(mesh);
+pub(crate) fn count(isolux: &Bvh, embree: Option<&impl Kernel>, rays: u64) -> Leaks {
+    let surfaces = Surfaces::new(isolux);
     let chunk = |index: u64| {
         let count = CHUNK.min(rays - index * CHUNK);
         let rays = surfaces.aimed_at_edges(count as usize, &mut Random::new(LEAKS ^ index << 32));

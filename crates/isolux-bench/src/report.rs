@@ -67,7 +67,7 @@ pub(crate) fn scene(
     let (isolux, isolux_build) = building::isolux(mesh, effort.builds);
     let built = embree.map(|e| building::embree(e, mesh, effort.builds)).transpose()?;
     let (embree, embree_build) = built.unzip();
-    let surfaces = Surfaces::new(mesh);
+    let surfaces = Surfaces::new(&isolux);
     let mut random = Random::new(2);
     let reflected = surfaces.reflected(effort.rays, &mut random);
     let segments = surfaces.segments(effort.rays, &mut random);
@@ -81,6 +81,6 @@ pub(crate) fn scene(
         rates: rates.collect(),
         isolux_build,
         embree_build,
-        leaks: leaks::count(mesh, &isolux, embree.as_ref(), effort.leak_rays),
+        leaks: leaks::count(&isolux, embree.as_ref(), effort.leak_rays),
     })
 }

@@ -3,7 +3,7 @@
 //! A case whose scene is not what its closed form speaks of fails here, before any engine is blamed.
 
 use isolux::engine::ProbePoint;
-use isolux::geometry::{Normal, Point, Ray, Vector, offset_origin};
+use isolux::geometry::{Normal, Point, Ray, Vector};
 use isolux::scene::{Luminaire, LuminaireKind, Scene};
 use isolux::units::Rgb;
 use isolux_compare::case::cases;
@@ -75,7 +75,8 @@ fn by_way_of(scene: &Scene, luminaire: &Luminaire, way: &[&Mirror], at: ProbePoi
     }
     let (mut from, mut normal, mut share) = (at.position, at.normal, Rgb::WHITE);
     for mirror in way.iter().rev() {
-        let ray = Ray { t_max: f32::INFINITY, ..Ray::between(offset_origin(from, normal), target) };
+        let start = scene.bvh().offset_origin(from, normal);
+        let ray = Ray { t_max: f32::INFINITY, ..Ray::between(start, target) };
         let Some(hit) = scene.bvh().closest_hit(&ray) else { return Rgb::BLACK };
         if scene.shape_of(hit.triangle) != mirror.shape || hit.back {
             return Rgb::BLACK;
@@ -84,7 +85,7 @@ fn by_way_of(scene: &Scene, luminaire: &Luminaire, way: &[&Mirror], at: ProbePoi
         target = mirror.image(target);
         share = share * mirror.reflectance;
     }
-    if scene.bvh().any_hit(&Ray::between(offset_origin(from, normal), target)) {
+    if scene.bvh().any_hit(&Ray::between(scene.bvh().offset_origin(from, normal), target)) {
         return Rgb::BLACK;
     }
     let local = world_from_luminaire.inverse().expect("a rotation").vector(from - target);
@@ -96,7 +97,7 @@ fn parallel(scene: &Scene, luminaire: &Luminaire, at: ProbePoint) -> Rgb {
     let LuminaireKind::Directional { direction, illuminance_lx } = luminaire.kind else {
         return Rgb::BLACK;
     };
-    let ray = Ray::new(offset_origin(at.position, at.normal), -direction);
+    let ray = Ray::new(scene.bvh().offset_origin(at.position, at.normal), -direction);
     let cos = -direction.cos(at.normal);
     let lit = cos > 0.0 && !scene.bvh().any_hit(&ray);
     if lit { luminaire.colour * (illuminance_lx * cos) } else { Rgb::BLACK }

@@ -10,7 +10,7 @@ mod triangle;
 mod vector;
 
 pub use bvh::Bvh;
-pub use ray::{Hit, Ray, offset_origin};
+pub use ray::{Hit, Ray};
 pub use transform::Transform;
 pub use triangle::{Triangle, TriangleMesh};
 pub use vector::{Direction, Normal, Point, Vector};

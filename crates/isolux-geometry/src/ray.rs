@@ -1,6 +1,6 @@
 //! Rays, what they hit, and where they may start.
 
-use crate::{Direction, Normal, Point, Vector};
+use crate::{Direction, Point, Vector};
 
 /// A query of the ray kernel: what lies at `origin + t direction` for `0 < t < t_max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,8 @@ impl Ray {
 
     /// The segment between two points: `t` runs from 0 at `from` to 1 at `to`. The end is left out
     /// by a bound of the rounding errors of coordinates of that size, so that what lies there is
-    /// not met; for the start see [`offset_origin`] and [`Ray::skipping`]. Points closer together
+    /// not met; for the start see
+    /// [`Bvh::offset_origin`](crate::Bvh::offset_origin) and [`Ray::skipping`]. Points closer together
     /// than that bound have nothing between them.
     pub fn between(from: Point, to: Point) -> Self {
         let d: Vector = to - from;
@@ -63,16 +64,6 @@ pub struct Hit {
     pub back: bool,
 }
 
-/// The point from which to trace a ray that leaves a surface at `point` on the side of `normal`:
-/// moved along the normal by a bound of the rounding errors of `f32` coordinates of that size, and
-/// no further (after Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 6.8.6).
-pub fn offset_origin(point: Point, normal: Normal) -> Point {
-    // Eight roundings of half an ulp each lie between the stored vertices and the traced origin.
-    let bound =
-        8.0 * f64::from(f32::EPSILON) * largest(point.to_vector()) + f64::from(f32::MIN_POSITIVE);
-    point + normal * bound
-}
-
 /// The largest component without its sign.
 fn largest(v: Vector) -> f64 {
     v.x.abs().max(v.y.abs()).max(v.z.abs())
@@ -80,7 +71,7 @@ fn largest(v: Vector) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Ray, offset_origin};
+    use super::Ray;
     use crate::{Bvh, Direction, Point, Triangle, TriangleMesh, Vector};
     use proptest::prelude::*;
 
@@ -110,13 +101,42 @@ mod tests {
         ) {
             prop_assume!(triangle.area() > 0.01);
             let normal = triangle.normal().unwrap();
+            let kernel = kernel(&triangle);
             for normal in [normal, -normal] {
-                let origin = offset_origin(triangle.point(u, v), normal);
+                let origin = kernel.offset_origin(triangle.point(u, v), normal);
                 let up = normal.to_direction();
                 let direction = up.from_local(Vector::from(local).direction().unwrap().to_vector());
-                prop_assert_eq!(kernel(&triangle).closest_hit(&Ray::new(origin, direction)), None);
+                prop_assert_eq!(kernel.closest_hit(&Ray::new(origin, direction)), None);
                 let down = Ray::new(origin, -up);
-                prop_assert!(kernel(&triangle).any_hit(&down), "moved to the other side");
+                prop_assert!(kernel.any_hit(&down), "moved to the other side");
+            }
+        }
+
+        /// Much closer to a triangle than its size allows `f32` to tell distances, a ray meets it if
+        /// it goes there and only then.
+        #[test]
+        fn sides_count_however_close(
+            corners in [[-3.0..3.0, -3.0..3.0, -3.0..3.0], [-3.0..3.0, -3.0..3.0, -3.0..3.0]],
+            (u, v) in (0.1..0.4, 0.1..0.4),
+            nearness in 1e-4..1.0,
+            local in [-1.0..1.0, -1.0..1.0, 0.05..1.0],
+        ) {
+            // The third corner so that the point is this near to where coordinates are zero.
+            let [a, b] = corners.map(|v| Vector::from(v) + Vector::new(1.0, 1.0, 1.0) * nearness);
+            let c = (Vector::new(1.0, 1.0, 1.0) * nearness - a * (1.0 - u - v) - b * u) / v;
+            let stored = |v: Vector| Point::from((Point::ORIGIN + v).to_f32());
+            let triangle = Triangle { corners: [a, b, c].map(stored) };
+            prop_assume!(triangle.area() > 0.01);
+            let normal = triangle.normal().unwrap();
+            let kernel = kernel(&triangle);
+            for normal in [normal, -normal] {
+                let up = normal.to_direction();
+                // Some roundings of the point away.
+                let origin = triangle.point(u, v) + normal * (1e-6 * nearness);
+                let local = Vector::from(local).direction().unwrap().to_vector();
+                let direction = up.from_local(local);
+                prop_assert_eq!(kernel.closest_hit(&Ray::new(origin, direction)), None);
+                prop_assert!(kernel.any_hit(&Ray::new(origin, -direction)));
             }
         }
 

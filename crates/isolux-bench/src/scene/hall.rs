@@ -34,7 +34,7 @@ pub(super) const FINE: Fineness = Fineness {
 const ROOM_M: [f32; 3] = [16.0, 12.0, 3.2];
 /// Between floor or ceiling and what stands there: a solid that reached through the shell would
 /// let rays start outside.
-const GAP_M: f32 = 0.001;
+pub(super) const GAP_M: f32 = 0.001;
 const PLACES: usize = 60;
 /// Boxes of a desk with its screen and chair.
 const DESK_PARTS: usize = 9;

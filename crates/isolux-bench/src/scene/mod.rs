@@ -1,6 +1,7 @@
 //! The scenes: rooms that stay the same from run to run.
 
 mod hall;
+mod office;
 mod solids;
 
 use isolux_compare::hall::Variant;
@@ -14,13 +15,13 @@ pub(crate) struct Scene {
 }
 
 /// All scenes: 12, 10,000 and 1,000,000 triangles in closed rooms, and the practical scene.
-pub(crate) fn all() -> [fn() -> Scene; 5] {
-    let [cube, hall, fine_hall] = CLOSED;
-    [cube, hall, practical, fine_hall, fine_practical]
+pub(crate) fn all() -> [fn() -> Scene; 7] {
+    let [cube, office, hall, fine_office, fine_hall] = CLOSED;
+    [cube, office, hall, practical, fine_office, fine_hall, fine_practical]
 }
 
 /// Rooms that no ray can leave.
-const CLOSED: [fn() -> Scene; 3] = [cube, hall_of_ten_thousand, hall_of_a_million];
+const CLOSED: [fn() -> Scene; 5] = [cube, office, hall, fine_office, fine_hall];
 
 /// The scene `builtin:hall`, without its luminaires.
 fn practical() -> Scene {
@@ -50,11 +51,19 @@ fn cube() -> Scene {
     Scene { name: "cube", mesh }
 }
 
-fn hall_of_ten_thousand() -> Scene {
+fn office() -> Scene {
+    Scene { name: "office", mesh: office::furnished(&office::COARSE) }
+}
+
+fn fine_office() -> Scene {
+    Scene { name: "fine office", mesh: office::furnished(&office::FINE) }
+}
+
+fn hall() -> Scene {
     Scene { name: "hall", mesh: hall::furnished(10_000, &hall::COARSE) }
 }
 
-fn hall_of_a_million() -> Scene {
+fn fine_hall() -> Scene {
     Scene { name: "fine hall", mesh: hall::furnished(1_000_000, &hall::FINE) }
 }
 
@@ -77,7 +86,8 @@ mod tests {
 
     #[test]
     fn scenes_are_closed_deterministic_and_of_their_size() {
-        for (make, triangles) in CLOSED.into_iter().zip([12, 10_000, 1_000_000]) {
+        for (make, triangles) in CLOSED.into_iter().zip([12, 10_008, 10_000, 1_023_716, 1_000_000])
+        {
             let scene = make();
             assert_eq!(scene.mesh.len(), triangles, "{}", scene.name);
             assert_eq!(open_edges(&scene.mesh), 0, "{}", scene.name);

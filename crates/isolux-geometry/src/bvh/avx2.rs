@@ -3,7 +3,7 @@
 
 use super::slabs::Slabs;
 use super::traverse::{Entry, Lanes, Met};
-use super::triangle_test::{Meeting, Shear, TRUSTED, TRUSTED_M2};
+use super::triangle_test::{NEAR, Shear, TRUSTED, TRUSTED_M2};
 use super::wide::{Leaf, Node, Reference, WideTree};
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
@@ -90,22 +90,18 @@ unsafe impl Lanes<WIDTH> for Avx2 {
             let a = sheared(corner(0), shear);
             let b = sheared(corner(1), shear);
             let c = sheared(corner(2), shear);
-            let ((u, of_u), (v, of_v), (w, of_w)) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
+            let (u, v, w) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
             let zero = _mm256_setzero_ps();
-            let front = _mm256_cmp_ps::<_CMP_GE_OQ>(_mm256_min_ps(u, _mm256_min_ps(v, w)), zero);
-            let back = _mm256_cmp_ps::<_CMP_LE_OQ>(_mm256_max_ps(u, _mm256_max_ps(v, w)), zero);
+            let least = _mm256_min_ps(u, _mm256_min_ps(v, w));
+            let most = _mm256_max_ps(u, _mm256_max_ps(v, w));
+            let front = _mm256_cmp_ps::<_CMP_GE_OQ>(least, zero);
+            let back = _mm256_cmp_ps::<_CMP_LE_OQ>(most, zero);
             let inside = _mm256_movemask_ps(_mm256_or_ps(front, back)) as u32 & lanes;
             if inside == 0 {
                 return None;
             }
             let sum = _mm256_add_ps(u, _mm256_add_ps(v, w));
-            let product = _mm256_max_ps(size_of(of_u), _mm256_max_ps(size_of(of_v), size_of(of_w)));
-            let trusted = _mm256_add_ps(
-                _mm256_mul_ps(product, _mm256_set1_ps(TRUSTED)),
-                _mm256_set1_ps(TRUSTED_M2),
-            );
             let size = size_of(sum);
-            let sure = _mm256_cmp_ps::<_CMP_GE_OQ>(size, trusted);
             let depths = _mm256_add_ps(
                 _mm256_mul_ps(u, a[2]),
                 _mm256_add_ps(_mm256_mul_ps(v, b[2]), _mm256_mul_ps(w, c[2])),
@@ -113,11 +109,12 @@ unsafe impl Lanes<WIDTH> for Avx2 {
             // The distance times the size of the sum; dividing can wait for those that are left.
             let signed = _mm256_xor_ps(depths, _mm256_and_ps(sum, _mm256_set1_ps(-0.0)));
             let distance = _mm256_mul_ps(signed, _mm256_set1_ps(shear.per_depth));
+            let sure = sure([&a, &b, &c], [least, most], size, depths);
             let end = _mm256_mul_ps(size, _mm256_set1_ps(Shear::beyond(t_far)));
             let ahead = _mm256_cmp_ps::<_CMP_GE_OQ>(distance, zero);
             let near = _mm256_cmp_ps::<_CMP_LE_OQ>(distance, end);
             let within = _mm256_movemask_ps(_mm256_and_ps(ahead, near)) as u32;
-            let sure = _mm256_movemask_ps(sure) as u32;
+
             let met = inside & (within | !sure);
             if met == 0 {
                 return None;
@@ -127,12 +124,9 @@ unsafe impl Lanes<WIDTH> for Avx2 {
     }
 
     #[inline(always)]
-    unsafe fn meeting(meetings: &[__m256; 4], lane: usize, shear: &Shear) -> Meeting {
-        let [depths, v, w, sum] = meetings;
+    unsafe fn sums(meetings: &[__m256; 4], lane: usize) -> [f32; 4] {
         // SAFETY: the caller sees to the instructions.
-        let [depths, v, w, sum] =
-            unsafe { [one(*depths, lane), one(*v, lane), one(*w, lane), one(*sum, lane)] };
-        shear.meeting(depths, v, w, sum)
+        meetings.map(|numbers| unsafe { one(numbers, lane) })
     }
 
     #[inline(always)]
@@ -166,18 +160,55 @@ unsafe fn sheared([x, y, z]: [*const f32; 3], shear: &Shear) -> [__m256; 3] {
     }
 }
 
-/// The edge functions, and the second of their two products. Not fused: rounded products order as
-/// the exact ones do, so that the sign of their difference is never the wrong one.
+/// A bit for each triangle that `f32` decides, from its corners, the least and the greatest edge
+/// function, the size of their sum, and the weighted sum of depths, to the bits of [`Shear`]. None
+/// where anything is NaN.
 ///
 /// # Safety
 /// Needs the instructions of [`Avx2`].
 #[inline(always)]
-unsafe fn cross(p: &[__m256; 3], q: &[__m256; 3]) -> (__m256, __m256) {
+unsafe fn sure(
+    [a, b, c]: [&[__m256; 3]; 3],
+    [least, most]: [__m256; 2],
+    size: __m256,
+    depths: __m256,
+) -> u32 {
     // SAFETY: the caller sees to the instructions.
     unsafe {
-        let second = _mm256_mul_ps(p[1], q[0]);
-        (_mm256_sub_ps(_mm256_mul_ps(p[0], q[1]), second), second)
+        let larger = |x: __m256, y: __m256| _mm256_max_ps(size_of(x), size_of(y));
+        let across = larger(larger(larger(a[0], a[1]), larger(b[0], b[1])), larger(c[0], c[1]));
+        let all = larger(across, larger(a[2], larger(b[2], c[2])));
+        let square = _mm256_mul_ps(across, across);
+        let enough = _mm256_add_ps(
+            _mm256_mul_ps(square, _mm256_set1_ps(TRUSTED)),
+            _mm256_set1_ps(TRUSTED_M2),
+        );
+        let range = _mm256_sub_ps(
+            _mm256_max_ps(a[2], _mm256_max_ps(b[2], c[2])),
+            _mm256_min_ps(a[2], _mm256_min_ps(b[2], c[2])),
+        );
+        let of_range = _mm256_mul_ps(_mm256_mul_ps(across, range), _mm256_set1_ps(NEAR[0]));
+        let of_size = _mm256_mul_ps(size, _mm256_set1_ps(NEAR[1]));
+        let near = _mm256_mul_ps(all, _mm256_add_ps(of_range, of_size));
+        let trusted = _mm256_cmp_ps::<_CMP_GE_OQ>(size, enough);
+        let away = _mm256_cmp_ps::<_CMP_GT_OQ>(size_of(depths), near);
+        let zero = _mm256_setzero_ps();
+        let front = _mm256_cmp_ps::<_CMP_GT_OQ>(least, zero);
+        let back = _mm256_cmp_ps::<_CMP_LT_OQ>(most, zero);
+        let sure = _mm256_and_ps(_mm256_and_ps(trusted, away), _mm256_or_ps(front, back));
+        _mm256_movemask_ps(sure) as u32
     }
+}
+
+/// The edge functions. Not fused: rounded products order as the exact ones do, so that the sign of
+/// their difference is never the wrong one.
+///
+/// # Safety
+/// Needs the instructions of [`Avx2`].
+#[inline(always)]
+unsafe fn cross(p: &[__m256; 3], q: &[__m256; 3]) -> __m256 {
+    // SAFETY: the caller sees to the instructions.
+    unsafe { _mm256_sub_ps(_mm256_mul_ps(p[0], q[1]), _mm256_mul_ps(p[1], q[0])) }
 }
 
 /// Numbers without their signs.

@@ -3,7 +3,7 @@
 
 use super::slabs::Slabs;
 use super::traverse::{Entry, Lanes, Met};
-use super::triangle_test::{Meeting, Shear, TRUSTED, TRUSTED_M2};
+use super::triangle_test::{NEAR, Shear, TRUSTED, TRUSTED_M2};
 use super::wide::{Leaf, Node, Reference, WideTree};
 use std::arch::x86_64::*;
 use std::mem::MaybeUninit;
@@ -89,7 +89,7 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             let a = sheared(corner(0), shear);
             let b = sheared(corner(1), shear);
             let c = sheared(corner(2), shear);
-            let ((u, of_u), (v, of_v), (w, of_w)) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
+            let (u, v, w) = (cross(&c, &b), cross(&a, &c), cross(&b, &a));
             let zero = _mm512_setzero_ps();
             let least = _mm512_min_ps(u, _mm512_min_ps(v, w));
             let most = _mm512_max_ps(u, _mm512_max_ps(v, w));
@@ -100,14 +100,7 @@ unsafe impl Lanes<WIDTH> for Avx512 {
                 return None;
             }
             let sum = _mm512_add_ps(u, _mm512_add_ps(v, w));
-            // The greatest of them without their signs.
-            let product = _mm512_range_ps::<0b1011>(of_u, _mm512_range_ps::<0b1011>(of_v, of_w));
-            let trusted = _mm512_add_ps(
-                _mm512_mul_ps(product, _mm512_set1_ps(TRUSTED)),
-                _mm512_set1_ps(TRUSTED_M2),
-            );
             let size = _mm512_abs_ps(sum);
-            let sure = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(size, trusted);
             let depths = _mm512_add_ps(
                 _mm512_mul_ps(u, a[2]),
                 _mm512_add_ps(_mm512_mul_ps(v, b[2]), _mm512_mul_ps(w, c[2])),
@@ -115,25 +108,22 @@ unsafe impl Lanes<WIDTH> for Avx512 {
             // The distance times the size of the sum; dividing can wait for those that are left.
             let signed = _mm512_xor_ps(depths, _mm512_and_ps(sum, _mm512_set1_ps(-0.0)));
             let distance = _mm512_mul_ps(signed, _mm512_set1_ps(shear.per_depth));
+            let sure = sure([&a, &b, &c], [least, most], size, depths);
             let end = _mm512_mul_ps(size, _mm512_set1_ps(Shear::beyond(t_far)));
             let ahead = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(distance, zero);
             let near = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(distance, end);
-            let met = inside & u32::from((ahead & near) | !sure);
+            let met = inside & (u32::from(ahead & near) | !sure);
             if met == 0 {
                 return None;
             }
-            let sure = u32::from(sure);
             Some(Met { likely: met & sure, perhaps: met & !sure, meetings: [depths, v, w, sum] })
         }
     }
 
     #[inline(always)]
-    unsafe fn meeting(meetings: &[__m512; 4], lane: usize, shear: &Shear) -> Meeting {
-        let [depths, v, w, sum] = meetings;
+    unsafe fn sums(meetings: &[__m512; 4], lane: usize) -> [f32; 4] {
         // SAFETY: the caller sees to the instructions.
-        let [depths, v, w, sum] =
-            unsafe { [one(*depths, lane), one(*v, lane), one(*w, lane), one(*sum, lane)] };
-        shear.meeting(depths, v, w, sum)
+        meetings.map(|numbers| unsafe { one(numbers, lane) })
     }
 
     #[inline(always)]
@@ -167,18 +157,54 @@ unsafe fn sheared([x, y, z]: [*const f32; 3], shear: &Shear) -> [__m512; 3] {
     }
 }
 
-/// The edge functions, and the second of their two products. Not fused: rounded products order as
-/// the exact ones do, so that the sign of their difference is never the wrong one.
+/// A bit for each triangle that `f32` decides, from its corners, the least and the greatest edge
+/// function, the size of their sum, and the weighted sum of depths, to the bits of [`Shear`]. None
+/// where anything is NaN.
 ///
 /// # Safety
 /// Needs the instructions of [`Avx512`].
 #[inline(always)]
-unsafe fn cross(p: &[__m512; 3], q: &[__m512; 3]) -> (__m512, __m512) {
+unsafe fn sure(
+    [a, b, c]: [&[__m512; 3]; 3],
+    [least, most]: [__m512; 2],
+    size: __m512,
+    depths: __m512,
+) -> u32 {
     // SAFETY: the caller sees to the instructions.
     unsafe {
-        let second = _mm512_mul_ps(p[1], q[0]);
-        (_mm512_sub_ps(_mm512_mul_ps(p[0], q[1]), second), second)
+        let larger = |x: __m512, y: __m512| _mm512_range_ps::<0b1011>(x, y);
+        let across = larger(larger(larger(a[0], a[1]), larger(b[0], b[1])), larger(c[0], c[1]));
+        let all = larger(across, larger(a[2], larger(b[2], c[2])));
+        let square = _mm512_mul_ps(across, across);
+        let enough = _mm512_add_ps(
+            _mm512_mul_ps(square, _mm512_set1_ps(TRUSTED)),
+            _mm512_set1_ps(TRUSTED_M2),
+        );
+        let range = _mm512_sub_ps(
+            _mm512_max_ps(a[2], _mm512_max_ps(b[2], c[2])),
+            _mm512_min_ps(a[2], _mm512_min_ps(b[2], c[2])),
+        );
+        let of_range = _mm512_mul_ps(_mm512_mul_ps(across, range), _mm512_set1_ps(NEAR[0]));
+        let of_size = _mm512_mul_ps(size, _mm512_set1_ps(NEAR[1]));
+        let near = _mm512_mul_ps(all, _mm512_add_ps(of_range, of_size));
+        let trusted = _mm512_cmp_ps_mask::<_CMP_GE_OQ>(size, enough);
+        let away = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(_mm512_abs_ps(depths), near);
+        let zero = _mm512_setzero_ps();
+        let front = _mm512_cmp_ps_mask::<_CMP_GT_OQ>(least, zero);
+        let back = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(most, zero);
+        u32::from(trusted & away & (front | back))
     }
+}
+
+/// The edge functions. Not fused: rounded products order as the exact ones do, so that the sign of
+/// their difference is never the wrong one.
+///
+/// # Safety
+/// Needs the instructions of [`Avx512`].
+#[inline(always)]
+unsafe fn cross(p: &[__m512; 3], q: &[__m512; 3]) -> __m512 {
+    // SAFETY: the caller sees to the instructions.
+    unsafe { _mm512_sub_ps(_mm512_mul_ps(p[0], q[1]), _mm512_mul_ps(p[1], q[0])) }
 }
 
 /// The number in a lane.

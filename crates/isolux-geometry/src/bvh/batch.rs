@@ -59,7 +59,7 @@ fn depart<const W: usize, Q: Query>(
             Some((root, shear)) => {
                 return Some((
                     place,
-                    Constants::new(ray, shear, tree.reach),
+                    Constants::new(ray, shear, &tree.bounds),
                     Walk::new(root, Q::new(ray, &shear)),
                 ));
             }

@@ -30,10 +30,12 @@ fn emit<const W: usize>(
     plan: impl Plan,
     triangle: impl Fn(u32) -> Labelled,
 ) -> Result<WideTree<W>, TooLarge> {
-    let Some(top) = binary.first() else { return Ok(Builder::default().finish(None, 0.0)) };
+    let Some(top) = binary.first() else {
+        return Ok(Builder::default().finish(None, Bounds::EMPTY));
+    };
     let mut emit = Emit { binary, plan, triangle, builder: Builder::default() };
     let root = emit.subtree(0)?;
-    Ok(emit.builder.finish(Some(root), top.bounds.reach()))
+    Ok(emit.builder.finish(Some(root), top.bounds))
 }
 
 /// What becomes of binary nodes.

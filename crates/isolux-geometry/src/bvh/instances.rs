@@ -3,7 +3,7 @@
 use super::Bvh;
 use super::bounds::Bounds;
 use super::build::{self, BinaryNode, MAX_DEPTH, Preset, Primitive};
-use super::triangle_test::{REACH, longest_edge};
+use super::slabs::widened;
 use crate::{Hit, Point, Ray, Transform, Vector};
 
 /// A mesh at a place.
@@ -110,10 +110,10 @@ impl InstancedBvh {
 
     /// Rounding the origin and the direction to `f32` in the coordinates of the object moves the ray
     /// there by up to u (2 |o| + M), with o the origin and M the largest coordinate in them, u =
-    /// 2^-24; what the kernel adds is 16 u (M + |o|). The world sees it enlarged by the norm of the
+    /// 2^-24; what the kernel adds is 20 u (M + |o|). The world sees it enlarged by the norm of the
     /// map, and |o| is at most the norm of the inverse times the distance of origin and instance.
     fn widen_for(&mut self, placement: &Transform, inverse: &Transform, reach: f64) {
-        const ROUNDINGS: f64 = 20.0;
+        const ROUNDINGS: f64 = 24.0;
         let (norm, inverse_norm) = (norm(placement), norm(inverse));
         let per_metre = ROUNDINGS * norm * inverse_norm;
         let at_origin = ROUNDINGS * norm * reach + per_metre * largest(placement.translation);
@@ -299,9 +299,7 @@ impl WideSlabs {
 fn bounds(object: &Bvh) -> Option<Bounds> {
     let mesh = object.mesh();
     let triangles = (0..mesh.len() as u32).filter_map(|k| super::triangle_test::corners(mesh, k));
-    triangles
-        .map(|corners| Bounds::around(&corners).widened(REACH * longest_edge(&corners)))
-        .reduce(Bounds::union)
+    triangles.map(|corners| widened(&corners)).reduce(Bounds::union)
 }
 
 /// The box around the image of a box.

@@ -3,6 +3,7 @@
 #![allow(unsafe_code, reason = "vector instructions, reached only where the processor has them")]
 
 use super::batch::trace_many;
+use super::bounds::Bounds;
 use super::build::{BinaryNode, Preset};
 use super::collapse::collapse;
 use super::portable::Portable;
@@ -104,6 +105,17 @@ impl Kernel {
             Self::Avx2(tree) => tree.bytes(),
             #[cfg(target_arch = "x86_64")]
             Self::Avx512(tree) => tree.bytes(),
+        }
+    }
+
+    /// The box around everything.
+    pub(super) fn bounds(&self) -> Bounds {
+        match self {
+            Self::Portable(tree) => tree.bounds,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(tree) => tree.bounds,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(tree) => tree.bounds,
         }
     }
 

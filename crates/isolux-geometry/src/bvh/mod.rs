@@ -22,17 +22,16 @@ mod traverse;
 mod triangle_test;
 mod wide;
 
-use crate::{Hit, Ray, TriangleMesh};
+use crate::{Hit, Normal, Point, Ray, TriangleMesh};
 pub use build::Preset;
 pub use instances::{Instance, InstanceProblem, InstancedBvh};
 pub use instructions::InstructionSet;
 
-use bounds::Bounds;
 use build::Primitive;
 use instructions::Kernel;
 use rayon::prelude::*;
 use traverse::{Any, Closest, Query};
-use triangle_test::{REACH, corners, longest_edge};
+use triangle_test::corners;
 use wide::{Labelled, TRANSPARENT};
 
 /// Answers ray queries over a triangle mesh.
@@ -83,8 +82,7 @@ impl Bvh {
         assert!(mesh.len() <= build::MAX_TRIANGLES, "more than 2^28 triangles");
         let primitives = (0..mesh.len() as u32).into_par_iter().filter_map(|triangle| {
             let corners = corners(&mesh, triangle)?;
-            let beside = REACH * longest_edge(&corners);
-            Some(Primitive::new(&Bounds::around(&corners).widened(beside), triangle))
+            Some(Primitive::new(&slabs::widened(&corners), triangle))
         });
         let binary = build::build(preset, primitives.collect());
         let labelled = |triangle: u32| {
@@ -112,6 +110,22 @@ impl Bvh {
     /// Bytes of the tree, beside the mesh.
     pub fn bytes(&self) -> usize {
         self.kernel.bytes()
+    }
+
+    /// The point from which to trace a ray that leaves a surface at `point` on the side of `normal`:
+    /// moved along the normal by [`Bvh::offset_m`].
+    pub fn offset_origin(&self, point: Point, normal: Normal) -> Point {
+        point + normal * self.offset_m(point)
+    }
+
+    /// A bound of the kernel's rounding errors at a place of this mesh, metres: a ray that starts so
+    /// far beside a surface starts on its side of it, and the walk leaves it alone (after Pharr, Jakob,
+    /// Humphreys, "Physically Based Rendering", 4th ed., 6.8.6).
+    pub fn offset_m(&self, point: Point) -> f64 {
+        let margin = slabs::margin(&self.kernel.bounds(), point.to_f32());
+        // Rounding the origin, and the boxes.
+        let more = 4.0 * f64::from(f32::EPSILON) * largest(point);
+        1.25 * f64::from(margin) + more
     }
 
     /// The first triangle that the ray meets, transparent or not.
@@ -152,4 +166,9 @@ impl Bvh {
             }
         }
     }
+}
+
+/// The largest coordinate without its sign.
+fn largest(p: Point) -> f64 {
+    p.x.abs().max(p.y.abs()).max(p.z.abs())
 }

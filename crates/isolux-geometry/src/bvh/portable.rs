@@ -6,7 +6,7 @@
 
 use super::slabs::Slabs;
 use super::traverse::{Entry, Lanes, Met};
-use super::triangle_test::{Meeting, Shear, TRUSTED, TRUSTED_M2, greater};
+use super::triangle_test::{Shear, is_sure};
 use super::wide::{Leaf, Node, Reference, WideTree};
 use std::mem::MaybeUninit;
 
@@ -94,12 +94,12 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
         for lane in 0..W {
             sum[lane] = u[lane] + (v[lane] + w[lane]);
             let size = sum[lane].abs();
-            let second = |p: usize, q: usize| (y[p][lane] * x[q][lane]).abs();
-            let product = greater(second(2, 1), greater(second(0, 2), second(1, 0)));
-            let is_sure = size >= product * TRUSTED + TRUSTED_M2;
             depths[lane] = u[lane] * z[0][lane] + (v[lane] * z[1][lane] + w[lane] * z[2][lane]);
             // The distance times the size of the sum; dividing can wait for those that are left.
             let distance = if sum[lane] < 0.0 { -depths[lane] } else { depths[lane] } * per_depth;
+            let corner = |k: usize| [x[k][lane], y[k][lane], z[k][lane]];
+            let corners = [corner(0), corner(1), corner(2)];
+            let is_sure = is_sure(corners, [u[lane], v[lane], w[lane]], size, depths[lane]);
             sure |= u32::from(is_sure) << lane;
             within |= u32::from((distance >= 0.0) & (distance <= size * t_end)) << lane;
         }
@@ -111,9 +111,8 @@ unsafe impl<const W: usize> Lanes<W> for Portable {
     }
 
     #[inline(always)]
-    unsafe fn meeting(meetings: &[[f32; W]; 4], lane: usize, shear: &Shear) -> Meeting {
-        let [depths, v, w, sum] = meetings.map(|numbers| numbers[lane % W]);
-        shear.meeting(depths, v, w, sum)
+    unsafe fn sums(meetings: &[[f32; W]; 4], lane: usize) -> [f32; 4] {
+        meetings.map(|numbers| numbers[lane % W])
     }
 
     #[inline(always)]

@@ -1,27 +1,37 @@
 //! Where a ray enters and leaves boxes: conservative, so that no hit is lost.
 //!
-//! The triangle test moves corners by rounding: by at most 6 u D in each coordinate, D the greatest
-//! distance along an axis between the origin and a corner, u = 2^-24 the unit roundoff (a rounding
-//! of the difference to the origin, two of the slope, one of its product with the depth, and that of
-//! the last difference, which is up to 2 D). The ray passes a convex combination of moved corners at
-//! a distance for which the boxes allow (`triangle_test::REACH`), at a depth that is rounded ten
-//! times more (three products, two sums, the sum of the weights, division, and the step to `t`).
-//! So the point `origin + t direction` lies within 16 u D of the triangle's box. The box test
-//! `plane / direction - origin / direction` itself errs by less than 6 u (M + |origin|) /
-//! |direction|, M the largest coordinate of the scene, and D <= M + |origin|. Boxes widened by
-//! 32 u (M + |origin|) contain every hit of their triangles, wherever the ray starts.
+//! A triangle is met no sooner than where the ray enters its box widened by u (9 D + 4 L), computed
+//! with an error of 3 u D (`triangle_test`; u = 2^-24 the unit roundoff, D the greatest distance along
+//! an axis from the origin to the triangle, L its extent). Boxes in the tree are [`widened`] by 4 u L. The
+//! box test `plane / direction - origin / direction` itself errs by less than 3 u (D + |origin|) /
+//! |direction|. So planes moved by u (15 D + 3 |origin|), with the scene's D, hold every hit.
 
-use super::triangle_test::{LARGEST, greater};
+use super::bounds::Bounds;
+use super::triangle_test::{LEAST, greater};
 use super::wide::Node;
 use crate::Ray;
+
+/// By how much planes are moved for rays from `origin`, metres.
+#[inline(always)]
+pub(super) fn margin(scene: &Bounds, origin: [f32; 3]) -> f32 {
+    let far =
+        |axis: usize| greater(scene.high[axis] - origin[axis], origin[axis] - scene.low[axis]);
+    let distance = greater(far(0), greater(far(1), greater(far(2), 0.0)));
+    let size = greater(origin[0].abs(), greater(origin[1].abs(), origin[2].abs()));
+    // Rounded up for the roundings here.
+    (16.0 * distance + 4.0 * size) * (0.5 * f32::EPSILON) + LEAST_MARGIN_M
+}
+
+/// The box of a triangle as the tree holds it.
+pub(super) fn widened(corners: &[[f32; 3]; 3]) -> Bounds {
+    let tight = Bounds::around(corners);
+    let extent = (0..3).fold(0.0, |most, axis| greater(most, tight.high[axis] - tight.low[axis]));
+    tight.widened(4.0 * (0.5 * f32::EPSILON) * extent)
+}
 
 /// What underflow may do to a depth, metres: the smallest number over the least sum of weights, and
 /// far more.
 const LEAST_MARGIN_M: f32 = 1.0 / (1_u64 << 60) as f32;
-
-/// A component of a direction so small that the ray does not leave its place along the axis by more
-/// than D 2^-38, as the greatest is 1 / [`LARGEST`] or more: with it there is no division by zero.
-const LEAST: f32 = 1.0 / (LARGEST * LARGEST);
 
 /// What the box test needs to know about a ray. A plane at `p` is met at `p * inverse - offset`.
 #[derive(Clone, Copy, Debug)]
@@ -37,12 +47,12 @@ pub(super) struct Slabs {
 
 impl Slabs {
     /// For rays that passed [`Shear::new`](super::triangle_test::Shear::new), in a scene of the
-    /// given largest coordinate.
+    /// given bounds.
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, reach: f32) -> Self {
+    pub(super) fn new(ray: &Ray, scene: &Bounds) -> Self {
         let Ray { origin, direction, .. } = *ray;
-        let greatest = |v: [f32; 3]| greater(greater(v[0].abs(), v[1].abs()), v[2].abs());
-        let margin = 16.0 * f32::EPSILON * (reach + greatest(origin)) + LEAST_MARGIN_M;
+        let margin = margin(scene, origin);
+        // With it there is no division by zero.
         let inverse = |axis: usize| {
             let d = direction[axis];
             1.0 / if d.abs() < LEAST { LEAST.copysign(d) } else { d }

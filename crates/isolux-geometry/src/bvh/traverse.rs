@@ -4,6 +4,7 @@
     reason = "a stack that is not cleared for every ray, and vector instructions"
 )]
 
+use super::bounds::Bounds;
 use super::build::MAX_DEPTH;
 use super::slabs::Slabs;
 use super::triangle_test::{Meeting, Shear, comes_before};
@@ -54,11 +55,12 @@ pub(super) unsafe trait Lanes<const W: usize> {
         t_far: f32,
     ) -> Option<Met<Self::Meetings>>;
 
-    /// The meeting of a lane.
+    /// Of a lane: the weighted sum of the depths, the second and the third weight, and the sum of all
+    /// weights.
     ///
     /// # Safety
     /// See [`Lanes`].
-    unsafe fn meeting(meetings: &Self::Meetings, lane: usize, shear: &Shear) -> Meeting;
+    unsafe fn sums(meetings: &Self::Meetings, lane: usize) -> [f32; 4];
 
     /// Asks for the memory that a step at a reference will read.
     ///
@@ -112,8 +114,14 @@ pub(super) trait Query: Copy {
     /// Nothing beyond is of interest.
     fn t_far(&self) -> f32;
 
+    /// Boxes entered beyond hold nothing of interest.
+    fn reach(&self) -> f32;
+
+    /// Whether meetings with the triangle of this label are of no interest.
+    fn is_blind_to(&self, label: u32) -> bool;
+
     /// Takes note of a meeting with a triangle, if it is one up to `t_far`.
-    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting);
+    fn note(&mut self, label: u32, shear: &Shear, meeting: impl FnOnce() -> Meeting);
 
     /// Whether nothing more can be learned.
     fn is_done(&self) -> bool;
@@ -126,6 +134,7 @@ pub(super) trait Query: Copy {
 pub(super) struct Closest {
     skip: u32,
     t_far: f32,
+    reach: f32,
     closest: Option<(u32, Meeting)>,
 }
 
@@ -136,7 +145,8 @@ impl Query for Closest {
 
     #[inline(always)]
     fn new(ray: &Ray, shear: &Shear) -> Self {
-        Self { skip: skipped(ray), t_far: shear.t_last, closest: None }
+        let t_far = shear.t_last;
+        Self { skip: skipped(ray), t_far, reach: t_far, closest: None }
     }
 
     #[inline(always)]
@@ -145,14 +155,25 @@ impl Query for Closest {
     }
 
     #[inline(always)]
-    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) {
-        let index = label & !TRANSPARENT;
-        if index != self.skip {
+    fn reach(&self) -> f32 {
+        self.reach
+    }
+
+    #[inline(always)]
+    fn is_blind_to(&self, label: u32) -> bool {
+        label & !TRANSPARENT == self.skip
+    }
+
+    #[inline(always)]
+    fn note(&mut self, label: u32, shear: &Shear, meeting: impl FnOnce() -> Meeting) {
+        if !self.is_blind_to(label) {
+            let index = label & !TRANSPARENT;
             let meeting = meeting();
             let is_first =
                 |best: (u32, Meeting)| comes_before((index, &meeting), (best.0, &best.1));
             if meeting.is_within(self.t_far) && self.closest.is_none_or(is_first) {
                 self.t_far = meeting.t;
+                self.reach = shear.reach(meeting.t);
                 self.closest = Some((index, meeting));
             }
         }
@@ -184,7 +205,8 @@ impl Query for Any {
 
     #[inline(always)]
     fn new(ray: &Ray, shear: &Shear) -> Self {
-        Self { skip: skipped(ray), t_far: shear.t_last, is_hit: false }
+        let t_far = shear.t_last;
+        Self { skip: skipped(ray), t_far, is_hit: false }
     }
 
     #[inline(always)]
@@ -193,9 +215,18 @@ impl Query for Any {
     }
 
     #[inline(always)]
-    fn note(&mut self, label: u32, meeting: impl FnOnce() -> Meeting) {
-        let is_seen = label < TRANSPARENT && label != self.skip;
-        self.is_hit |= is_seen && meeting().is_within(self.t_far);
+    fn reach(&self) -> f32 {
+        self.t_far
+    }
+
+    #[inline(always)]
+    fn is_blind_to(&self, label: u32) -> bool {
+        label >= TRANSPARENT || label == self.skip
+    }
+
+    #[inline(always)]
+    fn note(&mut self, label: u32, _: &Shear, meeting: impl FnOnce() -> Meeting) {
+        self.is_hit |= !self.is_blind_to(label) && meeting().is_within(self.t_far);
     }
 
     #[inline(always)]
@@ -226,7 +257,7 @@ pub(super) unsafe fn trace<const W: usize, L: Lanes<W>, Q: Query>(
 ) -> Q::Answer {
     let Some((root, shear)) = tree.root.zip(Shear::new(ray)) else { return Q::NOTHING };
     let mut stack = Stack::<W>::new();
-    let constants = Constants::new(ray, shear, tree.reach);
+    let constants = Constants::new(ray, shear, &tree.bounds);
     let mut walk = Walk::<Q>::new(root, Q::new(ray, &shear));
     // SAFETY: as the caller says.
     while unsafe { walk.step::<W, L>(tree, &constants, &mut stack) } {}
@@ -241,8 +272,8 @@ pub(super) struct Constants {
 
 impl Constants {
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, shear: Shear, reach: f32) -> Self {
-        Self { shear, slabs: Slabs::new(ray, reach) }
+    pub(super) fn new(ray: &Ray, shear: Shear, scene: &Bounds) -> Self {
+        Self { shear, slabs: Slabs::new(ray, scene) }
     }
 }
 
@@ -293,7 +324,7 @@ impl<Q: Query> Walk<Q> {
             let node = tree.node(self.current);
             // SAFETY: as the caller says.
             let (distances, met) =
-                unsafe { L::children_met(node, &constants.slabs, self.query.t_far()) };
+                unsafe { L::children_met(node, &constants.slabs, self.query.reach()) };
             if met.is_power_of_two() {
                 self.current = node.child(met.trailing_zeros());
                 return true;
@@ -313,7 +344,7 @@ impl<Q: Query> Walk<Q> {
         while self.waiting > 0 {
             self.waiting -= 1;
             let entry = stack.entry(self.waiting);
-            if entry.t() <= self.query.t_far() {
+            if entry.t() <= self.query.reach() {
                 self.current = entry.reference();
                 return true;
             }
@@ -346,18 +377,25 @@ impl<Q: Query> Walk<Q> {
                 let lane = likely.trailing_zeros() as usize;
                 likely &= likely - 1;
                 // SAFETY: as the caller says.
-                let meeting = || unsafe { L::meeting(&met.meetings, lane, shear) };
-                self.query.note(leaf.label(start + lane), meeting);
+                let sums = unsafe { L::sums(&met.meetings, lane) };
+                let corner = |corner, axis| leaf.coordinate(corner, axis, start + lane);
+                self.query.note(leaf.label(start + lane), shear, || shear.meeting(corner, sums));
                 if self.query.is_done() {
                     return true;
                 }
             }
-            if met.perhaps != 0 {
-                // A copy goes in and comes back: what is lent to a call does not stay in registers.
-                let query = look_closely(self.query, *shear, *leaf, start, met.perhaps);
-                self.query = query;
-                if query.is_done() {
-                    return true;
+            let mut perhaps = met.perhaps;
+            while perhaps != 0 {
+                let triangle = start + perhaps.trailing_zeros() as usize;
+                perhaps &= perhaps - 1;
+                // Most often the triangle that the ray starts on.
+                if !self.query.is_blind_to(leaf.label(triangle)) {
+                    // A copy goes in and comes back: what is lent to a call does not stay in
+                    // registers.
+                    self.query = look_closely(self.query, *shear, *leaf, triangle);
+                    if self.query.is_done() {
+                        return true;
+                    }
                 }
             }
         }
@@ -365,23 +403,13 @@ impl<Q: Query> Walk<Q> {
     }
 }
 
-/// Tries triangles that are seen close to edge-on.
+/// Tries a triangle that is seen close to edge-on or met close to the origin.
 #[cold]
 #[inline(never)]
-fn look_closely<Q: Query>(
-    mut query: Q,
-    shear: Shear,
-    leaf: Leaf<'_>,
-    first: usize,
-    mut lanes: u32,
-) -> Q {
-    while lanes != 0 && !query.is_done() {
-        let triangle = first + lanes.trailing_zeros() as usize;
-        lanes &= lanes - 1;
-        let corner = |corner: usize, axis: usize| leaf.coordinate(corner, axis, triangle);
-        if let Some(meeting) = shear.meet_exactly(corner) {
-            query.note(leaf.label(triangle), || meeting);
-        }
+fn look_closely<Q: Query>(mut query: Q, shear: Shear, leaf: Leaf<'_>, triangle: usize) -> Q {
+    let corner = |corner: usize, axis: usize| leaf.coordinate(corner, axis, triangle);
+    if let Some(meeting) = shear.meet_exactly(corner) {
+        query.note(leaf.label(triangle), &shear, || meeting);
     }
     query
 }

@@ -5,6 +5,7 @@
 //! Nodes lie apart from leaves: they are few, and rays go through the same ones over and over, so
 //! they should share cache lines and pages with each other only.
 
+use super::bounds::Bounds;
 use super::memory::{LINE, Line, with_capacity, words_mut};
 use std::marker::PhantomData;
 
@@ -146,8 +147,8 @@ pub(super) struct WideTree<const W: usize> {
     leaves: Vec<Line>,
     /// `None` over no triangles.
     pub(super) root: Option<Reference>,
-    /// Largest coordinate without its sign, metres.
-    pub(super) reach: f32,
+    /// The box around everything.
+    pub(super) bounds: Bounds,
 }
 
 impl<const W: usize> WideTree<W> {
@@ -233,9 +234,9 @@ impl<const W: usize> Builder<W> {
     }
 
     /// The tree, in no more memory than it needs.
-    pub(super) fn finish(self, root: Option<Reference>, reach: f32) -> WideTree<W> {
+    pub(super) fn finish(self, root: Option<Reference>, bounds: Bounds) -> WideTree<W> {
         let Self { nodes, leaves } = self;
-        WideTree { nodes: packed(&nodes, 0), leaves: packed(&leaves, Self::BEHIND), root, reach }
+        WideTree { nodes: packed(&nodes, 0), leaves: packed(&leaves, Self::BEHIND), root, bounds }
     }
 }
 

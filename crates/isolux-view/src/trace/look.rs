@@ -3,7 +3,7 @@
 use super::lobes::{self, Arrival, Lobe};
 use super::settings::{SurfacePoint, TraceSettings};
 use crate::image::{Reading, Seen, Sight, Surface};
-use isolux::geometry::{Direction, Hit, Normal, Ray, offset_origin};
+use isolux::geometry::{Direction, Hit, Normal, Ray};
 use isolux::map::Illuminance;
 use isolux::sampling::Key;
 use isolux::scene::{Body, Dielectric, Finish, Scene};
@@ -192,7 +192,8 @@ impl Looker<'_> {
     fn onwards(&self, hit: &Hit, direction: Direction) -> Ray {
         let normal = self.scene.geometric_normal(hit.triangle);
         let side = direction.cos(normal) >= 0.0;
-        let origin = offset_origin(self.scene.hit_point(hit), turned(normal, !side));
+        let point = self.scene.hit_point(hit);
+        let origin = self.scene.bvh().offset_origin(point, turned(normal, !side));
         Ray::new(origin, direction).skipping(hit.triangle)
     }
 

@@ -5,7 +5,7 @@ use super::path::Dice;
 use crate::sampling::CosineHemisphere;
 use crate::scene::{AreaLuminaire, LuminaireKind, Scene};
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Point, Ray, offset_origin};
+use isolux_geometry::{Direction, Point, Ray};
 use std::f64::consts::PI;
 
 /// All luminaires of a scene as emitters of particles.
@@ -116,7 +116,8 @@ impl<'s> Emission<'s> {
         let normal = if area.back { -front } else { front };
         let direction = normal.to_direction().from_local(CosineHemisphere::sample(square));
         Some(Emitted {
-            ray: Ray::new(offset_origin(point, normal), direction).skipping(triangle),
+            ray: Ray::new(self.scene.bvh().offset_origin(point, normal), direction)
+                .skipping(triangle),
             direction,
             luminaire: LuminaireId::Area(index as u32),
             colour: area.luminance_cd_m2.chromaticity(),

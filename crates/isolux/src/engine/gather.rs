@@ -13,7 +13,7 @@ use crate::elements::{Elements, Receiver};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
 use crate::units::Rgb;
-use isolux_geometry::{Normal, Point, Ray, offset_origin};
+use isolux_geometry::{Normal, Point, Ray};
 use rayon::prelude::*;
 
 /// Receivers of one task: enough work to be worth handing out, few enough to share evenly.
@@ -38,7 +38,8 @@ impl Gatherer {
         let Receiver { point, normal, triangle, back } = *receiver;
         let flat = SurfacePoint::new(scene, triangle, back, 0.0, 0.0);
         let surface = SurfacePoint { point, shading: normal, geometric: normal, ..flat };
-        Self { origin: offset_origin(point, flat.geometric), normal, surface, rays }
+        let origin = SurfacePoint { point, ..flat }.start();
+        Self { origin, normal, surface, rays }
     }
 
     /// The same with another number of rays.
@@ -48,22 +49,12 @@ impl Gatherer {
 
     /// A place inside a triangle.
     pub(super) fn on_surface(surface: SurfacePoint, rays: u32) -> Self {
-        let origin = offset_origin(surface.point, surface.geometric);
-        Self { origin, normal: surface.shading, surface, rays }
+        Self { origin: surface.start(), normal: surface.shading, surface, rays }
     }
 
     /// A place in space that faces a way.
     pub(super) fn in_space(point: Point, normal: Normal, rays: u32) -> Self {
-        let surface = SurfacePoint {
-            triangle: u32::MAX,
-            back: false,
-            u: 0.0,
-            v: 0.0,
-            point,
-            geometric: normal,
-            shading: normal,
-        };
-        Self { origin: point, normal, surface, rays }
+        Self { origin: point, normal, surface: SurfacePoint::in_space(point, normal), rays }
     }
 }
 

@@ -15,7 +15,7 @@ use crate::elements::Elements;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
 use crate::units::Rgb;
-use isolux_geometry::{Ray, offset_origin};
+use isolux_geometry::Ray;
 use rayon::prelude::*;
 
 /// Rays that look for light at most: a place that sees it in less than a tenth of its hemisphere
@@ -126,7 +126,7 @@ impl Sight<'_> {
 
     /// Whether nothing stands between a place and a vertex of its element.
     fn sees(&self, place: &SurfacePoint, vertex: usize) -> bool {
-        let from = offset_origin(place.point, place.geometric);
+        let from = place.start();
         let to = self.gatherers[vertex].origin;
         let to = to + (to - from) * BEYOND;
         !self.scene.bvh().any_hit(&Ray::between(from, to).skipping(place.triangle))

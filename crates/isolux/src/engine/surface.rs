@@ -1,7 +1,7 @@
 //! A place on one side of a surface.
 
 use crate::scene::Scene;
-use isolux_geometry::{Direction, Hit, Normal, Point, Ray, offset_origin};
+use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
 
 /// A place on one side of a triangle; both normals point to that side.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,8 @@ pub(super) struct SurfacePoint {
     pub(super) point: Point,
     pub(super) geometric: Normal,
     pub(super) shading: Normal,
+    /// How far from it rays start.
+    pub(super) away_m: f64,
 }
 
 impl SurfacePoint {
@@ -27,25 +29,40 @@ impl SurfacePoint {
         let corners = scene.triangle(triangle);
         let geometric = scene.geometric_normal(triangle);
         let shading = scene.shading_normal(triangle, u, v);
+        let point = corners.point(u, v);
         Self {
             triangle,
             back,
             u,
             v,
-            point: corners.point(u, v),
+            point,
             geometric: if back { -geometric } else { geometric },
             shading: if back { -shading } else { shading },
+            away_m: scene.bvh().offset_m(point),
         }
+    }
+
+    /// A place in space that faces a way.
+    pub(super) fn in_space(point: Point, normal: Normal) -> Self {
+        // As coordinates of that size are rounded.
+        let away_m = 8.0 * f64::from(f32::EPSILON) * (point - Point::ORIGIN).length();
+        let (geometric, shading) = (normal, normal);
+        Self { triangle: u32::MAX, back: false, u: 0.0, v: 0.0, point, geometric, shading, away_m }
+    }
+
+    /// Where rays start that leave this side.
+    pub(super) fn start(&self) -> Point {
+        self.point + self.geometric * self.away_m
     }
 
     /// The ray that leaves this side.
     pub(super) fn leave(&self, direction: Direction) -> Ray {
-        Ray::new(offset_origin(self.point, self.geometric), direction).skipping(self.triangle)
+        Ray::new(self.start(), direction).skipping(self.triangle)
     }
 
     /// The ray that goes through to the other side.
     pub(super) fn cross(&self, direction: Direction) -> Ray {
-        Ray::new(offset_origin(self.point, -self.geometric), direction).skipping(self.triangle)
+        self.other_side().leave(direction)
     }
 
     /// The same place seen from the other side.

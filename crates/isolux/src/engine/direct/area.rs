@@ -250,15 +250,7 @@ mod tests {
     /// Triangles in all places about a receiver, as pieces above its horizon.
     fn random_pieces(count: u64) -> Vec<Piece> {
         let floor = Point::new(0.0, 0.0, 0.0);
-        let at = SurfacePoint {
-            triangle: 0,
-            back: false,
-            u: 0.0,
-            v: 0.0,
-            point: floor,
-            geometric: Normal::Z,
-            shading: Normal::Z,
-        };
+        let at = SurfacePoint::in_space(floor, Normal::Z);
         let triangle = |k: u64| {
             let key = Key::new(5).with(k);
             // Three shapes in turn: any, flat, thin.

@@ -6,7 +6,7 @@ use crate::engine::scatter::pane;
 use crate::engine::surface::SurfacePoint;
 use crate::scene::Body;
 use crate::units::Rgb;
-use isolux_geometry::{Ray, Vector, offset_origin};
+use isolux_geometry::{Ray, Vector};
 
 /// Thin panes one behind the other that a shadow ray passes.
 const MAX_PANES: usize = 64;
@@ -135,9 +135,7 @@ fn last_segment(from: &SurfacePoint, target: Target, emitter: Option<u32>) -> Ra
 
 fn segment(from: &SurfacePoint, target: Target) -> Ray {
     match target {
-        Target::Point(p) => {
-            Ray::between(offset_origin(from.point, from.geometric), p).skipping(from.triangle)
-        }
+        Target::Point(p) => Ray::between(from.start(), p).skipping(from.triangle),
         Target::Infinity(direction) => from.leave(direction),
     }
 }

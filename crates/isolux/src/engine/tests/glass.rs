@@ -24,6 +24,7 @@ fn place(back: bool) -> SurfacePoint {
         point: Point::ORIGIN,
         geometric: up,
         shading: up,
+        away_m: 1e-6,
     }
 }
 

@@ -20,6 +20,7 @@ fn place() -> SurfacePoint {
         point: Point::ORIGIN,
         geometric: Normal::Z,
         shading: Normal::Z,
+        away_m: 1e-6,
     }
 }
 
