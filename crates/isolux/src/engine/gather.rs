@@ -7,6 +7,7 @@
 
 use super::deadline::Deadline;
 use super::direct::Lighting;
+use super::fit::Fit;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
 use crate::elements::{Elements, Receiver};
@@ -269,11 +270,11 @@ impl Operator {
     /// application for all of them. Starts from `guess`. Ends when a sweep changes nothing beyond
     /// `tolerance`, relative to the root mean square.
     pub(super) fn solve(&self, guess: &[Rgb], given: &[Rgb], tolerance: f64) -> Vec<Rgb> {
-        self.solve_or_give_up(guess, given, tolerance).0
+        self.solve_or_give_up(guess, given, None, tolerance).0
     }
 
     /// The same, and the root mean square of what the last sweep changed if the sweeps did not
-    /// settle, else zero.
+    /// settle, else zero. With a fit, the light that is applied to is that of best fit.
     ///
     /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of
     /// the operator: the light between walls fades as a whole. Every third sweep goes on at once to
@@ -282,10 +283,14 @@ impl Operator {
         &self,
         guess: &[Rgb],
         given: &[Rgb],
+        fit: Option<&Fit>,
         tolerance: f64,
     ) -> (Vec<Rgb>, f64) {
-        let with_given =
-            |light: &[Rgb]| -> Vec<Rgb> { light.iter().zip(given).map(|(&e, &g)| e + g).collect() };
+        let with_given = |light: &[Rgb]| -> Vec<Rgb> {
+            let fitted = fit.map(|fit| fit.apply(light));
+            let light = fitted.as_deref().unwrap_or(light);
+            light.iter().zip(given).map(|(&e, &g)| e + g).collect()
+        };
         let mut light = guess.to_vec();
         let mut unsettled = 0.0;
         let mut before: Option<Vec<Rgb>> = None;

@@ -98,7 +98,9 @@ impl<'p, 's> Hybrid<'p, 's> {
         };
         let operator =
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
-        let (gathered, unsettled_lx) = operator.solve_or_give_up(&plan.guess, &caustic, TOLERANCE);
+        let (gathered, unsettled_lx) =
+            operator.solve_or_give_up(&plan.guess, &caustic, Some(&plan.fit), TOLERANCE);
+        let gathered = plan.fit.apply(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
         // Check points evaluate what the map reads, so that they see what reading gets wrong.
         let checking = Gathering { direct: DirectAtEnds::Evaluated, ..gathering };

@@ -9,6 +9,7 @@ mod detail;
 mod direct;
 mod emission;
 mod filter;
+mod fit;
 mod forward;
 mod gather;
 mod hidden;

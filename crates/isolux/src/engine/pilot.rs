@@ -6,6 +6,7 @@
 
 use super::detail::{LeafError, Refinement, bisect_twice, leaf_errors, refine_worst};
 use super::direct::Lighting;
+use super::fit::Fit;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 use super::path::Dice;
@@ -70,6 +71,8 @@ pub(super) struct Plan<'s> {
     pub(super) subdivision: Subdivision,
     /// Root mean square of the photometric illuminance over all known surfaces, lx.
     pub(super) rms_lx: f64,
+    /// From indirect light at the vertices to the function that fits best.
+    pub(super) fit: Fit,
     pub(super) rays: u64,
 }
 
@@ -373,12 +376,13 @@ impl<'s> Pilot<'s> {
             gatherers,
             indirect_vertices,
             level,
-            known,
             direct: self.direct,
             guess: self.indirect,
             indirect_errors: look.errors,
-            subdivision: coarse,
             rms_lx: look.rms_lx,
+            fit: Fit::new(&coarse.elements(), indirect_vertices, &known),
+            known,
+            subdivision: coarse,
             rays: self.traced,
         }
     }
