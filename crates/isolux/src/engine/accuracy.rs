@@ -30,7 +30,8 @@ pub(super) fn accuracy(
     if given_up > 1.0 {
         return None;
     }
-    let statistical = (variance / squared).sqrt();
+    let statistical =
+        interpolation.noise_lx.map_or((variance / squared).sqrt(), |noise_lx| noise_lx / rms_lx);
     let discretization = interpolation.indirect_lx / rms_lx;
     let lookup_lx = interpolation.indirect_mean_lx;
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign,

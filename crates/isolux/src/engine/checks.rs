@@ -43,6 +43,14 @@ pub(super) struct InterpolationErrors {
     pub(super) indirect_mean_lx: f64,
     /// What paths given up would bring in the mean, before it is reflected.
     pub(super) given_up_lx: f64,
+    /// Of what is read over the surface, by the spread of increments; `None` where it was not looked
+    /// at.
+    pub(super) noise_lx: Option<f64>,
+}
+
+/// Places in the sums: of differences first, then of what the map reads.
+pub(super) const fn places(checks: usize) -> usize {
+    2 * checks
 }
 
 /// Draws the check points of a plan.
@@ -97,19 +105,23 @@ pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
 }
 
 /// Adds one increment: `fresh` is what was gathered at the points, `direct` what luminaires give
-/// there, the rest the increment's map.
+/// there, the rest the increment's map: direct light, caustics and indirect light.
 pub(super) fn add(
     sums: &mut Accumulator,
     checks: &[Check],
     fresh: &[Rgb],
     fresh_direct: &[Rgb],
-    indirect: &[Rgb],
-    direct: &[Rgb],
+    [direct, caustic, indirect]: [&[Rgb]; 3],
 ) {
     let read = |values: &[Rgb], at: &[(u32, f64); 3]| -> Rgb {
         at.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
     };
-    sums.add(checks.iter().enumerate().map(|(k, check)| {
+    let readings = checks.iter().zip(fresh_direct).map(|(check, &direct)| Sample {
+        direct,
+        caustic: read(caustic, &check.fine),
+        indirect: read(indirect, &check.coarse),
+    });
+    let differences = checks.iter().enumerate().map(|(k, check)| {
         let hidden = fresh[k].is_black() && fresh_direct[k].is_black();
         if hidden {
             return Sample::default();
@@ -119,17 +131,20 @@ pub(super) fn add(
             caustic: Rgb::BLACK,
             indirect: read(indirect, &check.coarse) - fresh[k],
         }
-    }));
+    });
+    sums.add(differences.chain(readings));
 }
 
 /// The errors seen so far.
 pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationErrors {
     let area: f64 = checks.iter().map(|c| c.area_m2).sum();
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    let mut noise = 0.0;
     for (k, check) in checks.iter().enumerate() {
         let estimate = sums.estimate(k);
         let indirect = estimate.mean.indirect.luminance();
         let share = check.area_m2 / area;
+        noise += share * sums.estimate(checks.len() + k).variance;
         let both = [
             (indirect, estimate.indirect_variance),
             (indirect + estimate.mean.direct.luminance(), estimate.variance),
@@ -148,5 +163,6 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         total_lx: root(1),
         indirect_mean_lx: mean[0],
         given_up_lx: 0.0,
+        noise_lx: (!checks.is_empty()).then(|| noise.sqrt()),
     }
 }

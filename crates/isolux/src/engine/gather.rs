@@ -136,6 +136,7 @@ impl Gathering<'_> {
                 return None;
             }
             let mut rows = Rows::default();
+            rows.entries.reserve(part.iter().map(|g| g.rays as usize).sum());
             for (k, gatherer) in part.iter().enumerate() {
                 self.row(gatherer, key_of(index * CHUNK + k), &mut rows);
             }
@@ -155,7 +156,7 @@ impl Gathering<'_> {
         for index in 0..gatherer.rays {
             let mut dice = Dice::new(sequence, index);
             let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
-            let ray = Ray::new(gatherer.origin, direction);
+            let ray = Ray::new(gatherer.origin, direction).skipping(gatherer.surface.triangle);
             let end =
                 follow(self.scene, ray, direction, &mut dice, |surface, finish, throughput| {
                     match self.end(surface, finish, throughput) {

@@ -7,7 +7,7 @@ use super::deadline::Deadline;
 use super::emission::Emission;
 use super::filter::filter;
 use super::forward::Forward;
-use super::hybrid::Hybrid;
+use super::hybrid::{self, Hybrid};
 use super::pilot::{FEWEST_RAYS, Plan};
 use super::predict;
 use super::request::{SolveError, SolveRequest};
@@ -60,7 +60,11 @@ impl<'p, 's> Work<'p, 's> {
         halvings: u32,
     ) -> Self {
         let reference = plan.rms_lx;
-        let most = gathering_rays(target, plan.indirect_vertices, request.max_memory_bytes);
+        let wanted = match request.method {
+            Method::Hybrid => hybrid::rays_for(plan, target, FEWEST_INCREMENTS, request.seed),
+            Method::Forward => FEWEST_RAYS,
+        };
+        let most = wanted.min(most_rays(plan.indirect_vertices, request.max_memory_bytes));
         let most = (most >> halvings).max(1);
         let rays = plan.rays_of_vertices(most);
         let points = match request.method {
@@ -68,7 +72,7 @@ impl<'p, 's> Work<'p, 's> {
             Method::Forward => Vec::new(),
         };
         let sums = Accumulator::new(plan.elements.vertices().len(), reference);
-        let check_sums = Accumulator::new(points.len(), reference);
+        let check_sums = Accumulator::new(checks::places(points.len()), reference);
         let checks = Checks { points, sums: check_sums };
         let engine = match request.method {
             Method::Hybrid => {
@@ -218,13 +222,9 @@ fn without_negative_light(value: &mut Illuminance) {
     }
 }
 
-/// Gathering rays of a receiver and increment: so many that sixteen increments leave noise of about
-/// a third of the accuracy in a plain room (where one ray spreads by a quarter of the light, and well
-/// distributed ones do better), as far as memory allows; no more than a run can soon be stopped after.
-fn gathering_rays(target: f64, vertices: usize, max_memory_bytes: u64) -> u32 {
-    let wanted = ((0.32 / target.max(1e-6)) as u64).clamp(16, 256).next_power_of_two();
-    // Half the memory may go to the operator, 40 bytes an entry, a fifth more for gloss.
-    let most = (max_memory_bytes / 2 / 48 / vertices.max(1) as u64).max(8);
-    let most = if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 };
-    wanted.min(most) as u32
+/// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,
+/// 40 bytes an entry, a fifth more for gloss.
+fn most_rays(vertices: usize, max_memory_bytes: u64) -> u32 {
+    let most = (max_memory_bytes / 2 / 48 / vertices.max(1) as u64).clamp(8, 1 << 20) as u32;
+    if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 }
 }
