@@ -83,9 +83,12 @@ fn detail(elements: &Elements, values: &[Option<f64>], vertex: u32, reach_m: f64
     Some((values[vertex as usize]? - 0.5 * (a? + b?)).abs())
 }
 
-/// Share of the squared error that one round of refinement removes by marking the worst elements
-/// (Dörfler 1996).
+/// Share of the squared error that one round of refinement removes at most by marking the worst
+/// elements (Dörfler 1996).
 const MARKED_SHARE: f64 = 0.75;
+
+/// What bisecting an element twice leaves of its squared error where light is smooth.
+const LEFT: f64 = 1.0 / 16.0;
 
 /// One in so many elements may be bisected in a round for its own error alone: corners are few, but
 /// along edges there is no end of elements.
@@ -97,6 +100,8 @@ pub(super) struct Refinement {
     /// Elements with larger errors come first, however small they are: corners of rooms take no
     /// share of the error of the scene, but are looked at.
     pub(super) most_error: f64,
+    /// How far the error of the scene is to fall.
+    pub(super) wanted: f64,
     /// Elements with edges below this are left alone, m.
     pub(super) least_edge_m: f64,
     pub(super) max_vertices: usize,
@@ -109,7 +114,9 @@ pub(super) fn refine_worst(
     errors: &[LeafError],
     how_far: Refinement,
 ) -> bool {
-    let Refinement { most_error, least_edge_m, max_vertices } = how_far;
+    let Refinement { most_error, wanted, least_edge_m, max_vertices } = how_far;
+    // No more than it takes, if all goes well.
+    let share = ((1.0 - wanted * wanted) / (1.0 - LEFT)).clamp(0.0, MARKED_SHARE);
     let mut worst: Vec<&LeafError> = errors
         .iter()
         .filter(|e| e.error > 0.0 && subdivision.longest_edge_m(e.node) > 2.0 * least_edge_m)
@@ -122,7 +129,7 @@ pub(super) fn refine_worst(
     let total: f64 = worst.iter().map(|e| e.squared()).sum();
     let (mut marked, mut any) = (0.0, false);
     for (rank, error) in worst.into_iter().enumerate() {
-        let enough = marked >= MARKED_SHARE * total && rank >= single;
+        let enough = marked >= share * total && rank >= single;
         if enough || subdivision.vertex_count() >= max_vertices {
             break;
         }

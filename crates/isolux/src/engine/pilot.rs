@@ -22,7 +22,7 @@ const FIRST_VERTICES: f64 = 700.0;
 /// Rounds of refinement at most.
 const MAX_ROUNDS: usize = 16;
 /// The part of the accuracy asked for that interpolating indirect light may take.
-const DISCRETIZATION_SHARE: f64 = 0.5;
+const DISCRETIZATION_SHARE: f64 = 0.6;
 /// What fitting the map to the light over elements leaves of the error of interpolation, which is
 /// what details tell: a parabola is 2.4 times as near.
 const FITTED: f64 = 0.5;
@@ -175,6 +175,7 @@ pub(super) fn pilot<'s>(
         before = (error, vertices);
         let how_far = Refinement {
             most_error: SINGLE_SHARE * request.target * look.rms_lx,
+            wanted: goal / error,
             least_edge_m: pilot.least_edge_m,
             max_vertices: most,
         };
@@ -345,6 +346,7 @@ impl<'s> Pilot<'s> {
         let most = (MOST_FOR_DIRECT_LIGHT * indirect_vertices).max(ALWAYS_FOR_DIRECT_LIGHT);
         let how_far = Refinement {
             most_error: f64::INFINITY,
+            wanted: 0.0,
             least_edge_m: self.least_edge_m,
             max_vertices: most.min(request.max_vertices),
         };

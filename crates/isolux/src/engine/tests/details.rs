@@ -45,7 +45,7 @@ fn true_rms(subdivision: &Subdivision, f: impl Fn(Point) -> f64) -> f64 {
 }
 
 fn until(least_edge_m: f64, max_vertices: usize) -> Refinement {
-    Refinement { most_error: f64::INFINITY, least_edge_m, max_vertices }
+    Refinement { most_error: f64::INFINITY, wanted: 0.0, least_edge_m, max_vertices }
 }
 
 #[test]
