@@ -19,10 +19,14 @@ use rayon::prelude::*;
 
 /// Vertices that the pilot starts with, unless the scene has more.
 const FIRST_VERTICES: f64 = 700.0;
+/// The same where nothing is fitted: particles, whose hat functions blur what they are deposited in.
+const FIRST_UNFITTED: f64 = 1500.0;
 /// Rounds of refinement at most.
 const MAX_ROUNDS: usize = 16;
 /// The part of the accuracy asked for that interpolating indirect light may take.
 const DISCRETIZATION_SHARE: f64 = 0.6;
+/// The same where nothing is fitted.
+const UNFITTED_SHARE: f64 = 0.5;
 /// What fitting the map to the light over elements leaves of the error of interpolation, which is
 /// what details tell: a parabola is 2.4 times as near.
 const FITTED: f64 = 0.5;
@@ -115,6 +119,8 @@ pub(super) struct PilotRequest {
     pub(super) target: f64,
     pub(super) mesh_target: f64,
     pub(super) seed: u64,
+    /// Whether the map will be fitted to the light over elements.
+    pub(super) is_fitted: bool,
     pub(super) max_vertices: usize,
 }
 
@@ -150,7 +156,9 @@ pub(super) fn pilot<'s>(
     go_on: &mut dyn FnMut(usize, u64) -> bool,
 ) -> Plan<'s> {
     let mut pilot = Pilot::new(scene, lighting, request);
-    let goal = DISCRETIZATION_SHARE * request.target;
+    let (share, left) =
+        if request.is_fitted { (DISCRETIZATION_SHARE, FITTED) } else { (UNFITTED_SHARE, 1.0) };
+    let goal = share * request.target;
     let mut look = pilot.look();
     let most = request.max_vertices.min(MOST_FOR_INDIRECT_LIGHT.max(look.vertices / 2 * 3));
     for _ in 0..ROUNDS_FOR_HIDDEN {
@@ -164,7 +172,7 @@ pub(super) fn pilot<'s>(
     }
     let mut before = (f64::INFINITY, look.vertices as f64);
     for _ in 0..MAX_ROUNDS {
-        let error = FITTED * relative_error(&look.errors, look.rms_lx);
+        let error = left * relative_error(&look.errors, look.rms_lx);
         // Where bisection no longer helps, what is left is noise: the check points will tell.
         let vertices = look.vertices as f64;
         let stalled = error > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
@@ -199,7 +207,8 @@ impl<'s> Pilot<'s> {
         let mut subdivision = Subdivision::new(scene);
         let area_m2: f64 = subdivision.leaves().map(|n| subdivision.triangle(n).area()).sum();
         // Half squares of hypotenuse h have area h^2 / 4, and there are two a vertex.
-        let edge_m = (2.0 * area_m2 / FIRST_VERTICES).sqrt();
+        let first = if request.is_fitted { FIRST_VERTICES } else { FIRST_UNFITTED };
+        let edge_m = (2.0 * area_m2 / first).sqrt();
         subdivision.bisect_to(edge_m, request.max_vertices);
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());

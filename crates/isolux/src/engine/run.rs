@@ -10,7 +10,7 @@ use super::predict;
 use super::request::{Progress, SolveError, SolveRequest, Stage, Watch};
 use super::state::{RunIdentity, RunState};
 use super::work::{FEWEST_INCREMENTS, Work};
-use crate::map::{Accuracy, IlluminationMap, Provenance};
+use crate::map::{Accuracy, IlluminationMap, Method, Provenance};
 use crate::scene::Scene;
 use std::time::{Duration, Instant};
 
@@ -159,6 +159,7 @@ impl<'s> Run<'s, '_> {
             target: self.mesh_for(),
             mesh_target: self.request.mesh_accuracy,
             seed: self.request.seed,
+            is_fitted: self.request.method == Method::Hybrid,
             max_vertices: (self.request.max_memory_bytes / BYTES_A_VERTEX) as usize,
         };
         let before = self.rays;

@@ -98,7 +98,13 @@ fn forward(scene: &Scene, request: &PilotRequest) -> (Vec<f64>, Vec<f64>) {
 #[test]
 fn particles_carry_the_flux_and_what_is_reflected() {
     // All walls reflect one half: as much again arrives as leaves the luminaire.
-    let request = PilotRequest { target: 1.0, mesh_target: 1.0, seed: 1, max_vertices: 150 };
+    let request = PilotRequest {
+        target: 1.0,
+        mesh_target: 1.0,
+        seed: 1,
+        is_fitted: false,
+        max_vertices: 150,
+    };
     let (lx, areas_m2) = forward(&room(), &request);
     let arriving_lm: f64 = lx.iter().zip(&areas_m2).map(|(e, a)| e * a).sum();
     let expected_lm = 4.0 * std::f64::consts::PI * 100.0 / (1.0 - 0.5);
@@ -112,7 +118,13 @@ fn particles_carry_the_flux_and_what_is_reflected() {
 #[test]
 
 fn particles_light_all_vertices() {
-    let request = PilotRequest { target: 0.2, mesh_target: 0.005, seed: 1, max_vertices: 3000 };
+    let request = PilotRequest {
+        target: 0.2,
+        mesh_target: 0.005,
+        seed: 1,
+        is_fitted: false,
+        max_vertices: 3000,
+    };
     let (lx, _) = forward(&room(), &request);
     let dark = lx.iter().filter(|&&e| e == 0.0).count();
     assert_eq!(dark, 0, "of {} vertices", lx.len());

@@ -15,7 +15,8 @@ pub(super) fn room() -> Scene {
 }
 
 pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Plan<'s> {
-    let request = PilotRequest { target: 1.0, mesh_target: 1.0, seed: 1, max_vertices: 150 };
+    let request =
+        PilotRequest { target: 1.0, mesh_target: 1.0, seed: 1, is_fitted: true, max_vertices: 150 };
     pilot(scene, lighting, &request, &mut |_, _| true)
 }
 
@@ -31,7 +32,7 @@ fn check_sums(
     common: impl Fn(&Check) -> f64,
     sigma: f64,
 ) -> Accumulator {
-    let mut sums = Accumulator::new(checks.len(), plan.rms_lx);
+    let mut sums = Accumulator::new(checks::places(checks.len()), plan.rms_lx);
     let vertices = plan.elements.vertices().len();
     let (coarse, fine) = (vec![Rgb::grey(5.0); plan.indirect_vertices], vec![Rgb::BLACK; vertices]);
     for increment in 0..16 {
@@ -42,7 +43,7 @@ fn check_sums(
             .map(|(k, c)| Rgb::grey(5.0 - common(c) + sigma * noise(key.with(k as u64))))
             .collect();
         let direct = vec![Rgb::BLACK; checks.len()];
-        checks::add(&mut sums, checks, &fresh, &direct, &coarse, &fine);
+        checks::add(&mut sums, checks, &fresh, &direct, [&fine, &fine, &coarse]);
     }
     sums
 }
@@ -109,6 +110,30 @@ fn sums(plan: &Plan, increments: u64, sigma: f64) -> Accumulator {
     sums
 }
 
+/// What maps of increments read scatters by less than their vertices: at the middle of an element by
+/// the root of a third.
+#[test]
+fn noise_is_that_of_readings_over_the_surface() {
+    let scene = room();
+    let lighting = Lighting::new(&scene);
+    let plan = small_plan(&scene, &lighting);
+    let checks = checks::draw(&plan, 0, Key::new(2));
+    let mut sums = Accumulator::new(checks::places(checks.len()), plan.rms_lx);
+    let black = vec![Rgb::BLACK; plan.elements.vertices().len().max(checks.len())];
+    for increment in 0..16 {
+        let key = Key::new(5).with(increment);
+        let coarse: Vec<Rgb> = (0..plan.indirect_vertices)
+            .map(|k| Rgb::grey(5.0 + noise(key.with(k as u64))))
+            .collect();
+        let fresh = &black[..checks.len()];
+        checks::add(&mut sums, &checks, fresh, fresh, [&black, &black, &coarse]);
+    }
+    let noise_lx = checks::errors(&sums, &checks).noise_lx.unwrap();
+    // Barycentric weights have a mean square of 1/6 each; 16 increments; some hundred vertices tell.
+    let expected = (3.0 / 6.0_f64).sqrt() / 4.0;
+    assert!((noise_lx / expected - 1.0).abs() < 0.2, "{noise_lx} {expected}");
+}
+
 #[test]
 fn accuracy_is_relative_and_its_parts_add_in_squares() {
     let scene = room();
@@ -119,6 +144,7 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
         total_lx: 4.0,
         indirect_mean_lx: -2.0,
         given_up_lx: 0.0,
+        noise_lx: None,
     };
     let found = accuracy(&plan, &sums(&plan, 25, 0.1), &errors).unwrap();
     // Some 150 vertices of 25 increments: the variance is known to sqrt(2 / 3600) = 2.4 %.

@@ -6,6 +6,7 @@ mod direct_light;
 mod emission;
 mod errors;
 mod estimates;
+mod fit;
 mod fixed_point;
 mod glass;
 mod gloss;
