@@ -37,7 +37,7 @@ fn check_unknown_under(box_of: Material) {
         let map = map(&scene, method);
         let under = map.elements.vertices().iter().zip(&map.values);
         let under: Vec<_> = under.filter(|(v, _)| is_under_box(v)).collect();
-        assert!(under.len() > 20, "the mesh is too coarse to tell");
+        assert!(under.len() >= 9, "the mesh is too coarse to tell: {}", under.len());
         let known = under.iter().filter(|(_, value)| value.is_some()).count();
         assert_eq!(known, 0, "{method:?}: of {}", under.len());
     }
