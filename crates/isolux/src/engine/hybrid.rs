@@ -42,9 +42,10 @@ const MOST_WANTED: f64 = 256.0;
 pub(super) fn rays_for(plan: &Plan, target: f64, increments: u64, seed: u64) -> u32 {
     let key = Key::new(seed).with(5);
     let every = (plan.indirect_vertices / TRIAL_RECEIVERS).max(1);
-    let of_plan = plan.gatherers[..plan.indirect_vertices].iter().zip(&plan.known);
-    let known = of_plan.filter(|(_, known)| **known).map(|(g, _)| g.with_rays(TRIAL_RAYS));
-    let rows: Vec<Gatherer> = known.step_by(every).collect();
+    let tried: Vec<usize> =
+        (0..plan.indirect_vertices).filter(|&k| plan.known[k]).step_by(every).collect();
+    let rows: Vec<Gatherer> =
+        tried.iter().map(|&k| plan.gatherers[k].with_rays(TRIAL_RAYS)).collect();
     let gathering = Gathering::of(plan, &plan.direct);
     let light = plan.fit.apply(&plan.guess);
     let mut sums = Accumulator::new(rows.len(), plan.rms_lx);
@@ -54,8 +55,13 @@ pub(super) fn rays_for(plan: &Plan, target: f64, increments: u64, seed: u64) -> 
         let gathered = operator.apply(&light).into_iter();
         sums.add(gathered.map(|indirect| Sample { indirect, ..Sample::default() }));
     }
-    let of_mean: f64 = (0..rows.len()).map(|k| sums.estimate(k).variance).sum();
-    let variance = TRIAL_INCREMENTS as f64 * of_mean / rows.len().max(1) as f64;
+    let (mut area_m2, mut of_means) = (0.0, 0.0);
+    for (row, &vertex) in tried.iter().enumerate() {
+        let own_m2 = plan.elements.vertices()[vertex].area_m2;
+        area_m2 += own_m2;
+        of_means += own_m2 * sums.estimate(row).variance;
+    }
+    let variance = if area_m2 > 0.0 { TRIAL_INCREMENTS as f64 * of_means / area_m2 } else { 0.0 };
     let noise_lx = (variance / increments as f64).sqrt();
     let allowed_lx = NOISE_SHARE * target * plan.rms_lx;
     if !(noise_lx > 0.0 && allowed_lx > 0.0) {
