@@ -4,7 +4,7 @@
 //! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
 //! noise is smooth over surfaces and does not pass for detail.
 
-use super::detail::{LeafError, Refinement, bisect_twice, leaf_errors, refine_worst};
+use super::detail::{LeafError, Refinement, bisect_twice, leaf_errors, left_by_fit, refine_worst};
 use super::direct::Lighting;
 use super::fit::Fit;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
@@ -19,17 +19,15 @@ use rayon::prelude::*;
 
 /// Vertices that the pilot starts with, unless the scene has more.
 const FIRST_VERTICES: f64 = 700.0;
-/// The same where nothing is fitted: particles, whose hat functions blur what they are deposited in.
+/// And for each that the scene has: among many things light varies on walls, too, in ways that a
+/// coarse look does not find.
+const MORE_A_VERTEX: f64 = 0.05;
+/// The first again where nothing is fitted: particles, whose hat functions blur what they are deposited in.
 const FIRST_UNFITTED: f64 = 1500.0;
 /// Rounds of refinement at most.
 const MAX_ROUNDS: usize = 16;
 /// The part of the accuracy asked for that interpolating indirect light may take.
-const DISCRETIZATION_SHARE: f64 = 0.6;
-/// The same where nothing is fitted.
-const UNFITTED_SHARE: f64 = 0.5;
-/// What fitting the map to the light over elements leaves of the error of interpolation, which is
-/// what details tell: a parabola is 2.4 times as near.
-const FITTED: f64 = 0.5;
+const DISCRETIZATION_SHARE: f64 = 0.5;
 /// The error of a single element that is refined even where it is small, in accuracies asked for.
 const SINGLE_SHARE: f64 = 1.0;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
@@ -145,6 +143,8 @@ struct Look {
     elements: Elements,
     vertices: usize,
     errors: Vec<LeafError>,
+    /// Share of them that a fit leaves.
+    left_by_fit: f64,
     rms_lx: f64,
 }
 
@@ -156,9 +156,7 @@ pub(super) fn pilot<'s>(
     go_on: &mut dyn FnMut(usize, u64) -> bool,
 ) -> Plan<'s> {
     let mut pilot = Pilot::new(scene, lighting, request);
-    let (share, left) =
-        if request.is_fitted { (DISCRETIZATION_SHARE, FITTED) } else { (UNFITTED_SHARE, 1.0) };
-    let goal = share * request.target;
+    let goal = DISCRETIZATION_SHARE * request.target;
     let mut look = pilot.look();
     let most = request.max_vertices.min(MOST_FOR_INDIRECT_LIGHT.max(look.vertices / 2 * 3));
     for _ in 0..ROUNDS_FOR_HIDDEN {
@@ -172,6 +170,7 @@ pub(super) fn pilot<'s>(
     }
     let mut before = (f64::INFINITY, look.vertices as f64);
     for _ in 0..MAX_ROUNDS {
+        let left = if request.is_fitted { look.left_by_fit } else { 1.0 };
         let error = left * relative_error(&look.errors, look.rms_lx);
         // Where bisection no longer helps, what is left is noise: the check points will tell.
         let vertices = look.vertices as f64;
@@ -208,6 +207,7 @@ impl<'s> Pilot<'s> {
         let area_m2: f64 = subdivision.leaves().map(|n| subdivision.triangle(n).area()).sum();
         // Half squares of hypotenuse h have area h^2 / 4, and there are two a vertex.
         let first = if request.is_fitted { FIRST_VERTICES } else { FIRST_UNFITTED };
+        let first = first + MORE_A_VERTEX * subdivision.vertex_count() as f64;
         let edge_m = (2.0 * area_m2 / first).sqrt();
         subdivision.bisect_to(edge_m, request.max_vertices);
         let bounds = scene.bvh().mesh().bounds();
@@ -261,7 +261,8 @@ impl<'s> Pilot<'s> {
             .collect();
         let errors = leaf_errors(&self.subdivision, &elements, &luminances);
         let rms_lx = rms(&elements, &self.known, lx);
-        Look { vertices: gatherers.len(), elements, errors, rms_lx }
+        let left_by_fit = left_by_fit(&self.subdivision, &elements, &luminances, &errors);
+        Look { vertices: gatherers.len(), elements, errors, left_by_fit, rms_lx }
     }
 
     fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
