@@ -135,7 +135,7 @@ const LEFT: f64 = 1.0 / 16.0;
 
 /// One in so many elements may be bisected in a round for its own error alone: corners are few, but
 /// along edges there is no end of elements.
-const SINGLE_OF_ALL: usize = 64;
+const SINGLE_OF_ALL: usize = 16;
 
 /// How far refinement goes.
 #[derive(Clone, Copy, Debug)]

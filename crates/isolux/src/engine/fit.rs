@@ -7,7 +7,8 @@
 //! near. It is found from second differences: over an element with vertices `m`, `n` and edges `e` a
 //! quadratic function of Hessian `H` exceeds its interpolation by `-1/2 sum l_m l_n (e_mn H e_mn)`, l
 //! the barycentric coordinates, and by `-1/24 sum e_mn H e_mn` in the mean. The three products are
-//! those that also give the values at the far vertices of the three neighbours. A vertex is moved by
+//! those that also give the values at the far vertices of the three neighbours. Vertices on borders and
+//! creases keep their values: light is steepest there, and they are looked at. A vertex is moved by
 //! the mean over its elements (the projection onto piecewise linear functions with a lumped mass
 //! matrix: Zienkiewicz, Taylor, "The Finite Element Method", on projection and mass lumping).
 
@@ -60,11 +61,13 @@ impl Fit {
             }
         }
         let mut fit = Self::default();
-        for (area_m2, forms) in sums {
+        let on_border = borders(&all, &neighbours, vertices);
+        for (vertex, (area_m2, forms)) in sums.into_iter().enumerate() {
             let mut form: Form =
                 forms.into_iter().map(|(v, weight)| (v, weight / area_m2)).collect();
             form.sort_unstable_by_key(|&(v, _)| v);
-            if form.iter().map(|(_, weight)| weight.abs()).sum::<f64>() <= MOST_WEIGHT {
+            let size: f64 = form.iter().map(|(_, weight)| weight.abs()).sum();
+            if size <= MOST_WEIGHT && !on_border[vertex] {
                 fit.entries.extend(form);
             }
             fit.ends.push(fit.entries.len());
@@ -100,6 +103,18 @@ fn neighbours(all: &[Element]) -> Vec<[Option<usize>; 3]> {
         _ => None,
     };
     (0..all.len()).map(|index| [0, 1, 2].map(|k| beside(index, k))).collect()
+}
+
+/// Which vertices lie on borders and creases.
+fn borders(all: &[Element], beside: &[[Option<usize>; 3]], vertices: usize) -> Vec<bool> {
+    let mut found = vec![false; vertices];
+    for (element, beside) in all.iter().zip(beside) {
+        for k in (0..3).filter(|&k| beside[k].is_none()) {
+            found[element.vertices[(k + 1) % 3] as usize] = true;
+            found[element.vertices[(k + 2) % 3] as usize] = true;
+        }
+    }
+    found
 }
 
 /// The Hessian in a basis of the plane of an element, its components xx, xy and yy as linear

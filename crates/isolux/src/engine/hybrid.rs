@@ -26,15 +26,19 @@ const TRIAL_INCREMENTS: u64 = 4;
 const TRIAL_RAYS: u32 = 16;
 
 /// The part of the accuracy asked for that noise may take.
-const NOISE_SHARE: f64 = 0.7;
+const NOISE_SHARE: f64 = 0.6;
 
 /// Nets of n rays err like this power of 1/n: measured between 0.8 and 1.1 on CUBE and SPHERE from 8
 /// to 128 rays (independent rays err like 0.5).
 const NET_ORDER: f64 = 0.85;
 
-/// Rays of a receiver and increment, whatever is asked for: fewer are no net, and a run can soon be
-/// stopped after that many.
+/// Rays of a receiver and increment, whatever is asked for: with fewer, single receivers at edges err
+/// by more than the figure of the scene lets expect, which counts where that is to be small.
 const FEWEST_WANTED: f64 = 8.0;
+const FEWEST_WHERE_FINE: f64 = 16.0;
+const FINE: f64 = 0.02;
+
+/// And at most: a run can soon be stopped after that many.
 const MOST_WANTED: f64 = 256.0;
 
 /// Gathering rays of a receiver with which so many increments leave the noise that is due to it: a
@@ -68,7 +72,8 @@ pub(super) fn rays_for(plan: &Plan, target: f64, increments: u64, seed: u64) -> 
         return FEWEST_WANTED as u32;
     }
     let wanted = f64::from(TRIAL_RAYS) * libm::pow(noise_lx / allowed_lx, 1.0 / NET_ORDER);
-    libm::exp2(libm::round(libm::log2(wanted.clamp(FEWEST_WANTED, MOST_WANTED)))) as u32
+    let fewest = if target < FINE { FEWEST_WHERE_FINE } else { FEWEST_WANTED };
+    libm::exp2(libm::round(libm::log2(wanted.clamp(fewest, MOST_WANTED)))) as u32
 }
 
 impl<'a> Gathering<'a> {

@@ -11,7 +11,7 @@ use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 use super::path::Dice;
 use super::surface::SurfacePoint;
-use crate::elements::{Elements, Subdivision, Vertex};
+use crate::elements::{Elements, Subdivision};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -30,6 +30,8 @@ const MAX_ROUNDS: usize = 16;
 const DISCRETIZATION_SHARE: f64 = 0.5;
 /// The error of a single element that is refined even where it is small, in accuracies asked for.
 const SINGLE_SHARE: f64 = 1.0;
+/// Vertices added for such elements alone, where the scene as a whole is fine enough.
+const MOST_FOR_SINGLES: usize = 3000;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
@@ -83,10 +85,9 @@ pub(super) struct Plan<'s> {
 
 impl Plan<'_> {
     /// Gathering rays of the vertices that indirect light lives on; none where they are hidden.
-    pub(super) fn rays_of_vertices(&self, most: u32) -> Vec<u32> {
-        let rays = shared_rays(self.subdivision.elements().vertices(), most);
-        let hidden = |&known: &bool| if known { 1 } else { 0 };
-        rays.into_iter().zip(self.known.iter().map(hidden)).map(|(r, k)| r * k).collect()
+    pub(super) fn rays_of_vertices(&self, rays: u32) -> Vec<u32> {
+        let known = &self.known[..self.indirect_vertices];
+        known.iter().map(|&known| if known { rays } else { 0 }).collect()
     }
 
     /// Area of all elements, m2.
@@ -168,21 +169,31 @@ pub(super) fn pilot<'s>(
             break;
         }
     }
+    let most_for_singles = look.vertices + MOST_FOR_SINGLES;
     let mut before = (f64::INFINITY, look.vertices as f64);
     for _ in 0..MAX_ROUNDS {
         let left = if request.is_fitted { look.left_by_fit } else { 1.0 };
         let error = left * relative_error(&look.errors, look.rms_lx);
         // Where bisection no longer helps, what is left is noise: the check points will tell.
         let vertices = look.vertices as f64;
-        let stalled = error > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
-        let done = error <= goal || stalled;
-        if done || !go_on(pilot.subdivision.vertex_count(), pilot.traced) {
+        let is_coarse = error > goal;
+        let stalled = is_coarse && error > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
+        let most_error = SINGLE_SHARE * request.target * look.rms_lx;
+        let is_single = |e: &LeafError| {
+            e.error > most_error
+                && pilot.subdivision.longest_edge_m(e.node) > 2.0 * pilot.least_edge_m
+        };
+        let singles = look.vertices < most_for_singles && look.errors.iter().any(is_single);
+        if stalled
+            || !(is_coarse || singles)
+            || !go_on(pilot.subdivision.vertex_count(), pilot.traced)
+        {
             break;
         }
         before = (error, vertices);
         let how_far = Refinement {
-            most_error: SINGLE_SHARE * request.target * look.rms_lx,
-            wanted: goal / error,
+            most_error,
+            wanted: if is_coarse { goal / error } else { 1.0 },
             least_edge_m: pilot.least_edge_m,
             max_vertices: most,
         };
@@ -231,11 +242,9 @@ impl<'s> Pilot<'s> {
         self.lighting.source_count() > MOST_SOURCES_EVALUATED
     }
 
-    fn gatherers(&self, elements: &Elements) -> Vec<Gatherer> {
-        let rays = shared_rays(elements.vertices(), self.rays);
+    fn gatherers(&self) -> Vec<Gatherer> {
         let receivers = self.subdivision.receivers(PULL_IN);
-        let both = receivers.iter().zip(rays);
-        both.map(|(r, rays)| Gatherer::at_vertex(self.scene, r, rays)).collect()
+        receivers.iter().map(|r| Gatherer::at_vertex(self.scene, r, self.rays)).collect()
     }
 
     /// Direct light at the vertices that have none yet.
@@ -252,7 +261,7 @@ impl<'s> Pilot<'s> {
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
     fn look(&mut self) -> Look {
         let elements = self.subdivision.elements();
-        let gatherers = self.gatherers(&elements);
+        let gatherers = self.gatherers();
         self.complete_direct(&gatherers);
         self.complete_indirect(&elements, &gatherers);
         let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
@@ -313,7 +322,7 @@ impl<'s> Pilot<'s> {
     /// Bisects elements with hidden vertices where light comes to places that see none of the
     /// others; returns whether there are any.
     fn open_up(&mut self, elements: &Elements, max_vertices: usize) -> bool {
-        let gatherers = self.gatherers(elements);
+        let gatherers = self.gatherers();
         let sight = self.sight(elements, &gatherers);
         let is_cut_off = |&node: &u32| {
             let sequence = Sequence::new(self.key.with(4).with(u64::from(node)));
@@ -373,12 +382,12 @@ impl<'s> Pilot<'s> {
                 break;
             }
             elements = self.subdivision.elements();
-            let gatherers = self.gatherers(&elements);
+            let gatherers = self.gatherers();
             self.complete_direct(&gatherers);
             self.extend_known(&elements, &gatherers);
         }
         // Once more for all: refinement has moved the receivers on borders.
-        let gatherers = self.gatherers(&elements);
+        let gatherers = self.gatherers();
         self.direct.clear();
         self.complete_direct(&gatherers);
         let mut known = std::mem::take(&mut self.known);
@@ -420,20 +429,6 @@ pub(super) fn rms(elements: &Elements, known: &[bool], value: impl Fn(usize) -> 
         sum += vertex.area_m2 * value(k) * value(k);
     }
     if area > 0.0 { (sum / area).sqrt() } else { 0.0 }
-}
-
-/// Rays of every vertex, if the most that one gets is `most`: in proportion to the root of the area
-/// it stands for, which makes the error of the scene least for the rays traced. Vertices of the
-/// coarsest mesh get all, no vertex less than a small net.
-fn shared_rays(vertices: &[Vertex], most: u32) -> Vec<u32> {
-    let fewest = (most / 2).max(FEWEST_RAYS.min(most));
-    let area_m2: f64 = vertices.iter().map(|v| v.area_m2).sum();
-    let one = |vertex: &Vertex| {
-        let share = (vertex.area_m2 * FIRST_VERTICES / area_m2).sqrt();
-        let wanted = (share * f64::from(most)).min(f64::from(most)) as u32;
-        wanted.next_power_of_two().clamp(fewest, most)
-    };
-    vertices.iter().map(one).collect()
 }
 
 /// Rays of a receiver in the pilot: more for finer accuracies, so that their noise stays below the

@@ -54,14 +54,14 @@ fn planes_are_left_alone() {
     assert!(rms < 1e-12, "{rms}");
 }
 
-/// A concave function: its interpolation is too small everywhere, its fit has next to no mean error,
-/// and a scatter less than half.
+/// A concave function: its interpolation is too small everywhere. A fit has no mean error and 0.42 of
+/// the scatter but at the borders of the floor, which keep their values: a fifth of its elements.
 #[test]
 fn what_is_concave_is_not_too_dark() {
     let [[mean, rms], [fitted_mean, fitted_rms]] = fitted(|p| 9.0 - p.x * p.x - 0.7 * p.y * p.y);
     assert!(mean < -0.5 * rms);
-    assert!(fitted_mean.abs() < 0.1 * mean.abs(), "{fitted_mean} of {mean}");
-    assert!(fitted_rms < 0.55 * rms, "{fitted_rms} of {rms}");
+    assert!(fitted_mean.abs() < 0.2 * mean.abs(), "{fitted_mean} of {mean}");
+    assert!(fitted_rms < 0.65 * rms, "{fitted_rms} of {rms}");
 }
 
 /// Nothing is known of hidden vertices: their elements and those beside them tell nothing.
