@@ -26,7 +26,7 @@ const TRIAL_INCREMENTS: u64 = 4;
 const TRIAL_RAYS: u32 = 16;
 
 /// The part of the accuracy asked for that noise may take.
-const NOISE_SHARE: f64 = 0.6;
+const NOISE_SHARE: f64 = 0.5;
 
 /// Nets of n rays err like this power of 1/n: measured between 0.8 and 1.1 on CUBE and SPHERE from 8
 /// to 128 rays (independent rays err like 0.5).
