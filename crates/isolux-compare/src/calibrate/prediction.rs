@@ -3,6 +3,7 @@
 use super::error::CalibrateError;
 use super::scene_figure::spread;
 use crate::statistics::binomial_interval;
+use crate::validate::ValidateError;
 use isolux::engine::{Prediction, SolveRequest, Watch, solve};
 use isolux::map::Method;
 use isolux::scene::Scene;
@@ -87,7 +88,7 @@ pub fn predict_scene(
             said.extend(progress.prediction.map(|p| (progress.elapsed_s, p)));
             Watch::Continue
         })
-        .map_err(|error| CalibrateError::Solve { case: "prediction", error })?;
+        .map_err(|error| ValidateError::Solve { case: "prediction", error })?;
         let provenance = &solution.map.provenance;
         if provenance.complete {
             let (increments, finish_s) = (provenance.increments, solution.time_s);

@@ -8,9 +8,9 @@ use super::prediction::PredictionTable;
 use super::scene_figure::SceneFigure;
 use super::settings::CalibrateSettings;
 use crate::expectation::{Case, Quantity};
+use crate::validate::{ValidateError, scene_of};
 use isolux::engine::{SolveRequest, Watch};
 use isolux::map::Method;
-use isolux::scene::Scene;
 use serde::Serialize;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -175,10 +175,7 @@ fn runs(
     fixed_work: Option<u64>,
     on_run: &mut (dyn FnMut(&Observed) -> Watch + Send),
 ) -> Result<Vec<Observed>, CalibrateError> {
-    let scene = Scene::assemble((case.parts)()).map_err(|mut problems| CalibrateError::Scene {
-        case: case.name,
-        problem: problems.swap_remove(0),
-    })?;
+    let scene = scene_of(case)?;
     let places = places(case);
     let threads = settings.threads.clamp(1, seeds.len().max(1));
     let one = |&seed: &u64| {
@@ -191,7 +188,7 @@ fn runs(
             ..SolveRequest::default()
         };
         observe(&scene, &request, &places, fixed_work)
-            .map_err(|error| CalibrateError::Solve { case: case.name, error })
+            .map_err(|error| ValidateError::Solve { case: case.name, error })
     };
     let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
     let done = Mutex::new((Vec::new(), on_run));

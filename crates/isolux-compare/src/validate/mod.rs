@@ -65,6 +65,14 @@ pub enum ValidateError {
     },
 }
 
+/// The scene of a case.
+pub(crate) fn scene_of(case: &Case) -> Result<Scene, ValidateError> {
+    Scene::assemble((case.parts)()).map_err(|mut problems| ValidateError::Scene {
+        case: case.name,
+        problem: problems.swap_remove(0),
+    })
+}
+
 /// Runs a case through an engine.
 pub fn validate(
     case: &Case,
@@ -72,10 +80,7 @@ pub fn validate(
     seed: u64,
     settings: &ValidateSettings,
 ) -> Result<ValidateRow, ValidateError> {
-    let scene = Scene::assemble((case.parts)()).map_err(|mut problems| ValidateError::Scene {
-        case: case.name,
-        problem: problems.swap_remove(0),
-    })?;
+    let scene = scene_of(case)?;
     let request = SolveRequest {
         method,
         seed,

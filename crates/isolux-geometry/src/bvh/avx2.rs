@@ -114,7 +114,6 @@ unsafe impl Lanes<WIDTH> for Avx2 {
             let ahead = _mm256_cmp_ps::<_CMP_GE_OQ>(distance, zero);
             let near = _mm256_cmp_ps::<_CMP_LE_OQ>(distance, end);
             let within = _mm256_movemask_ps(_mm256_and_ps(ahead, near)) as u32;
-
             let met = inside & (within | !sure);
             if met == 0 {
                 return None;

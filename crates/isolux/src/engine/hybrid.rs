@@ -107,10 +107,11 @@ pub(super) struct Hybrid<'p, 's> {
 }
 
 impl<'p, 's> Hybrid<'p, 's> {
-    /// With `rays[k]` gathering rays for vertex k in every increment.
-    pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: &[u32], seed: u64) -> Self {
+    /// With so many gathering rays in every increment for each vertex that is not hidden.
+    pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: u32, seed: u64) -> Self {
         let key = Key::new(seed).with(1);
-        let rows = plan.gatherers.iter().zip(rays).map(|(g, &rays)| g.with_rays(rays)).collect();
+        let vertices = plan.gatherers.iter().zip(&plan.known).take(plan.indirect_vertices);
+        let rows = vertices.map(|(g, &known)| g.with_rays(if known { rays } else { 0 })).collect();
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
         Self { plan, check_direct, rows, check_rows, key }

@@ -47,8 +47,6 @@ const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 const LEAST_ORDER: f64 = 0.25;
 /// Vertices for indirect light, unless the scene has nearly as many from the start.
 const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
-/// Fewest rays of a receiver that is not hidden.
-pub(super) const FEWEST_RAYS: u32 = 8;
 /// Bisections of elements with hidden vertices, and the places in one that are asked whether light
 /// comes there.
 const ROUNDS_FOR_HIDDEN: usize = 4;
@@ -84,12 +82,6 @@ pub(super) struct Plan<'s> {
 }
 
 impl Plan<'_> {
-    /// Gathering rays of the vertices that indirect light lives on; none where they are hidden.
-    pub(super) fn rays_of_vertices(&self, rays: u32) -> Vec<u32> {
-        let known = &self.known[..self.indirect_vertices];
-        known.iter().map(|&known| if known { rays } else { 0 }).collect()
-    }
-
     /// Area of all elements, m2.
     pub(super) fn area_m2(&self) -> f64 {
         self.indirect_errors.iter().map(|e| e.area_m2).sum()

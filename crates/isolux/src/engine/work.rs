@@ -8,7 +8,7 @@ use super::emission::Emission;
 use super::filter::filter;
 use super::forward::Forward;
 use super::hybrid::{self, Hybrid};
-use super::pilot::{FEWEST_RAYS, Plan};
+use super::pilot::Plan;
 use super::predict;
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
@@ -28,8 +28,8 @@ pub(super) struct Work<'p, 's> {
     pub(super) checks: Checks,
     /// What paths given up would bring in the mean.
     pub(super) given_up: Accumulator,
-    /// Gathering rays of the vertices in an increment.
-    rays: Vec<u32>,
+    /// Samples of a receiver in an increment: its gathering rays, or one for all particles.
+    samples: u32,
 }
 
 enum Engine<'p, 's> {
@@ -62,28 +62,25 @@ impl<'p, 's> Work<'p, 's> {
         let reference = plan.rms_lx;
         let wanted = match request.method {
             Method::Hybrid => hybrid::rays_for(plan, target, FEWEST_INCREMENTS, request.seed),
-            Method::Forward => FEWEST_RAYS,
+            Method::Forward => 1,
         };
-        let most = wanted.min(most_rays(plan.indirect_vertices, request.max_memory_bytes));
-        let most = (most >> halvings).max(1);
-        let rays = plan.rays_of_vertices(most);
+        let most = most_rays(plan.indirect_vertices, request.max_memory_bytes);
+        let rays = (wanted.min(most) >> halvings).max(1);
         let points = match request.method {
-            Method::Hybrid => checks::draw(plan, most, Key::new(request.seed).with(3)),
+            Method::Hybrid => checks::draw(plan, rays, Key::new(request.seed).with(3)),
             Method::Forward => Vec::new(),
         };
         let sums = Accumulator::new(plan.elements.vertices().len(), reference);
         let check_sums = Accumulator::new(checks::places(points.len()), reference);
         let checks = Checks { points, sums: check_sums };
         let engine = match request.method {
-            Method::Hybrid => {
-                Engine::Hybrid(Hybrid::new(plan, &checks.points, &rays, request.seed))
-            }
+            Method::Hybrid => Engine::Hybrid(Hybrid::new(plan, &checks.points, rays, request.seed)),
             Method::Forward => {
                 let emission = Emission::new(plan.scene).expect("a scene without light is refused");
                 Engine::Forward(Forward::new(plan, emission, request.seed))
             }
         };
-        Self { plan, engine, sums, checks, given_up: Accumulator::new(1, reference), rays }
+        Self { plan, engine, sums, checks, given_up: Accumulator::new(1, reference), samples: rays }
     }
 
     pub(super) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
@@ -147,11 +144,6 @@ impl<'p, 's> Work<'p, 's> {
         accuracy.is_some_and(|a| a.statistical <= 0.25 * libm::hypot(a.discretization, a.bias))
     }
 
-    /// Samples of a vertex in an increment; finer vertices are interpolated from coarser ones.
-    fn samples(&self, vertex: usize) -> u64 {
-        u64::from(self.rays.get(vertex).copied().unwrap_or(FEWEST_RAYS))
-    }
-
     /// The values of the map, and what the filter did to them.
     pub(super) fn values(
         &self,
@@ -204,7 +196,7 @@ impl<'p, 's> Work<'p, 's> {
             indirect_lx: mean.indirect,
             standard_error_lx: estimate.variance.sqrt(),
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
-            samples: self.sums.increments * self.samples(vertex),
+            samples: self.sums.increments * u64::from(self.samples),
         })
     }
 }
