@@ -18,6 +18,7 @@ fn lux(total: f64) -> Option<Illuminance> {
         indirect_lx: Rgb::BLACK,
         standard_error_lx: 0.0,
         indirect_standard_error_lx: 0.0,
+        interpolation_error_lx: 0.0,
         samples: 1,
     })
 }
@@ -216,6 +217,7 @@ fn rising_map(scene: &Scene) -> IlluminationMap {
             increments: 1,
             rays: 0,
             accuracy_target: None,
+            fresh_above_lx: None,
             filter: None,
             complete: true,
             accuracy: None,

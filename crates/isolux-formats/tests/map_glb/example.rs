@@ -143,6 +143,7 @@ fn value(k: f64) -> Illuminance {
         indirect_lx: Rgb::new(5.0, 6.0, 7.0) * (1.0 + k / 7.0),
         standard_error_lx: 0.3 + 0.01 * k,
         indirect_standard_error_lx: 0.1,
+        interpolation_error_lx: 0.2 * k,
         samples: 1 << (k as u32 % 40),
     }
 }
@@ -157,6 +158,7 @@ fn provenance() -> Provenance {
         increments: 24,
         rays: 1_000_000,
         accuracy_target: Some(0.01),
+        fresh_above_lx: Some(0.7),
         filter: None,
         complete: true,
         accuracy: Some(Accuracy {

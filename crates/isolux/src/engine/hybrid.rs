@@ -28,15 +28,16 @@ const TRIAL_RAYS: u32 = 16;
 /// The part of the accuracy asked for that noise may take.
 const NOISE_SHARE: f64 = 0.5;
 
+/// Variance of what is interpolated between three vertices, in the mean over an element, as a share of
+/// theirs: the integral of the sum of the squares of the hat functions over the area.
+const OF_INTERPOLATED: f64 = 0.5;
+
 /// Nets of n rays err like this power of 1/n: measured between 0.8 and 1.1 on CUBE and SPHERE from 8
 /// to 128 rays (independent rays err like 0.5).
-const NET_ORDER: f64 = 0.85;
+pub(super) const NET_ORDER: f64 = 0.85;
 
-/// Rays of a receiver and increment, whatever is asked for: with fewer, single receivers at edges err
-/// by more than the figure of the scene lets expect, which counts where that is to be small.
+/// Rays of a receiver and increment, whatever is asked for.
 const FEWEST_WANTED: f64 = 8.0;
-const FEWEST_WHERE_FINE: f64 = 16.0;
-const FINE: f64 = 0.02;
 
 /// And at most: a run can soon be stopped after that many.
 const MOST_WANTED: f64 = 256.0;
@@ -66,14 +67,13 @@ pub(super) fn rays_for(plan: &Plan, target: f64, increments: u64, seed: u64) -> 
         of_means += own_m2 * sums.estimate(row).variance;
     }
     let variance = if area_m2 > 0.0 { TRIAL_INCREMENTS as f64 * of_means / area_m2 } else { 0.0 };
-    let noise_lx = (variance / increments as f64).sqrt();
+    let noise_lx = (OF_INTERPOLATED * variance / increments as f64).sqrt();
     let allowed_lx = NOISE_SHARE * target * plan.rms_lx;
     if !(noise_lx > 0.0 && allowed_lx > 0.0) {
         return FEWEST_WANTED as u32;
     }
     let wanted = f64::from(TRIAL_RAYS) * libm::pow(noise_lx / allowed_lx, 1.0 / NET_ORDER);
-    let fewest = if target < FINE { FEWEST_WHERE_FINE } else { FEWEST_WANTED };
-    libm::exp2(libm::round(libm::log2(wanted.clamp(fewest, MOST_WANTED)))) as u32
+    libm::exp2(libm::round(libm::log2(wanted.clamp(FEWEST_WANTED, MOST_WANTED)))) as u32
 }
 
 impl<'a> Gathering<'a> {

@@ -25,6 +25,7 @@ mod scatter;
 mod state;
 mod surface;
 mod tally;
+mod trust;
 mod work;
 
 #[cfg(test)]

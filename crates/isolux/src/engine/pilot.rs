@@ -4,18 +4,22 @@
 //! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
 //! noise is smooth over surfaces and does not pass for detail.
 
-use super::detail::{LeafError, Refinement, bisect_twice, leaf_errors, left_by_fit, refine_worst};
+use super::detail::{
+    LeafError, Refinement, bisect_twice, leaf_errors, left_by_fit, refine_worst, told_error,
+};
 use super::direct::Lighting;
 use super::fit::Fit;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 use super::path::Dice;
 use super::surface::SurfacePoint;
+use super::trust;
 use crate::elements::{Elements, Subdivision};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// Vertices that the pilot starts with, unless the scene has more.
 const FIRST_VERTICES: f64 = 700.0;
@@ -28,10 +32,10 @@ const FIRST_UNFITTED: f64 = 1500.0;
 const MAX_ROUNDS: usize = 16;
 /// The part of the accuracy asked for that interpolating indirect light may take.
 const DISCRETIZATION_SHARE: f64 = 0.5;
-/// The error of a single element that is refined even where it is small, in accuracies asked for.
-const SINGLE_SHARE: f64 = 1.0;
-/// Vertices added for such elements alone, where the scene as a whole is fine enough.
-const MOST_FOR_SINGLES: usize = 3000;
+/// The part of the area whose elements may stay coarse, as readers gather afresh there; and what it
+/// may be where refinement comes to nothing.
+const FRESH_SHARE: f64 = 0.1;
+const MOST_FRESH: f64 = 0.5;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
@@ -72,6 +76,8 @@ pub(super) struct Plan<'s> {
     pub(super) direct_from_map: bool,
     /// Errors of the elements that indirect light lives on.
     pub(super) indirect_errors: Vec<LeafError>,
+    /// Elements with larger errors are not to be trusted.
+    pub(super) trusted_up_to_lx: f64,
     /// Those elements, by node, as triangles of the scene.
     pub(super) subdivision: Subdivision,
     /// Root mean square of the photometric illuminance over all known surfaces, lx.
@@ -124,6 +130,8 @@ struct Pilot<'s> {
     direct: Vec<Rgb>,
     indirect: Vec<Rgb>,
     known: Vec<bool>,
+    /// In the middle of elements that no details tell of, by node.
+    middles: HashMap<u32, f64>,
     /// Nodes there were then.
     solved_nodes: u32,
     rays: u32,
@@ -149,7 +157,6 @@ pub(super) fn pilot<'s>(
     go_on: &mut dyn FnMut(usize, u64) -> bool,
 ) -> Plan<'s> {
     let mut pilot = Pilot::new(scene, lighting, request);
-    let goal = DISCRETIZATION_SHARE * request.target;
     let mut look = pilot.look();
     let most = request.max_vertices.min(MOST_FOR_INDIRECT_LIGHT.max(look.vertices / 2 * 3));
     for _ in 0..ROUNDS_FOR_HIDDEN {
@@ -161,35 +168,24 @@ pub(super) fn pilot<'s>(
             break;
         }
     }
-    let most_for_singles = look.vertices + MOST_FOR_SINGLES;
     let mut before = (f64::INFINITY, look.vertices as f64);
     for _ in 0..MAX_ROUNDS {
-        let left = if request.is_fitted { look.left_by_fit } else { 1.0 };
-        let error = left * relative_error(&look.errors, look.rms_lx);
+        let Some((limit, excess)) = look.excess(request) else { break };
         // Where bisection no longer helps, what is left is noise: the check points will tell.
         let vertices = look.vertices as f64;
-        let is_coarse = error > goal;
-        let stalled = is_coarse && error > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
-        let most_error = SINGLE_SHARE * request.target * look.rms_lx;
-        let is_single = |e: &LeafError| {
-            e.error > most_error
-                && pilot.subdivision.longest_edge_m(e.node) > 2.0 * pilot.least_edge_m
-        };
-        let singles = look.vertices < most_for_singles && look.errors.iter().any(is_single);
-        if stalled
-            || !(is_coarse || singles)
-            || !go_on(pilot.subdivision.vertex_count(), pilot.traced)
-        {
+        let stalled = excess > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
+        if stalled || !go_on(pilot.subdivision.vertex_count(), pilot.traced) {
             break;
         }
-        before = (error, vertices);
+        before = (excess, vertices);
         let how_far = Refinement {
-            most_error,
-            wanted: if is_coarse { goal / error } else { 1.0 },
+            wanted: 1.0 / excess,
             least_edge_m: pilot.least_edge_m,
             max_vertices: most,
         };
-        if !refine_worst(&mut pilot.subdivision, &look.errors, how_far) {
+        let errors: Vec<LeafError> =
+            look.errors.iter().copied().filter(|e| e.error <= limit).collect();
+        if !refine_worst(&mut pilot.subdivision, &errors, how_far) {
             break;
         }
         look = pilot.look();
@@ -197,11 +193,30 @@ pub(super) fn pilot<'s>(
     pilot.finish(look, request, go_on)
 }
 
-/// The error of the scene, relative to its root mean square illuminance.
-fn relative_error(errors: &[LeafError], rms_lx: f64) -> f64 {
-    let area: f64 = errors.iter().map(|e| e.area_m2).sum();
-    let squared: f64 = errors.iter().map(LeafError::squared).sum();
-    if rms_lx > 0.0 { (squared / area).sqrt() / rms_lx } else { 0.0 }
+impl Look {
+    /// How many times the error of elements up to a limit is what it should be, if it is more; first
+    /// without those that readers need not trust, then of all, which is what a bare map shows.
+    fn excess(&self, request: &PilotRequest) -> Option<(f64, f64)> {
+        let fresh = trust::limit(&self.errors, self.goal_lx(request.target, request), FRESH_SHARE);
+        let over = |(limit, target)| {
+            let goal_lx = self.goal_lx(target, request);
+            let excess = trust::error_below(&self.errors, limit) / goal_lx;
+            (excess > 1.0 && self.rms_lx > 0.0).then_some((limit, excess))
+        };
+        let all = (f64::INFINITY, request.mesh_target.max(request.target));
+        over((fresh, request.target)).or_else(|| over(all))
+    }
+
+    /// The error of elements up to which readers trust the map.
+    fn trusted_up_to_lx(&self, request: &PilotRequest) -> f64 {
+        trust::limit(&self.errors, self.goal_lx(request.target, request), MOST_FRESH)
+    }
+
+    /// What interpolation may err by, before it is fitted, lx.
+    fn goal_lx(&self, target: f64, request: &PilotRequest) -> f64 {
+        let left = if request.is_fitted { self.left_by_fit } else { 1.0 };
+        DISCRETIZATION_SHARE * target * self.rms_lx / left
+    }
 }
 
 impl<'s> Pilot<'s> {
@@ -223,6 +238,7 @@ impl<'s> Pilot<'s> {
             direct: Vec::new(),
             indirect: Vec::new(),
             known: Vec::new(),
+            middles: HashMap::new(),
             solved_nodes: 0,
             rays: pilot_rays(request.target),
             traced: 0,
@@ -256,31 +272,64 @@ impl<'s> Pilot<'s> {
         let gatherers = self.gatherers();
         self.complete_direct(&gatherers);
         self.complete_indirect(&elements, &gatherers);
-        let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
         let luminances: Vec<Option<f64>> = (0..self.known.len())
             .map(|k| self.known[k].then(|| self.indirect[k].luminance()))
             .collect();
-        let errors = leaf_errors(&self.subdivision, &elements, &luminances);
+        self.complete_middles(&elements, &luminances);
+        let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
+        let middle = |node: u32| self.middles.get(&node).copied();
+        let errors = leaf_errors(&self.subdivision, &elements, &luminances, middle);
         let rms_lx = rms(&elements, &self.known, lx);
         let left_by_fit = left_by_fit(&self.subdivision, &elements, &luminances, &errors);
         Look { vertices: gatherers.len(), elements, errors, left_by_fit, rms_lx }
     }
 
+    /// What rays read on a level of the elements.
+    fn gathering<'a>(
+        &'a self,
+        elements: &'a Elements,
+        level: u32,
+        known: &'a [bool],
+    ) -> Gathering<'a> {
+        let direct = if self.direct_from_map() {
+            DirectAtEnds::Read { values: &self.direct, level }
+        } else {
+            DirectAtEnds::Evaluated
+        };
+        Gathering { scene: self.scene, lighting: self.lighting, elements, level, known, direct }
+    }
+
+    /// Gathers in the middle of the elements that no details tell of, that have something close before
+    /// them and that were not looked at yet.
+    fn complete_middles(&mut self, elements: &Elements, values: &[Option<f64>]) {
+        let is_new = |&node: &u32| {
+            !self.middles.contains_key(&node)
+                && told_error(&self.subdivision, elements, values, node).is_none()
+        };
+        let new: Vec<u32> = self.subdivision.leaves().filter(is_new).collect();
+        let beset = |node: u32| {
+            let place = place_in_node(self.scene, &self.subdivision, node, MIDDLE);
+            let edge_m = self.subdivision.longest_edge_m(node);
+            let gatherer = Gatherer::on_surface(place, self.rays);
+            trust::is_beset(self.scene, &place, edge_m).then_some((node, gatherer))
+        };
+        let beset: Vec<(u32, Gatherer)> = new.into_par_iter().filter_map(beset).collect();
+        let (nodes, rows): (Vec<u32>, Vec<Gatherer>) = beset.into_iter().unzip();
+        let key = self.key.with(2);
+        let gathering = self.gathering(elements, self.solved_nodes, &self.known);
+        let operator = gathering.operator(&rows, |_| key);
+        let light = operator.apply(&self.indirect);
+        self.traced += operator.rays;
+        self.middles.extend(nodes.into_iter().zip(light.iter().map(|e| e.luminance())));
+    }
+
     fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
-        let (first, level) = (self.indirect.len(), self.solved_nodes);
+        let first = self.indirect.len();
         let everything = vec![true; gatherers.len()];
-        let gathering = Gathering {
-            scene: self.scene,
-            lighting: self.lighting,
-            elements,
-            level: if first == 0 { u32::MAX } else { level },
-            known: if first == 0 { &everything } else { &self.known },
-            direct: if self.direct_from_map() {
-                let level = if first == 0 { u32::MAX } else { level };
-                DirectAtEnds::Read { values: &self.direct, level }
-            } else {
-                DirectAtEnds::Evaluated
-            },
+        let gathering = if first == 0 {
+            self.gathering(elements, u32::MAX, &everything)
+        } else {
+            self.gathering(elements, self.solved_nodes, &self.known)
         };
         let key = self.key.with(2);
         let operator = gathering.operator(&gatherers[first..], |_| key);
@@ -349,6 +398,7 @@ impl<'s> Pilot<'s> {
         go_on: &mut dyn FnMut(usize, u64) -> bool,
     ) -> Plan<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
+        let trusted_up_to_lx = look.trusted_up_to_lx(request);
         let coarse = self.subdivision.clone();
         let level = coarse.node_count() as u32;
         let mut elements = look.elements;
@@ -356,7 +406,6 @@ impl<'s> Pilot<'s> {
         // refinement cannot tell noise from borders.
         let most = (MOST_FOR_DIRECT_LIGHT * indirect_vertices).max(ALWAYS_FOR_DIRECT_LIGHT);
         let how_far = Refinement {
-            most_error: f64::INFINITY,
             wanted: 0.0,
             least_edge_m: self.least_edge_m,
             max_vertices: most.min(request.max_vertices),
@@ -365,8 +414,9 @@ impl<'s> Pilot<'s> {
             let luminances: Vec<Option<f64>> = (0..self.known.len())
                 .map(|k| self.known[k].then(|| self.direct[k].luminance()))
                 .collect();
-            let errors = leaf_errors(&self.subdivision, &elements, &luminances);
-            let good = relative_error(&errors, look.rms_lx) <= request.mesh_target;
+            let errors = leaf_errors(&self.subdivision, &elements, &luminances, |_| None);
+            let error_lx = trust::error_below(&errors, f64::INFINITY);
+            let good = error_lx <= request.mesh_target * look.rms_lx;
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
             }
@@ -394,6 +444,7 @@ impl<'s> Pilot<'s> {
             level,
             direct: self.direct,
             guess: self.indirect,
+            trusted_up_to_lx,
             indirect_errors: look.errors,
             rms_lx: look.rms_lx,
             fit: Fit::new(&coarse.elements(), indirect_vertices, &known),
@@ -428,6 +479,9 @@ pub(super) fn rms(elements: &Elements, known: &[bool], value: impl Fn(usize) -> 
 fn pilot_rays(target: f64) -> u32 {
     ((0.64 / target.max(1e-6)) as u32).clamp(32, 1024).next_power_of_two()
 }
+
+/// The point of the unit square that [`place_in_node`] takes to the middle of an element.
+const MIDDLE: [f64; 2] = [4.0 / 9.0, 0.5];
 
 /// A place of an element of the plan that indirect light lives on.
 pub(super) fn place_in_leaf(plan: &Plan, node: u32, square: [f64; 2]) -> SurfacePoint {

@@ -2,9 +2,11 @@
 
 use super::direct::Lighting;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
+use super::hybrid::NET_ORDER;
 use super::path::Dice;
 use super::surface::SurfacePoint;
-use crate::map::{Illuminance, IlluminationMap};
+use super::trust;
+use crate::map::{Accuracy, Illuminance, IlluminationMap};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -12,6 +14,11 @@ use isolux_geometry::{Direction, Normal, Point, Ray};
 
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
+
+/// Independent gatherings of a place where the map is not trusted; rays of each, when tried and at most.
+const FRESH_REPLICATES: u32 = 16;
+const FRESH_TRIAL_RAYS: u32 = 16;
+const FRESH_MOST_RAYS: f64 = 1024.0;
 
 /// Shadow rays to every emitting surface in a reading for a picture.
 const GLANCE_SAMPLES: usize = 4;
@@ -53,8 +60,17 @@ pub struct MapReader<'a> {
     known: Vec<bool>,
     light: Vec<Rgb>,
     reach_m: f64,
-    /// Error of what is read from vertices that replicates do not tell, lx.
-    unseen_lx: f64,
+    unseen: Unseen,
+}
+
+/// Errors of what is read from vertices that replicates do not tell, lx.
+struct Unseen {
+    /// Of interpolation, root mean square over the scene.
+    discretization_lx: f64,
+    /// Common to all of the map.
+    bias_lx: f64,
+    /// Of the whole map.
+    reached_lx: f64,
 }
 
 impl<'a> MapReader<'a> {
@@ -71,14 +87,15 @@ impl<'a> MapReader<'a> {
             known: map.values.iter().map(Option::is_some).collect(),
             light: map.values.iter().map(reflected).collect(),
             reach_m: REACH_SHARE * extent_m,
-            unseen_lx: unseen_lx(map),
+            unseen: Unseen::of(map),
         }
     }
 
     /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
     /// alone, without the interpolation error and the bias of the map.
     pub fn by_replicates(&self, reading: Illuminance) -> Illuminance {
-        let unseen = self.unseen_lx * self.unseen_lx;
+        let unseen = libm::hypot(reading.interpolation_error_lx, self.unseen.bias_lx);
+        let unseen = unseen * unseen;
         let less = |error: f64| (error * error - unseen).max(0.0).sqrt();
         Illuminance {
             standard_error_lx: less(reading.standard_error_lx),
@@ -88,13 +105,78 @@ impl<'a> MapReader<'a> {
     }
 
     /// The illuminance at barycentric weights `(1 - u - v, u, v)` of a side of a triangle: direct
-    /// light evaluated afresh there, indirect light and caustics interpolated. The standard error
-    /// counts, beside that of replicates, the interpolation error and the bias that the map
-    /// reports for the scene, the same everywhere. `None` where the map knows nothing.
+    /// light evaluated afresh there, caustics interpolated, indirect light interpolated where the map
+    /// is to be trusted and gathered over the map where not. The standard error counts, beside that
+    /// of replicates, the interpolation error expected there and the bias that the map reports for
+    /// the scene, the same everywhere. `None` where the map knows nothing.
     pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
+        self.read(SurfacePoint::new(self.scene, triangle, back, u, v))
+    }
+
+    fn read(&self, surface: SurfacePoint) -> Option<Illuminance> {
+        let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
-        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
-        Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
+        let at = self.pulled_in(surface);
+        let indirect = if self.is_trusted(&stored, &at) {
+            self.interpolated(stored)
+        } else {
+            self.gathered(stored, at)
+        };
+        Some(self.with_fresh_direct(indirect, &at))
+    }
+
+    /// Whether interpolation is good enough at a place.
+    fn is_trusted(&self, stored: &Illuminance, at: &SurfacePoint) -> bool {
+        let Some(limit_lx) = self.map.provenance.fresh_above_lx else { return true };
+        let corners = self.map.elements.locate(at.triangle, at.back, at.u, at.v);
+        let corners = corners.map(|corners| corners.map(|(vertex, _)| vertex));
+        let edge_m = corners.map_or(0.0, |c| trust::longest_edge_m(&self.map.elements, c));
+        stored.interpolation_error_lx <= limit_lx && !trust::is_closed_in(self.scene, at, edge_m)
+    }
+
+    /// A value of the map with what interpolation is expected to err by. Half of the error of the
+    /// scene is taken to be spread evenly, half as expected of the elements.
+    fn interpolated(&self, stored: Illuminance) -> Illuminance {
+        let (even, own) = (self.unseen.discretization_lx, stored.interpolation_error_lx);
+        let interpolation_error_lx = (0.5 * (even * even + own * own)).sqrt();
+        Illuminance { interpolation_error_lx, ..stored }
+    }
+
+    /// Indirect light gathered over the map, by as many rays as bring its noise down to half of
+    /// the error of the map.
+    fn gathered(&self, stored: Illuminance, at: SurfacePoint) -> Illuminance {
+        let key = place_key(at.point).with(7);
+        let goal = 0.5 * self.unseen.reached_lx;
+        let trial = Gatherer::on_surface(at, FRESH_TRIAL_RAYS);
+        let (_, variance) = self.gather(trial, FRESH_REPLICATES, key.with(0));
+        let rays = f64::from(FRESH_TRIAL_RAYS)
+            * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / NET_ORDER);
+        let rays = rays.clamp(f64::from(FRESH_TRIAL_RAYS), FRESH_MOST_RAYS) as u32;
+        // With numbers of its own: who stopped at a small variance would report too small ones.
+        let gatherer = trial.with_rays(rays.next_power_of_two());
+        let (indirect_lx, variance) = self.gather(gatherer, FRESH_REPLICATES, key.with(1));
+        Illuminance {
+            indirect_lx,
+            indirect_standard_error_lx: variance.sqrt(),
+            interpolation_error_lx: 0.0,
+            samples: u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays),
+            ..stored
+        }
+    }
+
+    /// Mean over replicates and its variance.
+    fn gather(&self, gatherer: Gatherer, replicates: u32, key: Key) -> (Rgb, f64) {
+        let gathering = Gathering {
+            scene: self.scene,
+            lighting: &self.lighting,
+            elements: &self.map.elements,
+            level: u32::MAX,
+            known: &self.known,
+            direct: DirectAtEnds::Evaluated,
+        };
+        let rows = vec![gatherer; replicates as usize];
+        let values = gathering.operator(&rows, |k| key.with(k as u64)).apply(&self.light);
+        mean_and_variance(&values)
     }
 
     /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
@@ -122,10 +204,7 @@ impl<'a> MapReader<'a> {
     /// As [`MapReader::at`] at a point on a surface, on the side that `normal` points to. `None` where no
     /// surface that carries a known value lies within a ten-thousandth of the scene's extent.
     pub fn probe(&self, at: ProbePoint) -> Option<Illuminance> {
-        let surface = self.find_surface(at)?;
-        let SurfacePoint { triangle, back, u, v, .. } = surface;
-        let stored = self.map.interpolate(triangle, back, u, v)?;
-        Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
+        self.read(self.find_surface(at)?)
     }
 
     /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
@@ -137,19 +216,9 @@ impl<'a> MapReader<'a> {
         let gatherer = on_surface
             .map(|surface| Gatherer::on_surface(surface, settings.rays))
             .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
-        let gathering = Gathering {
-            scene: self.scene,
-            lighting: &self.lighting,
-            elements: &self.map.elements,
-            level: u32::MAX,
-            known: &self.known,
-            direct: DirectAtEnds::Evaluated,
-        };
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);
-        let rows = vec![gatherer; replicates as usize];
-        let values = gathering.operator(&rows, |k| key.with(k as u64)).apply(&self.light);
-        let (indirect_lx, variance) = mean_and_variance(&values);
+        let (indirect_lx, variance) = self.gather(gatherer, replicates, key);
         let looked_up = self.lookup_error() * indirect_lx.luminance();
         let indirect_variance = variance + looked_up * looked_up;
         let caustic_lx = on_surface
@@ -162,6 +231,7 @@ impl<'a> MapReader<'a> {
             indirect_lx,
             standard_error_lx: (indirect_variance + direct_variance).sqrt(),
             indirect_standard_error_lx: indirect_variance.sqrt(),
+            interpolation_error_lx: 0.0,
             samples: u64::from(replicates) * u64::from(settings.rays),
         }
     }
@@ -174,7 +244,8 @@ impl<'a> MapReader<'a> {
 
     fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {
         let (direct, variance) = self.direct(at);
-        let indirect = libm::hypot(stored.indirect_standard_error_lx, self.unseen_lx);
+        let unseen = libm::hypot(stored.interpolation_error_lx, self.unseen.bias_lx);
+        let indirect = libm::hypot(stored.indirect_standard_error_lx, unseen);
         Illuminance {
             direct_lx: direct + stored.caustic_lx,
             standard_error_lx: (indirect * indirect + variance).sqrt(),
@@ -239,10 +310,24 @@ impl<'a> MapReader<'a> {
     }
 }
 
-/// Discretization and bias as reported: a share of the root mean square of the light, evenly. (In
-/// proportion to the indirect light fewer intervals hold the truth: dark edges err most.)
-fn unseen_lx(map: &IlluminationMap) -> f64 {
-    let Some(accuracy) = map.provenance.accuracy else { return 0.0 };
+impl Unseen {
+    /// As reported: shares of the root mean square of the light. (In proportion to the indirect light
+    /// fewer intervals hold the truth: dark edges err most.)
+    fn of(map: &IlluminationMap) -> Self {
+        let rms_lx = rms_lx(map);
+        let share = |part: fn(&Accuracy) -> f64| {
+            map.provenance.accuracy.as_ref().map_or(0.0, |accuracy| part(accuracy) * rms_lx)
+        };
+        Self {
+            discretization_lx: share(|a| a.discretization),
+            bias_lx: share(|a| a.bias),
+            reached_lx: share(|a| a.reached),
+        }
+    }
+}
+
+/// Root mean square of the illuminance over the known surface.
+fn rms_lx(map: &IlluminationMap) -> f64 {
     let (mut area_m2, mut squared) = (0.0, 0.0);
     for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
         let Some(value) = value else { continue };
@@ -250,8 +335,7 @@ fn unseen_lx(map: &IlluminationMap) -> f64 {
         area_m2 += vertex.area_m2;
         squared += vertex.area_m2 * lx * lx;
     }
-    let share = libm::hypot(accuracy.discretization, accuracy.bias);
-    if area_m2 > 0.0 { share * (squared / area_m2).sqrt() } else { 0.0 }
+    if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
 }
 
 /// Random numbers belong to the place, so that neighbours are independent.

@@ -17,6 +17,10 @@ pub struct Illuminance {
     /// Standard error of the photometric indirect part and the caustics, without the rest of the
     /// direct light, lx.
     pub indirect_standard_error_lx: f64,
+    /// In a map: what interpolating the indirect part about a vertex is expected to err by, root mean
+    /// square over the worst element at it, lx. In a reading: what this one is expected to err by for
+    /// being interpolated; zero where indirect light was gathered afresh.
+    pub interpolation_error_lx: f64,
     /// Samples behind the value (rays gathered or particles received).
     pub samples: u64,
 }
@@ -33,7 +37,8 @@ impl Illuminance {
     }
 
     /// The weighted mean over the known values; `None` where none is known. Standard errors are
-    /// combined as of independent values, which the vertices of an element are.
+    /// combined as of independent values, which the vertices of an element are; the interpolation error
+    /// of an element is the least of its vertices, which count all elements about them.
     pub fn mix<const N: usize>(parts: [(Option<Self>, f64); N]) -> Option<Self> {
         let known = || parts.iter().filter_map(|(value, weight)| Some((value.as_ref()?, *weight)));
         let sum: f64 = known().map(|(_, weight)| weight).sum();
@@ -48,12 +53,14 @@ impl Illuminance {
         let root_sum = |f: &dyn Fn(&Self) -> f64| {
             weighted().map(|(v, w)| (w * f(v)) * (w * f(v))).sum::<f64>().sqrt()
         };
+        let least = known().map(|(v, _)| v.interpolation_error_lx).fold(f64::INFINITY, f64::min);
         Some(Self {
             direct_lx: weighted().map(|(v, w)| v.direct_lx * w).sum(),
             caustic_lx: weighted().map(|(v, w)| v.caustic_lx * w).sum(),
             indirect_lx: weighted().map(|(v, w)| v.indirect_lx * w).sum(),
             standard_error_lx: root_sum(&|v| v.standard_error_lx),
             indirect_standard_error_lx: root_sum(&|v| v.indirect_standard_error_lx),
+            interpolation_error_lx: least,
             samples: weighted().map(|(v, _)| v.samples).sum(),
         })
     }

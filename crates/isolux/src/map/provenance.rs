@@ -25,6 +25,9 @@ pub struct Provenance {
     pub complete: bool,
     /// How good the map is; `None` before the error could be believed.
     pub accuracy: Option<Accuracy>,
+    /// Readers with the scene at hand gather indirect light afresh where the interpolation error of an
+    /// element is larger, lx; `None` where the map is trusted everywhere.
+    pub fresh_above_lx: Option<f64>,
     /// What the filter did; `None` where it was off.
     pub filter: Option<FilterReport>,
 }
@@ -47,7 +50,7 @@ pub struct Accuracy {
     pub reached: f64,
     /// From the spread of independent replicates.
     pub statistical: f64,
-    /// From interpolating the indirect part between vertices.
+    /// From interpolating the indirect part between vertices, where readers do so.
     pub discretization: f64,
     /// Bound of the error common to all replicates: interpolated light at the ends of rays.
     pub bias: f64,
