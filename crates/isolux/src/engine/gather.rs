@@ -85,19 +85,28 @@ pub(super) enum DirectAtEnds<'a> {
     },
 }
 
-/// The share of the light of three vertices that arrives at a receiver.
+/// What a ray reads from the map: the light of three vertices.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     vertices: [u32; 3],
     weights: [f32; 3],
-    reflectance: [f32; 3],
+}
+
+/// Entries of one row, one after the other, that reflect alike: rays end on few materials.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    /// Where they end among all entries.
+    end: u32,
+    /// The share of what is read there that arrives at the receiver.
+    share: [f32; 3],
 }
 
 /// Rows of the operator for consecutive receivers.
 #[derive(Debug, Default)]
 struct Rows {
     entries: Vec<Entry>,
-    /// End of the entries of every row.
+    runs: Vec<Run>,
+    /// End of the runs of every row.
     ends: Vec<usize>,
     /// Light that needs no further reflection, lx.
     sources: Vec<Rgb>,
@@ -152,6 +161,7 @@ impl Gathering<'_> {
         let sequence = Sequence::new(key);
         let axis = gatherer.normal.to_direction();
         let (mut source, mut open) = (Rgb::BLACK, false);
+        let share_of_ray = 1.0 / f64::from(gatherer.rays);
         let mut ends: Vec<(SurfacePoint, Rgb)> = Vec::new();
         for index in 0..gatherer.rays {
             let mut dice = Dice::new(sequence, index);
@@ -168,15 +178,17 @@ impl Gathering<'_> {
             match end {
                 PathEnd::Left => open = true,
                 PathEnd::Absorbed => {}
-                PathEnd::GivenUp(share) => rows.given_up += share / f64::from(gatherer.rays),
+                PathEnd::GivenUp(share) => rows.given_up += share * share_of_ray,
             }
             for (surface, reflectance) in ends.drain(..) {
-                let weight = reflectance / f64::from(gatherer.rays);
-                source += weight * self.direct_at(&surface, &mut dice);
-                rows.entries.extend(self.entry(&surface, weight));
+                let share = reflectance * share_of_ray;
+                source += share * self.direct_at(&surface, &mut dice);
+                if let Some(entry) = self.entry(&surface) {
+                    rows.push(entry, share.0.map(|c| c as f32));
+                }
             }
         }
-        rows.ends.push(rows.entries.len());
+        rows.ends.push(rows.runs.len());
         rows.sources.push(source);
         rows.open.push(open);
     }
@@ -202,12 +214,11 @@ impl Gathering<'_> {
     }
 
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
-    fn entry(&self, at: &SurfacePoint, weight: Rgb) -> Option<Entry> {
+    fn entry(&self, at: &SurfacePoint) -> Option<Entry> {
         let corners = self.corners(self.level, at)?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
             weights: corners.map(|(_, weight)| weight as f32),
-            reflectance: weight.0.map(|c| c as f32),
         })
     }
 
@@ -232,6 +243,9 @@ enum End {
 /// Interpolation weights over the known vertices alone.
 pub(super) fn known_weights(corners: [(u32, f64); 3], known: &[bool]) -> Option<[f64; 3]> {
     let is_known = corners.map(|(vertex, _)| known[vertex as usize]);
+    if is_known == [true; 3] {
+        return Some(corners.map(|(_, weight)| weight));
+    }
     let count = is_known.iter().filter(|&&k| k).count();
     if count == 0 {
         return None;
@@ -339,11 +353,32 @@ const MOST: f64 = 0.99;
 const MAX_SWEEPS: usize = 2000;
 
 impl Rows {
-    fn apply<'a>(&'a self, light: &'a [Rgb]) -> impl Iterator<Item = Rgb> + 'a {
-        let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts.zip(&self.ends).zip(&self.sources).map(|((start, &end), &source)| {
-            self.entries[start..end].iter().fold(source, |sum, entry| sum + entry.light(light))
-        })
+    /// Adds an entry to the row that is being made.
+    fn push(&mut self, entry: Entry, share: [f32; 3]) {
+        self.entries.push(entry);
+        // As many as 32 bits count are 100 GB, more than a part of the receivers is ever given.
+        let end = self.entries.len() as u32;
+        let first_of_row = self.ends.last().copied().unwrap_or(0);
+        match self.runs[first_of_row..].last_mut().filter(|run| run.share == share) {
+            Some(run) => run.end = end,
+            None => self.runs.push(Run { end, share }),
+        }
+    }
+
+    fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
+        let (mut run, mut entry) = (0, 0);
+        let mut of_row = |(&end, &source): (&usize, &Rgb)| {
+            let mut sum = source;
+            for Run { end, share } in &self.runs[run..end] {
+                let entries = &self.entries[entry..*end as usize];
+                let read: Rgb = entries.iter().map(|entry| entry.light(light)).sum();
+                sum += read * Rgb(share.map(f64::from));
+                entry = *end as usize;
+            }
+            run = end;
+            sum
+        };
+        self.ends.iter().zip(&self.sources).map(&mut of_row).collect()
     }
 }
 
@@ -353,6 +388,6 @@ impl Entry {
         for k in 0..3 {
             value += light[self.vertices[k] as usize] * f64::from(self.weights[k]);
         }
-        value * Rgb(self.reflectance.map(f64::from))
+        value
     }
 }

@@ -217,7 +217,8 @@ impl<'s> Lighting<'s> {
         let Some(arriving) = source::unoccluded_if(self.scene, source, at, in_view) else {
             return Rgb::BLACK;
         };
-        arriving.illuminance_lx * self.visibility(&source.chain, at, arriving.target, None)
+        let share = self.visibility_in_view(&source.chain, at, arriving.target, None);
+        arriving.illuminance_lx * share
     }
 }
 
