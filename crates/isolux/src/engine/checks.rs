@@ -7,6 +7,7 @@
 //! of the area), and weighted accordingly.
 
 use super::accumulate::{Accumulator, Sample};
+use super::direct::Goal;
 use super::gather::{Gatherer, known_weights};
 use super::path::Dice;
 use super::pilot::{Plan, place_in_leaf};
@@ -95,11 +96,13 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64) -> Option<Check> {
     Some(Check { gatherer, coarse: weights(plan.level)?, fine: weights(u32::MAX)?, area_m2 })
 }
 
-/// Direct light at the check points; `key` only matters where emitting surfaces are sampled.
+/// Direct light at the check points, as readings evaluate it; `key` only matters where it has noise.
 pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
     let sequence = |k: usize| Sequence::new(key.with(k as u64));
+    // What counts is the error of the scene: in the dark a small share of its light will do.
+    let goal = Goal { lx: Goal::READING.share * plan.rms_lx, ..Goal::READING };
     let one = |(k, check): (usize, &Check)| {
-        plan.lighting.illuminance(&check.gatherer.surface, &mut Dice::new(sequence(k), 0))
+        plan.lighting.measured(&check.gatherer.surface, goal, sequence(k)).lx
     };
     checks.par_iter().enumerate().map(one).collect()
 }

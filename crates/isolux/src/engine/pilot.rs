@@ -5,11 +5,12 @@
 //! noise is smooth over surfaces and does not pass for detail.
 
 use super::detail::{LeafError, Refinement, bisect_twice, leaf_errors, left_by_fit, refine_worst};
-use super::direct::Lighting;
+use super::direct::{Goal, Lighting, Measured};
 use super::fit::Fit;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 use super::path::Dice;
+use super::shrink::beyond_noise;
 use super::surface::SurfacePoint;
 use crate::elements::{Elements, Subdivision};
 use crate::sampling::{Key, Sequence};
@@ -42,6 +43,8 @@ const MOST_SOURCES_EVALUATED: usize = 8;
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 2;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
+/// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
+const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
 /// A round in which the error falls with a lower power of the vertices was in vain. Where functions
 /// are smooth it is one; chasing light that comes in through narrow places, less for some rounds.
 const LEAST_ORDER: f64 = 0.25;
@@ -67,6 +70,8 @@ pub(super) struct Plan<'s> {
     pub(super) known: Vec<bool>,
     /// Direct light at the vertices; exact if the lighting is.
     pub(super) direct: Vec<Rgb>,
+    /// The variance of its noise, where it is measured once for all increments, lx2; else zero.
+    pub(super) direct_variance: Vec<f64>,
     /// First guess of the indirect light.
     pub(super) guess: Vec<Rgb>,
     pub(super) direct_from_map: bool,
@@ -122,6 +127,7 @@ struct Pilot<'s> {
     subdivision: Subdivision,
     /// At the vertices looked at so far: light, and whether they are open to it.
     direct: Vec<Rgb>,
+    direct_variance: Vec<f64>,
     indirect: Vec<Rgb>,
     known: Vec<bool>,
     /// Nodes there were then.
@@ -221,6 +227,7 @@ impl<'s> Pilot<'s> {
             key: Key::new(request.seed).with(0),
             subdivision,
             direct: Vec::new(),
+            direct_variance: Vec::new(),
             indirect: Vec::new(),
             known: Vec::new(),
             solved_nodes: 0,
@@ -239,15 +246,31 @@ impl<'s> Pilot<'s> {
         receivers.iter().map(|r| Gatherer::at_vertex(self.scene, r, self.rays)).collect()
     }
 
-    /// Direct light at the vertices that have none yet.
+    /// Direct light at the vertices that have none yet, by the fewest rays.
     fn complete_direct(&mut self, gatherers: &[Gatherer]) {
         let sequence = Sequence::new(self.key.with(1));
-        let new = &gatherers[self.direct.len()..];
-        let values: Vec<Rgb> = new
-            .par_iter()
-            .map(|g| self.lighting.illuminance(&g.surface, &mut Dice::new(sequence, 0)))
-            .collect();
-        self.direct.extend(values);
+        let measured = |g: &Gatherer| self.lighting.measured(&g.surface, Goal::ANY, sequence);
+        let new: Vec<Measured> = gatherers[self.direct.len()..].par_iter().map(measured).collect();
+        self.direct.extend(new.iter().map(|m| m.lx));
+        self.direct_variance.extend(new.iter().map(|m| m.variance));
+    }
+
+    /// Direct light at all vertices for the increments: with noise of their own, where it has noise.
+    fn measure_direct(&mut self, gatherers: &[Gatherer], is_fitted: bool, goal_lx: f64) {
+        self.direct.clear();
+        self.direct_variance.clear();
+        if !(is_fitted && self.lighting.has_many() && self.lighting.is_measured_once()) {
+            self.complete_direct(gatherers);
+            self.direct_variance.fill(0.0);
+            return;
+        }
+        let (lighting, goal, key) = (self.lighting, Goal::lux(goal_lx), self.key.with(5));
+        let measured = |(k, g): (usize, &Gatherer)| {
+            lighting.measured(&g.surface, goal, Sequence::new(key.with(k as u64)))
+        };
+        let all: Vec<Measured> = gatherers.par_iter().enumerate().map(measured).collect();
+        self.direct.extend(all.iter().map(|m| m.lx));
+        self.direct_variance.extend(all.iter().map(|m| m.variance));
     }
 
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
@@ -365,7 +388,8 @@ impl<'s> Pilot<'s> {
             let luminances: Vec<Option<f64>> = (0..self.known.len())
                 .map(|k| self.known[k].then(|| self.direct[k].luminance()))
                 .collect();
-            let errors = leaf_errors(&self.subdivision, &elements, &luminances);
+            let beyond_noise = beyond_noise(&elements, &luminances, &self.direct_variance);
+            let errors = leaf_errors(&self.subdivision, &elements, &beyond_noise);
             let good = relative_error(&errors, look.rms_lx) <= request.mesh_target;
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
@@ -380,8 +404,8 @@ impl<'s> Pilot<'s> {
         }
         // Once more for all: refinement has moved the receivers on borders.
         let gatherers = self.gatherers();
-        self.direct.clear();
-        self.complete_direct(&gatherers);
+        let goal_lx = NOISE_OF_DIRECT_LIGHT * request.mesh_target * look.rms_lx;
+        self.measure_direct(&gatherers, request.is_fitted, goal_lx);
         let mut known = std::mem::take(&mut self.known);
         forget_orphans(&elements, indirect_vertices, &mut known);
         Plan {
@@ -393,6 +417,7 @@ impl<'s> Pilot<'s> {
             indirect_vertices,
             level,
             direct: self.direct,
+            direct_variance: self.direct_variance,
             guess: self.indirect,
             indirect_errors: look.errors,
             rms_lx: look.rms_lx,
