@@ -256,21 +256,31 @@ impl<'s> Pilot<'s> {
     }
 
     /// Direct light at all vertices for the increments: with noise of their own, where it has noise.
-    fn measure_direct(&mut self, gatherers: &[Gatherer], is_fitted: bool, goal_lx: f64) {
+    fn measure_direct(&mut self, gatherers: &[Gatherer], request: &PilotRequest, rms_lx: f64) {
         self.direct.clear();
         self.direct_variance.clear();
-        if !(is_fitted && self.lighting.has_many() && self.lighting.is_measured_once()) {
+        let lighting = self.lighting;
+        if !(request.is_fitted && lighting.has_many() && lighting.is_measured_once()) {
             self.complete_direct(gatherers);
             self.direct_variance.fill(0.0);
             return;
         }
-        let (lighting, goal, key) = (self.lighting, Goal::lux(goal_lx), self.key.with(5));
+        let goal = Goal::lux(NOISE_OF_DIRECT_LIGHT * request.mesh_target * rms_lx);
+        let key = self.key.with(5);
         let measured = |(k, g): (usize, &Gatherer)| {
             lighting.measured(&g.surface, goal, Sequence::new(key.with(k as u64)))
         };
         let all: Vec<Measured> = gatherers.par_iter().enumerate().map(measured).collect();
         self.direct.extend(all.iter().map(|m| m.lx));
         self.direct_variance.extend(all.iter().map(|m| m.variance));
+    }
+
+    /// Photometric direct light at the known vertices, without details that may be noise.
+    fn direct_signal(&self, elements: &Elements) -> Vec<Option<f64>> {
+        let luminances: Vec<Option<f64>> = (0..self.known.len())
+            .map(|k| self.known[k].then(|| self.direct[k].luminance()))
+            .collect();
+        beyond_noise(elements, &luminances, &self.direct_variance)
     }
 
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
@@ -385,11 +395,7 @@ impl<'s> Pilot<'s> {
             max_vertices: most.min(request.max_vertices),
         };
         for _ in 0..MAX_ROUNDS {
-            let luminances: Vec<Option<f64>> = (0..self.known.len())
-                .map(|k| self.known[k].then(|| self.direct[k].luminance()))
-                .collect();
-            let beyond_noise = beyond_noise(&elements, &luminances, &self.direct_variance);
-            let errors = leaf_errors(&self.subdivision, &elements, &beyond_noise);
+            let errors = leaf_errors(&self.subdivision, &elements, &self.direct_signal(&elements));
             let good = relative_error(&errors, look.rms_lx) <= request.mesh_target;
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
@@ -404,8 +410,7 @@ impl<'s> Pilot<'s> {
         }
         // Once more for all: refinement has moved the receivers on borders.
         let gatherers = self.gatherers();
-        let goal_lx = NOISE_OF_DIRECT_LIGHT * request.mesh_target * look.rms_lx;
-        self.measure_direct(&gatherers, request.is_fitted, goal_lx);
+        self.measure_direct(&gatherers, request, look.rms_lx);
         let mut known = std::mem::take(&mut self.known);
         forget_orphans(&elements, indirect_vertices, &mut known);
         Plan {

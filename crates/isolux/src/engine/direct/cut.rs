@@ -9,7 +9,7 @@ use isolux_geometry::{Direction, Point, Vector};
 
 /// Clusters are taken as one if their radius is at most this share of their distance.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tightness {
+struct Tightness {
     /// Clusters of few luminaires.
     leaf: f64,
     /// Clusters of clusters.
@@ -18,9 +18,9 @@ pub(super) struct Tightness {
 
 impl Tightness {
     /// Where one luminaire is to be drawn.
-    pub(super) const ROUGH: Self = Self { leaf: 0.4, inner: 0.4 };
+    const ROUGH: Self = Self { leaf: 0.4, inner: 0.4 };
     /// Where light is to be known.
-    pub(super) const FINE: Self = Self { leaf: 0.3, inner: 0.15 };
+    const FINE: Self = Self { leaf: 0.3, inner: 0.15 };
 }
 
 /// Where a member of a cluster gives less than this share of what another gives, the cluster is
@@ -72,9 +72,17 @@ pub(super) struct Cut<'a> {
 }
 
 impl Lighting<'_> {
-    /// What a receiver sees of the luminaires without surface and their images, in clusters as
-    /// tight as that.
-    pub(super) fn cut(&self, at: &SurfacePoint, tight: Tightness) -> Cut<'_> {
+    /// What a receiver sees of the luminaires without surface and their images, to know their light.
+    pub(super) fn fine_cut(&self, at: &SurfacePoint) -> Cut<'_> {
+        self.cut(at, Tightness::FINE)
+    }
+
+    /// The same, to draw one of them.
+    pub(super) fn rough_cut(&self, at: &SurfacePoint) -> Cut<'_> {
+        self.cut(at, Tightness::ROUGH)
+    }
+
+    fn cut(&self, at: &SurfacePoint, tight: Tightness) -> Cut<'_> {
         let views: Vec<View> =
             (0..self.chains.len()).filter_map(|chain| self.view(chain, at)).collect();
         let mut seen = Vec::with_capacity(256);

@@ -1,6 +1,6 @@
 //! Direct light with its own standard error, by as many shadow rays as that takes.
 
-use super::cut::{Cut, Tightness};
+use super::cut::Cut;
 use super::{AREA_SAMPLES, FEWEST_AREA_SAMPLES, Lighting};
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
@@ -70,7 +70,7 @@ impl Lighting<'_> {
             let lx = self.illuminance(at, &mut Dice::new(sequence, 0));
             return Measured { lx, variance: 0.0 };
         }
-        let cut = self.cut(at, Tightness::FINE);
+        let cut = self.fine_cut(at);
         let teeth = self.teeth(&cut, at, goal, &mut Dice::new(sequence, REPLICATES));
         let of_each =
             (REPLICATES as usize * teeth >= self.count(&cut)).then(|| self.lit_by_each(&cut, at));

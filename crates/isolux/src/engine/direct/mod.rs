@@ -22,7 +22,6 @@ use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
-use cut::Tightness;
 pub(super) use measured::{Goal, Measured};
 use mirrors::Mirrors;
 use panes::Panes;
@@ -159,7 +158,7 @@ impl<'s> Lighting<'s> {
         if !self.has_many() {
             return self.by_all(at, samples, dice);
         }
-        let points = self.lit_by_many(&self.cut(at, Tightness::FINE), at, RAYS_TO_MANY, dice);
+        let points = self.lit_by_many(&self.fine_cut(at), at, RAYS_TO_MANY, dice);
         self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
     }
 
@@ -178,7 +177,7 @@ impl<'s> Lighting<'s> {
             let is_in_view = |target| self.chain_is_in_view(&source.chain, at, target);
             source::importance(self.scene, source, at, is_in_view)
         };
-        let cut = (!self.tree.lamps.is_empty()).then(|| self.cut(at, Tightness::ROUGH));
+        let cut = (!self.tree.lamps.is_empty()).then(|| self.rough_cut(at));
         let of_tree = cut.as_ref().map_or(0.0, |cut| cut.total);
         let weights: Vec<f64> = self.others().map(weight).collect();
         let total: f64 = of_tree + weights.iter().sum::<f64>();
