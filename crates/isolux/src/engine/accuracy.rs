@@ -33,7 +33,10 @@ pub(super) fn accuracy(
     let statistical =
         interpolation.noise_lx.map_or((variance / squared).sqrt(), |noise_lx| noise_lx / rms_lx);
     let discretization = interpolation.indirect_lx / rms_lx;
-    let lookup_lx = interpolation.indirect_mean_lx;
+    // Check points see what their rays read of indirect light; direct light that is read, too, adds what
+    // is reflected of its own error.
+    let direct_lx = if plan.direct_from_map { interpolation.direct_mean_lx } else { 0.0 };
+    let lookup_lx = interpolation.indirect_mean_lx + mean_reflectance(plan) * direct_lx;
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign,
     // and so has the mean of the interpolation error where the map is read.
     let (lookup, series) = (lookup_lx.abs() / rms_lx, reflected_series(plan));

@@ -8,6 +8,7 @@
 
 use super::accumulate::{Accumulator, Sample};
 use super::detail::LeafError;
+use super::direct::Goal;
 use super::gather::{Gatherer, known_weights};
 use super::path::Dice;
 use super::pilot::{Plan, place_in_leaf};
@@ -47,6 +48,8 @@ pub(super) struct InterpolationErrors {
     pub(super) total_lx: f64,
     /// Mean of the indirect error, with its sign and standard error.
     pub(super) indirect_mean_lx: f64,
+    /// Mean of the interpolation error of direct light, with its sign.
+    pub(super) direct_mean_lx: f64,
     /// What paths given up would bring in the mean, before it is reflected.
     pub(super) given_up_lx: f64,
     /// Of what is read over the surface, by the spread of increments; `None` where it was not looked
@@ -111,11 +114,13 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Opt
     Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted })
 }
 
-/// Direct light at the check points; `key` only matters where emitting surfaces are sampled.
+/// Direct light at the check points, as readings evaluate it; `key` only matters where it has noise.
 pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
     let sequence = |k: usize| Sequence::new(key.with(k as u64));
+    // What counts is the error of the scene: in the dark a small share of its light will do.
+    let goal = Goal { lx: Goal::READING.share * plan.rms_lx, ..Goal::READING };
     let one = |(k, check): (usize, &Check)| {
-        plan.lighting.illuminance(&check.gatherer.surface, &mut Dice::new(sequence(k), 0))
+        plan.lighting.measured(&check.gatherer.surface, goal, sequence(k)).lx
     };
     checks.par_iter().enumerate().map(one).collect()
 }
@@ -184,6 +189,7 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         indirect_lx: root(0),
         total_lx: root(1),
         indirect_mean_lx: mean[0],
+        direct_mean_lx: mean[1] - mean[0],
         given_up_lx: 0.0,
         noise_lx: (!checks.is_empty()).then(|| noise.sqrt()),
         over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),

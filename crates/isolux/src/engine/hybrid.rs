@@ -124,7 +124,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let rows: Vec<Gatherer> = self.rows.iter().step_by(TRIED).copied().collect();
         let gathering = Gathering::of(self.plan, &self.plan.direct);
         gathering.operator(&rows, |row| self.key.with(0).with(row as u64));
-        if !lighting.is_exact() {
+        if !lighting.is_measured_once() {
             let key = self.key.with(0).with(1);
             let all: Vec<_> = self.plan.gatherers.iter().step_by(TRIED).collect();
             all.par_iter().enumerate().for_each(|(k, gatherer)| {
@@ -155,9 +155,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             operator.solve_or_give_up(&plan.guess, &caustic, Some(&plan.fit), TOLERANCE);
         let gathered = plan.fit.apply(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
-        // Check points evaluate what the map reads, so that they see what reading gets wrong.
-        let checking = Gathering { direct: DirectAtEnds::Evaluated, ..gathering };
-        let fresh = checking.operator(&self.check_rows, |row| key.with(3).with(row as u64));
+        let fresh = gathering.operator(&self.check_rows, |row| key.with(3).with(row as u64));
         let fresh_light = fresh.apply(&light);
         let indirect = plan.prolongate(&gathered);
         let caustic = plan.prolongate(&caustic);
@@ -176,14 +174,14 @@ impl<'p, 's> Hybrid<'p, 's> {
         })
     }
 
-    /// Direct light at vertices and check points: the plan's where it is exact.
+    /// Direct light at vertices and check points: the plan's where it is measured once.
     fn direct(
         &self,
         checks: &[Check],
         key: Key,
         deadline: Deadline,
     ) -> Option<(Vec<Rgb>, Vec<Rgb>)> {
-        if self.plan.lighting.is_exact() {
+        if self.plan.lighting.is_measured_once() {
             return Some((self.plan.direct.clone(), self.check_direct.clone()));
         }
         let vertex = |(k, gatherer): (usize, &Gatherer)| {

@@ -22,6 +22,7 @@ mod probe;
 mod request;
 mod run;
 mod scatter;
+mod shrink;
 mod state;
 mod surface;
 mod tally;

@@ -7,11 +7,12 @@
 use super::detail::{
     LeafError, Refinement, bisect_twice, leaf_errors, left_by_fit, refine_worst, told_error,
 };
-use super::direct::Lighting;
+use super::direct::{Goal, Lighting, Measured};
 use super::fit::Fit;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 use super::path::Dice;
+use super::shrink::beyond_noise;
 use super::surface::SurfacePoint;
 use super::trust;
 use crate::elements::{Elements, Subdivision};
@@ -46,6 +47,8 @@ const MOST_SOURCES_EVALUATED: usize = 8;
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 2;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
+/// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
+const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
 /// A round in which the error falls with a lower power of the vertices was in vain. Where functions
 /// are smooth it is one; chasing light that comes in through narrow places, less for some rounds.
 const LEAST_ORDER: f64 = 0.25;
@@ -71,6 +74,8 @@ pub(super) struct Plan<'s> {
     pub(super) known: Vec<bool>,
     /// Direct light at the vertices; exact if the lighting is.
     pub(super) direct: Vec<Rgb>,
+    /// The variance of its noise, where it is measured once for all increments, lx2; else zero.
+    pub(super) direct_variance: Vec<f64>,
     /// First guess of the indirect light.
     pub(super) guess: Vec<Rgb>,
     pub(super) direct_from_map: bool,
@@ -128,6 +133,7 @@ struct Pilot<'s> {
     subdivision: Subdivision,
     /// At the vertices looked at so far: light, and whether they are open to it.
     direct: Vec<Rgb>,
+    direct_variance: Vec<f64>,
     indirect: Vec<Rgb>,
     known: Vec<bool>,
     /// In the middle of elements that no details tell of, by node.
@@ -236,6 +242,7 @@ impl<'s> Pilot<'s> {
             key: Key::new(request.seed).with(0),
             subdivision,
             direct: Vec::new(),
+            direct_variance: Vec::new(),
             indirect: Vec::new(),
             known: Vec::new(),
             middles: HashMap::new(),
@@ -255,15 +262,41 @@ impl<'s> Pilot<'s> {
         receivers.iter().map(|r| Gatherer::at_vertex(self.scene, r, self.rays)).collect()
     }
 
-    /// Direct light at the vertices that have none yet.
+    /// Direct light at the vertices that have none yet, by the fewest rays.
     fn complete_direct(&mut self, gatherers: &[Gatherer]) {
         let sequence = Sequence::new(self.key.with(1));
-        let new = &gatherers[self.direct.len()..];
-        let values: Vec<Rgb> = new
-            .par_iter()
-            .map(|g| self.lighting.illuminance(&g.surface, &mut Dice::new(sequence, 0)))
+        let measured = |g: &Gatherer| self.lighting.measured(&g.surface, Goal::ANY, sequence);
+        let new: Vec<Measured> = gatherers[self.direct.len()..].par_iter().map(measured).collect();
+        self.direct.extend(new.iter().map(|m| m.lx));
+        self.direct_variance.extend(new.iter().map(|m| m.variance));
+    }
+
+    /// Direct light at all vertices for the increments: with noise of their own, where it has noise.
+    fn measure_direct(&mut self, gatherers: &[Gatherer], request: &PilotRequest, rms_lx: f64) {
+        self.direct.clear();
+        self.direct_variance.clear();
+        let lighting = self.lighting;
+        if !(request.is_fitted && lighting.has_many() && lighting.is_measured_once()) {
+            self.complete_direct(gatherers);
+            self.direct_variance.fill(0.0);
+            return;
+        }
+        let goal = Goal::lux(NOISE_OF_DIRECT_LIGHT * request.mesh_target * rms_lx);
+        let key = self.key.with(5);
+        let measured = |(k, g): (usize, &Gatherer)| {
+            lighting.measured(&g.surface, goal, Sequence::new(key.with(k as u64)))
+        };
+        let all: Vec<Measured> = gatherers.par_iter().enumerate().map(measured).collect();
+        self.direct.extend(all.iter().map(|m| m.lx));
+        self.direct_variance.extend(all.iter().map(|m| m.variance));
+    }
+
+    /// Photometric direct light at the known vertices, without details that may be noise.
+    fn direct_signal(&self, elements: &Elements) -> Vec<Option<f64>> {
+        let luminances: Vec<Option<f64>> = (0..self.known.len())
+            .map(|k| self.known[k].then(|| self.direct[k].luminance()))
             .collect();
-        self.direct.extend(values);
+        beyond_noise(elements, &luminances, &self.direct_variance)
     }
 
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
@@ -400,23 +433,55 @@ impl<'s> Pilot<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
         let trusted_up_to_lx = look.trusted_up_to_lx(request);
         let coarse = self.subdivision.clone();
-        let level = coarse.node_count() as u32;
-        let mut elements = look.elements;
+        let elements = self.refine_for_direct_light(look.elements, look.rms_lx, request, go_on);
+        // Once more for all: refinement has moved the receivers on borders.
+        let gatherers = self.gatherers();
+        self.measure_direct(&gatherers, request, look.rms_lx);
+        let mut known = std::mem::take(&mut self.known);
+        forget_orphans(&elements, indirect_vertices, &mut known);
+        Plan {
+            direct_from_map: self.direct_from_map(),
+            scene: self.scene,
+            lighting: self.lighting,
+            elements,
+            gatherers,
+            indirect_vertices,
+            level: coarse.node_count() as u32,
+            direct: self.direct,
+            direct_variance: self.direct_variance,
+            guess: self.indirect,
+            trusted_up_to_lx,
+            indirect_errors: look.errors,
+            rms_lx: look.rms_lx,
+            fit: Fit::new(&coarse.elements(), indirect_vertices, &known),
+            known,
+            subdivision: coarse,
+            rays: self.traced,
+        }
+    }
+
+    /// Refines where direct light as interpolated errs, until it is as good as asked.
+    fn refine_for_direct_light(
+        &mut self,
+        mut elements: Elements,
+        rms_lx: f64,
+        request: &PilotRequest,
+        go_on: &mut dyn FnMut(usize, u64) -> bool,
+    ) -> Elements {
         // Best effort: sharp shadow borders would take elements without end, and of emitting surfaces
         // refinement cannot tell noise from borders.
-        let most = (MOST_FOR_DIRECT_LIGHT * indirect_vertices).max(ALWAYS_FOR_DIRECT_LIGHT);
+        let most = MOST_FOR_DIRECT_LIGHT * self.subdivision.vertex_count();
+        let most = most.max(ALWAYS_FOR_DIRECT_LIGHT);
         let how_far = Refinement {
             wanted: 0.0,
             least_edge_m: self.least_edge_m,
             max_vertices: most.min(request.max_vertices),
         };
         for _ in 0..MAX_ROUNDS {
-            let luminances: Vec<Option<f64>> = (0..self.known.len())
-                .map(|k| self.known[k].then(|| self.direct[k].luminance()))
-                .collect();
-            let errors = leaf_errors(&self.subdivision, &elements, &luminances, |_| None);
+            let signal = self.direct_signal(&elements);
+            let errors = leaf_errors(&self.subdivision, &elements, &signal, |_| None);
             let error_lx = trust::error_below(&errors, f64::INFINITY);
-            let good = error_lx <= request.mesh_target * look.rms_lx;
+            let good = error_lx <= request.mesh_target * rms_lx;
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
             }
@@ -428,30 +493,7 @@ impl<'s> Pilot<'s> {
             self.complete_direct(&gatherers);
             self.extend_known(&elements, &gatherers);
         }
-        // Once more for all: refinement has moved the receivers on borders.
-        let gatherers = self.gatherers();
-        self.direct.clear();
-        self.complete_direct(&gatherers);
-        let mut known = std::mem::take(&mut self.known);
-        forget_orphans(&elements, indirect_vertices, &mut known);
-        Plan {
-            direct_from_map: self.direct_from_map(),
-            scene: self.scene,
-            lighting: self.lighting,
-            elements,
-            gatherers,
-            indirect_vertices,
-            level,
-            direct: self.direct,
-            guess: self.indirect,
-            trusted_up_to_lx,
-            indirect_errors: look.errors,
-            rms_lx: look.rms_lx,
-            fit: Fit::new(&coarse.elements(), indirect_vertices, &known),
-            known,
-            subdivision: coarse,
-            rays: self.traced,
-        }
+        elements
     }
 }
 

@@ -1,6 +1,6 @@
 //! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
 
-use super::direct::Lighting;
+use super::direct::{Goal, Lighting, Measured};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hybrid::NET_ORDER;
 use super::path::Dice;
@@ -257,12 +257,14 @@ impl<'a> MapReader<'a> {
     /// Direct light at a place and the variance of its mean.
     fn direct(&self, at: &SurfacePoint) -> (Rgb, f64) {
         let key = place_key(at.point);
+        if self.lighting.is_measured_once() {
+            let Measured { lx, variance } =
+                self.lighting.measured(at, Goal::READING, Sequence::new(key.with(0)));
+            return (lx, variance);
+        }
         let one = |replicate| {
             self.lighting.illuminance(at, &mut Dice::new(Sequence::new(key.with(replicate)), 0))
         };
-        if self.lighting.is_exact() {
-            return (one(0), 0.0);
-        }
         let values: Vec<Rgb> = (0..DIRECT_REPLICATES).map(one).collect();
         mean_and_variance(&values)
     }

@@ -224,7 +224,7 @@ impl<'p, 's> Work<'p, 's> {
             direct_lx: mean.direct + mean.caustic,
             caustic_lx: mean.caustic,
             indirect_lx: mean.indirect,
-            standard_error_lx: estimate.variance.sqrt(),
+            standard_error_lx: (estimate.variance + self.plan.direct_variance[vertex]).sqrt(),
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
             interpolation_error_lx,
             samples: self.sums.increments * u64::from(self.samples),

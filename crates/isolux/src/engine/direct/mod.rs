@@ -11,6 +11,7 @@ mod cut;
 mod kind;
 mod lobe;
 mod many;
+mod measured;
 mod mirrors;
 mod panes;
 mod source;
@@ -21,6 +22,7 @@ use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
+pub(super) use measured::{Goal, Measured};
 use mirrors::Mirrors;
 use panes::Panes;
 pub(super) use source::LuminaireId;
@@ -106,13 +108,13 @@ impl<'s> Lighting<'s> {
         self.sources.len()
     }
 
-    /// Whether direct light has an exact value at every point: no emitting surface, and few enough
-    /// luminaires to ask them all.
-    pub(super) fn is_exact(&self) -> bool {
-        self.area_sources == 0 && !self.has_many()
+    /// Whether direct light is measured once for all, exactly or with a known error: no emitting surface.
+    pub(super) fn is_measured_once(&self) -> bool {
+        self.area_sources == 0
     }
 
-    fn has_many(&self) -> bool {
+    /// Whether some luminaires are chosen to be looked at, among many.
+    pub(super) fn has_many(&self) -> bool {
         self.points > DRAWN_AT_RECEIVERS
     }
 
@@ -156,7 +158,7 @@ impl<'s> Lighting<'s> {
         if !self.has_many() {
             return self.by_all(at, samples, dice);
         }
-        let points = self.lit_by_many(&self.cut(at), at, RAYS_TO_MANY, dice);
+        let points = self.lit_by_many(&self.fine_cut(at), at, RAYS_TO_MANY, dice);
         self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
     }
 
@@ -175,7 +177,7 @@ impl<'s> Lighting<'s> {
             let is_in_view = |target| self.chain_is_in_view(&source.chain, at, target);
             source::importance(self.scene, source, at, is_in_view)
         };
-        let cut = (!self.tree.lamps.is_empty()).then(|| self.cut(at));
+        let cut = (!self.tree.lamps.is_empty()).then(|| self.rough_cut(at));
         let of_tree = cut.as_ref().map_or(0.0, |cut| cut.total);
         let weights: Vec<f64> = self.others().map(weight).collect();
         let total: f64 = of_tree + weights.iter().sum::<f64>();

@@ -143,6 +143,7 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
         indirect_lx: 3.0,
         total_lx: 4.0,
         indirect_mean_lx: -2.0,
+        direct_mean_lx: -100.0,
         given_up_lx: 0.0,
         noise_lx: None,
         over_expected: None,
