@@ -4,7 +4,7 @@ use super::Fault;
 use super::arrays::{Arrays, Table, write_floats, write_integers};
 use super::bytes::Bytes;
 use isolux::elements::{ElementArrays, Elements};
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{Illuminance, IlluminationMap, Standing};
 use isolux::units::Rgb;
 
 const POSITIONS: &str = "vertex_positions";
@@ -52,8 +52,18 @@ pub(super) fn write(map: &IlluminationMap, bytes: &mut Bytes, table: &mut Table)
     integers(NODES, 3, wide(elements.nodes.as_flattened()));
     integers(SPLITS, 2, wide(elements.splits.as_flattened()));
     integers(ROOTS, 2, wide(elements.roots.as_flattened()));
-    integers(KNOWN, 1, values.iter().map(|v| u64::from(v.is_some())).collect());
+    integers(KNOWN, 1, values.iter().map(|v| v.map_or(0, |v| rank(v.standing))).collect());
     integers(SAMPLES, 1, values.iter().map(|v| v.map_or(0, |v| v.samples)).collect());
+}
+
+/// Of a standing in files; 0 is that of an unknown value.
+fn rank(standing: Standing) -> u64 {
+    Standing::ALL.iter().position(|&s| s == standing).map_or(0, |index| index as u64 + 1)
+}
+
+fn standing(rank: u64) -> Option<Standing> {
+    let index = usize::try_from(rank).ok()?.checked_sub(1)?;
+    Standing::ALL.get(index).copied()
 }
 
 /// A value as files hold it: finite or unknown; an error that is not a number is boundless.
@@ -114,14 +124,18 @@ pub(super) fn read_values(
             ));
         }
     }
-    let value = |k: usize| Illuminance {
+    if known.iter().any(|&rank| rank > Standing::ALL.len() as u64) {
+        return Err(Fault::new(format!("extras.isolux.arrays.{KNOWN}"), "holds no standing"));
+    }
+    let value = |k: usize, standing: Standing| Illuminance {
         direct_lx: Rgb(direct[k]),
         caustic_lx: Rgb(caustic[k]),
         indirect_lx: Rgb(indirect[k]),
         standard_error_lx: errors[k][0],
         indirect_standard_error_lx: errors[k][1],
         interpolation_error_lx: interpolation[k],
+        standing,
         samples: samples[k],
     };
-    Ok((0..count).map(|k| (known[k] != 0).then(|| value(k))).collect())
+    Ok((0..count).map(|k| standing(known[k]).map(|standing| value(k, standing))).collect())
 }

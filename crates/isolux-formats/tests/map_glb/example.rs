@@ -144,6 +144,7 @@ fn value(k: f64) -> Illuminance {
         standard_error_lx: 0.3 + 0.01 * k,
         indirect_standard_error_lx: 0.1,
         interpolation_error_lx: 0.2 * k,
+        standing: Standing::ALL[k as usize % 3],
         samples: 1 << (k as u32 % 40),
     }
 }

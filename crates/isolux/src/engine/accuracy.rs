@@ -69,7 +69,7 @@ impl Pooled {
     fn of(plan: &Plan, sums: &Accumulator) -> Self {
         let mut pooled = Self { area_m2: 0.0, squared: 0.0, variance: 0.0 };
         let vertices = plan.elements.vertices().iter().enumerate();
-        for (k, vertex) in vertices.filter(|&(k, _)| plan.known[k]) {
+        for (k, vertex) in vertices.filter(|&(k, _)| plan.standings[k].is_some()) {
             let estimate = sums.estimate(k);
             let mean = &estimate.mean;
             let lx = (mean.direct + mean.caustic + mean.indirect).luminance();

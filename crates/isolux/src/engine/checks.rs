@@ -104,12 +104,13 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Opt
     let weights = |level: u32| {
         let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
         let corners = plan.elements.locate_above(level, triangle, back, u, v)?;
-        let weights = known_weights(corners, &plan.known)?;
+        let weights = known_weights(corners, &plan.standings)?;
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     };
     let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
     let edge_m = trust::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
     let is_trusted = expected_lx <= plan.trusted_up_to_lx
+        && coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex))
         && !trust::is_closed_in(plan.scene, &gatherer.surface, edge_m);
     Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted })
 }

@@ -54,14 +54,14 @@ pub(super) fn leaf_errors(
         let area_m2 = subdivision.triangle(node).area();
         let error = told_error(subdivision, elements, values, node).unwrap_or_else(|| {
             let corners = subdivision.node(node).0.vertices;
-            untold_error(corners.map(|v| values[v as usize].unwrap_or(0.0)), in_the_middle(node))
+            untold_error(corners.map(|v| values[v as usize]), in_the_middle(node))
         });
         LeafError { node, area_m2, error }
     };
     subdivision.leaves().map(leaf).collect()
 }
 
-/// The error of an element that details tell; `None` if it has none.
+/// The error of an element that details tell; `None` if it has none, or vertices that say nothing.
 pub(super) fn told_error(
     subdivision: &Subdivision,
     elements: &Elements,
@@ -69,22 +69,27 @@ pub(super) fn told_error(
     node: u32,
 ) -> Option<f64> {
     let corners = subdivision.node(node).0.vertices;
-    let known: Vec<f64> = corners.iter().filter_map(|&v| values[v as usize]).collect();
-    if known.len() < corners.len() {
-        // Extrapolation over a hidden vertex: as uncertain as the value is large.
-        return Some(ERROR_OF_SPREAD * known.into_iter().fold(0.0, f64::max));
+    if corners.iter().any(|&v| values[v as usize].is_none()) {
+        return None;
     }
     let reach = RECENT * subdivision.longest_edge_m(node);
     let details = corners.iter().filter_map(|&v| detail(elements, values, v, reach));
     details.reduce(f64::max).map(|detail| ERROR_OF_DETAIL * detail)
 }
 
-/// The error of an element of known vertices without details.
-fn untold_error(values: [f64; 3], in_the_middle: Option<f64>) -> f64 {
-    let [a, b, c] = values;
+/// The error of an element without details.
+fn untold_error(values: [Option<f64>; 3], in_the_middle: Option<f64>) -> f64 {
+    let known: Vec<f64> = values.into_iter().flatten().collect();
+    let Some(high) = known.iter().copied().reduce(f64::max) else { return 0.0 };
+    let low = known.iter().copied().fold(high, f64::min);
     match in_the_middle {
-        Some(middle) => ERROR_OF_MIDDLE * (middle - (a + b + c) / 3.0).abs(),
-        None => ERROR_OF_SPREAD * (a.max(b).max(c) - a.min(b).min(c)),
+        Some(middle) => {
+            let read = known.iter().sum::<f64>() / known.len() as f64;
+            ERROR_OF_MIDDLE * (middle - read).abs()
+        }
+        None if known.len() == 3 => ERROR_OF_SPREAD * (high - low),
+        // Extrapolation over a vertex that says nothing: as uncertain as the value is large.
+        None => ERROR_OF_SPREAD * high,
     }
 }
 

@@ -11,6 +11,7 @@ use super::fit::Fit;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
 use crate::elements::{Elements, Receiver};
+use crate::map::Standing;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
 use crate::units::Rgb;
@@ -66,8 +67,8 @@ pub(super) struct Gathering<'a> {
     pub(super) elements: &'a Elements,
     /// Nodes of the elements from this number on are finer than the level gathered over.
     pub(super) level: u32,
-    /// Which vertices have a value to be read; hidden ones have not.
-    pub(super) known: &'a [bool],
+    /// What vertices stand for; those without have no value to be read.
+    pub(super) standings: &'a [Option<Standing>],
     pub(super) direct: DirectAtEnds<'a>,
 }
 
@@ -225,7 +226,7 @@ impl Gathering<'_> {
     /// Vertices and weights of a place on a level, over the known ones.
     fn corners(&self, level: u32, at: &SurfacePoint) -> Option<[(u32, f64); 3]> {
         let corners = self.elements.locate_above(level, at.triangle, at.back, at.u, at.v)?;
-        let weights = known_weights(corners, self.known)?;
+        let weights = known_weights(corners, self.standings)?;
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     }
 }
@@ -240,9 +241,14 @@ enum End {
     Closed,
 }
 
-/// Interpolation weights over the known vertices alone.
-pub(super) fn known_weights(corners: [(u32, f64); 3], known: &[bool]) -> Option<[f64; 3]> {
-    let is_known = corners.map(|(vertex, _)| known[vertex as usize]);
+/// Interpolation weights over the known vertices of the highest standing alone.
+pub(super) fn known_weights(
+    corners: [(u32, f64); 3],
+    standings: &[Option<Standing>],
+) -> Option<[f64; 3]> {
+    let of = corners.map(|(vertex, _)| standings[vertex as usize]);
+    let highest = Standing::highest(of)?;
+    let is_known = of.map(|standing| standing == Some(highest));
     if is_known == [true; 3] {
         return Some(corners.map(|(_, weight)| weight));
     }

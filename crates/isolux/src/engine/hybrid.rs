@@ -47,8 +47,10 @@ const MOST_WANTED: f64 = 256.0;
 pub(super) fn rays_for(plan: &Plan, target: f64, increments: u64, seed: u64) -> u32 {
     let key = Key::new(seed).with(5);
     let every = (plan.indirect_vertices / TRIAL_RECEIVERS).max(1);
-    let tried: Vec<usize> =
-        (0..plan.indirect_vertices).filter(|&k| plan.known[k]).step_by(every).collect();
+    let tried: Vec<usize> = (0..plan.indirect_vertices)
+        .filter(|&k| plan.standings[k].is_some())
+        .step_by(every)
+        .collect();
     let rows: Vec<Gatherer> =
         tried.iter().map(|&k| plan.gatherers[k].with_rays(TRIAL_RAYS)).collect();
     let gathering = Gathering::of(plan, &plan.direct);
@@ -84,7 +86,7 @@ impl<'a> Gathering<'a> {
             lighting: plan.lighting,
             elements: &plan.elements,
             level: plan.level,
-            known: &plan.known,
+            standings: &plan.standings,
             direct: if plan.direct_from_map {
                 DirectAtEnds::Read { values: direct, level: u32::MAX }
             } else {
@@ -110,8 +112,9 @@ impl<'p, 's> Hybrid<'p, 's> {
     /// With so many gathering rays in every increment for each vertex that is not hidden.
     pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: u32, seed: u64) -> Self {
         let key = Key::new(seed).with(1);
-        let vertices = plan.gatherers.iter().zip(&plan.known).take(plan.indirect_vertices);
-        let rows = vertices.map(|(g, &known)| g.with_rays(if known { rays } else { 0 })).collect();
+        let vertices = plan.gatherers.iter().zip(&plan.standings).take(plan.indirect_vertices);
+        let rows =
+            vertices.map(|(g, of)| g.with_rays(if of.is_some() { rays } else { 0 })).collect();
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
         Self { plan, check_direct, rows, check_rows, key }

@@ -16,6 +16,7 @@ use super::shrink::beyond_noise;
 use super::surface::SurfacePoint;
 use super::trust;
 use crate::elements::{Elements, Subdivision};
+use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -70,8 +71,8 @@ pub(super) struct Plan<'s> {
     /// Indirect light lives on the first so many vertices and the nodes below `level`.
     pub(super) indirect_vertices: usize,
     pub(super) level: u32,
-    /// Which vertices are not hidden in other geometry.
-    pub(super) known: Vec<bool>,
+    /// What vertices stand for; none are hidden in other geometry.
+    pub(super) standings: Vec<Option<Standing>>,
     /// Direct light at the vertices; exact if the lighting is.
     pub(super) direct: Vec<Rgb>,
     /// The variance of its noise, where it is measured once for all increments, lx2; else zero.
@@ -98,18 +99,23 @@ impl Plan<'_> {
         self.indirect_errors.iter().map(|e| e.area_m2).sum()
     }
 
+    /// Whether a vertex lies in the open.
+    pub(super) fn is_open(&self, vertex: u32) -> bool {
+        self.standings[vertex as usize] == Some(Standing::Open)
+    }
+
     /// Values for the vertices that only direct light needs: interpolated from their parents.
     pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
         let mut values = coarse.to_vec();
-        for vertex in &self.elements.vertices()[coarse.len()..] {
-            let [a, b] = vertex.parents.expect("vertices beyond the input are made by bisection");
-            let read = |end: u32| (self.known[end as usize]).then(|| values[end as usize]);
-            let value = match (read(a), read(b)) {
-                (Some(a), Some(b)) => (a + b) * 0.5,
-                (Some(one), None) | (None, Some(one)) => one,
-                (None, None) => Rgb::BLACK,
-            };
-            values.push(value);
+        for (k, vertex) in self.elements.vertices().iter().enumerate().skip(coarse.len()) {
+            let ends = vertex.parents.expect("vertices beyond the input are made by bisection");
+            let of = ends.map(|end| self.standings[end as usize]);
+            // From what stands as it does, if it can be, else as elements do.
+            let own = self.standings[k].filter(|own| of.contains(&Some(*own)));
+            let read = own.or(Standing::highest(of));
+            let known = (0..2).filter(|&e| read.is_some() && of[e] == read);
+            let known: Vec<Rgb> = known.map(|e| values[ends[e] as usize]).collect();
+            values.push(known.iter().copied().sum::<Rgb>() / known.len().max(1) as f64);
         }
         values
     }
@@ -136,6 +142,8 @@ struct Pilot<'s> {
     direct_variance: Vec<f64>,
     indirect: Vec<Rgb>,
     known: Vec<bool>,
+    /// What they stand for.
+    standings: Vec<Option<Standing>>,
     /// In the middle of elements that no details tell of, by node.
     middles: HashMap<u32, f64>,
     /// Nodes there were then.
@@ -245,6 +253,7 @@ impl<'s> Pilot<'s> {
             direct_variance: Vec::new(),
             indirect: Vec::new(),
             known: Vec::new(),
+            standings: Vec::new(),
             middles: HashMap::new(),
             solved_nodes: 0,
             rays: pilot_rays(request.target),
@@ -293,9 +302,7 @@ impl<'s> Pilot<'s> {
 
     /// Photometric direct light at the known vertices, without details that may be noise.
     fn direct_signal(&self, elements: &Elements) -> Vec<Option<f64>> {
-        let luminances: Vec<Option<f64>> = (0..self.known.len())
-            .map(|k| self.known[k].then(|| self.direct[k].luminance()))
-            .collect();
+        let luminances = self.in_the_open(&self.direct);
         beyond_noise(elements, &luminances, &self.direct_variance)
     }
 
@@ -305,14 +312,12 @@ impl<'s> Pilot<'s> {
         let gatherers = self.gatherers();
         self.complete_direct(&gatherers);
         self.complete_indirect(&elements, &gatherers);
-        let luminances: Vec<Option<f64>> = (0..self.known.len())
-            .map(|k| self.known[k].then(|| self.indirect[k].luminance()))
-            .collect();
+        let luminances = self.in_the_open(&self.indirect);
         self.complete_middles(&elements, &luminances);
         let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
         let middle = |node: u32| self.middles.get(&node).copied();
         let errors = leaf_errors(&self.subdivision, &elements, &luminances, middle);
-        let rms_lx = rms(&elements, &self.known, lx);
+        let rms_lx = rms(&elements, &self.standings, lx);
         let left_by_fit = left_by_fit(&self.subdivision, &elements, &luminances, &errors);
         Look { vertices: gatherers.len(), elements, errors, left_by_fit, rms_lx }
     }
@@ -322,18 +327,18 @@ impl<'s> Pilot<'s> {
         &'a self,
         elements: &'a Elements,
         level: u32,
-        known: &'a [bool],
+        standings: &'a [Option<Standing>],
     ) -> Gathering<'a> {
         let direct = if self.direct_from_map() {
             DirectAtEnds::Read { values: &self.direct, level }
         } else {
             DirectAtEnds::Evaluated
         };
-        Gathering { scene: self.scene, lighting: self.lighting, elements, level, known, direct }
+        Gathering { scene: self.scene, lighting: self.lighting, elements, level, standings, direct }
     }
 
     /// Gathers in the middle of the elements that no details tell of, that have something close before
-    /// them and that were not looked at yet.
+    /// them and that were not looked at yet; not in gaps, where readers gather anyway.
     fn complete_middles(&mut self, elements: &Elements, values: &[Option<f64>]) {
         let is_new = |&node: &u32| {
             !self.middles.contains_key(&node)
@@ -344,12 +349,14 @@ impl<'s> Pilot<'s> {
             let place = place_in_node(self.scene, &self.subdivision, node, MIDDLE);
             let edge_m = self.subdivision.longest_edge_m(node);
             let gatherer = Gatherer::on_surface(place, self.rays);
-            trust::is_beset(self.scene, &place, edge_m).then_some((node, gatherer))
+            let asks = trust::is_beset(self.scene, &place, edge_m)
+                && !trust::is_closed_in(self.scene, &place, edge_m);
+            asks.then_some((node, gatherer))
         };
         let beset: Vec<(u32, Gatherer)> = new.into_par_iter().filter_map(beset).collect();
         let (nodes, rows): (Vec<u32>, Vec<Gatherer>) = beset.into_iter().unzip();
         let key = self.key.with(2);
-        let gathering = self.gathering(elements, self.solved_nodes, &self.known);
+        let gathering = self.gathering(elements, self.solved_nodes, &self.standings);
         let operator = gathering.operator(&rows, |_| key);
         let light = operator.apply(&self.indirect);
         self.traced += operator.rays;
@@ -358,11 +365,11 @@ impl<'s> Pilot<'s> {
 
     fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let first = self.indirect.len();
-        let everything = vec![true; gatherers.len()];
+        let everything = self.standing_of(vec![None; gatherers.len()], gatherers);
         let gathering = if first == 0 {
             self.gathering(elements, u32::MAX, &everything)
         } else {
-            self.gathering(elements, self.solved_nodes, &self.known)
+            self.gathering(elements, self.solved_nodes, &self.standings)
         };
         let key = self.key.with(2);
         let operator = gathering.operator(&gatherers[first..], |_| key);
@@ -378,8 +385,45 @@ impl<'s> Pilot<'s> {
             // No light at all: what is not closed in is dark.
             self.known = operator.open();
         }
+        self.complete_standings(gatherers);
         self.indirect.extend(new);
         self.solved_nodes = self.subdivision.node_count() as u32;
+    }
+
+    /// Photometric values of the vertices in the open.
+    fn in_the_open(&self, values: &[Rgb]) -> Vec<Option<f64>> {
+        let is_open = |k: usize| self.standings[k] == Some(Standing::Open);
+        (0..self.standings.len()).map(|k| is_open(k).then(|| values[k].luminance())).collect()
+    }
+
+    /// What vertices stand for on the elements as they are now; those that were in the open among
+    /// longer ones still are.
+    fn standing_of(
+        &self,
+        before: Vec<Option<Standing>>,
+        gatherers: &[Gatherer],
+    ) -> Vec<Option<Standing>> {
+        let edges_m = self.subdivision.longest_edges_m();
+        let on_border = self.subdivision.border_vertices();
+        let one = |(k, of): (usize, Option<Standing>)| {
+            let is_open = of == Some(Standing::Open)
+                || !trust::is_closed_in(self.scene, &gatherers[k].surface, edges_m[k]);
+            Some(match (is_open, on_border[k]) {
+                (true, _) => Standing::Open,
+                (false, true) => Standing::Rim,
+                (false, false) => Standing::Gap,
+            })
+        };
+        before.into_par_iter().enumerate().map(one).collect()
+    }
+
+    fn complete_standings(&mut self, gatherers: &[Gatherer]) {
+        let mut before = std::mem::take(&mut self.standings);
+        before.resize(gatherers.len(), None);
+        self.standings = self.standing_of(before, gatherers);
+        for (standing, known) in self.standings.iter_mut().zip(&self.known) {
+            *standing = standing.filter(|_| *known);
+        }
     }
 
     fn sight<'a>(&'a self, elements: &'a Elements, gatherers: &'a [Gatherer]) -> Sight<'a> {
@@ -408,12 +452,26 @@ impl<'s> Pilot<'s> {
         };
         let hidden: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_hidden(n)).collect();
         let cut_off: Vec<u32> = hidden.into_par_iter().filter(is_cut_off).collect();
+        let rims: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_only_rim(n)).collect();
         for &node in &cut_off {
             if self.subdivision.vertex_count() < max_vertices {
                 bisect_twice(&mut self.subdivision, node);
             }
         }
-        !cut_off.is_empty()
+        for &node in &rims {
+            if self.subdivision.vertex_count() < max_vertices {
+                self.subdivision.bisect(node);
+            }
+        }
+        !(cut_off.is_empty() && rims.is_empty())
+    }
+
+    /// Whether an element can be bisected and lies in a gap without a vertex inside: what comes in at the
+    /// rim does not reach far.
+    fn has_only_rim(&self, node: u32) -> bool {
+        let corners = self.subdivision.node(node).0.vertices;
+        self.subdivision.longest_edge_m(node) > 2.0 * self.least_edge_m
+            && corners.iter().all(|&v| self.standings[v as usize] == Some(Standing::Rim))
     }
 
     /// Whether an element can be bisected and has a hidden vertex.
@@ -437,8 +495,10 @@ impl<'s> Pilot<'s> {
         // Once more for all: refinement has moved the receivers on borders.
         let gatherers = self.gatherers();
         self.measure_direct(&gatherers, request, look.rms_lx);
-        let mut known = std::mem::take(&mut self.known);
-        forget_orphans(&elements, indirect_vertices, &mut known);
+        self.complete_standings(&gatherers);
+        let mut standings = std::mem::take(&mut self.standings);
+        forget_orphans(&elements, indirect_vertices, &mut standings);
+        let open: Vec<bool> = standings.iter().map(|&of| of == Some(Standing::Open)).collect();
         Plan {
             direct_from_map: self.direct_from_map(),
             scene: self.scene,
@@ -453,8 +513,8 @@ impl<'s> Pilot<'s> {
             trusted_up_to_lx,
             indirect_errors: look.errors,
             rms_lx: look.rms_lx,
-            fit: Fit::new(&coarse.elements(), indirect_vertices, &known),
-            known,
+            fit: Fit::new(&coarse.elements(), indirect_vertices, &open),
+            standings,
             subdivision: coarse,
             rays: self.traced,
         }
@@ -492,6 +552,7 @@ impl<'s> Pilot<'s> {
             let gatherers = self.gatherers();
             self.complete_direct(&gatherers);
             self.extend_known(&elements, &gatherers);
+            self.complete_standings(&gatherers);
         }
         elements
     }
@@ -499,17 +560,25 @@ impl<'s> Pilot<'s> {
 
 /// Of vertices added for direct light nothing is known where both ends of their edge are hidden:
 /// their indirect light is interpolated from there.
-fn forget_orphans(elements: &Elements, first: usize, known: &mut [bool]) {
+fn forget_orphans(elements: &Elements, first: usize, standings: &mut [Option<Standing>]) {
     for (k, vertex) in elements.vertices().iter().enumerate().skip(first) {
         let ends = vertex.parents.unwrap_or([k as u32; 2]);
-        known[k] &= ends.iter().any(|&end| known[end as usize]);
+        if ends.iter().all(|&end| standings[end as usize].is_none()) {
+            standings[k] = None;
+        }
     }
 }
 
 /// Root mean square over the known surface.
-pub(super) fn rms(elements: &Elements, known: &[bool], value: impl Fn(usize) -> f64) -> f64 {
+pub(super) fn rms(
+    elements: &Elements,
+    standings: &[Option<Standing>],
+    value: impl Fn(usize) -> f64,
+) -> f64 {
     let (mut area, mut sum) = (0.0, 0.0);
-    for (k, vertex) in elements.vertices().iter().enumerate().filter(|&(k, _)| known[k]) {
+    for (k, vertex) in
+        elements.vertices().iter().enumerate().filter(|&(k, _)| standings[k].is_some())
+    {
         area += vertex.area_m2;
         sum += vertex.area_m2 * value(k) * value(k);
     }

@@ -6,7 +6,7 @@ use super::hybrid::NET_ORDER;
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use super::trust;
-use crate::map::{Accuracy, Illuminance, IlluminationMap};
+use crate::map::{Accuracy, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -57,7 +57,7 @@ pub struct MapReader<'a> {
     scene: &'a Scene,
     map: &'a IlluminationMap,
     lighting: Lighting<'a>,
-    known: Vec<bool>,
+    standings: Vec<Option<Standing>>,
     light: Vec<Rgb>,
     reach_m: f64,
     unseen: Unseen,
@@ -84,7 +84,7 @@ impl<'a> MapReader<'a> {
             scene,
             map,
             lighting: Lighting::new(scene),
-            known: map.values.iter().map(Option::is_some).collect(),
+            standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             light: map.values.iter().map(reflected).collect(),
             reach_m: REACH_SHARE * extent_m,
             unseen: Unseen::of(map),
@@ -131,7 +131,9 @@ impl<'a> MapReader<'a> {
         let corners = self.map.elements.locate(at.triangle, at.back, at.u, at.v);
         let corners = corners.map(|corners| corners.map(|(vertex, _)| vertex));
         let edge_m = corners.map_or(0.0, |c| trust::longest_edge_m(&self.map.elements, c));
-        stored.interpolation_error_lx <= limit_lx && !trust::is_closed_in(self.scene, at, edge_m)
+        stored.standing == Standing::Open
+            && stored.interpolation_error_lx <= limit_lx
+            && !trust::is_closed_in(self.scene, at, edge_m)
     }
 
     /// A value of the map with what interpolation is expected to err by. Half of the error of the
@@ -171,7 +173,7 @@ impl<'a> MapReader<'a> {
             lighting: &self.lighting,
             elements: &self.map.elements,
             level: u32::MAX,
-            known: &self.known,
+            standings: &self.standings,
             direct: DirectAtEnds::Evaluated,
         };
         let rows = vec![gatherer; replicates as usize];
@@ -232,6 +234,7 @@ impl<'a> MapReader<'a> {
             standard_error_lx: (indirect_variance + direct_variance).sqrt(),
             indirect_standard_error_lx: indirect_variance.sqrt(),
             interpolation_error_lx: 0.0,
+            standing: Standing::Open,
             samples: u64::from(replicates) * u64::from(settings.rays),
         }
     }

@@ -215,9 +215,7 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     fn value(&self, vertex: usize, interpolation_error_lx: f64) -> Option<Illuminance> {
-        if !self.plan.known[vertex] {
-            return None;
-        }
+        let standing = self.plan.standings[vertex]?;
         let estimate = self.sums.estimate(vertex);
         let mean = estimate.mean;
         Some(Illuminance {
@@ -227,6 +225,7 @@ impl<'p, 's> Work<'p, 's> {
             standard_error_lx: (estimate.variance + self.plan.direct_variance[vertex]).sqrt(),
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
             interpolation_error_lx,
+            standing,
             samples: self.sums.increments * u64::from(self.samples),
         })
     }
