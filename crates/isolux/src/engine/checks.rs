@@ -44,7 +44,7 @@ pub(super) struct Check {
 pub(super) struct InterpolationErrors {
     /// Of the indirect part, where readers interpolate it.
     pub(super) indirect_lx: f64,
-    /// Of direct and indirect together.
+    /// Of direct and indirect together, but in gaps.
     pub(super) total_lx: f64,
     /// Mean of the indirect error, with its sign and standard error.
     pub(super) indirect_mean_lx: f64,
@@ -109,9 +109,10 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Opt
     };
     let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
     let edge_m = trust::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
-    let is_trusted = expected_lx <= plan.trusted_up_to_lx
-        && coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex))
-        && !trust::is_closed_in(plan.scene, &gatherer.surface, edge_m);
+    let in_gap = trust::is_closed_in(plan.scene, &gatherer.surface, edge_m);
+    let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
+    let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !in_gap;
+    let gatherer = gatherer.in_gap(in_gap);
     Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted })
 }
 
@@ -174,7 +175,10 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         if check.is_trusted {
             expected += share * check.expected_lx * check.expected_lx;
         }
-        for (part, (value, variance)) in both.into_iter().enumerate() {
+        // Neither rays nor views come to what is closed in.
+        let seen = if check.gatherer.in_gap { 0..0 } else { 0..2 };
+        for part in seen {
+            let (value, variance) = both[part];
             mean[part] += share * value;
             if part == 0 && !check.is_trusted {
                 continue;

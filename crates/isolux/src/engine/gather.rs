@@ -10,6 +10,7 @@ use super::direct::Lighting;
 use super::fit::Fit;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
+use super::trust;
 use crate::elements::{Elements, Receiver};
 use crate::map::Standing;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
@@ -32,6 +33,8 @@ pub(super) struct Gatherer {
     pub(super) surface: SurfacePoint,
     /// How many rays.
     pub(super) rays: u32,
+    /// Whether it lies in a gap: what its rays meet close by does not lie in the open.
+    pub(super) in_gap: bool,
 }
 
 impl Gatherer {
@@ -41,7 +44,12 @@ impl Gatherer {
         let flat = SurfacePoint::new(scene, triangle, back, 0.0, 0.0);
         let surface = SurfacePoint { point, shading: normal, geometric: normal, ..flat };
         let origin = SurfacePoint { point, ..flat }.start();
-        Self { origin, normal, surface, rays }
+        Self { origin, normal, surface, rays, in_gap: false }
+    }
+
+    /// The same, in a gap or not.
+    pub(super) const fn in_gap(self, in_gap: bool) -> Self {
+        Self { in_gap, ..self }
     }
 
     /// The same with another number of rays.
@@ -51,12 +59,18 @@ impl Gatherer {
 
     /// A place inside a triangle.
     pub(super) fn on_surface(surface: SurfacePoint, rays: u32) -> Self {
-        Self { origin: surface.start(), normal: surface.shading, surface, rays }
+        Self { origin: surface.start(), normal: surface.shading, surface, rays, in_gap: false }
     }
 
     /// A place in space that faces a way.
     pub(super) fn in_space(point: Point, normal: Normal, rays: u32) -> Self {
-        Self { origin: point, normal, surface: SurfacePoint::in_space(point, normal), rays }
+        Self {
+            origin: point,
+            normal,
+            surface: SurfacePoint::in_space(point, normal),
+            rays,
+            in_gap: false,
+        }
     }
 }
 
@@ -183,8 +197,9 @@ impl Gathering<'_> {
             }
             for (surface, reflectance) in ends.drain(..) {
                 let share = reflectance * share_of_ray;
-                source += share * self.direct_at(&surface, &mut dice);
-                if let Some(entry) = self.entry(&surface) {
+                let out_of = gatherer.in_gap.then(|| (surface.point - gatherer.origin).length());
+                source += share * self.direct_at(&surface, out_of, &mut dice);
+                if let Some(entry) = self.entry(&surface, out_of) {
                     rows.push(entry, share.0.map(|c| c as f32));
                 }
             }
@@ -194,11 +209,11 @@ impl Gathering<'_> {
         rows.open.push(open);
     }
 
-    fn direct_at(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+    fn direct_at(&self, at: &SurfacePoint, out_of_gap_m: Option<f64>, dice: &mut Dice) -> Rgb {
         match self.direct {
             DirectAtEnds::Evaluated => self.lighting.estimate(at, dice),
             DirectAtEnds::Read { values, level } => {
-                self.corners(level, at).map_or(Rgb::BLACK, |corners| {
+                self.corners(level, at, out_of_gap_m).map_or(Rgb::BLACK, |corners| {
                     corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
                 })
             }
@@ -215,18 +230,29 @@ impl Gathering<'_> {
     }
 
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
-    fn entry(&self, at: &SurfacePoint) -> Option<Entry> {
-        let corners = self.corners(self.level, at)?;
+    fn entry(&self, at: &SurfacePoint, out_of_gap_m: Option<f64>) -> Option<Entry> {
+        let corners = self.corners(self.level, at, out_of_gap_m)?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
             weights: corners.map(|(_, weight)| weight as f32),
         })
     }
 
-    /// Vertices and weights of a place on a level, over the known ones.
-    fn corners(&self, level: u32, at: &SurfacePoint) -> Option<[(u32, f64); 3]> {
+    /// Vertices and weights of a place on a level, over the known ones; for a ray that has come so far
+    /// from within a gap, over those in gaps as long as it may still be there.
+    fn corners(
+        &self,
+        level: u32,
+        at: &SurfacePoint,
+        out_of_gap_m: Option<f64>,
+    ) -> Option<[(u32, f64); 3]> {
         let corners = self.elements.locate_above(level, at.triangle, at.back, at.u, at.v)?;
-        let weights = known_weights(corners, self.standings)?;
+        let edge_m = || trust::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex));
+        let weights = if out_of_gap_m.is_some_and(|m| m < trust::NEAR * edge_m()) {
+            weights_in_gap(corners, self.standings)?
+        } else {
+            known_weights(corners, self.standings)?
+        };
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     }
 }
@@ -248,26 +274,30 @@ pub(super) fn known_weights(
 ) -> Option<[f64; 3]> {
     let of = corners.map(|(vertex, _)| standings[vertex as usize]);
     let highest = Standing::highest(of)?;
-    let is_known = of.map(|standing| standing == Some(highest));
-    if is_known == [true; 3] {
-        return Some(corners.map(|(_, weight)| weight));
+    Some(weights_over(corners, of.map(|standing| standing == Some(highest))))
+}
+
+/// The same over those in gaps; without any, light there is as little as none.
+fn weights_in_gap(corners: [(u32, f64); 3], standings: &[Option<Standing>]) -> Option<[f64; 3]> {
+    let in_gap = |standing: &Standing| *standing != Standing::Open;
+    let of = corners.map(|(vertex, _)| standings[vertex as usize].filter(in_gap));
+    let highest = Standing::highest(of)?;
+    Some(weights_over(corners, of.map(|standing| standing == Some(highest))))
+}
+
+/// Interpolation weights over some of the vertices, at least one, alone.
+fn weights_over(corners: [(u32, f64); 3], read: [bool; 3]) -> [f64; 3] {
+    if read == [true; 3] {
+        return corners.map(|(_, weight)| weight);
     }
-    let count = is_known.iter().filter(|&&k| k).count();
-    if count == 0 {
-        return None;
-    }
-    let mut weights = [0.0; 3];
-    for k in 0..3 {
-        if is_known[k] {
-            weights[k] = corners[k].1;
-        }
-    }
+    let weights = [0, 1, 2].map(|k| if read[k] { corners[k].1 } else { 0.0 });
     let sum: f64 = weights.iter().sum();
-    // On the far side of the element only unknown vertices have weight.
+    // On the far side of the element only other vertices have weight.
     if sum < 1e-9 {
-        return Some(is_known.map(|k| if k { 1.0 / count as f64 } else { 0.0 }));
+        let count = read.iter().filter(|&&read| read).count();
+        return read.map(|read| if read { 1.0 / count as f64 } else { 0.0 });
     }
-    Some(weights.map(|w| w / sum))
+    weights.map(|w| w / sum)
 }
 
 impl Operator {

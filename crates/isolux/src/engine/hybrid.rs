@@ -11,6 +11,7 @@ use super::deadline::Deadline;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::path::Dice;
 use super::pilot::Plan;
+use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -113,8 +114,11 @@ impl<'p, 's> Hybrid<'p, 's> {
     pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: u32, seed: u64) -> Self {
         let key = Key::new(seed).with(1);
         let vertices = plan.gatherers.iter().zip(&plan.standings).take(plan.indirect_vertices);
-        let rows =
-            vertices.map(|(g, of)| g.with_rays(if of.is_some() { rays } else { 0 })).collect();
+        let row = |(gatherer, of): (&Gatherer, &Option<Standing>)| {
+            let rays = if of.is_some() { rays } else { 0 };
+            gatherer.with_rays(rays).in_gap(*of != Some(Standing::Open))
+        };
+        let rows = vertices.map(row).collect();
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
         Self { plan, check_direct, rows, check_rows, key }

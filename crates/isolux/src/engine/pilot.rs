@@ -372,7 +372,13 @@ impl<'s> Pilot<'s> {
             self.gathering(elements, self.solved_nodes, &self.standings)
         };
         let key = self.key.with(2);
-        let operator = gathering.operator(&gatherers[first..], |_| key);
+        let edges_m = self.subdivision.longest_edges_m();
+        let row = |(k, gatherer): (usize, &Gatherer)| {
+            let in_gap = trust::is_closed_in(self.scene, &gatherer.surface, edges_m[k]);
+            gatherer.in_gap(in_gap)
+        };
+        let rows: Vec<Gatherer> = gatherers.par_iter().enumerate().skip(first).map(row).collect();
+        let operator = gathering.operator(&rows, |_| key);
         self.traced += operator.rays;
         let new = if first == 0 {
             let black = vec![Rgb::BLACK; gatherers.len()];

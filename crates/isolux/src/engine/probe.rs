@@ -117,23 +117,28 @@ impl<'a> MapReader<'a> {
         let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.pulled_in(surface);
-        let indirect = if self.is_trusted(&stored, &at) {
+        let in_gap = self.is_in_gap(&at);
+        let indirect = if self.is_trusted(&stored) && !in_gap {
             self.interpolated(stored)
         } else {
-            self.gathered(stored, at)
+            self.gathered(stored, Gatherer::on_surface(at, FRESH_TRIAL_RAYS).in_gap(in_gap))
         };
         Some(self.with_fresh_direct(indirect, &at))
     }
 
-    /// Whether interpolation is good enough at a place.
-    fn is_trusted(&self, stored: &Illuminance, at: &SurfacePoint) -> bool {
-        let Some(limit_lx) = self.map.provenance.fresh_above_lx else { return true };
+    /// Whether interpolation is good enough for an element.
+    fn is_trusted(&self, stored: &Illuminance) -> bool {
+        let limit_lx = self.map.provenance.fresh_above_lx.unwrap_or(f64::INFINITY);
+        stored.standing == Standing::Open && stored.interpolation_error_lx <= limit_lx
+    }
+
+    fn is_in_gap(&self, at: &SurfacePoint) -> bool {
         let corners = self.map.elements.locate(at.triangle, at.back, at.u, at.v);
-        let corners = corners.map(|corners| corners.map(|(vertex, _)| vertex));
-        let edge_m = corners.map_or(0.0, |c| trust::longest_edge_m(&self.map.elements, c));
-        stored.standing == Standing::Open
-            && stored.interpolation_error_lx <= limit_lx
-            && !trust::is_closed_in(self.scene, at, edge_m)
+        corners.is_some_and(|corners| {
+            let corners = corners.map(|(vertex, _)| vertex);
+            let edge_m = trust::longest_edge_m(&self.map.elements, corners);
+            trust::is_closed_in(self.scene, at, edge_m)
+        })
     }
 
     /// A value of the map with what interpolation is expected to err by. Half of the error of the
@@ -146,10 +151,9 @@ impl<'a> MapReader<'a> {
 
     /// Indirect light gathered over the map, by as many rays as bring its noise down to half of
     /// the error of the map.
-    fn gathered(&self, stored: Illuminance, at: SurfacePoint) -> Illuminance {
-        let key = place_key(at.point).with(7);
+    fn gathered(&self, stored: Illuminance, trial: Gatherer) -> Illuminance {
+        let key = place_key(trial.surface.point).with(7);
         let goal = 0.5 * self.unseen.reached_lx;
-        let trial = Gatherer::on_surface(at, FRESH_TRIAL_RAYS);
         let (_, variance) = self.gather(trial, FRESH_REPLICATES, key.with(0));
         let rays = f64::from(FRESH_TRIAL_RAYS)
             * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / NET_ORDER);
@@ -216,7 +220,7 @@ impl<'a> MapReader<'a> {
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
         let on_surface = self.find_surface(at).map(|s| self.pulled_in(s));
         let gatherer = on_surface
-            .map(|surface| Gatherer::on_surface(surface, settings.rays))
+            .map(|at| Gatherer::on_surface(at, settings.rays).in_gap(self.is_in_gap(&at)))
             .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);

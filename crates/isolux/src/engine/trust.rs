@@ -21,7 +21,7 @@ const CLOSED: u32 = 13;
 
 /// How far they look, as a share of the longest edge of the element: what is nearer than that
 /// changes light from place to place in ways that its vertices do not tell.
-const NEAR: f64 = 0.25;
+pub(super) const NEAR: f64 = 0.25;
 
 /// How many must meet something as near as the element is long for its vertices not to tell what light
 /// comes to its middle.
