@@ -70,7 +70,7 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let count = (plan.indirect_vertices / SHARE).clamp(FEWEST, MOST);
     let area: f64 = errors.iter().map(|e| e.area_m2).sum();
     let squared: f64 = errors.iter().map(|e| e.squared()).sum();
-    let is_trusted = |e: &LeafError| e.error <= plan.trusted_up_to_lx;
+    let is_trusted = |e: &LeafError| e.error <= plan.trusted_up_to_lx && !e.is_beset;
     let trusted = errors.iter().filter(|e| is_trusted(e)).map(|e| e.squared()).sum::<f64>();
     // Density of the draw over elements: an even mixture of area, squared error, and squared error
     // where the map is trusted.
@@ -109,9 +109,10 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Opt
     };
     let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
     let edge_m = trust::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
-    let in_gap = trust::is_closed_in(plan.scene, &gatherer.surface, edge_m);
+    let is_beset = trust::is_beset(plan.scene, &gatherer.surface, edge_m);
+    let in_gap = is_beset && trust::is_closed_in(plan.scene, &gatherer.surface, edge_m);
     let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
-    let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !in_gap;
+    let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !is_beset;
     let gatherer = gatherer.in_gap(in_gap);
     Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted })
 }

@@ -33,6 +33,8 @@ pub(super) struct LeafError {
     pub(super) area_m2: f64,
     /// Root mean square over the element, in the unit of the values.
     pub(super) error: f64,
+    /// Whether readers gather there anyway, as something stands close.
+    pub(super) is_beset: bool,
 }
 
 impl LeafError {
@@ -43,12 +45,13 @@ impl LeafError {
 }
 
 /// Errors of all elements for values at the vertices (`None` where hidden), and in the middle of
-/// elements without details, where known.
+/// elements without details, where known; `is_beset` says where readers gather anyway.
 pub(super) fn leaf_errors(
     subdivision: &Subdivision,
     elements: &Elements,
     values: &[Option<f64>],
     in_the_middle: impl Fn(u32) -> Option<f64>,
+    is_beset: impl Fn(u32) -> bool,
 ) -> Vec<LeafError> {
     let leaf = |node: u32| {
         let area_m2 = subdivision.triangle(node).area();
@@ -56,7 +59,7 @@ pub(super) fn leaf_errors(
             let corners = subdivision.node(node).0.vertices;
             untold_error(corners.map(|v| values[v as usize]), in_the_middle(node))
         });
-        LeafError { node, area_m2, error }
+        LeafError { node, area_m2, error, is_beset: is_beset(node) }
     };
     subdivision.leaves().map(leaf).collect()
 }

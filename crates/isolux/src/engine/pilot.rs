@@ -38,6 +38,8 @@ const DISCRETIZATION_SHARE: f64 = 0.5;
 /// may be where refinement comes to nothing.
 const FRESH_SHARE: f64 = 0.1;
 const MOST_FRESH: f64 = 0.5;
+/// What all elements may err by, in accuracies asked for: rays read them all, but in the mean over many.
+const BARE: f64 = 2.0;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
@@ -144,6 +146,8 @@ struct Pilot<'s> {
     known: Vec<bool>,
     /// What they stand for.
     standings: Vec<Option<Standing>>,
+    /// By node, whether something stands close before its middle.
+    beset: Vec<bool>,
     /// In the middle of elements that no details tell of, by node.
     middles: HashMap<u32, f64>,
     /// Nodes there were then.
@@ -184,7 +188,7 @@ pub(super) fn pilot<'s>(
     }
     let mut before = (f64::INFINITY, look.vertices as f64);
     for _ in 0..MAX_ROUNDS {
-        let Some((limit, excess)) = look.excess(request) else { break };
+        let Some((errors, excess)) = look.excess(request) else { break };
         // Where bisection no longer helps, what is left is noise: the check points will tell.
         let vertices = look.vertices as f64;
         let stalled = excess > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
@@ -197,8 +201,6 @@ pub(super) fn pilot<'s>(
             least_edge_m: pilot.least_edge_m,
             max_vertices: most,
         };
-        let errors: Vec<LeafError> =
-            look.errors.iter().copied().filter(|e| e.error <= limit).collect();
         if !refine_worst(&mut pilot.subdivision, &errors, how_far) {
             break;
         }
@@ -208,17 +210,17 @@ pub(super) fn pilot<'s>(
 }
 
 impl Look {
-    /// How many times the error of elements up to a limit is what it should be, if it is more; first
-    /// without those that readers need not trust, then of all, which is what a bare map shows.
-    fn excess(&self, request: &PilotRequest) -> Option<(f64, f64)> {
-        let fresh = trust::limit(&self.errors, self.goal_lx(request.target, request), FRESH_SHARE);
-        let over = |(limit, target)| {
-            let goal_lx = self.goal_lx(target, request);
-            let excess = trust::error_below(&self.errors, limit) / goal_lx;
-            (excess > 1.0 && self.rms_lx > 0.0).then_some((limit, excess))
+    /// The elements to look at, and how many times their error is what it should be, if it is more: first
+    /// those that readers are to trust, then all, which is what rays and a bare map read.
+    fn excess(&self, request: &PilotRequest) -> Option<(Vec<LeafError>, f64)> {
+        let limit = trust::limit(&self.errors, self.goal_lx(request.target, request), FRESH_SHARE);
+        let over = |target: f64, some: &dyn Fn(&LeafError) -> bool| {
+            let excess = trust::error_of(&self.errors, some) / self.goal_lx(target, request);
+            let some = || self.errors.iter().copied().filter(|e| some(e)).collect();
+            (excess > 1.0 && self.rms_lx > 0.0).then(|| (some(), excess))
         };
-        let all = (f64::INFINITY, request.mesh_target.max(request.target));
-        over((fresh, request.target)).or_else(|| over(all))
+        over(request.target, &|e| !e.is_beset && e.error <= limit)
+            .or_else(|| over(request.mesh_target.min(BARE * request.target), &|_| true))
     }
 
     /// The error of elements up to which readers trust the map.
@@ -254,6 +256,7 @@ impl<'s> Pilot<'s> {
             indirect: Vec::new(),
             known: Vec::new(),
             standings: Vec::new(),
+            beset: Vec::new(),
             middles: HashMap::new(),
             solved_nodes: 0,
             rays: pilot_rays(request.target),
@@ -313,10 +316,12 @@ impl<'s> Pilot<'s> {
         self.complete_direct(&gatherers);
         self.complete_indirect(&elements, &gatherers);
         let luminances = self.in_the_open(&self.indirect);
+        self.complete_beset();
         self.complete_middles(&elements, &luminances);
         let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
         let middle = |node: u32| self.middles.get(&node).copied();
-        let errors = leaf_errors(&self.subdivision, &elements, &luminances, middle);
+        let beset = |node: u32| self.beset[node as usize];
+        let errors = leaf_errors(&self.subdivision, &elements, &luminances, middle, beset);
         let rms_lx = rms(&elements, &self.standings, lx);
         let left_by_fit = left_by_fit(&self.subdivision, &elements, &luminances, &errors);
         Look { vertices: gatherers.len(), elements, errors, left_by_fit, rms_lx }
@@ -337,6 +342,17 @@ impl<'s> Pilot<'s> {
         Gathering { scene: self.scene, lighting: self.lighting, elements, level, standings, direct }
     }
 
+    /// Whether something stands close before the nodes that were not looked at yet.
+    fn complete_beset(&mut self) {
+        let new = self.beset.len() as u32..self.subdivision.node_count() as u32;
+        let is_beset = |node: u32| {
+            let place = place_in_node(self.scene, &self.subdivision, node, MIDDLE);
+            trust::is_beset(self.scene, &place, self.subdivision.longest_edge_m(node))
+        };
+        let new: Vec<bool> = new.into_par_iter().map(is_beset).collect();
+        self.beset.extend(new);
+    }
+
     /// Gathers in the middle of the elements that no details tell of, that have something close before
     /// them and that were not looked at yet; not in gaps, where readers gather anyway.
     fn complete_middles(&mut self, elements: &Elements, values: &[Option<f64>]) {
@@ -349,8 +365,8 @@ impl<'s> Pilot<'s> {
             let place = place_in_node(self.scene, &self.subdivision, node, MIDDLE);
             let edge_m = self.subdivision.longest_edge_m(node);
             let gatherer = Gatherer::on_surface(place, self.rays);
-            let asks = trust::is_beset(self.scene, &place, edge_m)
-                && !trust::is_closed_in(self.scene, &place, edge_m);
+            let asks =
+                self.beset[node as usize] && !trust::is_closed_in(self.scene, &place, edge_m);
             asks.then_some((node, gatherer))
         };
         let beset: Vec<(u32, Gatherer)> = new.into_par_iter().filter_map(beset).collect();
@@ -545,8 +561,8 @@ impl<'s> Pilot<'s> {
         };
         for _ in 0..MAX_ROUNDS {
             let signal = self.direct_signal(&elements);
-            let errors = leaf_errors(&self.subdivision, &elements, &signal, |_| None);
-            let error_lx = trust::error_below(&errors, f64::INFINITY);
+            let errors = leaf_errors(&self.subdivision, &elements, &signal, |_| None, |_| false);
+            let error_lx = trust::error_of(&errors, |_| true);
             let good = error_lx <= request.mesh_target * rms_lx;
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;

@@ -117,10 +117,11 @@ impl<'a> MapReader<'a> {
         let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.pulled_in(surface);
-        let in_gap = self.is_in_gap(&at);
-        let indirect = if self.is_trusted(&stored) && !in_gap {
+        let edge_m = self.longest_edge_m(&at);
+        let indirect = if self.is_trusted(&stored) && !trust::is_beset(self.scene, &at, edge_m) {
             self.interpolated(stored)
         } else {
+            let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
             self.gathered(stored, Gatherer::on_surface(at, FRESH_TRIAL_RAYS).in_gap(in_gap))
         };
         Some(self.with_fresh_direct(indirect, &at))
@@ -132,12 +133,11 @@ impl<'a> MapReader<'a> {
         stored.standing == Standing::Open && stored.interpolation_error_lx <= limit_lx
     }
 
-    fn is_in_gap(&self, at: &SurfacePoint) -> bool {
+    /// Of the element at a place, m; zero where there is none.
+    fn longest_edge_m(&self, at: &SurfacePoint) -> f64 {
         let corners = self.map.elements.locate(at.triangle, at.back, at.u, at.v);
-        corners.is_some_and(|corners| {
-            let corners = corners.map(|(vertex, _)| vertex);
-            let edge_m = trust::longest_edge_m(&self.map.elements, corners);
-            trust::is_closed_in(self.scene, at, edge_m)
+        corners.map_or(0.0, |corners| {
+            trust::longest_edge_m(&self.map.elements, corners.map(|(vertex, _)| vertex))
         })
     }
 
@@ -220,7 +220,8 @@ impl<'a> MapReader<'a> {
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
         let on_surface = self.find_surface(at).map(|s| self.pulled_in(s));
         let gatherer = on_surface
-            .map(|at| Gatherer::on_surface(at, settings.rays).in_gap(self.is_in_gap(&at)))
+            .map(|at| (at, trust::is_closed_in(self.scene, &at, self.longest_edge_m(&at))))
+            .map(|(at, in_gap)| Gatherer::on_surface(at, settings.rays).in_gap(in_gap))
             .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);

@@ -24,15 +24,15 @@ const CLOSED: u32 = 13;
 pub(super) const NEAR: f64 = 0.25;
 
 /// How many must meet something as near as the element is long for its vertices not to tell what light
-/// comes to its middle.
+/// comes between them.
 const BESET: u32 = 3;
 
 /// The error above which elements are left out, so that what the others err by in the mean square
 /// over the surface is at most `goal`, or so that they make up no more than `most_share` of the area.
-/// Infinite if none need be left out.
+/// Infinite if none need be left out. Those that are beset are not counted: no reader trusts them.
 pub(super) fn limit(errors: &[LeafError], goal: f64, most_share: f64) -> f64 {
     let area_m2: f64 = errors.iter().map(|e| e.area_m2).sum();
-    let mut worst: Vec<&LeafError> = errors.iter().collect();
+    let mut worst: Vec<&LeafError> = errors.iter().filter(|e| !e.is_beset).collect();
     worst.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.node.cmp(&b.node)));
     let mut left: f64 = worst.iter().map(|e| e.squared()).sum();
     let (mut out_m2, mut worst_left_out) = (0.0, None);
@@ -49,10 +49,10 @@ pub(super) fn limit(errors: &[LeafError], goal: f64, most_share: f64) -> f64 {
     f64::INFINITY
 }
 
-/// Root mean square over all the surface of the errors up to the limit.
-pub(super) fn error_below(errors: &[LeafError], limit: f64) -> f64 {
+/// Root mean square over all the surface of the errors of some elements.
+pub(super) fn error_of(errors: &[LeafError], some: impl Fn(&LeafError) -> bool) -> f64 {
     let area_m2: f64 = errors.iter().map(|e| e.area_m2).sum();
-    let squared: f64 = errors.iter().filter(|e| e.error <= limit).map(LeafError::squared).sum();
+    let squared: f64 = errors.iter().filter(|e| some(e)).map(LeafError::squared).sum();
     if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
 }
 
