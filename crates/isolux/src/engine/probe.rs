@@ -3,30 +3,18 @@
 use super::direct::Lighting;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::path::Dice;
+use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
 use crate::map::{Illuminance, IlluminationMap};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Normal, Point, Ray};
 
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
 
 /// Shadow rays to every emitting surface in a reading for a picture.
 const GLANCE_SAMPLES: usize = 4;
-
-/// A point counts as on a surface within this share of the scene's extent.
-const REACH_SHARE: f64 = 1e-4;
-
-/// A place and the way a luxmeter faces there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProbePoint {
-    /// Where, m.
-    pub position: Point,
-    /// Where it faces.
-    pub normal: Normal,
-}
 
 /// How hard [`MapReader::estimate`] tries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +40,7 @@ pub struct MapReader<'a> {
     lighting: Lighting<'a>,
     known: Vec<bool>,
     light: Vec<Rgb>,
-    reach_m: f64,
+    places: Places<'a>,
     /// Error of what is read from vertices that replicates do not tell, lx.
     unseen_lx: f64,
 }
@@ -60,8 +48,6 @@ pub struct MapReader<'a> {
 impl<'a> MapReader<'a> {
     /// Prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
-        let bounds = scene.bvh().mesh().bounds();
-        let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         let reflected =
             |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx);
         Self {
@@ -70,7 +56,7 @@ impl<'a> MapReader<'a> {
             lighting: Lighting::new(scene),
             known: map.values.iter().map(Option::is_some).collect(),
             light: map.values.iter().map(reflected).collect(),
-            reach_m: REACH_SHARE * extent_m,
+            places: Places::of(scene),
             unseen_lx: unseen_lx(map),
         }
     }
@@ -94,7 +80,7 @@ impl<'a> MapReader<'a> {
     pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
-        Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
+        Some(self.with_fresh_direct(stored, &self.places.pulled_in(surface)))
     }
 
     /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
@@ -109,7 +95,7 @@ impl<'a> MapReader<'a> {
         number: u64,
     ) -> Option<Illuminance> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
-        let at = self.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
+        let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
         let sequence = Sequence::new(place_key(at.point).with(number));
         let direct = self.lighting.sampled(&at, GLANCE_SAMPLES, &mut Dice::new(sequence, 0));
         Some(Illuminance {
@@ -125,7 +111,14 @@ impl<'a> MapReader<'a> {
         let surface = self.find_surface(at)?;
         let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
-        Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
+        Some(self.with_fresh_direct(stored, &self.places.pulled_in(surface)))
+    }
+
+    /// The same of the bare map, direct light interpolated, too. The standard error is that of
+    /// replicates alone.
+    pub fn interpolated(&self, at: ProbePoint) -> Option<Illuminance> {
+        let SurfacePoint { triangle, back, u, v, .. } = self.find_surface(at)?;
+        self.map.interpolate(triangle, back, u, v)
     }
 
     /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
@@ -133,7 +126,7 @@ impl<'a> MapReader<'a> {
     /// on a surface; in free space they are unknown and left out. The standard error counts the
     /// interpolation error and the bias of the map as if they were the same everywhere.
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
-        let on_surface = self.find_surface(at).map(|s| self.pulled_in(s));
+        let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
         let gatherer = on_surface
             .map(|surface| Gatherer::on_surface(surface, settings.rays))
             .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
@@ -166,6 +159,14 @@ impl<'a> MapReader<'a> {
         }
     }
 
+    /// The surface at a point that carries the map.
+    fn find_surface(&self, at: ProbePoint) -> Option<SurfacePoint> {
+        self.places.surface_at(at, |surface| {
+            let SurfacePoint { triangle, back, u, v, .. } = *surface;
+            self.map.elements.locate(triangle, back, u, v).is_some()
+        })
+    }
+
     /// What the map that gathering rays read may be off by, other than by noise, relative.
     fn lookup_error(&self) -> f64 {
         let accuracy = self.map.provenance.accuracy;
@@ -195,48 +196,6 @@ impl<'a> MapReader<'a> {
         let values: Vec<Rgb> = (0..DIRECT_REPLICATES).map(one).collect();
         mean_and_variance(&values)
     }
-
-    /// The surface at a point: straight below it, or, at the rim of a surface, just beside.
-    fn find_surface(&self, at: ProbePoint) -> Option<SurfacePoint> {
-        let (u, v) = at.normal.to_direction().frame();
-        let side = 0.1 * self.reach_m;
-        let beside = (0..8).map(|k| {
-            let (s, c) = libm::sincos(f64::from(k) * std::f64::consts::FRAC_PI_4);
-            u * (side * c) + v * (side * s)
-        });
-        std::iter::once(isolux_geometry::Vector::ZERO)
-            .chain(beside)
-            .find_map(|shift| self.surface_below(at.position + shift, at.normal))
-    }
-
-    fn surface_below(&self, point: Point, normal: Normal) -> Option<SurfacePoint> {
-        let down: Direction = -normal.to_direction();
-        let mut ray = Ray::new(point + normal * self.reach_m, down);
-        ray.t_max = 2.0 * self.reach_m as f32;
-        let hit = self.scene.bvh().closest_hit(&ray)?;
-        let surface = SurfacePoint::from_hit(self.scene, &hit);
-        let SurfacePoint { triangle, back, u, v, .. } = surface;
-        let carries = self.map.elements.locate(triangle, back, u, v).is_some();
-        // Sixty degrees: a surface that faces quite another way is not the one asked for.
-        (carries && surface.geometric.dot(normal) > 0.5).then_some(surface)
-    }
-
-    /// A place on the rim of a triangle, moved inwards beyond the rounding of coordinates, so that
-    /// it does not lie in the wall that meets it there.
-    fn pulled_in(&self, at: SurfacePoint) -> SurfacePoint {
-        let triangle = self.scene.triangle(at.triangle);
-        let inwards = triangle.centroid() - at.point;
-        let largest = at.point.to_vector();
-        let largest = largest.x.abs().max(largest.y.abs()).max(largest.z.abs());
-        let distance_m = 64.0 * f64::from(f32::EPSILON) * largest;
-        let near_rim = at.u.min(at.v).min(1.0 - at.u - at.v) * inwards.length() < distance_m;
-        match inwards.direction() {
-            Some(direction) if near_rim => {
-                SurfacePoint { point: at.point + direction * distance_m, ..at }
-            }
-            _ => at,
-        }
-    }
 }
 
 /// Discretization and bias as reported: a share of the root mean square of the light, evenly. (In
@@ -254,14 +213,8 @@ fn unseen_lx(map: &IlluminationMap) -> f64 {
     if area_m2 > 0.0 { share * (squared / area_m2).sqrt() } else { 0.0 }
 }
 
-/// Random numbers belong to the place, so that neighbours are independent.
-fn place_key(point: Point) -> Key {
-    let place = [point.x, point.y, point.z];
-    place.iter().fold(Key::new(0).with(5), |key, c| key.with(c.to_bits()))
-}
-
 /// Mean of independent values and variance of their photometric mean.
-fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
+pub(super) fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
     let n = values.len() as f64;
     let mean = values.iter().copied().sum::<Rgb>() / n;
     let squares: f64 = values.iter().map(|v| (*v - mean).luminance()).map(|d| d * d).sum();
