@@ -10,7 +10,7 @@ mod subdivide;
 mod tests;
 
 pub use arrays::{ElementArrays, ElementArraysError};
-pub use subdivide::{Origin, Receiver, Subdivision};
+pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
 
 use isolux_geometry::{Normal, Point};
 

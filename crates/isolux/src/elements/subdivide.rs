@@ -298,7 +298,7 @@ const fn edge_key(a: u32, b: u32) -> [u32; 2] {
 
 /// Whether a side of a triangle carries a map: opaque, not a pure mirror, not the black back of a
 /// one-sided material.
-fn carries_map(scene: &Scene, triangle: u32, back: bool) -> bool {
+pub fn carries_map(scene: &Scene, triangle: u32, back: bool) -> bool {
     scene
         .material(triangle)
         .finish(back)

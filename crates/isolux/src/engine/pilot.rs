@@ -45,7 +45,7 @@ const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
 const PULL_IN: f64 = 2e-3;
 /// With more sources than this, rays read direct light from the map where they end.
-const MOST_SOURCES_EVALUATED: usize = 8;
+pub(super) const MOST_SOURCES_EVALUATED: usize = 8;
 /// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 2;

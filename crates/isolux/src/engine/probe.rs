@@ -4,13 +4,14 @@ use super::direct::{Goal, Lighting, Measured};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hybrid::NET_ORDER;
 use super::path::Dice;
+use super::pilot::MOST_SOURCES_EVALUATED;
+use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
 use super::trust;
 use crate::map::{Accuracy, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Normal, Point, Ray};
 
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
@@ -22,18 +23,6 @@ const FRESH_MOST_RAYS: f64 = 1024.0;
 
 /// Shadow rays to every emitting surface in a reading for a picture.
 const GLANCE_SAMPLES: usize = 4;
-
-/// A point counts as on a surface within this share of the scene's extent.
-const REACH_SHARE: f64 = 1e-4;
-
-/// A place and the way a luxmeter faces there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProbePoint {
-    /// Where, m.
-    pub position: Point,
-    /// Where it faces.
-    pub normal: Normal,
-}
 
 /// How hard [`MapReader::estimate`] tries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +48,9 @@ pub struct MapReader<'a> {
     lighting: Lighting<'a>,
     standings: Vec<Option<Standing>>,
     light: Vec<Rgb>,
-    reach_m: f64,
+    /// Direct light at the vertices, where sources are many: there rays read it.
+    direct_values: Option<Vec<Rgb>>,
+    places: Places<'a>,
     unseen: Unseen,
 }
 
@@ -76,17 +67,19 @@ struct Unseen {
 impl<'a> MapReader<'a> {
     /// Prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
-        let bounds = scene.bvh().mesh().bounds();
-        let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         let reflected =
             |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx);
+        let lighting = Lighting::new(scene);
+        let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
+        let are_many = lighting.source_count() > MOST_SOURCES_EVALUATED;
         Self {
             scene,
             map,
-            lighting: Lighting::new(scene),
+            lighting,
+            direct_values: are_many.then(|| map.values.iter().map(direct).collect()),
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             light: map.values.iter().map(reflected).collect(),
-            reach_m: REACH_SHARE * extent_m,
+            places: Places::of(scene),
             unseen: Unseen::of(map),
         }
     }
@@ -116,10 +109,10 @@ impl<'a> MapReader<'a> {
     fn read(&self, surface: SurfacePoint) -> Option<Illuminance> {
         let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
-        let at = self.pulled_in(surface);
+        let at = self.places.pulled_in(surface);
         let edge_m = self.longest_edge_m(&at);
         let indirect = if self.is_trusted(&stored) && !trust::is_beset(self.scene, &at, edge_m) {
-            self.interpolated(stored)
+            self.with_interpolation_error(stored)
         } else {
             let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
             self.gathered(stored, Gatherer::on_surface(at, FRESH_TRIAL_RAYS).in_gap(in_gap))
@@ -143,7 +136,7 @@ impl<'a> MapReader<'a> {
 
     /// A value of the map with what interpolation is expected to err by. Half of the error of the
     /// scene is taken to be spread evenly, half as expected of the elements.
-    fn interpolated(&self, stored: Illuminance) -> Illuminance {
+    fn with_interpolation_error(&self, stored: Illuminance) -> Illuminance {
         let (even, own) = (self.unseen.discretization_lx, stored.interpolation_error_lx);
         let interpolation_error_lx = (0.5 * (even * even + own * own)).sqrt();
         Illuminance { interpolation_error_lx, ..stored }
@@ -154,13 +147,18 @@ impl<'a> MapReader<'a> {
     fn gathered(&self, stored: Illuminance, trial: Gatherer) -> Illuminance {
         let key = place_key(trial.surface.point).with(7);
         let goal = 0.5 * self.unseen.reached_lx;
-        let (_, variance) = self.gather(trial, FRESH_REPLICATES, key.with(0));
+        let direct = match &self.direct_values {
+            Some(values) => DirectAtEnds::Read { values, level: u32::MAX },
+            None => DirectAtEnds::Evaluated,
+        };
+        let (_, variance) = self.gather(trial, direct, (FRESH_REPLICATES, key.with(0)));
         let rays = f64::from(FRESH_TRIAL_RAYS)
             * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / NET_ORDER);
         let rays = rays.clamp(f64::from(FRESH_TRIAL_RAYS), FRESH_MOST_RAYS) as u32;
         // With numbers of its own: who stopped at a small variance would report too small ones.
         let gatherer = trial.with_rays(rays.next_power_of_two());
-        let (indirect_lx, variance) = self.gather(gatherer, FRESH_REPLICATES, key.with(1));
+        let (indirect_lx, variance) =
+            self.gather(gatherer, direct, (FRESH_REPLICATES, key.with(1)));
         Illuminance {
             indirect_lx,
             indirect_standard_error_lx: variance.sqrt(),
@@ -171,14 +169,19 @@ impl<'a> MapReader<'a> {
     }
 
     /// Mean over replicates and its variance.
-    fn gather(&self, gatherer: Gatherer, replicates: u32, key: Key) -> (Rgb, f64) {
+    fn gather(
+        &self,
+        gatherer: Gatherer,
+        direct: DirectAtEnds<'_>,
+        (replicates, key): (u32, Key),
+    ) -> (Rgb, f64) {
         let gathering = Gathering {
             scene: self.scene,
             lighting: &self.lighting,
             elements: &self.map.elements,
             level: u32::MAX,
             standings: &self.standings,
-            direct: DirectAtEnds::Evaluated,
+            direct,
         };
         let rows = vec![gatherer; replicates as usize];
         let values = gathering.operator(&rows, |k| key.with(k as u64)).apply(&self.light);
@@ -197,7 +200,7 @@ impl<'a> MapReader<'a> {
         number: u64,
     ) -> Option<Illuminance> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
-        let at = self.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
+        let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
         let sequence = Sequence::new(place_key(at.point).with(number));
         let direct = self.lighting.sampled(&at, GLANCE_SAMPLES, &mut Dice::new(sequence, 0));
         Some(Illuminance {
@@ -213,19 +216,27 @@ impl<'a> MapReader<'a> {
         self.read(self.find_surface(at)?)
     }
 
+    /// The same of the bare map, direct light interpolated, too. The standard error is that of
+    /// replicates alone.
+    pub fn interpolated(&self, at: ProbePoint) -> Option<Illuminance> {
+        let SurfacePoint { triangle, back, u, v, .. } = self.find_surface(at)?;
+        self.map.interpolate(triangle, back, u, v)
+    }
+
     /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
     /// indirect light by gathering over the map. Caustics are read from the map where the point is
     /// on a surface; in free space they are unknown and left out. The standard error counts the
     /// interpolation error and the bias of the map as if they were the same everywhere.
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
-        let on_surface = self.find_surface(at).map(|s| self.pulled_in(s));
+        let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
         let gatherer = on_surface
             .map(|at| (at, trust::is_closed_in(self.scene, &at, self.longest_edge_m(&at))))
             .map(|(at, in_gap)| Gatherer::on_surface(at, settings.rays).in_gap(in_gap))
             .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);
-        let (indirect_lx, variance) = self.gather(gatherer, replicates, key);
+        let (indirect_lx, variance) =
+            self.gather(gatherer, DirectAtEnds::Evaluated, (replicates, key));
         let looked_up = self.lookup_error() * indirect_lx.luminance();
         let indirect_variance = variance + looked_up * looked_up;
         let caustic_lx = on_surface
@@ -242,6 +253,14 @@ impl<'a> MapReader<'a> {
             standing: Standing::Open,
             samples: u64::from(replicates) * u64::from(settings.rays),
         }
+    }
+
+    /// The surface at a point that carries the map.
+    fn find_surface(&self, at: ProbePoint) -> Option<SurfacePoint> {
+        self.places.surface_at(at, |surface| {
+            let SurfacePoint { triangle, back, u, v, .. } = *surface;
+            self.map.elements.locate(triangle, back, u, v).is_some()
+        })
     }
 
     /// What the map that gathering rays read may be off by, other than by noise, relative.
@@ -276,48 +295,6 @@ impl<'a> MapReader<'a> {
         let values: Vec<Rgb> = (0..DIRECT_REPLICATES).map(one).collect();
         mean_and_variance(&values)
     }
-
-    /// The surface at a point: straight below it, or, at the rim of a surface, just beside.
-    fn find_surface(&self, at: ProbePoint) -> Option<SurfacePoint> {
-        let (u, v) = at.normal.to_direction().frame();
-        let side = 0.1 * self.reach_m;
-        let beside = (0..8).map(|k| {
-            let (s, c) = libm::sincos(f64::from(k) * std::f64::consts::FRAC_PI_4);
-            u * (side * c) + v * (side * s)
-        });
-        std::iter::once(isolux_geometry::Vector::ZERO)
-            .chain(beside)
-            .find_map(|shift| self.surface_below(at.position + shift, at.normal))
-    }
-
-    fn surface_below(&self, point: Point, normal: Normal) -> Option<SurfacePoint> {
-        let down: Direction = -normal.to_direction();
-        let mut ray = Ray::new(point + normal * self.reach_m, down);
-        ray.t_max = 2.0 * self.reach_m as f32;
-        let hit = self.scene.bvh().closest_hit(&ray)?;
-        let surface = SurfacePoint::from_hit(self.scene, &hit);
-        let SurfacePoint { triangle, back, u, v, .. } = surface;
-        let carries = self.map.elements.locate(triangle, back, u, v).is_some();
-        // Sixty degrees: a surface that faces quite another way is not the one asked for.
-        (carries && surface.geometric.dot(normal) > 0.5).then_some(surface)
-    }
-
-    /// A place on the rim of a triangle, moved inwards beyond the rounding of coordinates, so that
-    /// it does not lie in the wall that meets it there.
-    fn pulled_in(&self, at: SurfacePoint) -> SurfacePoint {
-        let triangle = self.scene.triangle(at.triangle);
-        let inwards = triangle.centroid() - at.point;
-        let largest = at.point.to_vector();
-        let largest = largest.x.abs().max(largest.y.abs()).max(largest.z.abs());
-        let distance_m = 64.0 * f64::from(f32::EPSILON) * largest;
-        let near_rim = at.u.min(at.v).min(1.0 - at.u - at.v) * inwards.length() < distance_m;
-        match inwards.direction() {
-            Some(direction) if near_rim => {
-                SurfacePoint { point: at.point + direction * distance_m, ..at }
-            }
-            _ => at,
-        }
-    }
 }
 
 impl Unseen {
@@ -348,14 +325,8 @@ fn rms_lx(map: &IlluminationMap) -> f64 {
     if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
 }
 
-/// Random numbers belong to the place, so that neighbours are independent.
-fn place_key(point: Point) -> Key {
-    let place = [point.x, point.y, point.z];
-    place.iter().fold(Key::new(0).with(5), |key, c| key.with(c.to_bits()))
-}
-
 /// Mean of independent values and variance of their photometric mean.
-fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
+pub(super) fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
     let n = values.len() as f64;
     let mean = values.iter().copied().sum::<Rgb>() / n;
     let squares: f64 = values.iter().map(|v| (*v - mean).luminance()).map(|d| d * d).sum();

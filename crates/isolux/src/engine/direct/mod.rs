@@ -149,8 +149,16 @@ impl<'s> Lighting<'s> {
     /// Direct illuminance from all sources: exact for parallel light, and for points where they are
     /// few; sampled for emitting surfaces.
     pub(super) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        let samples = (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES);
-        self.sampled(at, samples, dice)
+        self.sampled(at, self.area_samples(), dice)
+    }
+
+    /// The same with a look at every source: what choosing among many is measured against.
+    pub(super) fn illuminance_by_all(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+        self.by_all(at, self.area_samples(), dice)
+    }
+
+    fn area_samples(&self) -> usize {
+        (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES)
     }
 
     /// The same with `samples` shadow rays for every emitting surface.
@@ -162,7 +170,7 @@ impl<'s> Lighting<'s> {
         self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
     }
 
-    /// The same with a look at every source: what choosing among many is measured against.
+    /// [`Lighting::sampled`] with a look at every source.
     pub(super) fn by_all(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
         self.sources.iter().map(|s| self.lit_by(s, at, samples, dice)).sum()
     }

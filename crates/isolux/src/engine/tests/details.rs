@@ -15,7 +15,7 @@ fn patch(edge_m: f64) -> Subdivision {
 fn errors_of(subdivision: &Subdivision, f: impl Fn(Point) -> Option<f64>) -> Vec<LeafError> {
     let elements = subdivision.elements();
     let values: Vec<Option<f64>> = elements.vertices().iter().map(|v| f(v.position)).collect();
-    leaf_errors(subdivision, &elements, &values, |_| None)
+    leaf_errors(subdivision, &elements, &values, |_| None, |_| false)
 }
 
 /// Root mean square over the surface.

@@ -11,6 +11,7 @@ fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
         node: node as u32,
         area_m2,
         error,
+        is_beset: false,
     };
     of.iter().enumerate().map(error).collect()
 }
@@ -28,9 +29,11 @@ fn the_worst_are_left_out_until_the_rest_is_good() {
     ] {
         assert_eq!(trust::limit(&all, goal, most_share), expected, "{name}");
     }
-    let rest = trust::error_below(&all, 2.5);
+    let rest = trust::error_of(&all, |e| e.error < 2.5);
     assert!((rest - 0.6_f64.sqrt()).abs() < 1e-15, "the good ones over the whole area: {rest}");
     assert_eq!(trust::limit(&[], 1.0, 1.0), f64::INFINITY);
+    let beset: Vec<LeafError> = all.iter().map(|&e| LeafError { is_beset: true, ..e }).collect();
+    assert_eq!(trust::limit(&beset, 0.8, 1.0), f64::INFINITY, "nobody trusts them anyway");
 }
 
 /// Files keep errors at vertices; the least over an element's vertices is never less than its own,
@@ -46,6 +49,7 @@ fn errors_at_vertices_bound_those_of_elements() {
         node,
         area_m2: coarse.triangle(node).area(),
         error: if left(node) { 1.0 + f64::from(node) } else { 0.0 },
+        is_beset: false,
     };
     let errors: Vec<LeafError> = coarse.leaves().map(error).collect();
     let mut fine = coarse.clone();
