@@ -2,7 +2,7 @@
 
 use isolux::elements::{ElementArrays, Elements};
 use isolux::geometry::{Direction, Point, Vector};
-use isolux::map::{Illuminance, IlluminationMap, Method, Provenance};
+use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
 use isolux::scene::{Body, Camera, Dielectric, Finish, Gloss, Material, Scene, SceneParts, Shape};
 use isolux::units::Rgb;
 use isolux_view::*;

@@ -98,6 +98,12 @@ pub(super) enum DirectAtEnds<'a> {
         /// As for indirect light, but direct light may live on a finer level.
         level: u32,
     },
+    /// Read, but evaluated where a ray ends nearer than the element there is long: what stands that
+    /// close may throw shadows that the map does not resolve.
+    ReadFarOff {
+        /// A value a vertex, lx.
+        values: &'a [Rgb],
+    },
 }
 
 /// What a ray reads from the map: the light of three vertices.
@@ -197,8 +203,9 @@ impl Gathering<'_> {
             }
             for (surface, reflectance) in ends.drain(..) {
                 let share = reflectance * share_of_ray;
-                let out_of = gatherer.in_gap.then(|| (surface.point - gatherer.origin).length());
-                source += share * self.direct_at(&surface, out_of, &mut dice);
+                let distance_m = (surface.point - gatherer.origin).length();
+                let out_of = gatherer.in_gap.then_some(distance_m);
+                source += share * self.direct_at(&surface, (distance_m, out_of), &mut dice);
                 if let Some(entry) = self.entry(&surface, out_of) {
                     rows.push(entry, share.0.map(|c| c as f32));
                 }
@@ -209,15 +216,32 @@ impl Gathering<'_> {
         rows.open.push(open);
     }
 
-    fn direct_at(&self, at: &SurfacePoint, out_of_gap_m: Option<f64>, dice: &mut Dice) -> Rgb {
+    fn direct_at(
+        &self,
+        at: &SurfacePoint,
+        (distance_m, out_of_gap_m): (f64, Option<f64>),
+        dice: &mut Dice,
+    ) -> Rgb {
+        let read = |values: &[Rgb], level: u32| {
+            self.corners(level, at, out_of_gap_m).map_or(Rgb::BLACK, |corners| {
+                corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
+            })
+        };
         match self.direct {
-            DirectAtEnds::Evaluated => self.lighting.estimate(at, dice),
-            DirectAtEnds::Read { values, level } => {
-                self.corners(level, at, out_of_gap_m).map_or(Rgb::BLACK, |corners| {
-                    corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
-                })
+            DirectAtEnds::Read { values, level } => read(values, level),
+            DirectAtEnds::ReadFarOff { values } if distance_m > self.longest_edge_m(at) => {
+                read(values, u32::MAX)
             }
+            _ => self.lighting.estimate(at, dice),
         }
+    }
+
+    /// Of the element at a place, m; zero where there is none.
+    fn longest_edge_m(&self, at: &SurfacePoint) -> f64 {
+        let corners = self.elements.locate(at.triangle, at.back, at.u, at.v);
+        corners.map_or(0.0, |corners| {
+            trust::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex))
+        })
     }
 
     fn end(&self, surface: &SurfacePoint, finish: &Finish, throughput: Rgb) -> End {

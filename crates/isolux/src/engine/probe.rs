@@ -148,7 +148,7 @@ impl<'a> MapReader<'a> {
         let key = place_key(trial.surface.point).with(7);
         let goal = 0.5 * self.unseen.reached_lx;
         let direct = match &self.direct_values {
-            Some(values) => DirectAtEnds::Read { values, level: u32::MAX },
+            Some(values) => DirectAtEnds::ReadFarOff { values },
             None => DirectAtEnds::Evaluated,
         };
         let (_, variance) = self.gather(trial, direct, (FRESH_REPLICATES, key.with(0)));
