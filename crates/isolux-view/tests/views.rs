@@ -218,7 +218,7 @@ fn rising_map(scene: &Scene) -> IlluminationMap {
             increments: 1,
             rays: 0,
             accuracy_target: None,
-            fresh_above_lx: None,
+            fresh: None,
             filter: None,
             complete: true,
             accuracy: None,

@@ -126,6 +126,7 @@ mod tests {
     use crate::expectation::Bound;
     use isolux::engine::ProbePoint;
     use isolux::geometry::{Normal, Point};
+    use isolux::map::Standing;
 
     const ALLOWANCE: Allowance =
         Allowance { rounding_lx: 1e-10, interpolation_lx: 2.0, freedom: 15.0 };

@@ -2,7 +2,7 @@
 
 use isolux::elements::{ElementArrays, Elements};
 use isolux::geometry::{Direction, Point, Transform, Vector};
-use isolux::map::{Accuracy, Illuminance, IlluminationMap, Method, Provenance};
+use isolux::map::{Accuracy, Fresh, Illuminance, IlluminationMap, Method, Provenance, Standing};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux::scene::{
     Body, Camera, Dielectric, Finish, Gloss, Luminaire, LuminaireKind, Material, Reflectance,
@@ -159,7 +159,7 @@ fn provenance() -> Provenance {
         increments: 24,
         rays: 1_000_000,
         accuracy_target: Some(0.01),
-        fresh_above_lx: Some(0.7),
+        fresh: Some(Fresh { above_lx: Some(0.7), lookup_lx: 0.3 }),
         filter: None,
         complete: true,
         accuracy: Some(Accuracy {

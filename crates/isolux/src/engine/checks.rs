@@ -36,6 +36,8 @@ pub(super) struct Check {
     expected_lx: f64,
     /// Whether readers interpolate there.
     is_trusted: bool,
+    /// The share of what is seen there that is as near as the element is long.
+    nearness: f64,
 }
 
 /// Errors beyond noise, lx: of interpolation over the surface, root mean squares and the signed
@@ -44,6 +46,10 @@ pub(super) struct Check {
 pub(super) struct InterpolationErrors {
     /// Of the indirect part, where readers interpolate it.
     pub(super) indirect_lx: f64,
+    /// The same where they do not.
+    pub(super) untrusted_lx: f64,
+    /// The share of what is seen there that is close by, root mean square over all the surface.
+    pub(super) nearness: f64,
     /// Of direct and indirect together, but in gaps.
     pub(super) total_lx: f64,
     /// Mean of the indirect error, with its sign and standard error.
@@ -109,12 +115,13 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Opt
     };
     let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
     let edge_m = trust::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
-    let is_beset = trust::is_beset(plan.scene, &gatherer.surface, edge_m);
+    let nearness = trust::nearness(plan.scene, &gatherer.surface, edge_m);
+    let is_beset = trust::besets(nearness);
     let in_gap = is_beset && trust::is_closed_in(plan.scene, &gatherer.surface, edge_m);
     let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
     let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !is_beset;
     let gatherer = gatherer.in_gap(in_gap);
-    Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted })
+    Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted, nearness })
 }
 
 /// Direct light at the check points, as readings evaluate it; `key` only matters where it has noise.
@@ -164,6 +171,7 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
     let area: f64 = checks.iter().map(|c| c.area_m2).sum();
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let (mut noise, mut expected) = (0.0, 0.0);
+    let (mut untrusted, mut near, mut share_untrusted) = (0.0, 0.0, 0.0);
     for (k, check) in checks.iter().enumerate() {
         let estimate = sums.estimate(k);
         let indirect = estimate.mean.indirect.luminance();
@@ -175,6 +183,10 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         ];
         if check.is_trusted {
             expected += share * check.expected_lx * check.expected_lx;
+        } else {
+            share_untrusted += share;
+            untrusted += share * (indirect * indirect - estimate.indirect_variance);
+            near += share * check.nearness * check.nearness;
         }
         // Neither rays nor views come to what is closed in.
         let seen = if check.gatherer.in_gap { 0..0 } else { 0..2 };
@@ -196,6 +208,8 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         total_lx: root(1),
         indirect_mean_lx: mean[0],
         direct_mean_lx: mean[1] - mean[0],
+        untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
+        nearness: near.sqrt(),
         given_up_lx: 0.0,
         noise_lx: (!checks.is_empty()).then(|| noise.sqrt()),
         over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),

@@ -111,19 +111,25 @@ impl<'a> MapReader<'a> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.places.pulled_in(surface);
         let edge_m = self.longest_edge_m(&at);
-        let indirect = if self.is_trusted(&stored) && !trust::is_beset(self.scene, &at, edge_m) {
+        let Some(fresh) = self.map.provenance.fresh else {
+            return Some(self.with_fresh_direct(stored, &at));
+        };
+        let nearness = trust::nearness(self.scene, &at, edge_m);
+        let limit_lx = fresh.above_lx.unwrap_or(f64::INFINITY);
+        let is_trusted = stored.standing == Standing::Open
+            && stored.interpolation_error_lx <= limit_lx
+            && !trust::besets(nearness);
+        let indirect = if is_trusted {
             self.with_interpolation_error(stored)
         } else {
             let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
-            self.gathered(stored, Gatherer::on_surface(at, FRESH_TRIAL_RAYS).in_gap(in_gap))
+            let trial = Gatherer::on_surface(at, FRESH_TRIAL_RAYS).in_gap(in_gap);
+            Illuminance {
+                interpolation_error_lx: nearness * fresh.lookup_lx,
+                ..self.gathered(stored, trial)
+            }
         };
         Some(self.with_fresh_direct(indirect, &at))
-    }
-
-    /// Whether interpolation is good enough for an element.
-    fn is_trusted(&self, stored: &Illuminance) -> bool {
-        let limit_lx = self.map.provenance.fresh_above_lx.unwrap_or(f64::INFINITY);
-        stored.standing == Standing::Open && stored.interpolation_error_lx <= limit_lx
     }
 
     /// Of the element at a place, m; zero where there is none.
@@ -162,7 +168,6 @@ impl<'a> MapReader<'a> {
         Illuminance {
             indirect_lx,
             indirect_standard_error_lx: variance.sqrt(),
-            interpolation_error_lx: 0.0,
             samples: u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays),
             ..stored
         }

@@ -346,7 +346,7 @@ impl<'s> Run<'s, '_> {
                 accuracy_target: self.request.accuracy,
                 complete: reached || self.request.accuracy.is_none(),
                 accuracy,
-                fresh_above_lx: work.fresh_above_lx(),
+                fresh: work.fresh(),
                 filter,
             },
         }

@@ -87,17 +87,33 @@ pub(super) fn is_beset(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) ->
     is_met(scene, at, longest_edge_m, BESET)
 }
 
-/// Whether so many of the rays that feel about before a place meet something within reach.
-fn is_met(scene: &Scene, at: &SurfacePoint, reach_m: f64, enough: u32) -> bool {
+/// The share of what is seen at a place that is as near as an element of such edges is long.
+pub(super) fn nearness(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> f64 {
+    let feeler = feeler(scene, at, longest_edge_m);
+    (0..FEELERS).filter(|&index| feeler(index)).count() as f64 / f64::from(FEELERS)
+}
+
+/// Whether that is enough for a place to be beset.
+pub(super) fn besets(nearness: f64) -> bool {
+    nearness * f64::from(FEELERS) >= f64::from(BESET)
+}
+
+/// Whether the rays that feel about before a place meet something within reach.
+fn feeler<'a>(scene: &'a Scene, at: &'a SurfacePoint, reach_m: f64) -> impl Fn(u32) -> bool + 'a {
     let sequence = Sequence::new(Key::new(0).with(6));
     let axis = at.shading.to_direction();
-    let meets = |index: u32| {
+    move |index: u32| {
         let mut dice = Dice::new(sequence, index);
         let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
         let mut ray = Ray::new(at.start(), direction).skipping(at.triangle);
         ray.t_max = reach_m as f32;
         scene.bvh().any_hit(&ray)
-    };
+    }
+}
+
+/// Whether so many of them do.
+fn is_met(scene: &Scene, at: &SurfacePoint, reach_m: f64, enough: u32) -> bool {
+    let meets = feeler(scene, at, reach_m);
     let (mut met, mut missed) = (0, 0);
     for index in 0..FEELERS {
         if meets(index) {

@@ -1,7 +1,7 @@
 //! The increments on one mesh: an engine, what it has summed, and the map that makes.
 
 use super::accumulate::{Accumulator, Sample, Sums};
-use super::accuracy::{BELIEVED_INCREMENTS, accuracy, early_statistical};
+use super::accuracy::{BELIEVED_INCREMENTS, accuracy, early_statistical, lookup_lx};
 use super::checks::{self, Check, InterpolationErrors};
 use super::deadline::Deadline;
 use super::emission::Emission;
@@ -14,7 +14,7 @@ use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
 use super::tally;
 use super::trust;
-use crate::map::{Accuracy, FilterReport, Illuminance, Method};
+use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method};
 use crate::sampling::Key;
 use crate::units::Rgb;
 
@@ -127,10 +127,14 @@ impl<'p, 's> Work<'p, 's> {
         self.sums.increments >= BELIEVED_INCREMENTS
     }
 
-    /// The interpolation error of an element above which readers gather afresh, lx.
-    pub(super) fn fresh_above_lx(&self) -> Option<f64> {
-        let limit = self.plan.trusted_up_to_lx;
-        (self.is_believed() && limit.is_finite()).then(|| limit * self.over_expected())
+    /// Where readers gather afresh.
+    pub(super) fn fresh(&self) -> Option<Fresh> {
+        if !self.is_believed() {
+            return None;
+        }
+        let limit_lx = self.plan.trusted_up_to_lx * self.over_expected();
+        let lookup_lx = lookup_lx(self.plan, &self.interpolation());
+        Some(Fresh { above_lx: limit_lx.is_finite().then_some(limit_lx), lookup_lx })
     }
 
     pub(super) fn accuracy(&self) -> Option<Accuracy> {

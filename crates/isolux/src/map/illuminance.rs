@@ -20,7 +20,7 @@ pub struct Illuminance {
     pub indirect_standard_error_lx: f64,
     /// In a map: what interpolating the indirect part about a vertex is expected to err by, root mean
     /// square over the worst element at it, lx. In a reading: what this one is expected to err by for
-    /// being interpolated; zero where indirect light was gathered afresh.
+    /// being interpolated, or for what rays gathered afresh have read close by.
     pub interpolation_error_lx: f64,
     /// What the vertex, or the vertices read, stand for.
     pub standing: Standing,

@@ -5,7 +5,7 @@ mod provenance;
 mod standing;
 
 pub use illuminance::Illuminance;
-pub use provenance::{Accuracy, FilterReport, Method, Provenance};
+pub use provenance::{Accuracy, FilterReport, Fresh, Method, Provenance};
 pub use standing::Standing;
 
 use crate::elements::Elements;

@@ -25,11 +25,21 @@ pub struct Provenance {
     pub complete: bool,
     /// How good the map is; `None` before the error could be believed.
     pub accuracy: Option<Accuracy>,
-    /// Readers with the scene at hand gather indirect light afresh where the interpolation error of an
-    /// element is larger, lx; `None` where the map is trusted everywhere.
-    pub fresh_above_lx: Option<f64>,
+    /// Where readers with the scene at hand gather indirect light afresh; `None` before the error could
+    /// be believed: then they interpolate.
+    pub fresh: Option<Fresh>,
     /// What the filter did; `None` where it was off.
     pub filter: Option<FilterReport>,
+}
+
+/// Where a map is not to be trusted, and what those know who gather there over it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fresh {
+    /// Where the interpolation error of an element is larger, lx; `None` if it is small enough
+    /// everywhere. (And everywhere that something stands nearer than the element is long.)
+    pub above_lx: Option<f64>,
+    /// What light is wrong by that comes from close by, where the map is not trusted either, lx.
+    pub lookup_lx: f64,
 }
 
 /// What the filter did to a map.
