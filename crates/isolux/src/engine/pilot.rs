@@ -39,7 +39,7 @@ const DISCRETIZATION_SHARE: f64 = 0.5;
 const FRESH_SHARE: f64 = 0.1;
 const MOST_FRESH: f64 = 0.5;
 /// What all elements may err by, in accuracies asked for: rays read them all, but in the mean over many.
-const BARE: f64 = 2.0;
+const BARE: f64 = 1.0;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
@@ -186,41 +186,36 @@ pub(super) fn pilot<'s>(
             break;
         }
     }
-    let mut before = (f64::INFINITY, look.vertices as f64);
-    for _ in 0..MAX_ROUNDS {
-        let Some((errors, excess)) = look.excess(request) else { break };
-        // Where bisection no longer helps, what is left is noise: the check points will tell.
-        let vertices = look.vertices as f64;
-        let stalled = excess > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
-        if stalled || !go_on(pilot.subdivision.vertex_count(), pilot.traced) {
-            break;
-        }
-        before = (excess, vertices);
-        let how_far = Refinement {
-            wanted: 1.0 / excess,
-            least_edge_m: pilot.least_edge_m,
-            max_vertices: most,
-        };
-        if !refine_worst(&mut pilot.subdivision, &errors, how_far) {
-            break;
-        }
-        look = pilot.look();
+    for what in [Read::Trusted, Read::All] {
+        let refinement = (what, most);
+        look = pilot.refine(look, request, refinement, go_on);
     }
     pilot.finish(look, request, go_on)
 }
 
+/// What elements are read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Read {
+    /// By readers that interpolate.
+    Trusted,
+    /// By rays, and with the bare map.
+    All,
+}
+
 impl Look {
-    /// The elements to look at, and how many times their error is what it should be, if it is more: first
-    /// those that readers are to trust, then all, which is what rays and a bare map read.
-    fn excess(&self, request: &PilotRequest) -> Option<(Vec<LeafError>, f64)> {
-        let limit = trust::limit(&self.errors, self.goal_lx(request.target, request), FRESH_SHARE);
-        let over = |target: f64, some: &dyn Fn(&LeafError) -> bool| {
-            let excess = trust::error_of(&self.errors, some) / self.goal_lx(target, request);
-            let some = || self.errors.iter().copied().filter(|e| some(e)).collect();
-            (excess > 1.0 && self.rms_lx > 0.0).then(|| (some(), excess))
+    /// The elements that are read so, and how many times their error is what it should be, if it is more.
+    fn excess(&self, what: Read, request: &PilotRequest) -> Option<(Vec<LeafError>, f64)> {
+        let goal_lx = self.goal_lx(request.target, request);
+        let limit = trust::limit(&self.errors, goal_lx, FRESH_SHARE);
+        let is_read = |e: &LeafError| what == Read::All || !e.is_beset && e.error <= limit;
+        let goal_lx = match what {
+            Read::Trusted => goal_lx,
+            // Fits do little for what is steep at edges.
+            Read::All => request.mesh_target.min(BARE * request.target) * self.rms_lx,
         };
-        over(request.target, &|e| !e.is_beset && e.error <= limit)
-            .or_else(|| over(request.mesh_target.min(BARE * request.target), &|_| true))
+        let excess = trust::error_of(&self.errors, is_read) / goal_lx;
+        let read = || self.errors.iter().copied().filter(is_read).collect();
+        (excess > 1.0 && self.rms_lx > 0.0).then(|| (read(), excess))
     }
 
     /// The error of elements up to which readers trust the map.
@@ -457,6 +452,34 @@ impl<'s> Pilot<'s> {
         let mut known = std::mem::take(&mut self.known);
         self.sight(elements, gatherers).extend_known(&self.direct, &mut known);
         self.known = known;
+    }
+
+    /// Bisects until elements are good enough for what they are read for, or that comes to nothing.
+    fn refine(
+        &mut self,
+        mut look: Look,
+        request: &PilotRequest,
+        (what, max_vertices): (Read, usize),
+        go_on: &mut dyn FnMut(usize, u64) -> bool,
+    ) -> Look {
+        let mut before = (f64::INFINITY, look.vertices as f64);
+        for _ in 0..MAX_ROUNDS {
+            let Some((errors, excess)) = look.excess(what, request) else { break };
+            // Where bisection no longer helps, what is left is noise: the check points will tell.
+            let vertices = look.vertices as f64;
+            let stalled = excess > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
+            if stalled || !go_on(self.subdivision.vertex_count(), self.traced) {
+                break;
+            }
+            before = (excess, vertices);
+            let least_edge_m = self.least_edge_m;
+            let how_far = Refinement { wanted: 1.0 / excess, least_edge_m, max_vertices };
+            if !refine_worst(&mut self.subdivision, &errors, how_far) {
+                break;
+            }
+            look = self.look();
+        }
+        look
     }
 
     /// Bisects elements with hidden vertices where light comes to places that see none of the
