@@ -11,7 +11,7 @@ use super::detail::LeafError;
 use super::direct::Goal;
 use super::gather::{Gatherer, known_weights};
 use super::path::Dice;
-use super::pilot::{Plan, place_in_leaf};
+use super::pilot::Plan;
 use super::surface::SurfacePoint;
 use super::trust;
 use crate::sampling::{Key, Sequence};
@@ -99,7 +99,8 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
         // Stratified: one point in each of `count` equal parts.
         let at = (index as f64 + pick) / count as f64 * sum;
         let k = sums.partition_point(|&s| s <= at).min(errors.len() - 1);
-        let surface = place_in_leaf(plan, errors[k].node, dice.pair());
+        let surface =
+            SurfacePoint::in_node(plan.scene, &plan.subdivision, errors[k].node, dice.pair());
         let area_m2 = errors[k].area_m2 / (count as f64 * density(k) / sum);
         check(plan, Gatherer::on_surface(surface, rays), area_m2, errors[k].error)
     };

@@ -9,9 +9,11 @@ use super::detail::LeafError;
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::elements::{Elements, Subdivision};
+use crate::map::Standing;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use isolux_geometry::Ray;
+use rayon::prelude::*;
 
 /// Rays that look for something before a place.
 const FEELERS: u32 = 16;
@@ -132,4 +134,25 @@ fn is_met(scene: &Scene, at: &SurfacePoint, reach_m: f64, enough: u32) -> bool {
 pub(super) fn longest_edge_m(elements: &Elements, corners: [u32; 3]) -> f64 {
     let [a, b, c] = corners.map(|v| elements.vertices()[v as usize].position);
     (b - a).length().max((c - b).length()).max((a - c).length())
+}
+
+/// What vertices stand for on elements as they are now, those that were in the open among longer ones
+/// still are.
+pub(super) fn standings(
+    scene: &Scene,
+    subdivision: &Subdivision,
+    before: Vec<Option<Standing>>,
+    surface: impl Fn(usize) -> SurfacePoint + Sync,
+) -> Vec<Option<Standing>> {
+    let edges_m = subdivision.longest_edges_m();
+    let on_border = subdivision.border_vertices();
+    let one = |(k, of): (usize, Option<Standing>)| {
+        let is_open = of == Some(Standing::Open) || !is_closed_in(scene, &surface(k), edges_m[k]);
+        Some(match (is_open, on_border[k]) {
+            (true, _) => Standing::Open,
+            (false, true) => Standing::Rim,
+            (false, false) => Standing::Gap,
+        })
+    };
+    before.into_par_iter().enumerate().map(one).collect()
 }
