@@ -377,12 +377,12 @@ impl<'s> Pilot<'s> {
 
     fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let first = self.indirect.len();
-        let everything = self.standings_after(vec![None; gatherers.len()], gatherers);
-        let gathering = if first == 0 {
-            self.gathering(elements, u32::MAX, &everything)
-        } else {
-            self.gathering(elements, self.solved_nodes, &self.standings)
-        };
+        // On the first mesh nobody knows yet what is hidden.
+        if first == 0 {
+            self.standings = self.standings_after(vec![None; gatherers.len()], gatherers);
+        }
+        let level = if first == 0 { u32::MAX } else { self.solved_nodes };
+        let gathering = self.gathering(elements, level, &self.standings);
         let key = self.key.with(2);
         let edges_m = self.subdivision.longest_edges_m();
         let row = |(k, gatherer): (usize, &Gatherer)| {
