@@ -18,8 +18,9 @@ cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask bench setup   download Embree 4.4 into target/embree
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
-cargo xtask bench hall    time to an accuracy against triangles and luminaires
-                          [--json] [--quick] [--accuracy 1%] [--time-limit 600s] [--threads 2]
+cargo xtask bench hall    time to an accuracy against triangles and luminaires, and true errors
+                          [--json] [--quick | --standard] [--accuracy 1%] [--time-limit 600s] [--threads 2]
+cargo xtask bench hall --reference   make the reference of true errors anew
 cargo xtask bench peers   error against time beside Radiance, Mitsuba and LuxCore
                           [--json] [--quick] [--only NAME ...] [--save]";
 

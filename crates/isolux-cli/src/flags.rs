@@ -31,7 +31,7 @@ pub(crate) enum Command {
     Solve(SolveFlags),
     /// Say what a scene, a map or a photometric file holds
     Info(InfoFlags),
-    /// Read a map at points
+    /// Read a map, or trace paths, at points
     Probe(ProbeFlags),
     /// Draw a view from a map
     Render(RenderFlags),
@@ -145,18 +145,33 @@ pub(crate) struct InfoFlags {
 #[command(after_help = "Examples:
   isolux probe map.glb --points desk.pts
   echo '1 2 0.75  0 0 1' | isolux probe map.glb --points - --exact --json
+  isolux probe builtin:hall --points desk.pts --paths 65536
 
 Points are `x y z nx ny nz`, one a line, in metres and in the axes of the scene as written; # starts a comment.
-A point on no surface with a known value has empty fields (null in JSON), unless --exact is given.")]
+A point on no surface with a known value has empty fields (null in JSON), unless --exact is given.
+
+Of a scene instead of a map, paths are traced at every point: slow, but without the bias of a map and on
+no surface, too. It leaves out the light that glass, gloss and curved mirrors throw on surfaces (caustics).")]
 pub(crate) struct ProbeFlags {
-    /// The map (.glb)
-    pub map: PathBuf,
+    /// The map (.glb), or a scene, which needs no map but time
+    #[arg(value_name = "MAP|SCENE")]
+    pub source: PathBuf,
     /// File of points, - for standard input
     #[arg(long, value_name = "P.pts")]
     pub points: PathBuf,
     /// Estimate each point afresh instead of interpolating the indirect light of the map
-    #[arg(long)]
+    #[arg(long, conflicts_with = "interpolated")]
     pub exact: bool,
+    /// Interpolate direct light, too: what a viewer of the bare map shows
+    #[arg(long)]
+    pub interpolated: bool,
+    /// Paths to trace at every point of a scene, at least 32 [default: 16384]; four times as many
+    /// halve the standard error
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..))]
+    pub paths: Option<u32>,
+    /// Seed of the random numbers of paths [default: 1]
+    #[arg(long, value_name = "N", value_parser = quantity::seed, allow_hyphen_values = true)]
+    pub seed: Option<u64>,
 }
 
 #[derive(Debug, Args)]

@@ -1,29 +1,27 @@
-//! `isolux probe`: values of a map at points.
+//! `isolux probe`: values of a map, or of a scene by tracing paths, at points.
 
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ProbeFlags;
 use crate::notes::{Note, note};
-use crate::{map_file, points};
-use isolux::engine::{ExactSettings, MapReader, ProbePoint};
+use crate::{map_file, points, source};
+use isolux::engine::{ExactSettings, MapReader, PathTracer, ProbePoint};
 use isolux::map::Illuminance;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt::Write;
 
+/// One a point, in the order asked; `None` where it is not known.
+type Values = Vec<Option<Illuminance>>;
+
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
     let points = points::read(&flags.points)?;
-    let (scene, map) = map_file::read(&flags.map)?;
-    let reader = MapReader::new(&scene, &map);
-    let read = |at: &ProbePoint| {
-        if flags.exact {
-            Some(reader.estimate(*at, &ExactSettings::default()))
-        } else {
-            reader.probe(*at)
-        }
+    let values = if map_file::is_map(&flags.source) {
+        read_map(flags, &points)?
+    } else {
+        trace_paths(flags, &points)?
     };
-    let values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
     let unknown = values.iter().filter(|v| v.is_none()).count();
     if unknown > 0 {
         let text = format!(
@@ -43,6 +41,55 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
         }
     }
     Ok(Outcome::Done)
+}
+
+fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Values, Failure> {
+    let unused = [("--paths", flags.paths.is_some()), ("--seed", flags.seed.is_some())];
+    refuse(flags, &unused, "a map, whose points are not traced; leave it out or give a scene")?;
+    let (scene, map) = map_file::read(&flags.source)?;
+    let reader = MapReader::new(&scene, &map);
+    let read = |at: &ProbePoint| {
+        if flags.exact {
+            Some(reader.estimate(*at, &ExactSettings::default()))
+        } else if flags.interpolated {
+            reader.interpolated(*at)
+        } else {
+            reader.probe(*at)
+        }
+    };
+    Ok(points.par_iter().map(read).collect())
+}
+
+fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Values, Failure> {
+    let unused = [("--exact", flags.exact), ("--interpolated", flags.interpolated)];
+    refuse(flags, &unused, "a scene, which has no map to read; leave it out or give a map")?;
+    let scene = source::read_scene(&flags.source)?;
+    if scene.luminaires().is_empty() && scene.area_luminaires().is_empty() {
+        return Err(source::no_light(&flags.source));
+    }
+    let tracer = PathTracer::new(&scene);
+    let settings = settings(flags);
+    Ok(points.par_iter().map(|at| Some(tracer.estimate(*at, &settings))).collect())
+}
+
+/// Flags that the source has no use for are mistakes.
+fn refuse(flags: &ProbeFlags, unused: &[(&str, bool)], reason: &str) -> Result<(), Failure> {
+    match unused.iter().find(|(_, is_given)| *is_given) {
+        Some((flag, _)) => {
+            Err(Failure::bad_input(format!("{flag}: {} is {reason}", flags.source.display())))
+        }
+        None => Ok(()),
+    }
+}
+
+/// As many replicates as there are without a word, of so many paths that all are traced.
+fn settings(flags: &ProbeFlags) -> ExactSettings {
+    let default = ExactSettings::default();
+    ExactSettings {
+        rays: flags.paths.map_or(default.rays, |paths| paths.div_ceil(default.replicates)),
+        seed: flags.seed.unwrap_or(default.seed),
+        ..default
+    }
 }
 
 /// What `probe --json` prints.

@@ -112,10 +112,7 @@ fn failure(error: SolveError, run: &Run) -> Failure {
             show_bytes(needed),
             show_bytes(allowed)
         )),
-        SolveError::NoLight => Failure::bad_input(format!(
-            "{source}: the scene has no light; {}",
-            add_light(run.source)
-        )),
+        SolveError::NoLight => source::no_light(run.source),
         SolveError::NoReceiver => Failure::bad_input(format!(
             "{source}: no surface can carry a map: all are mirrors, glass or without area; give one \
              a diffuse reflectance, and check the scales"
@@ -125,14 +122,5 @@ fn failure(error: SolveError, run: &Run) -> Failure {
             saved_run::path_beside(run.output.path()).display()
         )),
         other => Failure::bad_input(format!("{source}: {other}")),
-    }
-}
-
-/// How to, in this kind of file.
-fn add_light(source: &Path) -> &'static str {
-    if source.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
-        "add a [[luminaire]], or a material with `luminance_cd_m2`"
-    } else {
-        "name the file in a scene.toml, as [[geometry]] with `file`, and add a [[luminaire]] there"
     }
 }

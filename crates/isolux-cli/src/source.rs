@@ -48,6 +48,21 @@ pub(crate) fn bad_file(problems: Problems) -> Failure {
     Failure::BadInput(problems.0.iter().map(ToString::to_string).collect())
 }
 
+/// A scene without luminaires is bad input.
+pub(crate) fn no_light(source: &Path) -> Failure {
+    let remedy = add_light(source);
+    Failure::bad_input(format!("{}: the scene has no light; {remedy}", source.display()))
+}
+
+/// How to, in this kind of file.
+fn add_light(source: &Path) -> &'static str {
+    if source.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+        "add a [[luminaire]], or a material with `luminance_cd_m2`"
+    } else {
+        "name the file in a scene.toml, as [[geometry]] with `file`, and add a [[luminaire]] there"
+    }
+}
+
 fn built_in(name: &str) -> Result<SceneParts, Failure> {
     builtin(name).map_err(|error| {
         let names = BUILTIN_NAMES.map(|known| format!("{BUILTIN}{known}")).join(", ");

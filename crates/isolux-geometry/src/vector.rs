@@ -108,16 +108,26 @@ impl Vector {
     /// vector of length one, up to rounding, is its own direction, bit for bit: what was normalized
     /// once does not change when it is written to a file and read again.
     pub fn direction(self) -> Option<Direction> {
-        if (self.length_squared() - 1.0).abs() <= UNIT_ROUNDING {
-            return Some(Direction(self));
+        let squared = self.length_squared();
+        if (squared - 1.0).abs() <= UNIT_ROUNDING {
+            Some(Direction(self))
+        } else if (1e-200..=1e200).contains(&squared) {
+            // What underflows in such a sum is nothing beside it.
+            Some(Direction(self * (1.0 / squared.sqrt())))
+        } else {
+            self.direction_by_scaling()
         }
+    }
+
+    /// The same for tiny and huge vectors, whose squares underflow or overflow.
+    #[cold]
+    fn direction_by_scaling(self) -> Option<Direction> {
         let largest = self.x.abs().max(self.y.abs()).max(self.z.abs());
         // The maximum passes over a NaN.
         let is_finite = self.x.is_finite() && self.y.is_finite() && self.z.is_finite();
         if !(largest > 0.0 && is_finite) {
             return None;
         }
-        // Scaled first, so that tiny and huge vectors neither underflow nor overflow when squared.
         let scaled = self * (1.0 / largest);
         let scaled = if scaled.x.is_finite() && scaled.y.is_finite() && scaled.z.is_finite() {
             scaled

@@ -2,7 +2,7 @@
 
 use isolux::elements::{ElementArrays, Elements};
 use isolux::geometry::{Direction, Point, Vector};
-use isolux::map::{Illuminance, IlluminationMap, Method, Provenance};
+use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
 use isolux::scene::{Body, Camera, Dielectric, Finish, Gloss, Material, Scene, SceneParts, Shape};
 use isolux::units::Rgb;
 use isolux_view::*;
@@ -18,6 +18,8 @@ fn lux(total: f64) -> Option<Illuminance> {
         indirect_lx: Rgb::BLACK,
         standard_error_lx: 0.0,
         indirect_standard_error_lx: 0.0,
+        interpolation_error_lx: 0.0,
+        standing: Standing::Open,
         samples: 1,
     })
 }
@@ -216,6 +218,7 @@ fn rising_map(scene: &Scene) -> IlluminationMap {
             increments: 1,
             rays: 0,
             accuracy_target: None,
+            fresh: None,
             filter: None,
             complete: true,
             accuracy: None,

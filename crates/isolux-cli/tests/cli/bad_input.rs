@@ -46,6 +46,18 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["probe", "text.glb", "--points", "missing.pts"], "missing.pts"),
     (&["probe", "text.glb", "--points", "bad.pts"], "bad.pts: line 2"),
     (&["probe", "text.glb", "--points", "empty.glb"], "x y z nx ny nz"),
+    (&["probe", "builtin:teapot", "--points", "good.pts"], "builtin:cube"),
+    (
+        &["probe", "builtin:cube", "--points", "good.pts", "--exact"],
+        "--exact: builtin:cube is a scene",
+    ),
+    (&["probe", "builtin:cube", "--points", "good.pts", "--interpolated"], "give a map"),
+    (&["probe", "builtin:cube", "--points", "good.pts", "--paths", "7"], "--paths"),
+    (&["probe", "dark.toml", "--points", "good.pts"], "dark.toml: the scene has no light"),
+    (
+        &["probe", "m.glb", "--points", "good.pts", "--exact", "--interpolated"],
+        "cannot be used with",
+    ),
     (&["render", "text.glb", "-o", "v.png", "--size", "0x5"], "1280x720"),
     (&["render", "text.glb", "-o", "v.jpg"], ".png"),
     (&["render", "text.glb", "-o", "v.png", "--scale", "5:1"], "0:500"),

@@ -54,6 +54,48 @@ fn probe_answers_in_the_order_asked_and_null_where_nothing_is_known() {
     assert_eq!(csv.out.lines().count(), 4, "{}", csv.out);
 }
 
+/// The middle of the floor of CUBE, and a place in the open.
+#[test]
+fn probe_of_a_scene_traces_paths() {
+    let home = Home::new();
+    let arguments = ["probe", "builtin:cube", "--points", "-", "--json", "--paths", "4096"];
+    let points = "0 0 -5 0 0 1\n0 0 -2.5 0 0 1\n";
+    let ran = home.run_with_input(&arguments, points);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let point = &ran.json()["points"][0];
+    let number = |key: &str| point[key].as_f64().unwrap();
+    let (found_lx, error_lx) = (number("illuminance_lx"), number("standard_error_lx"));
+    // pi x 892.8 cd/m2 / (2/3), printed to a tenth of cd/m2; the chance of five standard errors by 16
+    // replicates is 1.6e-4, and the numbers are the same in every run.
+    let lx = |luminance: f64| std::f64::consts::PI * luminance * 1.5;
+    assert!(error_lx > 0.0 && error_lx < 0.005 * found_lx, "{point}");
+    assert!((found_lx - lx(892.8)).abs() < 5.0 * error_lx + lx(0.05), "{point}");
+    // 50,000 cd at 2.5 m, where no map has a value.
+    let direct_lx = ran.json()["points"][1]["direct_lx"].as_f64().unwrap();
+    assert!((direct_lx / 8000.0 - 1.0).abs() < 1e-9, "{direct_lx}");
+    let other = home.run_with_input(&[&arguments[..], &["--seed", "2"]].concat(), points);
+    assert_ne!(other.out, ran.out);
+}
+
+#[test]
+fn probe_of_the_bare_map_interpolates_direct_light_too() {
+    let home = Home::new();
+    assert_eq!(solved(&home, &[]).code, 0);
+    let direct_lx = |flags: &[&str]| {
+        let arguments = [&["probe", "cube.glb", "--points", "-", "--json"], flags].concat();
+        let ran = home.run_with_input(&arguments, "1.1 2.3 -5 0 0 1\n");
+        ran.json()["points"][0]["direct_lx"].as_f64().unwrap()
+    };
+    // 50,000 cd, five metres above.
+    let exact_lx = 50_000.0 * 5.0 / (1.1_f64.powi(2) + 2.3_f64.powi(2) + 25.0).powf(1.5);
+    let (fresh_lx, bare_lx) = (direct_lx(&[]), direct_lx(&["--interpolated"]));
+    assert!((fresh_lx / exact_lx - 1.0).abs() < 1e-4, "{fresh_lx} for {exact_lx}");
+    // A draft promises 5 % of the bare map, too.
+    assert!(bare_lx != fresh_lx && (bare_lx / exact_lx - 1.0).abs() < 0.2, "{bare_lx}");
+    let refused = home.run(&["probe", "cube.glb", "--points", "-", "--paths", "64"]);
+    assert_eq!(refused.code, 2, "{refused:?}");
+}
+
 #[test]
 fn a_run_out_of_time_has_a_valid_map() {
     let home = Home::new();

@@ -10,6 +10,7 @@ mod division;
 mod furniture;
 mod lamps;
 mod lighting;
+pub mod places;
 mod room;
 mod size;
 mod solid;

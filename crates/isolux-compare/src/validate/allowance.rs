@@ -126,6 +126,7 @@ mod tests {
     use crate::expectation::Bound;
     use isolux::engine::ProbePoint;
     use isolux::geometry::{Normal, Point};
+    use isolux::map::Standing;
 
     const ALLOWANCE: Allowance =
         Allowance { rounding_lx: 1e-10, interpolation_lx: 2.0, freedom: 15.0 };
@@ -142,6 +143,8 @@ mod tests {
             indirect_lx: Rgb::grey(indirect),
             standard_error_lx: 5.0,
             indirect_standard_error_lx: 5.0,
+            interpolation_error_lx: 0.0,
+            standing: Standing::Open,
             samples: 100,
         }
     }

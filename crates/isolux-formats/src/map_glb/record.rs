@@ -10,7 +10,7 @@ use isolux::units::Rgb;
 use serde::{Deserialize, Serialize};
 
 /// Version of the format; raised when older readers would misread what is written.
-pub(super) const FORMAT_VERSION: u32 = 1;
+pub(super) const FORMAT_VERSION: u32 = 2;
 
 /// `extras` of the document.
 #[derive(Serialize, Deserialize)]

@@ -4,7 +4,7 @@ use super::Fault;
 use super::arrays::{Arrays, Table, write_floats, write_integers};
 use super::bytes::Bytes;
 use isolux::elements::{ElementArrays, Elements};
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{Illuminance, IlluminationMap, Standing};
 use isolux::units::Rgb;
 
 const POSITIONS: &str = "vertex_positions";
@@ -20,6 +20,7 @@ const DIRECT: &str = "direct_lx";
 const CAUSTIC: &str = "caustic_lx";
 const INDIRECT: &str = "indirect_lx";
 const ERRORS: &str = "standard_errors_lx";
+const INTERPOLATION: &str = "interpolation_errors_lx";
 
 /// Writes elements and values.
 pub(super) fn write(map: &IlluminationMap, bytes: &mut Bytes, table: &mut Table) {
@@ -41,6 +42,8 @@ pub(super) fn write(map: &IlluminationMap, bytes: &mut Bytes, table: &mut Table)
     let errors = |v: &Illuminance| [v.standard_error_lx, v.indirect_standard_error_lx];
     let errors = values.iter().flat_map(|v| v.as_ref().map_or([0.0; 2], errors));
     floats(ERRORS, 2, &errors.collect::<Vec<_>>());
+    let interpolation = values.iter().map(|v| v.map_or(0.0, |v| v.interpolation_error_lx));
+    floats(INTERPOLATION, 1, &interpolation.collect::<Vec<_>>());
     let mut integers = |name, columns, values: Vec<u64>| {
         write_integers((bytes, table), name, columns, &values);
     };
@@ -49,8 +52,18 @@ pub(super) fn write(map: &IlluminationMap, bytes: &mut Bytes, table: &mut Table)
     integers(NODES, 3, wide(elements.nodes.as_flattened()));
     integers(SPLITS, 2, wide(elements.splits.as_flattened()));
     integers(ROOTS, 2, wide(elements.roots.as_flattened()));
-    integers(KNOWN, 1, values.iter().map(|v| u64::from(v.is_some())).collect());
+    integers(KNOWN, 1, values.iter().map(|v| v.map_or(0, |v| rank(v.standing))).collect());
     integers(SAMPLES, 1, values.iter().map(|v| v.map_or(0, |v| v.samples)).collect());
+}
+
+/// Of a standing in files; 0 is that of an unknown value.
+fn rank(standing: Standing) -> u64 {
+    Standing::ALL.iter().position(|&s| s == standing).map_or(0, |index| index as u64 + 1)
+}
+
+fn standing(rank: u64) -> Option<Standing> {
+    let index = usize::try_from(rank).ok()?.checked_sub(1)?;
+    Standing::ALL.get(index).copied()
 }
 
 /// A value as files hold it: finite or unknown; an error that is not a number is boundless.
@@ -61,6 +74,7 @@ pub(super) fn storable(value: Illuminance) -> Option<Illuminance> {
     finite.then(|| Illuminance {
         standard_error_lx: bounded(value.standard_error_lx),
         indirect_standard_error_lx: bounded(value.indirect_standard_error_lx),
+        interpolation_error_lx: bounded(value.interpolation_error_lx),
         ..value
     })
 }
@@ -93,23 +107,35 @@ pub(super) fn read_values(
     let (direct, caustic, indirect) = (direct?, caustic?, indirect?);
     let errors = arrays.floats(ERRORS, 2)?;
     let (errors, _) = errors.as_chunks::<2>();
+    let interpolation = arrays.floats(INTERPOLATION, 1)?;
     let (known, samples) = (arrays.integers(KNOWN, 1)?, arrays.integers(SAMPLES, 1)?);
-    let lengths =
-        [direct.len(), caustic.len(), indirect.len(), errors.len(), known.len(), samples.len()];
-    if lengths != [count; 6] {
+    let numbers = [errors.len(), interpolation.len(), known.len(), samples.len()];
+    let colours = [direct.len(), caustic.len(), indirect.len()];
+    if numbers != [count; 4] || colours != [count; 3] {
+        let lengths = (colours, numbers);
         let what = format!("hold {lengths:?} values for {count} vertices");
         return Err(Fault::new("extras.isolux.arrays", what));
     }
-    if errors.as_flattened().iter().any(|e| *e < 0.0) {
-        return Err(Fault::new(format!("extras.isolux.arrays.{ERRORS}"), "holds a negative error"));
+    for (name, errors) in [(ERRORS, errors.as_flattened()), (INTERPOLATION, &interpolation)] {
+        if errors.iter().any(|e| *e < 0.0) {
+            return Err(Fault::new(
+                format!("extras.isolux.arrays.{name}"),
+                "holds a negative error",
+            ));
+        }
     }
-    let value = |k: usize| Illuminance {
+    if known.iter().any(|&rank| rank > Standing::ALL.len() as u64) {
+        return Err(Fault::new(format!("extras.isolux.arrays.{KNOWN}"), "holds no standing"));
+    }
+    let value = |k: usize, standing: Standing| Illuminance {
         direct_lx: Rgb(direct[k]),
         caustic_lx: Rgb(caustic[k]),
         indirect_lx: Rgb(indirect[k]),
         standard_error_lx: errors[k][0],
         indirect_standard_error_lx: errors[k][1],
+        interpolation_error_lx: interpolation[k],
+        standing,
         samples: samples[k],
     };
-    Ok((0..count).map(|k| (known[k] != 0).then(|| value(k))).collect())
+    Ok((0..count).map(|k| standing(known[k]).map(|standing| value(k, standing))).collect())
 }

@@ -2,7 +2,7 @@
 
 use isolux::elements::{ElementArrays, Elements};
 use isolux::geometry::{Direction, Point, Transform, Vector};
-use isolux::map::{Accuracy, Illuminance, IlluminationMap, Method, Provenance};
+use isolux::map::{Accuracy, Fresh, Illuminance, IlluminationMap, Method, Provenance, Standing};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux::scene::{
     Body, Camera, Dielectric, Finish, Gloss, Luminaire, LuminaireKind, Material, Reflectance,
@@ -143,6 +143,8 @@ fn value(k: f64) -> Illuminance {
         indirect_lx: Rgb::new(5.0, 6.0, 7.0) * (1.0 + k / 7.0),
         standard_error_lx: 0.3 + 0.01 * k,
         indirect_standard_error_lx: 0.1,
+        interpolation_error_lx: 0.2 * k,
+        standing: Standing::ALL[k as usize % 3],
         samples: 1 << (k as u32 % 40),
     }
 }
@@ -157,6 +159,7 @@ fn provenance() -> Provenance {
         increments: 24,
         rays: 1_000_000,
         accuracy_target: Some(0.01),
+        fresh: Some(Fresh { above_lx: Some(0.7), lookup_lx: 0.3 }),
         filter: None,
         complete: true,
         accuracy: Some(Accuracy {

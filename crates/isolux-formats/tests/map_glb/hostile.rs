@@ -59,7 +59,7 @@ fn an_unchanged_copy_is_read() {
 fn false_declarations_are_refused_with_their_place() {
     let isolux = "/extras/isolux";
     for (pointer, value, said) in [
-        ("/format_version", json!(2), "format 2"),
+        ("/format_version", json!(1), "format 1"),
         ("/format_version", json!("1"), "no illumination map"),
         ("/arrays/nodes/shape", json!([u64::MAX, 3]), "arrays.nodes"),
         ("/arrays/nodes/shape", json!([1, 3]), "arrays.nodes"),

@@ -90,7 +90,7 @@ fn the_record_says_what_the_numbers_are() {
     let map = map(&scene);
     let (json, _) = json_and_rest(&bytes(&scene, &map)).clone();
     let isolux = &json["extras"]["isolux"];
-    assert_eq!(isolux["format_version"], 1);
+    assert_eq!(isolux["format_version"], 2);
     assert_eq!(isolux["quantity"], "illuminance");
     assert_eq!(isolux["unit"], "lx");
     assert_eq!(isolux["accuracy_reached"], 0.0093);

@@ -10,7 +10,7 @@ mod subdivide;
 mod tests;
 
 pub use arrays::{ElementArrays, ElementArraysError};
-pub use subdivide::{Origin, Receiver, Subdivision};
+pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
 
 use isolux_geometry::{Normal, Point};
 
@@ -77,7 +77,7 @@ impl Elements {
         for (triangle, sides) in self.roots.iter().enumerate() {
             for (root, back) in sides.iter().zip([false, true]) {
                 let Some(root) = *root else { continue };
-                self.leaves(root, &mut |vertices| {
+                self.visit_below(root, &mut |vertices| {
                     found.push(Element { triangle: triangle as u32, back, vertices });
                 });
             }
@@ -85,13 +85,14 @@ impl Elements {
         found
     }
 
-    fn leaves(&self, node: u32, visit: &mut impl FnMut([u32; 3])) {
+    /// Visits the vertices of all elements below a node.
+    pub(crate) fn visit_below(&self, node: u32, visit: &mut impl FnMut([u32; 3])) {
         let node = self.nodes[node as usize];
         match node.split {
             None => visit(node.vertices),
             Some(Split { first_child, .. }) => {
-                self.leaves(first_child, visit);
-                self.leaves(first_child + 1, visit);
+                self.visit_below(first_child, visit);
+                self.visit_below(first_child + 1, visit);
             }
         }
     }

@@ -254,7 +254,20 @@ impl Subdivision {
         libm::atan2(a.cross(b).length(), a.dot(b))
     }
 
-    fn border_vertices(&self) -> Vec<bool> {
+    /// Of every vertex, the longest edge of the elements at it, m.
+    pub(crate) fn longest_edges_m(&self) -> Vec<f64> {
+        let mut longest = vec![0.0_f64; self.vertices.len()];
+        for leaf in self.leaves() {
+            let edge_m = self.longest_edge_m(leaf);
+            for v in self.nodes[leaf as usize].vertices {
+                longest[v as usize] = longest[v as usize].max(edge_m);
+            }
+        }
+        longest
+    }
+
+    /// Which vertices elements do not surround.
+    pub(crate) fn border_vertices(&self) -> Vec<bool> {
         let mut border = vec![false; self.vertices.len()];
         for (ends, elements) in &self.edges {
             if elements.len() == 1 {
@@ -285,7 +298,7 @@ const fn edge_key(a: u32, b: u32) -> [u32; 2] {
 
 /// Whether a side of a triangle carries a map: opaque, not a pure mirror, not the black back of a
 /// one-sided material.
-fn carries_map(scene: &Scene, triangle: u32, back: bool) -> bool {
+pub fn carries_map(scene: &Scene, triangle: u32, back: bool) -> bool {
     scene
         .material(triangle)
         .finish(back)

@@ -32,11 +32,15 @@ pub(super) fn accuracy(
     }
     let statistical =
         interpolation.noise_lx.map_or((variance / squared).sqrt(), |noise_lx| noise_lx / rms_lx);
-    let discretization = interpolation.indirect_lx / rms_lx;
-    let lookup_lx = interpolation.indirect_mean_lx;
+    let of_readers = interpolation.nearness * lookup_lx(plan, interpolation);
+    let discretization = libm::hypot(interpolation.indirect_lx, of_readers) / rms_lx;
+    // Check points see what their rays read of indirect light; direct light that is read, too, adds what
+    // is reflected of its own error.
+    let direct_lx = if plan.direct_from_map { interpolation.direct_mean_lx } else { 0.0 };
+    let mean_lx = interpolation.indirect_mean_lx + mean_reflectance(plan) * direct_lx;
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign,
     // and so has the mean of the interpolation error where the map is read.
-    let (lookup, series) = (lookup_lx.abs() / rms_lx, reflected_series(plan));
+    let (lookup, series) = (mean_lx.abs() / rms_lx, reflected_series(plan));
     let bias = lookup * (series * series + 2.0 * series).sqrt() + given_up;
     let root = |parts: &[f64]| parts.iter().map(|p| p * p).sum::<f64>().sqrt();
     Some(Accuracy {
@@ -46,6 +50,12 @@ pub(super) fn accuracy(
         bias,
         interpolated: root(&[statistical, interpolation.total_lx / rms_lx, bias]),
     })
+}
+
+/// What readers that gather where the map is not trusted get wrong for all that they see close by, which
+/// is not to be trusted either: what it errs by, reflected.
+pub(super) fn lookup_lx(plan: &Plan, interpolation: &InterpolationErrors) -> f64 {
+    mean_reflectance(plan) * interpolation.untrusted_lx
 }
 
 /// The statistical error alone, from two replicates on: not believed by anyone, but good enough to
@@ -66,7 +76,7 @@ impl Pooled {
     fn of(plan: &Plan, sums: &Accumulator) -> Self {
         let mut pooled = Self { area_m2: 0.0, squared: 0.0, variance: 0.0 };
         let vertices = plan.elements.vertices().iter().enumerate();
-        for (k, vertex) in vertices.filter(|&(k, _)| plan.known[k]) {
+        for (k, vertex) in vertices.filter(|&(k, _)| plan.standings[k].is_some()) {
             let estimate = sums.estimate(k);
             let mean = &estimate.mean;
             let lx = (mean.direct + mean.caustic + mean.indirect).luminance();

@@ -7,10 +7,13 @@
 //! of the area), and weighted accordingly.
 
 use super::accumulate::{Accumulator, Sample};
+use super::detail::LeafError;
+use super::direct::Goal;
 use super::gather::{Gatherer, known_weights};
 use super::path::Dice;
-use super::pilot::{Plan, place_in_leaf};
+use super::pilot::Plan;
 use super::surface::SurfacePoint;
+use super::trust;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -29,23 +32,37 @@ pub(super) struct Check {
     fine: [(u32, f64); 3],
     /// Surface that the point stands for, m2.
     area_m2: f64,
+    /// Error expected of the element, lx.
+    expected_lx: f64,
+    /// Whether readers interpolate there.
+    is_trusted: bool,
+    /// The share of what is seen there that is as near as the element is long.
+    nearness: f64,
 }
 
 /// Errors beyond noise, lx: of interpolation over the surface, root mean squares and the signed
 /// mean; and of paths given up.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct InterpolationErrors {
-    /// Of the indirect part.
+    /// Of the indirect part, where readers interpolate it.
     pub(super) indirect_lx: f64,
-    /// Of direct and indirect together.
+    /// The same where they do not.
+    pub(super) untrusted_lx: f64,
+    /// The share of what is seen there that is close by, root mean square over all the surface.
+    pub(super) nearness: f64,
+    /// Of direct and indirect together, but in gaps.
     pub(super) total_lx: f64,
     /// Mean of the indirect error, with its sign and standard error.
     pub(super) indirect_mean_lx: f64,
+    /// Mean of the interpolation error of direct light, with its sign.
+    pub(super) direct_mean_lx: f64,
     /// What paths given up would bring in the mean, before it is reflected.
     pub(super) given_up_lx: f64,
     /// Of what is read over the surface, by the spread of increments; `None` where it was not looked
     /// at.
     pub(super) noise_lx: Option<f64>,
+    /// By how much more elements err than expected; `None` where nobody looked.
+    pub(super) over_expected: Option<f64>,
 }
 
 /// Places in the sums: of differences first, then of what the map reads.
@@ -59,11 +76,15 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let count = (plan.indirect_vertices / SHARE).clamp(FEWEST, MOST);
     let area: f64 = errors.iter().map(|e| e.area_m2).sum();
     let squared: f64 = errors.iter().map(|e| e.squared()).sum();
-    // Density of the draw over elements: an even mixture of area and squared error.
+    let is_trusted = |e: &LeafError| e.error <= plan.trusted_up_to_lx && !e.is_beset;
+    let trusted = errors.iter().filter(|e| is_trusted(e)).map(|e| e.squared()).sum::<f64>();
+    // Density of the draw over elements: an even mixture of area, squared error, and squared error
+    // where the map is trusted.
     let density = |k: usize| {
-        let by_error = if squared > 0.0 { errors[k].squared() / squared } else { 0.0 };
-        let by_area = errors[k].area_m2 / area;
-        if squared > 0.0 { 0.5 * (by_area + by_error) } else { by_area }
+        let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        let own = errors[k].squared();
+        let own_trusted = if is_trusted(&errors[k]) { own } else { 0.0 };
+        share(errors[k].area_m2, area) + share(own, squared) + share(own_trusted, trusted)
     };
     let mut sums = Vec::with_capacity(errors.len());
     let mut sum = 0.0;
@@ -78,28 +99,39 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
         // Stratified: one point in each of `count` equal parts.
         let at = (index as f64 + pick) / count as f64 * sum;
         let k = sums.partition_point(|&s| s <= at).min(errors.len() - 1);
-        let surface = place_in_leaf(plan, errors[k].node, dice.pair());
+        let surface =
+            SurfacePoint::in_node(plan.scene, &plan.subdivision, errors[k].node, dice.pair());
         let area_m2 = errors[k].area_m2 / (count as f64 * density(k) / sum);
-        check(plan, Gatherer::on_surface(surface, rays), area_m2)
+        check(plan, Gatherer::on_surface(surface, rays), area_m2, errors[k].error)
     };
     (0..count).filter_map(one).collect()
 }
 
-fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64) -> Option<Check> {
+fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Option<Check> {
     let weights = |level: u32| {
         let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
         let corners = plan.elements.locate_above(level, triangle, back, u, v)?;
-        let weights = known_weights(corners, &plan.known)?;
+        let weights = known_weights(corners, &plan.standings)?;
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     };
-    Some(Check { gatherer, coarse: weights(plan.level)?, fine: weights(u32::MAX)?, area_m2 })
+    let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
+    let edge_m = trust::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
+    let nearness = trust::nearness(plan.scene, &gatherer.surface, edge_m);
+    let is_beset = trust::besets(nearness);
+    let in_gap = is_beset && trust::is_closed_in(plan.scene, &gatherer.surface, edge_m);
+    let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
+    let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !is_beset;
+    let gatherer = gatherer.in_gap(in_gap);
+    Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted, nearness })
 }
 
-/// Direct light at the check points; `key` only matters where emitting surfaces are sampled.
+/// Direct light at the check points, as readings evaluate it; `key` only matters where it has noise.
 pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
     let sequence = |k: usize| Sequence::new(key.with(k as u64));
+    // What counts is the error of the scene: in the dark a small share of its light will do.
+    let goal = Goal { lx: Goal::READING.share * plan.rms_lx, ..Goal::READING };
     let one = |(k, check): (usize, &Check)| {
-        plan.lighting.illuminance(&check.gatherer.surface, &mut Dice::new(sequence(k), 0))
+        plan.lighting.measured(&check.gatherer.surface, goal, sequence(k)).lx
     };
     checks.par_iter().enumerate().map(one).collect()
 }
@@ -139,7 +171,8 @@ pub(super) fn add(
 pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationErrors {
     let area: f64 = checks.iter().map(|c| c.area_m2).sum();
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-    let mut noise = 0.0;
+    let (mut noise, mut expected) = (0.0, 0.0);
+    let (mut untrusted, mut near, mut share_untrusted) = (0.0, 0.0, 0.0);
     for (k, check) in checks.iter().enumerate() {
         let estimate = sums.estimate(k);
         let indirect = estimate.mean.indirect.luminance();
@@ -149,8 +182,21 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
             (indirect, estimate.indirect_variance),
             (indirect + estimate.mean.direct.luminance(), estimate.variance),
         ];
-        for (part, (value, variance)) in both.into_iter().enumerate() {
+        if check.is_trusted {
+            expected += share * check.expected_lx * check.expected_lx;
+        } else {
+            share_untrusted += share;
+            untrusted += share * (indirect * indirect - estimate.indirect_variance);
+            near += share * check.nearness * check.nearness;
+        }
+        // Neither rays nor views come to what is closed in.
+        let seen = if check.gatherer.in_gap { 0..0 } else { 0..2 };
+        for part in seen {
+            let (value, variance) = both[part];
             mean[part] += share * value;
+            if part == 0 && !check.is_trusted {
+                continue;
+            }
             squared[part] += share * (value * value - variance);
             // Variance of `value^2 - variance` for a normal value of mean zero.
             spread[part] += share * share * 2.0 * variance * variance;
@@ -162,7 +208,11 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         indirect_lx: root(0),
         total_lx: root(1),
         indirect_mean_lx: mean[0],
+        direct_mean_lx: mean[1] - mean[0],
+        untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
+        nearness: near.sqrt(),
         given_up_lx: 0.0,
         noise_lx: (!checks.is_empty()).then(|| noise.sqrt()),
+        over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),
     }
 }

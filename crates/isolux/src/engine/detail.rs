@@ -17,6 +17,12 @@ const ERROR_OF_DETAIL: f64 = 0.3;
 /// vertices: what a detail of half the spread would give.
 const ERROR_OF_SPREAD: f64 = 0.15;
 
+/// The same, as a share of what interpolation errs by in the middle. A quadratic function errs by a
+/// twenty-fourth of its three second differences along the edges in the mean, by an eighteenth in the
+/// middle, and somewhat more in the root mean square; a gap that only the vertices on its rim see
+/// light from, by all of it.
+const ERROR_OF_MIDDLE: f64 = 0.9;
+
 /// A detail belongs to an element if the edge it was made on is at most so many times its own.
 const RECENT: f64 = 2.9;
 
@@ -27,6 +33,8 @@ pub(super) struct LeafError {
     pub(super) area_m2: f64,
     /// Root mean square over the element, in the unit of the values.
     pub(super) error: f64,
+    /// Whether readers gather there anyway, as something stands close.
+    pub(super) is_beset: bool,
 }
 
 impl LeafError {
@@ -36,38 +44,55 @@ impl LeafError {
     }
 }
 
-/// Errors of all elements for values at the vertices (`None` where hidden).
+/// Errors of all elements for values at the vertices (`None` where hidden), and in the middle of
+/// elements without details, where known; `is_beset` says where readers gather anyway.
 pub(super) fn leaf_errors(
     subdivision: &Subdivision,
     elements: &Elements,
     values: &[Option<f64>],
+    in_the_middle: impl Fn(u32) -> Option<f64>,
+    is_beset: impl Fn(u32) -> bool,
 ) -> Vec<LeafError> {
     let leaf = |node: u32| {
         let area_m2 = subdivision.triangle(node).area();
-        LeafError { node, area_m2, error: leaf_error(subdivision, elements, values, node) }
+        let error = told_error(subdivision, elements, values, node).unwrap_or_else(|| {
+            let corners = subdivision.node(node).0.vertices;
+            untold_error(corners.map(|v| values[v as usize]), in_the_middle(node))
+        });
+        LeafError { node, area_m2, error, is_beset: is_beset(node) }
     };
     subdivision.leaves().map(leaf).collect()
 }
 
-fn leaf_error(
+/// The error of an element that details tell; `None` if it has none, or vertices that say nothing.
+pub(super) fn told_error(
     subdivision: &Subdivision,
     elements: &Elements,
     values: &[Option<f64>],
     node: u32,
-) -> f64 {
+) -> Option<f64> {
     let corners = subdivision.node(node).0.vertices;
-    let known: Vec<f64> = corners.iter().filter_map(|&v| values[v as usize]).collect();
-    let high = known.iter().copied().fold(0.0, f64::max);
-    let low = known.iter().copied().fold(high, f64::min);
-    if known.len() < corners.len() {
-        // Extrapolation over a hidden vertex: as uncertain as the value is large.
-        return ERROR_OF_SPREAD * high;
+    if corners.iter().any(|&v| values[v as usize].is_none()) {
+        return None;
     }
     let reach = RECENT * subdivision.longest_edge_m(node);
     let details = corners.iter().filter_map(|&v| detail(elements, values, v, reach));
-    match details.fold(None, |largest: Option<f64>, d| Some(largest.map_or(d, |l| l.max(d)))) {
-        Some(detail) => ERROR_OF_DETAIL * detail,
-        None => ERROR_OF_SPREAD * (high - low),
+    details.reduce(f64::max).map(|detail| ERROR_OF_DETAIL * detail)
+}
+
+/// The error of an element without details.
+fn untold_error(values: [Option<f64>; 3], in_the_middle: Option<f64>) -> f64 {
+    let known: Vec<f64> = values.into_iter().flatten().collect();
+    let Some(high) = known.iter().copied().reduce(f64::max) else { return 0.0 };
+    let low = known.iter().copied().fold(high, f64::min);
+    match in_the_middle {
+        Some(middle) => {
+            let read = known.iter().sum::<f64>() / known.len() as f64;
+            ERROR_OF_MIDDLE * (middle - read).abs()
+        }
+        None if known.len() == 3 => ERROR_OF_SPREAD * (high - low),
+        // Extrapolation over a vertex that says nothing: as uncertain as the value is large.
+        None => ERROR_OF_SPREAD * high,
     }
 }
 
@@ -133,16 +158,9 @@ const MARKED_SHARE: f64 = 0.75;
 /// What bisecting an element twice leaves of its squared error where light is smooth.
 const LEFT: f64 = 1.0 / 16.0;
 
-/// One in so many elements may be bisected in a round for its own error alone: corners are few, but
-/// along edges there is no end of elements.
-const SINGLE_OF_ALL: usize = 16;
-
 /// How far refinement goes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refinement {
-    /// Elements with larger errors come first, however small they are: corners of rooms take no
-    /// share of the error of the scene, but are looked at.
-    pub(super) most_error: f64,
     /// How far the error of the scene is to fall.
     pub(super) wanted: f64,
     /// Elements with edges below this are left alone, m.
@@ -157,7 +175,7 @@ pub(super) fn refine_worst(
     errors: &[LeafError],
     how_far: Refinement,
 ) -> bool {
-    let Refinement { most_error, wanted, least_edge_m, max_vertices } = how_far;
+    let Refinement { wanted, least_edge_m, max_vertices } = how_far;
     // No more than it takes, if all goes well.
     let share = ((1.0 - wanted * wanted) / (1.0 - LEFT)).clamp(0.0, MARKED_SHARE);
     let mut worst: Vec<&LeafError> = errors
@@ -165,15 +183,11 @@ pub(super) fn refine_worst(
         .filter(|e| e.error > 0.0 && subdivision.longest_edge_m(e.node) > 2.0 * least_edge_m)
         .collect();
     // Ties in the order of the nodes: the same mesh on every machine.
-    worst.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.node.cmp(&b.node)));
-    let single = worst.iter().take_while(|e| e.error > most_error).count();
-    let single = single.min(worst.len() / SINGLE_OF_ALL);
-    worst[single..].sort_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
+    worst.sort_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
     let total: f64 = worst.iter().map(|e| e.squared()).sum();
     let (mut marked, mut any) = (0.0, false);
-    for (rank, error) in worst.into_iter().enumerate() {
-        let enough = marked >= share * total && rank >= single;
-        if enough || subdivision.vertex_count() >= max_vertices {
+    for error in worst {
+        if marked >= share * total || subdivision.vertex_count() >= max_vertices {
             break;
         }
         marked += error.squared();

@@ -67,7 +67,7 @@ impl Means {
         let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); plan.indirect_vertices];
         for leaf in plan.subdivision.leaves() {
             let corners = plan.subdivision.node(leaf).0.vertices;
-            if !corners.iter().all(|&v| plan.known[v as usize]) {
+            if !corners.iter().all(|&v| plan.is_open(v)) {
                 continue;
             }
             let sixth = plan.subdivision.triangle(leaf).area() / 6.0;

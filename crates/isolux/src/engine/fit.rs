@@ -7,10 +7,11 @@
 //! near. It is found from second differences: over an element with vertices `m`, `n` and edges `e` a
 //! quadratic function of Hessian `H` exceeds its interpolation by `-1/2 sum l_m l_n (e_mn H e_mn)`, l
 //! the barycentric coordinates, and by `-1/24 sum e_mn H e_mn` in the mean. The three products are
-//! those that also give the values at the far vertices of the three neighbours. Vertices on borders and
-//! creases keep their values: light is steepest there, and they are looked at. A vertex is moved by
+//! those that also give the values at the far vertices of the three neighbours. A vertex is moved by
 //! the mean over its elements (the projection onto piecewise linear functions with a lumped mass
-//! matrix: Zienkiewicz, Taylor, "The Finite Element Method", on projection and mass lumping).
+//! matrix: Zienkiewicz, Taylor, "The Finite Element Method", on projection and mass lumping). Those on
+//! borders and creases are moved, too, so that the map is right in the mean; where light is steepest
+//! there the elements are not to be trusted for it, and readers gather afresh (`trust.rs`).
 
 use crate::elements::{Element, Elements};
 use crate::units::Rgb;
@@ -20,6 +21,10 @@ use std::collections::HashMap;
 
 /// Sums of weights without their signs beyond this are no second differences, but slivers.
 const MOST_WEIGHT: f64 = 2.0;
+
+/// A value is moved by no more than this share of the range of the values about it: that of a
+/// parabola at its top by a sixth. Across kinks and jumps second differences are no curvature.
+const MOST_SHIFT: f64 = 0.25;
 
 /// A linear combination of values of vertices.
 type Form = Vec<(u32, f64)>;
@@ -61,13 +66,12 @@ impl Fit {
             }
         }
         let mut fit = Self::default();
-        let on_border = borders(&all, &neighbours, vertices);
-        for (vertex, (area_m2, forms)) in sums.into_iter().enumerate() {
+        for (area_m2, forms) in sums {
             let mut form: Form =
                 forms.into_iter().map(|(v, weight)| (v, weight / area_m2)).collect();
             form.sort_unstable_by_key(|&(v, _)| v);
             let size: f64 = form.iter().map(|(_, weight)| weight.abs()).sum();
-            if size <= MOST_WEIGHT && !on_border[vertex] {
+            if size <= MOST_WEIGHT {
                 fit.entries.extend(form);
             }
             fit.ends.push(fit.entries.len());
@@ -79,9 +83,18 @@ impl Fit {
     pub(super) fn apply(&self, values: &[Rgb]) -> Vec<Rgb> {
         let one = |k: usize| {
             let start = k.checked_sub(1).map_or(0, |before| self.ends[before]);
-            self.entries[start..self.ends[k]]
-                .iter()
-                .fold(values[k], |sum, &(v, weight)| sum + values[v as usize] * weight)
+            let (mut low, mut high, mut shift) = (values[k], values[k], Rgb::BLACK);
+            for &(v, weight) in &self.entries[start..self.ends[k]] {
+                let value = values[v as usize];
+                shift += value * weight;
+                for channel in 0..3 {
+                    low.0[channel] = low.0[channel].min(value.0[channel]);
+                    high.0[channel] = high.0[channel].max(value.0[channel]);
+                }
+            }
+            let most = (high - low) * MOST_SHIFT;
+            let bounded = |c: usize| shift.0[c].clamp(-most.0[c], most.0[c]);
+            values[k] + Rgb([0, 1, 2].map(bounded))
         };
         (0..self.ends.len()).into_par_iter().with_min_len(1024).map(one).collect()
     }
@@ -103,18 +116,6 @@ fn neighbours(all: &[Element]) -> Vec<[Option<usize>; 3]> {
         _ => None,
     };
     (0..all.len()).map(|index| [0, 1, 2].map(|k| beside(index, k))).collect()
-}
-
-/// Which vertices lie on borders and creases.
-fn borders(all: &[Element], beside: &[[Option<usize>; 3]], vertices: usize) -> Vec<bool> {
-    let mut found = vec![false; vertices];
-    for (element, beside) in all.iter().zip(beside) {
-        for k in (0..3).filter(|&k| beside[k].is_none()) {
-            found[element.vertices[(k + 1) % 3] as usize] = true;
-            found[element.vertices[(k + 2) % 3] as usize] = true;
-        }
-    }
-    found
 }
 
 /// The Hessian in a basis of the plane of an element, its components xx, xy and yy as linear

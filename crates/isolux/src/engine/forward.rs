@@ -50,7 +50,7 @@ impl<'p, 's> Forward<'p, 's> {
             .sum();
         let parts =
             [DIRECT, CAUSTIC, INDIRECT].map(|part| self.plan.prolongate(&tally.illuminance(part)));
-        receivers.add((0..self.plan.known.len()).map(|k| Sample {
+        receivers.add((0..self.plan.standings.len()).map(|k| Sample {
             direct: parts[DIRECT][k],
             caustic: parts[CAUSTIC][k],
             indirect: parts[INDIRECT][k],

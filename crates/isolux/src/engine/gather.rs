@@ -10,7 +10,9 @@ use super::direct::Lighting;
 use super::fit::Fit;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
+use super::trust;
 use crate::elements::{Elements, Receiver};
+use crate::map::Standing;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
 use crate::units::Rgb;
@@ -31,6 +33,8 @@ pub(super) struct Gatherer {
     pub(super) surface: SurfacePoint,
     /// How many rays.
     pub(super) rays: u32,
+    /// Whether it lies in a gap: what its rays meet close by does not lie in the open.
+    pub(super) in_gap: bool,
 }
 
 impl Gatherer {
@@ -40,7 +44,12 @@ impl Gatherer {
         let flat = SurfacePoint::new(scene, triangle, back, 0.0, 0.0);
         let surface = SurfacePoint { point, shading: normal, geometric: normal, ..flat };
         let origin = SurfacePoint { point, ..flat }.start();
-        Self { origin, normal, surface, rays }
+        Self { origin, normal, surface, rays, in_gap: false }
+    }
+
+    /// The same, in a gap or not.
+    pub(super) const fn in_gap(self, in_gap: bool) -> Self {
+        Self { in_gap, ..self }
     }
 
     /// The same with another number of rays.
@@ -50,12 +59,18 @@ impl Gatherer {
 
     /// A place inside a triangle.
     pub(super) fn on_surface(surface: SurfacePoint, rays: u32) -> Self {
-        Self { origin: surface.start(), normal: surface.shading, surface, rays }
+        Self { origin: surface.start(), normal: surface.shading, surface, rays, in_gap: false }
     }
 
     /// A place in space that faces a way.
     pub(super) fn in_space(point: Point, normal: Normal, rays: u32) -> Self {
-        Self { origin: point, normal, surface: SurfacePoint::in_space(point, normal), rays }
+        Self {
+            origin: point,
+            normal,
+            surface: SurfacePoint::in_space(point, normal),
+            rays,
+            in_gap: false,
+        }
     }
 }
 
@@ -66,8 +81,8 @@ pub(super) struct Gathering<'a> {
     pub(super) elements: &'a Elements,
     /// Nodes of the elements from this number on are finer than the level gathered over.
     pub(super) level: u32,
-    /// Which vertices have a value to be read; hidden ones have not.
-    pub(super) known: &'a [bool],
+    /// What vertices stand for; those without have no value to be read.
+    pub(super) standings: &'a [Option<Standing>],
     pub(super) direct: DirectAtEnds<'a>,
 }
 
@@ -83,21 +98,36 @@ pub(super) enum DirectAtEnds<'a> {
         /// As for indirect light, but direct light may live on a finer level.
         level: u32,
     },
+    /// Read, but evaluated where a ray ends nearer than the element there is long: what stands that
+    /// close may throw shadows that the map does not resolve.
+    ReadFarOff {
+        /// A value a vertex, lx.
+        values: &'a [Rgb],
+    },
 }
 
-/// The share of the light of three vertices that arrives at a receiver.
+/// What a ray reads from the map: the light of three vertices.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     vertices: [u32; 3],
     weights: [f32; 3],
-    reflectance: [f32; 3],
+}
+
+/// Entries of one row, one after the other, that reflect alike: rays end on few materials.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    /// Where they end among all entries.
+    end: u32,
+    /// The share of what is read there that arrives at the receiver.
+    share: [f32; 3],
 }
 
 /// Rows of the operator for consecutive receivers.
 #[derive(Debug, Default)]
 struct Rows {
     entries: Vec<Entry>,
-    /// End of the entries of every row.
+    runs: Vec<Run>,
+    /// End of the runs of every row.
     ends: Vec<usize>,
     /// Light that needs no further reflection, lx.
     sources: Vec<Rgb>,
@@ -152,6 +182,7 @@ impl Gathering<'_> {
         let sequence = Sequence::new(key);
         let axis = gatherer.normal.to_direction();
         let (mut source, mut open) = (Rgb::BLACK, false);
+        let share_of_ray = 1.0 / f64::from(gatherer.rays);
         let mut ends: Vec<(SurfacePoint, Rgb)> = Vec::new();
         for index in 0..gatherer.rays {
             let mut dice = Dice::new(sequence, index);
@@ -168,28 +199,49 @@ impl Gathering<'_> {
             match end {
                 PathEnd::Left => open = true,
                 PathEnd::Absorbed => {}
-                PathEnd::GivenUp(share) => rows.given_up += share / f64::from(gatherer.rays),
+                PathEnd::GivenUp(share) => rows.given_up += share * share_of_ray,
             }
             for (surface, reflectance) in ends.drain(..) {
-                let weight = reflectance / f64::from(gatherer.rays);
-                source += weight * self.direct_at(&surface, &mut dice);
-                rows.entries.extend(self.entry(&surface, weight));
+                let share = reflectance * share_of_ray;
+                let distance_m = (surface.point - gatherer.origin).length();
+                let out_of = gatherer.in_gap.then_some(distance_m);
+                source += share * self.direct_at(&surface, (distance_m, out_of), &mut dice);
+                if let Some(entry) = self.entry(&surface, out_of) {
+                    rows.push(entry, share.0.map(|c| c as f32));
+                }
             }
         }
-        rows.ends.push(rows.entries.len());
+        rows.ends.push(rows.runs.len());
         rows.sources.push(source);
         rows.open.push(open);
     }
 
-    fn direct_at(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+    fn direct_at(
+        &self,
+        at: &SurfacePoint,
+        (distance_m, out_of_gap_m): (f64, Option<f64>),
+        dice: &mut Dice,
+    ) -> Rgb {
+        let read = |values: &[Rgb], level: u32| {
+            self.corners(level, at, out_of_gap_m).map_or(Rgb::BLACK, |corners| {
+                corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
+            })
+        };
         match self.direct {
-            DirectAtEnds::Evaluated => self.lighting.estimate(at, dice),
-            DirectAtEnds::Read { values, level } => {
-                self.corners(level, at).map_or(Rgb::BLACK, |corners| {
-                    corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
-                })
+            DirectAtEnds::Read { values, level } => read(values, level),
+            DirectAtEnds::ReadFarOff { values } if distance_m > self.longest_edge_m(at) => {
+                read(values, u32::MAX)
             }
+            _ => self.lighting.estimate(at, dice),
         }
+    }
+
+    /// Of the element at a place, m; zero where there is none.
+    fn longest_edge_m(&self, at: &SurfacePoint) -> f64 {
+        let corners = self.elements.locate(at.triangle, at.back, at.u, at.v);
+        corners.map_or(0.0, |corners| {
+            trust::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex))
+        })
     }
 
     fn end(&self, surface: &SurfacePoint, finish: &Finish, throughput: Rgb) -> End {
@@ -202,19 +254,29 @@ impl Gathering<'_> {
     }
 
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
-    fn entry(&self, at: &SurfacePoint, weight: Rgb) -> Option<Entry> {
-        let corners = self.corners(self.level, at)?;
+    fn entry(&self, at: &SurfacePoint, out_of_gap_m: Option<f64>) -> Option<Entry> {
+        let corners = self.corners(self.level, at, out_of_gap_m)?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
             weights: corners.map(|(_, weight)| weight as f32),
-            reflectance: weight.0.map(|c| c as f32),
         })
     }
 
-    /// Vertices and weights of a place on a level, over the known ones.
-    fn corners(&self, level: u32, at: &SurfacePoint) -> Option<[(u32, f64); 3]> {
+    /// Vertices and weights of a place on a level, over the known ones; for a ray that has come so far
+    /// from within a gap, over those in gaps as long as it may still be there.
+    fn corners(
+        &self,
+        level: u32,
+        at: &SurfacePoint,
+        out_of_gap_m: Option<f64>,
+    ) -> Option<[(u32, f64); 3]> {
         let corners = self.elements.locate_above(level, at.triangle, at.back, at.u, at.v)?;
-        let weights = known_weights(corners, self.known)?;
+        let edge_m = || trust::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex));
+        let weights = if out_of_gap_m.is_some_and(|m| m < trust::NEAR * edge_m()) {
+            weights_in_gap(corners, self.standings)?
+        } else {
+            known_weights(corners, self.standings)?
+        };
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     }
 }
@@ -229,25 +291,37 @@ enum End {
     Closed,
 }
 
-/// Interpolation weights over the known vertices alone.
-pub(super) fn known_weights(corners: [(u32, f64); 3], known: &[bool]) -> Option<[f64; 3]> {
-    let is_known = corners.map(|(vertex, _)| known[vertex as usize]);
-    let count = is_known.iter().filter(|&&k| k).count();
-    if count == 0 {
-        return None;
+/// Interpolation weights over the known vertices of the highest standing alone.
+pub(super) fn known_weights(
+    corners: [(u32, f64); 3],
+    standings: &[Option<Standing>],
+) -> Option<[f64; 3]> {
+    let of = corners.map(|(vertex, _)| standings[vertex as usize]);
+    let highest = Standing::highest(of)?;
+    Some(weights_over(corners, of.map(|standing| standing == Some(highest))))
+}
+
+/// The same over those in gaps; without any, light there is as little as none.
+fn weights_in_gap(corners: [(u32, f64); 3], standings: &[Option<Standing>]) -> Option<[f64; 3]> {
+    let in_gap = |standing: &Standing| *standing != Standing::Open;
+    let of = corners.map(|(vertex, _)| standings[vertex as usize].filter(in_gap));
+    let highest = Standing::highest(of)?;
+    Some(weights_over(corners, of.map(|standing| standing == Some(highest))))
+}
+
+/// Interpolation weights over some of the vertices, at least one, alone.
+fn weights_over(corners: [(u32, f64); 3], read: [bool; 3]) -> [f64; 3] {
+    if read == [true; 3] {
+        return corners.map(|(_, weight)| weight);
     }
-    let mut weights = [0.0; 3];
-    for k in 0..3 {
-        if is_known[k] {
-            weights[k] = corners[k].1;
-        }
-    }
+    let weights = [0, 1, 2].map(|k| if read[k] { corners[k].1 } else { 0.0 });
     let sum: f64 = weights.iter().sum();
-    // On the far side of the element only unknown vertices have weight.
+    // On the far side of the element only other vertices have weight.
     if sum < 1e-9 {
-        return Some(is_known.map(|k| if k { 1.0 / count as f64 } else { 0.0 }));
+        let count = read.iter().filter(|&&read| read).count();
+        return read.map(|read| if read { 1.0 / count as f64 } else { 0.0 });
     }
-    Some(weights.map(|w| w / sum))
+    weights.map(|w| w / sum)
 }
 
 impl Operator {
@@ -339,11 +413,32 @@ const MOST: f64 = 0.99;
 const MAX_SWEEPS: usize = 2000;
 
 impl Rows {
-    fn apply<'a>(&'a self, light: &'a [Rgb]) -> impl Iterator<Item = Rgb> + 'a {
-        let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts.zip(&self.ends).zip(&self.sources).map(|((start, &end), &source)| {
-            self.entries[start..end].iter().fold(source, |sum, entry| sum + entry.light(light))
-        })
+    /// Adds an entry to the row that is being made.
+    fn push(&mut self, entry: Entry, share: [f32; 3]) {
+        self.entries.push(entry);
+        // As many as 32 bits count are 100 GB, more than a part of the receivers is ever given.
+        let end = self.entries.len() as u32;
+        let first_of_row = self.ends.last().copied().unwrap_or(0);
+        match self.runs[first_of_row..].last_mut().filter(|run| run.share == share) {
+            Some(run) => run.end = end,
+            None => self.runs.push(Run { end, share }),
+        }
+    }
+
+    fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
+        let (mut run, mut entry) = (0, 0);
+        let mut of_row = |(&end, &source): (&usize, &Rgb)| {
+            let mut sum = source;
+            for Run { end, share } in &self.runs[run..end] {
+                let entries = &self.entries[entry..*end as usize];
+                let read: Rgb = entries.iter().map(|entry| entry.light(light)).sum();
+                sum += read * Rgb(share.map(f64::from));
+                entry = *end as usize;
+            }
+            run = end;
+            sum
+        };
+        self.ends.iter().zip(&self.sources).map(&mut of_row).collect()
     }
 }
 
@@ -353,6 +448,6 @@ impl Entry {
         for k in 0..3 {
             value += light[self.vertices[k] as usize] * f64::from(self.weights[k]);
         }
-        value * Rgb(self.reflectance.map(f64::from))
+        value
     }
 }

@@ -11,6 +11,7 @@ use super::deadline::Deadline;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::path::Dice;
 use super::pilot::Plan;
+use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -28,15 +29,16 @@ const TRIAL_RAYS: u32 = 16;
 /// The part of the accuracy asked for that noise may take.
 const NOISE_SHARE: f64 = 0.5;
 
+/// Variance of what is interpolated between three vertices, in the mean over an element, as a share of
+/// theirs: the integral of the sum of the squares of the hat functions over the area.
+const OF_INTERPOLATED: f64 = 0.5;
+
 /// Nets of n rays err like this power of 1/n: measured between 0.8 and 1.1 on CUBE and SPHERE from 8
 /// to 128 rays (independent rays err like 0.5).
-const NET_ORDER: f64 = 0.85;
+pub(super) const NET_ORDER: f64 = 0.85;
 
-/// Rays of a receiver and increment, whatever is asked for: with fewer, single receivers at edges err
-/// by more than the figure of the scene lets expect, which counts where that is to be small.
+/// Rays of a receiver and increment, whatever is asked for.
 const FEWEST_WANTED: f64 = 8.0;
-const FEWEST_WHERE_FINE: f64 = 16.0;
-const FINE: f64 = 0.02;
 
 /// And at most: a run can soon be stopped after that many.
 const MOST_WANTED: f64 = 256.0;
@@ -46,8 +48,10 @@ const MOST_WANTED: f64 = 256.0;
 pub(super) fn rays_for(plan: &Plan, target: f64, increments: u64, seed: u64) -> u32 {
     let key = Key::new(seed).with(5);
     let every = (plan.indirect_vertices / TRIAL_RECEIVERS).max(1);
-    let tried: Vec<usize> =
-        (0..plan.indirect_vertices).filter(|&k| plan.known[k]).step_by(every).collect();
+    let tried: Vec<usize> = (0..plan.indirect_vertices)
+        .filter(|&k| plan.standings[k].is_some())
+        .step_by(every)
+        .collect();
     let rows: Vec<Gatherer> =
         tried.iter().map(|&k| plan.gatherers[k].with_rays(TRIAL_RAYS)).collect();
     let gathering = Gathering::of(plan, &plan.direct);
@@ -66,14 +70,13 @@ pub(super) fn rays_for(plan: &Plan, target: f64, increments: u64, seed: u64) -> 
         of_means += own_m2 * sums.estimate(row).variance;
     }
     let variance = if area_m2 > 0.0 { TRIAL_INCREMENTS as f64 * of_means / area_m2 } else { 0.0 };
-    let noise_lx = (variance / increments as f64).sqrt();
+    let noise_lx = (OF_INTERPOLATED * variance / increments as f64).sqrt();
     let allowed_lx = NOISE_SHARE * target * plan.rms_lx;
     if !(noise_lx > 0.0 && allowed_lx > 0.0) {
         return FEWEST_WANTED as u32;
     }
     let wanted = f64::from(TRIAL_RAYS) * libm::pow(noise_lx / allowed_lx, 1.0 / NET_ORDER);
-    let fewest = if target < FINE { FEWEST_WHERE_FINE } else { FEWEST_WANTED };
-    libm::exp2(libm::round(libm::log2(wanted.clamp(fewest, MOST_WANTED)))) as u32
+    libm::exp2(libm::round(libm::log2(wanted.clamp(FEWEST_WANTED, MOST_WANTED)))) as u32
 }
 
 impl<'a> Gathering<'a> {
@@ -84,7 +87,7 @@ impl<'a> Gathering<'a> {
             lighting: plan.lighting,
             elements: &plan.elements,
             level: plan.level,
-            known: &plan.known,
+            standings: &plan.standings,
             direct: if plan.direct_from_map {
                 DirectAtEnds::Read { values: direct, level: u32::MAX }
             } else {
@@ -110,8 +113,12 @@ impl<'p, 's> Hybrid<'p, 's> {
     /// With so many gathering rays in every increment for each vertex that is not hidden.
     pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: u32, seed: u64) -> Self {
         let key = Key::new(seed).with(1);
-        let vertices = plan.gatherers.iter().zip(&plan.known).take(plan.indirect_vertices);
-        let rows = vertices.map(|(g, &known)| g.with_rays(if known { rays } else { 0 })).collect();
+        let vertices = plan.gatherers.iter().zip(&plan.standings).take(plan.indirect_vertices);
+        let row = |(gatherer, of): (&Gatherer, &Option<Standing>)| {
+            let rays = if of.is_some() { rays } else { 0 };
+            gatherer.with_rays(rays).in_gap(*of != Some(Standing::Open))
+        };
+        let rows = vertices.map(row).collect();
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
         Self { plan, check_direct, rows, check_rows, key }
@@ -124,7 +131,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let rows: Vec<Gatherer> = self.rows.iter().step_by(TRIED).copied().collect();
         let gathering = Gathering::of(self.plan, &self.plan.direct);
         gathering.operator(&rows, |row| self.key.with(0).with(row as u64));
-        if !lighting.is_exact() {
+        if !lighting.is_measured_once() {
             let key = self.key.with(0).with(1);
             let all: Vec<_> = self.plan.gatherers.iter().step_by(TRIED).collect();
             all.par_iter().enumerate().for_each(|(k, gatherer)| {
@@ -155,9 +162,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             operator.solve_or_give_up(&plan.guess, &caustic, Some(&plan.fit), TOLERANCE);
         let gathered = plan.fit.apply(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
-        // Check points evaluate what the map reads, so that they see what reading gets wrong.
-        let checking = Gathering { direct: DirectAtEnds::Evaluated, ..gathering };
-        let fresh = checking.operator(&self.check_rows, |row| key.with(3).with(row as u64));
+        let fresh = gathering.operator(&self.check_rows, |row| key.with(3).with(row as u64));
         let fresh_light = fresh.apply(&light);
         let indirect = plan.prolongate(&gathered);
         let caustic = plan.prolongate(&caustic);
@@ -176,14 +181,14 @@ impl<'p, 's> Hybrid<'p, 's> {
         })
     }
 
-    /// Direct light at vertices and check points: the plan's where it is exact.
+    /// Direct light at vertices and check points: the plan's where it is measured once.
     fn direct(
         &self,
         checks: &[Check],
         key: Key,
         deadline: Deadline,
     ) -> Option<(Vec<Rgb>, Vec<Rgb>)> {
-        if self.plan.lighting.is_exact() {
+        if self.plan.lighting.is_measured_once() {
             return Some((self.plan.direct.clone(), self.check_direct.clone()));
         }
         let vertex = |(k, gatherer): (usize, &Gatherer)| {

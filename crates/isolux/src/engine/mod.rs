@@ -17,21 +17,27 @@ mod hybrid;
 mod particle;
 mod path;
 mod pilot;
+mod place;
 mod predict;
 mod probe;
+mod reference;
 mod request;
 mod run;
 mod scatter;
+mod shrink;
 mod state;
 mod surface;
 mod tally;
+mod trust;
 mod work;
 
 #[cfg(test)]
 mod tests;
 
 pub use accumulate::Sums;
-pub use probe::{ExactSettings, MapReader, ProbePoint};
+pub use place::ProbePoint;
+pub use probe::{ExactSettings, MapReader};
+pub use reference::PathTracer;
 pub use request::{Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
 pub use run::{Solution, Watcher, solve, solve_with_maps};
 pub use state::{RunIdentity, RunState};

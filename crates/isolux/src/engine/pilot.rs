@@ -4,18 +4,24 @@
 //! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
 //! noise is smooth over surfaces and does not pass for detail.
 
-use super::detail::{LeafError, Refinement, bisect_twice, leaf_errors, left_by_fit, refine_worst};
-use super::direct::Lighting;
+use super::detail::{
+    LeafError, Refinement, bisect_twice, leaf_errors, left_by_fit, refine_worst, told_error,
+};
+use super::direct::{Goal, Lighting, Measured};
 use super::fit::Fit;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 use super::path::Dice;
+use super::shrink::beyond_noise;
 use super::surface::SurfacePoint;
+use super::trust;
 use crate::elements::{Elements, Subdivision};
+use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// Vertices that the pilot starts with, unless the scene has more.
 const FIRST_VERTICES: f64 = 700.0;
@@ -28,20 +34,25 @@ const FIRST_UNFITTED: f64 = 1500.0;
 const MAX_ROUNDS: usize = 16;
 /// The part of the accuracy asked for that interpolating indirect light may take.
 const DISCRETIZATION_SHARE: f64 = 0.5;
-/// The error of a single element that is refined even where it is small, in accuracies asked for.
-const SINGLE_SHARE: f64 = 1.0;
-/// Vertices added for such elements alone, where the scene as a whole is fine enough.
-const MOST_FOR_SINGLES: usize = 3000;
+/// The part of the area whose elements may stay coarse, as readers gather afresh there; and what it
+/// may be where refinement comes to nothing.
+const FRESH_SHARE: f64 = 0.1;
+const MOST_FRESH: f64 = 0.5;
+/// What all elements may err by, in accuracies asked for: rays read them all, but in the mean over many. Measured
+/// on CUBE: at 3 the bias at its edges takes half of the accuracy, at 1 a third more elements bring nothing.
+const BARE: f64 = 2.0;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
 const PULL_IN: f64 = 2e-3;
 /// With more sources than this, rays read direct light from the map where they end.
-const MOST_SOURCES_EVALUATED: usize = 8;
+pub(super) const MOST_SOURCES_EVALUATED: usize = 8;
 /// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 2;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
+/// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
+const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
 /// A round in which the error falls with a lower power of the vertices was in vain. Where functions
 /// are smooth it is one; chasing light that comes in through narrow places, less for some rounds.
 const LEAST_ORDER: f64 = 0.25;
@@ -63,15 +74,19 @@ pub(super) struct Plan<'s> {
     /// Indirect light lives on the first so many vertices and the nodes below `level`.
     pub(super) indirect_vertices: usize,
     pub(super) level: u32,
-    /// Which vertices are not hidden in other geometry.
-    pub(super) known: Vec<bool>,
+    /// What vertices stand for; none are hidden in other geometry.
+    pub(super) standings: Vec<Option<Standing>>,
     /// Direct light at the vertices; exact if the lighting is.
     pub(super) direct: Vec<Rgb>,
+    /// The variance of its noise, where it is measured once for all increments, lx2; else zero.
+    pub(super) direct_variance: Vec<f64>,
     /// First guess of the indirect light.
     pub(super) guess: Vec<Rgb>,
     pub(super) direct_from_map: bool,
     /// Errors of the elements that indirect light lives on.
     pub(super) indirect_errors: Vec<LeafError>,
+    /// Elements with larger errors are not to be trusted.
+    pub(super) trusted_up_to_lx: f64,
     /// Those elements, by node, as triangles of the scene.
     pub(super) subdivision: Subdivision,
     /// Root mean square of the photometric illuminance over all known surfaces, lx.
@@ -87,18 +102,23 @@ impl Plan<'_> {
         self.indirect_errors.iter().map(|e| e.area_m2).sum()
     }
 
+    /// Whether a vertex lies in the open.
+    pub(super) fn is_open(&self, vertex: u32) -> bool {
+        self.standings[vertex as usize] == Some(Standing::Open)
+    }
+
     /// Values for the vertices that only direct light needs: interpolated from their parents.
     pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
         let mut values = coarse.to_vec();
-        for vertex in &self.elements.vertices()[coarse.len()..] {
-            let [a, b] = vertex.parents.expect("vertices beyond the input are made by bisection");
-            let read = |end: u32| (self.known[end as usize]).then(|| values[end as usize]);
-            let value = match (read(a), read(b)) {
-                (Some(a), Some(b)) => (a + b) * 0.5,
-                (Some(one), None) | (None, Some(one)) => one,
-                (None, None) => Rgb::BLACK,
-            };
-            values.push(value);
+        for (k, vertex) in self.elements.vertices().iter().enumerate().skip(coarse.len()) {
+            let ends = vertex.parents.expect("vertices beyond the input are made by bisection");
+            let of = ends.map(|end| self.standings[end as usize]);
+            // From what stands as it does, if it can be, else as elements do.
+            let own = self.standings[k].filter(|own| of.contains(&Some(*own)));
+            let read = own.or(Standing::highest(of));
+            let known = (0..2).filter(|&e| read.is_some() && of[e] == read);
+            let known: Vec<Rgb> = known.map(|e| values[ends[e] as usize]).collect();
+            values.push(known.iter().copied().sum::<Rgb>() / known.len().max(1) as f64);
         }
         values
     }
@@ -122,8 +142,15 @@ struct Pilot<'s> {
     subdivision: Subdivision,
     /// At the vertices looked at so far: light, and whether they are open to it.
     direct: Vec<Rgb>,
+    direct_variance: Vec<f64>,
     indirect: Vec<Rgb>,
     known: Vec<bool>,
+    /// What they stand for.
+    standings: Vec<Option<Standing>>,
+    /// By node, whether something stands close before its middle.
+    beset: Vec<bool>,
+    /// In the middle of elements that no details tell of, by node.
+    middles: HashMap<u32, f64>,
     /// Nodes there were then.
     solved_nodes: u32,
     rays: u32,
@@ -149,7 +176,6 @@ pub(super) fn pilot<'s>(
     go_on: &mut dyn FnMut(usize, u64) -> bool,
 ) -> Plan<'s> {
     let mut pilot = Pilot::new(scene, lighting, request);
-    let goal = DISCRETIZATION_SHARE * request.target;
     let mut look = pilot.look();
     let most = request.max_vertices.min(MOST_FOR_INDIRECT_LIGHT.max(look.vertices / 2 * 3));
     for _ in 0..ROUNDS_FOR_HIDDEN {
@@ -161,47 +187,48 @@ pub(super) fn pilot<'s>(
             break;
         }
     }
-    let most_for_singles = look.vertices + MOST_FOR_SINGLES;
-    let mut before = (f64::INFINITY, look.vertices as f64);
-    for _ in 0..MAX_ROUNDS {
-        let left = if request.is_fitted { look.left_by_fit } else { 1.0 };
-        let error = left * relative_error(&look.errors, look.rms_lx);
-        // Where bisection no longer helps, what is left is noise: the check points will tell.
-        let vertices = look.vertices as f64;
-        let is_coarse = error > goal;
-        let stalled = is_coarse && error > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
-        let most_error = SINGLE_SHARE * request.target * look.rms_lx;
-        let is_single = |e: &LeafError| {
-            e.error > most_error
-                && pilot.subdivision.longest_edge_m(e.node) > 2.0 * pilot.least_edge_m
-        };
-        let singles = look.vertices < most_for_singles && look.errors.iter().any(is_single);
-        if stalled
-            || !(is_coarse || singles)
-            || !go_on(pilot.subdivision.vertex_count(), pilot.traced)
-        {
-            break;
-        }
-        before = (error, vertices);
-        let how_far = Refinement {
-            most_error,
-            wanted: if is_coarse { goal / error } else { 1.0 },
-            least_edge_m: pilot.least_edge_m,
-            max_vertices: most,
-        };
-        if !refine_worst(&mut pilot.subdivision, &look.errors, how_far) {
-            break;
-        }
-        look = pilot.look();
+    for what in [Read::Trusted, Read::All] {
+        let refinement = (what, most);
+        look = pilot.refine(look, request, refinement, go_on);
     }
     pilot.finish(look, request, go_on)
 }
 
-/// The error of the scene, relative to its root mean square illuminance.
-fn relative_error(errors: &[LeafError], rms_lx: f64) -> f64 {
-    let area: f64 = errors.iter().map(|e| e.area_m2).sum();
-    let squared: f64 = errors.iter().map(LeafError::squared).sum();
-    if rms_lx > 0.0 { (squared / area).sqrt() / rms_lx } else { 0.0 }
+/// What elements are read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Read {
+    /// By readers that interpolate.
+    Trusted,
+    /// By rays, and with the bare map.
+    All,
+}
+
+impl Look {
+    /// The elements that are read so, and how many times their error is what it should be, if it is more.
+    fn excess(&self, what: Read, request: &PilotRequest) -> Option<(Vec<LeafError>, f64)> {
+        let goal_lx = self.goal_lx(request.target, request);
+        let limit = trust::limit(&self.errors, goal_lx, FRESH_SHARE);
+        let is_read = |e: &LeafError| what == Read::All || !e.is_beset && e.error <= limit;
+        let goal_lx = match what {
+            Read::Trusted => goal_lx,
+            // Fits do little for what is steep at edges.
+            Read::All => request.mesh_target.min(BARE * request.target) * self.rms_lx,
+        };
+        let excess = trust::error_of(&self.errors, is_read) / goal_lx;
+        let read = || self.errors.iter().copied().filter(is_read).collect();
+        (excess > 1.0 && self.rms_lx > 0.0).then(|| (read(), excess))
+    }
+
+    /// The error of elements up to which readers trust the map.
+    fn trusted_up_to_lx(&self, request: &PilotRequest) -> f64 {
+        trust::limit(&self.errors, self.goal_lx(request.target, request), MOST_FRESH)
+    }
+
+    /// What interpolation may err by, before it is fitted, lx.
+    fn goal_lx(&self, target: f64, request: &PilotRequest) -> f64 {
+        let left = if request.is_fitted { self.left_by_fit } else { 1.0 };
+        DISCRETIZATION_SHARE * target * self.rms_lx / left
+    }
 }
 
 impl<'s> Pilot<'s> {
@@ -221,8 +248,12 @@ impl<'s> Pilot<'s> {
             key: Key::new(request.seed).with(0),
             subdivision,
             direct: Vec::new(),
+            direct_variance: Vec::new(),
             indirect: Vec::new(),
             known: Vec::new(),
+            standings: Vec::new(),
+            beset: Vec::new(),
+            middles: HashMap::new(),
             solved_nodes: 0,
             rays: pilot_rays(request.target),
             traced: 0,
@@ -239,15 +270,39 @@ impl<'s> Pilot<'s> {
         receivers.iter().map(|r| Gatherer::at_vertex(self.scene, r, self.rays)).collect()
     }
 
-    /// Direct light at the vertices that have none yet.
+    /// Direct light at the vertices that have none yet, by the fewest rays.
     fn complete_direct(&mut self, gatherers: &[Gatherer]) {
         let sequence = Sequence::new(self.key.with(1));
-        let new = &gatherers[self.direct.len()..];
-        let values: Vec<Rgb> = new
-            .par_iter()
-            .map(|g| self.lighting.illuminance(&g.surface, &mut Dice::new(sequence, 0)))
-            .collect();
-        self.direct.extend(values);
+        let measured = |g: &Gatherer| self.lighting.measured(&g.surface, Goal::ANY, sequence);
+        let new: Vec<Measured> = gatherers[self.direct.len()..].par_iter().map(measured).collect();
+        self.direct.extend(new.iter().map(|m| m.lx));
+        self.direct_variance.extend(new.iter().map(|m| m.variance));
+    }
+
+    /// Direct light at all vertices for the increments: with noise of their own, where it has noise.
+    fn measure_direct(&mut self, gatherers: &[Gatherer], request: &PilotRequest, rms_lx: f64) {
+        self.direct.clear();
+        self.direct_variance.clear();
+        let lighting = self.lighting;
+        if !(request.is_fitted && lighting.has_many() && lighting.is_measured_once()) {
+            self.complete_direct(gatherers);
+            self.direct_variance.fill(0.0);
+            return;
+        }
+        let goal = Goal::lux(NOISE_OF_DIRECT_LIGHT * request.mesh_target * rms_lx);
+        let key = self.key.with(5);
+        let measured = |(k, g): (usize, &Gatherer)| {
+            lighting.measured(&g.surface, goal, Sequence::new(key.with(k as u64)))
+        };
+        let all: Vec<Measured> = gatherers.par_iter().enumerate().map(measured).collect();
+        self.direct.extend(all.iter().map(|m| m.lx));
+        self.direct_variance.extend(all.iter().map(|m| m.variance));
+    }
+
+    /// Photometric direct light at the known vertices, without details that may be noise.
+    fn direct_signal(&self, elements: &Elements) -> Vec<Option<f64>> {
+        let luminances = self.in_the_open(&self.direct);
+        beyond_noise(elements, &luminances, &self.direct_variance)
     }
 
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
@@ -256,34 +311,86 @@ impl<'s> Pilot<'s> {
         let gatherers = self.gatherers();
         self.complete_direct(&gatherers);
         self.complete_indirect(&elements, &gatherers);
+        let luminances = self.in_the_open(&self.indirect);
+        self.complete_beset();
+        self.complete_middles(&elements, &luminances);
         let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
-        let luminances: Vec<Option<f64>> = (0..self.known.len())
-            .map(|k| self.known[k].then(|| self.indirect[k].luminance()))
-            .collect();
-        let errors = leaf_errors(&self.subdivision, &elements, &luminances);
-        let rms_lx = rms(&elements, &self.known, lx);
+        let middle = |node: u32| self.middles.get(&node).copied();
+        let beset = |node: u32| self.beset[node as usize];
+        let errors = leaf_errors(&self.subdivision, &elements, &luminances, middle, beset);
+        let rms_lx = rms(&elements, &self.standings, lx);
         let left_by_fit = left_by_fit(&self.subdivision, &elements, &luminances, &errors);
         Look { vertices: gatherers.len(), elements, errors, left_by_fit, rms_lx }
     }
 
-    fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
-        let (first, level) = (self.indirect.len(), self.solved_nodes);
-        let everything = vec![true; gatherers.len()];
-        let gathering = Gathering {
-            scene: self.scene,
-            lighting: self.lighting,
-            elements,
-            level: if first == 0 { u32::MAX } else { level },
-            known: if first == 0 { &everything } else { &self.known },
-            direct: if self.direct_from_map() {
-                let level = if first == 0 { u32::MAX } else { level };
-                DirectAtEnds::Read { values: &self.direct, level }
-            } else {
-                DirectAtEnds::Evaluated
-            },
+    /// What rays read on a level of the elements.
+    fn gathering<'a>(
+        &'a self,
+        elements: &'a Elements,
+        level: u32,
+        standings: &'a [Option<Standing>],
+    ) -> Gathering<'a> {
+        let direct = if self.direct_from_map() {
+            DirectAtEnds::Read { values: &self.direct, level }
+        } else {
+            DirectAtEnds::Evaluated
         };
+        Gathering { scene: self.scene, lighting: self.lighting, elements, level, standings, direct }
+    }
+
+    /// Whether something stands close before the nodes that were not looked at yet.
+    fn complete_beset(&mut self) {
+        let new = self.beset.len() as u32..self.subdivision.node_count() as u32;
+        let is_beset = |node: u32| {
+            let place = SurfacePoint::amid_node(self.scene, &self.subdivision, node);
+            trust::is_beset(self.scene, &place, self.subdivision.longest_edge_m(node))
+        };
+        let new: Vec<bool> = new.into_par_iter().map(is_beset).collect();
+        self.beset.extend(new);
+    }
+
+    /// Gathers in the middle of the elements that no details tell of, that have something close before
+    /// them and that were not looked at yet; not in gaps, where readers gather anyway.
+    fn complete_middles(&mut self, elements: &Elements, values: &[Option<f64>]) {
+        let is_new = |&node: &u32| {
+            !self.middles.contains_key(&node)
+                && told_error(&self.subdivision, elements, values, node).is_none()
+        };
+        let new: Vec<u32> = self.subdivision.leaves().filter(is_new).collect();
+        let beset = |node: u32| {
+            let place = SurfacePoint::amid_node(self.scene, &self.subdivision, node);
+            let edge_m = self.subdivision.longest_edge_m(node);
+            let gatherer = Gatherer::on_surface(place, self.rays);
+            let asks =
+                self.beset[node as usize] && !trust::is_closed_in(self.scene, &place, edge_m);
+            asks.then_some((node, gatherer))
+        };
+        let beset: Vec<(u32, Gatherer)> = new.into_par_iter().filter_map(beset).collect();
+        let (nodes, rows): (Vec<u32>, Vec<Gatherer>) = beset.into_iter().unzip();
         let key = self.key.with(2);
-        let operator = gathering.operator(&gatherers[first..], |_| key);
+        let gathering = self.gathering(elements, self.solved_nodes, &self.standings);
+        let operator = gathering.operator(&rows, |_| key);
+        let light = operator.apply(&self.indirect);
+        self.traced += operator.rays;
+        self.middles.extend(nodes.into_iter().zip(light.iter().map(|e| e.luminance())));
+    }
+
+    fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        let first = self.indirect.len();
+        // On the first mesh nobody knows yet what is hidden.
+        if first == 0 {
+            self.standings = self.standings_after(vec![None; gatherers.len()], gatherers);
+        }
+        let level = if first == 0 { u32::MAX } else { self.solved_nodes };
+        let gathering = self.gathering(elements, level, &self.standings);
+        let key = self.key.with(2);
+        let edges_m = self.subdivision.longest_edges_m();
+        let row = |(k, gatherer): (usize, &Gatherer)| {
+            let in_gap = trust::is_closed_in(self.scene, &gatherer.surface, edges_m[k]);
+            gatherer.in_gap(in_gap)
+        };
+        let rows: Vec<Gatherer> = gatherers.par_iter().enumerate().skip(first).map(row).collect();
+        let operator = gathering.operator(&rows, |_| key);
         self.traced += operator.rays;
         let new = if first == 0 {
             let black = vec![Rgb::BLACK; gatherers.len()];
@@ -296,8 +403,32 @@ impl<'s> Pilot<'s> {
             // No light at all: what is not closed in is dark.
             self.known = operator.open();
         }
+        self.complete_standings(gatherers);
         self.indirect.extend(new);
         self.solved_nodes = self.subdivision.node_count() as u32;
+    }
+
+    /// Photometric values of the vertices in the open.
+    fn in_the_open(&self, values: &[Rgb]) -> Vec<Option<f64>> {
+        let is_open = |k: usize| self.standings[k] == Some(Standing::Open);
+        (0..self.standings.len()).map(|k| is_open(k).then(|| values[k].luminance())).collect()
+    }
+
+    fn standings_after(
+        &self,
+        before: Vec<Option<Standing>>,
+        gatherers: &[Gatherer],
+    ) -> Vec<Option<Standing>> {
+        trust::standings(self.scene, &self.subdivision, before, |k| gatherers[k].surface)
+    }
+
+    fn complete_standings(&mut self, gatherers: &[Gatherer]) {
+        let mut before = std::mem::take(&mut self.standings);
+        before.resize(gatherers.len(), None);
+        self.standings = self.standings_after(before, gatherers);
+        for (standing, known) in self.standings.iter_mut().zip(&self.known) {
+            *standing = standing.filter(|_| *known);
+        }
     }
 
     fn sight<'a>(&'a self, elements: &'a Elements, gatherers: &'a [Gatherer]) -> Sight<'a> {
@@ -311,6 +442,34 @@ impl<'s> Pilot<'s> {
         self.known = known;
     }
 
+    /// Bisects until elements are good enough for what they are read for, or that comes to nothing.
+    fn refine(
+        &mut self,
+        mut look: Look,
+        request: &PilotRequest,
+        (what, max_vertices): (Read, usize),
+        go_on: &mut dyn FnMut(usize, u64) -> bool,
+    ) -> Look {
+        let mut before = (f64::INFINITY, look.vertices as f64);
+        for _ in 0..MAX_ROUNDS {
+            let Some((errors, excess)) = look.excess(what, request) else { break };
+            // Where bisection no longer helps, what is left is noise: the check points will tell.
+            let vertices = look.vertices as f64;
+            let stalled = excess > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
+            if stalled || !go_on(self.subdivision.vertex_count(), self.traced) {
+                break;
+            }
+            before = (excess, vertices);
+            let least_edge_m = self.least_edge_m;
+            let how_far = Refinement { wanted: 1.0 / excess, least_edge_m, max_vertices };
+            if !refine_worst(&mut self.subdivision, &errors, how_far) {
+                break;
+            }
+            look = self.look();
+        }
+        look
+    }
+
     /// Bisects elements with hidden vertices where light comes to places that see none of the
     /// others; returns whether there are any.
     fn open_up(&mut self, elements: &Elements, max_vertices: usize) -> bool {
@@ -320,18 +479,32 @@ impl<'s> Pilot<'s> {
             let sequence = Sequence::new(self.key.with(4).with(u64::from(node)));
             (0..PLACES_OF_HIDDEN).any(|k| {
                 let square = Dice::new(sequence, k).pair();
-                let place = place_in_node(self.scene, &self.subdivision, node, square);
+                let place = SurfacePoint::in_node(self.scene, &self.subdivision, node, square);
                 sight.is_cut_off(&place, u64::from(node * PLACES_OF_HIDDEN + k), &self.known)
             })
         };
         let hidden: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_hidden(n)).collect();
         let cut_off: Vec<u32> = hidden.into_par_iter().filter(is_cut_off).collect();
+        let rims: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_only_rim(n)).collect();
         for &node in &cut_off {
             if self.subdivision.vertex_count() < max_vertices {
                 bisect_twice(&mut self.subdivision, node);
             }
         }
-        !cut_off.is_empty()
+        for &node in &rims {
+            if self.subdivision.vertex_count() < max_vertices {
+                self.subdivision.bisect(node);
+            }
+        }
+        !(cut_off.is_empty() && rims.is_empty())
+    }
+
+    /// Whether an element can be bisected and lies in a gap without a vertex inside: what comes in at the
+    /// rim does not reach far.
+    fn has_only_rim(&self, node: u32) -> bool {
+        let corners = self.subdivision.node(node).0.vertices;
+        self.subdivision.longest_edge_m(node) > 2.0 * self.least_edge_m
+            && corners.iter().all(|&v| self.standings[v as usize] == Some(Standing::Rim))
     }
 
     /// Whether an element can be bisected and has a hidden vertex.
@@ -349,24 +522,59 @@ impl<'s> Pilot<'s> {
         go_on: &mut dyn FnMut(usize, u64) -> bool,
     ) -> Plan<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
+        let trusted_up_to_lx = look.trusted_up_to_lx(request);
         let coarse = self.subdivision.clone();
-        let level = coarse.node_count() as u32;
-        let mut elements = look.elements;
+        let elements = self.refine_for_direct_light(look.elements, look.rms_lx, request, go_on);
+        // Once more for all: refinement has moved the receivers on borders.
+        let gatherers = self.gatherers();
+        self.measure_direct(&gatherers, request, look.rms_lx);
+        self.complete_standings(&gatherers);
+        let mut standings = std::mem::take(&mut self.standings);
+        forget_orphans(&elements, indirect_vertices, &mut standings);
+        let open: Vec<bool> = standings.iter().map(|&of| of == Some(Standing::Open)).collect();
+        Plan {
+            direct_from_map: self.direct_from_map(),
+            scene: self.scene,
+            lighting: self.lighting,
+            elements,
+            gatherers,
+            indirect_vertices,
+            level: coarse.node_count() as u32,
+            direct: self.direct,
+            direct_variance: self.direct_variance,
+            guess: self.indirect,
+            trusted_up_to_lx,
+            indirect_errors: look.errors,
+            rms_lx: look.rms_lx,
+            fit: Fit::new(&coarse.elements(), indirect_vertices, &open),
+            standings,
+            subdivision: coarse,
+            rays: self.traced,
+        }
+    }
+
+    /// Refines where direct light as interpolated errs, until it is as good as asked.
+    fn refine_for_direct_light(
+        &mut self,
+        mut elements: Elements,
+        rms_lx: f64,
+        request: &PilotRequest,
+        go_on: &mut dyn FnMut(usize, u64) -> bool,
+    ) -> Elements {
         // Best effort: sharp shadow borders would take elements without end, and of emitting surfaces
         // refinement cannot tell noise from borders.
-        let most = (MOST_FOR_DIRECT_LIGHT * indirect_vertices).max(ALWAYS_FOR_DIRECT_LIGHT);
+        let most = MOST_FOR_DIRECT_LIGHT * self.subdivision.vertex_count();
+        let most = most.max(ALWAYS_FOR_DIRECT_LIGHT);
         let how_far = Refinement {
-            most_error: f64::INFINITY,
             wanted: 0.0,
             least_edge_m: self.least_edge_m,
             max_vertices: most.min(request.max_vertices),
         };
         for _ in 0..MAX_ROUNDS {
-            let luminances: Vec<Option<f64>> = (0..self.known.len())
-                .map(|k| self.known[k].then(|| self.direct[k].luminance()))
-                .collect();
-            let errors = leaf_errors(&self.subdivision, &elements, &luminances);
-            let good = relative_error(&errors, look.rms_lx) <= request.mesh_target;
+            let signal = self.direct_signal(&elements);
+            let errors = leaf_errors(&self.subdivision, &elements, &signal, |_| None, |_| false);
+            let error_lx = trust::error_of(&errors, |_| true);
+            let good = error_lx <= request.mesh_target * rms_lx;
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
             }
@@ -377,46 +585,33 @@ impl<'s> Pilot<'s> {
             let gatherers = self.gatherers();
             self.complete_direct(&gatherers);
             self.extend_known(&elements, &gatherers);
+            self.complete_standings(&gatherers);
         }
-        // Once more for all: refinement has moved the receivers on borders.
-        let gatherers = self.gatherers();
-        self.direct.clear();
-        self.complete_direct(&gatherers);
-        let mut known = std::mem::take(&mut self.known);
-        forget_orphans(&elements, indirect_vertices, &mut known);
-        Plan {
-            direct_from_map: self.direct_from_map(),
-            scene: self.scene,
-            lighting: self.lighting,
-            elements,
-            gatherers,
-            indirect_vertices,
-            level,
-            direct: self.direct,
-            guess: self.indirect,
-            indirect_errors: look.errors,
-            rms_lx: look.rms_lx,
-            fit: Fit::new(&coarse.elements(), indirect_vertices, &known),
-            known,
-            subdivision: coarse,
-            rays: self.traced,
-        }
+        elements
     }
 }
 
 /// Of vertices added for direct light nothing is known where both ends of their edge are hidden:
 /// their indirect light is interpolated from there.
-fn forget_orphans(elements: &Elements, first: usize, known: &mut [bool]) {
+fn forget_orphans(elements: &Elements, first: usize, standings: &mut [Option<Standing>]) {
     for (k, vertex) in elements.vertices().iter().enumerate().skip(first) {
         let ends = vertex.parents.unwrap_or([k as u32; 2]);
-        known[k] &= ends.iter().any(|&end| known[end as usize]);
+        if ends.iter().all(|&end| standings[end as usize].is_none()) {
+            standings[k] = None;
+        }
     }
 }
 
 /// Root mean square over the known surface.
-pub(super) fn rms(elements: &Elements, known: &[bool], value: impl Fn(usize) -> f64) -> f64 {
+pub(super) fn rms(
+    elements: &Elements,
+    standings: &[Option<Standing>],
+    value: impl Fn(usize) -> f64,
+) -> f64 {
     let (mut area, mut sum) = (0.0, 0.0);
-    for (k, vertex) in elements.vertices().iter().enumerate().filter(|&(k, _)| known[k]) {
+    for (k, vertex) in
+        elements.vertices().iter().enumerate().filter(|&(k, _)| standings[k].is_some())
+    {
         area += vertex.area_m2;
         sum += vertex.area_m2 * value(k) * value(k);
     }
@@ -427,22 +622,4 @@ pub(super) fn rms(elements: &Elements, known: &[bool], value: impl Fn(usize) -> 
 /// details looked for.
 fn pilot_rays(target: f64) -> u32 {
     ((0.64 / target.max(1e-6)) as u32).clamp(32, 1024).next_power_of_two()
-}
-
-/// A place of an element of the plan that indirect light lives on.
-pub(super) fn place_in_leaf(plan: &Plan, node: u32, square: [f64; 2]) -> SurfacePoint {
-    place_in_node(plan.scene, &plan.subdivision, node, square)
-}
-
-fn place_in_node(
-    scene: &Scene,
-    subdivision: &Subdivision,
-    node: u32,
-    [a, b]: [f64; 2],
-) -> SurfacePoint {
-    let (_, origin) = subdivision.node(node);
-    let root = a.sqrt();
-    let point = subdivision.triangle(node).point(root * (1.0 - b), root * b);
-    let [u, v] = scene.triangle(origin.triangle).barycentric(point);
-    SurfacePoint::new(scene, origin.triangle, origin.back, u, v)
 }

@@ -1,32 +1,28 @@
 //! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
 
-use super::direct::Lighting;
+use super::direct::{Goal, Lighting, Measured};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
+use super::hybrid::NET_ORDER;
 use super::path::Dice;
+use super::pilot::MOST_SOURCES_EVALUATED;
+use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
-use crate::map::{Illuminance, IlluminationMap};
+use super::trust;
+use crate::map::{Accuracy, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Normal, Point, Ray};
 
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
 
+/// Independent gatherings of a place where the map is not trusted; rays of each, when tried and at most.
+const FRESH_REPLICATES: u32 = 16;
+const FRESH_TRIAL_RAYS: u32 = 16;
+const FRESH_MOST_RAYS: f64 = 1024.0;
+
 /// Shadow rays to every emitting surface in a reading for a picture.
 const GLANCE_SAMPLES: usize = 4;
-
-/// A point counts as on a surface within this share of the scene's extent.
-const REACH_SHARE: f64 = 1e-4;
-
-/// A place and the way a luxmeter faces there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ProbePoint {
-    /// Where, m.
-    pub position: Point,
-    /// Where it faces.
-    pub normal: Normal,
-}
 
 /// How hard [`MapReader::estimate`] tries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,35 +46,49 @@ pub struct MapReader<'a> {
     scene: &'a Scene,
     map: &'a IlluminationMap,
     lighting: Lighting<'a>,
-    known: Vec<bool>,
+    standings: Vec<Option<Standing>>,
     light: Vec<Rgb>,
-    reach_m: f64,
-    /// Error of what is read from vertices that replicates do not tell, lx.
-    unseen_lx: f64,
+    /// Direct light at the vertices, where sources are many: there rays read it.
+    direct_values: Option<Vec<Rgb>>,
+    places: Places<'a>,
+    unseen: Unseen,
+}
+
+/// Errors of what is read from vertices that replicates do not tell, lx.
+struct Unseen {
+    /// Of interpolation, root mean square over the scene.
+    discretization_lx: f64,
+    /// Common to all of the map.
+    bias_lx: f64,
+    /// Of the whole map.
+    reached_lx: f64,
 }
 
 impl<'a> MapReader<'a> {
     /// Prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
-        let bounds = scene.bvh().mesh().bounds();
-        let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         let reflected =
             |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx);
+        let lighting = Lighting::new(scene);
+        let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
+        let are_many = lighting.source_count() > MOST_SOURCES_EVALUATED;
         Self {
             scene,
             map,
-            lighting: Lighting::new(scene),
-            known: map.values.iter().map(Option::is_some).collect(),
+            lighting,
+            direct_values: are_many.then(|| map.values.iter().map(direct).collect()),
+            standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             light: map.values.iter().map(reflected).collect(),
-            reach_m: REACH_SHARE * extent_m,
-            unseen_lx: unseen_lx(map),
+            places: Places::of(scene),
+            unseen: Unseen::of(map),
         }
     }
 
     /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
     /// alone, without the interpolation error and the bias of the map.
     pub fn by_replicates(&self, reading: Illuminance) -> Illuminance {
-        let unseen = self.unseen_lx * self.unseen_lx;
+        let unseen = libm::hypot(reading.interpolation_error_lx, self.unseen.bias_lx);
+        let unseen = unseen * unseen;
         let less = |error: f64| (error * error - unseen).max(0.0).sqrt();
         Illuminance {
             standard_error_lx: less(reading.standard_error_lx),
@@ -88,13 +98,99 @@ impl<'a> MapReader<'a> {
     }
 
     /// The illuminance at barycentric weights `(1 - u - v, u, v)` of a side of a triangle: direct
-    /// light evaluated afresh there, indirect light and caustics interpolated. The standard error
-    /// counts, beside that of replicates, the interpolation error and the bias that the map
-    /// reports for the scene, the same everywhere. `None` where the map knows nothing.
+    /// light evaluated afresh there, caustics interpolated, indirect light interpolated where the map
+    /// is to be trusted and gathered over the map where not. The standard error counts, beside that
+    /// of replicates, the interpolation error expected there and the bias that the map reports for
+    /// the scene, the same everywhere. `None` where the map knows nothing.
     pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
+        self.read(SurfacePoint::new(self.scene, triangle, back, u, v))
+    }
+
+    fn read(&self, surface: SurfacePoint) -> Option<Illuminance> {
+        let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
-        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
-        Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
+        let at = self.places.pulled_in(surface);
+        let edge_m = self.longest_edge_m(&at);
+        let Some(fresh) = self.map.provenance.fresh else {
+            return Some(self.with_fresh_direct(stored, &at));
+        };
+        let nearness = trust::nearness(self.scene, &at, edge_m);
+        let limit_lx = fresh.above_lx.unwrap_or(f64::INFINITY);
+        let is_trusted = stored.standing == Standing::Open
+            && stored.interpolation_error_lx <= limit_lx
+            && !trust::besets(nearness);
+        let indirect = if is_trusted {
+            self.with_interpolation_error(stored)
+        } else {
+            let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
+            let trial = Gatherer::on_surface(at, FRESH_TRIAL_RAYS).in_gap(in_gap);
+            Illuminance {
+                interpolation_error_lx: nearness * fresh.lookup_lx,
+                ..self.gathered(stored, trial)
+            }
+        };
+        Some(self.with_fresh_direct(indirect, &at))
+    }
+
+    /// Of the element at a place, m; zero where there is none.
+    fn longest_edge_m(&self, at: &SurfacePoint) -> f64 {
+        let corners = self.map.elements.locate(at.triangle, at.back, at.u, at.v);
+        corners.map_or(0.0, |corners| {
+            trust::longest_edge_m(&self.map.elements, corners.map(|(vertex, _)| vertex))
+        })
+    }
+
+    /// A value of the map with what interpolation is expected to err by. Half of the error of the
+    /// scene is taken to be spread evenly, half as expected of the elements.
+    fn with_interpolation_error(&self, stored: Illuminance) -> Illuminance {
+        let (even, own) = (self.unseen.discretization_lx, stored.interpolation_error_lx);
+        let interpolation_error_lx = (0.5 * (even * even + own * own)).sqrt();
+        Illuminance { interpolation_error_lx, ..stored }
+    }
+
+    /// Indirect light gathered over the map, by as many rays as bring its noise down to half of
+    /// the error of the map.
+    fn gathered(&self, stored: Illuminance, trial: Gatherer) -> Illuminance {
+        let key = place_key(trial.surface.point).with(7);
+        let goal = 0.5 * self.unseen.reached_lx;
+        let direct = match &self.direct_values {
+            Some(values) => DirectAtEnds::ReadFarOff { values },
+            None => DirectAtEnds::Evaluated,
+        };
+        let (_, variance) = self.gather(trial, direct, (FRESH_REPLICATES, key.with(0)));
+        let rays = f64::from(FRESH_TRIAL_RAYS)
+            * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / NET_ORDER);
+        let rays = rays.clamp(f64::from(FRESH_TRIAL_RAYS), FRESH_MOST_RAYS) as u32;
+        // With numbers of its own: who stopped at a small variance would report too small ones.
+        let gatherer = trial.with_rays(rays.next_power_of_two());
+        let (indirect_lx, variance) =
+            self.gather(gatherer, direct, (FRESH_REPLICATES, key.with(1)));
+        Illuminance {
+            indirect_lx,
+            indirect_standard_error_lx: variance.sqrt(),
+            samples: u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays),
+            ..stored
+        }
+    }
+
+    /// Mean over replicates and its variance.
+    fn gather(
+        &self,
+        gatherer: Gatherer,
+        direct: DirectAtEnds<'_>,
+        (replicates, key): (u32, Key),
+    ) -> (Rgb, f64) {
+        let gathering = Gathering {
+            scene: self.scene,
+            lighting: &self.lighting,
+            elements: &self.map.elements,
+            level: u32::MAX,
+            standings: &self.standings,
+            direct,
+        };
+        let rows = vec![gatherer; replicates as usize];
+        let values = gathering.operator(&rows, |k| key.with(k as u64)).apply(&self.light);
+        mean_and_variance(&values)
     }
 
     /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
@@ -109,7 +205,7 @@ impl<'a> MapReader<'a> {
         number: u64,
     ) -> Option<Illuminance> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
-        let at = self.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
+        let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
         let sequence = Sequence::new(place_key(at.point).with(number));
         let direct = self.lighting.sampled(&at, GLANCE_SAMPLES, &mut Dice::new(sequence, 0));
         Some(Illuminance {
@@ -122,10 +218,14 @@ impl<'a> MapReader<'a> {
     /// As [`MapReader::at`] at a point on a surface, on the side that `normal` points to. `None` where no
     /// surface that carries a known value lies within a ten-thousandth of the scene's extent.
     pub fn probe(&self, at: ProbePoint) -> Option<Illuminance> {
-        let surface = self.find_surface(at)?;
-        let SurfacePoint { triangle, back, u, v, .. } = surface;
-        let stored = self.map.interpolate(triangle, back, u, v)?;
-        Some(self.with_fresh_direct(stored, &self.pulled_in(surface)))
+        self.read(self.find_surface(at)?)
+    }
+
+    /// The same of the bare map, direct light interpolated, too. The standard error is that of
+    /// replicates alone.
+    pub fn interpolated(&self, at: ProbePoint) -> Option<Illuminance> {
+        let SurfacePoint { triangle, back, u, v, .. } = self.find_surface(at)?;
+        self.map.interpolate(triangle, back, u, v)
     }
 
     /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
@@ -133,23 +233,15 @@ impl<'a> MapReader<'a> {
     /// on a surface; in free space they are unknown and left out. The standard error counts the
     /// interpolation error and the bias of the map as if they were the same everywhere.
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
-        let on_surface = self.find_surface(at).map(|s| self.pulled_in(s));
+        let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
         let gatherer = on_surface
-            .map(|surface| Gatherer::on_surface(surface, settings.rays))
+            .map(|at| (at, trust::is_closed_in(self.scene, &at, self.longest_edge_m(&at))))
+            .map(|(at, in_gap)| Gatherer::on_surface(at, settings.rays).in_gap(in_gap))
             .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
-        let gathering = Gathering {
-            scene: self.scene,
-            lighting: &self.lighting,
-            elements: &self.map.elements,
-            level: u32::MAX,
-            known: &self.known,
-            direct: DirectAtEnds::Evaluated,
-        };
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);
-        let rows = vec![gatherer; replicates as usize];
-        let values = gathering.operator(&rows, |k| key.with(k as u64)).apply(&self.light);
-        let (indirect_lx, variance) = mean_and_variance(&values);
+        let (indirect_lx, variance) =
+            self.gather(gatherer, DirectAtEnds::Evaluated, (replicates, key));
         let looked_up = self.lookup_error() * indirect_lx.luminance();
         let indirect_variance = variance + looked_up * looked_up;
         let caustic_lx = on_surface
@@ -162,8 +254,18 @@ impl<'a> MapReader<'a> {
             indirect_lx,
             standard_error_lx: (indirect_variance + direct_variance).sqrt(),
             indirect_standard_error_lx: indirect_variance.sqrt(),
+            interpolation_error_lx: 0.0,
+            standing: Standing::Open,
             samples: u64::from(replicates) * u64::from(settings.rays),
         }
+    }
+
+    /// The surface at a point that carries the map.
+    fn find_surface(&self, at: ProbePoint) -> Option<SurfacePoint> {
+        self.places.surface_at(at, |surface| {
+            let SurfacePoint { triangle, back, u, v, .. } = *surface;
+            self.map.elements.locate(triangle, back, u, v).is_some()
+        })
     }
 
     /// What the map that gathering rays read may be off by, other than by noise, relative.
@@ -174,7 +276,8 @@ impl<'a> MapReader<'a> {
 
     fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {
         let (direct, variance) = self.direct(at);
-        let indirect = libm::hypot(stored.indirect_standard_error_lx, self.unseen_lx);
+        let unseen = libm::hypot(stored.interpolation_error_lx, self.unseen.bias_lx);
+        let indirect = libm::hypot(stored.indirect_standard_error_lx, unseen);
         Illuminance {
             direct_lx: direct + stored.caustic_lx,
             standard_error_lx: (indirect * indirect + variance).sqrt(),
@@ -186,63 +289,37 @@ impl<'a> MapReader<'a> {
     /// Direct light at a place and the variance of its mean.
     fn direct(&self, at: &SurfacePoint) -> (Rgb, f64) {
         let key = place_key(at.point);
+        if self.lighting.is_measured_once() {
+            let Measured { lx, variance } =
+                self.lighting.measured(at, Goal::READING, Sequence::new(key.with(0)));
+            return (lx, variance);
+        }
         let one = |replicate| {
             self.lighting.illuminance(at, &mut Dice::new(Sequence::new(key.with(replicate)), 0))
         };
-        if self.lighting.is_exact() {
-            return (one(0), 0.0);
-        }
         let values: Vec<Rgb> = (0..DIRECT_REPLICATES).map(one).collect();
         mean_and_variance(&values)
     }
+}
 
-    /// The surface at a point: straight below it, or, at the rim of a surface, just beside.
-    fn find_surface(&self, at: ProbePoint) -> Option<SurfacePoint> {
-        let (u, v) = at.normal.to_direction().frame();
-        let side = 0.1 * self.reach_m;
-        let beside = (0..8).map(|k| {
-            let (s, c) = libm::sincos(f64::from(k) * std::f64::consts::FRAC_PI_4);
-            u * (side * c) + v * (side * s)
-        });
-        std::iter::once(isolux_geometry::Vector::ZERO)
-            .chain(beside)
-            .find_map(|shift| self.surface_below(at.position + shift, at.normal))
-    }
-
-    fn surface_below(&self, point: Point, normal: Normal) -> Option<SurfacePoint> {
-        let down: Direction = -normal.to_direction();
-        let mut ray = Ray::new(point + normal * self.reach_m, down);
-        ray.t_max = 2.0 * self.reach_m as f32;
-        let hit = self.scene.bvh().closest_hit(&ray)?;
-        let surface = SurfacePoint::from_hit(self.scene, &hit);
-        let SurfacePoint { triangle, back, u, v, .. } = surface;
-        let carries = self.map.elements.locate(triangle, back, u, v).is_some();
-        // Sixty degrees: a surface that faces quite another way is not the one asked for.
-        (carries && surface.geometric.dot(normal) > 0.5).then_some(surface)
-    }
-
-    /// A place on the rim of a triangle, moved inwards beyond the rounding of coordinates, so that
-    /// it does not lie in the wall that meets it there.
-    fn pulled_in(&self, at: SurfacePoint) -> SurfacePoint {
-        let triangle = self.scene.triangle(at.triangle);
-        let inwards = triangle.centroid() - at.point;
-        let largest = at.point.to_vector();
-        let largest = largest.x.abs().max(largest.y.abs()).max(largest.z.abs());
-        let distance_m = 64.0 * f64::from(f32::EPSILON) * largest;
-        let near_rim = at.u.min(at.v).min(1.0 - at.u - at.v) * inwards.length() < distance_m;
-        match inwards.direction() {
-            Some(direction) if near_rim => {
-                SurfacePoint { point: at.point + direction * distance_m, ..at }
-            }
-            _ => at,
+impl Unseen {
+    /// As reported: shares of the root mean square of the light. (In proportion to the indirect light
+    /// fewer intervals hold the truth: dark edges err most.)
+    fn of(map: &IlluminationMap) -> Self {
+        let rms_lx = rms_lx(map);
+        let share = |part: fn(&Accuracy) -> f64| {
+            map.provenance.accuracy.as_ref().map_or(0.0, |accuracy| part(accuracy) * rms_lx)
+        };
+        Self {
+            discretization_lx: share(|a| a.discretization),
+            bias_lx: share(|a| a.bias),
+            reached_lx: share(|a| a.reached),
         }
     }
 }
 
-/// Discretization and bias as reported: a share of the root mean square of the light, evenly. (In
-/// proportion to the indirect light fewer intervals hold the truth: dark edges err most.)
-fn unseen_lx(map: &IlluminationMap) -> f64 {
-    let Some(accuracy) = map.provenance.accuracy else { return 0.0 };
+/// Root mean square of the illuminance over the known surface.
+fn rms_lx(map: &IlluminationMap) -> f64 {
     let (mut area_m2, mut squared) = (0.0, 0.0);
     for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
         let Some(value) = value else { continue };
@@ -250,18 +327,11 @@ fn unseen_lx(map: &IlluminationMap) -> f64 {
         area_m2 += vertex.area_m2;
         squared += vertex.area_m2 * lx * lx;
     }
-    let share = libm::hypot(accuracy.discretization, accuracy.bias);
-    if area_m2 > 0.0 { share * (squared / area_m2).sqrt() } else { 0.0 }
-}
-
-/// Random numbers belong to the place, so that neighbours are independent.
-fn place_key(point: Point) -> Key {
-    let place = [point.x, point.y, point.z];
-    place.iter().fold(Key::new(0).with(5), |key, c| key.with(c.to_bits()))
+    if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
 }
 
 /// Mean of independent values and variance of their photometric mean.
-fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
+pub(super) fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
     let n = values.len() as f64;
     let mean = values.iter().copied().sum::<Rgb>() / n;
     let squares: f64 = values.iter().map(|v| (*v - mean).luminance()).map(|d| d * d).sum();

@@ -346,6 +346,7 @@ impl<'s> Run<'s, '_> {
                 accuracy_target: self.request.accuracy,
                 complete: reached || self.request.accuracy.is_none(),
                 accuracy,
+                fresh: work.fresh(),
                 filter,
             },
         }

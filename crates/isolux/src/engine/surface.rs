@@ -1,5 +1,6 @@
 //! A place on one side of a surface.
 
+use crate::elements::Subdivision;
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
 
@@ -40,6 +41,26 @@ impl SurfacePoint {
             shading: if back { -shading } else { shading },
             away_m: scene.bvh().offset_m(point),
         }
+    }
+
+    /// A place of a node of a subdivision, for a point of the unit square, evenly over its area.
+    pub(super) fn in_node(
+        scene: &Scene,
+        subdivision: &Subdivision,
+        node: u32,
+        [a, b]: [f64; 2],
+    ) -> Self {
+        let (_, origin) = subdivision.node(node);
+        let root = a.sqrt();
+        let point = subdivision.triangle(node).point(root * (1.0 - b), root * b);
+        let [u, v] = scene.triangle(origin.triangle).barycentric(point);
+        Self::new(scene, origin.triangle, origin.back, u, v)
+    }
+
+    /// The middle of a node of a subdivision.
+    pub(super) fn amid_node(scene: &Scene, subdivision: &Subdivision, node: u32) -> Self {
+        // The point of the unit square that is taken to equal weights.
+        Self::in_node(scene, subdivision, node, [4.0 / 9.0, 0.5])
     }
 
     /// A place in space that faces a way.

@@ -12,6 +12,7 @@ use super::detail::leaf_errors;
 use super::gather::known_weights;
 use super::pilot::Plan;
 use super::surface::SurfacePoint;
+use crate::map::Standing;
 use crate::units::Rgb;
 use std::sync::atomic::{AtomicI64, Ordering};
 
@@ -60,7 +61,7 @@ impl<'p, 's> Tally<'p, 's> {
         let plan = self.plan;
         let place = plan.elements.locate_above(plan.level, at.triangle, at.back, at.u, at.v);
         let Some(corners) = place else { return };
-        let Some(weights) = known_weights(corners, &plan.known) else { return };
+        let Some(weights) = known_weights(corners, &plan.standings) else { return };
         for ((vertex, _), weight) in corners.into_iter().zip(weights) {
             let first = (vertex as usize * self.parts + part) * 3;
             for (channel, value) in flux_lm.0.into_iter().enumerate() {
@@ -104,21 +105,24 @@ impl<'p, 's> Tally<'p, 's> {
     }
 }
 
-/// Elements all of whose vertices are known, and their areas.
+/// Elements all of whose vertices are known and of one standing, and their areas.
 fn known_elements<'a>(plan: &'a Plan<'_>) -> impl Iterator<Item = ([u32; 3], f64)> + 'a {
     plan.subdivision.leaves().filter_map(|leaf| {
         let corners = plan.subdivision.node(leaf).0.vertices;
-        let known = corners.iter().all(|&v| plan.known[v as usize]);
+        let of = corners.map(|v| plan.standings[v as usize]);
+        let known = of[0].is_some() && of == [of[0]; 3];
         known.then(|| (corners, plan.subdivision.triangle(leaf).area()))
     })
 }
 
-/// Integrals of the hat functions, shared among the known vertices of each element.
+/// Integrals of the hat functions, shared among the vertices of each element that are read.
 fn hat_areas_m2(plan: &Plan) -> Vec<f64> {
     let mut areas = vec![0.0; plan.indirect_vertices];
     for leaf in plan.subdivision.leaves() {
         let corners = plan.subdivision.node(leaf).0.vertices;
-        let known: Vec<u32> = corners.into_iter().filter(|&v| plan.known[v as usize]).collect();
+        let standing = Standing::highest(corners.map(|v| plan.standings[v as usize]));
+        let read = |v: &u32| standing.is_some() && plan.standings[*v as usize] == standing;
+        let known: Vec<u32> = corners.into_iter().filter(read).collect();
         let share = plan.subdivision.triangle(leaf).area() / known.len().max(1) as f64;
         for v in known {
             areas[v as usize] += share;
@@ -149,7 +153,8 @@ fn blur_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let grey: Vec<Rgb> = values.iter().map(|&v| Rgb::grey(v)).collect();
     let blurred = tally.blur(&grey);
     let (mut area, mut sum) = (0.0, 0.0);
-    for (k, &m2) in tally.areas_m2.iter().enumerate().filter(|&(k, _)| plan.known[k]) {
+    for (k, &m2) in tally.areas_m2.iter().enumerate().filter(|&(k, _)| plan.standings[k].is_some())
+    {
         let change = values[k] - blurred[k].0[0];
         area += m2;
         // A vertex has half its weight in its own mean, its neighbours share the rest: noise of
@@ -162,9 +167,9 @@ fn blur_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
 /// Mean square of the interpolation error from the details of the means.
 fn detail_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let known: Vec<Option<f64>> =
-        values.iter().zip(&plan.known).map(|(&v, &known)| known.then_some(v)).collect();
+        (0..values.len()).map(|k| plan.is_open(k as u32).then_some(values[k])).collect();
     let (mut area, mut sum) = (0.0, 0.0);
-    for error in leaf_errors(&plan.subdivision, &plan.elements, &known) {
+    for error in leaf_errors(&plan.subdivision, &plan.elements, &known, |_| None, |_| false) {
         let corners = plan.subdivision.node(error.node).0.vertices;
         let noise: f64 = corners.iter().map(|&v| variances[v as usize]).sum::<f64>() / 3.0;
         area += error.area_m2;

@@ -1,7 +1,7 @@
 //! The increments on one mesh: an engine, what it has summed, and the map that makes.
 
 use super::accumulate::{Accumulator, Sample, Sums};
-use super::accuracy::{BELIEVED_INCREMENTS, accuracy, early_statistical};
+use super::accuracy::{BELIEVED_INCREMENTS, accuracy, early_statistical, lookup_lx};
 use super::checks::{self, Check, InterpolationErrors};
 use super::deadline::Deadline;
 use super::emission::Emission;
@@ -13,12 +13,18 @@ use super::predict;
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
 use super::tally;
-use crate::map::{Accuracy, FilterReport, Illuminance, Method};
+use super::trust;
+use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method};
 use crate::sampling::Key;
 use crate::units::Rgb;
 
-/// Increments before a run may stop at its accuracy: the estimates of single receivers need them.
-pub(super) const FEWEST_INCREMENTS: u64 = 16;
+/// Increments before a run may stop at its accuracy: as soon as it is believed. (Readings mix three
+/// vertices, whose spreads make one good enough: decision 12.)
+pub(super) const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
+
+/// Greatest factor between the interpolation error seen and that expected that is believed, either
+/// way: details tell the order at least.
+const MOST_OVER: f64 = 10.0;
 
 /// The increments on one mesh.
 pub(super) struct Work<'p, 's> {
@@ -104,14 +110,38 @@ impl<'p, 's> Work<'p, 's> {
         Some(effort.rays)
     }
 
-    pub(super) fn accuracy(&self) -> Option<Accuracy> {
-        if self.sums.increments < BELIEVED_INCREMENTS {
-            return None;
-        }
-        let interpolation = match self.engine {
+    fn interpolation(&self) -> InterpolationErrors {
+        match self.engine {
             Engine::Hybrid(_) => checks::errors(&self.checks.sums, &self.checks.points),
             Engine::Forward(_) => tally::errors(self.plan, &self.sums),
-        };
+        }
+    }
+
+    /// The factor by which elements err more than the pilot has expected.
+    fn over_expected(&self) -> f64 {
+        let seen = if self.is_believed() { self.interpolation().over_expected } else { None };
+        seen.map_or(1.0, |factor| factor.clamp(1.0 / MOST_OVER, MOST_OVER))
+    }
+
+    fn is_believed(&self) -> bool {
+        self.sums.increments >= BELIEVED_INCREMENTS
+    }
+
+    /// Where readers gather afresh.
+    pub(super) fn fresh(&self) -> Option<Fresh> {
+        if !self.is_believed() {
+            return None;
+        }
+        let limit_lx = self.plan.trusted_up_to_lx * self.over_expected();
+        let lookup_lx = lookup_lx(self.plan, &self.interpolation());
+        Some(Fresh { above_lx: limit_lx.is_finite().then_some(limit_lx), lookup_lx })
+    }
+
+    pub(super) fn accuracy(&self) -> Option<Accuracy> {
+        if !self.is_believed() {
+            return None;
+        }
+        let interpolation = self.interpolation();
         let given_up_lx = self.given_up.estimate(0).mean.direct.luminance();
         let errors = InterpolationErrors { given_up_lx, ..interpolation };
         accuracy(self.plan, &self.sums, &errors)
@@ -149,8 +179,12 @@ impl<'p, 's> Work<'p, 's> {
         &self,
         filtered: bool,
     ) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
-        let vertices = self.plan.known.len();
-        let mut values: Vec<Option<Illuminance>> = (0..vertices).map(|k| self.value(k)).collect();
+        let Plan { elements, subdivision, indirect_errors, .. } = self.plan;
+        let expected = trust::at_vertices(elements, subdivision, indirect_errors);
+        let over = self.over_expected();
+        let value = |(k, expected_lx): (usize, f64)| self.value(k, over * expected_lx);
+        let mut values: Vec<Option<Illuminance>> =
+            expected.into_iter().enumerate().map(value).collect();
         let by_particles = matches!(self.engine, Engine::Forward(_));
         let report = filtered.then(|| self.filter(&mut values, by_particles));
         values.iter_mut().flatten().for_each(without_negative_light);
@@ -184,18 +218,18 @@ impl<'p, 's> Work<'p, 's> {
         filtered.report
     }
 
-    fn value(&self, vertex: usize) -> Option<Illuminance> {
-        if !self.plan.known[vertex] {
-            return None;
-        }
+    fn value(&self, vertex: usize, interpolation_error_lx: f64) -> Option<Illuminance> {
+        let standing = self.plan.standings[vertex]?;
         let estimate = self.sums.estimate(vertex);
         let mean = estimate.mean;
         Some(Illuminance {
             direct_lx: mean.direct + mean.caustic,
             caustic_lx: mean.caustic,
             indirect_lx: mean.indirect,
-            standard_error_lx: estimate.variance.sqrt(),
+            standard_error_lx: (estimate.variance + self.plan.direct_variance[vertex]).sqrt(),
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
+            interpolation_error_lx,
+            standing,
             samples: self.sums.increments * u64::from(self.samples),
         })
     }

@@ -1,5 +1,6 @@
 //! One value of a map.
 
+use super::standing::Standing;
 use crate::units::Rgb;
 
 /// The illuminance at a place, in lux, with its uncertainty.
@@ -17,6 +18,12 @@ pub struct Illuminance {
     /// Standard error of the photometric indirect part and the caustics, without the rest of the
     /// direct light, lx.
     pub indirect_standard_error_lx: f64,
+    /// In a map: what interpolating the indirect part about a vertex is expected to err by, root mean
+    /// square over the worst element at it, lx. In a reading: what this one is expected to err by for
+    /// being interpolated, or for what rays gathered afresh have read close by.
+    pub interpolation_error_lx: f64,
+    /// What the vertex, or the vertices read, stand for.
+    pub standing: Standing,
     /// Samples behind the value (rays gathered or particles received).
     pub samples: u64,
 }
@@ -32,10 +39,15 @@ impl Illuminance {
         self.total_lx().luminance()
     }
 
-    /// The weighted mean over the known values; `None` where none is known. Standard errors are
-    /// combined as of independent values, which the vertices of an element are.
+    /// The weighted mean over the known values of the highest standing; `None` where none is known. Standard errors are
+    /// combined as of independent values, which the vertices of an element are; the interpolation error
+    /// of an element is the least of its vertices, which count all elements about them.
     pub fn mix<const N: usize>(parts: [(Option<Self>, f64); N]) -> Option<Self> {
-        let known = || parts.iter().filter_map(|(value, weight)| Some((value.as_ref()?, *weight)));
+        let standing = Standing::highest(parts.map(|(value, _)| value.map(|v| v.standing)))?;
+        let known = || {
+            let of_standing = |v: &&Self| v.standing == standing;
+            parts.iter().filter_map(move |(v, w)| Some((v.as_ref().filter(of_standing)?, *w)))
+        };
         let sum: f64 = known().map(|(_, weight)| weight).sum();
         // A place on the far edge of an element has weight only on its unknown vertices.
         let (scale, even) = if sum > 1e-9 {
@@ -44,16 +56,18 @@ impl Illuminance {
             (1.0 / known().count().max(1) as f64, true)
         };
         let weighted = || known().map(|(v, w)| (v, if even { scale } else { w * scale }));
-        weighted().next()?;
         let root_sum = |f: &dyn Fn(&Self) -> f64| {
             weighted().map(|(v, w)| (w * f(v)) * (w * f(v))).sum::<f64>().sqrt()
         };
+        let least = known().map(|(v, _)| v.interpolation_error_lx).fold(f64::INFINITY, f64::min);
         Some(Self {
             direct_lx: weighted().map(|(v, w)| v.direct_lx * w).sum(),
             caustic_lx: weighted().map(|(v, w)| v.caustic_lx * w).sum(),
             indirect_lx: weighted().map(|(v, w)| v.indirect_lx * w).sum(),
             standard_error_lx: root_sum(&|v| v.standard_error_lx),
             indirect_standard_error_lx: root_sum(&|v| v.indirect_standard_error_lx),
+            interpolation_error_lx: least,
+            standing,
             samples: weighted().map(|(v, _)| v.samples).sum(),
         })
     }

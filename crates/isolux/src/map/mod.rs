@@ -2,9 +2,11 @@
 
 mod illuminance;
 mod provenance;
+mod standing;
 
 pub use illuminance::Illuminance;
-pub use provenance::{Accuracy, FilterReport, Method, Provenance};
+pub use provenance::{Accuracy, FilterReport, Fresh, Method, Provenance};
+pub use standing::Standing;
 
 use crate::elements::Elements;
 
@@ -23,7 +25,8 @@ pub struct IlluminationMap {
 
 impl IlluminationMap {
     /// The map at barycentric weights `(1 - u - v, u, v)` of a triangle of the scene, on one side:
-    /// linear over the element there, over those of its vertices that are known. `None` where the
+    /// linear over the element there, over those of its vertices that are known and of the highest
+    /// standing. `None` where the
     /// side carries no map or none of them is known.
     pub fn interpolate(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         let corners = self.elements.locate(triangle, back, u, v)?;

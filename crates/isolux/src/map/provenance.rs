@@ -25,8 +25,21 @@ pub struct Provenance {
     pub complete: bool,
     /// How good the map is; `None` before the error could be believed.
     pub accuracy: Option<Accuracy>,
+    /// Where readers with the scene at hand gather indirect light afresh; `None` before the error could
+    /// be believed: then they interpolate.
+    pub fresh: Option<Fresh>,
     /// What the filter did; `None` where it was off.
     pub filter: Option<FilterReport>,
+}
+
+/// Where a map is not to be trusted, and what those know who gather there over it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fresh {
+    /// Where the interpolation error of an element is larger, lx; `None` if it is small enough
+    /// everywhere. (And everywhere that something stands nearer than the element is long.)
+    pub above_lx: Option<f64>,
+    /// What light is wrong by that comes from close by, where the map is not trusted either, lx.
+    pub lookup_lx: f64,
 }
 
 /// What the filter did to a map.
@@ -47,7 +60,7 @@ pub struct Accuracy {
     pub reached: f64,
     /// From the spread of independent replicates.
     pub statistical: f64,
-    /// From interpolating the indirect part between vertices.
+    /// From interpolating the indirect part between vertices, where readers do so.
     pub discretization: f64,
     /// Bound of the error common to all replicates: interpolated light at the ends of rays.
     pub bias: f64,

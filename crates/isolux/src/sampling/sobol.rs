@@ -22,6 +22,7 @@ impl Sequence {
 
     /// Dimensions `2 pair` and `2 pair + 1` of point `index`. Of pair 0, any aligned block of 2^k
     /// indices is a (0, k, 2)-net; of the others, the first 2^k indices are.
+    #[inline]
     pub const fn pair(self, index: u32, pair: u32) -> [f64; 2] {
         let key = self.key.with(pair as u64);
         let index = if pair == 0 { index } else { scramble(index, key.with(2).bits32()) };

@@ -15,13 +15,14 @@ impl CosineHemisphere {
         if x == 0.0 && y == 0.0 {
             return Vector::new(0.0, 0.0, 1.0);
         }
-        let (radius, angle) = if x.abs() > y.abs() {
-            (x, PI / 4.0 * (y / x))
+        // By an angle within 45 degrees of the nearest axis: no reduction of arguments.
+        let (x, y) = if x.abs() > y.abs() {
+            let (s, c) = libm::sincos(PI / 4.0 * (y / x));
+            (x * c, x * s)
         } else {
-            (y, PI / 2.0 - PI / 4.0 * (x / y))
+            let (s, c) = libm::sincos(PI / 4.0 * (x / y));
+            (y * s, y * c)
         };
-        let (s, c) = libm::sincos(angle);
-        let (x, y) = (radius * c, radius * s);
         Vector::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
     }
 

@@ -7,8 +7,25 @@ use super::tree::{Lamp, Node, Tree};
 use crate::engine::surface::SurfacePoint;
 use isolux_geometry::{Direction, Point, Vector};
 
-/// A cluster is taken as one if its radius is at most this share of its distance.
-const TIGHT: f64 = 0.4;
+/// Clusters are taken as one if their radius is at most this share of their distance.
+#[derive(Clone, Copy, Debug)]
+struct Tightness {
+    /// Clusters of few luminaires.
+    leaf: f64,
+    /// Clusters of clusters.
+    inner: f64,
+}
+
+impl Tightness {
+    /// Where one luminaire is to be drawn.
+    const ROUGH: Self = Self { leaf: 0.4, inner: 0.4 };
+    /// Where light is to be known.
+    const FINE: Self = Self { leaf: 0.3, inner: 0.15 };
+}
+
+/// Where a member of a cluster gives less than this share of what another gives, the cluster is
+/// expected to give no less than this share of what its table says.
+const UNEVEN: f64 = 0.25;
 
 /// A receiver as reflected by a chain of mirrors, back to where the luminaires are.
 pub(super) struct View<'a> {
@@ -55,13 +72,22 @@ pub(super) struct Cut<'a> {
 }
 
 impl Lighting<'_> {
-    /// What a receiver sees of the luminaires without surface and their images.
-    pub(super) fn cut(&self, at: &SurfacePoint) -> Cut<'_> {
+    /// What a receiver sees of the luminaires without surface and their images, to know their light.
+    pub(super) fn fine_cut(&self, at: &SurfacePoint) -> Cut<'_> {
+        self.cut(at, Tightness::FINE)
+    }
+
+    /// The same, to draw one of them.
+    pub(super) fn rough_cut(&self, at: &SurfacePoint) -> Cut<'_> {
+        self.cut(at, Tightness::ROUGH)
+    }
+
+    fn cut(&self, at: &SurfacePoint, tight: Tightness) -> Cut<'_> {
         let views: Vec<View> =
             (0..self.chains.len()).filter_map(|chain| self.view(chain, at)).collect();
         let mut seen = Vec::with_capacity(256);
         for (index, view) in views.iter().enumerate() {
-            view.cut(index, &mut seen);
+            view.cut(index, tight, &mut seen);
         }
         let total = seen.iter().map(|s| s.weight).sum();
         Cut { views, seen, total }
@@ -92,7 +118,7 @@ impl Lighting<'_> {
 
 impl View<'_> {
     /// Appends the tight clusters, and the lamps of leaves that are near.
-    fn cut(&self, index: usize, seen: &mut Vec<Seen>) {
+    fn cut(&self, index: usize, tight: Tightness, seen: &mut Vec<Seen>) {
         let mut take = |part: Part, weight: f64| {
             if weight > 0.0 {
                 seen.push(Seen { view: index, part, weight });
@@ -103,7 +129,8 @@ impl View<'_> {
         while let Some(number) = waiting.pop() {
             let node = &self.tree.nodes[number as usize];
             let to = node.centre - self.point;
-            if node.radius_m * node.radius_m <= TIGHT * TIGHT * to.length_squared() {
+            let share = if node.second.is_some() { tight.inner } else { tight.leaf };
+            if node.radius_m * node.radius_m <= share * share * to.length_squared() {
                 take(Part::Node(number), self.node_weight(node));
                 continue;
             }
@@ -120,14 +147,6 @@ impl View<'_> {
         }
     }
 
-    /// The weight of a part.
-    pub(super) fn weight(&self, part: Part) -> f64 {
-        match part {
-            Part::Node(node) => self.node_weight(&self.tree.nodes[node as usize]),
-            Part::Lamp(lamp) => self.lamp_weight(&self.tree.lamps[lamp as usize]),
-        }
-    }
-
     /// Whether nothing of a sphere is above the horizon and seen by way of the mirror.
     fn is_out_of_view(&self, to: Vector, node: &Node) -> bool {
         let radius_m = node.radius_m;
@@ -136,11 +155,27 @@ impl View<'_> {
             || self.window.as_ref().is_some_and(|w| !w.shows(self.point, node.centre, radius_m))
     }
 
+    /// What a cluster is expected to give: as its members do in the mean, unless these differ so much
+    /// that others may give light where they give none.
     fn node_weight(&self, node: &Node) -> f64 {
         let to = node.centre - self.point;
         if self.is_out_of_view(to, node) {
             return 0.0;
         }
+        let shares = node.members.map(|member| {
+            let lamp = &self.tree.lamps[member as usize];
+            self.lamp_weight(lamp) / lamp.peak_cd
+        });
+        let mean = node.peak_cd * shares.iter().sum::<f64>() / shares.len() as f64;
+        let highest = shares.into_iter().fold(0.0, f64::max);
+        if shares.iter().all(|&share| share > UNEVEN * highest) {
+            return mean;
+        }
+        mean.max(UNEVEN * self.weight_by_table(to, node))
+    }
+
+    /// What a cluster that may be in view may give, by its own table.
+    fn weight_by_table(&self, to: Vector, node: &Node) -> f64 {
         let radius_m = node.radius_m;
         // A cluster around the receiver: as if it were at the distance of its rim.
         let distance2 = to.length_squared().max(radius_m * radius_m).max(f64::MIN_POSITIVE);
@@ -173,7 +208,8 @@ impl View<'_> {
         Some(Reaching { local, per_cd: cos / to.length_squared() })
     }
 
-    fn lamp_weight(&self, lamp: &Lamp) -> f64 {
+    /// What a lamp is expected to give.
+    pub(super) fn lamp_weight(&self, lamp: &Lamp) -> f64 {
         let to = lamp.position - self.point;
         let height = self.shading.dot(to);
         if height <= 0.0
@@ -184,7 +220,7 @@ impl View<'_> {
         }
         let distance2 = to.length_squared();
         let kind = &self.tree.kinds[lamp.kind as usize];
-        let shape = self.tree.lobes.towards(kind.lobe, 0.0, turned(&kind.frame, -to));
+        let shape = self.tree.lobes.plain(kind.lobe, turned(&kind.frame, -to));
         self.reflectance * lamp.peak_cd * shape * height / (distance2 * distance2.sqrt())
     }
 }

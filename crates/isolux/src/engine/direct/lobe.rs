@@ -10,6 +10,9 @@ use crate::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux_geometry::{Direction, Vector};
 use std::collections::HashMap;
 
+/// Texels across of the table for luminaires one by one.
+const PLAIN_SIZE: usize = 64;
+
 /// Spreads that every table is made for: the plain texel, then neighbourhoods that double, then
 /// the whole sphere.
 const SPREADS: usize = 6;
@@ -35,6 +38,8 @@ const STRETCH: f64 = 1.5;
 #[derive(Debug, Default)]
 pub(super) struct Lobes {
     values: Vec<f32>,
+    /// For luminaires one by one.
+    plain: Vec<f32>,
     /// For tables of both sizes and every step, the neighbours of each texel.
     around: HashMap<(usize, i32), Vec<[u16; 9]>>,
 }
@@ -44,6 +49,8 @@ pub(super) struct Lobes {
 pub(super) struct Lobe {
     first: u32,
     size: u32,
+    /// Where its plain table starts; mixtures have none.
+    plain: u32,
 }
 
 impl Lobe {
@@ -75,7 +82,16 @@ impl Lobes {
         if let IntensityDistribution::Web(web) = intensity {
             texels.include_nodes(web, most_cd);
         }
-        self.push(texels)
+        let plain = self.plain.len() as u32;
+        let lobe = Lobe { plain, ..self.push(texels) };
+        for texel in 0..PLAIN_SIZE * PLAIN_SIZE {
+            let (i, j) = (texel % PLAIN_SIZE, texel / PLAIN_SIZE);
+            let place = |k: usize| (k as f64 + 0.5) / PLAIN_SIZE as f64;
+            let around = self.read(lobe, 0, direction_at(place(i), place(j)));
+            let mean = mean_of_corners(intensity, i, j) / most_cd;
+            self.plain.push(mean.max(LEAST_SHARE * around) as f32);
+        }
+        lobe
     }
 
     /// Adds the table of a mixture, in the frame of the world: parts by weight, each in its frame.
@@ -96,6 +112,12 @@ impl Lobes {
         }
         texels.highest.clone_from(&texels.means);
         self.push(texels)
+    }
+
+    /// The value of a distribution towards a direction of any length: its mean over a texel, but not
+    /// far below the highest about there.
+    pub(super) fn plain(&self, lobe: Lobe, local: Vector) -> f64 {
+        f64::from(self.plain[lobe.plain as usize + texel_of(local, PLAIN_SIZE)])
     }
 
     /// The value towards a direction of any length, of directions that spread about it by an angle of
@@ -151,7 +173,7 @@ impl Lobes {
             let value = |(&mean, &highest): (&f64, &f64)| mean.max(share * highest) as f32;
             self.values.extend(texels.means.iter().zip(&texels.highest).map(value));
         }
-        Lobe { first, size: texels.size as u32 }
+        Lobe { first, size: texels.size as u32, plain: u32::MAX }
     }
 }
 
@@ -216,6 +238,17 @@ fn sampled(intensity: &IntensityDistribution, i: usize, j: usize) -> (f64, f64) 
         highest = highest.max(cd);
     }
     (sum / (SAMPLES * SAMPLES) as f64, highest)
+}
+
+/// Mean intensity over a texel of a plain table, as a linear function of its corners and its middle, cd.
+fn mean_of_corners(intensity: &IntensityDistribution, i: usize, j: usize) -> f64 {
+    let at = |x: f64, y: f64| {
+        let place = |texel: usize, inside: f64| (texel as f64 + inside) / PLAIN_SIZE as f64;
+        let local = direction_at(place(i, x), place(j, y)).direction().unwrap_or(Direction::Z);
+        intensity.intensity_cd(local)
+    };
+    let corners = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (1.0, 1.0)];
+    0.5 * at(0.5, 0.5) + 0.125 * corners.iter().map(|&(x, y)| at(x, y)).sum::<f64>()
 }
 
 /// A vector turned into a frame given by its axes.

@@ -11,6 +11,7 @@ mod cut;
 mod kind;
 mod lobe;
 mod many;
+mod measured;
 mod mirrors;
 mod panes;
 mod source;
@@ -21,6 +22,7 @@ use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
+pub(super) use measured::{Goal, Measured};
 use mirrors::Mirrors;
 use panes::Panes;
 pub(super) use source::LuminaireId;
@@ -106,13 +108,13 @@ impl<'s> Lighting<'s> {
         self.sources.len()
     }
 
-    /// Whether direct light has an exact value at every point: no emitting surface, and few enough
-    /// luminaires to ask them all.
-    pub(super) fn is_exact(&self) -> bool {
-        self.area_sources == 0 && !self.has_many()
+    /// Whether direct light is measured once for all, exactly or with a known error: no emitting surface.
+    pub(super) fn is_measured_once(&self) -> bool {
+        self.area_sources == 0
     }
 
-    fn has_many(&self) -> bool {
+    /// Whether some luminaires are chosen to be looked at, among many.
+    pub(super) fn has_many(&self) -> bool {
         self.points > DRAWN_AT_RECEIVERS
     }
 
@@ -147,8 +149,16 @@ impl<'s> Lighting<'s> {
     /// Direct illuminance from all sources: exact for parallel light, and for points where they are
     /// few; sampled for emitting surfaces.
     pub(super) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        let samples = (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES);
-        self.sampled(at, samples, dice)
+        self.sampled(at, self.area_samples(), dice)
+    }
+
+    /// The same with a look at every source: what choosing among many is measured against.
+    pub(super) fn illuminance_by_all(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+        self.by_all(at, self.area_samples(), dice)
+    }
+
+    fn area_samples(&self) -> usize {
+        (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES)
     }
 
     /// The same with `samples` shadow rays for every emitting surface.
@@ -156,11 +166,11 @@ impl<'s> Lighting<'s> {
         if !self.has_many() {
             return self.by_all(at, samples, dice);
         }
-        let points = self.lit_by_many(&self.cut(at), at, RAYS_TO_MANY, dice);
+        let points = self.lit_by_many(&self.fine_cut(at), at, RAYS_TO_MANY, dice);
         self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
     }
 
-    /// The same with a look at every source: what choosing among many is measured against.
+    /// [`Lighting::sampled`] with a look at every source.
     pub(super) fn by_all(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
         self.sources.iter().map(|s| self.lit_by(s, at, samples, dice)).sum()
     }
@@ -175,7 +185,7 @@ impl<'s> Lighting<'s> {
             let is_in_view = |target| self.chain_is_in_view(&source.chain, at, target);
             source::importance(self.scene, source, at, is_in_view)
         };
-        let cut = (!self.tree.lamps.is_empty()).then(|| self.cut(at));
+        let cut = (!self.tree.lamps.is_empty()).then(|| self.rough_cut(at));
         let of_tree = cut.as_ref().map_or(0.0, |cut| cut.total);
         let weights: Vec<f64> = self.others().map(weight).collect();
         let total: f64 = of_tree + weights.iter().sum::<f64>();
@@ -217,7 +227,8 @@ impl<'s> Lighting<'s> {
         let Some(arriving) = source::unoccluded_if(self.scene, source, at, in_view) else {
             return Rgb::BLACK;
         };
-        arriving.illuminance_lx * self.visibility(&source.chain, at, arriving.target, None)
+        let share = self.visibility_in_view(&source.chain, at, arriving.target, None);
+        arriving.illuminance_lx * share
     }
 }
 

@@ -10,6 +10,9 @@ use isolux_geometry::Point;
 /// Luminaires of a leaf at most.
 const GROUP: usize = 16;
 
+/// Luminaires that a cluster is judged by.
+const MEMBERS: usize = 4;
+
 /// Clusters of at most so many are divided by kind before they are divided in space, if the most
 /// frequent kind has a share that is not below one in so many.
 const SMALL: usize = 128;
@@ -39,6 +42,8 @@ pub(super) struct Node {
     /// Its lamps.
     pub(super) first: u32,
     pub(super) count: u32,
+    /// Some of them, each for an equal part of their power.
+    pub(super) members: [u32; MEMBERS],
     /// The second of its halves; the first follows it. None for a leaf.
     pub(super) second: Option<u32>,
 }
@@ -84,14 +89,31 @@ impl Tree {
         if !tree.lamps.is_empty() {
             tree.build(0, tree.lamps.len());
         }
-        let mut sum_cd = 0.0;
-        tree.peak_sums_cd = std::iter::once(0.0)
-            .chain(tree.lamps.iter().map(|l| {
-                sum_cd += l.peak_cd;
-                sum_cd
-            }))
-            .collect();
+        tree.sum_up();
         tree
+    }
+
+    /// Running sums, and the members that they tell.
+    fn sum_up(&mut self) {
+        let mut sum_cd = 0.0;
+        let sums_cd = self.lamps.iter().map(|l| {
+            sum_cd += l.peak_cd;
+            sum_cd
+        });
+        self.peak_sums_cd = std::iter::once(0.0).chain(sums_cd).collect();
+        for index in 0..self.nodes.len() {
+            let node = &self.nodes[index];
+            let places = std::array::from_fn(|k| (k as f64 + 0.5) / MEMBERS as f64);
+            self.nodes[index].members = places.map(|place| self.member(node, place));
+        }
+    }
+
+    /// The lamp of a cluster at a place from 0 to 1 of its power.
+    pub(super) fn member(&self, node: &Node, place: f64) -> u32 {
+        let (first, end) = (node.first as usize, (node.first + node.count) as usize);
+        let sums_cd = &self.peak_sums_cd[first..=end];
+        let (from_cd, to_cd) = (sums_cd[0], sums_cd[sums_cd.len() - 1]);
+        (first + place_in(sums_cd, from_cd + (to_cd - from_cd) * place)) as u32
     }
 
     /// Appends the cluster of a range of lamps and its parts.
@@ -106,6 +128,7 @@ impl Tree {
             peak_cd: 0.0,
             first: first as u32,
             count: (end - first) as u32,
+            members: [first as u32; MEMBERS],
             second: None,
         });
         if end - first > GROUP {
@@ -149,6 +172,17 @@ impl Tree {
         let node = &mut self.nodes[index];
         (node.lobe, node.kind, node.peak_cd) = (lobe, kind, peak_cd);
     }
+}
+
+/// The interval of running sums that a sum lies in: where it lies if all are alike, else searched for.
+fn place_in(sums: &[f64], sum: f64) -> usize {
+    let last = sums.len() - 2;
+    let share = (sum - sums[0]) / (sums[last + 1] - sums[0]);
+    let guess = ((share * (last + 1) as f64) as usize).min(last);
+    if sums[guess] <= sum && sum < sums[guess + 1] {
+        return guess;
+    }
+    sums.partition_point(|&s| s <= sum).clamp(1, last + 1) - 1
 }
 
 /// Puts the lower half along an axis first; returns how many that are.

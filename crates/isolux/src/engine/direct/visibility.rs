@@ -25,6 +25,17 @@ impl Lighting<'_> {
         if !self.chain_is_in_view(chain, at, target) {
             return Rgb::BLACK;
         }
+        self.visibility_in_view(chain, at, target, emitter)
+    }
+
+    /// The same where the chain is known to be in view.
+    pub(super) fn visibility_in_view(
+        &self,
+        chain: &[u32],
+        at: &SurfacePoint,
+        target: Target,
+        emitter: Option<u32>,
+    ) -> Rgb {
         let mut from = *at;
         let mut target = target;
         let mut share = Rgb::WHITE;

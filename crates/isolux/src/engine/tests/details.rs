@@ -15,7 +15,7 @@ fn patch(edge_m: f64) -> Subdivision {
 fn errors_of(subdivision: &Subdivision, f: impl Fn(Point) -> Option<f64>) -> Vec<LeafError> {
     let elements = subdivision.elements();
     let values: Vec<Option<f64>> = elements.vertices().iter().map(|v| f(v.position)).collect();
-    leaf_errors(subdivision, &elements, &values)
+    leaf_errors(subdivision, &elements, &values, |_| None, |_| false)
 }
 
 /// Root mean square over the surface.
@@ -45,7 +45,7 @@ fn true_rms(subdivision: &Subdivision, f: impl Fn(Point) -> f64) -> f64 {
 }
 
 fn until(least_edge_m: f64, max_vertices: usize) -> Refinement {
-    Refinement { most_error: f64::INFINITY, wanted: 0.0, least_edge_m, max_vertices }
+    Refinement { wanted: 0.0, least_edge_m, max_vertices }
 }
 
 #[test]

@@ -209,10 +209,10 @@ fn a_surface_of_many_triangles_is_the_surface() {
 }
 
 #[test]
-fn what_is_exact_and_what_is_not() {
+fn surfaces_are_measured_again_and_again() {
     let lamp = || vec![isotropic([0.0, 0.0, 2.0], 10.0)];
-    assert!(Lighting::new(&over_floor(vec![], lamp())).is_exact());
-    assert!(!Lighting::new(&over_floor(vec![panel(1.0)], lamp())).is_exact());
+    assert!(Lighting::new(&over_floor(vec![], lamp())).is_measured_once());
+    assert!(!Lighting::new(&over_floor(vec![panel(1.0)], lamp())).is_measured_once());
     assert_eq!(Lighting::new(&over_floor(vec![panel(1.0)], lamp())).source_count(), 2);
     assert!(!Lighting::new(&over_floor(vec![], lamp())).leaves_caustics());
 }

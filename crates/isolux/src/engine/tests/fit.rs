@@ -55,13 +55,26 @@ fn planes_are_left_alone() {
 }
 
 /// A concave function: its interpolation is too small everywhere. A fit has no mean error and 0.42 of
-/// the scatter but at the borders of the floor, which keep their values: a fifth of its elements.
+/// the scatter.
 #[test]
 fn what_is_concave_is_not_too_dark() {
     let [[mean, rms], [fitted_mean, fitted_rms]] = fitted(|p| 9.0 - p.x * p.x - 0.7 * p.y * p.y);
     assert!(mean < -0.5 * rms);
     assert!(fitted_mean.abs() < 0.2 * mean.abs(), "{fitted_mean} of {mean}");
     assert!(fitted_rms < 0.65 * rms, "{fitted_rms} of {rms}");
+}
+
+/// Across a jump second differences are no curvature: no value leaves the range of those about it by
+/// more than the bound, and light does not become negative by more than that.
+#[test]
+fn jumps_are_not_overshot() {
+    let (_, elements) = floor();
+    let vertices = elements.vertices();
+    let value = |p: Point| if p.x + 0.3 * p.y > 1.3 { 100.0 } else { 0.0 };
+    let values: Vec<Rgb> = vertices.iter().map(|v| Rgb::grey(value(v.position))).collect();
+    let fitted = Fit::new(&elements, vertices.len(), &vec![true; vertices.len()]).apply(&values);
+    assert!(fitted.iter().all(|v| (-25.0..=125.0).contains(&v.luminance())));
+    assert!(fitted != values);
 }
 
 /// Nothing is known of hidden vertices: their elements and those beside them tell nothing.

@@ -4,6 +4,7 @@ use super::*;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::direct::Lighting;
 use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, Operator, known_weights};
+use crate::map::Standing;
 use std::f64::consts::PI;
 
 fn elements_of(scene: &Scene, rays: u32) -> (Elements, Vec<Gatherer>) {
@@ -17,14 +18,14 @@ fn elements_of(scene: &Scene, rays: u32) -> (Elements, Vec<Gatherer>) {
 /// The operator of a scene over its own vertices, direct light read from the map.
 fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer]) -> Operator {
     let lighting = Lighting::new(scene);
-    let known = vec![true; elements.vertices().len()];
-    let black = vec![Rgb::BLACK; known.len()];
+    let standings = vec![Some(Standing::Open); elements.vertices().len()];
+    let black = vec![Rgb::BLACK; standings.len()];
     let gathering = Gathering {
         scene,
         lighting: &lighting,
         elements,
         level: u32::MAX,
-        known: &known,
+        standings: &standings,
         direct: DirectAtEnds::Read { values: &black, level: u32::MAX },
     };
     gathering.operator(gatherers, |k| Key::new(1).with(k as u64))
@@ -133,11 +134,16 @@ fn receivers_shut_in_by_black_backs_are_not_open() {
 #[test]
 fn weights_go_to_what_is_known() {
     let corners = [(0, 0.2), (1, 0.3), (2, 0.5)];
+    let [rim, gap, open] = Standing::ALL.map(Some);
     for (known, expected) in [
-        ([true, true, true], Some([0.2, 0.3, 0.5])),
-        ([true, true, false], Some([0.4, 0.6, 0.0])),
-        ([false, false, true], Some([0.0, 0.0, 1.0])),
-        ([false, false, false], None),
+        ([open, open, open], Some([0.2, 0.3, 0.5])),
+        ([open, open, None], Some([0.4, 0.6, 0.0])),
+        ([open, open, gap], Some([0.4, 0.6, 0.0])),
+        ([gap, rim, open], Some([0.0, 0.0, 1.0])),
+        ([gap, gap, rim], Some([0.4, 0.6, 0.0])),
+        ([rim, rim, rim], Some([0.2, 0.3, 0.5])),
+        ([None, None, rim], Some([0.0, 0.0, 1.0])),
+        ([None, None, None], None),
     ] {
         let found = known_weights(corners, &known);
         assert_eq!(found.is_some(), expected.is_some());
@@ -147,5 +153,5 @@ fn weights_go_to_what_is_known() {
     }
     // On the edge of two unknown vertices the third is all there is.
     let far = [(0, 0.0), (1, 0.4), (2, 0.6)];
-    assert_eq!(known_weights(far, &[true, false, false]), Some([1.0, 0.0, 0.0]));
+    assert_eq!(known_weights(far, &[open, None, None]), Some([1.0, 0.0, 0.0]));
 }

@@ -1,7 +1,7 @@
 //! Many luminaires by few shadow rays, against all of them one by one.
 
 use super::*;
-use crate::engine::direct::Lighting;
+use crate::engine::direct::{Goal, Lighting, Measured};
 use crate::engine::gather::Gatherer;
 use crate::engine::surface::SurfacePoint;
 use crate::photometry::PhotometricWeb;
@@ -112,14 +112,14 @@ const TRIALS: u64 = 1000;
 #[test]
 fn many_luminaires_by_few_rays_are_unbiased() {
     let scene = hall(600);
-    assert!(!Lighting::new(&scene).is_exact());
+    assert!(Lighting::new(&scene).has_many());
     let estimate =
         |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| lighting.illuminance(at, dice);
     let (largest, spread) = deviation(&scene, estimate, receivers(40));
     assert!(largest < SIGMAS, "{largest} standard errors");
-    // Measured 0.14 to 0.15 on a hall like this; a look at sixteen drawn without a comb, of which half are
-    // hidden, spreads by a quarter.
-    assert!(spread < 0.2, "{spread}");
+    // Measured 0.45: half of the luminaires are turned any way, and a quarter have beams narrower than what
+    // tells how likely they are to be drawn.
+    assert!(spread < 0.6, "{spread}");
 }
 
 #[test]
@@ -130,3 +130,39 @@ fn one_luminaire_of_many_is_unbiased() {
     let (largest, _) = deviation(&scene, estimate, receivers(40));
     assert!(largest < SIGMAS, "{largest} standard errors");
 }
+
+/// Root mean square errors, relative: of measurements, as they say, and of their means at a place.
+fn errors(scene: &Scene, goal: Goal) -> [f64; 3] {
+    let lighting = Lighting::new(scene);
+    let mut squared = [0.0; 3];
+    for (k, at) in receivers(PLACES).enumerate() {
+        let exact = lighting.by_all(&at, 1, &mut dice(0)).luminance();
+        let key = Key::new(7).with(k as u64);
+        let measured = |seed: u64| lighting.measured(&at, goal, Sequence::new(key.with(seed)));
+        let values: Vec<Measured> = (0..MEASURED).map(measured).collect();
+        let error = |m: &Measured| m.lx.luminance() / exact - 1.0;
+        let mean =
+            |of: &dyn Fn(&Measured) -> f64| values.iter().map(of).sum::<f64>() / MEASURED as f64;
+        squared[0] += mean(&|m| error(m) * error(m));
+        squared[1] += mean(&|m| m.variance / (exact * exact));
+        squared[2] += mean(&error) * mean(&error);
+    }
+    squared.map(|s| (s / PLACES as f64).sqrt())
+}
+
+#[test]
+fn measured_light_is_as_near_as_it_says() {
+    let scene = hall(3000);
+    let [_, said_at_once, _] = errors(&scene, Goal::ANY);
+    let [found, said, of_means] = errors(&scene, Goal::READING);
+    // Their squares at 30 places spread by the root of 2 / 30, a quarter: here of three times that.
+    let expected = found / (MEASURED as f64).sqrt();
+    assert!(of_means < 1.32 * expected, "{of_means} for {expected}");
+    // The combs of a measurement interleave: their mean is nearer than independent ones would be.
+    assert!(found < said && said < 2.0 * found, "{found}, said {said}");
+    assert!(said < 0.5 * said_at_once, "{said} after {said_at_once}");
+}
+
+/// Places, and measurements of each.
+const PLACES: u64 = 30;
+const MEASURED: u64 = 50;

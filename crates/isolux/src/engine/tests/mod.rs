@@ -13,6 +13,7 @@ mod gloss;
 mod many;
 mod mirrors;
 mod sums;
+mod trusting;
 
 use super::path::Dice;
 use crate::photometry::IntensityDistribution;

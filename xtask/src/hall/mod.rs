@@ -1,5 +1,10 @@
-//! The bench of the practical scene: time to an accuracy against triangles and luminaires.
+//! The bench of the practical scene: time to an accuracy against triangles and luminaires, and the
+//! true error of maps against a reference.
 
+mod reference;
+mod truth;
+
+use reference::{Kind, Place};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -16,6 +21,9 @@ const VARIANTS: [(u32, u32); 7] = [
 ];
 const QUICK: [(u32, u32); 3] = [(10_000, 2626), (100_000, 2626), (10_000, 100)];
 
+/// Luminaires of the reference; dividing surfaces changes no light.
+const REFERENCE_LUMINAIRES: u32 = 2626;
+
 /// What is asked of every run.
 struct Effort<'a> {
     accuracy: &'a str,
@@ -27,6 +35,9 @@ struct Effort<'a> {
 /// Solves every variant and prints a table, or JSON.
 pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
     let is_set = |flag: &str| arguments.contains(&flag);
+    if arguments == ["--reference"] {
+        return reference::make(root);
+    }
     let is_quick = is_set("--quick");
     let default = if is_quick { ("10%", "60s") } else { ("1%", "600s") };
     let effort = Effort {
@@ -37,15 +48,32 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
     refuse_unknown(arguments)?;
     let folder = root.join("target").join("hall");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let variants = if is_quick { &QUICK[..] } else { &VARIANTS[..] };
+    let variants = match (is_set("--standard"), is_quick) {
+        (true, _) => &VARIANTS[..1],
+        (false, true) => &QUICK[..],
+        (false, false) => &VARIANTS[..],
+    };
+    let places = reference::read(root)?;
     let mut rows = Vec::new();
     for &(triangles, luminaires) in variants {
         let scene = format!("builtin:hall,triangles={triangles},luminaires={luminaires}");
         eprintln!("{scene} to {} within {}", effort.accuracy, effort.time_limit);
-        let solved = solve(root, &scene, &folder.join("map.glb"), &effort)?;
-        rows.push(row(triangles, luminaires, &solved));
+        let map = folder.join("map.glb");
+        let solved = solve(root, &scene, &map, &effort)?;
+        let mut row = row(triangles, luminaires, &solved);
+        if luminaires == REFERENCE_LUMINAIRES {
+            row["true_errors"] = true_errors(root, &map, triangles, &places)?;
+        }
+        rows.push(row);
     }
     Ok(if is_set("--json") { format!("{:#}", Value::Array(rows)) } else { table(&rows) })
+}
+
+/// Corners of triangles are vertices of the standard division alone.
+fn true_errors(root: &Path, map: &Path, triangles: u32, places: &[Place]) -> Result<Value, String> {
+    let is_standard = triangles == VARIANTS[0].0;
+    let kinds: &[Kind] = if is_standard { &[Kind::Area, Kind::Corner] } else { &[Kind::Area] };
+    truth::errors(root, map, places, kinds)
 }
 
 /// The word after a flag.
@@ -56,7 +84,8 @@ fn value_of<'a>(arguments: &[&'a str], flag: &str) -> Result<Option<&'a str>, St
 }
 
 fn refuse_unknown(arguments: &[&str]) -> Result<(), String> {
-    const FLAGS: [&str; 5] = ["--quick", "--json", "--accuracy", "--time-limit", "--threads"];
+    const FLAGS: [&str; 6] =
+        ["--quick", "--standard", "--json", "--accuracy", "--time-limit", "--threads"];
     let unknown = arguments.iter().find(|a| a.starts_with("--") && !FLAGS.contains(a));
     unknown
         .map_or(Ok(()), |a| Err(format!("bench hall: no flag {a}; there are {}", FLAGS.join(" "))))
@@ -81,7 +110,7 @@ fn solve(root: &Path, scene: &str, map: &Path, effort: &Effort) -> Result<Value,
     serde_json::from_slice(&output.stdout).map_err(|e| format!("isolux solve {scene}: {e}"))
 }
 
-/// What counts of a run. Accuracies are what the run says of itself.
+/// What counts of a run, as the run says of itself.
 fn row(triangles: u32, luminaires: u32, solved: &Value) -> Value {
     let mut row = json!({ "triangles": triangles, "luminaires": luminaires });
     for key in [
@@ -122,6 +151,10 @@ fn table(rows: &[Value]) -> String {
             row["receivers"],
             row["rays"].as_f64().unwrap_or(f64::NAN) * 1e-6,
         );
+    }
+    for row in rows.iter().filter(|row| !row["true_errors"].is_null()) {
+        text += &format!("\n{} triangles against the reference:\n", row["triangles"]);
+        text += &truth::text(&row["true_errors"]);
     }
     text
 }

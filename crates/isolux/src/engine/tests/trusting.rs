@@ -1,0 +1,97 @@
+//! Where maps are to be trusted.
+
+use super::*;
+use crate::elements::Subdivision;
+use crate::engine::detail::LeafError;
+use crate::engine::surface::SurfacePoint;
+use crate::engine::trust;
+
+fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
+    let error = |(node, &(area_m2, error)): (usize, &(f64, f64))| LeafError {
+        node: node as u32,
+        area_m2,
+        error,
+        is_beset: false,
+    };
+    of.iter().enumerate().map(error).collect()
+}
+
+#[test]
+fn the_worst_are_left_out_until_the_rest_is_good() {
+    let all = errors(&[(1.0, 8.0), (6.0, 1.0), (2.0, 4.0), (1.0, 4.0)]);
+    // Squares over 10 m2: 64, 6, 32 and 16.
+    for (name, goal, most_share, expected) in [
+        ("good as it is", 3.5, 1.0, f64::INFINITY),
+        ("one is enough", 2.4, 1.0, 0.5 * (8.0 + 4.0)),
+        ("all but the good ones", 0.8, 1.0, 0.5 * (4.0 + 1.0)),
+        ("no more than a part of the area", 0.8, 0.15, 0.5 * (8.0 + 4.0)),
+        ("none of it", 0.8, 0.05, f64::INFINITY),
+    ] {
+        assert_eq!(trust::limit(&all, goal, most_share), expected, "{name}");
+    }
+    let rest = trust::error_of(&all, |e| e.error < 2.5);
+    assert!((rest - 0.6_f64.sqrt()).abs() < 1e-15, "the good ones over the whole area: {rest}");
+    assert_eq!(trust::limit(&[], 1.0, 1.0), f64::INFINITY);
+    let beset: Vec<LeafError> = all.iter().map(|&e| LeafError { is_beset: true, ..e }).collect();
+    assert_eq!(trust::limit(&beset, 0.8, 1.0), f64::INFINITY, "nobody trusts them anyway");
+}
+
+/// Files keep errors at vertices; the least over an element's vertices is never less than its own,
+/// and untouched elements have none.
+#[test]
+fn errors_at_vertices_bound_those_of_elements() {
+    let shape = rectangle([0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], 0);
+    let scene = scene(vec![shape], vec![painted(Rgb::WHITE)], vec![]);
+    let mut coarse = Subdivision::new(&scene);
+    coarse.bisect_to(1.0, 1 << 20);
+    let left = |node: u32| coarse.triangle(node).centroid().x < 2.0;
+    let error = |node: u32| LeafError {
+        node,
+        area_m2: coarse.triangle(node).area(),
+        error: if left(node) { 1.0 + f64::from(node) } else { 0.0 },
+        is_beset: false,
+    };
+    let errors: Vec<LeafError> = coarse.leaves().map(error).collect();
+    let mut fine = coarse.clone();
+    fine.bisect_to(0.3, 1 << 20);
+    let elements = fine.elements();
+    let at = trust::at_vertices(&elements, &coarse, &errors);
+    let mut compared = 0;
+    for error in &errors {
+        elements.visit_below(error.node, &mut |corners| {
+            let least = corners.iter().map(|&v| at[v as usize]).fold(f64::INFINITY, f64::min);
+            assert!(least >= error.error);
+            compared += 1;
+        });
+    }
+    assert!(compared > 4 * errors.len());
+    for (vertex, &error) in elements.vertices().iter().zip(&at) {
+        assert_eq!(error > 0.0, vertex.position.x <= 2.0, "{:?}", vertex.position);
+    }
+}
+
+/// A cupboard 1 mm before a wall: its back and the wall behind it are closed in, the wall beside it,
+/// an edge of the room and the floor before it are not.
+#[test]
+fn gaps_are_closed_in_and_edges_are_not() {
+    let cupboard = rectangle([1.0, 0.001, 1.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], 0);
+    let mut shapes = inward_box([4.0, 4.0, 3.0], 0);
+    let wall = 2 * 3;
+    shapes.push(cupboard);
+    let scene = scene(shapes, vec![painted(Rgb::WHITE)], vec![]);
+    let closed = |triangle: u32, [x, y, z]: [f64; 3]| {
+        let [u, v] = scene.triangle(triangle).barycentric(Point::new(x, y, z));
+        trust::is_closed_in(&scene, &SurfacePoint::new(&scene, triangle, false, u, v), 0.5)
+    };
+    let wall_at = |x: f64, z: f64| {
+        let near = |t: &u32| {
+            let [u, v] = scene.triangle(*t).barycentric(Point::new(x, 0.0, z));
+            u.min(v).min(1.0 - u - v) >= 0.0
+        };
+        let triangle = (wall..wall + 2).find(near).unwrap();
+        closed(triangle, [x, 0.0, z])
+    };
+    assert!(wall_at(1.4, 1.5), "behind the cupboard");
+    assert!(!wall_at(3.0, 1.5), "beside it");
+    assert!(!wall_at(3.0, 1e-3), "at the edge to the floor");
+}

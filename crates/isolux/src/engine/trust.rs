@@ -1,0 +1,158 @@
+//! Where the interpolated light of a map is to be trusted, and where readers gather afresh.
+//!
+//! Most of the interpolation error of indirect light lies in little of the area: along edges, at
+//! contacts, on small surfaces between furniture. To resolve it takes elements without end; a reader
+//! with the scene at hand looks there with a few hundred rays of its own. A map therefore keeps the
+//! error expected of every element, and above which of them it is not to be trusted.
+
+use super::detail::LeafError;
+use super::path::Dice;
+use super::surface::SurfacePoint;
+use crate::elements::{Elements, Subdivision};
+use crate::map::Standing;
+use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::scene::Scene;
+use isolux_geometry::Ray;
+use rayon::prelude::*;
+
+/// Rays that look for something before a place.
+const FEELERS: u32 = 16;
+
+/// How many of them must meet it in a gap: at an edge of a room half of them do, behind a cupboard all.
+const CLOSED: u32 = 13;
+
+/// How far they look, as a share of the longest edge of the element: what is nearer than that
+/// changes light from place to place in ways that its vertices do not tell.
+pub(super) const NEAR: f64 = 0.25;
+
+/// How many must meet something as near as the element is long for its vertices not to tell what light
+/// comes between them.
+const BESET: u32 = 3;
+
+/// The error above which elements are left out, so that what the others err by in the mean square
+/// over the surface is at most `goal`, or so that they make up no more than `most_share` of the area.
+/// Infinite if none need be left out. Those that are beset are not counted: no reader trusts them.
+pub(super) fn limit(errors: &[LeafError], goal: f64, most_share: f64) -> f64 {
+    let area_m2: f64 = errors.iter().map(|e| e.area_m2).sum();
+    let mut worst: Vec<&LeafError> = errors.iter().filter(|e| !e.is_beset).collect();
+    worst.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.node.cmp(&b.node)));
+    let mut left: f64 = worst.iter().map(|e| e.squared()).sum();
+    let (mut out_m2, mut worst_left_out) = (0.0, None);
+    for error in worst {
+        let is_enough = left <= goal * goal * area_m2;
+        if is_enough || out_m2 + error.area_m2 > most_share * area_m2 {
+            // Between the two, so that rounding does not take one for the other.
+            return worst_left_out.map_or(f64::INFINITY, |out: f64| 0.5 * (out + error.error));
+        }
+        out_m2 += error.area_m2;
+        left -= error.squared();
+        worst_left_out = Some(error.error);
+    }
+    f64::INFINITY
+}
+
+/// Root mean square over all the surface of the errors of some elements.
+pub(super) fn error_of(errors: &[LeafError], some: impl Fn(&LeafError) -> bool) -> f64 {
+    let area_m2: f64 = errors.iter().map(|e| e.area_m2).sum();
+    let squared: f64 = errors.iter().filter(|e| some(e)).map(LeafError::squared).sum();
+    if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
+}
+
+/// Errors at the vertices: of the worst element at each, so that the least over an element's
+/// vertices is its own error or more. Elements have that of the coarser one they are part of.
+pub(super) fn at_vertices(
+    elements: &Elements,
+    coarse: &Subdivision,
+    errors: &[LeafError],
+) -> Vec<f64> {
+    let mut worst = vec![0.0_f64; elements.vertices().len()];
+    for error in errors {
+        debug_assert!(coarse.node(error.node).0.split.is_none(), "errors are those of elements");
+        elements.visit_below(error.node, &mut |corners| {
+            for vertex in corners {
+                let worst = &mut worst[vertex as usize];
+                *worst = worst.max(error.error);
+            }
+        });
+    }
+    worst
+}
+
+/// Whether something stands so close before a place that an element of such edges cannot tell what
+/// light comes there: in the gap between a cupboard and its wall, on the ceiling above a column.
+pub(super) fn is_closed_in(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> bool {
+    is_met(scene, at, NEAR * longest_edge_m, CLOSED)
+}
+
+/// Whether there is something before a place that is as near as an element of such edges is long.
+pub(super) fn is_beset(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> bool {
+    is_met(scene, at, longest_edge_m, BESET)
+}
+
+/// The share of what is seen at a place that is as near as an element of such edges is long.
+pub(super) fn nearness(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> f64 {
+    let feeler = feeler(scene, at, longest_edge_m);
+    (0..FEELERS).filter(|&index| feeler(index)).count() as f64 / f64::from(FEELERS)
+}
+
+/// Whether that is enough for a place to be beset.
+pub(super) fn besets(nearness: f64) -> bool {
+    nearness * f64::from(FEELERS) >= f64::from(BESET)
+}
+
+/// Whether the rays that feel about before a place meet something within reach.
+fn feeler<'a>(scene: &'a Scene, at: &'a SurfacePoint, reach_m: f64) -> impl Fn(u32) -> bool + 'a {
+    let sequence = Sequence::new(Key::new(0).with(6));
+    let axis = at.shading.to_direction();
+    move |index: u32| {
+        let mut dice = Dice::new(sequence, index);
+        let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
+        let mut ray = Ray::new(at.start(), direction).skipping(at.triangle);
+        ray.t_max = reach_m as f32;
+        scene.bvh().any_hit(&ray)
+    }
+}
+
+/// Whether so many of them do.
+fn is_met(scene: &Scene, at: &SurfacePoint, reach_m: f64, enough: u32) -> bool {
+    let meets = feeler(scene, at, reach_m);
+    let (mut met, mut missed) = (0, 0);
+    for index in 0..FEELERS {
+        if meets(index) {
+            met += 1;
+        } else {
+            missed += 1;
+        }
+        if met >= enough || missed > FEELERS - enough {
+            break;
+        }
+    }
+    met >= enough
+}
+
+/// Longest edge of an element, m.
+pub(super) fn longest_edge_m(elements: &Elements, corners: [u32; 3]) -> f64 {
+    let [a, b, c] = corners.map(|v| elements.vertices()[v as usize].position);
+    (b - a).length().max((c - b).length()).max((a - c).length())
+}
+
+/// What vertices stand for on elements as they are now, those that were in the open among longer ones
+/// still are.
+pub(super) fn standings(
+    scene: &Scene,
+    subdivision: &Subdivision,
+    before: Vec<Option<Standing>>,
+    surface: impl Fn(usize) -> SurfacePoint + Sync,
+) -> Vec<Option<Standing>> {
+    let edges_m = subdivision.longest_edges_m();
+    let on_border = subdivision.border_vertices();
+    let one = |(k, of): (usize, Option<Standing>)| {
+        let is_open = of == Some(Standing::Open) || !is_closed_in(scene, &surface(k), edges_m[k]);
+        Some(match (is_open, on_border[k]) {
+            (true, _) => Standing::Open,
+            (false, true) => Standing::Rim,
+            (false, false) => Standing::Gap,
+        })
+    };
+    before.into_par_iter().enumerate().map(one).collect()
+}
