@@ -1,5 +1,5 @@
-"""isolux: `isolux solve`, a process by itself, whose time counts; then `isolux probe` at the points, whose
-time does not: it stands for looking into the map."""
+"""isolux: `isolux solve`, then `isolux probe` at the points. The time of both processes counts: where the
+map is not to be trusted, `probe` traces rays of its own."""
 
 import json
 import os
@@ -25,14 +25,15 @@ def main():
     solve = [program, "solve", f"builtin:{scene.name}", "-o", map_file, "--json", "--progress", "none"]
     solve += ["--accuracy", str(flags.effort[0]), "--seed", str(flags.seed)]
     solve += ["--threads", str(flags.threads)]
-    started = time.perf_counter()
-    said = subprocess.run(solve, stdout=subprocess.PIPE, check=True).stdout
-    whole_s = time.perf_counter() - started
-    summary = json.loads(said)
+    probe = [program, "probe", map_file, "--points", places, "--json"]
     rows = zip(points.positions, points.normals)
     places.write_text("".join(" ".join(map(repr, [*p, *n])) + "\n" for p, n in rows))
-    probe = [program, "probe", map_file, "--points", places, "--json"]
-    found = json.loads(subprocess.run(probe, stdout=subprocess.PIPE, check=True).stdout)
+    environment = {**os.environ, "RAYON_NUM_THREADS": str(flags.threads)}
+    started = time.perf_counter()
+    said = subprocess.run(solve, stdout=subprocess.PIPE, check=True).stdout
+    read = subprocess.run(probe, stdout=subprocess.PIPE, check=True, env=environment).stdout
+    whole_s = time.perf_counter() - started
+    summary, found = json.loads(said), json.loads(read)
     arguments.write(
         flags.output,
         values_lx=[point["illuminance_lx"] for point in found["points"]],

@@ -16,9 +16,13 @@ use crate::units::Rgb;
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
 
+/// Noise of what readers gather, in errors of the map: it adds half of the square of that, and only where the map
+/// is not trusted.
+const FRESH_NOISE: f64 = 0.7;
+
 /// Independent gatherings of a place where the map is not trusted; rays of each, when tried and at most.
 const FRESH_REPLICATES: u32 = 16;
-const FRESH_TRIAL_RAYS: u32 = 16;
+const FRESH_TRIAL_RAYS: u32 = 8;
 const FRESH_MOST_RAYS: f64 = 1024.0;
 
 /// Shadow rays to every emitting surface in a reading for a picture.
@@ -148,11 +152,11 @@ impl<'a> MapReader<'a> {
         Illuminance { interpolation_error_lx, ..stored }
     }
 
-    /// Indirect light gathered over the map, by as many rays as bring its noise down to half of
-    /// the error of the map.
+    /// Indirect light gathered over the map, by as many rays as bring its noise down to that
+    /// of the map.
     fn gathered(&self, stored: Illuminance, trial: Gatherer) -> Illuminance {
         let key = place_key(trial.surface.point).with(7);
-        let goal = 0.5 * self.unseen.reached_lx;
+        let goal = FRESH_NOISE * self.unseen.reached_lx;
         let direct = match &self.direct_values {
             Some(values) => DirectAtEnds::ReadFarOff { values },
             None => DirectAtEnds::Evaluated,
@@ -160,9 +164,9 @@ impl<'a> MapReader<'a> {
         let (_, variance) = self.gather(trial, direct, (FRESH_REPLICATES, key.with(0)));
         let rays = f64::from(FRESH_TRIAL_RAYS)
             * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / NET_ORDER);
-        let rays = rays.clamp(f64::from(FRESH_TRIAL_RAYS), FRESH_MOST_RAYS) as u32;
+        let rays = libm::log2(rays.clamp(f64::from(FRESH_TRIAL_RAYS), FRESH_MOST_RAYS));
         // With numbers of its own: who stopped at a small variance would report too small ones.
-        let gatherer = trial.with_rays(rays.next_power_of_two());
+        let gatherer = trial.with_rays(1 << libm::round(rays) as u32);
         let (indirect_lx, variance) =
             self.gather(gatherer, direct, (FRESH_REPLICATES, key.with(1)));
         Illuminance {
