@@ -10,8 +10,9 @@
 //! those that also give the values at the far vertices of the three neighbours. A vertex is moved by
 //! the mean over its elements (the projection onto piecewise linear functions with a lumped mass
 //! matrix: Zienkiewicz, Taylor, "The Finite Element Method", on projection and mass lumping). Those on
-//! borders and creases are moved, too, so that the map is right in the mean; where light is steepest
-//! there the elements are not to be trusted for it, and readers gather afresh (`trust.rs`).
+//! borders and creases keep their values: a place at the edge of a room sees the other wall from nearby,
+//! half of its light comes from the edge itself, and what is off there is off at once in both. Their
+//! part is left to the other vertices of their elements, so that the map is right in the mean.
 
 use crate::elements::{Element, Elements};
 use crate::units::Rgb;
@@ -20,7 +21,7 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 
 /// Sums of weights without their signs beyond this are no second differences, but slivers.
-const MOST_WEIGHT: f64 = 2.0;
+const MOST_WEIGHT: f64 = 4.0;
 
 /// A value is moved by no more than this share of the range of the values about it: that of a
 /// parabola at its top by a sixth. Across kinks and jumps second differences are no curvature.
@@ -52,16 +53,23 @@ impl Fit {
                 around.then(|| hessian(&all, k, beside, &place)).flatten()
             })
             .collect();
+        let on_border = borders(&all, &neighbours, vertices);
         let mut sums: Vec<(f64, HashMap<u32, f64>)> = vec![Default::default(); vertices];
         for (k, element) in all.iter().enumerate().filter(|(_, e)| is_known(e)) {
             let corners = element.vertices.map(place);
             let area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
             let mean = mean_excess(&all, &inner, &neighbours[k], k, &place);
+            let within = |vertex: u32| !on_border[vertex as usize];
+            let moved = element.vertices.iter().filter(|&&v| within(v)).count();
             for vertex in element.vertices {
                 let (area, forms) = &mut sums[vertex as usize];
                 *area += area_m2;
-                for &(v, weight) in &mean {
-                    *forms.entry(v).or_default() += weight * area_m2;
+                if within(vertex) {
+                    // Those that stay leave their part to the others.
+                    let share_m2 = area_m2 * 3.0 / moved as f64;
+                    for &(v, weight) in &mean {
+                        *forms.entry(v).or_default() += weight * share_m2;
+                    }
                 }
             }
         }
@@ -116,6 +124,18 @@ fn neighbours(all: &[Element]) -> Vec<[Option<usize>; 3]> {
         _ => None,
     };
     (0..all.len()).map(|index| [0, 1, 2].map(|k| beside(index, k))).collect()
+}
+
+/// Which vertices lie on borders and creases.
+fn borders(all: &[Element], beside: &[[Option<usize>; 3]], vertices: usize) -> Vec<bool> {
+    let mut found = vec![false; vertices];
+    for (element, beside) in all.iter().zip(beside) {
+        for k in (0..3).filter(|&k| beside[k].is_none()) {
+            found[element.vertices[(k + 1) % 3] as usize] = true;
+            found[element.vertices[(k + 2) % 3] as usize] = true;
+        }
+    }
+    found
 }
 
 /// The Hessian in a basis of the plane of an element, its components xx, xy and yy as linear

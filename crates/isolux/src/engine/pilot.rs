@@ -187,9 +187,10 @@ pub(super) fn pilot<'s>(
             break;
         }
     }
-    for what in [Read::Trusted, Read::All] {
-        let refinement = (what, most);
-        look = pilot.refine(look, request, refinement, go_on);
+    // Readers gather over gathered maps alone: particles blur what is close by.
+    let reads = if request.is_fitted { &[Read::Trusted, Read::All][..] } else { &[Read::All] };
+    for &what in reads {
+        look = pilot.refine(look, request, (what, most), go_on);
     }
     pilot.finish(look, request, go_on)
 }
@@ -210,9 +211,11 @@ impl Look {
         let limit = trust::limit(&self.errors, goal_lx, FRESH_SHARE);
         let is_read = |e: &LeafError| what == Read::All || !e.is_beset && e.error <= limit;
         let goal_lx = match what {
-            Read::Trusted => goal_lx,
             // Fits do little for what is steep at edges.
-            Read::All => request.mesh_target.min(BARE * request.target) * self.rms_lx,
+            Read::All if request.is_fitted => {
+                request.mesh_target.min(BARE * request.target) * self.rms_lx
+            }
+            _ => goal_lx,
         };
         let excess = trust::error_of(&self.errors, is_read) / goal_lx;
         let read = || self.errors.iter().copied().filter(is_read).collect();

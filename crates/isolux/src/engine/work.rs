@@ -129,7 +129,7 @@ impl<'p, 's> Work<'p, 's> {
 
     /// Where readers gather afresh.
     pub(super) fn fresh(&self) -> Option<Fresh> {
-        if !self.is_believed() {
+        if !self.is_believed() || matches!(self.engine, Engine::Forward(_)) {
             return None;
         }
         let limit_lx = self.plan.trusted_up_to_lx * self.over_expected();
