@@ -123,6 +123,14 @@ impl Accumulator {
     }
 }
 
+/// Mean of independent values and variance of their photometric mean.
+pub(super) fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
+    let n = values.len() as f64;
+    let mean = values.iter().copied().sum::<Rgb>() / n;
+    let squares: f64 = values.iter().map(|v| (*v - mean).luminance()).map(|d| d * d).sum();
+    (mean, squares / (n * (n - 1.0)))
+}
+
 fn fixed(units: f64) -> i64 {
     // NaN becomes zero and infinities saturate.
     units.clamp(-LARGEST, LARGEST).round_ties_even() as i64

@@ -2,7 +2,7 @@
 
 use super::accumulate::Accumulator;
 use super::checks::InterpolationErrors;
-use super::pilot::Plan;
+use super::plan::Plan;
 use crate::map::Accuracy;
 
 /// Replicates from which on their spread is believed. The scene figure pools thousands of
@@ -36,7 +36,8 @@ pub(super) fn accuracy(
     let discretization = libm::hypot(interpolation.indirect_lx, of_readers) / rms_lx;
     // Check points see what their rays read of indirect light; direct light that is read, too, adds what
     // is reflected of its own error.
-    let direct_lx = if plan.direct_from_map { interpolation.direct_mean_lx } else { 0.0 };
+    let is_read = plan.lighting.are_read_at_ends();
+    let direct_lx = if is_read { interpolation.direct_mean_lx } else { 0.0 };
     let mean_lx = interpolation.indirect_mean_lx + mean_reflectance(plan) * direct_lx;
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign,
     // and so has the mean of the interpolation error where the map is read.

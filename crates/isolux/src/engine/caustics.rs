@@ -4,7 +4,7 @@
 use super::accumulate::Effort;
 use super::emission::Emission;
 use super::particle::{Particle, scatterings};
-use super::pilot::Plan;
+use super::plan::Plan;
 use super::tally::Tally;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Body;

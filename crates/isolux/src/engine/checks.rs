@@ -2,16 +2,16 @@
 //!
 //! At random places of the surfaces each increment gathers afresh and compares with its own map,
 //! interpolated. The mean difference over increments is the discretization error there, with a
-//! known variance that is subtracted: an unbiased estimate of the squared error of the scene. Half
-//! of the points are drawn by area, half where details are large (most of the error lies in little
-//! of the area), and weighted accordingly.
+//! known variance that is subtracted: an unbiased estimate of the squared error of the scene. A third
+//! of the points are drawn by area, a third where details are large (most of the error lies in little
+//! of the area), a third where they are large among elements that readers trust, and weighted accordingly.
 
 use super::accumulate::{Accumulator, Sample};
 use super::detail::LeafError;
 use super::direct::Goal;
 use super::gather::{Gatherer, known_weights};
 use super::path::Dice;
-use super::pilot::Plan;
+use super::plan::Plan;
 use super::surface::SurfacePoint;
 use super::trust;
 use crate::sampling::{Key, Sequence};

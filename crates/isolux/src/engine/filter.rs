@@ -8,7 +8,7 @@
 //! over creases, borders or hidden vertices, since elements do not. Standard errors stay those of the
 //! unfiltered values.
 
-use super::pilot::Plan;
+use super::plan::Plan;
 use crate::map::FilterReport;
 use crate::units::Rgb;
 

@@ -7,7 +7,7 @@ use super::accumulate::{Accumulator, Effort, Sample};
 use super::direct::Lighting;
 use super::emission::Emission;
 use super::particle::{Particle, scatterings};
-use super::pilot::Plan;
+use super::plan::Plan;
 use super::tally::Tally;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Body;

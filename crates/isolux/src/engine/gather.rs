@@ -229,19 +229,13 @@ impl Gathering<'_> {
         };
         match self.direct {
             DirectAtEnds::Read { values, level } => read(values, level),
-            DirectAtEnds::ReadFarOff { values } if distance_m > self.longest_edge_m(at) => {
+            DirectAtEnds::ReadFarOff { values }
+                if distance_m > trust::edge_at_m(self.elements, at) =>
+            {
                 read(values, u32::MAX)
             }
             _ => self.lighting.estimate(at, dice),
         }
-    }
-
-    /// Of the element at a place, m; zero where there is none.
-    fn longest_edge_m(&self, at: &SurfacePoint) -> f64 {
-        let corners = self.elements.locate(at.triangle, at.back, at.u, at.v);
-        corners.map_or(0.0, |corners| {
-            trust::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex))
-        })
     }
 
     fn end(&self, surface: &SurfacePoint, finish: &Finish, throughput: Rgb) -> End {
@@ -296,15 +290,19 @@ pub(super) fn known_weights(
     corners: [(u32, f64); 3],
     standings: &[Option<Standing>],
 ) -> Option<[f64; 3]> {
-    let of = corners.map(|(vertex, _)| standings[vertex as usize]);
-    let highest = Standing::highest(of)?;
-    Some(weights_over(corners, of.map(|standing| standing == Some(highest))))
+    weights_of_highest(corners, corners.map(|(vertex, _)| standings[vertex as usize]))
 }
 
 /// The same over those in gaps; without any, light there is as little as none.
 fn weights_in_gap(corners: [(u32, f64); 3], standings: &[Option<Standing>]) -> Option<[f64; 3]> {
     let in_gap = |standing: &Standing| *standing != Standing::Open;
-    let of = corners.map(|(vertex, _)| standings[vertex as usize].filter(in_gap));
+    weights_of_highest(
+        corners,
+        corners.map(|(vertex, _)| standings[vertex as usize].filter(in_gap)),
+    )
+}
+
+fn weights_of_highest(corners: [(u32, f64); 3], of: [Option<Standing>; 3]) -> Option<[f64; 3]> {
     let highest = Standing::highest(of)?;
     Some(weights_over(corners, of.map(|standing| standing == Some(highest))))
 }

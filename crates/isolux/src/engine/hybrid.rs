@@ -10,7 +10,7 @@ use super::checks::{self, Check};
 use super::deadline::Deadline;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::path::Dice;
-use super::pilot::Plan;
+use super::plan::Plan;
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
@@ -88,7 +88,7 @@ impl<'a> Gathering<'a> {
             elements: &plan.elements,
             level: plan.level,
             standings: &plan.standings,
-            direct: if plan.direct_from_map {
+            direct: if plan.lighting.are_read_at_ends() {
                 DirectAtEnds::Read { values: direct, level: u32::MAX }
             } else {
                 DirectAtEnds::Evaluated

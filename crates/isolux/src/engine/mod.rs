@@ -18,6 +18,7 @@ mod particle;
 mod path;
 mod pilot;
 mod place;
+mod plan;
 mod predict;
 mod probe;
 mod reference;

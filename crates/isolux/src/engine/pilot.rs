@@ -12,6 +12,7 @@ use super::fit::Fit;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 use super::path::Dice;
+use super::plan::Plan;
 use super::shrink::beyond_noise;
 use super::surface::SurfacePoint;
 use super::trust;
@@ -45,8 +46,6 @@ const BARE: f64 = 2.0;
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
 const PULL_IN: f64 = 2e-3;
-/// With more sources than this, rays read direct light from the map where they end.
-pub(super) const MOST_SOURCES_EVALUATED: usize = 8;
 /// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 2;
@@ -64,65 +63,6 @@ const ROUNDS_FOR_HIDDEN: usize = 4;
 const PLACES_OF_HIDDEN: u32 = 4;
 /// Sweeps of the pilot end when they change less than this.
 const PILOT_TOLERANCE: f64 = 1e-4;
-
-/// What the pilot has fixed.
-pub(super) struct Plan<'s> {
-    pub(super) scene: &'s Scene,
-    pub(super) lighting: &'s Lighting<'s>,
-    pub(super) elements: Elements,
-    pub(super) gatherers: Vec<Gatherer>,
-    /// Indirect light lives on the first so many vertices and the nodes below `level`.
-    pub(super) indirect_vertices: usize,
-    pub(super) level: u32,
-    /// What vertices stand for; none are hidden in other geometry.
-    pub(super) standings: Vec<Option<Standing>>,
-    /// Direct light at the vertices; exact if the lighting is.
-    pub(super) direct: Vec<Rgb>,
-    /// The variance of its noise, where it is measured once for all increments, lx2; else zero.
-    pub(super) direct_variance: Vec<f64>,
-    /// First guess of the indirect light.
-    pub(super) guess: Vec<Rgb>,
-    pub(super) direct_from_map: bool,
-    /// Errors of the elements that indirect light lives on.
-    pub(super) indirect_errors: Vec<LeafError>,
-    /// Elements with larger errors are not to be trusted.
-    pub(super) trusted_up_to_lx: f64,
-    /// Those elements, by node, as triangles of the scene.
-    pub(super) subdivision: Subdivision,
-    /// Root mean square of the photometric illuminance over all known surfaces, lx.
-    pub(super) rms_lx: f64,
-    /// From indirect light at the vertices to the function that fits best.
-    pub(super) fit: Fit,
-    pub(super) rays: u64,
-}
-
-impl Plan<'_> {
-    /// Area of all elements, m2.
-    pub(super) fn area_m2(&self) -> f64 {
-        self.indirect_errors.iter().map(|e| e.area_m2).sum()
-    }
-
-    /// Whether a vertex lies in the open.
-    pub(super) fn is_open(&self, vertex: u32) -> bool {
-        self.standings[vertex as usize] == Some(Standing::Open)
-    }
-
-    /// Values for the vertices that only direct light needs: interpolated from their parents.
-    pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
-        let mut values = coarse.to_vec();
-        for (k, vertex) in self.elements.vertices().iter().enumerate().skip(coarse.len()) {
-            let ends = vertex.parents.expect("vertices beyond the input are made by bisection");
-            let of = ends.map(|end| self.standings[end as usize]);
-            // From what stands as it does, if it can be, else as elements do.
-            let own = self.standings[k].filter(|own| of.contains(&Some(*own)));
-            let read = own.or(Standing::highest(of));
-            let known = (0..2).filter(|&e| read.is_some() && of[e] == read);
-            let known: Vec<Rgb> = known.map(|e| values[ends[e] as usize]).collect();
-            values.push(known.iter().copied().sum::<Rgb>() / known.len().max(1) as f64);
-        }
-        values
-    }
-}
 
 /// What is asked of the pilot.
 #[derive(Clone, Copy, Debug)]
@@ -264,10 +204,6 @@ impl<'s> Pilot<'s> {
         }
     }
 
-    fn direct_from_map(&self) -> bool {
-        self.lighting.source_count() > MOST_SOURCES_EVALUATED
-    }
-
     fn gatherers(&self) -> Vec<Gatherer> {
         let receivers = self.subdivision.receivers(PULL_IN);
         receivers.iter().map(|r| Gatherer::at_vertex(self.scene, r, self.rays)).collect()
@@ -333,7 +269,7 @@ impl<'s> Pilot<'s> {
         level: u32,
         standings: &'a [Option<Standing>],
     ) -> Gathering<'a> {
-        let direct = if self.direct_from_map() {
+        let direct = if self.lighting.are_read_at_ends() {
             DirectAtEnds::Read { values: &self.direct, level }
         } else {
             DirectAtEnds::Evaluated
@@ -536,7 +472,6 @@ impl<'s> Pilot<'s> {
         forget_orphans(&elements, indirect_vertices, &mut standings);
         let open: Vec<bool> = standings.iter().map(|&of| of == Some(Standing::Open)).collect();
         Plan {
-            direct_from_map: self.direct_from_map(),
             scene: self.scene,
             lighting: self.lighting,
             elements,
@@ -606,11 +541,7 @@ fn forget_orphans(elements: &Elements, first: usize, standings: &mut [Option<Sta
 }
 
 /// Root mean square over the known surface.
-pub(super) fn rms(
-    elements: &Elements,
-    standings: &[Option<Standing>],
-    value: impl Fn(usize) -> f64,
-) -> f64 {
+fn rms(elements: &Elements, standings: &[Option<Standing>], value: impl Fn(usize) -> f64) -> f64 {
     let (mut area, mut sum) = (0.0, 0.0);
     for (k, vertex) in
         elements.vertices().iter().enumerate().filter(|&(k, _)| standings[k].is_some())

@@ -1,10 +1,10 @@
 //! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
 
+use super::accumulate::mean_and_variance;
 use super::direct::{Goal, Lighting, Measured};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hybrid::NET_ORDER;
 use super::path::Dice;
-use super::pilot::MOST_SOURCES_EVALUATED;
 use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
 use super::trust;
@@ -75,12 +75,12 @@ impl<'a> MapReader<'a> {
             |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx);
         let lighting = Lighting::new(scene);
         let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
-        let are_many = lighting.source_count() > MOST_SOURCES_EVALUATED;
+        let are_read = lighting.are_read_at_ends();
         Self {
             scene,
             map,
             lighting,
-            direct_values: are_many.then(|| map.values.iter().map(direct).collect()),
+            direct_values: are_read.then(|| map.values.iter().map(direct).collect()),
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             light: map.values.iter().map(reflected).collect(),
             places: Places::of(scene),
@@ -114,10 +114,10 @@ impl<'a> MapReader<'a> {
         let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.places.pulled_in(surface);
-        let edge_m = self.longest_edge_m(&at);
         let Some(fresh) = self.map.provenance.fresh else {
             return Some(self.with_fresh_direct(stored, &at));
         };
+        let edge_m = trust::edge_at_m(&self.map.elements, &at);
         let nearness = trust::nearness(self.scene, &at, edge_m);
         let limit_lx = fresh.above_lx.unwrap_or(f64::INFINITY);
         let is_trusted = stored.standing == Standing::Open
@@ -134,14 +134,6 @@ impl<'a> MapReader<'a> {
             }
         };
         Some(self.with_fresh_direct(indirect, &at))
-    }
-
-    /// Of the element at a place, m; zero where there is none.
-    fn longest_edge_m(&self, at: &SurfacePoint) -> f64 {
-        let corners = self.map.elements.locate(at.triangle, at.back, at.u, at.v);
-        corners.map_or(0.0, |corners| {
-            trust::longest_edge_m(&self.map.elements, corners.map(|(vertex, _)| vertex))
-        })
     }
 
     /// A value of the map with what interpolation is expected to err by. Half of the error of the
@@ -239,8 +231,11 @@ impl<'a> MapReader<'a> {
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
         let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
         let gatherer = on_surface
-            .map(|at| (at, trust::is_closed_in(self.scene, &at, self.longest_edge_m(&at))))
-            .map(|(at, in_gap)| Gatherer::on_surface(at, settings.rays).in_gap(in_gap))
+            .map(|at| {
+                let edge_m = trust::edge_at_m(&self.map.elements, &at);
+                let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
+                Gatherer::on_surface(at, settings.rays).in_gap(in_gap)
+            })
             .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);
@@ -332,12 +327,4 @@ fn rms_lx(map: &IlluminationMap) -> f64 {
         squared += vertex.area_m2 * lx * lx;
     }
     if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
-}
-
-/// Mean of independent values and variance of their photometric mean.
-pub(super) fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
-    let n = values.len() as f64;
-    let mean = values.iter().copied().sum::<Rgb>() / n;
-    let squares: f64 = values.iter().map(|v| (*v - mean).luminance()).map(|d| d * d).sum();
-    (mean, squares / (n * (n - 1.0)))
 }

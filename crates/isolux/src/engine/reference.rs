@@ -8,11 +8,12 @@
 //! (caustics of glass, gloss, curved mirrors and chains of more than six planar ones), at the place and
 //! at every diffuse reflection, and paths caught by more than 128 specular surfaces in a row.
 
+use super::accumulate::mean_and_variance;
 use super::direct::Lighting;
 use super::gather::Gatherer;
 use super::path::{Dice, follow};
 use super::place::{Places, ProbePoint, place_key};
-use super::probe::{ExactSettings, mean_and_variance};
+use super::probe::ExactSettings;
 use super::surface::SurfacePoint;
 use crate::elements::carries_map;
 use crate::map::{Illuminance, Standing};

@@ -10,7 +10,7 @@ use super::accumulate::{Accumulator, Estimate};
 use super::checks::InterpolationErrors;
 use super::detail::leaf_errors;
 use super::gather::known_weights;
-use super::pilot::Plan;
+use super::plan::Plan;
 use super::surface::SurfacePoint;
 use crate::map::Standing;
 use crate::units::Rgb;

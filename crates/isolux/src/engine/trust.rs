@@ -60,14 +60,9 @@ pub(super) fn error_of(errors: &[LeafError], some: impl Fn(&LeafError) -> bool) 
 
 /// Errors at the vertices: of the worst element at each, so that the least over an element's
 /// vertices is its own error or more. Elements have that of the coarser one they are part of.
-pub(super) fn at_vertices(
-    elements: &Elements,
-    coarse: &Subdivision,
-    errors: &[LeafError],
-) -> Vec<f64> {
+pub(super) fn at_vertices(elements: &Elements, errors: &[LeafError]) -> Vec<f64> {
     let mut worst = vec![0.0_f64; elements.vertices().len()];
     for error in errors {
-        debug_assert!(coarse.node(error.node).0.split.is_none(), "errors are those of elements");
         elements.visit_below(error.node, &mut |corners| {
             for vertex in corners {
                 let worst = &mut worst[vertex as usize];
@@ -128,6 +123,12 @@ fn is_met(scene: &Scene, at: &SurfacePoint, reach_m: f64, enough: u32) -> bool {
         }
     }
     met >= enough
+}
+
+/// Longest edge of the element at a place, m; zero where there is none.
+pub(super) fn edge_at_m(elements: &Elements, at: &SurfacePoint) -> f64 {
+    let corners = elements.locate(at.triangle, at.back, at.u, at.v);
+    corners.map_or(0.0, |corners| longest_edge_m(elements, corners.map(|(vertex, _)| vertex)))
 }
 
 /// Longest edge of an element, m.

@@ -8,7 +8,7 @@ use super::emission::Emission;
 use super::filter::filter;
 use super::forward::Forward;
 use super::hybrid::{self, Hybrid};
-use super::pilot::Plan;
+use super::plan::Plan;
 use super::predict;
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
@@ -179,8 +179,7 @@ impl<'p, 's> Work<'p, 's> {
         &self,
         filtered: bool,
     ) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
-        let Plan { elements, subdivision, indirect_errors, .. } = self.plan;
-        let expected = trust::at_vertices(elements, subdivision, indirect_errors);
+        let expected = trust::at_vertices(&self.plan.elements, &self.plan.indirect_errors);
         let over = self.over_expected();
         let value = |(k, expected_lx): (usize, f64)| self.value(k, over * expected_lx);
         let mut values: Vec<Option<Illuminance>> =

@@ -1,7 +1,8 @@
 //! Direct light with its own standard error, by as many shadow rays as that takes.
 
+use super::Lighting;
 use super::cut::Cut;
-use super::{AREA_SAMPLES, FEWEST_AREA_SAMPLES, Lighting};
+use crate::engine::accumulate::mean_and_variance;
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::sampling::Sequence;
@@ -74,7 +75,7 @@ impl Lighting<'_> {
         let teeth = self.teeth(&cut, at, goal, &mut Dice::new(sequence, REPLICATES));
         let of_each =
             (REPLICATES as usize * teeth >= self.count(&cut)).then(|| self.lit_by_each(&cut, at));
-        let samples = (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES);
+        let samples = self.area_samples();
         let values = [const { Rgb::BLACK }; REPLICATES as usize];
         let mut replicate = 0;
         let values = values.map(|_| {
@@ -83,7 +84,8 @@ impl Lighting<'_> {
             let points = of_each.unwrap_or_else(|| self.lit_by_many(&cut, at, teeth, &mut dice));
             self.others().fold(points, |sum, s| sum + self.lit_by(s, at, samples, &mut dice))
         });
-        mean(&values)
+        let (lx, variance) = mean_and_variance(&values);
+        Measured { lx, variance }
     }
 
     /// Teeth of a replicate: as many as it takes by the spread of what a first look finds.
@@ -106,12 +108,4 @@ impl Lighting<'_> {
         let error_lx = spread_lx / f64::from(REPLICATES).sqrt();
         libm::pow(error_lx / goal_lx, 1.0 / COMB_ORDER).clamp(FEWEST_TEETH, MOST_TEETH) as usize
     }
-}
-
-/// Mean of independent values and variance of their photometric mean.
-fn mean(values: &[Rgb]) -> Measured {
-    let n = values.len() as f64;
-    let lx = values.iter().copied().sum::<Rgb>() / n;
-    let squares: f64 = values.iter().map(|v| (*v - lx).luminance()).map(|d| d * d).sum();
-    Measured { lx, variance: squares / (n * (n - 1.0)) }
 }

@@ -33,6 +33,9 @@ use tree::{Images, Tree};
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
 const EXACT_SOURCES: usize = 4;
 
+/// With more sources than this, gathering rays read direct light from the map where they end.
+const MOST_EVALUATED_AT_ENDS: usize = 8;
+
 /// Points among the sources from which on they are drawn by their tree at the ends of gathering rays,
 /// and at receivers.
 const DRAWN_AT_ENDS: usize = 32;
@@ -106,6 +109,11 @@ impl<'s> Lighting<'s> {
     /// Number of sources, images included.
     pub(super) fn source_count(&self) -> usize {
         self.sources.len()
+    }
+
+    /// Whether rays read direct light from the map where they end.
+    pub(super) fn are_read_at_ends(&self) -> bool {
+        self.source_count() > MOST_EVALUATED_AT_ENDS
     }
 
     /// Whether direct light is measured once for all, exactly or with a known error: no emitting surface.

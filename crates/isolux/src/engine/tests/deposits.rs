@@ -6,7 +6,8 @@ use crate::engine::accumulate::Accumulator;
 use crate::engine::direct::Lighting;
 use crate::engine::emission::Emission;
 use crate::engine::forward::Forward;
-use crate::engine::pilot::{PilotRequest, Plan, pilot};
+use crate::engine::pilot::{PilotRequest, pilot};
+use crate::engine::plan::Plan;
 use crate::engine::surface::SurfacePoint;
 use crate::engine::tally::Tally;
 

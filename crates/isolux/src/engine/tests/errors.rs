@@ -5,7 +5,8 @@ use crate::engine::accumulate::{Accumulator, Sample};
 use crate::engine::accuracy::{BELIEVED_INCREMENTS, accuracy};
 use crate::engine::checks::{self, Check, InterpolationErrors};
 use crate::engine::direct::Lighting;
-use crate::engine::pilot::{PilotRequest, Plan, pilot};
+use crate::engine::pilot::{PilotRequest, pilot};
+use crate::engine::plan::Plan;
 use crate::engine::predict;
 use crate::map::Accuracy;
 

@@ -55,7 +55,7 @@ fn errors_at_vertices_bound_those_of_elements() {
     let mut fine = coarse.clone();
     fine.bisect_to(0.3, 1 << 20);
     let elements = fine.elements();
-    let at = trust::at_vertices(&elements, &coarse, &errors);
+    let at = trust::at_vertices(&elements, &errors);
     let mut compared = 0;
     for error in &errors {
         elements.visit_below(error.node, &mut |corners| {

@@ -1,0 +1,68 @@
+//! What the pilot has fixed: the elements, and all that increments over them share.
+
+use super::detail::LeafError;
+use super::direct::Lighting;
+use super::fit::Fit;
+use super::gather::Gatherer;
+use crate::elements::{Elements, Subdivision};
+use crate::map::Standing;
+use crate::scene::Scene;
+use crate::units::Rgb;
+
+/// What the pilot has fixed.
+pub(super) struct Plan<'s> {
+    pub(super) scene: &'s Scene,
+    pub(super) lighting: &'s Lighting<'s>,
+    pub(super) elements: Elements,
+    pub(super) gatherers: Vec<Gatherer>,
+    /// Indirect light lives on the first so many vertices and the nodes below `level`.
+    pub(super) indirect_vertices: usize,
+    pub(super) level: u32,
+    /// What vertices stand for; none are hidden in other geometry.
+    pub(super) standings: Vec<Option<Standing>>,
+    /// Direct light at the vertices; exact if the lighting is.
+    pub(super) direct: Vec<Rgb>,
+    /// The variance of its noise, where it is measured once for all increments, lx2; else zero.
+    pub(super) direct_variance: Vec<f64>,
+    /// First guess of the indirect light.
+    pub(super) guess: Vec<Rgb>,
+    /// Errors of the elements that indirect light lives on.
+    pub(super) indirect_errors: Vec<LeafError>,
+    /// Elements with larger errors are not to be trusted.
+    pub(super) trusted_up_to_lx: f64,
+    /// Those elements, by node, as triangles of the scene.
+    pub(super) subdivision: Subdivision,
+    /// Root mean square of the photometric illuminance over all known surfaces, lx.
+    pub(super) rms_lx: f64,
+    /// From indirect light at the vertices to the function that fits best.
+    pub(super) fit: Fit,
+    pub(super) rays: u64,
+}
+
+impl Plan<'_> {
+    /// Area of all elements, m2.
+    pub(super) fn area_m2(&self) -> f64 {
+        self.indirect_errors.iter().map(|e| e.area_m2).sum()
+    }
+
+    /// Whether a vertex lies in the open.
+    pub(super) fn is_open(&self, vertex: u32) -> bool {
+        self.standings[vertex as usize] == Some(Standing::Open)
+    }
+
+    /// Values for the vertices that only direct light needs: interpolated from their parents.
+    pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
+        let mut values = coarse.to_vec();
+        for (k, vertex) in self.elements.vertices().iter().enumerate().skip(coarse.len()) {
+            let ends = vertex.parents.expect("vertices beyond the input are made by bisection");
+            let of = ends.map(|end| self.standings[end as usize]);
+            // From what stands as it does, if it can be, else as elements do.
+            let own = self.standings[k].filter(|own| of.contains(&Some(*own)));
+            let read = own.or(Standing::highest(of));
+            let known = (0..2).filter(|&e| read.is_some() && of[e] == read);
+            let known: Vec<Rgb> = known.map(|e| values[ends[e] as usize]).collect();
+            values.push(known.iter().copied().sum::<Rgb>() / known.len().max(1) as f64);
+        }
+        values
+    }
+}
