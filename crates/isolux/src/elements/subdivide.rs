@@ -90,6 +90,11 @@ impl Subdivision {
         node
     }
 
+    /// The vertices, without areas.
+    pub(crate) fn vertices(&self) -> &[Vertex] {
+        &self.vertices
+    }
+
     /// Number of vertices.
     pub fn vertex_count(&self) -> usize {
         self.vertices.len()

@@ -5,15 +5,10 @@
 //! shadow border all of it. So details at the finest level tell the error that interpolation still
 //! makes there.
 
+use super::carriers::{Carriers, ERROR_OF_DETAIL, Told};
 use crate::elements::{Elements, Subdivision};
 
-/// Root mean square of the linear interpolation error over an element, as a share of the detail of
-/// its newest vertex. For a parabola across the edge the error at the middle of the next edge is a
-/// quarter of the detail and the root mean square over the edge is 0.73 of that; kinks and shadow
-/// borders, which come to matter as the rest is resolved, make it up to twice as much.
-const ERROR_OF_DETAIL: f64 = 0.3;
-
-/// The same for an element of the input, which has no detail, as a share of the spread of its
+/// As [`ERROR_OF_DETAIL`], for an element of the input, which has no detail, as a share of the spread of its
 /// vertices: what a detail of half the spread would give.
 const ERROR_OF_SPREAD: f64 = 0.15;
 
@@ -35,6 +30,8 @@ pub(super) struct LeafError {
     pub(super) error: f64,
     /// Whether readers gather there anyway, as something stands close.
     pub(super) is_beset: bool,
+    /// Whether that is so only because its light is carried by vertices farther apart than its own.
+    pub(super) is_beset_afar: bool,
 }
 
 impl LeafError {
@@ -44,40 +41,114 @@ impl LeafError {
     }
 }
 
-/// Errors of all elements for values at the vertices (`None` where hidden), and in the middle of
-/// elements without details, where known; `is_beset` says where readers gather anyway.
-pub(super) fn leaf_errors(
-    subdivision: &Subdivision,
-    elements: &Elements,
-    values: &[Option<f64>],
-    in_the_middle: impl Fn(u32) -> Option<f64>,
-    is_beset: impl Fn(u32) -> bool,
-) -> Vec<LeafError> {
-    let leaf = |node: u32| {
-        let area_m2 = subdivision.triangle(node).area();
-        let error = told_error(subdivision, elements, values, node).unwrap_or_else(|| {
-            let corners = subdivision.node(node).0.vertices;
-            untold_error(corners.map(|v| values[v as usize]), in_the_middle(node))
-        });
-        LeafError { node, area_m2, error, is_beset: is_beset(node) }
-    };
-    subdivision.leaves().map(leaf).collect()
+/// What is known of a function on elements: values at the vertices, `None` where they say nothing,
+/// and which of them carry it.
+pub(super) struct Details<'a> {
+    subdivision: &'a Subdivision,
+    elements: &'a Elements,
+    values: &'a [Option<f64>],
+    carriers: &'a Carriers,
+    told: Vec<Option<Told>>,
 }
 
-/// The error of an element that details tell; `None` if it has none, or vertices that say nothing.
-pub(super) fn told_error(
-    subdivision: &Subdivision,
-    elements: &Elements,
-    values: &[Option<f64>],
-    node: u32,
-) -> Option<f64> {
-    let corners = subdivision.node(node).0.vertices;
-    if corners.iter().any(|&v| values[v as usize].is_none()) {
-        return None;
+impl<'a> Details<'a> {
+    /// Of a function that all vertices carry.
+    pub(super) fn of(
+        subdivision: &'a Subdivision,
+        elements: &'a Elements,
+        values: &'a [Option<f64>],
+        carriers: &'a Carriers,
+        is_beset: impl Fn(u32, f64) -> bool,
+    ) -> Self {
+        let told = carriers.told(values, is_beset);
+        Self { subdivision, elements, values, carriers, told }
     }
-    let reach = RECENT * subdivision.longest_edge_m(node);
-    let details = corners.iter().filter_map(|&v| detail(elements, values, v, reach));
-    details.reduce(f64::max).map(|detail| ERROR_OF_DETAIL * detail)
+
+    fn told_at(&self, vertex: u32) -> Option<Told> {
+        self.told.get(vertex as usize).copied().flatten()
+    }
+
+    /// Errors of all elements, from the details and the values in the middle of those without, where
+    /// known; `is_beset` says where readers gather anyway.
+    pub(super) fn leaf_errors(
+        &self,
+        in_the_middle: impl Fn(u32) -> Option<f64>,
+        is_beset: impl Fn(u32) -> bool,
+    ) -> Vec<LeafError> {
+        let leaf = |node: u32| {
+            let area_m2 = self.subdivision.triangle(node).area();
+            let corners = self.subdivision.node(node).0.vertices;
+            let error = self.told_error(node).unwrap_or_else(|| {
+                untold_error(corners.map(|v| self.values[v as usize]), in_the_middle(node))
+            });
+            let beset = is_beset(node);
+            let is_beset_afar = !beset
+                && corners.iter().any(|&v| self.told_at(v).is_some_and(|told| told.is_beset));
+            LeafError { node, area_m2, error, is_beset: beset || is_beset_afar, is_beset_afar }
+        };
+        self.subdivision.leaves().map(leaf).collect()
+    }
+
+    /// The error of an element that details tell; `None` if it has none, or vertices that say nothing.
+    pub(super) fn told_error(&self, node: u32) -> Option<f64> {
+        let corners = self.subdivision.node(node).0.vertices;
+        if corners.iter().any(|&v| self.values[v as usize].is_none()) {
+            return None;
+        }
+        let reach = RECENT * self.subdivision.longest_edge_m(node);
+        let of_corner = |v: u32| match self.told_at(v) {
+            Some(told) => Some(told.error),
+            None => self.detail(v, reach).map(|detail| ERROR_OF_DETAIL * detail),
+        };
+        corners.into_iter().filter_map(of_corner).reduce(f64::max)
+    }
+
+    /// The detail of a vertex made on an edge no longer than `reach_m`, or between carriers no farther apart.
+    fn detail(&self, vertex: u32, reach_m: f64) -> Option<f64> {
+        let vertices = self.elements.vertices();
+        let Some(ends) = vertices[vertex as usize].parents else {
+            let (detail, spacing_m) = self.carriers.detail(self.values, vertex)?;
+            return (spacing_m <= reach_m).then_some(detail);
+        };
+        let [a, b] = ends.map(|end| vertices[end as usize].position);
+        if (b - a).length() > reach_m {
+            return None;
+        }
+        let [a, b] = ends.map(|end| self.values[end as usize]);
+        Some((self.values[vertex as usize]? - 0.5 * (a? + b?)).abs())
+    }
+
+    /// The share of the error of all elements that a fit leaves: told by how details shrink from one level
+    /// to the next. Elements that have no two levels of details keep their errors.
+    pub(super) fn left_by_fit(&self, errors: &[LeafError]) -> f64 {
+        let (mut newer, mut older) = (0.0, 0.0);
+        let (mut told, mut untold) = (0.0, 0.0);
+        for leaf in errors {
+            let reach = RECENT * self.subdivision.longest_edge_m(leaf.node);
+            let corners = self.subdivision.node(leaf.node).0.vertices;
+            let levels = corners.iter().filter_map(|&vertex| {
+                let ends = self.elements.vertices()[vertex as usize].parents?;
+                let own = self.detail(vertex, reach)?;
+                let above = ends.iter().filter_map(|&end| self.detail(end, 2.0 * reach));
+                Some((own, above.reduce(f64::max)?))
+            });
+            match levels.max_by(|a, b| a.0.total_cmp(&b.0)) {
+                Some((own, above)) => {
+                    newer += leaf.area_m2 * own * own;
+                    older += leaf.area_m2 * above * above;
+                    told += leaf.squared();
+                }
+                None => untold += leaf.squared(),
+            }
+        }
+        if told + untold == 0.0 || older == 0.0 {
+            return 1.0;
+        }
+        let shrinking = (newer / older).sqrt();
+        let left = LEFT_OF_SMOOTH + (shrinking - SMOOTH) * LEFT_FOR_ROUGH;
+        let left = left.clamp(LEFT_OF_SMOOTH, 1.0);
+        ((told * left * left + untold) / (told + untold)).sqrt()
+    }
 }
 
 /// The error of an element without details.
@@ -96,60 +167,12 @@ fn untold_error(values: [Option<f64>; 3], in_the_middle: Option<f64>) -> f64 {
     }
 }
 
-/// The detail of a vertex made on an edge no longer than `reach_m`.
-fn detail(elements: &Elements, values: &[Option<f64>], vertex: u32, reach_m: f64) -> Option<f64> {
-    let vertices = elements.vertices();
-    let ends = vertices[vertex as usize].parents?;
-    let [a, b] = ends.map(|end| vertices[end as usize].position);
-    if (b - a).length() > reach_m {
-        return None;
-    }
-    let [a, b] = ends.map(|end| values[end as usize]);
-    Some((values[vertex as usize]? - 0.5 * (a? + b?)).abs())
-}
-
 /// What a fit to the light over elements leaves of the error of interpolation, where details shrink
 /// to a quarter from level to level (smooth: a parabola is 2.4 times as near), and by how much more
 /// for each unit by which they shrink less: all of it at three quarters, between kinks and borders.
 const LEFT_OF_SMOOTH: f64 = 0.42;
 const SMOOTH: f64 = 0.25;
 const LEFT_FOR_ROUGH: f64 = (1.0 - LEFT_OF_SMOOTH) / (0.75 - SMOOTH);
-
-/// The share of the error of all elements that a fit leaves: told by how details shrink from one level
-/// to the next. Elements that have no two levels of details keep their errors.
-pub(super) fn left_by_fit(
-    subdivision: &Subdivision,
-    elements: &Elements,
-    values: &[Option<f64>],
-    errors: &[LeafError],
-) -> f64 {
-    let (mut newer, mut older) = (0.0, 0.0);
-    let (mut told, mut untold) = (0.0, 0.0);
-    for leaf in errors {
-        let reach = RECENT * subdivision.longest_edge_m(leaf.node);
-        let corners = subdivision.node(leaf.node).0.vertices;
-        let levels = corners.iter().filter_map(|&vertex| {
-            let own = detail(elements, values, vertex, reach)?;
-            let ends = elements.vertices()[vertex as usize].parents?;
-            let above = ends.iter().filter_map(|&end| detail(elements, values, end, 2.0 * reach));
-            Some((own, above.reduce(f64::max)?))
-        });
-        match levels.max_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((own, above)) => {
-                newer += leaf.area_m2 * own * own;
-                older += leaf.area_m2 * above * above;
-                told += leaf.squared();
-            }
-            None => untold += leaf.squared(),
-        }
-    }
-    if told + untold == 0.0 || older == 0.0 {
-        return 1.0;
-    }
-    let shrinking = (newer / older).sqrt();
-    let left = (LEFT_OF_SMOOTH + (shrinking - SMOOTH) * LEFT_FOR_ROUGH).clamp(LEFT_OF_SMOOTH, 1.0);
-    ((told * left * left + untold) / (told + untold)).sqrt()
-}
 
 /// Share of the squared error that one round of refinement removes at most by marking the worst
 /// elements (Dörfler 1996).
@@ -168,32 +191,47 @@ pub(super) struct Refinement {
     pub(super) max_vertices: usize,
 }
 
-/// Bisects the worst elements, twice each so that both directions are halved. Returns whether
-/// anything was bisected.
+/// Refines the worst elements, and returns whether there was anything to refine: carriers nearer to each
+/// other where there are vertices for them, else two bisections each so that both directions are halved.
 pub(super) fn refine_worst(
     subdivision: &mut Subdivision,
+    carriers: &mut Carriers,
     errors: &[LeafError],
     how_far: Refinement,
 ) -> bool {
     let Refinement { wanted, least_edge_m, max_vertices } = how_far;
     // No more than it takes, if all goes well.
     let share = ((1.0 - wanted * wanted) / (1.0 - LEFT)).clamp(0.0, MARKED_SHARE);
-    let mut worst: Vec<&LeafError> = errors
-        .iter()
-        .filter(|e| e.error > 0.0 && subdivision.longest_edge_m(e.node) > 2.0 * least_edge_m)
-        .collect();
+    let waits = |carriers: &Carriers, corners: [u32; 3]| {
+        corners.into_iter().any(|vertex| !carriers.is_active(vertex))
+    };
+    let can_be = |e: &&LeafError| {
+        e.error > 0.0
+            && (waits(carriers, subdivision.node(e.node).0.vertices)
+                || subdivision.longest_edge_m(e.node) > 2.0 * least_edge_m)
+    };
+    let mut worst: Vec<&LeafError> = errors.iter().filter(can_be).collect();
     // Ties in the order of the nodes: the same mesh on every machine.
     worst.sort_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
     let total: f64 = worst.iter().map(|e| e.squared()).sum();
     let (mut marked, mut any) = (0.0, false);
+    let mut asked: Vec<u32> = Vec::new();
     for error in worst {
-        if marked >= share * total || subdivision.vertex_count() >= max_vertices {
+        if marked >= share * total {
             break;
+        }
+        let corners = subdivision.node(error.node).0.vertices;
+        if waits(carriers, corners) {
+            asked.extend(corners);
+        } else if subdivision.vertex_count() < max_vertices {
+            bisect_twice(subdivision, error.node);
+        } else {
+            continue;
         }
         marked += error.squared();
         any = true;
-        bisect_twice(subdivision, error.node);
     }
+    carriers.activate(&asked);
     any
 }
 

@@ -5,6 +5,7 @@
 //! is left open: the ray becomes an entry of a sparse matrix, so that the light of all further
 //! reflections is the fixed point of `E = source + A E`, solved without tracing the rays again.
 
+use super::carriers::Carriers;
 use super::deadline::Deadline;
 use super::direct::Lighting;
 use super::fit::Fit;
@@ -140,6 +141,8 @@ struct Rows {
 /// The operator of all receivers: one noisy sample of light transport.
 pub(super) struct Operator {
     chunks: Vec<Rows>,
+    /// Rows that have rays.
+    receivers: usize,
     pub(super) rays: u64,
 }
 
@@ -175,7 +178,8 @@ impl Gathering<'_> {
         let chunks: Option<Vec<Rows>> =
             gatherers.par_chunks(CHUNK).enumerate().map(chunk).collect();
         let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum();
-        Some(Operator { chunks: chunks?, rays })
+        let receivers = gatherers.iter().filter(|g| g.rays > 0).count();
+        Some(Operator { chunks: chunks?, receivers, rays })
     }
 
     fn row(&self, gatherer: &Gatherer, key: Key, rows: &mut Rows) {
@@ -335,19 +339,25 @@ impl Operator {
 
     /// The share of all that is gathered whose rays were given up.
     pub(super) fn given_up(&self) -> f64 {
-        let receivers: usize = self.chunks.iter().map(|rows| rows.ends.len()).sum();
-        self.chunks.iter().map(|rows| rows.given_up).sum::<f64>() / receivers.max(1) as f64
+        self.chunks.iter().map(|rows| rows.given_up).sum::<f64>() / self.receivers.max(1) as f64
     }
 
     /// The fixed point `E = source + A (E + given)` over the first `given.len()` receivers, then one
     /// application for all of them. Starts from `guess`. Ends when a sweep changes nothing beyond
     /// `tolerance`, relative to the root mean square.
-    pub(super) fn solve(&self, guess: &[Rgb], given: &[Rgb], tolerance: f64) -> Vec<Rgb> {
-        self.solve_or_give_up(guess, given, None, tolerance).0
+    pub(super) fn solve(
+        &self,
+        guess: &[Rgb],
+        given: &[Rgb],
+        carriers: &Carriers,
+        tolerance: f64,
+    ) -> Vec<Rgb> {
+        self.solve_or_give_up(guess, given, (carriers, None), tolerance).0
     }
 
     /// The same, and the root mean square of what the last sweep changed if the sweeps did not
-    /// settle, else zero. With a fit, the light that is applied to is that of best fit.
+    /// settle, else zero. What does not carry light is interpolated; with a fit, the light that is
+    /// applied to is that of best fit.
     ///
     /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of
     /// the operator: the light between walls fades as a whole. Every third sweep goes on at once to
@@ -356,9 +366,14 @@ impl Operator {
         &self,
         guess: &[Rgb],
         given: &[Rgb],
-        fit: Option<&Fit>,
+        (carriers, fit): (&Carriers, Option<&Fit>),
         tolerance: f64,
     ) -> (Vec<Rgb>, f64) {
+        let apply = |light: &[Rgb]| {
+            let mut gathered = self.apply(light);
+            carriers.fill(&mut gathered);
+            gathered
+        };
         let with_given = |light: &[Rgb]| -> Vec<Rgb> {
             let fitted = fit.map(|fit| fit.apply(light));
             let light = fitted.as_deref().unwrap_or(light);
@@ -368,7 +383,7 @@ impl Operator {
         let mut unsettled = 0.0;
         let mut before: Option<Vec<Rgb>> = None;
         for sweep in 0..MAX_SWEEPS {
-            let mut next = self.apply(&with_given(&light));
+            let mut next = apply(&with_given(&light));
             let (mut change, mut size) = (0.0, 0.0);
             for (a, b) in next.iter().zip(&light) {
                 let (difference, value) = ((*a - *b).luminance(), a.luminance());
@@ -388,7 +403,7 @@ impl Operator {
                 None => before = Some(changes),
             }
         }
-        (self.apply(&with_given(&light)), unsettled)
+        (apply(&with_given(&light)), unsettled)
     }
 }
 

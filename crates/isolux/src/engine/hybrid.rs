@@ -47,11 +47,10 @@ const MOST_WANTED: f64 = 256.0;
 /// trial on some receivers tells.
 pub(super) fn rays_for(plan: &Plan, target: f64, increments: u64, seed: u64) -> u32 {
     let key = Key::new(seed).with(5);
-    let every = (plan.indirect_vertices / TRIAL_RECEIVERS).max(1);
-    let tried: Vec<usize> = (0..plan.indirect_vertices)
-        .filter(|&k| plan.standings[k].is_some())
-        .step_by(every)
-        .collect();
+    let carries = |&k: &usize| plan.standings[k].is_some() && plan.carriers.is_active(k as u32);
+    let all: Vec<usize> = (0..plan.indirect_vertices).filter(carries).collect();
+    let every = (all.len() / TRIAL_RECEIVERS).max(1);
+    let tried: Vec<usize> = all.into_iter().step_by(every).collect();
     let rows: Vec<Gatherer> =
         tried.iter().map(|&k| plan.gatherers[k].with_rays(TRIAL_RAYS)).collect();
     let gathering = Gathering::of(plan, &plan.direct);
@@ -113,12 +112,13 @@ impl<'p, 's> Hybrid<'p, 's> {
     /// With so many gathering rays in every increment for each vertex that is not hidden.
     pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: u32, seed: u64) -> Self {
         let key = Key::new(seed).with(1);
-        let vertices = plan.gatherers.iter().zip(&plan.standings).take(plan.indirect_vertices);
-        let row = |(gatherer, of): (&Gatherer, &Option<Standing>)| {
-            let rays = if of.is_some() { rays } else { 0 };
-            gatherer.with_rays(rays).in_gap(*of != Some(Standing::Open))
+        let row = |vertex: usize| {
+            let of = plan.standings[vertex];
+            let carries = of.is_some() && plan.carriers.is_active(vertex as u32);
+            let rays = if carries { rays } else { 0 };
+            plan.gatherers[vertex].with_rays(rays).in_gap(of != Some(Standing::Open))
         };
-        let rows = vertices.map(row).collect();
+        let rows = (0..plan.indirect_vertices).map(row).collect();
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
         Self { plan, check_direct, rows, check_rows, key }
@@ -158,8 +158,12 @@ impl<'p, 's> Hybrid<'p, 's> {
         let gathering = Gathering::of(plan, &direct);
         let operator =
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
-        let (gathered, unsettled_lx) =
-            operator.solve_or_give_up(&plan.guess, &caustic, Some(&plan.fit), TOLERANCE);
+        let (gathered, unsettled_lx) = operator.solve_or_give_up(
+            &plan.guess,
+            &caustic,
+            (&plan.carriers, Some(&plan.fit)),
+            TOLERANCE,
+        );
         let gathered = plan.fit.apply(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
         let fresh = gathering.operator(&self.check_rows, |row| key.with(3).with(row as u64));

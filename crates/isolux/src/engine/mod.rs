@@ -2,6 +2,7 @@
 
 mod accumulate;
 mod accuracy;
+mod carriers;
 mod caustics;
 mod checks;
 mod deadline;
@@ -14,6 +15,7 @@ mod forward;
 mod gather;
 mod hidden;
 mod hybrid;
+mod look;
 mod particle;
 mod path;
 mod pilot;

@@ -4,13 +4,14 @@
 //! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
 //! noise is smooth over surfaces and does not pass for detail.
 
-use super::detail::{
-    LeafError, Refinement, bisect_twice, leaf_errors, left_by_fit, refine_worst, told_error,
-};
+use super::carriers::Carriers;
+use super::detail::{Details, Refinement, bisect_twice, refine_worst};
 use super::direct::{Goal, Lighting, Measured};
 use super::fit::Fit;
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
+pub(super) use super::look::PilotRequest;
+use super::look::{Look, Read};
 use super::path::Dice;
 use super::plan::Plan;
 use super::shrink::beyond_noise;
@@ -31,17 +32,11 @@ const FIRST_VERTICES: f64 = 700.0;
 const MORE_A_VERTEX: f64 = 0.05;
 /// The first again where nothing is fitted: particles, whose hat functions blur what they are deposited in.
 const FIRST_UNFITTED: f64 = 1500.0;
+/// How far apart the coarsest vertices that carry light may be, in edges of the first mesh: four of them, to
+/// start with two, as the details of those in between tell more than vertices twice as dense alone.
+const COARSEST: f64 = 4.0;
 /// Rounds of refinement at most.
 const MAX_ROUNDS: usize = 16;
-/// The part of the accuracy asked for that interpolating indirect light may take.
-const DISCRETIZATION_SHARE: f64 = 0.5;
-/// The part of the area whose elements may stay coarse, as readers gather afresh there; and what it
-/// may be where refinement comes to nothing.
-const FRESH_SHARE: f64 = 0.1;
-const MOST_FRESH: f64 = 0.5;
-/// What all elements may err by, in accuracies asked for: rays read them all, but in the mean over many. Measured
-/// on CUBE: at 3 the bias at its edges takes half of the accuracy, at 1 a third more elements bring nothing.
-const BARE: f64 = 2.0;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
@@ -64,17 +59,6 @@ const PLACES_OF_HIDDEN: u32 = 4;
 /// Sweeps of the pilot end when they change less than this.
 const PILOT_TOLERANCE: f64 = 1e-4;
 
-/// What is asked of the pilot.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PilotRequest {
-    pub(super) target: f64,
-    pub(super) mesh_target: f64,
-    pub(super) seed: u64,
-    /// Whether the map will be fitted to the light over elements.
-    pub(super) is_fitted: bool,
-    pub(super) max_vertices: usize,
-}
-
 struct Pilot<'s> {
     scene: &'s Scene,
     lighting: &'s Lighting<'s>,
@@ -87,6 +71,12 @@ struct Pilot<'s> {
     known: Vec<bool>,
     /// What they stand for.
     standings: Vec<Option<Standing>>,
+    /// Which of them carry indirect light; how far apart the coarsest may be, m; which have gathered it.
+    carriers: Carriers,
+    spacing_m: f64,
+    gathered: Vec<bool>,
+    /// By carrier, from which distance to others on something stands nearer before it than they.
+    beset_from_m: HashMap<u32, f64>,
     /// By node, whether something stands close before its middle.
     beset: Vec<bool>,
     /// In the middle of elements that no details tell of, by node.
@@ -98,16 +88,6 @@ struct Pilot<'s> {
     least_edge_m: f64,
 }
 
-/// What a round of the pilot sees.
-struct Look {
-    elements: Elements,
-    vertices: usize,
-    errors: Vec<LeafError>,
-    /// Share of them that a fit leaves.
-    left_by_fit: f64,
-    rms_lx: f64,
-}
-
 /// Looks and refines; `go_on` is asked after every round.
 pub(super) fn pilot<'s>(
     scene: &'s Scene,
@@ -117,7 +97,9 @@ pub(super) fn pilot<'s>(
 ) -> Plan<'s> {
     let mut pilot = Pilot::new(scene, lighting, request);
     let mut look = pilot.look();
-    let most = request.max_vertices.min(MOST_FOR_INDIRECT_LIGHT.max(look.vertices / 2 * 3));
+    let most = request
+        .max_vertices
+        .min(MOST_FOR_INDIRECT_LIGHT.max(look.elements.vertices().len() / 2 * 3));
     for _ in 0..ROUNDS_FOR_HIDDEN {
         if !pilot.open_up(&look.elements, most) {
             break;
@@ -133,45 +115,6 @@ pub(super) fn pilot<'s>(
         look = pilot.refine(look, request, (what, most), go_on);
     }
     pilot.finish(look, request, go_on)
-}
-
-/// What elements are read for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Read {
-    /// By readers that interpolate.
-    Trusted,
-    /// By rays, and with the bare map.
-    All,
-}
-
-impl Look {
-    /// The elements that are read so, and how many times their error is what it should be, if it is more.
-    fn excess(&self, what: Read, request: &PilotRequest) -> Option<(Vec<LeafError>, f64)> {
-        let goal_lx = self.goal_lx(request.target, request);
-        let limit = trust::limit(&self.errors, goal_lx, FRESH_SHARE);
-        let is_read = |e: &LeafError| what == Read::All || !e.is_beset && e.error <= limit;
-        let goal_lx = match what {
-            // Fits do little for what is steep at edges.
-            Read::All if request.is_fitted => {
-                request.mesh_target.min(BARE * request.target) * self.rms_lx
-            }
-            _ => goal_lx,
-        };
-        let excess = trust::error_of(&self.errors, is_read) / goal_lx;
-        let read = || self.errors.iter().copied().filter(is_read).collect();
-        (excess > 1.0 && self.rms_lx > 0.0).then(|| (read(), excess))
-    }
-
-    /// The error of elements up to which readers trust the map.
-    fn trusted_up_to_lx(&self, request: &PilotRequest) -> f64 {
-        trust::limit(&self.errors, self.goal_lx(request.target, request), MOST_FRESH)
-    }
-
-    /// What interpolation may err by, before it is fitted, lx.
-    fn goal_lx(&self, target: f64, request: &PilotRequest) -> f64 {
-        let left = if request.is_fitted { self.left_by_fit } else { 1.0 };
-        DISCRETIZATION_SHARE * target * self.rms_lx / left
-    }
 }
 
 impl<'s> Pilot<'s> {
@@ -195,6 +138,10 @@ impl<'s> Pilot<'s> {
             indirect: Vec::new(),
             known: Vec::new(),
             standings: Vec::new(),
+            carriers: Carriers::all(),
+            spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
+            gathered: Vec::new(),
+            beset_from_m: HashMap::new(),
             beset: Vec::new(),
             middles: HashMap::new(),
             solved_nodes: 0,
@@ -256,10 +203,17 @@ impl<'s> Pilot<'s> {
         let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
         let middle = |node: u32| self.middles.get(&node).copied();
         let beset = |node: u32| self.beset[node as usize];
-        let errors = leaf_errors(&self.subdivision, &elements, &luminances, middle, beset);
+        let details = self.details(&elements, &luminances);
+        let errors = details.leaf_errors(middle, beset);
         let rms_lx = rms(&elements, &self.standings, lx);
-        let left_by_fit = left_by_fit(&self.subdivision, &elements, &luminances, &errors);
-        Look { vertices: gatherers.len(), elements, errors, left_by_fit, rms_lx }
+        let left_by_fit = details.left_by_fit(&errors);
+        let carriers = self.carriers.count(gatherers.len());
+        Look { carriers, elements, errors, left_by_fit, rms_lx }
+    }
+
+    fn details<'a>(&'a self, elements: &'a Elements, values: &'a [Option<f64>]) -> Details<'a> {
+        let is_beset = |vertex: u32, spacing_m: f64| self.beset_from_m[&vertex] < spacing_m;
+        Details::of(&self.subdivision, elements, values, &self.carriers, is_beset)
     }
 
     /// What rays read on a level of the elements.
@@ -288,13 +242,24 @@ impl<'s> Pilot<'s> {
         self.beset.extend(new);
     }
 
+    /// The same for carriers that others are interpolated from.
+    fn complete_beset_carriers(&mut self, gatherers: &[Gatherer]) {
+        let is_new = |vertex: &u32| !self.beset_from_m.contains_key(vertex);
+        let new: Vec<u32> = self.carriers.parents().into_iter().filter(is_new).collect();
+        let beset_from_m = |&vertex: &u32| {
+            let place = &gatherers[vertex as usize].surface;
+            (vertex, trust::beset_from_m(self.scene, place, self.spacing_m))
+        };
+        let new: Vec<(u32, f64)> = new.par_iter().map(beset_from_m).collect();
+        self.beset_from_m.extend(new);
+    }
+
     /// Gathers in the middle of the elements that no details tell of, that have something close before
     /// them and that were not looked at yet; not in gaps, where readers gather anyway.
     fn complete_middles(&mut self, elements: &Elements, values: &[Option<f64>]) {
-        let is_new = |&node: &u32| {
-            !self.middles.contains_key(&node)
-                && told_error(&self.subdivision, elements, values, node).is_none()
-        };
+        let details = self.details(elements, values);
+        let is_new =
+            |&node: &u32| !self.middles.contains_key(&node) && details.told_error(node).is_none();
         let new: Vec<u32> = self.subdivision.leaves().filter(is_new).collect();
         let beset = |node: u32| {
             let place = SurfacePoint::amid_node(self.scene, &self.subdivision, node);
@@ -315,35 +280,53 @@ impl<'s> Pilot<'s> {
     }
 
     fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
-        let first = self.indirect.len();
-        // On the first mesh nobody knows yet what is hidden.
-        if first == 0 {
-            self.standings = self.standings_after(vec![None; gatherers.len()], gatherers);
+        let is_first = self.indirect.is_empty();
+        // On the first mesh nobody knows yet what stands close.
+        if is_first {
+            self.extend_known(elements, gatherers);
+            self.complete_standings(gatherers);
+            let open: Vec<bool> =
+                self.standings.iter().map(|&of| of == Some(Standing::Open)).collect();
+            if self.spacing_m > 0.0 {
+                self.carriers = Carriers::sparse(&self.subdivision, self.spacing_m, &open);
+            }
         }
-        let level = if first == 0 { u32::MAX } else { self.solved_nodes };
+        self.gathered.resize(gatherers.len(), false);
+        let vertices = 0..gatherers.len() as u32;
+        let is_new =
+            |&v: &u32| is_first || self.carriers.is_active(v) && !self.gathered[v as usize];
+        let new: Vec<u32> = vertices.filter(is_new).collect();
+        let level = if is_first { u32::MAX } else { self.solved_nodes };
         let gathering = self.gathering(elements, level, &self.standings);
         let key = self.key.with(2);
         let edges_m = self.subdivision.longest_edges_m();
-        let row = |(k, gatherer): (usize, &Gatherer)| {
-            let in_gap = trust::is_closed_in(self.scene, &gatherer.surface, edges_m[k]);
-            gatherer.in_gap(in_gap)
+        let row = |&vertex: &u32| {
+            let gatherer = &gatherers[vertex as usize];
+            let edge_m = edges_m[vertex as usize];
+            let rays = if self.carriers.is_active(vertex) { self.rays } else { 0 };
+            let in_gap = trust::is_closed_in(self.scene, &gatherer.surface, edge_m);
+            gatherer.with_rays(rays).in_gap(in_gap)
         };
-        let rows: Vec<Gatherer> = gatherers.par_iter().enumerate().skip(first).map(row).collect();
+        let rows: Vec<Gatherer> = new.par_iter().map(row).collect();
         let operator = gathering.operator(&rows, |_| key);
         self.traced += operator.rays;
-        let new = if first == 0 {
+        self.indirect.resize(gatherers.len(), Rgb::BLACK);
+        if is_first {
             let black = vec![Rgb::BLACK; gatherers.len()];
-            operator.solve(&black, &black, PILOT_TOLERANCE)
+            self.indirect = operator.solve(&black, &black, &self.carriers, PILOT_TOLERANCE);
+            if !self.known.contains(&true) {
+                // No light at all: what is not closed in is dark.
+                self.known = operator.open();
+            }
         } else {
-            operator.apply(&self.indirect)
-        };
-        self.extend_known(elements, gatherers);
-        if first == 0 && !self.known.contains(&true) {
-            // No light at all: what is not closed in is dark.
-            self.known = operator.open();
+            self.extend_known(elements, gatherers);
+            let light = operator.apply(&self.indirect);
+            new.iter().zip(light).for_each(|(&v, light)| self.indirect[v as usize] = light);
+            self.carriers.fill(&mut self.indirect);
         }
         self.complete_standings(gatherers);
-        self.indirect.extend(new);
+        new.iter().for_each(|&v| self.gathered[v as usize] = self.carriers.is_active(v));
+        self.complete_beset_carriers(gatherers);
         self.solved_nodes = self.subdivision.node_count() as u32;
     }
 
@@ -389,19 +372,19 @@ impl<'s> Pilot<'s> {
         (what, max_vertices): (Read, usize),
         go_on: &mut dyn FnMut(usize, u64) -> bool,
     ) -> Look {
-        let mut before = (f64::INFINITY, look.vertices as f64);
+        let mut before = (f64::INFINITY, look.carriers as f64);
         for _ in 0..MAX_ROUNDS {
             let Some((errors, excess)) = look.excess(what, request) else { break };
             // Where bisection no longer helps, what is left is noise: the check points will tell.
-            let vertices = look.vertices as f64;
-            let stalled = excess > before.0 * libm::pow(before.1 / vertices, LEAST_ORDER);
+            let carriers = look.carriers as f64;
+            let stalled = excess > before.0 * libm::pow(before.1 / carriers, LEAST_ORDER);
             if stalled || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
             }
-            before = (excess, vertices);
+            before = (excess, carriers);
             let least_edge_m = self.least_edge_m;
             let how_far = Refinement { wanted: 1.0 / excess, least_edge_m, max_vertices };
-            if !refine_worst(&mut self.subdivision, &errors, how_far) {
+            if !refine_worst(&mut self.subdivision, &mut self.carriers, &errors, how_far) {
                 break;
             }
             look = self.look();
@@ -485,6 +468,7 @@ impl<'s> Pilot<'s> {
             indirect_errors: look.errors,
             rms_lx: look.rms_lx,
             fit: Fit::new(&coarse.elements(), indirect_vertices, &open),
+            carriers: self.carriers,
             standings,
             subdivision: coarse,
             rays: self.traced,
@@ -508,15 +492,19 @@ impl<'s> Pilot<'s> {
             least_edge_m: self.least_edge_m,
             max_vertices: most.min(request.max_vertices),
         };
+        // All vertices have direct light of their own.
+        let mut carriers = Carriers::all();
         for _ in 0..MAX_ROUNDS {
             let signal = self.direct_signal(&elements);
-            let errors = leaf_errors(&self.subdivision, &elements, &signal, |_| None, |_| false);
+            let no = |_, _| false;
+            let details = Details::of(&self.subdivision, &elements, &signal, &carriers, no);
+            let errors = details.leaf_errors(|_| None, |_| false);
             let error_lx = trust::error_of(&errors, |_| true);
             let good = error_lx <= request.mesh_target * rms_lx;
             if good || !go_on(self.subdivision.vertex_count(), self.traced) {
                 break;
             }
-            if !refine_worst(&mut self.subdivision, &errors, how_far) {
+            if !refine_worst(&mut self.subdivision, &mut carriers, &errors, how_far) {
                 break;
             }
             elements = self.subdivision.elements();

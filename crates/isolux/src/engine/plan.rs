@@ -1,9 +1,11 @@
 //! What the pilot has fixed: the elements, and all that increments over them share.
 
+use super::carriers::Carriers;
 use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
 use super::gather::Gatherer;
+use super::trust;
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
 use crate::scene::Scene;
@@ -18,6 +20,8 @@ pub(super) struct Plan<'s> {
     /// Indirect light lives on the first so many vertices and the nodes below `level`.
     pub(super) indirect_vertices: usize,
     pub(super) level: u32,
+    /// Which of them carry it; the others are interpolated.
+    pub(super) carriers: Carriers,
     /// What vertices stand for; none are hidden in other geometry.
     pub(super) standings: Vec<Option<Standing>>,
     /// Direct light at the vertices; exact if the lighting is.
@@ -43,6 +47,11 @@ impl Plan<'_> {
     /// Area of all elements, m2.
     pub(super) fn area_m2(&self) -> f64 {
         self.indirect_errors.iter().map(|e| e.area_m2).sum()
+    }
+
+    /// What interpolation errs by in the elements at the vertices, lx.
+    pub(super) fn expected_lx(&self) -> Vec<f64> {
+        trust::at_vertices(&self.elements, &self.indirect_errors, self.trusted_up_to_lx)
     }
 
     /// Whether a vertex lies in the open.

@@ -8,7 +8,7 @@
 
 use super::accumulate::{Accumulator, Estimate};
 use super::checks::InterpolationErrors;
-use super::detail::leaf_errors;
+use super::detail::Details;
 use super::gather::known_weights;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
@@ -169,7 +169,9 @@ fn detail_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let known: Vec<Option<f64>> =
         (0..values.len()).map(|k| plan.is_open(k as u32).then_some(values[k])).collect();
     let (mut area, mut sum) = (0.0, 0.0);
-    for error in leaf_errors(&plan.subdivision, &plan.elements, &known, |_| None, |_| false) {
+    let no = |_, _| false;
+    let details = Details::of(&plan.subdivision, &plan.elements, &known, &plan.carriers, no);
+    for error in details.leaf_errors(|_| None, |_| false) {
         let corners = plan.subdivision.node(error.node).0.vertices;
         let noise: f64 = corners.iter().map(|&v| variances[v as usize]).sum::<f64>() / 3.0;
         area += error.area_m2;

@@ -59,18 +59,34 @@ pub(super) fn error_of(errors: &[LeafError], some: impl Fn(&LeafError) -> bool) 
 }
 
 /// Errors at the vertices: of the worst element at each, so that the least over an element's
-/// vertices is its own error or more. Elements have that of the coarser one they are part of.
-pub(super) fn at_vertices(elements: &Elements, errors: &[LeafError]) -> Vec<f64> {
+/// vertices is its own error or more. Elements have that of the coarser one they are part of; one
+/// that readers cannot see to be beset, more than is to be trusted.
+pub(super) fn at_vertices(
+    elements: &Elements,
+    errors: &[LeafError],
+    trusted_up_to_lx: f64,
+) -> Vec<f64> {
     let mut worst = vec![0.0_f64; elements.vertices().len()];
     for error in errors {
+        let told = if error.is_beset_afar { 2.0 * trusted_up_to_lx } else { 0.0 };
         elements.visit_below(error.node, &mut |corners| {
             for vertex in corners {
                 let worst = &mut worst[vertex as usize];
-                *worst = worst.max(error.error);
+                *worst = worst.max(error.error).max(told);
             }
         });
     }
     worst
+}
+
+/// The error above which no element is, if readers could otherwise not be told of those that are
+/// beset from afar; infinite if there are none.
+pub(super) fn above_all(errors: &[LeafError]) -> f64 {
+    if !errors.iter().any(|e| e.is_beset_afar) {
+        return f64::INFINITY;
+    }
+    let greatest = errors.iter().map(|e| e.error).fold(0.0, f64::max);
+    greatest.max(f64::from(f32::MIN_POSITIVE)) * (1.0 + 1e-3)
 }
 
 /// Whether something stands so close before a place that an element of such edges cannot tell what
@@ -84,10 +100,21 @@ pub(super) fn is_beset(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) ->
     is_met(scene, at, longest_edge_m, BESET)
 }
 
+/// How long an element may at most be for a place not to be beset, m; infinite if nothing is within
+/// `reach_m`.
+pub(super) fn beset_from_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f64 {
+    let ray = feeler(at, reach_m);
+    let mut near: Vec<f32> =
+        (0..FEELERS).filter_map(|k| scene.bvh().closest_hit(&ray(k))).map(|hit| hit.t).collect();
+    near.sort_by(f32::total_cmp);
+    near.get(BESET as usize - 1).map_or(f64::INFINITY, |&t| f64::from(t))
+}
+
 /// The share of what is seen at a place that is as near as an element of such edges is long.
 pub(super) fn nearness(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> f64 {
-    let feeler = feeler(scene, at, longest_edge_m);
-    (0..FEELERS).filter(|&index| feeler(index)).count() as f64 / f64::from(FEELERS)
+    let ray = feeler(at, longest_edge_m);
+    let met = (0..FEELERS).filter(|&index| scene.bvh().any_hit(&ray(index))).count();
+    met as f64 / f64::from(FEELERS)
 }
 
 /// Whether that is enough for a place to be beset.
@@ -95,8 +122,8 @@ pub(super) fn besets(nearness: f64) -> bool {
     nearness * f64::from(FEELERS) >= f64::from(BESET)
 }
 
-/// Whether the rays that feel about before a place meet something within reach.
-fn feeler<'a>(scene: &'a Scene, at: &'a SurfacePoint, reach_m: f64) -> impl Fn(u32) -> bool + 'a {
+/// The rays that feel about before a place.
+fn feeler(at: &SurfacePoint, reach_m: f64) -> impl Fn(u32) -> Ray + '_ {
     let sequence = Sequence::new(Key::new(0).with(6));
     let axis = at.shading.to_direction();
     move |index: u32| {
@@ -104,16 +131,16 @@ fn feeler<'a>(scene: &'a Scene, at: &'a SurfacePoint, reach_m: f64) -> impl Fn(u
         let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
         let mut ray = Ray::new(at.start(), direction).skipping(at.triangle);
         ray.t_max = reach_m as f32;
-        scene.bvh().any_hit(&ray)
+        ray
     }
 }
 
 /// Whether so many of them do.
 fn is_met(scene: &Scene, at: &SurfacePoint, reach_m: f64, enough: u32) -> bool {
-    let meets = feeler(scene, at, reach_m);
+    let ray = feeler(at, reach_m);
     let (mut met, mut missed) = (0, 0);
     for index in 0..FEELERS {
-        if meets(index) {
+        if scene.bvh().any_hit(&ray(index)) {
             met += 1;
         } else {
             missed += 1;

@@ -13,7 +13,6 @@ use super::predict;
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
 use super::tally;
-use super::trust;
 use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method};
 use crate::sampling::Key;
 use crate::units::Rgb;
@@ -179,7 +178,7 @@ impl<'p, 's> Work<'p, 's> {
         &self,
         filtered: bool,
     ) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
-        let expected = trust::at_vertices(&self.plan.elements, &self.plan.indirect_errors);
+        let expected = self.plan.expected_lx();
         let over = self.over_expected();
         let value = |(k, expected_lx): (usize, f64)| self.value(k, over * expected_lx);
         let mut values: Vec<Option<Illuminance>> =

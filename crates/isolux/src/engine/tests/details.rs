@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::elements::Subdivision;
-use crate::engine::detail::{LeafError, Refinement, leaf_errors, refine_worst};
+use crate::engine::carriers::Carriers;
+use crate::engine::detail::{Details, LeafError, Refinement, refine_worst};
 
 fn patch(edge_m: f64) -> Subdivision {
     let shape = rectangle([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0);
@@ -15,7 +16,9 @@ fn patch(edge_m: f64) -> Subdivision {
 fn errors_of(subdivision: &Subdivision, f: impl Fn(Point) -> Option<f64>) -> Vec<LeafError> {
     let elements = subdivision.elements();
     let values: Vec<Option<f64>> = elements.vertices().iter().map(|v| f(v.position)).collect();
-    leaf_errors(subdivision, &elements, &values, |_| None, |_| false)
+    let carriers = Carriers::all();
+    let details = Details::of(subdivision, &elements, &values, &carriers, |_, _| false);
+    details.leaf_errors(|_| None, |_| false)
 }
 
 /// Root mean square over the surface.
@@ -104,7 +107,12 @@ fn the_worst_are_bisected_and_the_others_are_not() {
     let step = |p: Point| Some(if p.x < 0.26 { 10.0 } else { 0.0 });
     for _ in 0..4 {
         let errors = errors_of(&subdivision, step);
-        assert!(refine_worst(&mut subdivision, &errors, until(1e-3, usize::MAX)));
+        assert!(refine_worst(
+            &mut subdivision,
+            &mut Carriers::all(),
+            &errors,
+            until(1e-3, usize::MAX)
+        ));
     }
     let size = |low: f64, high: f64| {
         let inside = |&n: &u32| {
@@ -125,17 +133,25 @@ fn refinement_ends_at_its_bounds() {
     let bend = |p: Point| Some(p.x * p.x);
     let errors = errors_of(&subdivision, bend);
     assert!(
-        !refine_worst(&mut subdivision, &errors, until(1.0, usize::MAX)),
+        !refine_worst(&mut subdivision, &mut Carriers::all(), &errors, until(1.0, usize::MAX)),
         "all edges are short enough"
     );
     assert!(
-        !refine_worst(&mut subdivision, &errors, until(1e-3, before)),
+        !refine_worst(&mut subdivision, &mut Carriers::all(), &errors, until(1e-3, before)),
         "there are vertices enough"
     );
     let none = errors_of(&subdivision, |_| Some(1.0));
-    assert!(!refine_worst(&mut subdivision, &none, until(1e-3, usize::MAX)), "there is no error");
+    assert!(
+        !refine_worst(&mut subdivision, &mut Carriers::all(), &none, until(1e-3, usize::MAX)),
+        "there is no error"
+    );
     assert_eq!(subdivision.vertex_count(), before);
-    assert!(refine_worst(&mut subdivision, &errors, until(1e-3, before + 10)));
+    assert!(refine_worst(
+        &mut subdivision,
+        &mut Carriers::all(),
+        &errors,
+        until(1e-3, before + 10)
+    ));
     // The last element marked is bisected whole, with what that takes.
     assert!(subdivision.vertex_count() <= before + 30);
 }

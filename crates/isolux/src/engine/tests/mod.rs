@@ -1,5 +1,6 @@
 //! The parts of the engines, each against what can be computed by hand.
 
+mod carrying;
 mod deposits;
 mod details;
 mod direct_light;

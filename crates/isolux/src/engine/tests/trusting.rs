@@ -12,6 +12,7 @@ fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
         area_m2,
         error,
         is_beset: false,
+        is_beset_afar: false,
     };
     of.iter().enumerate().map(error).collect()
 }
@@ -50,12 +51,13 @@ fn errors_at_vertices_bound_those_of_elements() {
         area_m2: coarse.triangle(node).area(),
         error: if left(node) { 1.0 + f64::from(node) } else { 0.0 },
         is_beset: false,
+        is_beset_afar: false,
     };
     let errors: Vec<LeafError> = coarse.leaves().map(error).collect();
     let mut fine = coarse.clone();
     fine.bisect_to(0.3, 1 << 20);
     let elements = fine.elements();
-    let at = trust::at_vertices(&elements, &errors);
+    let at = trust::at_vertices(&elements, &errors, f64::INFINITY);
     let mut compared = 0;
     for error in &errors {
         elements.visit_below(error.node, &mut |corners| {
