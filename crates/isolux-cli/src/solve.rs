@@ -8,7 +8,7 @@ use crate::interrupt::Interrupt;
 use crate::notes::{Note, note, note_as_json};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
-use crate::quantity::{show_bytes, show_seconds};
+use crate::quantity::show_bytes;
 use crate::report::Report;
 use crate::{explain, map_file, request, saved_run, source};
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
@@ -27,7 +27,7 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         explain::lines(&scene, &asked.request).iter().for_each(|line| note(Note::Info, line));
     }
     let Some(output) = asked.output.filter(|_| !flags.dry_run) else {
-        return dry_run(&scene, &asked.request, json);
+        return dry_run(&flags.scene, &scene, &asked.request, json);
     };
     saved_run::check_writable(&output)?;
     let saved =
@@ -48,16 +48,18 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
 }
 
 /// Says what a run would need.
-fn dry_run(scene: &Scene, request: &SolveRequest, json: bool) -> Result<Outcome, Failure> {
-    let estimate = Estimate::of(scene, request);
+fn dry_run(
+    source: &Path,
+    scene: &Scene,
+    request: &SolveRequest,
+    json: bool,
+) -> Result<Outcome, Failure> {
+    let estimate = Estimate::of(scene, request).map_err(|error| unsolvable(error, source))?;
     if json {
         print_json(&estimate)?;
     } else {
-        print(&facts(&[
-            ("receivers", format!("about {}", estimate.receivers)),
-            ("memory", format!("about {}", show_bytes(estimate.memory_bytes))),
-            ("time", format!("first guess {}", show_seconds(estimate.time_s))),
-        ]))?;
+        let [receivers, memory, time] = estimate.shown();
+        print(&facts(&[("receivers", receivers), ("memory", memory), ("time", time)]))?;
     }
     Ok(Outcome::Done)
 }
@@ -104,7 +106,18 @@ pub(crate) fn solve(
 
 /// Sorted by who can mend it.
 fn failure(error: SolveError, run: &Run) -> Failure {
-    let source = run.source.display();
+    match error {
+        SolveError::OtherRun(what) => Failure::bad_input(format!(
+            "{}: the saved run differs in {what}; repeat its flags, or solve without --resume",
+            saved_run::path_beside(run.output.path()).display()
+        )),
+        other => unsolvable(other, run.source),
+    }
+}
+
+/// Why a scene cannot be solved.
+fn unsolvable(error: SolveError, path: &Path) -> Failure {
+    let source = path.display();
     match error {
         SolveError::Memory { needed, allowed } => Failure::Refused(format!(
             "{source}: the map needs about {}, more than the {} of --max-memory; raise it, or ask \
@@ -112,14 +125,10 @@ fn failure(error: SolveError, run: &Run) -> Failure {
             show_bytes(needed),
             show_bytes(allowed)
         )),
-        SolveError::NoLight => source::no_light(run.source),
+        SolveError::NoLight => source::no_light(path),
         SolveError::NoReceiver => Failure::bad_input(format!(
             "{source}: no surface can carry a map: all are mirrors, glass or without area; give one \
              a diffuse reflectance, and check the scales"
-        )),
-        SolveError::OtherRun(what) => Failure::bad_input(format!(
-            "{}: the saved run differs in {what}; repeat its flags, or solve without --resume",
-            saved_run::path_beside(run.output.path()).display()
         )),
         other => Failure::bad_input(format!("{source}: {other}")),
     }

@@ -10,7 +10,7 @@ use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
-use crate::quantity::{flux, show_bytes, show_seconds, significant};
+use crate::quantity::{flux, significant};
 use crate::source;
 use finding::Finding;
 use isolux::engine::SolveRequest;
@@ -44,7 +44,8 @@ struct Audit {
     mean_reflectance: f64,
     mean_illuminance_lx: Option<f64>,
     open_edges: u64,
-    estimate: Estimate,
+    /// None where the scene cannot be solved.
+    estimate: Option<Estimate>,
     findings: Vec<Finding>,
 }
 
@@ -69,7 +70,7 @@ impl Audit {
             mean_reflectance: energy.mean_reflectance,
             mean_illuminance_lx: energy.mean_illuminance_lx(borders.is_closed()),
             open_edges: borders.open,
-            estimate: Estimate::of(scene, &SolveRequest::default()),
+            estimate: Estimate::of(scene, &SolveRequest::default()).ok(),
             findings,
         }
     }
@@ -81,6 +82,8 @@ impl Audit {
             .map_or("not known: no closed room, or no light".to_owned(), |lx| {
                 format!("about {} lx, if all light stays inside", significant(lx, 2))
             });
+        let unknown = || ["none", "none", "cannot be solved"].map(str::to_owned);
+        let [receivers, memory, time] = self.estimate.map_or_else(unknown, |e| e.shown());
         let mut text = facts(&[
             ("scene", self.scene.clone()),
             ("size", format!("{x} x {y} x {z} m")),
@@ -92,9 +95,9 @@ impl Audit {
             ("luminous flux", flux(self.luminous_flux_lm, self.parallel > 0)),
             ("mean reflectance", significant(self.mean_reflectance, 2)),
             ("mean illuminance", mean),
-            ("receivers at 1 %", format!("about {}", self.estimate.receivers)),
-            ("memory at 1 %", format!("about {}", show_bytes(self.estimate.memory_bytes))),
-            ("time to 1 %", format!("first guess {}", show_seconds(self.estimate.time_s))),
+            ("receivers at 1 %", receivers),
+            ("memory at 1 %", memory),
+            ("time to 1 %", time),
         ]);
         text += "\n";
         text += &self.findings.iter().map(Finding::line).collect::<String>();

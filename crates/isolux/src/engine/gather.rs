@@ -332,6 +332,13 @@ impl Operator {
         self.chunks.par_iter().flat_map_iter(|rows| rows.apply(light)).collect()
     }
 
+    /// Adds the receivers of another.
+    pub(super) fn append(&mut self, other: Self) {
+        self.chunks.extend(other.chunks);
+        self.receivers += other.receivers;
+        self.rays += other.rays;
+    }
+
     /// Whether each receiver is open: not closed in by black backs.
     pub(super) fn open(&self) -> Vec<bool> {
         self.chunks.iter().flat_map(|rows| rows.open.iter().copied()).collect()

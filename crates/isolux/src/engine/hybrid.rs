@@ -21,63 +21,6 @@ use std::time::Instant;
 /// the noise of an increment, which is above 1e-4 at the rays it has.
 const TOLERANCE: f64 = 1e-6;
 
-/// Receivers, increments and rays of the trial that tells how many rays an increment needs.
-const TRIAL_RECEIVERS: usize = 256;
-const TRIAL_INCREMENTS: u64 = 4;
-const TRIAL_RAYS: u32 = 16;
-
-/// The part of the accuracy asked for that noise may take.
-const NOISE_SHARE: f64 = 0.5;
-
-/// Variance of what is interpolated between three vertices, in the mean over an element, as a share of
-/// theirs: the integral of the sum of the squares of the hat functions over the area.
-const OF_INTERPOLATED: f64 = 0.5;
-
-/// Nets of n rays err like this power of 1/n: measured between 0.8 and 1.1 on CUBE and SPHERE from 8
-/// to 128 rays (independent rays err like 0.5).
-pub(super) const NET_ORDER: f64 = 0.85;
-
-/// Rays of a receiver and increment, whatever is asked for.
-const FEWEST_WANTED: f64 = 8.0;
-
-/// And at most: a run can soon be stopped after that many.
-const MOST_WANTED: f64 = 256.0;
-
-/// Gathering rays of a receiver with which so many increments leave the noise that is due to it: a
-/// trial on some receivers tells.
-pub(super) fn rays_for(plan: &Plan, target: f64, increments: u64, seed: u64) -> u32 {
-    let key = Key::new(seed).with(5);
-    let carries = |&k: &usize| plan.standings[k].is_some() && plan.carriers.is_active(k as u32);
-    let all: Vec<usize> = (0..plan.indirect_vertices).filter(carries).collect();
-    let every = (all.len() / TRIAL_RECEIVERS).max(1);
-    let tried: Vec<usize> = all.into_iter().step_by(every).collect();
-    let rows: Vec<Gatherer> =
-        tried.iter().map(|&k| plan.gatherers[k].with_rays(TRIAL_RAYS)).collect();
-    let gathering = Gathering::of(plan, &plan.direct);
-    let light = plan.fit.apply(&plan.guess);
-    let mut sums = Accumulator::new(rows.len(), plan.rms_lx);
-    for index in 0..TRIAL_INCREMENTS {
-        let key = key.with(index);
-        let operator = gathering.operator(&rows, |row| key.with(row as u64));
-        let gathered = operator.apply(&light).into_iter();
-        sums.add(gathered.map(|indirect| Sample { indirect, ..Sample::default() }));
-    }
-    let (mut area_m2, mut of_means) = (0.0, 0.0);
-    for (row, &vertex) in tried.iter().enumerate() {
-        let own_m2 = plan.elements.vertices()[vertex].area_m2;
-        area_m2 += own_m2;
-        of_means += own_m2 * sums.estimate(row).variance;
-    }
-    let variance = if area_m2 > 0.0 { TRIAL_INCREMENTS as f64 * of_means / area_m2 } else { 0.0 };
-    let noise_lx = (OF_INTERPOLATED * variance / increments as f64).sqrt();
-    let allowed_lx = NOISE_SHARE * target * plan.rms_lx;
-    if !(noise_lx > 0.0 && allowed_lx > 0.0) {
-        return FEWEST_WANTED as u32;
-    }
-    let wanted = f64::from(TRIAL_RAYS) * libm::pow(noise_lx / allowed_lx, 1.0 / NET_ORDER);
-    libm::exp2(libm::round(libm::log2(wanted.clamp(FEWEST_WANTED, MOST_WANTED)))) as u32
-}
-
 impl<'a> Gathering<'a> {
     /// Over what a plan has fixed; rays that read direct light from the map read these values.
     fn of(plan: &'a Plan<'_>, direct: &'a [Rgb]) -> Self {

@@ -67,6 +67,13 @@ impl Look {
         (excess > 1.0 && self.rms_lx > 0.0).then(|| (read(), excess))
     }
 
+    /// The most by which errors exceed what they should be, if they do, for whatever elements are read.
+    pub(super) fn greatest_excess(&self, request: &PilotRequest) -> f64 {
+        let reads = [Read::Trusted, Read::All];
+        let excess = |what| self.excess(what, request).map_or(1.0, |(_, excess)| excess);
+        reads.into_iter().map(excess).fold(1.0, f64::max)
+    }
+
     /// The error of elements up to which readers trust the map.
     pub(super) fn trusted_up_to_lx(&self, request: &PilotRequest) -> f64 {
         let limit = trust::limit(&self.errors, self.goal_lx(request.target, request), MOST_FRESH);

@@ -5,6 +5,7 @@ use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
 use super::gather::Gatherer;
+use super::trial::Trial;
 use super::trust;
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
@@ -38,6 +39,8 @@ pub(super) struct Plan<'s> {
     pub(super) subdivision: Subdivision,
     /// Root mean square of the photometric illuminance over all known surfaces, lx.
     pub(super) rms_lx: f64,
+    /// How noisy gathered light is.
+    pub(super) trial: Trial,
     /// From indirect light at the vertices to the function that fits best.
     pub(super) fit: Fit,
     pub(super) rays: u64,

@@ -1,5 +1,6 @@
 //! When a run will be done.
 
+use super::forecast::Left;
 use super::request::Prediction;
 use crate::map::Accuracy;
 
@@ -29,5 +30,15 @@ pub(super) fn finish(needed: f64, increments: u64, each_s: f64, now_s: f64) -> P
         finish_s,
         earliest_s: (finish_s - margin_s).max(now_s),
         latest_s: finish_s + margin_s,
+    }
+}
+
+/// The finishing time as the pilot sees it coming.
+pub(super) fn foreseen(left: Left, now_s: f64) -> Prediction {
+    let Left { time_s, factor } = left;
+    Prediction {
+        finish_s: now_s + time_s,
+        earliest_s: now_s + time_s / factor,
+        latest_s: now_s + time_s * factor,
     }
 }

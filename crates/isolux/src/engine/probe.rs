@@ -3,10 +3,10 @@
 use super::accumulate::mean_and_variance;
 use super::direct::{Goal, Lighting, Measured};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
-use super::hybrid::NET_ORDER;
 use super::path::Dice;
 use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
+use super::trial::NET_ORDER;
 use super::trust;
 use crate::map::{Accuracy, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{Key, Sequence};

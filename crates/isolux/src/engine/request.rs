@@ -81,6 +81,15 @@ pub struct Prediction {
     pub latest_s: f64,
 }
 
+/// What a run would need.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foreseen {
+    /// Vertices of the elements that it would come to.
+    pub receivers: u64,
+    /// When it would be done; `None` where the method does not tell, or no accuracy is asked for.
+    pub finish: Option<Prediction>,
+}
+
 /// The answer to a progress report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Watch {

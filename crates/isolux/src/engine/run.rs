@@ -5,10 +5,11 @@ use super::accuracy::BELIEVED_INCREMENTS;
 use super::deadline::Deadline;
 use super::direct::Lighting;
 use super::emission::Emission;
-use super::pilot::{PilotRequest, pilot};
+use super::forecast::Round;
+use super::pilot::{self, PilotRequest, pilot};
 use super::plan::Plan;
 use super::predict;
-use super::request::{Progress, SolveError, SolveRequest, Stage, Watch};
+use super::request::{Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
 use super::state::{RunIdentity, RunState};
 use super::work::{FEWEST_INCREMENTS, Work};
 use crate::map::{Accuracy, IlluminationMap, Method, Provenance};
@@ -53,6 +54,24 @@ pub fn solve(
     solve_with_maps(scene, request, resume, &mut |progress, _| watch(progress))
 }
 
+/// What a run would need, from as much of its pilot as there is patience for; one look at least.
+pub fn foresee(
+    scene: &Scene,
+    request: &SolveRequest,
+    patience: Duration,
+) -> Result<Foreseen, SolveError> {
+    check(scene, request)?;
+    let lighting = Lighting::new(scene);
+    let run = Run::new(scene, request);
+    let mut seen = Foreseen { receivers: 0, finish: None };
+    pilot::foresee(scene, &lighting, &run.pilot_request(), &mut |round| {
+        seen =
+            Foreseen { receivers: round.receivers_then.ceil() as u64, finish: run.foreseen(round) };
+        run.elapsed_s() < patience.as_secs_f64()
+    });
+    Ok(seen)
+}
+
 /// Who watches a run: sees its progress, may have the map as it is now (none while elements are being
 /// made), and says how to go on.
 pub type Watcher<'w> = dyn FnMut(&Progress, &dyn Fn() -> Option<IlluminationMap>) -> Watch + 'w;
@@ -65,24 +84,12 @@ pub fn solve_with_maps(
     watch: &mut Watcher<'_>,
 ) -> Result<Solution, SolveError> {
     check(scene, request)?;
-    let identity = RunIdentity::of(scene, request);
     if let Some(state) = resume {
-        identity.check(&state.identity)?;
+        RunIdentity::of(scene, request).check(&state.identity)?;
     }
     let resume = resume.filter(|state| state.increments > 0);
     let lighting = Lighting::new(scene);
-    let started = Instant::now();
-    let mut run = Run {
-        scene,
-        request,
-        identity,
-        started,
-        rays: 0,
-        stopped: false,
-        cut: false,
-        stage: 1,
-        saved_stage: 0,
-    };
+    let mut run = Run::new(scene, request);
     if let Some(state) = resume {
         run.stage = state.stage.clamp(1, MOST_STAGES);
         run.saved_stage = run.stage;
@@ -134,7 +141,21 @@ struct Run<'s, 'r> {
     saved_stage: u32,
 }
 
-impl<'s> Run<'s, '_> {
+impl<'s, 'r> Run<'s, 'r> {
+    fn new(scene: &'s Scene, request: &'r SolveRequest) -> Self {
+        Self {
+            scene,
+            request,
+            identity: RunIdentity::of(scene, request),
+            started: Instant::now(),
+            rays: 0,
+            stopped: false,
+            cut: false,
+            stage: 1,
+            saved_stage: 0,
+        }
+    }
+
     fn elapsed_s(&self) -> f64 {
         self.started.elapsed().as_secs_f64()
     }
@@ -155,19 +176,24 @@ impl<'s> Run<'s, '_> {
         target * libm::exp2(1.0 - f64::from(self.stage))
     }
 
-    fn pilot(&mut self, lighting: &'s Lighting<'s>, watch: &mut Watcher<'_>) -> Plan<'s> {
-        let request = PilotRequest {
+    fn pilot_request(&self) -> PilotRequest {
+        PilotRequest {
             target: self.mesh_for(),
             mesh_target: self.request.mesh_accuracy,
             seed: self.request.seed,
             is_fitted: self.request.method == Method::Hybrid,
             max_vertices: (self.request.max_memory_bytes / BYTES_A_VERTEX) as usize,
-        };
+        }
+    }
+
+    fn pilot(&mut self, lighting: &'s Lighting<'s>, watch: &mut Watcher<'_>) -> Plan<'s> {
+        let request = self.pilot_request();
         let before = self.rays;
         let scene = self.scene;
-        let plan = pilot(scene, lighting, &request, &mut |receivers, rays| {
-            self.rays = before + rays;
-            let progress = self.progress(Stage::Pilot, 0, receivers as u64, None);
+        let plan = pilot(scene, lighting, &request, &mut |round| {
+            self.rays = before + round.rays;
+            let progress = self.progress(Stage::Pilot, 0, round.receivers as u64, None);
+            let progress = Progress { prediction: self.foreseen(round), ..progress };
             // Who has said stop is not asked again.
             self.stopped =
                 self.stopped || watch(&progress, &|| None) == Watch::Stop || self.out_of_time();
@@ -177,6 +203,13 @@ impl<'s> Run<'s, '_> {
         });
         self.rays = before + plan.rays;
         plan
+    }
+
+    /// When the run will be done, seen from the pilot, if it has a goal.
+    fn foreseen(&self, round: &Round) -> Option<Prediction> {
+        let by_gathering = self.request.method == Method::Hybrid;
+        self.request.accuracy.filter(|_| by_gathering)?;
+        Some(predict::foreseen(round.left, self.elapsed_s()))
     }
 
     fn progress(

@@ -7,7 +7,7 @@ use super::deadline::Deadline;
 use super::emission::Emission;
 use super::filter::filter;
 use super::forward::Forward;
-use super::hybrid::{self, Hybrid};
+use super::hybrid::Hybrid;
 use super::plan::Plan;
 use super::predict;
 use super::request::{SolveError, SolveRequest};
@@ -66,7 +66,7 @@ impl<'p, 's> Work<'p, 's> {
     ) -> Self {
         let reference = plan.rms_lx;
         let wanted = match request.method {
-            Method::Hybrid => hybrid::rays_for(plan, target, FEWEST_INCREMENTS, request.seed),
+            Method::Hybrid => plan.trial.rays_for(target, plan.rms_lx, FEWEST_INCREMENTS),
             Method::Forward => 1,
         };
         let most = most_rays(plan.indirect_vertices, request.max_memory_bytes);

@@ -82,7 +82,7 @@ fn flux_is_kept() {
 /// Mean of an increment of the forward engine, by vertex.
 fn forward(scene: &Scene, request: &PilotRequest) -> (Vec<f64>, Vec<f64>) {
     let lighting = Lighting::new(scene);
-    let plan = pilot(scene, &lighting, request, &mut |_, _| true);
+    let plan = pilot(scene, &lighting, request, &mut |_| true);
     let engine = Forward::new(&plan, Emission::new(scene).unwrap(), 1);
     let mut sums = Accumulator::new(plan.elements.vertices().len(), plan.rms_lx);
     for k in 0..4 {

@@ -18,7 +18,7 @@ pub(super) fn room() -> Scene {
 pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Plan<'s> {
     let request =
         PilotRequest { target: 1.0, mesh_target: 1.0, seed: 1, is_fitted: true, max_vertices: 150 };
-    pilot(scene, lighting, &request, &mut |_, _| true)
+    pilot(scene, lighting, &request, &mut |_| true)
 }
 
 /// A number about zero with variance one, close to normal: the sum of twelve.

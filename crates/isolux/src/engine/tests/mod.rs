@@ -9,6 +9,7 @@ mod errors;
 mod estimates;
 mod fit;
 mod fixed_point;
+mod foreseeing;
 mod glass;
 mod gloss;
 mod many;

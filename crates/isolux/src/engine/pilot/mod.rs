@@ -4,18 +4,22 @@
 //! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
 //! noise is smooth over surfaces and does not pass for detail.
 
+mod direct;
+mod round;
+
 use super::carriers::Carriers;
 use super::detail::{Details, Refinement, bisect_twice, refine_worst};
-use super::direct::{Goal, Lighting, Measured};
+use super::direct::Lighting;
 use super::fit::Fit;
+use super::forecast::{Costs, FINE, GoOn};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 pub(super) use super::look::PilotRequest;
 use super::look::{Look, Read};
 use super::path::Dice;
 use super::plan::Plan;
-use super::shrink::beyond_noise;
 use super::surface::SurfacePoint;
+use super::trial::{self, Trial};
 use super::trust;
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
@@ -24,6 +28,7 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::time::Instant;
 
 /// Vertices that the pilot starts with, unless the scene has more.
 const FIRST_VERTICES: f64 = 700.0;
@@ -32,6 +37,8 @@ const FIRST_VERTICES: f64 = 700.0;
 const MORE_A_VERTEX: f64 = 0.05;
 /// The first again where nothing is fitted: particles, whose hat functions blur what they are deposited in.
 const FIRST_UNFITTED: f64 = 1500.0;
+/// The part of the first gathering that tells how long all takes.
+const FIRST_PART: usize = 16;
 /// How far apart the coarsest vertices that carry light may be, in edges of the first mesh: four of them, to
 /// start with two, as the details of those in between tell more than vertices twice as dense alone.
 const COARSEST: f64 = 4.0;
@@ -41,12 +48,6 @@ const MAX_ROUNDS: usize = 16;
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// Receivers on borders are pulled in by this share of the way to the middle of their element.
 const PULL_IN: f64 = 2e-3;
-/// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
-/// many are cheap anyway.
-const MOST_FOR_DIRECT_LIGHT: usize = 2;
-const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
-/// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
-const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
 /// A round in which the error falls with a lower power of the vertices was in vain. Where functions
 /// are smooth it is one; chasing light that comes in through narrow places, less for some rounds.
 const LEAST_ORDER: f64 = 0.25;
@@ -86,6 +87,11 @@ struct Pilot<'s> {
     rays: u32,
     traced: u64,
     least_edge_m: f64,
+    costs: Costs,
+    /// Whether direct light is what it will be.
+    is_measured: bool,
+    /// What a few receivers tell of noise, once there is light.
+    trial: Option<Trial>,
 }
 
 /// Looks and refines; `go_on` is asked after every round.
@@ -93,28 +99,21 @@ pub(super) fn pilot<'s>(
     scene: &'s Scene,
     lighting: &'s Lighting<'s>,
     request: &PilotRequest,
-    go_on: &mut dyn FnMut(usize, u64) -> bool,
+    go_on: &mut GoOn<'_>,
 ) -> Plan<'s> {
     let mut pilot = Pilot::new(scene, lighting, request);
-    let mut look = pilot.look();
-    let most = request
-        .max_vertices
-        .min(MOST_FOR_INDIRECT_LIGHT.max(look.elements.vertices().len() / 2 * 3));
-    for _ in 0..ROUNDS_FOR_HIDDEN {
-        if !pilot.open_up(&look.elements, most) {
-            break;
-        }
-        look = pilot.look();
-        if !go_on(pilot.subdivision.vertex_count(), pilot.traced) {
-            break;
-        }
-    }
-    // Readers gather over gathered maps alone: particles blur what is close by.
-    let reads = if request.is_fitted { &[Read::Trusted, Read::All][..] } else { &[Read::All] };
-    for &what in reads {
-        look = pilot.refine(look, request, (what, most), go_on);
-    }
+    let look = pilot.elements_for_indirect_light(request, go_on);
     pilot.finish(look, request, go_on)
+}
+
+/// What a pilot would find, without the whole of its work.
+pub(super) fn foresee<'s>(
+    scene: &'s Scene,
+    lighting: &'s Lighting<'s>,
+    request: &PilotRequest,
+    go_on: &mut GoOn<'_>,
+) {
+    Pilot::new(scene, lighting, request).elements_for_indirect_light(request, go_on);
 }
 
 impl<'s> Pilot<'s> {
@@ -147,8 +146,55 @@ impl<'s> Pilot<'s> {
             solved_nodes: 0,
             rays: pilot_rays(request.target),
             traced: 0,
+            costs: Costs::default(),
+            is_measured: false,
+            trial: None,
             least_edge_m: LEAST_EDGE_SHARE * extent_m,
         }
+    }
+
+    /// Elements that are fine enough for indirect light, or as fine as there is time for.
+    fn elements_for_indirect_light(
+        &mut self,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) -> Look {
+        let mut look = self.look(request, go_on);
+        let most = MOST_FOR_INDIRECT_LIGHT.max(look.elements.vertices().len() / 2 * 3);
+        let most = request.max_vertices.min(most);
+        self.try_some(&look);
+        let excess = |look: &Look| (Some(look.greatest_excess(request)), None);
+        let mut has_time = go_on(&self.round(request, Some(&look), excess(&look)));
+        for _ in 0..ROUNDS_FOR_HIDDEN {
+            if !(has_time && self.open_up(&look.elements, most)) {
+                break;
+            }
+            look = self.look(request, go_on);
+            has_time = go_on(&self.round(request, Some(&look), excess(&look)));
+        }
+        // Readers gather over gathered maps alone: particles blur what is close by.
+        let reads = if request.is_fitted { &[Read::Trusted, Read::All][..] } else { &[Read::All] };
+        for &what in reads {
+            look = self.refine(look, request, (what, most), go_on);
+        }
+        look
+    }
+
+    /// Tries how noisy gathered light is.
+    fn try_some(&mut self, look: &Look) {
+        let vertices = look.elements.vertices();
+        let carries = |&v: &usize| self.standings[v].is_some() && self.carriers.is_active(v as u32);
+        let all: Vec<usize> = (0..vertices.len()).filter(carries).collect();
+        let every = (all.len() / trial::RECEIVERS).max(1);
+        let gatherers = self.gatherers();
+        let some = all.into_iter().step_by(every);
+        let some: Vec<(Gatherer, f64)> =
+            some.map(|v| (gatherers[v], vertices[v].area_m2)).collect();
+        let gathering = self.gathering(&look.elements, u32::MAX, &self.standings);
+        let (trial, rays) =
+            Trial::of(&gathering, &some, &self.indirect, (look.rms_lx, self.key.with(6)));
+        self.trial = Some(trial);
+        self.traced += rays;
     }
 
     fn gatherers(&self) -> Vec<Gatherer> {
@@ -156,47 +202,13 @@ impl<'s> Pilot<'s> {
         receivers.iter().map(|r| Gatherer::at_vertex(self.scene, r, self.rays)).collect()
     }
 
-    /// Direct light at the vertices that have none yet, by the fewest rays.
-    fn complete_direct(&mut self, gatherers: &[Gatherer]) {
-        let sequence = Sequence::new(self.key.with(1));
-        let measured = |g: &Gatherer| self.lighting.measured(&g.surface, Goal::ANY, sequence);
-        let new: Vec<Measured> = gatherers[self.direct.len()..].par_iter().map(measured).collect();
-        self.direct.extend(new.iter().map(|m| m.lx));
-        self.direct_variance.extend(new.iter().map(|m| m.variance));
-    }
-
-    /// Direct light at all vertices for the increments: with noise of their own, where it has noise.
-    fn measure_direct(&mut self, gatherers: &[Gatherer], request: &PilotRequest, rms_lx: f64) {
-        self.direct.clear();
-        self.direct_variance.clear();
-        let lighting = self.lighting;
-        if !(request.is_fitted && lighting.has_many() && lighting.is_measured_once()) {
-            self.complete_direct(gatherers);
-            self.direct_variance.fill(0.0);
-            return;
-        }
-        let goal = Goal::lux(NOISE_OF_DIRECT_LIGHT * request.mesh_target * rms_lx);
-        let key = self.key.with(5);
-        let measured = |(k, g): (usize, &Gatherer)| {
-            lighting.measured(&g.surface, goal, Sequence::new(key.with(k as u64)))
-        };
-        let all: Vec<Measured> = gatherers.par_iter().enumerate().map(measured).collect();
-        self.direct.extend(all.iter().map(|m| m.lx));
-        self.direct_variance.extend(all.iter().map(|m| m.variance));
-    }
-
-    /// Photometric direct light at the known vertices, without details that may be noise.
-    fn direct_signal(&self, elements: &Elements) -> Vec<Option<f64>> {
-        let luminances = self.in_the_open(&self.direct);
-        beyond_noise(elements, &luminances, &self.direct_variance)
-    }
-
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
-    fn look(&mut self) -> Look {
+    fn look(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Look {
         let elements = self.subdivision.elements();
         let gatherers = self.gatherers();
         self.complete_direct(&gatherers);
-        self.complete_indirect(&elements, &gatherers);
+        self.complete_indirect(&elements, &gatherers, request, go_on);
+        let started = Instant::now();
         let luminances = self.in_the_open(&self.indirect);
         self.complete_beset();
         self.complete_middles(&elements, &luminances);
@@ -208,6 +220,7 @@ impl<'s> Pilot<'s> {
         let rms_lx = rms(&elements, &self.standings, lx);
         let left_by_fit = details.left_by_fit(&errors);
         let carriers = self.carriers.count(gatherers.len());
+        self.costs.looks.add(started.elapsed(), gatherers.len() as f64);
         Look { carriers, elements, errors, left_by_fit, rms_lx }
     }
 
@@ -279,36 +292,36 @@ impl<'s> Pilot<'s> {
         self.middles.extend(nodes.into_iter().zip(light.iter().map(|e| e.luminance())));
     }
 
-    fn complete_indirect(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+    fn complete_indirect(
+        &mut self,
+        elements: &Elements,
+        gatherers: &[Gatherer],
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) {
         let is_first = self.indirect.is_empty();
         // On the first mesh nobody knows yet what stands close.
         if is_first {
-            self.extend_known(elements, gatherers);
-            self.complete_standings(gatherers);
-            let open: Vec<bool> =
-                self.standings.iter().map(|&of| of == Some(Standing::Open)).collect();
-            if self.spacing_m > 0.0 {
-                self.carriers = Carriers::sparse(&self.subdivision, self.spacing_m, &open);
-            }
+            self.set_out(elements, gatherers);
         }
-        self.gathered.resize(gatherers.len(), false);
-        let vertices = 0..gatherers.len() as u32;
-        let is_new =
-            |&v: &u32| is_first || self.carriers.is_active(v) && !self.gathered[v as usize];
-        let new: Vec<u32> = vertices.filter(is_new).collect();
+        let new = self.new_carriers(gatherers.len());
         let level = if is_first { u32::MAX } else { self.solved_nodes };
         let gathering = self.gathering(elements, level, &self.standings);
         let key = self.key.with(2);
-        let edges_m = self.subdivision.longest_edges_m();
-        let row = |&vertex: &u32| {
-            let gatherer = &gatherers[vertex as usize];
-            let edge_m = edges_m[vertex as usize];
-            let rays = if self.carriers.is_active(vertex) { self.rays } else { 0 };
-            let in_gap = trust::is_closed_in(self.scene, &gatherer.surface, edge_m);
-            gatherer.with_rays(rays).in_gap(in_gap)
-        };
-        let rows: Vec<Gatherer> = new.par_iter().map(row).collect();
-        let operator = gathering.operator(&rows, |_| key);
+        let rows = self.rows(&new, gatherers);
+        let mut started = Instant::now();
+        let head = if is_first { rows.len() / FIRST_PART } else { 0 };
+        let mut operator = gathering.operator(&rows[..head], |_| key);
+        if is_first {
+            // How long it takes is told as soon as it is known how long a part takes.
+            self.costs.rays.add(started.elapsed(), operator.rays as f64);
+            go_on(&self.round(request, None, (None, None)));
+            started = Instant::now();
+        }
+        let gathering = self.gathering(elements, level, &self.standings);
+        let tail = gathering.operator(&rows[head..], |_| key);
+        let rays = tail.rays as f64;
+        operator.append(tail);
         self.traced += operator.rays;
         self.indirect.resize(gatherers.len(), Rgb::BLACK);
         if is_first {
@@ -324,10 +337,43 @@ impl<'s> Pilot<'s> {
             new.iter().zip(light).for_each(|(&v, light)| self.indirect[v as usize] = light);
             self.carriers.fill(&mut self.indirect);
         }
+        self.costs.rays.add(started.elapsed(), rays);
         self.complete_standings(gatherers);
         new.iter().for_each(|&v| self.gathered[v as usize] = self.carriers.is_active(v));
         self.complete_beset_carriers(gatherers);
         self.solved_nodes = self.subdivision.node_count() as u32;
+    }
+
+    /// Finds out what stands close before the vertices of the first mesh, and which of them carry light.
+    fn set_out(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        self.extend_known(elements, gatherers);
+        self.complete_standings(gatherers);
+        if self.spacing_m > 0.0 {
+            let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
+            let open: Vec<bool> = self.standings.iter().map(is_open).collect();
+            self.carriers = Carriers::sparse(&self.subdivision, self.spacing_m, &open);
+        }
+    }
+
+    /// The vertices that are to gather; all of the first mesh, as far as they carry light.
+    fn new_carriers(&mut self, vertices: usize) -> Vec<u32> {
+        let is_first = self.gathered.is_empty();
+        self.gathered.resize(vertices, false);
+        let is_new =
+            |&v: &u32| is_first || self.carriers.is_active(v) && !self.gathered[v as usize];
+        (0..vertices as u32).filter(is_new).collect()
+    }
+
+    fn rows(&self, vertices: &[u32], gatherers: &[Gatherer]) -> Vec<Gatherer> {
+        let edges_m = self.subdivision.longest_edges_m();
+        let row = |&vertex: &u32| {
+            let gatherer = &gatherers[vertex as usize];
+            let edge_m = edges_m[vertex as usize];
+            let rays = if self.carriers.is_active(vertex) { self.rays } else { 0 };
+            let in_gap = trust::is_closed_in(self.scene, &gatherer.surface, edge_m);
+            gatherer.with_rays(rays).in_gap(in_gap)
+        };
+        vertices.par_iter().map(row).collect()
     }
 
     /// Photometric values of the vertices in the open.
@@ -370,7 +416,7 @@ impl<'s> Pilot<'s> {
         mut look: Look,
         request: &PilotRequest,
         (what, max_vertices): (Read, usize),
-        go_on: &mut dyn FnMut(usize, u64) -> bool,
+        go_on: &mut GoOn<'_>,
     ) -> Look {
         let mut before = (f64::INFINITY, look.carriers as f64);
         for _ in 0..MAX_ROUNDS {
@@ -378,7 +424,9 @@ impl<'s> Pilot<'s> {
             // Where bisection no longer helps, what is left is noise: the check points will tell.
             let carriers = look.carriers as f64;
             let stalled = excess > before.0 * libm::pow(before.1 / carriers, LEAST_ORDER);
-            if stalled || !go_on(self.subdivision.vertex_count(), self.traced) {
+            let known = Some(before).filter(|(excess, _)| excess.is_finite());
+            let excesses = (Some(look.greatest_excess(request)), known);
+            if stalled || !go_on(&self.round(request, Some(&look), excesses)) {
                 break;
             }
             before = (excess, carriers);
@@ -387,7 +435,7 @@ impl<'s> Pilot<'s> {
             if !refine_worst(&mut self.subdivision, &mut self.carriers, &errors, how_far) {
                 break;
             }
-            look = self.look();
+            look = self.look(request, go_on);
         }
         look
     }
@@ -437,27 +485,24 @@ impl<'s> Pilot<'s> {
     }
 
     /// Refines further for direct light as interpolated, and puts the plan together.
-    fn finish(
-        mut self,
-        look: Look,
-        request: &PilotRequest,
-        go_on: &mut dyn FnMut(usize, u64) -> bool,
-    ) -> Plan<'s> {
+    fn finish(mut self, mut look: Look, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Plan<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
         let trusted_up_to_lx = look.trusted_up_to_lx(request);
         let coarse = self.subdivision.clone();
-        let elements = self.refine_for_direct_light(look.elements, look.rms_lx, request, go_on);
+        self.refine_for_direct_light(&mut look, request, go_on);
         // Once more for all: refinement has moved the receivers on borders.
         let gatherers = self.gatherers();
         self.measure_direct(&gatherers, request, look.rms_lx);
+        self.is_measured = true;
+        go_on(&self.round(request, Some(&look), FINE));
         self.complete_standings(&gatherers);
         let mut standings = std::mem::take(&mut self.standings);
-        forget_orphans(&elements, indirect_vertices, &mut standings);
+        forget_orphans(&look.elements, indirect_vertices, &mut standings);
         let open: Vec<bool> = standings.iter().map(|&of| of == Some(Standing::Open)).collect();
         Plan {
             scene: self.scene,
             lighting: self.lighting,
-            elements,
+            elements: look.elements,
             gatherers,
             indirect_vertices,
             level: coarse.node_count() as u32,
@@ -471,49 +516,9 @@ impl<'s> Pilot<'s> {
             carriers: self.carriers,
             standings,
             subdivision: coarse,
+            trial: self.trial.unwrap_or(Trial::usual(look.rms_lx)),
             rays: self.traced,
         }
-    }
-
-    /// Refines where direct light as interpolated errs, until it is as good as asked.
-    fn refine_for_direct_light(
-        &mut self,
-        mut elements: Elements,
-        rms_lx: f64,
-        request: &PilotRequest,
-        go_on: &mut dyn FnMut(usize, u64) -> bool,
-    ) -> Elements {
-        // Best effort: sharp shadow borders would take elements without end, and of emitting surfaces
-        // refinement cannot tell noise from borders.
-        let most = MOST_FOR_DIRECT_LIGHT * self.subdivision.vertex_count();
-        let most = most.max(ALWAYS_FOR_DIRECT_LIGHT);
-        let how_far = Refinement {
-            wanted: 0.0,
-            least_edge_m: self.least_edge_m,
-            max_vertices: most.min(request.max_vertices),
-        };
-        // All vertices have direct light of their own.
-        let mut carriers = Carriers::all();
-        for _ in 0..MAX_ROUNDS {
-            let signal = self.direct_signal(&elements);
-            let no = |_, _| false;
-            let details = Details::of(&self.subdivision, &elements, &signal, &carriers, no);
-            let errors = details.leaf_errors(|_| None, |_| false);
-            let error_lx = trust::error_of(&errors, |_| true);
-            let good = error_lx <= request.mesh_target * rms_lx;
-            if good || !go_on(self.subdivision.vertex_count(), self.traced) {
-                break;
-            }
-            if !refine_worst(&mut self.subdivision, &mut carriers, &errors, how_far) {
-                break;
-            }
-            elements = self.subdivision.elements();
-            let gatherers = self.gatherers();
-            self.complete_direct(&gatherers);
-            self.extend_known(&elements, &gatherers);
-            self.complete_standings(&gatherers);
-        }
-        elements
     }
 }
 

@@ -1,0 +1,146 @@
+//! What a run will still take, as the pilot sees it coming.
+//!
+//! Of its work it knows how long a ray and a measurement of direct light take here, how many vertices
+//! carry light, and by how much their error exceeds what it should be. Errors of piecewise linear
+//! functions fall with the first power of the number of vertices; from round to round they are seen
+//! to. None of this enters a map.
+
+use super::accuracy::BELIEVED_INCREMENTS;
+use std::time::Duration;
+
+/// Error of the elements against the number of vertices: a power between these is believed.
+const LEAST_ORDER: f64 = 0.4;
+const MOST_ORDER: f64 = 1.0;
+
+/// Before anything is seen, vertices grow so with the accuracy asked for, beyond this one.
+const USUAL_TARGET: f64 = 0.01;
+const USUAL_ORDER: f64 = 2.0;
+
+/// Factors between what is said and what comes, in nine of ten runs: before the first look, while
+/// elements are refined, and when they are fixed.
+const BLIND: f64 = 2.5;
+const REFINING: f64 = 1.7;
+const FIXED: f64 = 1.25;
+
+/// Time spent on a number of things.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cost {
+    time_s: f64,
+    things: f64,
+}
+
+impl Cost {
+    pub(super) fn add(&mut self, time: Duration, things: f64) {
+        self.time_s += time.as_secs_f64();
+        self.things += things;
+    }
+
+    fn of(self, things: f64) -> f64 {
+        if self.things > 0.0 { self.time_s * things / self.things } else { 0.0 }
+    }
+}
+
+/// What the pilot's work costs here.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Costs {
+    /// Rays that gather, sweeps included.
+    pub(super) rays: Cost,
+    /// Places where direct light is measured.
+    pub(super) direct: Cost,
+    /// All else, by vertices that are looked at.
+    pub(super) looks: Cost,
+}
+
+/// What is known of the work to come.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outlook {
+    /// Vertices that carry light, those of them that have gathered already, and all vertices.
+    pub(super) carriers: f64,
+    pub(super) gathered: f64,
+    pub(super) vertices: f64,
+    /// Rays of each in the pilot, and in an increment.
+    pub(super) pilot_rays: f64,
+    pub(super) rays: f64,
+    /// Accuracy asked for.
+    pub(super) target: f64,
+    /// By how much errors exceed what they should be, and what that was with how many carriers a
+    /// round ago; unknown before the first look.
+    pub(super) excess: Option<f64>,
+    pub(super) before: Option<(f64, f64)>,
+    /// Vertices more than there are now that direct light alone will take, measurements of it at all vertices still
+    /// to come, and in each increment.
+    pub(super) more_for_direct: f64,
+    pub(super) measurements: f64,
+    pub(super) measured_each: bool,
+}
+
+/// Time left, s, and the factor either way that holds in nine of ten runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Left {
+    pub(super) time_s: f64,
+    pub(super) factor: f64,
+}
+
+impl Outlook {
+    /// Vertices that will carry light, as a multiple of those that do.
+    fn growth(&self) -> f64 {
+        let Some(excess) = self.excess else {
+            return libm::pow(USUAL_TARGET / self.target, 1.0 / USUAL_ORDER).max(1.0);
+        };
+        if excess <= 1.0 {
+            return 1.0;
+        }
+        let order = self.before.map_or(MOST_ORDER, |(excess_before, carriers_before)| {
+            libm::log(excess_before / excess) / libm::log(self.carriers / carriers_before)
+        });
+        let order = if order.is_nan() { MOST_ORDER } else { order.clamp(LEAST_ORDER, MOST_ORDER) };
+        libm::pow(excess, 1.0 / order)
+    }
+
+    /// All vertices that there will be.
+    pub(super) fn vertices_then(&self) -> f64 {
+        self.vertices + self.carriers * (self.growth() - 1.0) + self.more_for_direct
+    }
+
+    /// What all of it takes.
+    pub(super) fn left(&self, costs: &Costs) -> Left {
+        let growth = self.growth();
+        let carriers = self.carriers * growth;
+        let vertices = self.vertices_then();
+        let pilot_s = costs.rays.of((carriers - self.gathered) * self.pilot_rays)
+            + costs.direct.of(vertices - self.vertices)
+            + costs.looks.of(if growth > 1.0 { vertices } else { 0.0 });
+        let direct_s = costs.direct.of(self.measurements * vertices);
+        let each_s = costs.rays.of(carriers * self.rays)
+            + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
+        let factor = match self.excess {
+            None => BLIND,
+            Some(excess) if excess > 1.0 => REFINING,
+            Some(_) => FIXED,
+        };
+        Left { time_s: pilot_s + direct_s + BELIEVED_INCREMENTS as f64 * each_s, factor }
+    }
+}
+
+/// By how much errors exceed what they should be, and what that was with how many carriers a round ago, as
+/// far as that is known.
+pub(super) type Excess = (Option<f64>, Option<(f64, f64)>);
+
+/// Elements are as fine as they will be.
+pub(super) const FINE: Excess = (Some(1.0), None);
+
+/// Is told of every round, and says whether there is time for another.
+pub(super) type GoOn<'g> = dyn FnMut(&Round) -> bool + 'g;
+
+/// What a pilot has done, and what will come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Round {
+    /// Vertices.
+    pub(super) receivers: usize,
+    /// Rays traced.
+    pub(super) rays: u64,
+    /// Vertices that there will be.
+    pub(super) receivers_then: f64,
+    /// Time to the accuracy asked for.
+    pub(super) left: Left,
+}

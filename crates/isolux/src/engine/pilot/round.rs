@@ -1,0 +1,57 @@
+//! What the pilot tells of itself.
+
+use super::Pilot;
+use crate::engine::accuracy::BELIEVED_INCREMENTS;
+use crate::engine::forecast::{Excess, Outlook, Round};
+use crate::engine::look::{Look, PilotRequest};
+use crate::engine::trial::Trial;
+
+/// How much longer many luminaires take to be measured for all increments than by the fewest rays: 1.5
+/// times in the hall.
+const AGAIN: f64 = 1.5;
+
+impl Pilot<'_> {
+    /// What is done and what will come, from the last look, if there was one.
+    pub(super) fn round(
+        &self,
+        request: &PilotRequest,
+        look: Option<&Look>,
+        (excess, before): Excess,
+    ) -> Round {
+        let vertices = self.subdivision.vertex_count();
+        let rms_lx = look.map_or(1.0, |look| look.rms_lx);
+        let trial = self.trial.unwrap_or(Trial::usual(rms_lx));
+        let carriers = self.carriers.count(vertices) as f64;
+        let gathered = self.gathered.iter().filter(|&&gathered| gathered).count();
+        let most = self.most_for_direct_light(request) as f64;
+        let unmeasured = look.filter(|_| !self.is_measured);
+        let more = unmeasured.map_or(0.0, |look| {
+            let excess = self.direct_excess(&look.elements, request, look.rms_lx).1;
+            let then = vertices as f64 * excess.max(1.0).sqrt();
+            (then.min(most) - vertices as f64).max(0.0)
+        });
+        let outlook = Outlook {
+            carriers,
+            gathered: gathered as f64,
+            vertices: vertices as f64,
+            pilot_rays: f64::from(self.rays),
+            rays: f64::from(trial.rays_for(request.target, rms_lx, BELIEVED_INCREMENTS)),
+            target: request.target,
+            excess,
+            before,
+            more_for_direct: more,
+            measurements: match (self.is_measured, self.lighting.has_many()) {
+                (true, _) => 0.0,
+                (false, true) => AGAIN,
+                (false, false) => 1.0,
+            },
+            measured_each: !self.lighting.is_measured_once(),
+        };
+        Round {
+            receivers: vertices,
+            rays: self.traced,
+            receivers_then: outlook.vertices_then(),
+            left: outlook.left(&self.costs),
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! What a run says of itself before it is done.
+
+use super::errors::room;
+use crate::engine::forecast::{Costs, Outlook};
+use crate::engine::{SolveRequest, Stage, Watch, foresee, solve};
+use std::time::Duration;
+
+/// A thousand carriers of two thousand vertices that have gathered, good enough, at a microsecond a ray.
+fn known() -> (Outlook, Costs) {
+    let mut costs = Costs::default();
+    costs.rays.add(Duration::from_millis(64), 64_000.0);
+    costs.direct.add(Duration::from_millis(2), 2000.0);
+    costs.looks.add(Duration::from_millis(4), 2000.0);
+    let outlook = Outlook {
+        carriers: 1000.0,
+        gathered: 1000.0,
+        vertices: 2000.0,
+        pilot_rays: 64.0,
+        rays: 16.0,
+        target: 0.01,
+        excess: Some(1.0),
+        before: None,
+        more_for_direct: 0.0,
+        measurements: 0.0,
+        measured_each: false,
+    };
+    (outlook, costs)
+}
+
+#[test]
+fn when_elements_are_fixed_increments_are_left() {
+    let (outlook, costs) = known();
+    // Eight increments of a thousand times sixteen rays.
+    let left_s = outlook.left(&costs).time_s;
+    assert!((left_s - 0.128).abs() < 1e-9, "{left_s}");
+    let measured = Outlook { measured_each: true, ..outlook }.left(&costs).time_s;
+    assert!((measured - left_s - 8.0 * 0.002).abs() < 1e-9, "direct light in each: {measured}");
+}
+
+#[test]
+fn elements_grow_as_errors_are_seen_to_fall() {
+    let (outlook, costs) = known();
+    let first = Outlook { excess: Some(2.0), ..outlook };
+    assert_eq!(first.vertices_then(), 3000.0, "first power");
+    // From 500 to 1000 carriers errors fell by the root of two only: it takes four times as many.
+    let slow = Outlook { before: Some((2.0 * 2.0_f64.sqrt(), 500.0)), ..first };
+    assert!((slow.vertices_then() - 5000.0).abs() < 1e-6, "{}", slow.vertices_then());
+    let left = slow.left(&costs);
+    // Three thousand gather in the pilot, with 64 rays each, and four thousand in increments.
+    let rays_s = 1e-6 * (3000.0 * 64.0 + 8.0 * 4000.0 * 16.0);
+    assert!(left.time_s > rays_s && left.time_s < rays_s + 0.02, "{} {rays_s}", left.time_s);
+    assert!(left.factor > outlook.left(&costs).factor, "less is known");
+}
+
+#[test]
+fn a_run_says_when_it_will_end_before_it_has_elements() {
+    let scene = room();
+    let request = SolveRequest { accuracy: Some(0.02), ..SolveRequest::default() };
+    let mut said = Vec::new();
+    let solution = solve(&scene, &request, None, &mut |progress| {
+        said.push((progress.stage, progress.prediction));
+        Watch::Continue
+    });
+    let solution = solution.unwrap();
+    assert!(solution.map.provenance.complete);
+    assert_eq!(said[0].0, Stage::Pilot);
+    for (_, prediction) in &said {
+        let p = prediction.expect("a run with a goal says something from the first");
+        assert!(p.earliest_s <= p.finish_s && p.finish_s <= p.latest_s && p.finish_s > 0.0);
+    }
+}
+
+#[test]
+fn a_dry_run_foresees_the_elements_of_the_run() {
+    let scene = room();
+    let request = SolveRequest { accuracy: Some(0.02), ..SolveRequest::default() };
+    let seen = foresee(&scene, &request, Duration::from_secs(60)).unwrap();
+    let solution = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap();
+    let receivers = solution.map.elements.vertices().len() as f64;
+    let share = seen.receivers as f64 / receivers;
+    // Refinement grows by rounds, of which the last may go a little beyond what was needed.
+    assert!((0.7..1.5).contains(&share), "{} for {receivers}", seen.receivers);
+    assert!(seen.finish.is_some());
+    let endless = SolveRequest { accuracy: None, ..request };
+    assert_eq!(foresee(&scene, &endless, Duration::ZERO).unwrap().finish, None, "no goal, no end");
+}
