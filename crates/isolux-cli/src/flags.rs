@@ -33,6 +33,8 @@ pub(crate) enum Command {
     Info(InfoFlags),
     /// Read a map, or trace paths, at points
     Probe(ProbeFlags),
+    /// Illuminance on calculation grids: mean, least, greatest, uniformity
+    Grid(GridFlags),
     /// Draw a view from a map
     Render(RenderFlags),
     /// Audit a scene before a run
@@ -172,6 +174,56 @@ pub(crate) struct ProbeFlags {
     /// Seed of the random numbers of paths [default: 1]
     #[arg(long, value_name = "N", value_parser = quantity::seed, allow_hyphen_values = true)]
     pub seed: Option<u64>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux grid map.glb
+  isolux grid map.glb --height 0.75 --maintenance-factor 0.8 --picture desk-height.png
+  isolux grid room.toml --accuracy 2% --name desk --csv desk.csv
+  isolux grid map.glb --corner 0,0,0.75 --u 2,0,0 --v 0,1,0 --spacing 0.25
+
+Grids are those of the scene ([[grid]] in scene.toml), or one given here. Points lie in the middles of cells as
+EN 12464-1 spaces them and face the way of u cross v. Values are maintained illuminance: the initial one times
+the maintenance factor. Intervals are of 95 %. A scene is solved first; to keep its map, solve it yourself.")]
+pub(crate) struct GridFlags {
+    /// The map (.glb), or a scene
+    #[arg(value_name = "MAP|SCENE")]
+    pub source: PathBuf,
+    /// One grid of the scene only
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["height", "corner"])]
+    pub name: Option<String>,
+    /// A working plane at this height, m, over all of the floor plan
+    #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true, conflicts_with = "corner")]
+    pub height: Option<f64>,
+    /// A corner of a grid, x,y,z, in metres and in the axes of the scene as written
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "u", requires = "v")]
+    pub corner: Option<[f64; 3]>,
+    /// One side of it
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "corner")]
+    pub u: Option<[f64; 3]>,
+    /// The other side, at right angles
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "corner")]
+    pub v: Option<[f64; 3]>,
+    /// Distance of points, m [default: that of EN 12464-1]
+    #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true)]
+    pub spacing: Option<f64>,
+    /// Width of the band along the sides that is left out, m [default: with --height half a metre or 15 % of the
+    /// shorter side, whichever is less; else none]
+    #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true)]
+    pub border: Option<f64>,
+    /// The share of the initial light that is left when maintained [default: the grid's, else 1]
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
+    pub maintenance_factor: Option<f64>,
+    /// Of a scene: solve it to this accuracy [default: 1%]
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
+    pub accuracy: Option<f64>,
+    /// Write all points with their values
+    #[arg(long, value_name = "FILE.csv")]
+    pub csv: Option<PathBuf>,
+    /// Draw the one grid in false colour with isolux lines, u to the right and v up
+    #[arg(long, value_name = "FILE.png")]
+    pub picture: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -7,6 +7,7 @@ mod estimate;
 mod explain;
 mod failure;
 mod flags;
+mod grid;
 mod info;
 mod interrupt;
 mod map_file;
@@ -46,6 +47,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
     match &flags.command {
         Command::Solve(flags) => solve::run(flags, json),
         Command::Probe(flags) => probe::run(flags, json),
+        Command::Grid(flags) => grid::run(flags, json),
         Command::Check(flags) => check::run(flags, json),
         Command::Render(flags) => render::run(flags, json),
         Command::Validate(flags) => validate::run(flags, json),

@@ -66,6 +66,23 @@ fn scaled(text: &str, units: &[(&str, f64)]) -> Option<f64> {
 /// The largest side of a picture: 16 384 squared is a gigabyte of pixels already.
 const MAX_SIDE: u32 = 16_384;
 
+/// A length in metres: `0.75`.
+pub(crate) fn metres(text: &str) -> Result<f64, String> {
+    let found = text.trim().trim_end_matches('m').trim().parse::<f64>();
+    let metres = found.map_err(|_| "is no length; write metres, as 0.75".to_owned())?;
+    if metres.is_finite() { Ok(metres) } else { Err("is not finite; write metres, as 0.75".into()) }
+}
+
+/// Three numbers: `1,2.5,0.75`.
+pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f64>().ok().filter(|number| number.is_finite()))
+        .collect();
+    let numbers = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
+    numbers.ok_or_else(|| "is not three numbers; write x,y,z, as 1,2.5,0.75".to_owned())
+}
+
 /// The size of a picture as `1280x720`.
 pub(crate) fn pixels(text: &str) -> Result<(u32, u32), String> {
     let side = |side: &str| {
@@ -201,6 +218,18 @@ mod tests {
         }
         for text in ["", "8", "GiB", "-1GiB", "0GiB", "1e30TiB", "8G"] {
             assert!(memory_bytes(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn lengths_and_places() {
+        assert_eq!((metres("0.75"), metres("2 m"), metres("-1")), (Ok(0.75), Ok(2.0), Ok(-1.0)));
+        assert_eq!(triple("1,-2.5, 0.75"), Ok([1.0, -2.5, 0.75]));
+        for text in ["", "1", "1,2", "1,2,3,4", "1,2,x", "1,2,inf"] {
+            assert!(triple(text).is_err(), "{text}");
+        }
+        for text in ["", "x", "NaN", "inf"] {
+            assert!(metres(text).is_err(), "{text}");
         }
     }
 

@@ -89,13 +89,32 @@ pub(crate) fn solve(
     saved: Option<&RunState>,
     reporter: &mut Reporter,
 ) -> Result<Solved, Failure> {
+    follow(scene, run.request, saved, reporter, |error| failure(error, run))
+}
+
+/// The same where the map goes nowhere.
+pub(crate) fn solve_here(
+    (scene, source): (&Scene, &Path),
+    request: &SolveRequest,
+) -> Result<Solved, Failure> {
+    let reporter = &mut Reporter::new(None);
+    follow(scene, request, None, reporter, |error| unsolvable(error, source))
+}
+
+fn follow(
+    scene: &Scene,
+    request: &SolveRequest,
+    saved: Option<&RunState>,
+    reporter: &mut Reporter,
+    failure: impl Fn(SolveError) -> Failure,
+) -> Result<Solved, Failure> {
     let interrupt = Interrupt::install()?;
-    let solved = engine::solve(scene, run.request, saved, &mut |progress| {
+    let solved = engine::solve(scene, request, saved, &mut |progress| {
         reporter.show(progress);
         if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
     });
     reporter.finish();
-    let solution = solved.map_err(|error| failure(error, run))?;
+    let solution = solved.map_err(failure)?;
     let outcome = match (solution.map.provenance.complete, interrupt.is_requested()) {
         (true, _) => Outcome::Done,
         (false, true) => Outcome::Interrupted,

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests may stop at the first surprise")]
 
 mod bad_input;
+mod grids;
 #[cfg(unix)]
 mod interrupted;
 mod ran;

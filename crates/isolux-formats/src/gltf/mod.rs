@@ -84,6 +84,7 @@ fn resolve(document: &Document, placed: &[Placed], path: &Path, notes: &mut Note
         luminaires,
         groups: Vec::new(),
         cameras,
+        grids: Vec::new(),
     }
 }
 

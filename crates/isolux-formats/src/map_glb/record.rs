@@ -5,7 +5,7 @@ use super::preview::Preview;
 use isolux::geometry::{Direction, Point, Transform};
 use isolux::map::Provenance;
 use isolux::photometry::IntensityDistribution;
-use isolux::scene::{Camera, Material, UpAxis};
+use isolux::scene::{CalculationGrid, Camera, Material, UpAxis};
 use isolux::units::Rgb;
 use serde::{Deserialize, Serialize};
 
@@ -71,6 +71,9 @@ pub(super) struct SceneRecord {
     pub(super) luminaires: Vec<LuminaireRecord>,
     pub(super) groups: Vec<String>,
     pub(super) cameras: Vec<Camera>,
+    /// Maps of before grids have none.
+    #[serde(default)]
+    pub(super) grids: Vec<CalculationGrid>,
 }
 
 /// A shape: the next `triangles` triangles of the arrays.

@@ -40,6 +40,7 @@ pub(super) fn write(
         distributions: distributions.table,
         groups: parts.groups,
         cameras: parts.cameras,
+        grids: parts.grids,
     }
 }
 
@@ -115,6 +116,7 @@ pub(super) fn read(record: SceneRecord, arrays: &Arrays<'_>) -> Result<ScenePart
             .collect::<Result<_, _>>()?,
         groups: record.groups,
         cameras: record.cameras,
+        grids: record.grids,
     })
 }
 

@@ -4,6 +4,7 @@ mod cameras;
 mod chromaticity;
 mod context;
 mod geometry;
+mod grids;
 mod import;
 mod inline;
 mod luminaires;

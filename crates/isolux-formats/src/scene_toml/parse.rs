@@ -39,6 +39,7 @@ pub(super) fn parse(text: &str, context: &mut Context) -> SceneFile {
             }
             "luminaire" => file.luminaires = list("luminaire", value, context),
             "camera" => file.cameras = list("camera", value, context),
+            "grid" => file.grids = list("grid", value, context),
             other => {
                 let at = if key.span().is_empty() { span } else { key.span() };
                 context.problem(&at, format!("unknown key `{other}`"), KEYS);

@@ -17,6 +17,7 @@ pub(super) struct SceneFile {
     pub(super) groups: Vec<GroupRecord>,
     pub(super) luminaires: Vec<At<LuminaireRecord>>,
     pub(super) cameras: Vec<At<CameraRecord>>,
+    pub(super) grids: Vec<At<GridRecord>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -218,6 +219,18 @@ pub(super) struct CameraRecord {
     pub(super) direction: Option<At<Triple>>,
     pub(super) up: Option<At<Triple>>,
     pub(super) vertical_fov_deg: Option<At<Positive>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GridRecord {
+    pub(super) name: Option<String>,
+    pub(super) corner: Triple,
+    pub(super) u: Triple,
+    pub(super) v: Triple,
+    pub(super) spacing: Option<Positive>,
+    pub(super) border: Option<NonNegative>,
+    pub(super) maintenance_factor: Option<Positive>,
 }
 
 impl MaterialRecord {

@@ -4,7 +4,7 @@ use super::context::Context;
 use super::luminaires::{self, Groups};
 use super::materials::Palette;
 use super::record::SceneFile;
-use super::{cameras, geometry};
+use super::{cameras, geometry, grids};
 use isolux::scene::SceneParts;
 
 /// All parts that could be made; what is wrong goes to the findings.
@@ -25,6 +25,7 @@ pub(super) fn resolve(file: SceneFile, context: &mut Context) -> SceneParts {
     luminaires::add(&file.luminaires, &mut groups, &mut scene, context);
     scene.groups = groups.names;
     cameras::add(&file.cameras, &mut scene, context);
+    grids::add(&file.grids, &mut scene, context);
     if scene.shapes.is_empty() && !context.has_problems() {
         context.problem(&(0..0), "the scene has no geometry", "add a [[geometry]]");
     }

@@ -5,8 +5,8 @@ use isolux::geometry::{Direction, Point, Transform, Vector};
 use isolux::map::{Accuracy, Fresh, Illuminance, IlluminationMap, Method, Provenance, Standing};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux::scene::{
-    Body, Camera, Dielectric, Finish, Gloss, Luminaire, LuminaireKind, Material, Reflectance,
-    Scene, SceneParts, Shape, Texture, UpAxis,
+    Body, CalculationGrid, Camera, Dielectric, Finish, Gloss, Luminaire, LuminaireKind, Material,
+    Reflectance, Scene, SceneParts, Shape, Texture, UpAxis,
 };
 use isolux::units::Rgb;
 use std::sync::Arc;
@@ -36,6 +36,15 @@ pub(crate) fn parts() -> SceneParts {
             direction: Vector::new(1.0, 2.0, -0.3).direction().unwrap(),
             up: Direction::Z,
             vertical_fov_rad: 1.1,
+        }],
+        grids: vec![CalculationGrid {
+            name: "desk".into(),
+            corner: Point::new(0.5, 0.5, 0.75),
+            u: Vector::new(1.0, 0.0, 0.0),
+            v: Vector::new(0.0, 0.7, 0.0),
+            spacing_m: Some(0.1),
+            border_m: 0.05,
+            maintenance_factor: 0.8,
         }],
     }
 }

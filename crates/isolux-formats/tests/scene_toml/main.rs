@@ -4,6 +4,7 @@
 
 mod cameras;
 mod geometry;
+mod grids;
 mod hostile;
 mod imports;
 mod luminaires;

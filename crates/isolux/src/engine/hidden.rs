@@ -24,7 +24,7 @@ const RAYS: u32 = 32;
 
 /// A vertex is looked at to this far beyond it, as a share of the distance, so that one that lies in
 /// a wall is not seen from behind it.
-const BEYOND: f64 = 1e-3;
+pub(super) const BEYOND: f64 = 1e-3;
 
 /// All that is needed to look about on the vertices of a mesh.
 pub(super) struct Sight<'a> {

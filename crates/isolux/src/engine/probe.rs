@@ -3,15 +3,17 @@
 use super::accumulate::mean_and_variance;
 use super::direct::{Goal, Lighting, Measured};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
-use super::path::Dice;
+use super::hidden::BEYOND;
+use super::path::{Dice, PathEnd, follow};
 use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
 use super::trial::NET_ORDER;
 use super::trust;
 use crate::map::{Accuracy, Illuminance, IlluminationMap, Standing};
-use crate::sampling::{Key, Sequence};
+use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
+use isolux_geometry::Ray;
 
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
@@ -24,6 +26,10 @@ const FRESH_NOISE: f64 = 0.7;
 const FRESH_REPLICATES: u32 = 16;
 const FRESH_TRIAL_RAYS: u32 = 8;
 const FRESH_MOST_RAYS: f64 = 1024.0;
+
+/// Rays that look about from a place in space: one that sees light in a fifth of its hemisphere is taken to be
+/// inside something once in a thousand times.
+const LOOKS: u32 = 32;
 
 /// Shadow rays to every emitting surface in a reading for a picture.
 const GLANCE_SAMPLES: usize = 4;
@@ -66,6 +72,8 @@ struct Unseen {
     bias_lx: f64,
     /// Of the whole map.
     reached_lx: f64,
+    /// How long elements are, m: of half squares that many vertices make on so large a surface.
+    usual_edge_m: f64,
 }
 
 impl<'a> MapReader<'a> {
@@ -169,6 +177,17 @@ impl<'a> MapReader<'a> {
         }
     }
 
+    fn gathering<'b>(&'b self, direct: DirectAtEnds<'b>) -> Gathering<'b> {
+        Gathering {
+            scene: self.scene,
+            lighting: &self.lighting,
+            elements: &self.map.elements,
+            level: u32::MAX,
+            standings: &self.standings,
+            direct,
+        }
+    }
+
     /// Mean over replicates and its variance.
     fn gather(
         &self,
@@ -176,14 +195,7 @@ impl<'a> MapReader<'a> {
         direct: DirectAtEnds<'_>,
         (replicates, key): (u32, Key),
     ) -> (Rgb, f64) {
-        let gathering = Gathering {
-            scene: self.scene,
-            lighting: &self.lighting,
-            elements: &self.map.elements,
-            level: u32::MAX,
-            standings: &self.standings,
-            direct,
-        };
+        let gathering = self.gathering(direct);
         let rows = vec![gatherer; replicates as usize];
         let values = gathering.operator(&rows, |k| key.with(k as u64)).apply(&self.light);
         mean_and_variance(&values)
@@ -215,6 +227,61 @@ impl<'a> MapReader<'a> {
     /// surface that carries a known value lies within a ten-thousandth of the scene's extent.
     pub fn probe(&self, at: ProbePoint) -> Option<Illuminance> {
         self.read(self.find_surface(at)?)
+    }
+
+    /// As [`MapReader::probe`] where there is a surface with a known value, and else as in free space:
+    /// direct light afresh, indirect light gathered over the map until its noise is below the error
+    /// of the map, caustics unknown and left out. `None` where nothing but the inside of something is
+    /// seen.
+    pub fn measure(&self, at: ProbePoint) -> Option<Illuminance> {
+        self.probe(at).or_else(|| {
+            let trial = Gatherer::in_space(at.position, at.normal, FRESH_TRIAL_RAYS);
+            if !self.sees_light(&trial) {
+                return None;
+            }
+            let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
+            let indirect = self.gathered(Illuminance::NOTHING, trial);
+            let edge_m = self.unseen.usual_edge_m;
+            let nearness = trust::nearness(self.scene, &trial.surface, edge_m);
+            let interpolation_error_lx = nearness * lookup_lx;
+            let indirect = Illuminance { interpolation_error_lx, ..indirect };
+            Some(self.with_fresh_direct(indirect, &trial.surface))
+        })
+    }
+
+    /// Whether some ray leaves the scene or meets a place that sees a vertex of its element of which the map
+    /// knows something: elements may reach below what stands on them.
+    fn sees_light(&self, from: &Gatherer) -> bool {
+        let sequence = Sequence::new(place_key(from.surface.point).with(8));
+        let axis = from.normal.to_direction();
+        (0..LOOKS).any(|index| {
+            let mut dice = Dice::new(sequence, index);
+            let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
+            let mut is_known = false;
+            let end = follow(
+                self.scene,
+                Ray::new(from.origin, direction),
+                direction,
+                &mut dice,
+                |surface, _, _| {
+                    is_known |= self.sees_known_vertex(surface);
+                },
+            );
+            is_known || end == PathEnd::Left
+        })
+    }
+
+    fn sees_known_vertex(&self, place: &SurfacePoint) -> bool {
+        let SurfacePoint { triangle, back, u, v, .. } = *place;
+        let corners = self.map.elements.locate(triangle, back, u, v);
+        corners.into_iter().flatten().any(|(vertex, _)| {
+            let at = self.map.elements.vertices()[vertex as usize];
+            let from = place.start();
+            let to = at.position + at.normal.to_vector() * place.away_m;
+            // One that lies in a wall is not to be seen from behind it.
+            let ray = Ray::between(from, to + (to - from) * BEYOND).skipping(triangle);
+            self.standings[vertex as usize].is_some() && !self.scene.bvh().any_hit(&ray)
+        })
     }
 
     /// The same of the bare map, direct light interpolated, too. The standard error is that of
@@ -306,6 +373,7 @@ impl Unseen {
     /// fewer intervals hold the truth: dark edges err most.)
     fn of(map: &IlluminationMap) -> Self {
         let rms_lx = rms_lx(map);
+        let area_m2: f64 = map.elements.vertices().iter().map(|v| v.area_m2).sum();
         let share = |part: fn(&Accuracy) -> f64| {
             map.provenance.accuracy.as_ref().map_or(0.0, |accuracy| part(accuracy) * rms_lx)
         };
@@ -313,6 +381,7 @@ impl Unseen {
             discretization_lx: share(|a| a.discretization),
             bias_lx: share(|a| a.bias),
             reached_lx: share(|a| a.reached),
+            usual_edge_m: (2.0 * area_m2 / map.values.len().max(1) as f64).sqrt(),
         }
     }
 }

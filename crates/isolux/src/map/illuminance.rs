@@ -29,6 +29,18 @@ pub struct Illuminance {
 }
 
 impl Illuminance {
+    /// No light, known exactly.
+    pub const NOTHING: Self = Self {
+        direct_lx: Rgb::BLACK,
+        caustic_lx: Rgb::BLACK,
+        indirect_lx: Rgb::BLACK,
+        standard_error_lx: 0.0,
+        indirect_standard_error_lx: 0.0,
+        interpolation_error_lx: 0.0,
+        standing: Standing::Open,
+        samples: 0,
+    };
+
     /// Direct plus indirect, lx.
     pub fn total_lx(&self) -> Rgb {
         self.direct_lx + self.indirect_lx

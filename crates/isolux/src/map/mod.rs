@@ -1,9 +1,11 @@
 //! Illumination maps: plain values.
 
+mod grid;
 mod illuminance;
 mod provenance;
 mod standing;
 
+pub use grid::{Figure, GridFigures};
 pub use illuminance::Illuminance;
 pub use provenance::{Accuracy, FilterReport, Fresh, Method, Provenance};
 pub use standing::Standing;

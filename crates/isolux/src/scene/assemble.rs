@@ -1,8 +1,8 @@
 //! From plain parts to a scene that cannot be invalid.
 
 use super::{
-    AreaLuminaire, Body, Camera, Finish, Luminaire, LuminaireKind, Material, SceneParts,
-    SceneProblem, Shape, Texture, UpAxis,
+    AreaLuminaire, Body, CalculationGrid, Camera, Finish, Luminaire, LuminaireKind, Material,
+    SceneParts, SceneProblem, Shape, Texture, UpAxis,
 };
 use crate::units::Rgb;
 use isolux_geometry::{Bvh, Hit, Normal, Point, Triangle, TriangleMesh, Vector};
@@ -27,6 +27,7 @@ pub struct Scene {
     area_luminaires: Vec<AreaLuminaire>,
     groups: Vec<String>,
     cameras: Vec<Camera>,
+    grids: Vec<CalculationGrid>,
 }
 
 impl Scene {
@@ -65,6 +66,7 @@ impl Scene {
             area_luminaires: Vec::new(),
             groups: parts.groups,
             cameras: parts.cameras,
+            grids: parts.grids,
         };
         scene.area_luminaires = scene.find_area_luminaires();
         Ok(scene)
@@ -91,6 +93,7 @@ impl Scene {
             luminaires: self.luminaires.clone(),
             groups: self.groups.clone(),
             cameras: self.cameras.clone(),
+            grids: self.grids.clone(),
         }
     }
 
@@ -202,6 +205,11 @@ impl Scene {
     /// Names of the light groups.
     pub fn groups(&self) -> &[String] {
         &self.groups
+    }
+
+    /// Where illuminance is asked for.
+    pub fn grids(&self) -> &[CalculationGrid] {
+        &self.grids
     }
 
     /// Cameras.

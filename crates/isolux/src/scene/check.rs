@@ -46,6 +46,11 @@ pub(super) fn problems(parts: &SceneParts) -> Vec<SceneProblem> {
             found.push(problem(Place::Camera { index, name: camera.name.clone() }, what, remedy));
         }
     }
+    for (index, grid) in parts.grids.iter().enumerate() {
+        if let Some((what, remedy)) = grid.problem() {
+            found.push(problem(Place::Grid { index, name: grid.name.clone() }, what, remedy));
+        }
+    }
     found
 }
 

@@ -5,6 +5,7 @@
 
 mod assemble;
 mod check;
+mod grid;
 mod hanging;
 mod hash;
 mod luminaire;
@@ -15,6 +16,7 @@ mod texture;
 mod view;
 
 pub use assemble::Scene;
+pub use grid::CalculationGrid;
 pub use hanging::world_from_luminaire;
 pub use luminaire::{AreaLuminaire, Luminaire, LuminaireKind};
 pub use material::{Body, Dielectric, Finish, Gloss, Material, Reflectance};

@@ -1,6 +1,6 @@
 //! The plain description that readers fill.
 
-use super::{Camera, Luminaire, Material, Texture};
+use super::{CalculationGrid, Camera, Luminaire, Material, Texture};
 use isolux_geometry::Direction;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +23,8 @@ pub struct SceneParts {
     pub groups: Vec<String>,
     /// Points of view.
     pub cameras: Vec<Camera>,
+    /// Where illuminance is asked for.
+    pub grids: Vec<CalculationGrid>,
 }
 
 /// A triangle mesh of one material, in world coordinates.

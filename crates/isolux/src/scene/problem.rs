@@ -48,6 +48,14 @@ pub enum Place {
         /// Name.
         name: String,
     },
+    /// A calculation grid.
+    #[error("grid `{name}`")]
+    Grid {
+        /// Index.
+        index: usize,
+        /// Name.
+        name: String,
+    },
     /// A camera.
     #[error("camera `{name}`")]
     Camera {

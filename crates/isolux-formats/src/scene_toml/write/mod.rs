@@ -26,6 +26,7 @@ pub fn write(parts: &SceneParts, known: &[NamedPhotometry]) -> Result<Vec<SceneF
     toml += &geometry::text(parts);
     toml += &luminaires::text(parts, &catalogue);
     toml += &cameras(parts);
+    toml += &grids(parts);
     let mut files = vec![SceneFile::new("scene.toml", toml)];
     files.extend(geometry::files(parts));
     files.extend(catalogue.files());
@@ -33,6 +34,23 @@ pub fn write(parts: &SceneParts, known: &[NamedPhotometry]) -> Result<Vec<SceneF
         files.push(SceneFile::new(materials::texture_name(index as u32), picture(texture)?));
     }
     Ok(files)
+}
+
+fn grids(parts: &SceneParts) -> String {
+    let mut toml = String::new();
+    for grid in &parts.grids {
+        toml += "\n[[grid]]\n";
+        toml += &format!("name = {}\n", text::quoted(&grid.name));
+        toml += &format!("corner = {}\n", text::triple(grid.corner.into()));
+        toml += &format!("u = {}\n", text::triple(grid.u.into()));
+        toml += &format!("v = {}\n", text::triple(grid.v.into()));
+        if let Some(spacing_m) = grid.spacing_m {
+            toml += &format!("spacing = {}\n", text::number(spacing_m));
+        }
+        toml += &format!("border = {}\n", text::number(grid.border_m));
+        toml += &format!("maintenance_factor = {}\n", text::number(grid.maintenance_factor));
+    }
+    toml
 }
 
 fn head(parts: &SceneParts) -> String {

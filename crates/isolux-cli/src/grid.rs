@@ -1,0 +1,358 @@
+//! `isolux grid`: illuminance on calculation grids.
+
+use crate::console::{print, print_json, table};
+use crate::failure::{Failure, Outcome};
+use crate::flags::GridFlags;
+use crate::notes::{Note, note};
+use crate::output::OutputPath;
+use crate::quantity::significant;
+use crate::{map_file, render, solve, source};
+use isolux::engine::{MapReader, ProbePoint, SolveRequest};
+use isolux::geometry::{Point, Vector};
+use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
+use isolux::scene::{CalculationGrid, Scene, UpAxis};
+use isolux_view::{Contours, FalseColour, false_colour, plan};
+use rayon::prelude::*;
+use serde::Serialize;
+use std::fmt::Write;
+
+/// The longer side of a picture, pixels.
+const LONGEST_PIXELS: u32 = 960;
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
+    let csv = flags.csv.as_deref().map(|path| OutputPath::check(path, "csv")).transpose()?;
+    let picture =
+        flags.picture.as_deref().map(|path| OutputPath::check(path, "png")).transpose()?;
+    let (scene, map) = if map_file::is_map(&flags.source) {
+        if flags.accuracy.is_some() {
+            return Err(Failure::bad_input(format!(
+                "--accuracy: {} is a map, which is solved; leave it out or give a scene",
+                flags.source.display()
+            )));
+        }
+        let (scene, map) = map_file::read(&flags.source)?;
+        (scene, Some(map))
+    } else {
+        (source::read_scene(&flags.source)?, None)
+    };
+    let grids = grids(flags, &scene)?;
+    if picture.is_some() && grids.len() > 1 {
+        return Err(Failure::bad_input(format!(
+            "--picture: {} has {} grids; choose one with --name",
+            flags.source.display(),
+            grids.len()
+        )));
+    }
+    let (map, outcome) = match map {
+        Some(map) => (map, Outcome::Done),
+        None => solved(flags, &scene)?,
+    };
+    let reader = MapReader::new(&scene, &map);
+    let results: Vec<GridResult> =
+        grids.into_iter().map(|grid| GridResult::of(grid, &reader)).collect();
+    results.iter().for_each(GridResult::warn);
+    if let Some(csv) = csv {
+        csv.write(rows(&results).as_bytes())?;
+    }
+    if let (Some(output), [result]) = (picture, &results[..]) {
+        render::write(&output, &result.picture()?)?;
+    }
+    if json {
+        let grids = results.iter().map(Report::of).collect();
+        print_json(&Reports { grids })?;
+    } else {
+        print(&text(&results))?;
+    }
+    Ok(outcome)
+}
+
+/// The grids asked for, as they are asked for.
+fn grids(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
+    let mut grids = match (flags.height, flags.corner.zip(flags.u.zip(flags.v))) {
+        (Some(height_m), _) => vec![working_plane(scene, height_m)],
+        (None, Some((corner, (u, v)))) => vec![CalculationGrid {
+            name: "grid".into(),
+            corner: Point::from(corner),
+            u: Vector::from(u),
+            v: Vector::from(v),
+            spacing_m: None,
+            border_m: 0.0,
+            maintenance_factor: 1.0,
+        }],
+        (None, None) => named(flags, scene)?,
+    };
+    for grid in &mut grids {
+        grid.spacing_m = flags.spacing.or(grid.spacing_m);
+        grid.border_m = flags.border.unwrap_or(grid.border_m);
+        grid.maintenance_factor = flags.maintenance_factor.unwrap_or(grid.maintenance_factor);
+        if let Some((what, remedy)) = grid.problem() {
+            return Err(Failure::bad_input(format!("grid `{}` {what}; {remedy}", grid.name)));
+        }
+    }
+    Ok(grids)
+}
+
+fn named(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
+    let all = scene.grids();
+    let source = flags.source.display();
+    if all.is_empty() {
+        return Err(Failure::bad_input(format!(
+            "{source}: has no calculation grids; give one with --height or --corner, --u and --v, or add \
+             [[grid]] to its scene.toml"
+        )));
+    }
+    let Some(name) = &flags.name else { return Ok(all.to_vec()) };
+    let found: Vec<CalculationGrid> = all.iter().filter(|g| g.name == *name).cloned().collect();
+    if found.is_empty() {
+        let names: Vec<&str> = all.iter().map(|g| g.name.as_str()).collect();
+        return Err(Failure::bad_input(format!(
+            "{source}: has no grid `{name}`; choose one of {}",
+            names.join(", ")
+        )));
+    }
+    Ok(found)
+}
+
+/// A horizontal grid over all of the floor plan, facing up.
+fn working_plane(scene: &Scene, height_m: f64) -> CalculationGrid {
+    let mut low = Vector::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+    let mut high = -low;
+    for corner in (0..scene.triangle_count()).flat_map(|t| scene.triangle(t).corners) {
+        low = Vector::new(low.x.min(corner.x), low.y.min(corner.y), low.z.min(corner.z));
+        high = Vector::new(high.x.max(corner.x), high.y.max(corner.y), high.z.max(corner.z));
+    }
+    let size = high - low;
+    let (corner, u, v) = match scene.up() {
+        UpAxis::Z => (
+            Point::new(low.x, low.y, height_m),
+            Vector::new(size.x, 0.0, 0.0),
+            Vector::new(0.0, size.y, 0.0),
+        ),
+        UpAxis::Y => (
+            Point::new(low.x, height_m, high.z),
+            Vector::new(size.x, 0.0, 0.0),
+            Vector::new(0.0, 0.0, -size.z),
+        ),
+    };
+    CalculationGrid {
+        name: format!("working plane at {} m", significant(height_m, 3)),
+        corner,
+        u,
+        v,
+        spacing_m: None,
+        border_m: CalculationGrid::usual_border_m([u.length(), v.length()]),
+        maintenance_factor: 1.0,
+    }
+}
+
+/// The map of a scene, as accurate as asked.
+fn solved(flags: &GridFlags, scene: &Scene) -> Result<(IlluminationMap, Outcome), Failure> {
+    let default = SolveRequest::default();
+    let accuracy = flags.accuracy.or(default.accuracy);
+    let request = SolveRequest { accuracy, ..default };
+    let solved = solve::solve_here((scene, &flags.source), &request)?;
+    Ok((solved.solution.map, solved.outcome))
+}
+
+/// A grid with its values.
+struct GridResult {
+    grid: CalculationGrid,
+    points: Vec<Point>,
+    /// Initial illuminance.
+    values: Vec<Option<Illuminance>>,
+    figures: Option<GridFigures>,
+}
+
+impl GridResult {
+    fn of(grid: CalculationGrid, reader: &MapReader) -> Self {
+        let normal = grid.normal().expect("a grid without problems has a normal");
+        let points = grid.points();
+        let read = |&position: &Point| reader.measure(ProbePoint { position, normal });
+        let values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
+        let figures = GridFigures::of(&grid, &values);
+        Self { grid, points, values, figures }
+    }
+
+    fn warn(&self) {
+        let unknown = self.values.iter().filter(|value| value.is_none()).count();
+        if unknown > 0 {
+            let text = format!(
+                "grid `{}`: {unknown} of {} points lie within something and are left out",
+                self.grid.name,
+                self.points.len()
+            );
+            note(Note::Warning, text);
+        }
+    }
+
+    /// Values as they are maintained.
+    fn maintained(&self) -> impl Iterator<Item = Option<Illuminance>> + '_ {
+        let factor = self.grid.maintenance_factor;
+        self.values.iter().map(move |value| {
+            value.map(|v| Illuminance {
+                direct_lx: v.direct_lx * factor,
+                caustic_lx: v.caustic_lx * factor,
+                indirect_lx: v.indirect_lx * factor,
+                standard_error_lx: v.standard_error_lx * factor,
+                ..v
+            })
+        })
+    }
+
+    fn picture(&self) -> Result<isolux_view::Picture, Failure> {
+        let values: Vec<Option<Illuminance>> = self.maintained().collect();
+        let (counts, sides_m) = (self.grid.counts(), self.grid.sides_m());
+        let view = plan(&values, counts, sides_m, LONGEST_PIXELS).map_err(Failure::bad_input)?;
+        let how = FalseColour { contours: Some(Contours::AtTicks), ..FalseColour::default() };
+        false_colour(&view, &how).map_err(Failure::bad_input)
+    }
+}
+
+/// What `grid --json` prints.
+#[derive(Serialize)]
+struct Reports {
+    grids: Vec<Report>,
+}
+
+#[derive(Serialize)]
+struct Report {
+    name: String,
+    maintenance_factor: f64,
+    /// Numbers of points along the sides, and their distances.
+    counts: [u32; 2],
+    spacing_m: [f64; 2],
+    border_m: f64,
+    points: usize,
+    /// Of them, those with a value.
+    known: usize,
+    mean_lx: Option<Interval>,
+    least_lx: Option<Interval>,
+    greatest_lx: Option<Interval>,
+    uniformity: Option<Interval>,
+    diversity: Option<Interval>,
+    direct_lx: Option<f64>,
+    indirect_lx: Option<f64>,
+    /// At every point, along `u` first; null where not known.
+    values: Vec<Value>,
+}
+
+#[derive(Serialize)]
+struct Interval {
+    value: f64,
+    low: f64,
+    high: f64,
+}
+
+#[derive(Serialize)]
+struct Value {
+    position: [f64; 3],
+    illuminance_lx: Option<f64>,
+    standard_error_lx: Option<f64>,
+    direct_lx: Option<f64>,
+    indirect_lx: Option<f64>,
+}
+
+impl Report {
+    fn of(result: &GridResult) -> Self {
+        let interval = |read: fn(&GridFigures) -> Figure| {
+            result.figures.as_ref().map(read).map(|Figure { value, low, high }| Interval {
+                value,
+                low,
+                high,
+            })
+        };
+        let (counts, sides_m) = (result.grid.counts(), result.grid.sides_m());
+        Self {
+            name: result.grid.name.clone(),
+            maintenance_factor: result.grid.maintenance_factor,
+            counts,
+            spacing_m: [0, 1].map(|k| sides_m[k] / f64::from(counts[k])),
+            border_m: result.grid.border_m,
+            points: result.points.len(),
+            known: result.figures.map_or(0, |f| f.known),
+            mean_lx: interval(|f| f.mean_lx),
+            least_lx: interval(|f| f.least_lx),
+            greatest_lx: interval(|f| f.greatest_lx),
+            uniformity: interval(|f| f.uniformity),
+            diversity: interval(|f| f.diversity),
+            direct_lx: result.figures.map(|f| f.direct_lx),
+            indirect_lx: result.figures.map(|f| f.indirect_lx),
+            values: result.points.iter().zip(result.maintained()).map(value).collect(),
+        }
+    }
+}
+
+fn value((&position, value): (&Point, Option<Illuminance>)) -> Value {
+    Value {
+        position: position.into(),
+        illuminance_lx: value.map(|v| v.illuminance_lx()),
+        standard_error_lx: value.map(|v| v.standard_error_lx),
+        direct_lx: value.map(|v| v.direct_lx.luminance()),
+        indirect_lx: value.map(|v| v.indirect_lx.luminance()),
+    }
+}
+
+/// The table that people read.
+fn text(results: &[GridResult]) -> String {
+    let header =
+        ["grid", "points", "spacing", "Em", "Emin", "Emax", "U0", "Ud", "direct", "indirect"];
+    let row = |result: &GridResult| {
+        let (counts, sides_m) = (result.grid.counts(), result.grid.sides_m());
+        let cell_m = [0, 1].map(|k| significant(sides_m[k] / f64::from(counts[k]), 2));
+        let mut row = vec![
+            result.grid.name.clone(),
+            format!("{} x {}", counts[0], counts[1]),
+            format!("{} x {} m", cell_m[0], cell_m[1]),
+        ];
+        let Some(f) = &result.figures else {
+            row.extend((0..7).map(|_| "-".to_owned()));
+            return row;
+        };
+        let lux = |figure: Figure| format!("{} lx", ranged(figure, 3));
+        row.extend([f.mean_lx, f.least_lx, f.greatest_lx].map(lux));
+        row.extend([f.uniformity, f.diversity].map(|figure| ranged(figure, 2)));
+        row.extend([f.direct_lx, f.indirect_lx].map(|lx| format!("{} lx", significant(lx, 3))));
+        row
+    };
+    let rows: Vec<Vec<String>> = results.iter().map(row).collect();
+    let mut text = table(&header, &rows);
+    for result in results.iter().filter(|r| r.grid.maintenance_factor != 1.0) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "grid `{}`: maintained values, {} of the initial ones",
+            result.grid.name,
+            significant(result.grid.maintenance_factor, 3)
+        );
+    }
+    text
+}
+
+fn ranged(figure: Figure, digits: usize) -> String {
+    let [value, low, high] =
+        [figure.value, figure.low, figure.high].map(|number| significant(number, digits));
+    format!("{value} ({low} to {high})")
+}
+
+const HEADER: &str =
+    "grid,i,j,x,y,z,illuminance_lx,standard_error_lx,direct_lx,indirect_lx,maintenance_factor\n";
+
+/// All points as CSV.
+fn rows(results: &[GridResult]) -> String {
+    let mut text = HEADER.to_owned();
+    for result in results {
+        let across = result.grid.counts()[0] as usize;
+        let name = format!("\"{}\"", result.grid.name.replace('"', "\"\""));
+        for (index, (&position, of)) in result.points.iter().zip(result.maintained()).enumerate() {
+            let Value { illuminance_lx, standard_error_lx, direct_lx, indirect_lx, .. } =
+                value((&position, of));
+            let fields = [illuminance_lx, standard_error_lx, direct_lx, indirect_lx]
+                .map(|field| field.map_or(String::new(), |v| v.to_string()));
+            let (i, j, Point { x, y, z }) = (index % across, index / across, position);
+            let factor = result.grid.maintenance_factor;
+            let _ = writeln!(text, "{name},{i},{j},{x},{y},{z},{},{factor}", fields.join(","));
+        }
+    }
+    text
+}

@@ -1,0 +1,77 @@
+//! Calculation grids.
+
+use crate::ran::Home;
+
+/// A room whose walls reflect nothing, a lamp of 1000 cd at 2 m over a desk, and a solid box.
+const ROOM: &str = "name = \"black\"\n[materials.black]\ndiffuse = 0\n\
+    [[geometry]]\nbox = { min = [0, 0, 0], max = [4, 4, 3], inward = true }\nmaterial = \"black\"\n\
+    [[geometry]]\nbox = { min = [0, 0, 0], max = [1, 1, 1.5] }\nmaterial = \"black\"\n\
+    [[luminaire]]\nposition = [2, 2, 2.75]\nisotropic = { intensity_cd = 1000 }\n\
+    [[grid]]\nname = \"desk\"\ncorner = [1.5, 1.5, 0.75]\nu = [1, 0, 0]\nv = [0, 1, 0]\n\
+    spacing = 0.5\nmaintenance_factor = 0.8\n";
+
+fn solved() -> Home {
+    let home = Home::new();
+    home.file("room.toml", ROOM);
+    let ran = home.run(&["solve", "room.toml", "-o", "map.glb", "--quality", "draft"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    home
+}
+
+#[test]
+fn grids_of_the_scene_are_computed_by_hand() {
+    let home = solved();
+    let ran = home.run(&["grid", "map.glb", "--json", "--csv", "desk.csv"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let json = ran.json();
+    let desk = &json["grids"][0];
+    assert_eq!((desk["name"].as_str(), desk["known"].as_u64()), (Some("desk"), Some(4)), "{desk}");
+    // Four points a quarter of a metre off in both: h / d^3, and no light but this.
+    let squared = 4.0 + 2.0 * 0.25 * 0.25;
+    let lx = 0.8 * 1000.0 * 2.0 / (squared * f64::sqrt(squared));
+    for figure in ["mean_lx", "least_lx", "greatest_lx"] {
+        let found = desk[figure]["value"].as_f64().unwrap();
+        assert!((found / lx - 1.0).abs() < 1e-6, "{figure}: {found} for {lx}");
+    }
+    assert!((desk["uniformity"]["value"].as_f64().unwrap() - 1.0).abs() < 1e-6, "{desk}");
+    assert_eq!(desk["values"].as_array().map(Vec::len), Some(4));
+    let csv = String::from_utf8(std::fs::read(home.path("desk.csv")).unwrap()).unwrap();
+    assert_eq!(csv.lines().count(), 5, "{csv}");
+    assert!(csv.lines().nth(1).unwrap().starts_with("\"desk\",0,0,1.75,1.75,0.75,"), "{csv}");
+}
+
+#[test]
+fn a_working_plane_covers_the_floor_and_leaves_solids_out() {
+    let home = solved();
+    let arguments = ["grid", "map.glb", "--height", "0.75", "--json", "--picture", "plane.png"];
+    let ran = home.run(&arguments);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let plane = &ran.json()["grids"][0];
+    // Half a metre of border: 3 m, 0.2 * 5^log10(3) = 0.43 m, seven points a side.
+    assert_eq!(plane["counts"], serde_json::json!([7, 7]), "{plane}");
+    // One point, at (0.71, 0.71), lies within the box.
+    assert_eq!(plane["known"], 48, "{plane}");
+    assert!(ran.err.contains("1 of 49 points"), "{}", ran.err);
+    let greatest = plane["greatest_lx"]["value"].as_f64().unwrap();
+    assert!((greatest / 250.0 - 1.0).abs() < 1e-6, "below the lamp 1000 / 2^2: {greatest}");
+    assert!(std::fs::read(home.path("plane.png")).unwrap().starts_with(b"\x89PNG"));
+}
+
+#[test]
+fn bad_grids_are_refused_before_anything_is_computed() {
+    let home = solved();
+    home.file("bare.toml", &ROOM[..ROOM.find("[[grid]]").unwrap()]);
+    for (arguments, told) in [
+        (&["grid", "map.glb", "--name", "table"][..], "no grid `table`"),
+        (&["grid", "bare.toml"], "has no calculation grids"),
+        (&["grid", "map.glb", "--height", "1", "--border", "2"], "leaves nothing"),
+        (&["grid", "map.glb", "--accuracy", "1%"], "is a map"),
+        (&["grid", "map.glb", "--csv", "no/such/x.csv"], "no/such"),
+        (&["grid", "map.glb", "--height", "high"], "is no length"),
+        (&["grid", "map.glb", "--corner", "0,0,0", "--u", "1,0,0", "--v", "1,1,0"], "right angles"),
+    ] {
+        let ran = home.run(arguments);
+        assert_eq!(ran.code, 2, "{ran:?}");
+        assert!(ran.err.contains(told), "{arguments:?}: {}", ran.err);
+    }
+}
