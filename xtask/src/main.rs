@@ -8,6 +8,7 @@ mod peers;
 mod smoke;
 mod test;
 mod tidy;
+mod worlds;
 
 use std::path::Path;
 use std::process::ExitCode;

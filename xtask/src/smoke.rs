@@ -7,6 +7,8 @@ use std::process::Command;
 pub(crate) struct Made {
     /// A map of the cube.
     pub map: PathBuf,
+    /// The same to walk through, as VRML97 and X3D.
+    pub worlds: [PathBuf; 2],
 }
 
 /// Solves the cube, says what the map holds, and reads it at the middle of a wall.
@@ -24,7 +26,11 @@ pub(crate) fn run(root: &Path) -> Result<Made, String> {
     let values = isolux(root, &["probe", &map_text, "--points", &points.to_string_lossy()])?;
     println!("{values}");
     expect_middle_of_wall(&values)?;
-    Ok(Made { map })
+    let worlds = ["cube.wrl", "cube.x3d"].map(|name| folder.join(name));
+    for world in &worlds {
+        isolux(root, &["export", &map_text, "-o", &world.to_string_lossy()])?;
+    }
+    Ok(Made { map, worlds })
 }
 
 /// Luminance at A of the published table, 892.8 cd/m2, as an illuminance: pi L / rho, rho = 2/3.

@@ -1,6 +1,6 @@
 //! Everything that must hold before a change lands, in one command.
 
-use crate::{judge, peers, smoke, tidy};
+use crate::{judge, peers, smoke, tidy, worlds};
 use std::path::Path;
 use std::process::Command;
 
@@ -28,8 +28,9 @@ pub(crate) fn smoke_and_judge(root: &Path) -> Result<String, String> {
     announce("smoke test of the command line");
     let made = smoke::run(root)?;
     announce("outside judges of the map: glTF validator, three.js");
-    let verdict = judge::run(root, &made.map)?;
-    Ok(verdict)
+    println!("{}", judge::run(root, &made.map)?);
+    announce("outside judge of walk-throughs: view3dscene");
+    worlds::run(&made.worlds)
 }
 
 fn announce(step: &str) {

@@ -37,6 +37,8 @@ pub(crate) enum Command {
     Grid(GridFlags),
     /// Draw a view from a map
     Render(RenderFlags),
+    /// Write a map for other software: .wrl, .x3d, .vtu, .ply, .csv
+    Export(ExportFlags),
     /// Audit a scene before a run
     Check(CheckFlags),
     /// Run the cases with exact answers
@@ -282,6 +284,21 @@ pub(crate) enum ToneName {
     Reinhard,
     /// Hable's filmic curve
     Hable,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux export map.glb -o room.wrl
+  isolux export map.glb -o room.vtu
+
+The extension tells the kind: .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row
+a vertex. Values are those of the bare map at its vertices. The map itself is a .glb that viewers of glTF open.")]
+pub(crate) struct ExportFlags {
+    /// The map (.glb)
+    pub map: PathBuf,
+    /// Where to write, with the extension of the kind
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
 }
 
 #[derive(Debug, Args)]

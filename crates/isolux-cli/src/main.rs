@@ -5,6 +5,7 @@ mod console;
 mod demo;
 mod estimate;
 mod explain;
+mod export;
 mod failure;
 mod flags;
 mod grid;
@@ -48,6 +49,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Solve(flags) => solve::run(flags, json),
         Command::Probe(flags) => probe::run(flags, json),
         Command::Grid(flags) => grid::run(flags, json),
+        Command::Export(flags) => export::run(flags, json),
         Command::Check(flags) => check::run(flags, json),
         Command::Render(flags) => render::run(flags, json),
         Command::Validate(flags) => validate::run(flags, json),

@@ -2,6 +2,7 @@
 
 pub mod atomic;
 pub mod checkpoint;
+pub mod export;
 mod extent;
 mod findings;
 pub mod gltf;

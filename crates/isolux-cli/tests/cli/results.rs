@@ -187,3 +187,32 @@ fn with_json_progress_every_line_of_standard_error_is_an_object() {
         keys(&[&["solve", "w.obj", "-o", "w.glb", "--max-memory", "1kB"], &flags[..]].concat(), 4);
     assert_eq!(refused.last().map(String::as_str), Some("refused"), "{refused:?}");
 }
+
+#[test]
+fn exports_agree_with_what_probe_reads() {
+    let home = Home::new();
+    assert_eq!(solved(&home, &[]).code, 0);
+    let ran = home.run(&["export", "cube.glb", "-o", "cube.csv"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let csv = String::from_utf8(std::fs::read(home.path("cube.csv")).unwrap()).unwrap();
+    let rows = csv.lines().skip(1).map(|line| line.split(',').collect::<Vec<&str>>());
+    // In the middle of walls: on edges, a point alone does not say which wall is meant.
+    let inside = |row: &Vec<&str>| {
+        let on_wall = |k: usize| row[k].parse::<f64>().unwrap().abs() == 5.0;
+        (0..3).filter(|&k| on_wall(k)).count() == 1
+    };
+    let rows: Vec<Vec<&str>> = rows.filter(inside).collect();
+    assert!(rows.len() > 100, "{}", rows.len());
+    let points: String = rows.iter().map(|row| row[..6].join(" ") + "\n").collect();
+    let arguments = ["probe", "cube.glb", "--points", "-", "--interpolated", "--json"];
+    let probed = home.run_with_input(&arguments, &points).json();
+    for (row, point) in rows.iter().zip(probed["points"].as_array().unwrap()) {
+        let (written, read) =
+            (row[7].parse::<f64>().unwrap(), point["illuminance_lx"].as_f64().unwrap());
+        // Points are found again to a ten-millionth of their triangle by single-precision rays.
+        assert!((written / read - 1.0).abs() < 1e-5, "{row:?}: {read}");
+    }
+    let refused = home.run(&["export", "cube.glb", "-o", "cube.obj"]);
+    assert!(refused.code == 2 && refused.err.contains(".wrl"), "{refused:?}");
+    assert_eq!(home.names(), ["cube.csv", "cube.glb"]);
+}

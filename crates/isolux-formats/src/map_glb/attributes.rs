@@ -5,7 +5,7 @@ use super::display::Surface;
 use super::document::{Accessor, Attributes, INDICES, LightAttributes, VERTICES};
 use super::preview::{Preview, luminance_cd_m2};
 use super::value_arrays::storable;
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::Illuminance;
 use isolux::scene::Finish;
 use isolux::units::Rgb;
 
@@ -17,7 +17,7 @@ const UNKNOWN: f32 = -1.0;
 /// Standard error where the illuminance is known but not its error.
 const NO_ESTIMATE: f32 = -2.0;
 /// Displayed colour where the illuminance is not known: half of the sRGB codes.
-const UNKNOWN_GREY: f64 = 0.214;
+pub(super) const UNKNOWN_GREY: f64 = 0.214;
 
 /// Where attributes go.
 pub(super) struct Sink<'a> {
@@ -42,14 +42,11 @@ impl Sink<'_> {
     /// Writes what a map says about the vertices of a surface.
     pub(super) fn light(
         &mut self,
-        map: &IlluminationMap,
-        vertices: &[u32],
+        values: &[Option<Illuminance>],
         (finish, preview): (&Finish, &Preview),
     ) -> LightAttributes {
-        let values: Vec<Option<Illuminance>> = vertices
-            .iter()
-            .map(|&v| map.values[v as usize].and_then(storable).filter(is_shown))
-            .collect();
+        let values: Vec<Option<Illuminance>> =
+            values.iter().map(|value| value.and_then(storable).filter(is_shown)).collect();
         let of = |f: fn(&Illuminance) -> Rgb| -> Vec<[f32; 3]> {
             values
                 .iter()

@@ -2,7 +2,7 @@
 
 use isolux::elements::Element;
 use isolux::geometry::{Point, Vector};
-use isolux::map::IlluminationMap;
+use isolux::map::{Illuminance, IlluminationMap, Standing};
 use isolux::scene::{Body, Finish, Scene};
 use std::collections::{BTreeMap, HashMap};
 
@@ -22,8 +22,8 @@ pub(super) struct Surface {
     pub(super) normals: Vec<[f32; 3]>,
     /// Texture coordinates; none unless the layer has a texture.
     pub(super) uvs: Vec<[f32; 2]>,
-    /// The vertex of the elements behind each vertex; none unless the layer has a map.
-    pub(super) vertices: Vec<u32>,
+    /// What the map says at each vertex; nothing unless the layer has a map.
+    pub(super) values: Vec<Option<Illuminance>>,
     pub(super) indices: Vec<u32>,
     known: HashMap<Key, u32>,
 }
@@ -75,16 +75,24 @@ pub(super) fn texture_of(scene: &Scene, triangle: u32, back: bool) -> Option<u32
 impl Surface {
     fn add_element(&mut self, scene: &Scene, map: &IlluminationMap, element: &Element) {
         let textured = texture_of(scene, element.triangle, element.back).is_some();
+        let known = element.vertices.map(|vertex| map.values[vertex as usize]);
+        let highest = Standing::highest(known.map(|value| value.map(|v| v.standing)));
+        // Where others are in the open, the light of a gap is not shown between them.
+        let read = Illuminance::mix(known.map(|value| (value, 1.0)));
         let corners = turned(element.vertices, element.back).map(|vertex| {
+            let own = map.values[vertex as usize];
+            let is_read = own.map(|v| v.standing) == highest;
             let place = &map.elements.vertices()[vertex as usize];
             let uv = if textured { uv_at(scene, element.triangle, place.position) } else { None };
             let key = (vertex, uv.unwrap_or_default().map(f32::to_bits));
-            if let Some(&index) = self.known.get(&key) {
+            if let Some(&index) = self.known.get(&key).filter(|_| is_read) {
                 return index;
             }
             let index = self.add_vertex(place.position, place.normal.to_vector(), uv);
-            self.vertices.push(vertex);
-            self.known.insert(key, index);
+            self.values.push(if is_read { own } else { read });
+            if is_read {
+                self.known.insert(key, index);
+            }
             index
         });
         self.indices.extend(corners);

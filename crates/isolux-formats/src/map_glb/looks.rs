@@ -64,17 +64,21 @@ fn unlit(name: &str, base_color_factor: [f64; 4]) -> Material {
     }
 }
 
-/// Without a map: glass translucent, mirrors grey, luminaires as bright as they are.
 fn bare(look: &mut Material, body: &Body, back: bool, preview: &Preview) {
-    let factor = &mut look.pbr_metallic_roughness.base_color_factor;
+    look.pbr_metallic_roughness.base_color_factor = bare_colour(body, back, preview);
+    if matches!(body, Body::Dielectric(_)) {
+        look.alpha_mode = Some("BLEND");
+        look.double_sided = Some(true);
+    }
+}
+
+/// Linear colour and opacity without a map: glass translucent, mirrors grey, luminaires as bright as they
+/// are.
+pub(super) fn bare_colour(body: &Body, back: bool, preview: &Preview) -> [f64; 4] {
     match body {
-        Body::Dielectric(glass) => {
-            *factor = with_alpha(glass.transmittance, GLASS_ALPHA);
-            look.alpha_mode = Some("BLEND");
-            look.double_sided = Some(true);
-        }
+        Body::Dielectric(glass) => with_alpha(glass.transmittance, GLASS_ALPHA),
         Body::Opaque { front, back: rear } => {
-            *factor = with_alpha(opaque(if back { rear } else { front }, preview), 1.0);
+            with_alpha(opaque(if back { rear } else { front }, preview), 1.0)
         }
     }
 }

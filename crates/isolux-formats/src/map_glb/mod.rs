@@ -6,6 +6,7 @@ mod attributes;
 mod bytes;
 mod container;
 mod display;
+mod displayed;
 mod document;
 mod images;
 mod looks;
@@ -17,6 +18,7 @@ mod scene_arrays;
 mod value_arrays;
 mod write;
 
+pub(crate) use displayed::{Displayed, displayed};
 pub use preview::Preview;
 pub use read::{is_map, read};
 pub use write::write;

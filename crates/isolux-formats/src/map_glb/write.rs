@@ -94,7 +94,7 @@ fn add_node(name: &str, objects: &mut Objects) {
 }
 
 fn primitive(
-    (scene, map, preview): Input<'_>,
+    (scene, _, preview): Input<'_>,
     (layer, surface): (Layer, &Surface),
     looks: &mut Looks,
     (objects, bytes): (&mut Objects, &mut Bytes),
@@ -104,7 +104,7 @@ fn primitive(
     let material = &scene.materials()[layer.material as usize];
     let finish = material.finish(layer.back);
     if let Some(finish) = finish.filter(|_| layer.mapped) {
-        attributes.light = Some(sink.light(map, &surface.vertices, (finish, preview)));
+        attributes.light = Some(sink.light(&surface.values, (finish, preview)));
     }
     let texture = finish.and_then(|f| f.diffuse.texture).filter(|_| !surface.uvs.is_empty());
     let material = looks.of((scene, preview), (layer, texture), objects);

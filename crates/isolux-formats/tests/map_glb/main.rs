@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise, helpers included")]
 
 mod example;
+mod exports;
 mod hostile;
 
 use example::{map, parts, scene};

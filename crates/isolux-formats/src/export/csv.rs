@@ -1,0 +1,45 @@
+//! A row a vertex.
+
+use isolux::map::{Illuminance, IlluminationMap};
+use std::fmt::Write;
+
+const HEADER: &str = "x,y,z,nx,ny,nz,area_m2,illuminance_lx,standard_error_lx,direct_lx,indirect_lx,red_lx,\
+                      green_lx,blue_lx\n";
+
+/// All vertices of a map, in its order; empty fields where nothing is known.
+pub(super) fn write(map: &IlluminationMap) -> String {
+    let mut text = HEADER.to_owned();
+    for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
+        let (p, n) = (vertex.position, vertex.normal.to_vector());
+        let numbers = value.as_ref().map(fields);
+        let fields = (0..7).map(|k| numbers.map_or(String::new(), |n| n[k].to_string()));
+        let fields: Vec<String> = fields.collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{},{},{},{},{},{},{},{}",
+            p.x,
+            p.y,
+            p.z,
+            n.x,
+            n.y,
+            n.z,
+            vertex.area_m2,
+            fields.join(",")
+        );
+    }
+    text
+}
+
+fn fields(value: &Illuminance) -> [f64; 7] {
+    let [red, green, blue] = value.total_lx().0;
+    [
+        value.illuminance_lx(),
+        value.standard_error_lx,
+        value.direct_lx.luminance(),
+        value.indirect_lx.luminance(),
+        red,
+        green,
+        blue,
+    ]
+}
