@@ -79,6 +79,7 @@ fn photometry(lamp: Lamp) -> NamedPhotometry {
             planes_deg: lamp.planes_deg,
             gammas_deg: lamp.gammas_deg,
             candela: lamp.candela,
+            ..Photometry::default()
         },
     }
 }

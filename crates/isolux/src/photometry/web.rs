@@ -149,6 +149,27 @@ impl PhotometricWeb {
         self.before[self.planes.cells()]
     }
 
+    /// Flux below an angle from the pole, lm; in the system C of the cone about nadir up to gamma.
+    pub fn flux_below_lm(&self, gamma_deg: f64) -> f64 {
+        let plane = |across: f64, cell: usize| self.plane_flux_below(cell, across, gamma_deg);
+        let cell = |k: usize| self.cell_width_rad(k) * 0.5 * (plane(0.0, k) + plane(1.0, k));
+        (0..self.planes.cells()).map(cell).sum::<f64>() + 0.0
+    }
+
+    /// Flux of a half-plane below an angle from the pole, lm per radian of C.
+    fn plane_flux_below(&self, cell: usize, across: f64, gamma_deg: f64) -> f64 {
+        let strips = self.gammas.cells();
+        let Some((strip, _)) = self.gammas.locate(gamma_deg) else {
+            let whole = gamma_deg > self.gammas.first();
+            return if whole { self.mix(&self.below, cell, across, strips) } else { 0.0 };
+        };
+        let part = Strip {
+            angles_rad: self.gammas.bounds(strip).map(f64::to_radians),
+            intensities_cd: self.intensities_cd(cell, across, strip),
+        };
+        self.mix(&self.below, cell, across, strip) + part.below(gamma_deg.to_radians()).flux()
+    }
+
     /// A direction in proportion to intensity, from two numbers of [0, 1); `None` if all is dark.
     ///
     /// Exact: `b` chooses C by the flux of the half-planes, whose density is linear between

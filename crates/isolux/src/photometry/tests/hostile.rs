@@ -15,7 +15,10 @@ fn every_kind_of_nonsense_has_its_name() {
     let ends = [0.0, 90.0];
     type E = WebError;
     assert!(matches!(refused(&[], &[], &[]), E::TooFewAngles { planes: 0, gammas: 0, least: 1 }));
-    assert!(matches!(refused(&[0.0], &[0.0], &[1.0]), E::TooFewAngles { planes: 1, gammas: 1, .. }));
+    assert!(matches!(
+        refused(&[0.0], &[0.0], &[1.0]),
+        E::TooFewAngles { planes: 1, gammas: 1, .. }
+    ));
     assert!(matches!(refused(&[0.0], &ends, &[1.0]), E::WrongCount { found: 1, expected: 2 }));
     assert!(matches!(refused(&vec![0.0; 3000], &vec![0.0; 3000], &two), E::TooLarge { .. }));
     for plane in [-1.0, 360.1, f64::NAN, f64::INFINITY] {

@@ -1,0 +1,150 @@
+//! The audit of a photometric file: what is wrong, doubtful or unusual in it, where, and what to do.
+//!
+//! Thresholds are stated beside each rule; they are rules of thumb of photometric practice, and no
+//! finding below an error keeps a file from being used.
+
+mod coverage;
+mod factors;
+mod flux;
+mod ies_fields;
+mod ldt_fields;
+mod spikes;
+mod symmetry;
+mod table;
+mod text;
+
+use crate::photometric_file::PhotometricFile;
+use crate::plain_text::{decode, lines, read_bounded};
+use crate::{Loaded, Problem};
+use isolux::photometry::PhotometricWeb;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Largest file read, bytes; as for reading.
+const MAX_FILE: u64 = 64 << 20;
+
+/// How much a finding matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// The file cannot be used.
+    Error,
+    /// Results are probably not what is wanted.
+    Warning,
+    /// Good to know.
+    Note,
+}
+
+/// One thing found in a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// How much it matters.
+    pub severity: Severity,
+    /// Line of the file, from 1; `None` for the whole file.
+    pub line: Option<usize>,
+    /// What was found.
+    pub what: String,
+    /// What to do about it.
+    pub remedy: String,
+}
+
+impl Finding {
+    fn new(
+        severity: Severity,
+        line: usize,
+        what: impl Into<String>,
+        remedy: impl Into<String>,
+    ) -> Self {
+        let line = Some(line).filter(|line| *line > 0);
+        Self { severity, line, what: what.into(), remedy: remedy.into() }
+    }
+
+    fn warning(line: usize, what: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, line, what, remedy)
+    }
+
+    fn note(line: usize, what: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self::new(Severity::Note, line, what, remedy)
+    }
+
+    /// What a reader says of a file.
+    fn of_reading(problem: &Problem, file: &Path, severity: Severity) -> Self {
+        let line = problem.place.strip_prefix("line ").and_then(|rest| {
+            rest.split(|c: char| !c.is_ascii_digit()).next().and_then(|digits| digits.parse().ok())
+        });
+        // A finding in another file, of a tilt table, says so.
+        let what = if problem.file == file {
+            problem.what.clone()
+        } else {
+            format!("{}: {}: {}", problem.file.display(), problem.place, problem.what)
+        };
+        let line = line.filter(|_| problem.file == file);
+        Self { severity, line, what, remedy: problem.remedy.clone() }
+    }
+}
+
+/// What is known of a file.
+#[derive(Clone, Debug)]
+pub struct Audit {
+    /// The file.
+    pub file: PathBuf,
+    /// Its content and its distribution; `None` of a file that cannot be used.
+    pub usable: Option<(PhotometricFile, Arc<PhotometricWeb>)>,
+    /// What was found, by severity and line.
+    pub findings: Vec<Finding>,
+}
+
+impl Audit {
+    /// Whether the file can be used.
+    pub fn is_usable(&self) -> bool {
+        self.usable.is_some()
+    }
+}
+
+/// Reads and audits a file.
+pub fn lint(path: &Path) -> Audit {
+    let mut findings = Vec::new();
+    let usable = match PhotometricFile::read(path) {
+        Ok(Loaded { value, warnings }) => {
+            let warning = |p: &Problem| Finding::of_reading(p, path, Severity::Warning);
+            findings.extend(warnings.iter().map(warning));
+            match value.web() {
+                Ok(web) => Some((value, web)),
+                Err(problem) => {
+                    findings.push(Finding::of_reading(&problem, path, Severity::Error));
+                    None
+                }
+            }
+        }
+        Err(problems) => {
+            let error = |p: &Problem| Finding::of_reading(p, path, Severity::Error);
+            findings.extend(problems.0.iter().map(error));
+            None
+        }
+    };
+    if let Some((file, web)) = &usable {
+        findings.extend(of_content(file, web));
+        findings.extend(of_text(path, file));
+    }
+    findings.sort_by_key(|f| (f.severity, f.line));
+    Audit { file: path.to_owned(), usable, findings }
+}
+
+fn of_content(file: &PhotometricFile, web: &PhotometricWeb) -> Vec<Finding> {
+    let table = table::Table::of(file);
+    let mut findings = flux::findings(file, web);
+    findings.extend(symmetry::findings(file, &table));
+    findings.extend(coverage::findings(&table));
+    findings.extend(spikes::findings(&table));
+    findings.extend(match file {
+        PhotometricFile::Ies(ies) => [factors::of_ies(ies), ies_fields::findings(ies)].concat(),
+        PhotometricFile::Ldt(ldt) => [factors::of_ldt(ldt), ldt_fields::findings(ldt)].concat(),
+    });
+    findings
+}
+
+/// The text is read again: a record does not keep how it was spelt.
+fn of_text(path: &Path, file: &PhotometricFile) -> Vec<Finding> {
+    let Ok(bytes) = read_bounded(path, MAX_FILE) else { return Vec::new() };
+    let Ok(text) = decode(&bytes, path) else { return Vec::new() };
+    text::findings(&lines(&text), &bytes, file)
+}
