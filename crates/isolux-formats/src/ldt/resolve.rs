@@ -2,6 +2,7 @@
 
 use super::{LampSet, LdtFile, LdtSymmetry};
 use crate::Problem;
+use crate::ies::LuminousOpening;
 use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry};
 use std::sync::Arc;
 
@@ -81,6 +82,17 @@ impl LdtFile {
             self.problem(self.lines.planes, error.to_string(), "correct the table")
         })?;
         Ok(IntensityDistribution::Web(Arc::new(web)))
+    }
+
+    /// The luminous area with its greatest height; length along C0-C180, width along C90-C270, as in LM-63.
+    pub fn opening(&self) -> LuminousOpening {
+        let [along_c90, along_c0] = self.sizes.luminous_area_m;
+        let height_m = self.sizes.luminous_heights_m.into_iter().fold(0.0, f64::max);
+        if along_c0 == 0.0 && along_c90 > 0.0 {
+            LuminousOpening::disc(along_c90, height_m)
+        } else {
+            LuminousOpening::rectangle([along_c0, along_c90, height_m])
+        }
     }
 
     /// The planes given and their rows, in increasing order.

@@ -3,6 +3,7 @@
 use super::Finding;
 use super::table::Table;
 use crate::ies::PhotometricType;
+use isolux::photometry::PhotometricWeb;
 
 /// Light of this share of the greatest intensity at the end of the angles is cut off there.
 const CUT_SHARE: f64 = 0.05;
@@ -73,26 +74,25 @@ fn coarse(table: &Table) -> Option<Finding> {
     })
 }
 
-/// Flux of every `step`th column, trapezoidal, the mean over the rows; up to a factor.
+/// Flux of every `step`th column, the mean over the rows; up to a factor.
 fn ring_flux(table: &Table, step: usize) -> f64 {
-    let weight = |column: usize| {
-        let angle = table.along_deg[column].to_radians();
-        match table.photometric_type {
-            PhotometricType::C => libm::sin(angle),
-            // Of type B they are turns about the pole.
-            PhotometricType::B => 1.0,
-            PhotometricType::A => libm::cos(angle),
-        }
-    };
-    let mean = |column: usize| {
-        (0..table.rows()).map(|row| table.at(row, column)).sum::<f64>() * weight(column)
-    };
+    let mean = |column: usize| (0..table.rows()).map(|row| table.at(row, column)).sum::<f64>();
     let columns: Vec<usize> = (0..table.columns()).step_by(step).collect();
-    columns
-        .windows(2)
-        .map(|pair| {
-            let width = table.along_deg[pair[1]] - table.along_deg[pair[0]];
-            0.5 * width * (mean(pair[0]) + mean(pair[1]))
-        })
-        .sum()
+    // Angles of type A are counted from the pole below the aim, those of type B turn about it.
+    let from_pole = match table.photometric_type {
+        PhotometricType::C => 0.0,
+        PhotometricType::A => 90.0,
+        PhotometricType::B => return trapezoids(table, &columns, mean),
+    };
+    let angles = columns.iter().map(|&k| table.along_deg[k] + from_pole).collect();
+    let candela = columns.iter().map(|&k| mean(k)).collect();
+    PhotometricWeb::new(vec![0.0], angles, candela).map_or(0.0, |web| web.luminous_flux_lm())
+}
+
+fn trapezoids(table: &Table, columns: &[usize], mean: impl Fn(usize) -> f64) -> f64 {
+    let area = |pair: &[usize]| {
+        let width = table.along_deg[pair[1]] - table.along_deg[pair[0]];
+        0.5 * width * (mean(pair[0]) + mean(pair[1]))
+    };
+    columns.windows(2).map(area).sum()
 }

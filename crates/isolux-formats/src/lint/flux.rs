@@ -84,8 +84,10 @@ fn output_ratio(file: &PhotometricFile, flux_lm: f64, line: usize) -> Option<Fin
 fn absolute(file: &PhotometricFile, flux_lm: f64) -> Option<Finding> {
     let PhotometricFile::Ldt(file) = file else { return None };
     let stated = file.lamp_sets.first()?.flux_lm;
+    // With a light output ratio the reader tells.
+    let is_told = file.light_output_ratio_percent > 0.0;
     let is_apart = (flux_lm - stated).abs() > DISAGREEMENT * stated;
-    is_apart.then(|| {
+    (is_apart && !is_told).then(|| {
         Finding::warning(
             file.lines.lamps,
             format!("the table holds {flux_lm:.0} lm, absolute photometry states {stated:.0} lm"),

@@ -47,10 +47,6 @@ const KNOWN: [&str; 35] = [
     "ABSTRACT",
 ];
 
-/// Codes for how a file came about (LM-63-19, table 2).
-const GENERATION_TYPES: [f64; 10] =
-    [1.0, 1.00001, 1.0001, 1.001, 1.01, 1.011, 1.1, 1.101, 1.11, 1.111];
-
 /// Units that some files of ultraviolet sources put into the place of candela.
 const RADIOMETRIC: [&str; 3] = ["_INTENSITYUNITS", "INTENSITYUNITS", "_RADIATIONTYPE"];
 
@@ -111,8 +107,12 @@ fn labels(file: &IesFile) -> Option<Finding> {
 
 fn generation_type(file: &IesFile) -> Option<Finding> {
     let LampFactor::GenerationType(code) = file.lamp_factor else { return None };
-    // Codes have five decimals.
-    let is_known = GENERATION_TYPES.iter().any(|known| (known - code).abs() < 5e-6);
+    // A 1 and five decimals, each a flag (LM-63-19, table 2).
+    let text = format!("{code:.5}");
+    let flags = text.strip_prefix("1.").unwrap_or_default();
+    // Any further decimal is no flag.
+    let is_whole = (code * 1e5 - (code * 1e5).round()).abs() < 1e-4;
+    let is_known = is_whole && flags.len() == 5 && flags.bytes().all(|b| b"01".contains(&b));
     (!is_known).then(|| {
         let what = format!("the file generation type {code} is none of the standard's");
         Finding::note(file.lines.lamps, what, "write 1.00001 if it is not known")

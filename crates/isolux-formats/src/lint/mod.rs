@@ -15,7 +15,7 @@ mod text;
 
 use crate::photometric_file::PhotometricFile;
 use crate::plain_text::{decode, lines, read_bounded};
-use crate::{Loaded, Problem};
+use crate::{Loaded, Problem, Problems};
 use isolux::photometry::PhotometricWeb;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -102,8 +102,15 @@ impl Audit {
 
 /// Reads and audits a file.
 pub fn lint(path: &Path) -> Audit {
+    // The text is read again: a record does not keep how it was spelt.
+    let bytes = read_bounded(path, MAX_FILE).unwrap_or_default();
+    audit(path, &bytes, PhotometricFile::read(path))
+}
+
+/// Audits what was made of the bytes of a file.
+pub fn audit(path: &Path, bytes: &[u8], read: Result<Loaded<PhotometricFile>, Problems>) -> Audit {
     let mut findings = Vec::new();
-    let usable = match PhotometricFile::read(path) {
+    let usable = match read {
         Ok(Loaded { value, warnings }) => {
             let warning = |p: &Problem| Finding::of_reading(p, path, Severity::Warning);
             findings.extend(warnings.iter().map(warning));
@@ -123,7 +130,9 @@ pub fn lint(path: &Path) -> Audit {
     };
     if let Some((file, web)) = &usable {
         findings.extend(of_content(file, web));
-        findings.extend(of_text(path, file));
+        if let Ok(text) = decode(bytes, path) {
+            findings.extend(text::findings(&lines(&text), bytes, file));
+        }
     }
     findings.sort_by_key(|f| (f.severity, f.line));
     Audit { file: path.to_owned(), usable, findings }
@@ -140,11 +149,4 @@ fn of_content(file: &PhotometricFile, web: &PhotometricWeb) -> Vec<Finding> {
         PhotometricFile::Ldt(ldt) => [factors::of_ldt(ldt), ldt_fields::findings(ldt)].concat(),
     });
     findings
-}
-
-/// The text is read again: a record does not keep how it was spelt.
-fn of_text(path: &Path, file: &PhotometricFile) -> Vec<Finding> {
-    let Ok(bytes) = read_bounded(path, MAX_FILE) else { return Vec::new() };
-    let Ok(text) = decode(&bytes, path) else { return Vec::new() };
-    text::findings(&lines(&text), &bytes, file)
 }

@@ -65,6 +65,23 @@ impl PhotometricFile {
         })
     }
 
+    /// Reads a file from memory, by the extension of its name; no tilt file is looked for.
+    pub fn parse(bytes: &[u8], path: &Path) -> Result<Loaded<Self>, Problems> {
+        Ok(match Kind::of(path)? {
+            Kind::Ies => {
+                let Loaded { value, warnings } = ies::parse(bytes, path, &mut |name: &str| {
+                    let remedy = "write TILT=NONE or TILT=INCLUDE";
+                    Err(Problem::new(path, "", format!("no tilt file {name} is read here"), remedy))
+                })?;
+                Loaded { value: Self::Ies(value), warnings }
+            }
+            Kind::Ldt => {
+                let Loaded { value, warnings } = ldt::parse(bytes, path)?;
+                Loaded { value: Self::Ldt(value), warnings }
+            }
+        })
+    }
+
     /// The intensity distribution, of EULUMDAT with the first lamp set, in candela.
     pub fn resolve(&self) -> Result<IntensityDistribution, Problem> {
         match self {

@@ -1,6 +1,6 @@
 //! EULUMDAT to LM-63.
 
-use crate::ies::{Photometry, UNDEFINED};
+use crate::ies::{LuminousOpening, OpeningShape, Photometry, UNDEFINED};
 use crate::ldt::{LdtFile, LdtSymmetry};
 use isolux::photometry::PhotometricWeb;
 
@@ -86,18 +86,13 @@ fn keywords(file: &LdtFile) -> Vec<(String, String)> {
 
 /// Width along C90-C270, length along C0-C180, height; negative sizes are round.
 fn opening_m(file: &LdtFile, losses: &mut Vec<String>) -> [f64; 3] {
-    // EULUMDAT calls length what lies along C90-C270.
-    let [along_c90, along_c0] = file.sizes.luminous_area_m;
     let heights = file.sizes.luminous_heights_m;
-    let height = heights.into_iter().fold(0.0, f64::max);
     if heights.iter().any(|h| *h != heights[0]) {
         losses.push("the luminous heights at C0 to C270 differ: the greatest is kept".into());
     }
-    if along_c0 == 0.0 && along_c90 > 0.0 {
-        [-along_c90, -along_c90, height]
-    } else {
-        [along_c90, along_c0, height]
-    }
+    let LuminousOpening { shape, length_m, width_m, height_m } = file.opening();
+    let sign = if shape == Some(OpeningShape::Disc) { -1.0 } else { 1.0 };
+    [sign * width_m, sign * length_m, height_m]
 }
 
 fn what_is_lost(file: &LdtFile, losses: &mut Vec<String>) {
