@@ -1,7 +1,5 @@
 //! The audit of photometric files: every rule by a file that breaks it, with its line.
 
-#![expect(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
-
 use isolux_formats::lint::{Audit, Severity, audit, lint};
 use isolux_formats::photometric_file::PhotometricFile;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! The polar diagram of an intensity distribution: its two main sections, nadir down.
+//! The polar diagram of an intensity distribution: its main sections, nadir down.
 
 use isolux::geometry::Vector;
 use isolux::photometry::{AngleSystem, IntensityDistribution};
@@ -12,12 +12,18 @@ const MARGIN: f64 = 56.0;
 /// Circles a diagram has at most.
 const MOST_RINGS: f64 = 5.0;
 /// Colours and dashes of the sections.
-const STYLES: [&str; 2] = ["stroke=\"#c0392b\"", "stroke=\"#1f5fa8\" stroke-dasharray=\"7 4\""];
+const STYLES: [&str; 3] = [
+    "stroke=\"#c0392b\"",
+    "stroke=\"#1f5fa8\" stroke-dasharray=\"7 4\"",
+    "stroke=\"#2e7d32\" stroke-dasharray=\"2 3\"",
+];
+/// The section through the greatest intensity is drawn, too, where it is so many times that of the others.
+const HIGHER: f64 = 1.05;
 
 /// A section and its points.
 #[derive(Clone, Debug, PartialEq)]
 struct Section {
-    name: &'static str,
+    name: String,
     /// Angle from nadir, positive to the right, rad; and intensity, cd.
     points: Vec<[f64; 2]>,
 }
@@ -25,7 +31,7 @@ struct Section {
 /// The diagram of a distribution, to be drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PolarDiagram {
-    sections: [Section; 2],
+    sections: Vec<Section>,
     /// Between circles, cd.
     ring_cd: f64,
     /// Circles.
@@ -35,7 +41,7 @@ pub struct PolarDiagram {
 
 impl PolarDiagram {
     /// Of a distribution: the sections C0-C180 and C90-C270, or for the systems A and B the vertical and the
-    /// horizontal section through the aim.
+    /// horizontal section through the aim; and the one through the greatest intensity, if it is higher.
     pub fn of(intensity: &IntensityDistribution) -> Self {
         let names = match intensity {
             IntensityDistribution::Web(web) if web.system() != AngleSystem::C => {
@@ -44,10 +50,15 @@ impl PolarDiagram {
             _ => ["C0-C180", "C90-C270"],
         };
         let [x, y] = [Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0)];
-        let section = |name, to_right| Section { name, points: points(intensity, to_right) };
-        let sections = [section(names[0], x), section(names[1], y)];
+        let section =
+            |name: String, to_right| Section { name, points: points(intensity, to_right) };
+        let [first, second] = names.map(str::to_owned);
+        let mut sections = vec![section(first, x), section(second, y)];
+        if let Some((name, to_right)) = highest_plane(intensity, greatest(&sections)) {
+            sections.push(section(name, to_right));
+        }
         let all = || sections.iter().flat_map(|s| &s.points);
-        let most = all().map(|[_, cd]| *cd).fold(0.0, f64::max);
+        let most = greatest(&sections);
         let has_upward = all().any(|[angle, cd]| *cd > 0.0 && libm::cos(*angle) < -1e-9);
         let ring_cd = ring(most);
         let rings = (most / ring_cd).ceil().max(1.0) as u32;
@@ -145,13 +156,13 @@ impl PolarDiagram {
                  <text x=\"{text}\" y=\"{y}\">{}</text>",
                 section.name
             );
-            x += 130.0;
+            x += 64.0 + 8.0 * section.name.len() as f64;
         }
         let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y}\" fill=\"#444444\">intensity in cd</text>");
     }
 
-    /// For a terminal: lines of Braille patterns, so many characters wide; the first section is drawn whole,
-    /// the second dotted.
+    /// For a terminal: lines of Braille patterns, so many characters wide; the section C0-C180 is drawn
+    /// whole, C90-C270 dotted.
     pub fn text(&self, columns: usize) -> String {
         let mut canvas = Canvas::new(columns.clamp(10, 200), self.has_upward);
         canvas.axes();
@@ -159,10 +170,39 @@ impl PolarDiagram {
             let places: Vec<[f64; 2]> = section.points.iter().map(|p| self.place(*p)).collect();
             canvas.curve(&places, every);
         }
-        let [first, second] = [self.sections[0].name, self.sections[1].name];
+        let [first, second] = [&self.sections[0].name, &self.sections[1].name];
         let cd = self.outermost_cd();
         format!("{}edge: {cd} cd; {first} solid, {second} dotted\n", canvas.finish())
     }
+}
+
+/// The greatest intensity of sections, cd.
+fn greatest(sections: &[Section]) -> f64 {
+    sections.iter().flat_map(|s| &s.points).map(|[_, cd]| *cd).fold(0.0, f64::max)
+}
+
+/// Name and right side of the section through the greatest intensity, if it is higher than another.
+fn highest_plane(intensity: &IntensityDistribution, than_cd: f64) -> Option<(String, Vector)> {
+    let IntensityDistribution::Web(web) = intensity else { return None };
+    let mut highest: Option<(Vector, f64)> = None;
+    for (at, cd) in web.nodes() {
+        if highest.is_none_or(|(_, most)| cd > most) {
+            highest = Some((at, cd));
+        }
+    }
+    let (at, cd) = highest?;
+    let level = at.x.hypot(at.y);
+    if cd <= HIGHER * than_cd || level <= 1e-9 {
+        return None;
+    }
+    let to_right = Vector::new(at.x / level, at.y / level, 0.0);
+    let turn = |degrees: f64| ((degrees % 360.0 + 360.0) % 360.0 * 10.0).round() / 10.0;
+    let c = libm::atan2(at.y, at.x).to_degrees();
+    let name = match web.system() {
+        AngleSystem::C => format!("C{}-C{}", turn(c), turn(c + 180.0)),
+        AngleSystem::A | AngleSystem::B => "through the greatest".to_owned(),
+    };
+    Some((name, to_right))
 }
 
 /// A section through nadir, from zenith on the left through nadir to zenith on the right.
@@ -327,6 +367,18 @@ mod tests {
         };
         assert_eq!([end(0, 90.0), end(0, -90.0)], [100.0, 1.0]);
         assert_eq!([end(1, 90.0), end(1, -90.0)], [1.0, 50.0]);
+    }
+
+    #[test]
+    fn a_beam_between_the_main_sections_has_one_of_its_own() {
+        let candela = vec![1.0, 1.0, 1.0, 100.0, 1.0, 1.0, 1.0, 1.0];
+        let planes = vec![0.0, 37.5, 90.0, 225.0];
+        let web = PhotometricWeb::new(planes, vec![0.0, 60.0], candela).unwrap();
+        let diagram = PolarDiagram::of(&IntensityDistribution::Web(Arc::new(web)));
+        let names: Vec<&str> = diagram.sections.iter().map(|s| s.name.as_str()).collect();
+        assert_eq!(names, ["C0-C180", "C90-C270", "C37.5-C217.5"]);
+        // At 60 degrees to the right; an arc tangent in degrees from the border of the table.
+        assert!((greatest(&diagram.sections) - 100.0).abs() < 1e-9);
     }
 
     #[test]

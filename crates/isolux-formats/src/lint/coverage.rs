@@ -1,6 +1,6 @@
 //! Whether the angles cover the light, finely enough.
 
-use super::Finding;
+use super::finding::Finding;
 use super::table::Table;
 use crate::ies::PhotometricType;
 use isolux::photometry::PhotometricWeb;

@@ -1,6 +1,6 @@
 //! What intensities are multiplied by.
 
-use super::Finding;
+use super::finding::Finding;
 use crate::ies::{IesFile, LampFactor};
 use crate::ldt::LdtFile;
 

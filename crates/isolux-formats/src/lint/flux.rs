@@ -1,6 +1,6 @@
 //! Lumens: declared against integrated, up against down, against the power.
 
-use super::Finding;
+use super::finding::Finding;
 use crate::photometric_file::PhotometricFile;
 use isolux::photometry::PhotometricWeb;
 

@@ -1,6 +1,6 @@
 //! Fields that LM-63 does not know, or misses.
 
-use super::Finding;
+use super::finding::Finding;
 use crate::ies::{Edition, IesFile, LampFactor};
 
 /// Keywords that every file must have since 1991, and since 2002, and since 2019.

@@ -1,6 +1,6 @@
 //! Fields of EULUMDAT that contradict each other.
 
-use super::Finding;
+use super::finding::Finding;
 use crate::ldt::{LdtFile, LdtSymmetry};
 
 /// Direct ratios of real luminaires rise with the room index, but for rounding.

@@ -5,6 +5,7 @@
 
 mod coverage;
 mod factors;
+mod finding;
 mod flux;
 mod ies_fields;
 mod ldt_fields;
@@ -13,74 +14,17 @@ mod symmetry;
 mod table;
 mod text;
 
+pub use finding::{Finding, Severity};
+
 use crate::photometric_file::PhotometricFile;
 use crate::plain_text::{decode, lines, read_bounded};
-use crate::{Loaded, Problem, Problems};
+use crate::{Loaded, Problems};
 use isolux::photometry::PhotometricWeb;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Largest file read, bytes; as for reading.
 const MAX_FILE: u64 = 64 << 20;
-
-/// How much a finding matters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Severity {
-    /// The file cannot be used.
-    Error,
-    /// Results are probably not what is wanted.
-    Warning,
-    /// Good to know.
-    Note,
-}
-
-/// One thing found in a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
-    /// How much it matters.
-    pub severity: Severity,
-    /// Line of the file, from 1; `None` for the whole file.
-    pub line: Option<usize>,
-    /// What was found.
-    pub what: String,
-    /// What to do about it.
-    pub remedy: String,
-}
-
-impl Finding {
-    fn new(
-        severity: Severity,
-        line: usize,
-        what: impl Into<String>,
-        remedy: impl Into<String>,
-    ) -> Self {
-        let line = Some(line).filter(|line| *line > 0);
-        Self { severity, line, what: what.into(), remedy: remedy.into() }
-    }
-
-    fn warning(line: usize, what: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::new(Severity::Warning, line, what, remedy)
-    }
-
-    fn note(line: usize, what: impl Into<String>, remedy: impl Into<String>) -> Self {
-        Self::new(Severity::Note, line, what, remedy)
-    }
-
-    /// What a reader says of a file.
-    fn of_reading(problem: &Problem, file: &Path, severity: Severity) -> Self {
-        let line = problem.place.strip_prefix("line ").and_then(|rest| {
-            rest.split(|c: char| !c.is_ascii_digit()).next().and_then(|digits| digits.parse().ok())
-        });
-        // A finding in another file, of a tilt table, says so.
-        let what = if problem.file == file {
-            problem.what.clone()
-        } else {
-            format!("{}: {}: {}", problem.file.display(), problem.place, problem.what)
-        };
-        let line = line.filter(|_| problem.file == file);
-        Self { severity, line, what, remedy: problem.remedy.clone() }
-    }
-}
 
 /// What is known of a file.
 #[derive(Clone, Debug)]
@@ -112,7 +56,7 @@ pub fn audit(path: &Path, bytes: &[u8], read: Result<Loaded<PhotometricFile>, Pr
     let mut findings = Vec::new();
     let usable = match read {
         Ok(Loaded { value, warnings }) => {
-            let warning = |p: &Problem| Finding::of_reading(p, path, Severity::Warning);
+            let warning = |p: &crate::Problem| Finding::of_reading(p, path, Severity::Warning);
             findings.extend(warnings.iter().map(warning));
             match value.web() {
                 Ok(web) => Some((value, web)),
@@ -123,7 +67,7 @@ pub fn audit(path: &Path, bytes: &[u8], read: Result<Loaded<PhotometricFile>, Pr
             }
         }
         Err(problems) => {
-            let error = |p: &Problem| Finding::of_reading(p, path, Severity::Error);
+            let error = |p: &crate::Problem| Finding::of_reading(p, path, Severity::Error);
             findings.extend(problems.0.iter().map(error));
             None
         }

@@ -1,6 +1,6 @@
 //! Single values that stick out of their neighbourhood: slips of a pen or of a sensor.
 
-use super::Finding;
+use super::finding::Finding;
 use super::table::Table;
 
 /// A spike is this many times as high as all of its neighbours, a hole so many times as low.

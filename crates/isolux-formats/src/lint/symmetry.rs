@@ -1,6 +1,6 @@
 //! What a table says twice, and whether it says the same.
 
-use super::Finding;
+use super::finding::Finding;
 use super::table::Table;
 use crate::ies::PhotometricType;
 use crate::ldt::{LdtSymmetry, LuminaireKind};

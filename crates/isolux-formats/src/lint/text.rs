@@ -1,6 +1,6 @@
 //! How a file is spelt.
 
-use super::Finding;
+use super::finding::Finding;
 use crate::photometric_file::PhotometricFile;
 use crate::plain_text::Line;
 

@@ -100,7 +100,8 @@ fn table_of_c(symmetry: Symmetry, web: &PhotometricWeb) -> Table {
 fn sampled(web: &PhotometricWeb) -> Table {
     let steps = |end: f64, step: f64| (0..(end / step) as u32).map(move |k| f64::from(k) * step);
     let planes_deg: Vec<f64> = steps(360.0, SAMPLED_PLANE_DEG).collect();
-    let gammas_deg: Vec<f64> = steps(180.0, SAMPLED_GAMMA_DEG).chain([180.0]).collect();
+    // Nothing shines backwards: a table that ends at the horizontal keeps the border sharp.
+    let gammas_deg: Vec<f64> = steps(90.0, SAMPLED_GAMMA_DEG).chain([90.0]).collect();
     let at = |c: f64, gamma: f64| {
         let (sin_c, cos_c) = libm::sincos(c.to_radians());
         let (sin_gamma, cos_gamma) = libm::sincos(gamma.to_radians());

@@ -1,12 +1,12 @@
 //! Collections of luminaires that scenes refer to by name.
 
+use super::chromaticity;
 use super::context::Context;
-use super::luminaires::colour;
 use super::parse::{LibraryEntries, parse_library};
 use super::photometry::{self, Emission, Files};
 use super::record::LibraryRecord;
 use super::spans::At;
-use super::text_of;
+use super::text;
 use isolux::units::Rgb;
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -84,7 +84,7 @@ impl Libraries {
 
 impl Library {
     fn read(path: &Path) -> Result<Self, crate::Problem> {
-        let text = text_of(path)?;
+        let text = text::of(path)?;
         let mut context = Context::new(path, &text);
         let entries = parse_library(&text, &mut context);
         Ok(Self { context, entries, known: HashMap::new(), files: Files::default() })
@@ -133,7 +133,7 @@ fn resolve(
     ];
     context.one_of(&entry.span(), &format!("luminaire `{name}`"), &choices)?;
     let light = record.light();
-    let colour = colour(&light, context);
+    let colour = chromaticity::given(&light, context);
     let emission = photometry::emission(&light, files, context);
     Some(LibraryLight {
         emission: emission?,

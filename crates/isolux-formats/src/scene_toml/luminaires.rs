@@ -6,7 +6,7 @@ use super::context::Context;
 use super::library::Libraries;
 use super::photometry::{self, Emission, Files};
 use super::quantity::plain;
-use super::record::{ArrayRecord, DirectionalRecord, GroupRecord, LightRecord, LuminaireRecord};
+use super::record::{ArrayRecord, DirectionalRecord, GroupRecord, LuminaireRecord};
 use super::spans::At;
 use isolux::geometry::{Point, Vector};
 use isolux::photometry::IntensityDistribution;
@@ -75,7 +75,7 @@ pub(super) fn add(
         let record = entry.get_ref();
         let name = record.name.clone().unwrap_or_else(|| format!("luminaire {number}"));
         let group = record.group.as_deref().map_or(0, |name| groups.index(name));
-        let own = colour(&record.light(), context);
+        let own = chromaticity::given(&record.light(), context);
         let Some(found) = kinds(entry, &name, &mut files, libraries, context) else { continue };
         let Some(own) = own else { continue };
         let colour = own.or(found.colour).unwrap_or(Rgb::WHITE);
@@ -83,34 +83,6 @@ pub(super) fn add(
             let name = format!("{name}{place}");
             Luminaire { name, group, colour, kind }
         }));
-    }
-}
-
-/// The colour that is given, if any; `None` after a problem.
-#[expect(clippy::option_option, reason = "a problem is not the same as no colour")]
-pub(super) fn colour(record: &LightRecord, context: &mut Context) -> Option<Option<Rgb>> {
-    match (record.colour, record.cct_k) {
-        (None, None) => Some(None),
-        (Some(colour), None) if colour.get_ref().0.luminance() > 0.0 => {
-            Some(Some(colour.get_ref().0.chromaticity()))
-        }
-        (Some(colour), None) => {
-            context.problem(&colour.span(), "black has no colour", "use `dimming = 0`");
-            None
-        }
-        (None, Some(cct)) => {
-            let kelvin = cct.get_ref().0;
-            if chromaticity::RANGE_K.contains(&kelvin) {
-                return Some(Some(chromaticity::of_temperature(kelvin)));
-            }
-            let what = format!("colour temperature {kelvin} K");
-            context.problem(&cct.span(), what, "give 1000 to 25000 K, or `colour`");
-            None
-        }
-        (Some(_), Some(cct)) => {
-            context.problem(&cct.span(), "`colour` and `cct_k`", "give one of them");
-            None
-        }
     }
 }
 
