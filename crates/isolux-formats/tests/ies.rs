@@ -5,7 +5,8 @@
 use isolux::geometry::{Direction, Vector};
 use isolux::photometry::Symmetry;
 use isolux_formats::ies::{
-    self, Edition, IesFile, LampFactor, LampGeometry, LengthUnit, OpeningShape, PhotometricType, Tilt,
+    self, Edition, IesFile, LampFactor, LampGeometry, LengthUnit, OpeningShape, PhotometricType,
+    Tilt,
 };
 use isolux_formats::{Loaded, Problem};
 use std::path::{Path, PathBuf};
