@@ -163,6 +163,10 @@ fn of_library(
     libraries: &mut Libraries,
     context: &mut Context,
 ) -> Option<Light> {
+    if let Some(set) = &record.lamp_set {
+        let what = "`lamp_set` beside `type`";
+        context.problem(&set.span(), what, "write it into the library");
+    }
     let known = libraries.find(kind, context)?;
     Some(Light {
         emission: known.emission.with_flux(record.flux_lm.as_ref(), context)?,
@@ -185,6 +189,7 @@ fn directional(
         ("array", record.array.as_ref().map(At::span)),
         ("flux_lm", record.flux_lm.as_ref().map(At::span)),
         ("extended_m", record.extended_m.as_ref().map(At::span)),
+        ("lamp_set", record.lamp_set.as_ref().map(At::span)),
     ];
     for (key, span) in without_meaning {
         if let Some(span) = span {

@@ -22,7 +22,8 @@ pub(super) struct Emission {
 /// What files hold, each read once.
 #[derive(Default)]
 pub(super) struct Files {
-    read: HashMap<PathBuf, Option<Emission>>,
+    /// By path and lamp set.
+    read: HashMap<(PathBuf, u32), Option<Emission>>,
 }
 
 /// The light of a luminaire that is not directional; `None` after a problem.
@@ -32,16 +33,23 @@ pub(super) fn emission(
     context: &mut Context,
 ) -> Option<Emission> {
     if let Some(file) = record.ies.or(record.ldt) {
-        let read = files.get(file, record.ies.is_some(), context)?;
+        if let (Some(set), None) = (record.lamp_set, record.ldt) {
+            let what = "`lamp_set` of a luminaire without an EULUMDAT file";
+            context.problem(&set.span(), what, "remove it: only `ldt` knows several sets of lamps");
+        }
+        let read = files.get(file, record, context)?;
         return read.with_flux(record.flux_lm, context);
     }
-    for (key, span) in
-        [("flux_lm", record.flux_lm.map(At::span)), ("extended_m", record.extended_m.map(At::span))]
-    {
+    for (key, span) in [
+        ("flux_lm", record.flux_lm.map(At::span)),
+        ("extended_m", record.extended_m.map(At::span)),
+        ("lamp_set", record.lamp_set.map(At::span)),
+    ] {
         if let Some(span) = span {
             let what = format!("`{key}` of a luminaire without a photometric file");
             let remedy = match key {
                 "flux_lm" => "write it inside `isotropic`, `cosine` or `spot`",
+                "lamp_set" => "remove it: only `ldt` knows several sets of lamps",
                 _ => "remove it: only `ies` and `ldt` know the luminous opening",
             };
             context.problem(&span, what, remedy);
@@ -172,26 +180,45 @@ fn with_flux(
 }
 
 impl Files {
-    fn get(&mut self, file: &At<String>, is_ies: bool, context: &mut Context) -> Option<Emission> {
+    fn get(
+        &mut self,
+        file: &At<String>,
+        record: &LightRecord,
+        context: &mut Context,
+    ) -> Option<Emission> {
         let path = context.path_of(&file.span(), file.get_ref())?;
-        if let Some(known) = self.read.get(&path) {
+        let set = record.lamp_set.map_or(1, |set| *set.get_ref());
+        let key = (path, set);
+        if let Some(known) = self.read.get(&key) {
             return known.clone();
         }
-        let read = if is_ies { read_ies(&path) } else { read_ldt(&path) };
-        let emission = context.findings.absorb(read);
-        self.read.insert(path, emission.clone());
+        let read = if record.ies.is_some() { read_ies(&key.0) } else { read_ldt(&key.0, set) };
+        let emission = match read {
+            Ok(None) => {
+                let at = record.lamp_set.map_or(file.span(), At::span);
+                let what = format!("{} has no lamp set {set}", file.get_ref());
+                context.problem(&at, what, "count the sets of the file from 1");
+                None
+            }
+            Ok(Some(loaded)) => context.findings.absorb(Ok(loaded)),
+            Err(problems) => context.findings.absorb(Err(problems)),
+        };
+        self.read.insert(key, emission.clone());
         emission
     }
 }
 
-fn read_ies(path: &Path) -> Result<Loaded<Emission>, Problems> {
+fn read_ies(path: &Path) -> Result<Option<Loaded<Emission>>, Problems> {
     let Loaded { value, warnings } = ies::read(path)?;
     let emission = Emission { intensity: value.resolve()?, opening: Some(value.opening) };
-    Ok(Loaded { value: emission, warnings })
+    Ok(Some(Loaded { value: emission, warnings }))
 }
 
-fn read_ldt(path: &Path) -> Result<Loaded<Emission>, Problems> {
+/// With a lamp set, counted from 1; nothing if there is none.
+fn read_ldt(path: &Path, set: u32) -> Result<Option<Loaded<Emission>>, Problems> {
     let Loaded { value, warnings } = ldt::read(path)?;
-    let emission = Emission { intensity: value.resolve()?, opening: Some(value.opening()) };
-    Ok(Loaded { value: emission, warnings })
+    let index = (set as usize).checked_sub(1);
+    let Some(set) = index.and_then(|k| value.lamp_sets.get(k)) else { return Ok(None) };
+    let emission = Emission { intensity: value.resolve_with(set)?, opening: Some(value.opening()) };
+    Ok(Some(Loaded { value: emission, warnings }))
 }

@@ -384,3 +384,26 @@ fn an_extended_panel_lights_what_is_near_as_its_area_does() {
         assert!(found.abs() >= 0.1 * error, "{key}: {found}");
     }
 }
+
+#[test]
+fn lamp_sets_are_chosen_by_number() {
+    let ldt = "m\n3\n1\n1\n0\n2\n90\nr\nl\nn\nf\nd\n0\n0\n0\n0\n0\n0\n0\n0\n0\n100\n0\n1\n0\n\
+               2\n1\nLED\n1000\n\n\n\n1\nLED\n3000\n\n\n\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n0\n90\n100\n0\n";
+    let scene = |keys: &str| {
+        let text = format!("[[luminaire]]\nposition = [0,0,1]\n{keys}\n{FLOOR}");
+        read_with(&text, &[("lamp.ldt", ldt), ("lamp.ies", LAMP)])
+    };
+    let flux = |keys: &str| Scene::assemble(scene(keys).unwrap().value).unwrap().luminous_flux_lm();
+    let (first, second) = (flux("ldt = 'lamp.ldt'"), flux("ldt = 'lamp.ldt'\nlamp_set = 2"));
+    // Products with 1 and 3.
+    assert!((second / first - 3.0).abs() < 1e-14, "{first} {second}");
+    for (keys, expected) in [
+        ("ldt = 'lamp.ldt'\nlamp_set = 3", "line 4, column 12: lamp.ldt has no lamp set 3"),
+        ("ldt = 'lamp.ldt'\nlamp_set = 0", "line 4, column 12: lamp.ldt has no lamp set 0"),
+        ("ies = 'lamp.ies'\nlamp_set = 1", "line 4, column 12: `lamp_set` of a luminaire without"),
+        ("isotropic = { flux_lm = 1 }\nlamp_set = 1", "line 4, column 12: `lamp_set` of a"),
+    ] {
+        let found = scene(keys).unwrap_err().to_string();
+        assert!(found.contains(expected), "no {expected:?} in {found:?}");
+    }
+}
