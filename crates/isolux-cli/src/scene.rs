@@ -131,7 +131,7 @@ mod tests {
         };
         lamp("a.ies", 3);
         lamp("b.ies", 2);
-        let library = "[luminaires.flood]\nies = 'b.ies'\nmaintenance = 0.7\n";
+        let library = "[luminaires.flood]\nies = 'b.ies'\nmaintenance_factor = 0.7\n";
         std::fs::write(home.path().join("lamps.toml"), library).unwrap();
         let scene = home.path().join("scene.toml");
         let text = "libraries = ['lamps.toml']\n[materials.grey]\ndiffuse = 0.5\n\

@@ -16,7 +16,7 @@ use std::path::Path;
 pub(super) struct LibraryLight {
     pub(super) emission: Emission,
     pub(super) colour: Option<Rgb>,
-    pub(super) maintenance: Option<f64>,
+    pub(super) maintenance_factor: Option<f64>,
     pub(super) extended_m: Option<f64>,
 }
 
@@ -138,7 +138,7 @@ fn resolve(
     Some(LibraryLight {
         emission: emission?,
         colour: colour?,
-        maintenance: record.maintenance.map(|m| m.0),
+        maintenance_factor: record.maintenance_factor.map(|m| m.0),
         extended_m: record.extended_m.as_ref().map(|m| m.get_ref().0),
     })
 }

@@ -122,7 +122,7 @@ fn kinds(
         None => photometry::emission(&record.light(), files, context).map(|emission| Light {
             emission,
             colour: None,
-            factor: record.maintenance.map_or(1.0, |m| m.0),
+            factor: record.maintenance_factor.map_or(1.0, |m| m.0),
             extended_m: record.extended_m.as_ref().map(|m| m.get_ref().0),
         }),
     };
@@ -171,7 +171,7 @@ fn of_library(
     Some(Light {
         emission: known.emission.with_flux(record.flux_lm.as_ref(), context)?,
         colour: known.colour,
-        factor: record.maintenance.map(|m| m.0).or(known.maintenance).unwrap_or(1.0),
+        factor: record.maintenance_factor.map(|m| m.0).or(known.maintenance_factor).unwrap_or(1.0),
         extended_m: record.extended_m.as_ref().map(|m| m.get_ref().0).or(known.extended_m),
     })
 }
@@ -206,7 +206,7 @@ fn directional(
         direction: direction_of(direction, context)?,
         illuminance_lx: sun.get_ref().illuminance_lx.0
             * record.dimming.map_or(1.0, |d| d.0)
-            * record.maintenance.map_or(1.0, |m| m.0),
+            * record.maintenance_factor.map_or(1.0, |m| m.0),
     })
 }
 

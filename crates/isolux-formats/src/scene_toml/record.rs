@@ -165,7 +165,7 @@ pub(super) struct LuminaireRecord {
     pub(super) direction: Option<At<Triple>>,
     pub(super) rotate_deg: Option<At<Number>>,
     pub(super) dimming: Option<NonNegative>,
-    pub(super) maintenance: Option<Share>,
+    pub(super) maintenance_factor: Option<Share>,
     pub(super) colour: Option<At<Colour>>,
     pub(super) cct_k: Option<At<Number>>,
     pub(super) isotropic: Option<At<IsotropicRecord>>,
@@ -184,7 +184,7 @@ pub(super) struct LuminaireRecord {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LibraryRecord {
-    pub(super) maintenance: Option<Share>,
+    pub(super) maintenance_factor: Option<Share>,
     pub(super) colour: Option<At<Colour>>,
     pub(super) cct_k: Option<At<Number>>,
     pub(super) isotropic: Option<At<IsotropicRecord>>,

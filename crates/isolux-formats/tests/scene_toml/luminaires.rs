@@ -225,10 +225,10 @@ fn with_library(scene: &str, library: &str) -> Result<SceneParts, String> {
 
 #[test]
 fn luminaires_of_a_library_are_hung_by_name() {
-    let library = "[luminaires.panel]\nies = 'lamp.ies'\ncct_k = 4000\nmaintenance = 0.8\n\
+    let library = "[luminaires.panel]\nies = 'lamp.ies'\ncct_k = 4000\nmaintenance_factor = 0.8\n\
                    [luminaires.bulb]\nisotropic = { flux_lm = 800 }\n[luminaires.unused]\nies = 'gone.ies'\n";
     let scene = "[[luminaire]]\ntype = 'panel'\nposition = [0,0,3]\n\
-                 [[luminaire]]\ntype = 'panel'\nposition = [1,0,3]\ndimming = 0.5\nmaintenance = 0.9\n\
+                 [[luminaire]]\ntype = 'panel'\nposition = [1,0,3]\ndimming = 0.5\nmaintenance_factor = 0.9\n\
                  cct_k = 3000\ngroup = 'desk'\n\
                  [[luminaire]]\ntype = 'bulb'\nposition = [2,0,3]\n\
                  [[luminaire]]\ntype = 'panel'\nposition = [3,0,3]\nflux_lm = 1000\n";
@@ -273,7 +273,11 @@ fn problems_of_libraries_have_their_place() {
             "[luminaires.panel]\nies = 'gone.ies'\n",
             "lamps.toml: line 2, column 7: file `gone.ies` does not exist",
         ),
-        (hung, "[luminaires.panel]\nmaintenance = 1.2\n", "line 2, column 15: 1.2 is out of range"),
+        (
+            hung,
+            "[luminaires.panel]\nmaintenance_factor = 1.2\n",
+            "line 2, column 22: 1.2 is out of range",
+        ),
         (
             hung,
             "[luminaires.panel]\ncct_k = 3000\n",
