@@ -4,6 +4,7 @@
 mod bench;
 mod hall;
 mod judge;
+mod lamps;
 mod peers;
 mod smoke;
 mod test;
@@ -17,6 +18,7 @@ const USAGE: &str = "\
 cargo xtask test    everything that must hold before a change lands
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
+cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask bench setup   download Embree 4.4 into target/embree
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
 cargo xtask bench hall    time to an accuracy against triangles and luminaires, and true errors
@@ -32,6 +34,7 @@ fn main() -> ExitCode {
         ["test"] => test::run(root),
         ["tidy"] => tidy::run(root),
         ["smoke"] => test::smoke_and_judge(root),
+        ["lamps"] => lamps::run(root),
         ["bench", "setup"] => bench::setup(root),
         ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),
         ["bench", "rays", ref arguments @ ..] => bench::rays(root, arguments),

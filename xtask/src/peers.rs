@@ -38,7 +38,7 @@ pub(crate) fn check(root: &Path) -> Result<String, String> {
 }
 
 /// A virtual environment with the pinned packages, made anew when they change; its Python.
-fn environment(source: &Path, folder: &Path) -> Result<PathBuf, String> {
+pub(crate) fn environment(source: &Path, folder: &Path) -> Result<PathBuf, String> {
     let python = folder.join("bin").join("python");
     let list = source.join("requirements.txt");
     let pinned = read(&list)?;
@@ -92,7 +92,8 @@ fn read(path: &Path) -> Result<String, String> {
     std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-fn wait(command: &mut Command, what: &str) -> Result<(), String> {
+/// Waits for a command that must succeed.
+pub(crate) fn wait(command: &mut Command, what: &str) -> Result<(), String> {
     match command.status() {
         Ok(status) if status.success() => Ok(()),
         Ok(status) => Err(format!("{what}: {status}")),

@@ -1,6 +1,6 @@
 //! Everything that must hold before a change lands, in one command.
 
-use crate::{judge, peers, smoke, tidy, worlds};
+use crate::{judge, lamps, peers, smoke, tidy, worlds};
 use std::path::Path;
 use std::process::Command;
 
@@ -18,6 +18,8 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
     println!("{}", tidy::run(root)?);
     cargo(root, &["test", "--workspace"])?;
     println!("{}", smoke_and_judge(root)?);
+    announce("outside judges of photometric files: ies2rad, photompy");
+    println!("{}", lamps::run(root)?);
     announce("scripts of the bench of peers");
     println!("{}", peers::check(root)?);
     Ok("all fine".to_owned())

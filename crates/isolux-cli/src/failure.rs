@@ -11,6 +11,8 @@ pub(crate) enum Outcome {
     Done,
     /// The checks ran and one of them failed.
     CheckFailed,
+    /// All inputs were reported on, and one of them cannot be used.
+    Unusable,
     /// Stopped by a limit, with a valid map.
     StoppedEarly,
     /// Interrupted, with a valid map.
@@ -52,7 +54,7 @@ pub(crate) fn exit_code(end: &Result<Outcome, Failure>) -> ExitCode {
     ExitCode::from(match end {
         Ok(Outcome::Done) | Err(Failure::ReaderGone) => 0,
         Ok(Outcome::CheckFailed) => 1,
-        Err(Failure::BadInput(_)) => 2,
+        Ok(Outcome::Unusable) | Err(Failure::BadInput(_)) => 2,
         Ok(Outcome::StoppedEarly) => 3,
         Err(Failure::Refused(_)) => 4,
         Ok(Outcome::Interrupted) => 130,

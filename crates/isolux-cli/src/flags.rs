@@ -41,6 +41,8 @@ pub(crate) enum Command {
     Export(ExportFlags),
     /// Audit a scene before a run
     Check(CheckFlags),
+    /// Audit photometric files, draw them, convert between IES and EULUMDAT
+    Lint(LintFlags),
     /// Run the cases with exact answers
     Validate(ValidateFlags),
     /// Write a scene as files to open and edit
@@ -308,6 +310,29 @@ pub(crate) struct ExportFlags {
 pub(crate) struct CheckFlags {
     #[arg(help = SCENE_HELP)]
     pub scene: PathBuf,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux lint lamp.ies
+  isolux lint *.ies *.ldt --json
+  isolux lint lamp.ies --polar lamp.svg --draw
+  isolux lint lamp.ldt --convert lamp.ies
+
+Exit code 2 if a file cannot be used; the others are reported all the same.")]
+pub(crate) struct LintFlags {
+    /// Photometric files (.ies, .ldt)
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Draw the polar diagram of the file
+    #[arg(long, value_name = "FILE.svg")]
+    pub polar: Option<PathBuf>,
+    /// Draw the polar diagram of every file in the terminal
+    #[arg(long)]
+    pub draw: bool,
+    /// Convert the file to the other format and say what is lost
+    #[arg(long, value_name = "OUT.ies|OUT.ldt")]
+    pub convert: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

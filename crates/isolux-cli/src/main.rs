@@ -11,6 +11,8 @@ mod flags;
 mod grid;
 mod info;
 mod interrupt;
+mod lamp;
+mod lint;
 mod map_file;
 mod notes;
 mod output;
@@ -51,6 +53,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Grid(flags) => grid::run(flags, json),
         Command::Export(flags) => export::run(flags, json),
         Command::Check(flags) => check::run(flags, json),
+        Command::Lint(flags) => lint::run(flags, json),
         Command::Render(flags) => render::run(flags, json),
         Command::Validate(flags) => validate::run(flags, json),
         Command::Scene(flags) => scene::run(flags, json),

@@ -79,6 +79,7 @@ fn photometry(lamp: Lamp) -> NamedPhotometry {
             planes_deg: lamp.planes_deg,
             gammas_deg: lamp.gammas_deg,
             candela: lamp.candela,
+            ..Photometry::default()
         },
     }
 }
@@ -115,6 +116,35 @@ mod tests {
                 source::read_parts(&scene).unwrap().value.cameras.len()
             );
         }
+    }
+
+    /// Floodlights of types A and B, one of them of a library, the other extended.
+    #[test]
+    fn files_give_floodlights_again() {
+        let home = tempfile::tempdir().unwrap();
+        let lamp = |name: &str, kind: u32| {
+            let text = format!(
+                "IESNA91\nTILT=NONE\n1 -1 1 3 3 {kind} 2 0.2 0.4 0\n1 1 20\n-30.1 0 20\n-50 10.3 45\n\
+                 0 10 0\n20 900 70\n0 30 0\n"
+            );
+            std::fs::write(home.path().join(name), text).unwrap();
+        };
+        lamp("a.ies", 3);
+        lamp("b.ies", 2);
+        let library = "[luminaires.flood]\nies = 'b.ies'\nmaintenance_factor = 0.7\n";
+        std::fs::write(home.path().join("lamps.toml"), library).unwrap();
+        let scene = home.path().join("scene.toml");
+        let text = "libraries = ['lamps.toml']\n[materials.grey]\ndiffuse = 0.5\n\
+                    [[geometry]]\nbox = { min = [0,0,0], max = [4,4,3], inward = true }\nmaterial = 'grey'\n\
+                    [[luminaire]]\ntype = 'flood'\nposition = [1,2,2]\ngroup = 'a'\n\
+                    [[luminaire]]\nies = 'a.ies'\nposition = [2,2,2]\nextended_m = 0.2\n";
+        std::fs::write(&scene, text).unwrap();
+        let output = home.path().join("made");
+        let flags = SceneFlags { scene: scene.clone(), output: output.clone(), force: false };
+        run(&flags, true).unwrap();
+        let written = output.join("scene.toml");
+        assert_eq!(source::read_parts(&written).unwrap().warnings, []);
+        assert_eq!(hash(&written), hash(&scene));
     }
 
     #[test]

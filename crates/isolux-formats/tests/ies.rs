@@ -5,7 +5,8 @@
 use isolux::geometry::{Direction, Vector};
 use isolux::photometry::Symmetry;
 use isolux_formats::ies::{
-    self, Edition, IesFile, LampFactor, LampGeometry, LengthUnit, OpeningShape, Tilt,
+    self, Edition, IesFile, LampFactor, LampGeometry, LengthUnit, OpeningShape, PhotometricType,
+    Tilt,
 };
 use isolux_formats::{Loaded, Problem};
 use std::path::{Path, PathBuf};
@@ -25,7 +26,7 @@ fn intensity_at(record: &IesFile, x: f64, y: f64, z: f64) -> f64 {
 
 /// Flux of the bilinear table by 8-point Gauss-Legendre quadrature in every cell, computed outside
 /// this code base from the numbers of each file, lm; and the flux of the lamps it declares.
-const FLUXES: [(&str, f64, Option<f64>); 11] = [
+const FLUXES: [(&str, f64, Option<f64>); 14] = [
     ("own/downlight.ies", 1_505.631_220, None),
     ("own/linear_1200.ies", 4_448.475_643, None),
     ("own/pendant.ies", 4_973.976_116, None),
@@ -37,6 +38,9 @@ const FLUXES: [(&str, f64, Option<f64>); 11] = [
     ("luxcore/ASA_15M_R2.ies", 9_560.828_491, Some(13_000.0)),
     ("photometric-viewer/absolute_photometry_with_multiplier.ies", 1_356.786_788, None),
     ("photometric-viewer/relative_photometry.ies", 904.524_525, Some(500.0)),
+    ("photompy/type_a_symmetric.ies", 40_006.128_891, None),
+    ("photompy/type_b_full.ies", 60_462.430_871, None),
+    ("photompy/type_b_symmetric.ies", 78_183.767_019, None),
 ];
 
 #[test]
@@ -65,8 +69,11 @@ fn every_file_of_the_collection_reads() {
             let flux = loaded.value.resolve().unwrap_or_else(|p| panic!("{p}")).luminous_flux_lm();
             let bright = loaded.value.lamp_lumens().is_some_and(|lamps| flux > lamps);
             assert!(flux > 100.0, "{}: {flux} lm", path.display());
-            // Two synthetic files hold more light than their lamps give; this is said of them only.
-            assert_eq!(loaded.warnings.len(), usize::from(bright), "{:?}", loaded.warnings);
+            let across = loaded.value.photometric_type != PhotometricType::C;
+            // Two synthetic files hold more light than their lamps give, and those of types A and B are
+            // mirrored; nothing else is said.
+            let expected = usize::from(bright) + usize::from(across);
+            assert_eq!(loaded.warnings.len(), expected, "{:?}", loaded.warnings);
         }
     }
     assert!(seen >= 30, "{seen} files found");
@@ -167,6 +174,7 @@ fn every_spelling_is_the_same_luminaire() {
         let mut found = parsed(&bytes);
         assert_eq!(found.warnings, [], "{name}");
         found.value.lines = expected.lines;
+        found.value.intensity_lines.clone_from(&expected.intensity_lines);
         assert_eq!(found.value, expected, "{name}");
     }
 }
@@ -232,6 +240,74 @@ fn every_lateral_symmetry_fills_the_circle() {
             assert!((found - expected).abs() < 1e-12, "{planes:?} {direction:?}: {found}");
         }
     }
+}
+
+/// Intensities of types A and B by horizontal angle (rows) and vertical angle: 1000 + 10 h + v.
+fn floodlight(kind: u8, horizontal: &[f64], vertical: &[f64]) -> IesFile {
+    let list = |angles: &[f64]| angles.iter().map(f64::to_string).collect::<Vec<_>>().join(" ");
+    let row = |h: &f64| list(&vertical.iter().map(|v| 1000.0 + 10.0 * h + v).collect::<Vec<_>>());
+    let text = format!(
+        "IESNA91\nTILT=NONE\n1 -1 1 {} {} {kind} 2 0 0 0 1 1 5\n{}\n{}\n{}",
+        vertical.len(),
+        horizontal.len(),
+        list(vertical),
+        list(horizontal),
+        horizontal.iter().map(row).collect::<Vec<_>>().join("\n")
+    );
+    parsed(text.as_bytes()).value
+}
+
+#[test]
+fn types_a_and_b_shine_along_their_axis_with_up_along_x() {
+    let (h, v) = ([-60.0, 0.0, 30.0, 60.0], [-40.0, 0.0, 20.0]);
+    for kind in [2, 3] {
+        let record = floodlight(kind, &h, &v);
+        for (x, y, z, expected) in [
+            (0.0, 0.0, -1.0, 1000.0),
+            // Up and down in the plane of the aim, then right and left of it.
+            (libm::sin(0.3), 0.0, -libm::cos(0.3), 1000.0 + 0.3_f64.to_degrees()),
+            (libm::sin(-0.3), 0.0, -libm::cos(0.3), 1000.0 - 0.3_f64.to_degrees()),
+            (0.0, -libm::sin(0.5), -libm::cos(0.5), 1000.0 + 10.0 * 0.5_f64.to_degrees()),
+            (0.0, libm::sin(0.5), -libm::cos(0.5), 1000.0 - 10.0 * 0.5_f64.to_degrees()),
+            // Beyond the angles given.
+            (1.0, 0.0, -1.0, 0.0),
+            (0.0, 0.0, 1.0, 0.0),
+        ] {
+            let found = intensity_at(&record, x, y, z);
+            // Arc tangents in degrees, times at most ten candela a degree.
+            assert!((found - expected).abs() < 1e-10, "{kind}: {x} {y} {z}: {found}");
+        }
+    }
+    // Away from both planes the types differ: V of type B is measured about the horizontal axis.
+    let (x, y, z): (f64, f64, f64) = (0.2, -0.5, -1.0);
+    let about = |opposite: f64, near: f64| libm::atan2(opposite, near).to_degrees();
+    let (flat, upright) = ((z * z + y * y).sqrt(), (z * z + x * x).sqrt());
+    for (kind, expected) in [
+        (2, 1000.0 + 10.0 * about(-y, upright) + about(x, -z)),
+        (3, 1000.0 + 10.0 * about(-y, -z) + about(x, flat)),
+    ] {
+        let found = intensity_at(&floodlight(kind, &h, &v), x, y, z);
+        assert!((found - expected).abs() < 1e-10, "{kind}: {found} against {expected}");
+    }
+}
+
+#[test]
+fn types_a_and_b_from_0_on_are_mirrored() {
+    for kind in [2, 3] {
+        let record = floodlight(kind, &[0.0, 45.0, 90.0], &[0.0, 90.0]);
+        for (x, y) in [(0.4, 0.3), (-0.4, 0.3), (0.4, -0.3), (-0.4, -0.3)] {
+            let (one, other) =
+                (intensity_at(&record, x, y, -1.0), intensity_at(&record, 0.4, -0.3, -1.0));
+            // As above.
+            assert!((one - other).abs() < 1e-10, "{kind}: {x} {y}: {one} against {other}");
+        }
+    }
+}
+
+#[test]
+fn records_know_the_line_of_every_intensity() {
+    let text = "IESNA91\nTILT=NONE\n1 -1 1 2 2 1 2 0 0 0 1 1 5\n0 90\n0 90\n1\n2 3\n\n4";
+    assert_eq!(parsed(text.as_bytes()).value.intensity_lines, [6, 7, 7, 9]);
 }
 
 const TILT: &str = "1\n4\n0 30\n60 90\n0.9 0.8 0.7\n0.6";

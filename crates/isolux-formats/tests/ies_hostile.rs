@@ -78,8 +78,7 @@ fn counts_are_not_believed() {
 fn types_units_and_factors_are_checked() {
     check([
         (spoilt(COUNTS, "1 -1 1 3 2 4 2"), "line 3, column 12", "photometric type is 4"),
-        (spoilt(COUNTS, "1 -1 1 3 2 2 2"), "line 3", "photometry of type B is not supported"),
-        (spoilt(COUNTS, "1 -1 1 3 2 3 2"), "line 3", "photometry of type A is not supported"),
+        (spoilt(COUNTS, "1 -1 1 3 1 2 2"), "line 7", "numbers follow after the last intensity"),
         (spoilt(COUNTS, "1 -1 1 3 2 1 3"), "line 3, column 14", "unit of length is 3"),
         (spoilt(COUNTS, "1 -5 1 3 2 1 2"), "line 3, column 3", "flux of a lamp is -5"),
         (

@@ -3,6 +3,7 @@
 //!
 //! [`trace()`] makes a [`LuminanceImage`] (cd/m2 and lx); [`develop()`] shows it as the eye or a camera
 //! would, [`false_colour()`] as a chart of lux with a legend. Both end in a [`Picture`] of sRGB bytes.
+//! [`PolarDiagram`] draws an intensity distribution.
 //! Nothing here reads or writes a file.
 
 mod camera;
@@ -13,6 +14,7 @@ mod false_colour;
 mod image;
 mod picture;
 mod plan;
+mod polar;
 mod srgb;
 mod text;
 mod tone;
@@ -25,5 +27,6 @@ pub use false_colour::{ColourMap, Contours, FalseColour, Quantity, Scale, false_
 pub use image::{LuminanceImage, Reading, Seen, Sight, Size, Surface};
 pub use picture::{Picture, UNKNOWN};
 pub use plan::plan;
+pub use polar::PolarDiagram;
 pub use tone::ToneCurve;
 pub use trace::{SurfacePoint, TraceSettings, trace};

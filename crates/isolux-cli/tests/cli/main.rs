@@ -5,5 +5,6 @@ mod bad_input;
 mod grids;
 #[cfg(unix)]
 mod interrupted;
+mod lint;
 mod ran;
 mod results;

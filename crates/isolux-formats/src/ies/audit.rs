@@ -1,6 +1,6 @@
 //! What is odd about a file that can be read.
 
-use super::{IesFile, LampFactor, PhotometricType, Tilt};
+use super::{IesFile, LampFactor, PhotometricType, Tilt, across};
 use crate::Problem;
 use isolux::photometry::Symmetry;
 use std::path::Path;
@@ -22,7 +22,7 @@ pub(super) fn unknown_edition(file: &Path, line: &str) -> Problem {
 pub(super) fn warnings(record: &IesFile) -> Vec<Problem> {
     [factor_ignored(record), opening_unknown(record), tilt_at_rest(record)]
         .into_iter()
-        .chain([uncovered(record), unclosed(record), too_bright(record)])
+        .chain([uncovered(record), unclosed(record), mirrored(record), too_bright(record)])
         .flatten()
         .collect()
 }
@@ -81,6 +81,20 @@ fn unclosed(record: &IesFile) -> Option<Problem> {
             "repeat it at 360 degrees",
         )
     })
+}
+
+fn mirrored(record: &IesFile) -> Option<Problem> {
+    let lists = match (record.photometric_type, across::mirrored(record)) {
+        (PhotometricType::C, _) | (_, [false, false]) => return None,
+        (_, [true, true]) => "horizontal and vertical angles",
+        (_, [true, false]) => "horizontal angles",
+        (_, [false, true]) => "vertical angles",
+    };
+    Some(record.problem(
+        record.lines.vertical,
+        format!("{lists} from 0 on are mirrored to the other side of the aim"),
+        "give angles from -90 on if the beam is not symmetric",
+    ))
 }
 
 fn too_bright(record: &IesFile) -> Option<Problem> {

@@ -3,6 +3,7 @@
 //! [`read`] and [`parse`] give the file as written, an [`IesFile`]; [`IesFile::resolve`] gives the
 //! distribution an engine uses; [`write`] makes a file. See the README beside this file for what is read how, and why.
 
+mod across;
 mod audit;
 mod edition;
 mod header;
@@ -21,4 +22,4 @@ pub use parse::parse;
 pub use read::read;
 pub use record::{IesFile, Keyword, LampFactor, LengthUnit, PhotometricType, RecordLines};
 pub use tilt::{LampGeometry, Tilt, TiltTable};
-pub use write::{Photometry, write};
+pub use write::{Photometry, SIMULATED, UNDEFINED, write};

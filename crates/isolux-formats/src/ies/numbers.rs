@@ -27,6 +27,11 @@ impl<'a> Numbers<'a> {
         ahead.place.0
     }
 
+    /// Line of the last number, from 1.
+    pub(super) fn line(&self) -> u32 {
+        u32::try_from(self.place.0).unwrap_or(u32::MAX)
+    }
+
     /// A finding at the last number.
     pub(super) fn problem(&self, what: impl Into<String>, remedy: impl Into<String>) -> Problem {
         let (line, column) = self.place;

@@ -105,7 +105,7 @@ fn luminaire(
     lines.horizontal = numbers.next_line();
     let horizontal_deg = numbers.angles("horizontal angle", horizontals, bounds)?;
     lines.candela = numbers.next_line();
-    let candela = intensities(numbers, &horizontal_deg, &vertical_deg)?;
+    let (candela, intensity_lines) = intensities(numbers, &horizontal_deg, &vertical_deg)?;
     Ok(IesFile {
         file: file.to_owned(),
         lines,
@@ -125,6 +125,7 @@ fn luminaire(
         vertical_deg,
         horizontal_deg,
         candela,
+        intensity_lines,
     })
 }
 
@@ -173,8 +174,8 @@ fn intensities(
     numbers: &mut Numbers,
     horizontal_deg: &[f64],
     vertical_deg: &[f64],
-) -> Result<Vec<f64>, Problem> {
-    let mut candela = Vec::new();
+) -> Result<(Vec<f64>, Vec<u32>), Problem> {
+    let (mut candela, mut lines) = (Vec::new(), Vec::new());
     for horizontal in horizontal_deg {
         for vertical in vertical_deg {
             let name = || {
@@ -182,9 +183,10 @@ fn intensities(
             };
             let possible = |v: f64| (0.0..=1e15).contains(&v);
             candela.push(numbers.number_that(name, "from 0 to 1e15", possible)?);
+            lines.push(numbers.line());
         }
     }
-    Ok(candela)
+    Ok((candela, lines))
 }
 
 /// Text after the table is left out; numbers after it mean that the table is not what was read.

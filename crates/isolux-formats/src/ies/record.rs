@@ -98,6 +98,8 @@ pub struct IesFile {
     pub horizontal_deg: Vec<f64>,
     /// Intensities before any factor: `candela[horizontal * verticals + vertical]`.
     pub candela: Vec<f64>,
+    /// Line of each of them, from 1.
+    pub intensity_lines: Vec<u32>,
 }
 
 impl IesFile {

@@ -1,6 +1,6 @@
 //! An [`IesFile`] to the distribution an engine uses.
 
-use super::{IesFile, PhotometricType};
+use super::{IesFile, PhotometricType, across};
 use crate::Problem;
 use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry};
 use std::sync::Arc;
@@ -10,27 +10,25 @@ impl IesFile {
     /// completed by its symmetry, times [`Self::intensity_factor`].
     ///
     /// LM-63 counts horizontal angles counterclockwise as seen from above with the 0 degree plane
-    /// along the length: C90 is +y in the luminaire's frame.
+    /// along the length: C90 is +y in the luminaire's frame. Tables of types A and B keep their own
+    /// system of angles, see [`isolux::photometry::AngleSystem`]; angles given from 0 on are mirrored.
     pub fn resolve(&self) -> Result<IntensityDistribution, Problem> {
-        if self.photometric_type != PhotometricType::C {
-            return Err(self.problem(
-                self.lines.lamps,
-                format!("photometry of type {:?} is not supported", self.photometric_type),
-                "convert the file to type C",
-            ));
-        }
-        let symmetry = self.symmetry()?;
         let factor = self.intensity_factor();
-        let candela = self.candela.iter().map(|cd| cd * factor).collect();
-        let (planes, gammas) = (self.horizontal_deg.clone(), self.vertical_deg.clone());
-        let web = PhotometricWeb::with_symmetry(planes, gammas, candela, symmetry);
+        let web = if self.photometric_type == PhotometricType::C {
+            let symmetry = self.symmetry()?;
+            let candela = self.candela.iter().map(|cd| cd * factor).collect();
+            let (planes, gammas) = (self.horizontal_deg.clone(), self.vertical_deg.clone());
+            PhotometricWeb::with_symmetry(planes, gammas, candela, symmetry)
+        } else {
+            across::web(self, factor)
+        };
         let web = web.map_err(|error| {
             self.problem(self.lines.vertical, error.to_string(), "correct the table")
         })?;
         Ok(IntensityDistribution::Web(Arc::new(web)))
     }
 
-    /// Which part of the circle the horizontal angles give.
+    /// Which part of the circle the horizontal angles of type C give.
     pub fn symmetry(&self) -> Result<Symmetry, Problem> {
         let angles = &self.horizontal_deg;
         let ends = (angles.first().copied(), angles.last().copied());

@@ -34,8 +34,8 @@ fn alternatives(record: &LdtFile) -> Option<Problem> {
     (sets > 1).then(|| {
         record.problem(
             record.lines.lamps,
-            format!("{sets} lamp sets, of which the first is used"),
-            "put the set that is meant first",
+            format!("{sets} lamp sets; the first is used unless another is asked for"),
+            "put the set that is meant first, or give its number as `lamp_set`",
         )
     })
 }

@@ -123,11 +123,7 @@ fn symmetry(fields: &mut Fields) -> Result<LdtSymmetry, Problem> {
 /// The number of planes, which a symmetry must be able to divide.
 fn planes(fields: &mut Fields, symmetry: LdtSymmetry) -> Result<usize, Problem> {
     let planes = fields.count("the number of planes", 1, MAX_ANGLES)? as usize;
-    let part = match symmetry {
-        LdtSymmetry::None | LdtSymmetry::Axial => 1,
-        LdtSymmetry::AboutC0C180 => 2,
-        LdtSymmetry::AboutC90C270 | LdtSymmetry::AboutBoth => 4,
-    };
+    let part = symmetry.divides_into();
     if planes.is_multiple_of(part) {
         return Ok(planes);
     }

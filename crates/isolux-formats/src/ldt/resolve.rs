@@ -2,12 +2,13 @@
 
 use super::{LampSet, LdtFile, LdtSymmetry};
 use crate::Problem;
+use crate::ies::LuminousOpening;
 use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry};
 use std::sync::Arc;
 
 impl LdtSymmetry {
     /// Indices of the planes whose intensities are given, in the order of the file, out of all.
-    pub(super) fn given(self, planes: usize) -> Vec<usize> {
+    pub(crate) fn given(self, planes: usize) -> Vec<usize> {
         let (first, count) = match self {
             Self::None => (0, planes),
             Self::Axial => (0, 1),
@@ -16,6 +17,23 @@ impl LdtSymmetry {
             Self::AboutBoth => (0, planes / 4 + 1),
         };
         (first..first + count).map(|k| k % planes).collect()
+    }
+
+    /// Whether a circle of planes has those that the symmetry needs where it needs them.
+    pub(crate) fn fits(self, planes_deg: &[f64]) -> bool {
+        let count = planes_deg.len();
+        let at = |quarter: usize| planes_deg.get(quarter * count / 4).copied();
+        count.is_multiple_of(self.divides_into())
+            && self.corners().iter().all(|&(quarter, angle)| at(quarter) == Some(angle))
+    }
+
+    /// What the number of planes of the circle must be a multiple of.
+    pub(super) fn divides_into(self) -> usize {
+        match self {
+            Self::None | Self::Axial => 1,
+            Self::AboutC0C180 => 2,
+            Self::AboutC90C270 | Self::AboutBoth => 4,
+        }
     }
 
     /// Where the planes at 0, 1/4, 1/2 and 3/4 of the list must lie for the symmetry to hold.
@@ -64,6 +82,17 @@ impl LdtFile {
             self.problem(self.lines.planes, error.to_string(), "correct the table")
         })?;
         Ok(IntensityDistribution::Web(Arc::new(web)))
+    }
+
+    /// The luminous area with its greatest height; length along C0-C180, width along C90-C270, as in LM-63.
+    pub fn opening(&self) -> LuminousOpening {
+        let [along_c90, along_c0] = self.sizes.luminous_area_m;
+        let height_m = self.sizes.luminous_heights_m.into_iter().fold(0.0, f64::max);
+        if along_c0 == 0.0 && along_c90 > 0.0 {
+            LuminousOpening::disc(along_c90, height_m)
+        } else {
+            LuminousOpening::rectangle([along_c0, along_c90, height_m])
+        }
     }
 
     /// The planes given and their rows, in increasing order.

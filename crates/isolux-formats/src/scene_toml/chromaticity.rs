@@ -1,5 +1,7 @@
 //! The colour of light of a correlated colour temperature.
 
+use super::context::Context;
+use super::record::LightRecord;
 use isolux::units::Rgb;
 
 /// Temperatures that have a colour here, kelvin.
@@ -49,6 +51,34 @@ fn rec709_from_xyz([x, y, z]: [f64; 3]) -> Rgb {
         -0.969_243_636 * x + 1.875_967_502 * y + 0.041_555_057 * z,
         0.055_630_080 * x - 0.203_976_959 * y + 1.056_971_514 * z,
     )
+}
+
+/// The colour that is given, if any; `None` after a problem.
+#[expect(clippy::option_option, reason = "a problem is not the same as no colour")]
+pub(super) fn given(record: &LightRecord, context: &mut Context) -> Option<Option<Rgb>> {
+    match (record.colour, record.cct_k) {
+        (None, None) => Some(None),
+        (Some(colour), None) if colour.get_ref().0.luminance() > 0.0 => {
+            Some(Some(colour.get_ref().0.chromaticity()))
+        }
+        (Some(colour), None) => {
+            context.problem(&colour.span(), "black has no colour", "use `dimming = 0`");
+            None
+        }
+        (None, Some(cct)) => {
+            let kelvin = cct.get_ref().0;
+            if RANGE_K.contains(&kelvin) {
+                return Some(Some(of_temperature(kelvin)));
+            }
+            let what = format!("colour temperature {kelvin} K");
+            context.problem(&cct.span(), what, "give 1000 to 25000 K, or `colour`");
+            None
+        }
+        (Some(_), Some(cct)) => {
+            context.problem(&cct.span(), "`colour` and `cct_k`", "give one of them");
+            None
+        }
+    }
 }
 
 #[cfg(test)]

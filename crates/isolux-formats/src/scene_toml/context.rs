@@ -3,7 +3,7 @@
 use super::spans::{Lines, Span};
 use crate::findings::Findings;
 use crate::{Loaded, Problem, Problems, source};
-use isolux::scene::{SceneParts, UpAxis};
+use isolux::scene::UpAxis;
 use std::path::{Path, PathBuf};
 
 /// So many problems are put into the order of the file; the rest follow as they were found.
@@ -60,11 +60,11 @@ impl Context {
         !self.problems.is_empty() || self.findings.has_problems()
     }
 
-    /// All problems, those of this file in its order; or the scene.
-    pub(super) fn finish(mut self, parts: SceneParts) -> Result<Loaded<SceneParts>, Problems> {
+    /// All problems, those of this file in its order; or the value.
+    pub(super) fn finish<T>(mut self, value: T) -> Result<Loaded<T>, Problems> {
         self.problems.sort_by_key(|(start, _)| *start);
         let own: Vec<Problem> = self.problems.into_iter().map(|(_, problem)| problem).collect();
-        let of_other_files = self.findings.finish(parts);
+        let of_other_files = self.findings.finish(value);
         match of_other_files {
             Err(Problems(rest)) => Err(Problems(own.into_iter().chain(rest).collect())),
             Ok(_) if !own.is_empty() => Err(Problems(own)),

@@ -1,12 +1,14 @@
 //! Luminaires: where they hang, how they stand, in which group.
 
+use super::aim::{Aim, direction_of, point_m};
 use super::chromaticity;
 use super::context::Context;
-use super::photometry::{self, Files};
-use super::quantity::{Triple, plain};
+use super::library::Libraries;
+use super::photometry::{self, Emission, Files};
+use super::quantity::plain;
 use super::record::{ArrayRecord, DirectionalRecord, GroupRecord, LuminaireRecord};
-use super::spans::{At, Span};
-use isolux::geometry::{Direction, Point, Vector};
+use super::spans::At;
+use isolux::geometry::{Point, Vector};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Luminaire, LuminaireKind, SceneParts, world_from_luminaire};
 use isolux::units::Rgb;
@@ -64,6 +66,7 @@ fn emits(scene: &SceneParts, material: u32) -> bool {
 pub(super) fn add(
     entries: &[At<LuminaireRecord>],
     groups: &mut Groups,
+    libraries: &mut Libraries,
     scene: &mut SceneParts,
     context: &mut Context,
 ) {
@@ -72,51 +75,35 @@ pub(super) fn add(
         let record = entry.get_ref();
         let name = record.name.clone().unwrap_or_else(|| format!("luminaire {number}"));
         let group = record.group.as_deref().map_or(0, |name| groups.index(name));
-        let colour = colour(record, context);
-        let Some(kinds) = kinds(entry, &name, &mut files, context) else { continue };
-        let Some(colour) = colour else { continue };
-        scene.luminaires.extend(kinds.into_iter().map(|(place, kind)| {
+        let own = chromaticity::given(&record.light(), context);
+        let Some(found) = kinds(entry, &name, &mut files, libraries, context) else { continue };
+        let Some(own) = own else { continue };
+        let colour = own.or(found.colour).unwrap_or(Rgb::WHITE);
+        scene.luminaires.extend(found.kinds.into_iter().map(|(place, kind)| {
             let name = format!("{name}{place}");
             Luminaire { name, group, colour, kind }
         }));
     }
 }
 
-fn colour(record: &LuminaireRecord, context: &mut Context) -> Option<Rgb> {
-    match (&record.colour, &record.cct_k) {
-        (None, None) => Some(Rgb::WHITE),
-        (Some(colour), None) if colour.get_ref().0.luminance() > 0.0 => {
-            Some(colour.get_ref().0.chromaticity())
-        }
-        (Some(colour), None) => {
-            context.problem(&colour.span(), "black has no colour", "use `dimming = 0`");
-            None
-        }
-        (None, Some(cct)) => {
-            let kelvin = cct.get_ref().0;
-            if chromaticity::RANGE_K.contains(&kelvin) {
-                return Some(chromaticity::of_temperature(kelvin));
-            }
-            let what = format!("colour temperature {kelvin} K");
-            context.problem(&cct.span(), what, "give 1000 to 25000 K, or `colour`");
-            None
-        }
-        (Some(_), Some(cct)) => {
-            context.problem(&cct.span(), "`colour` and `cct_k`", "give one of them");
-            None
-        }
-    }
+/// All luminaires of an entry.
+struct Kinds {
+    /// Each with what its name ends in.
+    kinds: Vec<(String, LuminaireKind)>,
+    /// That of a library.
+    colour: Option<Rgb>,
 }
 
-/// All luminaires of an entry, each with what its name ends in.
 fn kinds(
     entry: &At<LuminaireRecord>,
     name: &str,
     files: &mut Files,
+    libraries: &mut Libraries,
     context: &mut Context,
-) -> Option<Vec<(String, LuminaireKind)>> {
+) -> Option<Kinds> {
     let record = entry.get_ref();
     let choices = [
+        ("type", record.kind.is_some()),
         ("isotropic", record.isotropic.is_some()),
         ("cosine", record.cosine.is_some()),
         ("spot", record.spot.is_some()),
@@ -127,13 +114,66 @@ fn kinds(
     context.one_of(&entry.span(), &format!("luminaire `{name}`"), &choices)?;
     if let Some(sun) = &record.directional {
         let kind = directional(sun, entry, context)?;
-        return context.take_luminaires(&entry.span(), 1, 1).then(|| vec![(String::new(), kind)]);
+        let one = context.take_luminaires(&entry.span(), 1, 1);
+        return one.then(|| Kinds { kinds: vec![(String::new(), kind)], colour: None });
     }
-    let intensity = photometry::intensity(record, files, context);
+    let light = match &record.kind {
+        Some(kind) => of_library(kind, record, libraries, context),
+        None => photometry::emission(&record.light(), files, context).map(|emission| Light {
+            emission,
+            colour: None,
+            factor: record.maintenance_factor.map_or(1.0, |m| m.0),
+            extended_m: record.extended_m.as_ref().map(|m| m.get_ref().0),
+        }),
+    };
     let places = places(entry, name, context);
     let aim = Aim::new(record, context);
-    let intensity = intensity?.scaled(record.dimming.map_or(1.0, |d| d.0));
-    points(&places?, &aim?, &intensity, entry, context)
+    let light = light?;
+    let factor = light.factor * record.dimming.map_or(1.0, |d| d.0);
+    let intensity = light.emission.intensity.scaled(factor);
+    let (places, aim) = (places?, aim?);
+    let kinds = match light.extended_m {
+        None => points(&places, &aim, &intensity, &[Vector::default()], entry, context),
+        Some(spacing_m) => {
+            let span = record.extended_m.as_ref().map_or(entry.span(), At::span);
+            let parts = light.emission.points_m(spacing_m, &span, context)?;
+            if !context.take_luminaires(&span, parts.len() - 1, places.len()) {
+                return None;
+            }
+            let share = intensity.scaled(1.0 / parts.len() as f64);
+            points(&places, &aim, &share, &parts, entry, context)
+        }
+    };
+    Some(Kinds { kinds: kinds?, colour: light.colour })
+}
+
+/// The light of one luminaire, undimmed.
+struct Light {
+    emission: Emission,
+    colour: Option<Rgb>,
+    /// Maintenance factor.
+    factor: f64,
+    extended_m: Option<f64>,
+}
+
+/// The light of a luminaire of a library, where the entry itself says nothing else.
+fn of_library(
+    kind: &At<String>,
+    record: &LuminaireRecord,
+    libraries: &mut Libraries,
+    context: &mut Context,
+) -> Option<Light> {
+    if let Some(set) = &record.lamp_set {
+        let what = "`lamp_set` beside `type`";
+        context.problem(&set.span(), what, "write it into the library");
+    }
+    let known = libraries.find(kind, context)?;
+    Some(Light {
+        emission: known.emission.with_flux(record.flux_lm.as_ref(), context)?,
+        colour: known.colour,
+        factor: record.maintenance_factor.map(|m| m.0).or(known.maintenance_factor).unwrap_or(1.0),
+        extended_m: record.extended_m.as_ref().map(|m| m.get_ref().0).or(known.extended_m),
+    })
 }
 
 fn directional(
@@ -148,6 +188,8 @@ fn directional(
         ("rotate_deg", record.rotate_deg.as_ref().map(At::span)),
         ("array", record.array.as_ref().map(At::span)),
         ("flux_lm", record.flux_lm.as_ref().map(At::span)),
+        ("extended_m", record.extended_m.as_ref().map(At::span)),
+        ("lamp_set", record.lamp_set.as_ref().map(At::span)),
     ];
     for (key, span) in without_meaning {
         if let Some(span) = span {
@@ -162,56 +204,10 @@ fn directional(
     };
     Some(LuminaireKind::Directional {
         direction: direction_of(direction, context)?,
-        illuminance_lx: sun.get_ref().illuminance_lx.0 * record.dimming.map_or(1.0, |d| d.0),
+        illuminance_lx: sun.get_ref().illuminance_lx.0
+            * record.dimming.map_or(1.0, |d| d.0)
+            * record.maintenance_factor.map_or(1.0, |m| m.0),
     })
-}
-
-fn direction_of(triple: &At<Triple>, context: &mut Context) -> Option<Direction> {
-    let direction = Vector::from(plain(*triple.get_ref())).direction();
-    if direction.is_none() {
-        context.problem(&triple.span(), "a direction of length zero", "give where it points");
-    }
-    direction
-}
-
-/// A point of the file, in metres.
-fn point_m(triple: Triple, context: &Context) -> Point {
-    Point::from(plain(triple).map(|c| c * context.unit_m))
-}
-
-/// What a luminaire aims at.
-enum Aim {
-    Along(Direction),
-    At(Point, Span),
-}
-
-impl Aim {
-    fn new(record: &LuminaireRecord, context: &mut Context) -> Option<Self> {
-        match (&record.target, &record.direction) {
-            (None, None) => Some(Self::Along(-context.up.direction())),
-            (None, Some(direction)) => direction_of(direction, context).map(Self::Along),
-            (Some(target), None) => {
-                Some(Self::At(point_m(*target.get_ref(), context), target.span()))
-            }
-            (Some(target), Some(_)) => {
-                context.problem(&target.span(), "`target` and `direction`", "give one of them");
-                None
-            }
-        }
-    }
-
-    fn from(&self, position: Point, context: &mut Context) -> Option<Direction> {
-        match self {
-            Self::Along(direction) => Some(*direction),
-            Self::At(target, span) => {
-                let aim = (*target - position).direction();
-                if aim.is_none() {
-                    context.problem(span, "the target is where the luminaire is", "move one");
-                }
-                aim
-            }
-        }
-    }
 }
 
 /// Positions of an entry, each with its indices in the array.
@@ -254,21 +250,27 @@ fn places(
     Some(places)
 }
 
+/// A point of light for each place and each part of the luminaire, given in its frame.
 fn points(
     places: &[(String, Point)],
     aim: &Aim,
     intensity: &IntensityDistribution,
+    parts_m: &[Vector],
     entry: &At<LuminaireRecord>,
     context: &mut Context,
 ) -> Option<Vec<(String, LuminaireKind)>> {
     let rotate_deg = entry.get_ref().rotate_deg.as_ref().map_or(0.0, |r| r.get_ref().0);
-    let mut kinds = Vec::with_capacity(places.len());
+    let mut kinds = Vec::with_capacity(places.len() * parts_m.len());
     for (place, position) in places {
         let aim = aim.from(*position, context)?;
         let world_from_luminaire = world_from_luminaire(context.up, aim, rotate_deg);
-        let (position, intensity) = (*position, intensity.clone());
-        let kind = LuminaireKind::Point { position, world_from_luminaire, intensity };
-        kinds.push((place.clone(), kind));
+        for (number, part) in parts_m.iter().enumerate() {
+            let part_name = if parts_m.len() > 1 { format!("/{number}") } else { String::new() };
+            let position = *position + world_from_luminaire.vector(*part);
+            let intensity = intensity.clone();
+            let kind = LuminaireKind::Point { position, world_from_luminaire, intensity };
+            kinds.push((format!("{place}{part_name}"), kind));
+        }
     }
     Some(kinds)
 }

@@ -1,37 +1,33 @@
 //! TOML text into records, entry by entry, so that one wrong key does not hide the next.
 
 use super::context::Context;
-use super::record::SceneFile;
+use super::record::{LibraryRecord, SceneFile};
 use super::spans::{At, Span};
 use serde::de::DeserializeOwned;
 use std::collections::HashSet;
-use toml::de::{DeTable, DeValue, Error, ValueDeserializer};
+use toml::de::{DeString, DeTable, DeValue, Error, ValueDeserializer};
 
-const KEYS: &str =
-    "use one of `name`, `up`, `units`, `materials`, `geometry`, `group`, `luminaire`, `camera`";
+const KEYS: &str = "use one of `name`, `up`, `units`, `libraries`, `materials`, `geometry`, `group`, \
+                    `luminaire`, `camera`, `grid`";
+const LIBRARY_KEYS: &str = "use `[luminaires.NAME]`";
 /// Problems reported of one entry.
 const MOST_RETRIES: usize = 16;
 
-/// Reads a file; what is wrong goes to the findings with line and column.
+/// Reads a scene; what is wrong goes to the findings with line and column.
 pub(super) fn parse(text: &str, context: &mut Context) -> SceneFile {
-    let (root, errors) = DeTable::parse_recoverable(text);
-    if !errors.is_empty() {
-        // Brackets left open are reported once each, all at the end of the file.
-        let mut told = HashSet::new();
-        let news = errors.iter().filter(|e| told.insert((e.span().map(|s| s.start), e.message())));
-        news.take(MOST_RETRIES).for_each(|error| report(error, &(0..0), context));
-        return SceneFile::default();
-    }
-    let mut entries: Vec<_> = root.into_inner().into_iter().collect();
-    entries.sort_by_key(|(key, _)| key.span().start);
     let mut file = SceneFile::default();
-    for (key, value) in entries {
+    for (key, value) in root(text, context) {
         let span = value.span();
         match key.get_ref().as_ref() {
             "name" => file.name = entry(value, context),
             "up" => file.up = entry(value, context),
             "units" => file.units = entry(value, context),
-            "materials" => file.materials = table(value, context),
+            "libraries" => file.libraries = entry(value, context).unwrap_or_default(),
+            "materials" => {
+                let materials = table("materials", value, context);
+                let plain = |(name, record): (_, Option<At<_>>)| (name, record.map(At::into_inner));
+                file.materials = materials.into_iter().map(plain).collect();
+            }
             "geometry" => file.geometry = list("geometry", value, context),
             "group" => {
                 let groups = list("group", value, context);
@@ -40,13 +36,48 @@ pub(super) fn parse(text: &str, context: &mut Context) -> SceneFile {
             "luminaire" => file.luminaires = list("luminaire", value, context),
             "camera" => file.cameras = list("camera", value, context),
             "grid" => file.grids = list("grid", value, context),
-            other => {
-                let at = if key.span().is_empty() { span } else { key.span() };
-                context.problem(&at, format!("unknown key `{other}`"), KEYS);
-            }
+            other => unknown(other, key.span(), span, KEYS, context),
         }
     }
     file
+}
+
+/// Luminaires by name; an entry that could not be read keeps its name.
+pub(super) type LibraryEntries = Vec<(At<String>, Option<At<LibraryRecord>>)>;
+
+/// Reads a luminaire library; what is wrong goes to the findings with line and column.
+pub(super) fn parse_library(text: &str, context: &mut Context) -> LibraryEntries {
+    let mut entries = Vec::new();
+    for (key, value) in root(text, context) {
+        match key.get_ref().as_ref() {
+            "luminaires" => entries = table("luminaires", value, context),
+            other => unknown(other, key.span(), value.span(), LIBRARY_KEYS, context),
+        }
+    }
+    entries
+}
+
+/// Keys and values of a file, in its order.
+type Entries<'a> = Vec<(At<DeString<'a>>, At<DeValue<'a>>)>;
+
+/// What stands at the top of a file; nothing if it is no TOML.
+fn root<'a>(text: &'a str, context: &mut Context) -> Entries<'a> {
+    let (root, errors) = DeTable::parse_recoverable(text);
+    if !errors.is_empty() {
+        // Brackets left open are reported once each, all at the end of the file.
+        let mut told = HashSet::new();
+        let news = errors.iter().filter(|e| told.insert((e.span().map(|s| s.start), e.message())));
+        news.take(MOST_RETRIES).for_each(|error| report(error, &(0..0), context));
+        return Vec::new();
+    }
+    let mut entries: Vec<_> = root.into_inner().into_iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    entries
+}
+
+fn unknown(name: &str, key: Span, value: Span, keys: &str, context: &mut Context) {
+    let at = if key.is_empty() { value } else { key };
+    context.problem(&at, format!("unknown key `{name}`"), keys);
 }
 
 /// The entries of an array of tables that could be read.
@@ -70,12 +101,14 @@ fn list<T: DeserializeOwned>(key: &str, value: At<DeValue>, context: &mut Contex
 
 /// The entries of a table of tables by name, in the order of the file.
 fn table<T: DeserializeOwned>(
+    key: &str,
     value: At<DeValue>,
     context: &mut Context,
-) -> Vec<(At<String>, Option<T>)> {
+) -> Vec<(At<String>, Option<At<T>>)> {
     let span = value.span();
     let DeValue::Table(items) = value.into_inner() else {
-        context.problem(&span, "`materials` is not a table", "write `[materials.NAME]`");
+        let what = format!("`{key}` is not a table");
+        context.problem(&span, what, format!("write `[{key}.NAME]`"));
         return Vec::new();
     };
     let mut items: Vec<_> = items.into_iter().collect();
@@ -83,7 +116,8 @@ fn table<T: DeserializeOwned>(
     let mut read = Vec::new();
     for (key, item) in items {
         let name = At::new(key.span(), key.into_inner().into_owned());
-        read.push((name, entry(item, context)));
+        let span = item.span();
+        read.push((name, entry(item, context).map(|record| At::new(span, record))));
     }
     read
 }

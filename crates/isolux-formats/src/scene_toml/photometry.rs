@@ -2,43 +2,107 @@
 
 use super::context::Context;
 use super::quantity::NonNegative;
-use super::record::{CosineRecord, IsotropicRecord, LuminaireRecord, SpotRecord};
+use super::record::{CosineRecord, IsotropicRecord, LightRecord, SpotRecord};
 use super::spans::{At, Span};
+use crate::ies::LuminousOpening;
 use crate::{Loaded, Problems, ies, ldt};
+use isolux::geometry::Vector;
 use isolux::photometry::IntensityDistribution;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-/// Distributions from files, each read once.
-#[derive(Default)]
-pub(super) struct Files {
-    read: HashMap<PathBuf, Option<IntensityDistribution>>,
+/// Light and where it comes from.
+#[derive(Clone, Debug)]
+pub(super) struct Emission {
+    pub(super) intensity: IntensityDistribution,
+    /// Of a photometric file.
+    opening: Option<LuminousOpening>,
 }
 
-/// The distribution of a luminaire that is not directional; `None` after a problem.
-pub(super) fn intensity(
-    record: &LuminaireRecord,
+/// What files hold, each read once.
+#[derive(Default)]
+pub(super) struct Files {
+    /// By path and lamp set.
+    read: HashMap<(PathBuf, u32), Option<Emission>>,
+}
+
+/// The light of a luminaire that is not directional; `None` after a problem.
+pub(super) fn emission(
+    record: &LightRecord,
     files: &mut Files,
     context: &mut Context,
-) -> Option<IntensityDistribution> {
-    if let Some(file) = record.ies.as_ref().or(record.ldt.as_ref()) {
-        let distribution = files.get(file, record.ies.is_some(), context)?;
-        return match &record.flux_lm {
-            None => Some(distribution),
-            Some(flux) => with_flux(&distribution, flux.get_ref().0, &flux.span(), context),
-        };
+) -> Option<Emission> {
+    if let Some(file) = record.ies.or(record.ldt) {
+        if let (Some(set), None) = (record.lamp_set, record.ldt) {
+            let what = "`lamp_set` of a luminaire without an EULUMDAT file";
+            context.problem(&set.span(), what, "remove it: only `ldt` knows several sets of lamps");
+        }
+        let read = files.get(file, record, context)?;
+        return read.with_flux(record.flux_lm, context);
     }
-    if let Some(flux) = &record.flux_lm {
-        let what = "`flux_lm` of a luminaire without a photometric file";
-        context.problem(&flux.span(), what, "write it inside `isotropic`, `cosine` or `spot`");
+    for (key, span) in [
+        ("flux_lm", record.flux_lm.map(At::span)),
+        ("extended_m", record.extended_m.map(At::span)),
+        ("lamp_set", record.lamp_set.map(At::span)),
+    ] {
+        if let Some(span) = span {
+            let what = format!("`{key}` of a luminaire without a photometric file");
+            let remedy = match key {
+                "flux_lm" => "write it inside `isotropic`, `cosine` or `spot`",
+                "lamp_set" => "remove it: only `ldt` knows several sets of lamps",
+                _ => "remove it: only `ies` and `ldt` know the luminous opening",
+            };
+            context.problem(&span, what, remedy);
+        }
     }
-    record
+    let intensity = record
         .isotropic
-        .as_ref()
         .map(|r| isotropic(r, context))
-        .or_else(|| record.cosine.as_ref().map(|r| cosine(r, context)))
-        .or_else(|| record.spot.as_ref().map(|r| spot(r, context)))
-        .flatten()
+        .or_else(|| record.cosine.map(|r| cosine(r, context)))
+        .or_else(|| record.spot.map(|r| spot(r, context)))
+        .flatten()?;
+    Some(Emission { intensity, opening: None })
+}
+
+impl Emission {
+    /// Rescaled to a flux, where one is given.
+    pub(super) fn with_flux(
+        self,
+        flux: Option<&At<NonNegative>>,
+        context: &mut Context,
+    ) -> Option<Self> {
+        let Some(flux) = flux else { return Some(self) };
+        let intensity = with_flux(&self.intensity, flux.get_ref().0, &flux.span(), context)?;
+        Some(Self { intensity, ..self })
+    }
+
+    /// Where its light comes from in the frame of the luminaire, m: points that fill the opening, at most
+    /// so far apart.
+    pub(super) fn points_m(
+        &self,
+        spacing_m: f64,
+        at: &Span,
+        context: &mut Context,
+    ) -> Option<Vec<Vector>> {
+        let Some(opening) = &self.opening else {
+            let what = "`extended_m` of a luminaire without a photometric file";
+            context.problem(at, what, "remove it: only `ies` and `ldt` know the luminous opening");
+            return None;
+        };
+        let points = opening.points_m(spacing_m);
+        if points.is_none() {
+            let remedy = "give a larger distance between points";
+            context.problem(at, "the luminous opening would take too many points", remedy);
+        } else if opening.is_point() {
+            let remedy = "remove `extended_m`, or write the size into the photometric file";
+            context.warning(
+                at,
+                "the photometric file gives no luminous opening; it stays a point",
+                remedy,
+            );
+        }
+        points
+    }
 }
 
 fn isotropic(record: &At<IsotropicRecord>, context: &mut Context) -> Option<IntensityDistribution> {
@@ -119,26 +183,42 @@ impl Files {
     fn get(
         &mut self,
         file: &At<String>,
-        is_ies: bool,
+        record: &LightRecord,
         context: &mut Context,
-    ) -> Option<IntensityDistribution> {
+    ) -> Option<Emission> {
         let path = context.path_of(&file.span(), file.get_ref())?;
-        if let Some(known) = self.read.get(&path) {
+        let set = record.lamp_set.map_or(1, |set| *set.get_ref());
+        let key = (path, set);
+        if let Some(known) = self.read.get(&key) {
             return known.clone();
         }
-        let read = if is_ies { read_ies(&path) } else { read_ldt(&path) };
-        let distribution = context.findings.absorb(read);
-        self.read.insert(path, distribution.clone());
-        distribution
+        let read = if record.ies.is_some() { read_ies(&key.0) } else { read_ldt(&key.0, set) };
+        let emission = match read {
+            Ok(None) => {
+                let at = record.lamp_set.map_or(file.span(), At::span);
+                let what = format!("{} has no lamp set {set}", file.get_ref());
+                context.problem(&at, what, "count the sets of the file from 1");
+                None
+            }
+            Ok(Some(loaded)) => context.findings.absorb(Ok(loaded)),
+            Err(problems) => context.findings.absorb(Err(problems)),
+        };
+        self.read.insert(key, emission.clone());
+        emission
     }
 }
 
-fn read_ies(path: &Path) -> Result<Loaded<IntensityDistribution>, Problems> {
+fn read_ies(path: &Path) -> Result<Option<Loaded<Emission>>, Problems> {
     let Loaded { value, warnings } = ies::read(path)?;
-    Ok(Loaded { value: value.resolve()?, warnings })
+    let emission = Emission { intensity: value.resolve()?, opening: Some(value.opening) };
+    Ok(Some(Loaded { value: emission, warnings }))
 }
 
-fn read_ldt(path: &Path) -> Result<Loaded<IntensityDistribution>, Problems> {
+/// With a lamp set, counted from 1; nothing if there is none.
+fn read_ldt(path: &Path, set: u32) -> Result<Option<Loaded<Emission>>, Problems> {
     let Loaded { value, warnings } = ldt::read(path)?;
-    Ok(Loaded { value: value.resolve()?, warnings })
+    let index = (set as usize).checked_sub(1);
+    let Some(set) = index.and_then(|k| value.lamp_sets.get(k)) else { return Ok(None) };
+    let emission = Emission { intensity: value.resolve_with(set)?, opening: Some(value.opening()) };
+    Ok(Some(Loaded { value: emission, warnings }))
 }

@@ -12,6 +12,7 @@ pub(super) struct SceneFile {
     pub(super) name: Option<String>,
     pub(super) up: Option<UpAxis>,
     pub(super) units: Option<LengthUnit>,
+    pub(super) libraries: Vec<At<String>>,
     pub(super) materials: Vec<(At<String>, Option<MaterialRecord>)>,
     pub(super) geometry: Vec<At<GeometryRecord>>,
     pub(super) groups: Vec<GroupRecord>,
@@ -156,11 +157,15 @@ pub(super) struct GroupRecord {
 pub(super) struct LuminaireRecord {
     pub(super) name: Option<String>,
     pub(super) group: Option<String>,
+    /// Name of a luminaire of a library.
+    #[serde(rename = "type")]
+    pub(super) kind: Option<At<String>>,
     pub(super) position: Option<At<Triple>>,
     pub(super) target: Option<At<Triple>>,
     pub(super) direction: Option<At<Triple>>,
     pub(super) rotate_deg: Option<At<Number>>,
     pub(super) dimming: Option<NonNegative>,
+    pub(super) maintenance_factor: Option<Share>,
     pub(super) colour: Option<At<Colour>>,
     pub(super) cct_k: Option<At<Number>>,
     pub(super) isotropic: Option<At<IsotropicRecord>>,
@@ -169,8 +174,79 @@ pub(super) struct LuminaireRecord {
     pub(super) directional: Option<At<DirectionalRecord>>,
     pub(super) ies: Option<At<String>>,
     pub(super) ldt: Option<At<String>>,
+    pub(super) lamp_set: Option<At<u32>>,
     pub(super) flux_lm: Option<At<NonNegative>>,
+    pub(super) extended_m: Option<At<Positive>>,
     pub(super) array: Option<At<ArrayRecord>>,
+}
+
+/// A luminaire of a library: all but where it hangs.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct LibraryRecord {
+    pub(super) maintenance_factor: Option<Share>,
+    pub(super) colour: Option<At<Colour>>,
+    pub(super) cct_k: Option<At<Number>>,
+    pub(super) isotropic: Option<At<IsotropicRecord>>,
+    pub(super) cosine: Option<At<CosineRecord>>,
+    pub(super) spot: Option<At<SpotRecord>>,
+    pub(super) ies: Option<At<String>>,
+    pub(super) ldt: Option<At<String>>,
+    pub(super) lamp_set: Option<At<u32>>,
+    pub(super) flux_lm: Option<At<NonNegative>>,
+    pub(super) extended_m: Option<At<Positive>>,
+}
+
+/// What a luminaire says of its light, here or in a library.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightRecord<'a> {
+    pub(super) isotropic: Option<&'a At<IsotropicRecord>>,
+    pub(super) cosine: Option<&'a At<CosineRecord>>,
+    pub(super) spot: Option<&'a At<SpotRecord>>,
+    pub(super) ies: Option<&'a At<String>>,
+    pub(super) ldt: Option<&'a At<String>>,
+    /// Which of the lamp sets of EULUMDAT, from 1.
+    pub(super) lamp_set: Option<&'a At<u32>>,
+    pub(super) flux_lm: Option<&'a At<NonNegative>>,
+    pub(super) extended_m: Option<&'a At<Positive>>,
+    pub(super) colour: Option<&'a At<Colour>>,
+    pub(super) cct_k: Option<&'a At<Number>>,
+}
+
+impl LuminaireRecord {
+    /// What it says of its light itself.
+    pub(super) fn light(&self) -> LightRecord<'_> {
+        LightRecord {
+            isotropic: self.isotropic.as_ref(),
+            cosine: self.cosine.as_ref(),
+            spot: self.spot.as_ref(),
+            ies: self.ies.as_ref(),
+            ldt: self.ldt.as_ref(),
+            lamp_set: self.lamp_set.as_ref(),
+            flux_lm: self.flux_lm.as_ref(),
+            extended_m: self.extended_m.as_ref(),
+            colour: self.colour.as_ref(),
+            cct_k: self.cct_k.as_ref(),
+        }
+    }
+}
+
+impl LibraryRecord {
+    /// What it says of its light.
+    pub(super) fn light(&self) -> LightRecord<'_> {
+        LightRecord {
+            isotropic: self.isotropic.as_ref(),
+            cosine: self.cosine.as_ref(),
+            spot: self.spot.as_ref(),
+            ies: self.ies.as_ref(),
+            ldt: self.ldt.as_ref(),
+            lamp_set: self.lamp_set.as_ref(),
+            flux_lm: self.flux_lm.as_ref(),
+            extended_m: self.extended_m.as_ref(),
+            colour: self.colour.as_ref(),
+            cct_k: self.cct_k.as_ref(),
+        }
+    }
 }
 
 #[derive(Debug, Deserialize)]

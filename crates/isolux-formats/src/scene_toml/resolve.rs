@@ -1,6 +1,7 @@
 //! From the scene as written to its parts.
 
 use super::context::Context;
+use super::library::Libraries;
 use super::luminaires::{self, Groups};
 use super::materials::Palette;
 use super::record::SceneFile;
@@ -22,7 +23,9 @@ pub(super) fn resolve(file: SceneFile, context: &mut Context) -> SceneParts {
     }
     palette.warn_of_unused(context);
     let mut groups = Groups::new(&file.groups, &file.luminaires, &scene);
-    luminaires::add(&file.luminaires, &mut groups, &mut scene, context);
+    let mut libraries = Libraries::read(&file.libraries, context);
+    luminaires::add(&file.luminaires, &mut groups, &mut libraries, &mut scene, context);
+    libraries.finish(context);
     scene.groups = groups.names;
     cameras::add(&file.cameras, &mut scene, context);
     grids::add(&file.grids, &mut scene, context);

@@ -1,5 +1,7 @@
 //! What makes a table a web.
 
+use super::AngleSystem;
+
 /// Values a table may hold: a quarter of a degree in both angles, four times over.
 const MAX_VALUES: usize = 1 << 22;
 
@@ -13,13 +15,16 @@ pub(super) const MAX_INTENSITY_CD: f64 = 1e30;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WebError {
-    /// There is no plane, or fewer than two gamma angles: they span no solid angle.
-    #[error("{planes} planes and {gammas} gamma angles; at least 1 and 2 are needed")]
+    /// There is no plane (in the systems A and B, only one), or fewer than two polar angles: they span
+    /// no solid angle.
+    #[error("{planes} planes and {gammas} polar angles; at least {least} and 2 are needed")]
     TooFewAngles {
         /// Planes given.
         planes: usize,
-        /// Gamma angles given.
+        /// Polar angles given.
         gammas: usize,
+        /// Planes needed.
+        least: usize,
     },
     /// More values than any luminaire is measured at.
     #[error("{planes} planes times {gammas} gamma angles are more than {MAX_VALUES} intensities")]
@@ -37,8 +42,8 @@ pub enum WebError {
         /// Planes times angles.
         expected: usize,
     },
-    /// A plane is not an angle from 0 to 360 degrees.
-    #[error("plane {index} lies at {angle_deg} degrees, not within 0 to 360")]
+    /// A plane is not an angle from 0 to 360 degrees; in the systems A and B, to 180.
+    #[error("plane {index} lies at {angle_deg} degrees, beyond its range")]
     PlaneOutOfRange {
         /// Which, from 0.
         index: usize,
@@ -83,13 +88,15 @@ pub enum WebError {
 
 /// The first reason why a table is no web.
 pub(super) fn check(
+    system: AngleSystem,
     planes_deg: &[f64],
     gammas_deg: &[f64],
     candela: &[f64],
 ) -> Result<(), WebError> {
     let (planes, gammas) = (planes_deg.len(), gammas_deg.len());
-    if planes < 1 || gammas < 2 {
-        return Err(WebError::TooFewAngles { planes, gammas });
+    let (least, limit) = if system.is_c() { (1, 360.0) } else { (2, 180.0) };
+    if planes < least || gammas < 2 {
+        return Err(WebError::TooFewAngles { planes, gammas, least });
     }
     let expected = planes.saturating_mul(gammas);
     if expected > MAX_VALUES {
@@ -98,7 +105,7 @@ pub(super) fn check(
     if candela.len() != expected {
         return Err(WebError::WrongCount { found: candela.len(), expected });
     }
-    if let Some((index, angle_deg)) = out_of_range(planes_deg, 360.0) {
+    if let Some((index, angle_deg)) = out_of_range(planes_deg, limit) {
         return Err(WebError::PlaneOutOfRange { index, angle_deg });
     }
     if let Some((index, angle_deg)) = out_of_range(gammas_deg, 180.0) {

@@ -24,7 +24,7 @@ impl Strip {
     }
 
     /// The part of the strip below an angle inside it.
-    fn below(&self, angle: f64) -> Self {
+    pub(super) fn below(&self, angle: f64) -> Self {
         Self {
             angles_rad: [self.angles_rad[0], angle],
             intensities_cd: [self.intensities_cd[0], self.intensity_at(angle)],

@@ -1,22 +1,27 @@
-//! A measured intensity table, type C.
+//! A measured intensity table.
 
 use super::axis::Axis;
 use super::check::{MAX_INTENSITY_CD, check};
 use super::strip::{Strip, share_below, weights};
-use super::{Symmetry, WebError};
+use super::{AngleSystem, Symmetry, WebError};
 use isolux_geometry::{Direction, Vector};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// Intensities over a grid of C-planes and gamma angles, interpolated bilinearly in the angles,
-/// periodically in C. Directions outside the gamma angles given are dark.
+/// Intensities over a grid of planes and polar angles, interpolated bilinearly in the angles;
+/// in the system C periodically in the planes. Directions outside the angles given are dark.
+///
+/// In the system C planes and polar angles are C and gamma. In the systems A and B the polar axis lies
+/// across the beam, see [`AngleSystem`].
 ///
 /// The interpolated function is what the web *is*: its flux is the exact integral of it, and
 /// [`Self::sample`] draws from it without rejection or weight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Table", into = "Table")]
 pub struct PhotometricWeb {
-    /// Planes, degrees, closed by the first plane a turn later.
+    /// Where the polar axis lies.
+    system: AngleSystem,
+    /// Planes, degrees; in the system C closed by the first plane a turn later.
     planes: Axis,
     gammas: Axis,
     /// `candela[plane * gammas + gamma]`.
@@ -31,6 +36,8 @@ pub struct PhotometricWeb {
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Table {
+    #[serde(default, skip_serializing_if = "AngleSystem::is_c")]
+    system: AngleSystem,
     planes_deg: Vec<f64>,
     gammas_deg: Vec<f64>,
     candela: Vec<f64>,
@@ -45,8 +52,20 @@ impl PhotometricWeb {
         gammas_deg: Vec<f64>,
         candela: Vec<f64>,
     ) -> Result<Self, WebError> {
-        check(&planes_deg, &gammas_deg, &candela)?;
-        Ok(Self::tabulate(closed(planes_deg), Axis::new(gammas_deg), candela))
+        Self::in_system(AngleSystem::C, planes_deg, gammas_deg, candela)
+    }
+
+    /// Table in a system of angles: for C as [`Self::new`]; for A and B at least two planes within 0 to 180
+    /// degrees, of which the one at 90 holds the aim, and polar angles from the pole on.
+    pub fn in_system(
+        system: AngleSystem,
+        planes_deg: Vec<f64>,
+        gammas_deg: Vec<f64>,
+        candela: Vec<f64>,
+    ) -> Result<Self, WebError> {
+        check(system, &planes_deg, &gammas_deg, &candela)?;
+        let planes = if system.is_c() { closed(planes_deg) } else { Axis::new(planes_deg) };
+        Ok(Self::tabulate(system, planes, Axis::new(gammas_deg), candela))
     }
 
     /// Table over the part of the circle that a symmetry leaves to be given.
@@ -56,16 +75,16 @@ impl PhotometricWeb {
         candela: Vec<f64>,
         symmetry: Symmetry,
     ) -> Result<Self, WebError> {
-        check(&planes_deg, &gammas_deg, &candela)?;
+        check(AngleSystem::C, &planes_deg, &gammas_deg, &candela)?;
         let rows = candela.chunks(gammas_deg.len()).map(<[f64]>::to_vec);
         let whole = symmetry.complete(planes_deg.into_iter().zip(rows).collect());
         let (planes_deg, rows): (Vec<_>, Vec<_>) = whole.into_iter().unzip();
         Self::new(planes_deg, gammas_deg, rows.concat())
     }
 
-    fn tabulate(planes: Axis, gammas: Axis, candela: Vec<f64>) -> Self {
+    fn tabulate(system: AngleSystem, planes: Axis, gammas: Axis, candela: Vec<f64>) -> Self {
         let below = flux_below(&gammas, &candela);
-        let mut web = Self { planes, gammas, candela, below, before: vec![0.0] };
+        let mut web = Self { system, planes, gammas, candela, below, before: vec![0.0] };
         let mut sum = 0.0;
         for cell in 0..web.planes.cells() {
             let [low, high] = web.plane_flux(cell);
@@ -75,12 +94,17 @@ impl PhotometricWeb {
         web
     }
 
+    /// Where its polar axis lies.
+    pub fn system(&self) -> AngleSystem {
+        self.system
+    }
+
     /// Planes, degrees.
     pub fn planes_deg(&self) -> &[f64] {
         &self.planes.angles()[..self.candela.len() / self.gammas_deg().len()]
     }
 
-    /// Gamma angles, degrees.
+    /// Angles from the pole, degrees; in the system C gamma angles.
     pub fn gammas_deg(&self) -> &[f64] {
         self.gammas.angles()
     }
@@ -90,6 +114,17 @@ impl PhotometricWeb {
         &self.candela
     }
 
+    /// Direction, of length 1 in the luminaire's frame, and intensity, cd, of every entry of the table.
+    pub fn nodes(&self) -> impl Iterator<Item = (Vector, f64)> {
+        let rows = self.candela.chunks(self.gammas_deg().len()).zip(self.planes_deg());
+        rows.flat_map(move |(row, plane)| {
+            let c = plane.to_radians();
+            row.iter().zip(self.gammas_deg()).map(move |(&cd, gamma)| {
+                (self.system.luminaire_from_web(spherical(c, gamma.to_radians())), cd)
+            })
+        })
+    }
+
     /// Highest intensity in any direction, cd; a bilinear function has it at a node.
     pub fn max_intensity_cd(&self) -> f64 {
         self.candela.iter().copied().fold(0.0, f64::max)
@@ -97,7 +132,7 @@ impl PhotometricWeb {
 
     /// Intensity in a direction of the luminaire's frame, cd.
     pub fn intensity_cd(&self, local: Direction) -> f64 {
-        let Vector { x, y, z } = local.to_vector();
+        let Vector { x, y, z } = self.system.web_from_luminaire(local.to_vector());
         let gamma = libm::atan2((x * x + y * y).sqrt(), -z).to_degrees();
         let Some((strip, up)) = self.gammas.locate(gamma) else { return 0.0 };
         let mut c = libm::atan2(y, x).to_degrees();
@@ -114,6 +149,27 @@ impl PhotometricWeb {
         self.before[self.planes.cells()]
     }
 
+    /// Flux below an angle from the pole, lm; in the system C of the cone about nadir up to gamma.
+    pub fn flux_below_lm(&self, gamma_deg: f64) -> f64 {
+        let plane = |across: f64, cell: usize| self.plane_flux_below(cell, across, gamma_deg);
+        let cell = |k: usize| self.cell_width_rad(k) * 0.5 * (plane(0.0, k) + plane(1.0, k));
+        (0..self.planes.cells()).map(cell).sum::<f64>() + 0.0
+    }
+
+    /// Flux of a half-plane below an angle from the pole, lm per radian of C.
+    fn plane_flux_below(&self, cell: usize, across: f64, gamma_deg: f64) -> f64 {
+        let strips = self.gammas.cells();
+        let Some((strip, _)) = self.gammas.locate(gamma_deg) else {
+            let whole = gamma_deg > self.gammas.first();
+            return if whole { self.mix(&self.below, cell, across, strips) } else { 0.0 };
+        };
+        let part = Strip {
+            angles_rad: self.gammas.bounds(strip).map(f64::to_radians),
+            intensities_cd: self.intensities_cd(cell, across, strip),
+        };
+        self.mix(&self.below, cell, across, strip) + part.below(gamma_deg.to_radians()).flux()
+    }
+
     /// A direction in proportion to intensity, from two numbers of [0, 1); `None` if all is dark.
     ///
     /// Exact: `b` chooses C by the flux of the half-planes, whose density is linear between
@@ -125,10 +181,9 @@ impl PhotometricWeb {
             return None;
         }
         let (cell, across) = self.sample_plane(b * total);
-        let (sin_gamma, cos_gamma) = libm::sincos(self.sample_gamma(cell, across, a));
+        let gamma = self.sample_gamma(cell, across, a);
         let c = self.planes.bounds(cell)[0].to_radians() + across * self.cell_width_rad(cell);
-        let (sin_c, cos_c) = libm::sincos(c);
-        Vector::new(sin_gamma * cos_c, sin_gamma * sin_c, -cos_gamma).direction()
+        self.system.luminaire_from_web(spherical(c, gamma)).direction()
     }
 
     /// Every intensity multiplied by a factor >= 0; anything else counts as 0. Products beyond
@@ -137,7 +192,7 @@ impl PhotometricWeb {
         let factor = factor.max(0.0);
         let scale = |cd: &f64| (cd * factor).min(MAX_INTENSITY_CD);
         let candela = self.candela.iter().map(scale).collect();
-        Self::tabulate(self.planes.clone(), self.gammas.clone(), candela)
+        Self::tabulate(self.system, self.planes.clone(), self.gammas.clone(), candela)
     }
 
     /// Where in C the flux before it is `flux`: a cell of the circle and the place inside.
@@ -189,6 +244,13 @@ impl PhotometricWeb {
     }
 }
 
+/// The direction at C and gamma, rad.
+fn spherical(c: f64, gamma: f64) -> Vector {
+    let (sin_c, cos_c) = libm::sincos(c);
+    let (sin_gamma, cos_gamma) = libm::sincos(gamma);
+    Vector::new(sin_gamma * cos_c, sin_gamma * sin_c, -cos_gamma)
+}
+
 /// The circle closed by its first plane, unless the file closed it.
 fn closed(mut planes_deg: Vec<f64>) -> Axis {
     let turn = planes_deg[0] + 360.0;
@@ -217,13 +279,14 @@ fn flux_below(gammas: &Axis, candela: &[f64]) -> Vec<f64> {
 impl TryFrom<Table> for PhotometricWeb {
     type Error = WebError;
     fn try_from(table: Table) -> Result<Self, WebError> {
-        Self::new(table.planes_deg, table.gammas_deg, table.candela)
+        Self::in_system(table.system, table.planes_deg, table.gammas_deg, table.candela)
     }
 }
 
 impl From<PhotometricWeb> for Table {
     fn from(web: PhotometricWeb) -> Self {
         Self {
+            system: web.system,
             planes_deg: web.planes_deg().to_vec(),
             gammas_deg: web.gammas_deg().to_vec(),
             candela: web.candela,

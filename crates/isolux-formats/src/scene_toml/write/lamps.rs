@@ -70,15 +70,13 @@ impl Catalogue {
     /// A file made of a distribution alone.
     fn file_of(&self, web: &PhotometricWeb) -> Option<Entry> {
         let name = format!("luminaire-{}.ies", self.entries.len() + 1);
-        let mut photometry = Photometry {
-            planes_deg: web.planes_deg().to_vec(),
-            gammas_deg: web.gammas_deg().to_vec(),
-            candela: web.candela().to_vec(),
-            ..Photometry::default()
-        };
+        let mut photometry = Photometry::of_web(web);
         let is_whole = |entry: &Entry| dimming(web, &entry.base) == Some(1.0);
         if let Some(entry) = entry(&name, &photometry).filter(is_whole) {
             return Some(entry);
+        }
+        if !web.system().is_c() {
+            return None;
         }
         // Part of a circle would be mirrored: close it.
         photometry.planes_deg.push(photometry.planes_deg.first()? + 360.0);
@@ -115,8 +113,9 @@ fn dimming(web: &PhotometricWeb, base: &IntensityDistribution) -> Option<f64> {
     let IntensityDistribution::Web(base) = base else { return None };
     let ratio = web.max_intensity_cd() / base.max_intensity_cd();
     let makes = |factor: f64| base.scaled(factor) == *web;
-    let same_angles =
-        web.planes_deg() == base.planes_deg() && web.gammas_deg() == base.gammas_deg();
+    let same_angles = web.system() == base.system()
+        && web.planes_deg() == base.planes_deg()
+        && web.gammas_deg() == base.gammas_deg();
     (same_angles && ratio.is_finite())
         .then(|| shortest(ratio, makes))
         .filter(|&factor| makes(factor))

@@ -76,7 +76,8 @@ fn shape(intensity: &IntensityDistribution) -> blake3::Hash {
         }
         IntensityDistribution::Web(web) => {
             let most_cd = web.max_intensity_cd().max(f64::MIN_POSITIVE);
-            numbers(&mut [3.0, web.planes_deg().len() as f64].into_iter());
+            let kind = 3.0 + f64::from(web.system() as u8);
+            numbers(&mut [kind, web.planes_deg().len() as f64].into_iter());
             numbers(&mut web.planes_deg().iter().copied());
             numbers(&mut web.gammas_deg().iter().copied());
             // Six digits, so that the rounding of a factor does not tell them apart; zero stays.

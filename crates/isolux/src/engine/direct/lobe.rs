@@ -184,15 +184,9 @@ impl Texels {
 
     /// Peaks of measured tables, which samples may miss.
     fn include_nodes(&mut self, web: &PhotometricWeb, most_cd: f64) {
-        let gammas = web.gammas_deg();
-        for (row, plane) in web.candela().chunks(gammas.len()).zip(web.planes_deg()) {
-            for (cd, gamma) in row.iter().zip(gammas) {
-                let (sin_c, cos_c) = libm::sincos(plane.to_radians());
-                let (sin_gamma, cos_gamma) = libm::sincos(gamma.to_radians());
-                let at = Vector::new(sin_gamma * cos_c, sin_gamma * sin_c, -cos_gamma);
-                let highest = &mut self.highest[texel_of(at, self.size)];
-                *highest = highest.max(cd / most_cd);
-            }
+        for (at, cd) in web.nodes() {
+            let highest = &mut self.highest[texel_of(at, self.size)];
+            *highest = highest.max(cd / most_cd);
         }
     }
 

@@ -76,6 +76,26 @@ fn symmetric_halves_and_quarters_have_the_flux_of_the_whole() {
 }
 
 #[test]
+fn cones_hold_their_share_of_the_flux() {
+    let even = axial(vec![0.0, 30.0, 180.0], |_| 7.0);
+    for (gamma, share) in [(0.0, 0.0), (10.0, 0.5 - 0.5 * libm::cos(10.0_f64.to_radians()))]
+        .into_iter()
+        .chain([(90.0, 0.5), (180.0, 1.0)])
+    {
+        let flux = even.flux_below_lm(gamma);
+        // Sums of rounded weights.
+        assert!((flux - 28.0 * PI * share).abs() < 1e-13 * 28.0 * PI, "{gamma}: {flux}");
+    }
+    for web in [lopsided(), quarter(), floodlight(AngleSystem::A)] {
+        let whole = web.luminous_flux_lm();
+        assert!((web.flux_below_lm(180.0) - whole).abs() < 1e-13 * whole);
+        assert!(web.flux_below_lm(60.0) < web.flux_below_lm(60.1));
+    }
+    // Nothing lies below the angles given.
+    assert_eq!(axial(vec![30.0, 60.0], |_| 5.0).flux_below_lm(29.0), 0.0);
+}
+
+#[test]
 fn scaling_scales_everything() {
     for (name, distribution) in every_kind() {
         let scaled = distribution.scaled(0.25);

@@ -42,6 +42,23 @@ fn beyond_the_angles_given_it_is_dark() {
 }
 
 #[test]
+fn floodlights_are_dark_beyond_their_planes_and_bilinear_between() {
+    let at = |system, x, y, z| {
+        let direction = Vector::new(x, y, z).direction().unwrap();
+        floodlight(system).intensity_cd(direction)
+    };
+    // The aim: plane 90, polar angle 90.
+    near(at(AngleSystem::B, 0.0, 0.0, -1.0), 900.0 - 200.0 * 10.0 / 15.0);
+    near(at(AngleSystem::A, 0.0, 0.0, -1.0), 900.0 - 200.0 * 10.0 / 15.0);
+    // Straight up ends the planes of B, straight to the right those of A.
+    near(at(AngleSystem::B, 1.0, 0.0, 0.0), 10.0);
+    near(at(AngleSystem::A, 0.0, -1.0, 0.0), 10.0);
+    // Backwards there is nothing.
+    near(at(AngleSystem::B, 0.1, 0.2, 1.0), 0.0);
+    near(at(AngleSystem::A, 0.1, 0.2, 1.0), 0.0);
+}
+
+#[test]
 fn the_horizontal_belongs_to_a_table_that_ends_there() {
     let web = axial(vec![0.0, 90.0], |_| 5.0);
     near(web.intensity_cd(Direction::X), 5.0);

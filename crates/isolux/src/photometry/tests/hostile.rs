@@ -14,8 +14,11 @@ fn every_kind_of_nonsense_has_its_name() {
     let two = [1.0, 1.0];
     let ends = [0.0, 90.0];
     type E = WebError;
-    assert!(matches!(refused(&[], &[], &[]), E::TooFewAngles { planes: 0, gammas: 0 }));
-    assert!(matches!(refused(&[0.0], &[0.0], &[1.0]), E::TooFewAngles { planes: 1, gammas: 1 }));
+    assert!(matches!(refused(&[], &[], &[]), E::TooFewAngles { planes: 0, gammas: 0, least: 1 }));
+    assert!(matches!(
+        refused(&[0.0], &[0.0], &[1.0]),
+        E::TooFewAngles { planes: 1, gammas: 1, .. }
+    ));
     assert!(matches!(refused(&[0.0], &ends, &[1.0]), E::WrongCount { found: 1, expected: 2 }));
     assert!(matches!(refused(&vec![0.0; 3000], &vec![0.0; 3000], &two), E::TooLarge { .. }));
     for plane in [-1.0, 360.1, f64::NAN, f64::INFINITY] {
@@ -30,6 +33,14 @@ fn every_kind_of_nonsense_has_its_name() {
     for gamma in [40.0, 30.0, 40.0 + 1e-9] {
         let gammas = [40.0, gamma];
         assert!(matches!(refused(&[0.0], &gammas, &two), E::GammasNotIncreasing { index: 1, .. }));
+    }
+    for system in [AngleSystem::A, AngleSystem::B] {
+        let refused = |planes: &[f64]| {
+            let candela = vec![1.0; 2 * planes.len()];
+            PhotometricWeb::in_system(system, planes.to_vec(), ends.to_vec(), candela).unwrap_err()
+        };
+        assert!(matches!(refused(&[90.0]), E::TooFewAngles { planes: 1, least: 2, .. }));
+        assert!(matches!(refused(&[0.0, 180.1]), E::PlaneOutOfRange { index: 1, .. }));
     }
     let four = [1.0; 4];
     for plane in [90.0, 0.0] {
@@ -76,4 +87,13 @@ fn a_stored_web_is_checked_and_its_sums_are_made_anew() {
     assert_eq!(deserialized(vec![3.0, 4.0]), Ok(axial(vec![0.0, 90.0], |g| 3.0 + g / 90.0)));
     let refusal = deserialized(vec![3.0, -4.0]).unwrap_err().to_string();
     assert!(refusal.contains("-4 cd at plane 0, gamma angle 1"), "{refusal}");
+}
+
+#[test]
+fn a_stored_web_keeps_its_system() {
+    let web = floodlight(AngleSystem::B);
+    let stored = serde_json::to_string(&web).unwrap();
+    assert_eq!(serde_json::from_str::<PhotometricWeb>(&stored).unwrap(), web);
+    // Webs of the system C are stored as they always were.
+    assert!(!serde_json::to_string(&lopsided()).unwrap().contains("system"));
 }

@@ -5,7 +5,7 @@ mod flux;
 mod frame;
 mod hostile;
 
-use super::{IntensityDistribution, PhotometricWeb, Symmetry};
+use super::{AngleSystem, IntensityDistribution, PhotometricWeb, Symmetry};
 use isolux_geometry::{Direction, Vector};
 use std::sync::Arc;
 
@@ -42,6 +42,19 @@ fn quarter() -> PhotometricWeb {
     PhotometricWeb::with_symmetry(planes, gammas, candela, Symmetry::AboutBoth).unwrap()
 }
 
+/// A lopsided beam in a system with its polar axis across.
+fn floodlight(system: AngleSystem) -> PhotometricWeb {
+    let planes = vec![30.0, 80.0, 95.0, 180.0];
+    let poles = vec![0.0, 70.0, 90.0, 120.0];
+    let candela = vec![
+        5.0, 20.0, 50.0, 0.0, //
+        5.0, 300.0, 900.0, 20.0, //
+        5.0, 100.0, 700.0, 30.0, //
+        5.0, 0.0, 10.0, 60.0,
+    ];
+    PhotometricWeb::in_system(system, planes, poles, candela).unwrap()
+}
+
 /// One of each kind, with names for messages.
 fn every_kind() -> Vec<(&'static str, IntensityDistribution)> {
     use IntensityDistribution::*;
@@ -55,6 +68,8 @@ fn every_kind() -> Vec<(&'static str, IntensityDistribution)> {
         ("spot without plateau", Spot { peak_cd: 1000.0, inner_rad: 0.0, outer_rad: 2.5 }),
         ("lopsided web", web(lopsided())),
         ("quarter web", web(quarter())),
+        ("floodlight of type A", web(floodlight(AngleSystem::A))),
+        ("floodlight of type B", web(floodlight(AngleSystem::B))),
         ("axial web", web(axial(vec![0.0, 20.0, 60.0, 180.0], |g| 180.0 - g))),
         ("web of one strip", web(axial(vec![0.0, 180.0], |_| 50.0))),
         (

@@ -1,33 +1,16 @@
 //! What a photometric file holds.
 
-use crate::console::{facts, print, print_json};
-use crate::failure::Failure;
+use crate::console::facts;
 use crate::quantity::significant;
-use crate::source::{bad_file, show_warnings};
-use isolux_formats::ies::{self, Edition, IesFile};
-use isolux_formats::ldt::{self, LdtFile};
+use isolux::photometry::IntensityDistribution;
+use isolux_formats::ies::{Edition, IesFile};
+use isolux_formats::ldt::LdtFile;
+use isolux_formats::photometric_file::PhotometricFile;
 use serde::Serialize;
-use std::path::Path;
 
-/// Prints an LM-63 file.
-pub(super) fn show_ies(path: &Path, json: bool) -> Result<(), Failure> {
-    let loaded = ies::read(path).map_err(bad_file)?;
-    show_warnings(&loaded.warnings);
-    let contents = Contents::of_ies(&loaded.value)?;
-    if json { print_json(&contents) } else { print(&contents.text()) }
-}
-
-/// Prints a EULUMDAT file.
-pub(super) fn show_ldt(path: &Path, json: bool) -> Result<(), Failure> {
-    let loaded = ldt::read(path).map_err(bad_file)?;
-    show_warnings(&loaded.warnings);
-    let contents = Contents::of_ldt(&loaded.value)?;
-    if json { print_json(&contents) } else { print(&contents.text()) }
-}
-
-/// What `info --json` prints of a photometric file.
+/// What is printed of a photometric file.
 #[derive(Serialize)]
-struct Contents {
+pub(crate) struct Contents {
     kind: &'static str,
     format: String,
     manufacturer: Option<String>,
@@ -44,44 +27,56 @@ struct Contents {
 }
 
 impl Contents {
-    fn of_ies(file: &IesFile) -> Result<Self, Failure> {
-        let distribution = file.resolve().map_err(Failure::bad_input)?;
-        Ok(Self {
+    /// Of a file and its distribution; of EULUMDAT with the first of its sets of lamps.
+    pub(crate) fn of(file: &PhotometricFile, distribution: &IntensityDistribution) -> Self {
+        let luminous_flux_lm = distribution.luminous_flux_lm();
+        let max_intensity_cd = distribution.max_intensity_cd();
+        match file {
+            PhotometricFile::Ies(file) => {
+                Self { luminous_flux_lm, max_intensity_cd, ..Self::of_ies(file) }
+            }
+            PhotometricFile::Ldt(file) => {
+                Self { luminous_flux_lm, max_intensity_cd, ..Self::of_ldt(file) }
+            }
+        }
+    }
+
+    fn of_ies(file: &IesFile) -> Self {
+        Self {
             kind: "photometric file",
             format: format!("{}, type {:?}", edition(file.edition), file.photometric_type),
             manufacturer: file.keyword("MANUFAC").map(str::to_owned),
             luminaire: file.keyword("LUMINAIRE").map(str::to_owned),
             lamps: file.lamps,
             lamp_flux_lm: file.lamp_lumens(),
-            luminous_flux_lm: distribution.luminous_flux_lm(),
-            max_intensity_cd: distribution.max_intensity_cd(),
+            luminous_flux_lm: 0.0,
+            max_intensity_cd: 0.0,
             input_watts: file.input_watts,
             planes: file.horizontal_deg.len(),
             gammas: file.vertical_deg.len(),
-        })
+        }
     }
 
-    /// With the first of its sets of lamps.
-    fn of_ldt(file: &LdtFile) -> Result<Self, Failure> {
-        let distribution = file.resolve().map_err(Failure::bad_input)?;
+    fn of_ldt(file: &LdtFile) -> Self {
         let lamps = file.lamp_sets.first();
         let said = |text: &String| Some(text.clone()).filter(|text| !text.is_empty());
-        Ok(Self {
+        Self {
             kind: "photometric file",
             format: "EULUMDAT".to_owned(),
             manufacturer: said(&file.header.company),
             luminaire: said(&file.header.luminaire),
             lamps: lamps.map_or(0, |set| set.lamps),
             lamp_flux_lm: lamps.filter(|set| !set.absolute).map(|set| set.flux_lm),
-            luminous_flux_lm: distribution.luminous_flux_lm(),
-            max_intensity_cd: distribution.max_intensity_cd(),
+            luminous_flux_lm: 0.0,
+            max_intensity_cd: 0.0,
             input_watts: lamps.map_or(0.0, |set| set.watts),
             planes: file.planes_deg.len(),
             gammas: file.gammas_deg.len(),
-        })
+        }
     }
 
-    fn text(&self) -> String {
+    /// For people.
+    pub(crate) fn text(&self) -> String {
         let named = |name: &Option<String>| name.clone().unwrap_or_else(|| "not said".to_owned());
         let lumen = |lm: f64| format!("{} lm", significant(lm, 4));
         let efficacy = match self.input_watts {

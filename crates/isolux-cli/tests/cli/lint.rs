@@ -1,0 +1,92 @@
+//! `lint`: reports, drawings, conversions, exit codes.
+
+use crate::ran::Home;
+
+const IES: &str = "IES:LM-63-2019\n[TEST] 1\n[TESTLAB] lab\n[ISSUEDATE] today\n[MANUFAC] m\n\
+                   [LUMCAT] c\n[LUMINAIRE] l\nTILT=NONE\n1 1000 1 7 1 1 2 0.1 0.2 0\n1 1.10000 20\n\
+                   0 15 30 45 60 75 90\n0\n200 193 173 141 100 52 0\n";
+
+#[test]
+fn a_bad_file_ends_with_2_and_the_others_are_reported() {
+    let home = Home::new();
+    home.file("good.ies", IES);
+    home.file("bad.ies", IES.replace("141", "x"));
+    home.file("odd.ies", IES.replace("1 1000 1 7", "1 100 1 7"));
+    let ran = home.run(&["lint", "bad.ies", "good.ies", "odd.ies", "gone.ldt", "--json"]);
+    assert_eq!(ran.code, 2, "{ran:?}");
+    let json = ran.json();
+    let files = json["files"].as_array().unwrap();
+    let usable: Vec<bool> = files.iter().map(|f| f["usable"].as_bool().unwrap()).collect();
+    assert_eq!(usable, [false, true, true, false]);
+    assert_eq!(files[0]["findings"][0]["severity"], "error");
+    assert_eq!(files[0]["findings"][0]["line"], 13);
+    assert!(files[0]["contents"].is_null());
+    assert_eq!(files[1]["findings"].as_array().unwrap().len(), 0, "{json}");
+    let ratio = files[1]["light_output_ratio"].as_f64().unwrap();
+    // pi times 200 cd of a cosine, whose chords at 15 degrees lose half a per cent.
+    assert!((ratio - 0.6283).abs() < 0.01, "{ratio}");
+    assert_eq!(files[2]["findings"][0]["severity"], "warning");
+    assert!(json["conversion"].is_null());
+    let ran = home.run(&["lint", "bad.ies", "good.ies"]);
+    assert_eq!(ran.code, 2, "{ran:?}");
+    assert!(ran.out.contains("error: bad.ies: line 13: \"x\" is not a number"), "{}", ran.out);
+    assert!(ran.out.contains("nothing found"), "{}", ran.out);
+    assert_eq!(home.run(&["lint", "good.ies", "odd.ies"]).code, 0);
+}
+
+#[test]
+fn drawings_go_to_a_file_and_to_the_terminal() {
+    let home = Home::new();
+    home.file("lamp.ies", IES);
+    let ran = home.run(&["lint", "lamp.ies", "--polar", "lamp.svg", "--draw"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    assert!(ran.out.contains("edge: 200 cd; C0-C180 solid, C90-C270 dotted"), "{}", ran.out);
+    let svg = std::fs::read_to_string(home.path("lamp.svg")).unwrap();
+    assert!(svg.starts_with("<svg ") && svg.contains("lamp.ies"), "{svg}");
+}
+
+#[test]
+fn conversions_state_their_loss() {
+    let home = Home::new();
+    home.file("lamp.ies", IES);
+    let ran = home.run(&["lint", "lamp.ies", "--convert", "lamp.ldt", "--json"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let conversion = &ran.json()["conversion"];
+    assert_eq!(conversion["file"], "lamp.ldt");
+    assert!(
+        conversion["losses"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|l| { l.as_str().unwrap().contains("TESTLAB") })
+    );
+    // Six digits of 200 cd.
+    assert!(conversion["largest_difference_cd"].as_f64().unwrap() < 1e-3);
+    let ran = home.run(&["lint", "lamp.ldt", "--convert", "back.ies"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    assert!(ran.out.contains("read back: intensities differ by at most"), "{}", ran.out);
+    let info = home.run(&["info", "back.ies", "--json"]).json();
+    assert_eq!(info["lamp_flux_lm"], 1000.0);
+}
+
+#[test]
+fn what_cannot_be_written_is_refused_before_anything_is() {
+    let home = Home::new();
+    home.file("lamp.ies", IES);
+    home.file("bad.ies", "nothing");
+    for (arguments, says) in [
+        (&["lint", "lamp.ies", "bad.ies", "--polar", "a.svg"][..], "--polar takes one file, not 2"),
+        (&["lint", "lamp.ies", "--polar", "a.png"], "end its name in .svg"),
+        (&["lint", "lamp.ies", "--convert", "a.xml"], "end its name in .ies or .ldt"),
+        (&["lint", "lamp.ies", "--convert", "lamp.ies"], "is the input, too"),
+        (&["lint", "lamp.ies", "--convert", "a.ies"], "has that format already"),
+    ] {
+        let ran = home.run(arguments);
+        assert_eq!(ran.code, 2, "{ran:?}");
+        assert!(ran.err.contains(says), "{ran:?}");
+        assert_eq!(ran.out, "", "{ran:?}");
+    }
+    let ran = home.run(&["lint", "bad.ies", "--convert", "a.ldt", "--polar", "a.svg"]);
+    assert_eq!(ran.code, 2, "{ran:?}");
+    assert_eq!(home.names(), ["bad.ies", "lamp.ies"]);
+}

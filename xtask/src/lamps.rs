@@ -1,0 +1,71 @@
+//! Judges of the reading of photometric files: Radiance's ies2rad and photompy, through Python.
+
+use crate::peers::{environment, wait};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The version in `checks/photometry/requirements.txt`, whose source package has test files.
+const PHOTOMPY: &str = "photompy==0.3.1";
+
+/// Shows the files of `data/photometry`, and those of the source package of photompy, to the judges.
+/// Without Python or a package index they are left out, except where `CI` is `true`.
+pub(crate) fn run(root: &Path) -> Result<String, String> {
+    let source = root.join("checks").join("photometry");
+    let folder = root.join("target").join("judges-of-lamps");
+    let found = has_python().and_then(|()| {
+        std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        let python = environment(&source, &folder.join("venv"))?;
+        Ok((unpacked(&folder, &python)?, python))
+    });
+    let (samples, python) = match found {
+        Ok(found) => found,
+        Err(missing) if is_ci() => return Err(format!("not optional with CI=true: {missing}")),
+        Err(missing) => return Ok(format!("skipped, as it is optional: {missing}")),
+    };
+    let mut judge = Command::new(python);
+    judge.arg(source.join("judge.py")).arg("--isolux").arg(built(root)?);
+    judge.arg("--accepted").arg(source.join("accepted.json"));
+    for (name, files) in
+        [("collection", root.join("data").join("photometry")), ("photompy", samples)]
+    {
+        judge.arg(format!("{name}={}", files.display()));
+    }
+    wait(&mut judge, "ies2rad and photompy")?;
+    Ok("the judges read the lamps alike".to_owned())
+}
+
+fn is_ci() -> bool {
+    std::env::var_os("CI").is_some_and(|value| value == "true")
+}
+
+fn has_python() -> Result<(), String> {
+    let version = Command::new("python3").arg("--version").output();
+    let works = version.is_ok_and(|output| output.status.success());
+    works.then_some(()).ok_or_else(|| "python3 is not installed".to_owned())
+}
+
+/// The test files of the source package of photompy, downloaded once.
+fn unpacked(folder: &Path, python: &Path) -> Result<PathBuf, String> {
+    let name = PHOTOMPY.replace("==", "-");
+    let files = folder.join(&name).join("tests").join("data");
+    if files.is_dir() {
+        return Ok(files);
+    }
+    let download = ["-m", "pip", "download", "--quiet", "--no-deps", "--no-binary", ":all:"];
+    let mut pip = Command::new(python);
+    wait(pip.args(download).arg(PHOTOMPY).arg("--dest").arg(folder), "pip download")?;
+    let unpack = ["-m", "tarfile", "--filter", "data", "--extract"];
+    let archive = folder.join(format!("{name}.tar.gz"));
+    wait(Command::new(python).args(unpack).arg(archive).arg(folder), "tarfile")?;
+    Ok(files)
+}
+
+/// Builds isolux as its tests do; where it is.
+fn built(root: &Path) -> Result<PathBuf, String> {
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let build = ["build", "--quiet", "--package", "isolux-cli"];
+    wait(Command::new(cargo).args(build).current_dir(root), "cargo build")?;
+    let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
+    let folder = root.join(target.unwrap_or_else(|| "target".into())).join("debug");
+    Ok(folder.join(format!("isolux{}", std::env::consts::EXE_SUFFIX)))
+}
