@@ -155,7 +155,8 @@ impl<'a> MapReader<'a> {
     /// Indirect light gathered over the map, by as many rays as bring its noise down to that
     /// of the map.
     fn gathered(&self, stored: Illuminance, trial: Gatherer) -> Illuminance {
-        let key = place_key(trial.surface.point).with(7);
+        // Other numbers for every seed of the map: readings of several maps have errors of their own.
+        let key = place_key(trial.surface.point).with(7).with(self.map.provenance.seed);
         let goal = FRESH_NOISE * self.unseen.reached_lx;
         let direct = match &self.direct_values {
             Some(values) => DirectAtEnds::ReadFarOff { values },
