@@ -61,6 +61,10 @@ fn method(method: Method) -> String {
              particles: the cheapest way to an accurate map. Each increment repeats all of it \
              independently, so that their spread is the error."
         }
+        Method::Cache => {
+            "Direct light is evaluated at every receiver, indirect light sampled where it varies and carried              over to the receivers around by its gradients (an irradiance cache). Rays from samples              read coarser samples of all further reflections. Each increment repeats all of it \
+             independently at the same places, so that their spread is the error."
+        }
         Method::Forward => {
             "Particles leave the luminaires in proportion to their flux and are counted where they \
              land: a complete picture in the first second, and slow to converge after it."

@@ -97,6 +97,9 @@ pub(crate) struct SolveFlags {
     /// map, as MAP.checkpoint
     #[arg(long)]
     pub resume: bool,
+    /// With --method cache: reuse the samples in this file, and add those that are missing
+    #[arg(long, value_name = "FILE", conflicts_with = "resume")]
+    pub cache: Option<PathBuf>,
     /// Predict memory, receivers and time, and compute nothing
     #[arg(long)]
     pub dry_run: bool,
@@ -126,6 +129,8 @@ pub(crate) enum MethodName {
     Hybrid,
     /// Particles from the luminaires
     Forward,
+    /// Samples of indirect light with gradients, made where they are asked for (an irradiance cache)
+    Cache,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -233,9 +238,14 @@ pub(crate) struct GridFlags {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   isolux render map.glb --camera door -o door.png
-  isolux render map.glb --camera door -o lux.png --false-colour --limits 0:500 --contours")]
+  isolux render map.glb --camera door -o lux.png --false-colour --limits 0:500 --contours
+  isolux render builtin:hall --cache hall.cache --camera entrance -o entrance.png
+
+With --cache no map is read: indirect light comes from the samples in the file, and what the view still
+needs is computed and added to it. A later view of the same scene computes only what is new.")]
 pub(crate) struct RenderFlags {
-    /// The map (.glb)
+    /// The map (.glb); with --cache a scene will do
+    #[arg(value_name = "MAP|SCENE")]
     pub map: PathBuf,
     /// Name of a camera of the scene
     #[arg(long, value_name = "NAME")]
@@ -249,6 +259,9 @@ pub(crate) struct RenderFlags {
     /// Interpolate direct light, too: fast, and what a viewer of the bare map shows
     #[arg(long)]
     pub interpolated: bool,
+    /// Take indirect light from this cache of samples, and add those that are missing
+    #[arg(long, value_name = "FILE", conflicts_with = "interpolated")]
+    pub cache: Option<PathBuf>,
     #[command(flatten)]
     pub look: LookFlags,
 }

@@ -1,5 +1,7 @@
 //! The isolux command: a table of contents.
 
+mod cache_samples;
+mod cached_view;
 mod check;
 mod console;
 mod demo;

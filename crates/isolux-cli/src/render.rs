@@ -1,10 +1,11 @@
 //! `isolux render`: a view from a map.
 
+use crate::cached_view::{self, CacheUse};
 use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{LookFlags, RenderFlags, ToneName};
 use crate::output::OutputPath;
-use crate::{map_file, viewpoint};
+use crate::{map_file, source, viewpoint};
 use isolux::engine::MapReader;
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::{Camera, Scene};
@@ -13,15 +14,26 @@ use isolux_view::{
     TraceSettings, develop, false_colour, trace,
 };
 use serde::Serialize;
+use std::path::Path;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     let output = OutputPath::check(&flags.output, "png")?;
     check_limits(&flags.look)?;
-    let (scene, map) = map_file::read(&flags.map)?;
-    let camera = viewpoint::camera(&scene, flags.camera.as_deref())
-        .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))?;
-    let view = look(&scene, &map, &camera, flags.size, flags.interpolated)?;
+    let camera = |scene: &Scene| {
+        viewpoint::camera(scene, flags.camera.as_deref())
+            .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))
+    };
+    let (view, camera, cache) = if let Some(path) = &flags.cache {
+        let scene = scene_of(&flags.map)?;
+        let camera = camera(&scene)?;
+        let (view, used) = cached_view::look(&scene, &camera, flags.size, path)?;
+        (view, camera, Some(used))
+    } else {
+        let (scene, map) = map_file::read(&flags.map)?;
+        let camera = camera(&scene)?;
+        (look(&scene, &map, &camera, flags.size, flags.interpolated)?, camera, None)
+    };
     let picture = shown(&view, &flags.look)?;
     write(&output, &picture)?;
     let report = Report {
@@ -29,6 +41,7 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
         camera: camera.name,
         width: picture.width,
         height: picture.height,
+        cache,
     };
     if json {
         print_json(&report)?
@@ -36,6 +49,15 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
         print(&report.text())?
     }
     Ok(Outcome::Done)
+}
+
+/// The scene of a map, or of a file of its own.
+fn scene_of(path: &Path) -> Result<Scene, Failure> {
+    if map_file::is_map(path) {
+        map_file::read(path).map(|(scene, _)| scene)
+    } else {
+        source::read_scene(path)
+    }
 }
 
 /// Refuses before minutes are spent on the view.
@@ -115,14 +137,18 @@ struct Report {
     camera: String,
     width: u32,
     height: u32,
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    cache: Option<CacheUse>,
 }
 
 impl Report {
     fn text(&self) -> String {
-        facts(&[
+        let mut lines = vec![
             ("picture", self.picture.clone()),
             ("camera", self.camera.clone()),
             ("size", format!("{} x {}", self.width, self.height)),
-        ])
+        ];
+        lines.extend(self.cache.iter().flat_map(CacheUse::facts));
+        facts(&lines)
     }
 }

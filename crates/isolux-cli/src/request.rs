@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::flags::{MethodName, Quality, SolveFlags};
 use crate::output::OutputPath;
-use isolux::engine::SolveRequest;
+use isolux::engine::{IrradianceCache, SolveRequest};
 use isolux::map::Method;
 
 /// A solution to compute.
@@ -21,6 +21,11 @@ pub(crate) fn solution(flags: &SolveFlags) -> Result<Solution, Failure> {
     if let Some(output) = &output {
         output.differs_from(&flags.scene)?;
     }
+    if flags.cache.is_some() && flags.method != MethodName::Cache {
+        return Err(Failure::bad_input(
+            "--cache FILE: samples are made by --method cache alone; add it, or leave --cache out",
+        ));
+    }
     Ok(Solution { request: request(flags), output })
 }
 
@@ -33,6 +38,7 @@ fn request(flags: &SolveFlags) -> SolveRequest {
         seed: flags.seed,
         filter: !flags.no_filter,
         max_memory_bytes: flags.max_memory,
+        cache: IrradianceCache::default(),
     }
 }
 
@@ -41,6 +47,7 @@ pub(crate) fn method(name: MethodName) -> Method {
     match name {
         MethodName::Hybrid => Method::Hybrid,
         MethodName::Forward => Method::Forward,
+        MethodName::Cache => Method::Cache,
     }
 }
 
@@ -49,6 +56,7 @@ pub(crate) fn method_name(method: Method) -> &'static str {
     match method {
         Method::Hybrid => "hybrid",
         Method::Forward => "forward",
+        Method::Cache => "cache",
     }
 }
 

@@ -10,7 +10,7 @@ use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::show_bytes;
 use crate::report::Report;
-use crate::{explain, map_file, request, saved_run, source};
+use crate::{cache_samples, explain, map_file, request, saved_run, source};
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
 use isolux::scene::Scene;
 use std::path::Path;
@@ -20,7 +20,7 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     if flags.progress == Some(ProgressStyle::Json) {
         note_as_json();
     }
-    let asked = request::solution(flags)?;
+    let mut asked = request::solution(flags)?;
     request::use_threads(flags.threads)?;
     let scene = source::read_scene(&flags.scene)?;
     if flags.explain {
@@ -32,11 +32,22 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     saved_run::check_writable(&output)?;
     let saved =
         if flags.resume { saved_run::read(&output, asked.request.max_memory_bytes)? } else { None };
+    let mut cache = None;
+    if let Some(path) = &flags.cache {
+        // Samples take more memory than bytes of the file, and rays come on top.
+        let (file, samples) =
+            cache_samples::open(path, &scene, asked.request.max_memory_bytes / 4)?;
+        asked.request.cache = samples;
+        cache = Some(file);
+    }
     let mut reporter = Reporter::new(flags.progress);
     let run = Run { source: &flags.scene, output: &output, request: &asked.request };
     let solved = solve(&scene, &run, saved.as_ref(), &mut reporter)?;
     map_file::write(&output, &scene, &solved.solution.map)?;
     let finished = matches!(solved.outcome, Outcome::Done);
+    if let Some(file) = &mut cache {
+        cache_samples::keep(file, &solved.solution.cache);
+    }
     saved_run::keep(&output, &solved.solution.state, finished)?;
     let report = Report::of(&solved.solution, &output);
     if json {

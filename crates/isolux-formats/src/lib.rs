@@ -1,6 +1,7 @@
 //! Files to values and values to files: scenes, photometry, maps.
 
 pub mod atomic;
+pub mod cache_file;
 pub mod checkpoint;
 pub mod export;
 mod extent;

@@ -65,9 +65,10 @@ pub(super) struct InterpolationErrors {
     pub(super) over_expected: Option<f64>,
 }
 
-/// Places in the sums: of differences first, then of what the map reads.
-pub(super) const fn places(checks: usize) -> usize {
-    2 * checks
+/// Places in the sums: of differences first, then of what the map reads, then of what rays read where
+/// that is something else.
+pub(super) const fn places(checks: usize, is_map_read_by_rays: bool) -> usize {
+    if is_map_read_by_rays { 2 * checks } else { 3 * checks }
 }
 
 /// Draws the check points of a plan.
@@ -137,13 +138,14 @@ pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
 }
 
 /// Adds one increment: `fresh` is what was gathered at the points, `direct` what luminaires give
-/// there, the rest the increment's map: direct light, caustics and indirect light.
+/// there, then the increment's map: direct light, caustics and indirect light. `lookups` is by what rays
+/// that end there would be wrong, where they read something else than the map.
 pub(super) fn add(
     sums: &mut Accumulator,
     checks: &[Check],
-    fresh: &[Rgb],
-    fresh_direct: &[Rgb],
+    (fresh, fresh_direct): (&[Rgb], &[Rgb]),
     [direct, caustic, indirect]: [&[Rgb]; 3],
+    lookups: &[Rgb],
 ) {
     let read = |values: &[Rgb], at: &[(u32, f64); 3]| -> Rgb {
         at.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
@@ -164,7 +166,8 @@ pub(super) fn add(
             indirect: read(indirect, &check.coarse) - fresh[k],
         }
     });
-    sums.add(differences.chain(readings));
+    let lookups = lookups.iter().map(|&indirect| Sample { indirect, ..Sample::default() });
+    sums.add(differences.chain(readings).chain(lookups));
 }
 
 /// The errors seen so far.
@@ -204,6 +207,12 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
     }
     // One standard error on the safe side: what noise could hide is reported as error.
     let root = |part: usize| (squared[part].max(0.0) + spread[part].sqrt()).sqrt();
+    let looked_up = |k: usize| sums.estimate(2 * checks.len() + k).mean.indirect.luminance();
+    if sums.sums.len() > 2 * checks.len() {
+        let mean_lx = |(k, check): (usize, &Check)| check.area_m2 / area * looked_up(k);
+        mean[1] += checks.iter().enumerate().map(mean_lx).sum::<f64>() - mean[0];
+        mean[0] = checks.iter().enumerate().map(mean_lx).sum::<f64>();
+    }
     InterpolationErrors {
         indirect_lx: root(0),
         total_lx: root(1),

@@ -96,7 +96,8 @@ impl<'p, 's> Hybrid<'p, 's> {
     ) -> Option<Effort> {
         let plan = self.plan;
         let key = self.key.with(1 + index);
-        let (direct, check_direct) = self.direct(checks, key.with(0), deadline)?;
+        let (direct, check_direct) =
+            direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
         let (caustic, particles) = caustics::deposit(plan, key.with(1));
         let gathering = Gathering::of(plan, &direct);
         let operator =
@@ -114,7 +115,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let indirect = plan.prolongate(&gathered);
         let caustic = plan.prolongate(&caustic);
         let map = [direct.as_slice(), &caustic, &indirect];
-        checks::add(check_sums, checks, &fresh_light, &check_direct, map);
+        checks::add(check_sums, checks, (&fresh_light, &check_direct), map, &[]);
         receivers.add((0..direct.len()).map(|k| Sample {
             direct: direct[k],
             caustic: caustic[k],
@@ -127,24 +128,24 @@ impl<'p, 's> Hybrid<'p, 's> {
             given_up_lx: particles.given_up_lx + unseen_lx + unsettled_lx,
         })
     }
+}
 
-    /// Direct light at vertices and check points: the plan's where it is measured once.
-    fn direct(
-        &self,
-        checks: &[Check],
-        key: Key,
-        deadline: Deadline,
-    ) -> Option<(Vec<Rgb>, Vec<Rgb>)> {
-        if self.plan.lighting.is_measured_once() {
-            return Some((self.plan.direct.clone(), self.check_direct.clone()));
-        }
-        let vertex = |(k, gatherer): (usize, &Gatherer)| {
-            let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
-            let lighting = self.plan.lighting;
-            (!deadline.has_passed()).then(|| lighting.illuminance(&gatherer.surface, &mut dice))
-        };
-        let vertices: Option<Vec<Rgb>> =
-            self.plan.gatherers.par_iter().enumerate().map(vertex).collect();
-        Some((vertices?, checks::direct(self.plan, checks, key.with(u64::MAX))))
+/// Direct light of an increment at vertices and check points: the plan's where it is measured once.
+pub(super) fn direct_light(
+    plan: &Plan,
+    check_direct: &[Rgb],
+    checks: &[Check],
+    key: Key,
+    deadline: Deadline,
+) -> Option<(Vec<Rgb>, Vec<Rgb>)> {
+    if plan.lighting.is_measured_once() {
+        return Some((plan.direct.clone(), check_direct.to_vec()));
     }
+    let vertex = |(k, gatherer): (usize, &Gatherer)| {
+        let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
+        let light = || plan.lighting.illuminance(&gatherer.surface, &mut dice);
+        (!deadline.has_passed()).then(light)
+    };
+    let vertices: Option<Vec<Rgb>> = plan.gatherers.par_iter().enumerate().map(vertex).collect();
+    Some((vertices?, checks::direct(plan, checks, key.with(u64::MAX))))
 }

@@ -2,6 +2,7 @@
 
 mod accumulate;
 mod accuracy;
+mod cache;
 mod carriers;
 mod caustics;
 mod checks;
@@ -40,6 +41,10 @@ mod work;
 mod tests;
 
 pub use accumulate::Sums;
+pub use cache::{
+    CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
+    IrradianceCache, SampleKind, Served,
+};
 pub use place::ProbePoint;
 pub use probe::{ExactSettings, MapReader};
 pub use reference::PathTracer;

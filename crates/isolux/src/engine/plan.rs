@@ -4,7 +4,8 @@ use super::carriers::Carriers;
 use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
-use super::gather::Gatherer;
+use super::gather::{Gatherer, known_weights};
+use super::surface::SurfacePoint;
 use super::trial::Trial;
 use super::trust;
 use crate::elements::{Elements, Subdivision};
@@ -55,6 +56,16 @@ impl Plan<'_> {
     /// What interpolation errs by in the elements at the vertices, lx.
     pub(super) fn expected_lx(&self) -> Vec<f64> {
         trust::at_vertices(&self.elements, &self.indirect_errors, self.trusted_up_to_lx)
+    }
+
+    /// What a place reads of values at vertices, nodes from number `level` on left out.
+    pub(super) fn read(&self, level: u32, values: &[Rgb], at: &SurfacePoint) -> Rgb {
+        let corners = self.elements.locate_above(level, at.triangle, at.back, at.u, at.v);
+        let weights = corners.and_then(|corners| known_weights(corners, &self.standings));
+        let read = |(corners, weights): ([(u32, f64); 3], [f64; 3])| {
+            (0..3).map(|k| values[corners[k].0 as usize] * weights[k]).sum()
+        };
+        corners.zip(weights).map_or(Rgb::BLACK, read)
     }
 
     /// Whether a vertex lies in the open.

@@ -32,7 +32,7 @@ const FRESH_MOST_RAYS: f64 = 1024.0;
 const LOOKS: u32 = 32;
 
 /// Shadow rays to every emitting surface in a reading for a picture.
-const GLANCE_SAMPLES: usize = 4;
+pub(super) const GLANCE_SAMPLES: usize = 4;
 
 /// How hard [`MapReader::estimate`] tries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! What is asked of an engine and what it says while it works.
 
+use super::cache::IrradianceCache;
 use crate::map::{Accuracy, Method};
 use std::time::Duration;
 
@@ -21,6 +22,8 @@ pub struct SolveRequest {
     pub filter: bool,
     /// Refuse to need more memory than this, bytes.
     pub max_memory_bytes: u64,
+    /// Samples that the `cache` method starts from.
+    pub cache: IrradianceCache,
 }
 
 impl Default for SolveRequest {
@@ -34,6 +37,7 @@ impl Default for SolveRequest {
             seed: 1,
             filter: true,
             max_memory_bytes: 8 << 30,
+            cache: IrradianceCache::default(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::accumulate::MAX_INCREMENTS;
 use super::accuracy::BELIEVED_INCREMENTS;
+use super::cache::IrradianceCache;
 use super::deadline::Deadline;
 use super::direct::Lighting;
 use super::emission::Emission;
@@ -35,6 +36,9 @@ pub struct Solution {
     pub map: IlluminationMap,
     /// The run as it was when the map was made.
     pub state: RunState,
+    /// The samples that the `cache` method has made, those that it started from left out; none if the run was
+    /// stopped before they had all their replicates.
+    pub cache: IrradianceCache,
     /// Wall-clock time it took, s. Not part of the map, whose bits do not depend on the machine.
     pub time_s: f64,
 }
@@ -181,7 +185,7 @@ impl<'s, 'r> Run<'s, 'r> {
             target: self.mesh_for(),
             mesh_target: self.request.mesh_accuracy,
             seed: self.request.seed,
-            is_fitted: self.request.method == Method::Hybrid,
+            is_fitted: self.request.method != Method::Forward,
             max_vertices: (self.request.max_memory_bytes / BYTES_A_VERTEX) as usize,
         }
     }
@@ -261,7 +265,7 @@ impl<'s, 'r> Run<'s, 'r> {
                 || work.sums.increments >= MAX_INCREMENTS;
             if done || self.stopped {
                 return Ok(Outcome::Done(Box::new(
-                    self.solution(&work, accuracy, reached, whole_mesh),
+                    self.solution(&mut work, accuracy, reached, whole_mesh),
                 )));
             }
             if end == Some(End::TooCoarse) && answer != Watch::Insist {
@@ -291,7 +295,7 @@ impl<'s, 'r> Run<'s, 'r> {
 
     /// The same with fewer rays an increment, if the time left is too short to know how good the map
     /// is: the mesh, too, is what the time allowed then.
-    fn affordable<'p>(&mut self, work: Work<'p, 's>) -> Work<'p, 's> {
+    fn affordable<'p>(&mut self, mut work: Work<'p, 's>) -> Work<'p, 's> {
         let Some(limit) = self.request.time_limit else { return work };
         let Some(pace_s) = work.pace_s() else { return work };
         let left_s = (limit.as_secs_f64() - self.elapsed_s()).max(0.0);
@@ -345,7 +349,7 @@ impl<'s, 'r> Run<'s, 'r> {
 
     fn solution(
         &self,
-        work: &Work,
+        work: &mut Work,
         accuracy: Option<Accuracy>,
         reached: bool,
         whole_mesh: bool,
@@ -360,7 +364,8 @@ impl<'s, 'r> Run<'s, 'r> {
             given_up: if whole_mesh { work.given_up.sums.clone() } else { Vec::new() },
         };
         let time_s = self.elapsed_s();
-        Solution { map: self.map(work, accuracy, reached), state, time_s }
+        let cache = IrradianceCache { samples: work.made() };
+        Solution { map: self.map(work, accuracy, reached), state, cache, time_s }
     }
 
     fn map(&self, work: &Work, accuracy: Option<Accuracy>, reached: bool) -> IlluminationMap {

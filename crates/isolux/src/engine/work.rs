@@ -2,6 +2,7 @@
 
 use super::accumulate::{Accumulator, Sample, Sums};
 use super::accuracy::{BELIEVED_INCREMENTS, accuracy, early_statistical, lookup_lx};
+use super::cache::{CacheSample, Cached};
 use super::checks::{self, Check, InterpolationErrors};
 use super::deadline::Deadline;
 use super::emission::Emission;
@@ -40,6 +41,7 @@ pub(super) struct Work<'p, 's> {
 enum Engine<'p, 's> {
     Hybrid(Hybrid<'p, 's>),
     Forward(Forward<'p, 's>),
+    Cache(Cached<'p, 's>),
 }
 
 /// The points that the hybrid engine checks itself at.
@@ -50,9 +52,10 @@ pub(super) struct Checks {
 
 impl<'p, 's> Work<'p, 's> {
     /// Seconds that an increment takes; `None` where nobody knows before the first.
-    pub(super) fn pace_s(&self) -> Option<f64> {
-        match &self.engine {
+    pub(super) fn pace_s(&mut self) -> Option<f64> {
+        match &mut self.engine {
             Engine::Hybrid(hybrid) => Some(hybrid.pace_s()),
+            Engine::Cache(cached) => Some(cached.pace_s()),
             Engine::Forward(_) => None,
         }
     }
@@ -66,20 +69,32 @@ impl<'p, 's> Work<'p, 's> {
     ) -> Self {
         let reference = plan.rms_lx;
         let wanted = match request.method {
-            Method::Hybrid => plan.trial.rays_for(target, plan.rms_lx, FEWEST_INCREMENTS),
+            Method::Hybrid | Method::Cache => {
+                plan.trial.rays_for(target, plan.rms_lx, FEWEST_INCREMENTS)
+            }
             Method::Forward => 1,
         };
         let most = most_rays(plan.indirect_vertices, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
         let points = match request.method {
-            Method::Hybrid => checks::draw(plan, rays, Key::new(request.seed).with(3)),
+            Method::Hybrid | Method::Cache => {
+                checks::draw(plan, rays, Key::new(request.seed).with(3))
+            }
             Method::Forward => Vec::new(),
         };
         let sums = Accumulator::new(plan.elements.vertices().len(), reference);
-        let check_sums = Accumulator::new(checks::places(points.len()), reference);
+        let check_sums = Accumulator::new(
+            checks::places(points.len(), request.method != Method::Cache),
+            reference,
+        );
         let checks = Checks { points, sums: check_sums };
         let engine = match request.method {
             Method::Hybrid => Engine::Hybrid(Hybrid::new(plan, &checks.points, rays, request.seed)),
+            Method::Cache => {
+                let cached =
+                    Cached::new(plan, &checks.points, (&request.cache, target), rays, request.seed);
+                Engine::Cache(cached)
+            }
             Method::Forward => {
                 let emission = Emission::new(plan.scene).expect("a scene without light is refused");
                 Engine::Forward(Forward::new(plan, emission, request.seed))
@@ -97,10 +112,14 @@ impl<'p, 's> Work<'p, 's> {
     /// Adds one increment; returns the rays traced, or nothing if the deadline passes before.
     pub(super) fn increment(&mut self, deadline: Deadline) -> Option<u64> {
         let index = self.sums.increments;
-        let effort = match &self.engine {
+        let effort = match &mut self.engine {
             Engine::Hybrid(hybrid) => {
                 let Checks { points, sums } = &mut self.checks;
                 hybrid.increment(index, &mut self.sums, points, sums, deadline)?
+            }
+            Engine::Cache(cached) => {
+                let Checks { points, sums } = &mut self.checks;
+                cached.increment(index, &mut self.sums, points, sums, deadline)?
             }
             Engine::Forward(forward) => forward.increment(index, &mut self.sums),
         };
@@ -109,9 +128,19 @@ impl<'p, 's> Work<'p, 's> {
         Some(effort.rays)
     }
 
+    /// The samples of a cache that were made.
+    pub(super) fn made(&mut self) -> Vec<CacheSample> {
+        match &mut self.engine {
+            Engine::Cache(cached) => cached.made(),
+            Engine::Hybrid(_) | Engine::Forward(_) => Vec::new(),
+        }
+    }
+
     fn interpolation(&self) -> InterpolationErrors {
         match self.engine {
-            Engine::Hybrid(_) => checks::errors(&self.checks.sums, &self.checks.points),
+            Engine::Hybrid(_) | Engine::Cache(_) => {
+                checks::errors(&self.checks.sums, &self.checks.points)
+            }
             Engine::Forward(_) => tally::errors(self.plan, &self.sums),
         }
     }

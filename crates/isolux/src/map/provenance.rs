@@ -76,4 +76,6 @@ pub enum Method {
     Forward,
     /// Exact direct light, gathered indirect light, particles for caustics.
     Hybrid,
+    /// Samples of indirect light with gradients, made where they are asked for.
+    Cache,
 }

@@ -1,0 +1,99 @@
+//! Views of a scene whose indirect light comes from a cache.
+
+use crate::cache_samples;
+use crate::failure::Failure;
+use crate::notes::{Note, note};
+use crate::quantity::{show_count, show_seconds};
+use isolux::engine::{CacheReader, CacheSettings, CachedPlace, IrradianceCache, SampleKind};
+use isolux::scene::{Camera, Scene};
+use isolux_view::{LuminanceImage, Size, SurfacePoint, TraceSettings, trace};
+use serde::Serialize;
+use std::path::Path;
+use std::sync::Mutex;
+use std::time::Instant;
+
+/// Largest cache that is read, bytes: four million samples.
+const MAX_CACHE_BYTES: u64 = 1 << 30;
+
+/// What the cache gave and what was added.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct CacheUse {
+    /// The file.
+    cache: String,
+    /// Samples that were there.
+    samples_found: usize,
+    /// Samples that were made for this view.
+    samples_made: usize,
+    /// Of those, the ones that are read; the others are read by rays.
+    samples_made_to_read: usize,
+    /// Rays traced for them.
+    rays: u64,
+    /// Time that took, s.
+    samples_time_s: f64,
+    /// Time of the view itself, its direct light included, s.
+    view_time_s: f64,
+}
+
+impl CacheUse {
+    /// For people.
+    pub(crate) fn facts(&self) -> [(&'static str, String); 3] {
+        let (found, made) = (self.samples_found, self.samples_made);
+        let times = [self.samples_time_s, self.view_time_s].map(show_seconds);
+        [
+            ("cache", format!("{}: {found} samples found, {made} made", self.cache)),
+            ("rays for samples", show_count(self.rays as f64)),
+            ("time", format!("{} for samples, {} for the view", times[0], times[1])),
+        ]
+    }
+}
+
+/// Traces a view; makes the samples that it still needs and keeps them in the file.
+pub(crate) fn look(
+    scene: &Scene,
+    camera: &Camera,
+    (width, height): (u32, u32),
+    path: &Path,
+) -> Result<(LuminanceImage, CacheUse), Failure> {
+    let size = Size::new(width, height).map_err(Failure::bad_input)?;
+    let started = Instant::now();
+    let (mut file, cache) = cache_samples::open(path, scene, MAX_CACHE_BYTES)?;
+    let mut reader = CacheReader::new(scene, &cache, CacheSettings::default())
+        .map_err(|error| cache_samples::impossible(path, &error))?;
+    if reader.leaves_caustics() {
+        note(
+            Note::Warning,
+            "light that glass, gloss and curved mirrors throw on surfaces is left out of a view by a cache; \
+             solve for a map to see it",
+        );
+    }
+    let settings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
+    let asked = Mutex::new(Vec::new());
+    // A first look in the dark finds what is in view; it costs little, as no light is evaluated.
+    let ask = |at: SurfacePoint| {
+        asked.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(place(at));
+        None
+    };
+    trace(scene, camera, size, &settings, &ask).map_err(Failure::bad_input)?;
+    let asked = asked.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let served = reader.serve(&asked);
+    cache_samples::keep(&mut file, &served.made);
+    let samples_time_s = started.elapsed().as_secs_f64();
+    let view = trace(scene, camera, size, &settings, &|at| reader.glance(&place(at), 0));
+    let view = view.map_err(Failure::bad_input)?;
+    let count = |cache: &IrradianceCache| cache.samples.len();
+    let found = CacheUse {
+        cache: path.display().to_string(),
+        samples_found: count(&cache),
+        samples_made: count(&served.made),
+        samples_made_to_read: served.made.count(SampleKind::Near),
+        rays: served.rays,
+        samples_time_s,
+        view_time_s: started.elapsed().as_secs_f64() - samples_time_s,
+    };
+    Ok((view, found))
+}
+
+fn place(at: SurfacePoint) -> CachedPlace {
+    let SurfacePoint { triangle, back, u, v, .. } = at;
+    CachedPlace { triangle, back, u, v }
+}

@@ -1,0 +1,184 @@
+//! `cache`: the increments of a map that is read from samples.
+//!
+//! An increment is a whole replicate of the cache: its own random rays at every sample, its own
+//! fixed point of the light between samples. Where the samples lie is fixed before the first.
+
+use super::hemisphere::tied;
+use super::layer::Tie;
+use super::placing::Place;
+use super::record::{CacheSample, IrradianceCache};
+use super::store::{Making, Replicate, Store};
+use crate::engine::accumulate::{Accumulator, Effort, Sample};
+use crate::engine::caustics;
+use crate::engine::checks::{self, Check};
+use crate::engine::deadline::Deadline;
+use crate::engine::hybrid;
+use crate::engine::path::Dice;
+use crate::engine::plan::Plan;
+use crate::engine::surface::SurfacePoint;
+use crate::sampling::Key;
+use crate::units::Rgb;
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// The error allowed in the split-sphere model, for an accuracy of one per cent: it errs, with gradients, like
+/// its square. Measured on CUBE and SPHERE.
+const ALLOWED_AT_ONE_PERCENT: f64 = 0.3;
+const LEAST_ALLOWED: f64 = 0.05;
+const MOST_ALLOWED: f64 = 0.6;
+
+/// Rays of a sample that rays read, as a share of those of one that is read: its noise is read in the
+/// mean over many.
+const FAR_RAYS: f64 = 0.25;
+const FEWEST_RAYS: u32 = 16;
+
+/// The engine, ready for increments.
+pub(in crate::engine) struct Cached<'p, 's> {
+    plan: &'p Plan<'s>,
+    store: Store<'s>,
+    /// What vertices take from the samples.
+    ties: Vec<Vec<Tie>>,
+    checks: Vec<Place>,
+    far_ties: Vec<Vec<Tie>>,
+    check_direct: Vec<Rgb>,
+    rays: u32,
+    key: Key,
+}
+
+/// The error that samples are placed for.
+fn allowed(target: f64) -> f64 {
+    (ALLOWED_AT_ONE_PERCENT * (target / 0.01).sqrt()).clamp(LEAST_ALLOWED, MOST_ALLOWED)
+}
+
+impl<'p, 's> Cached<'p, 's> {
+    /// Places samples for the vertices of a plan, beside those of a cache.
+    pub(in crate::engine) fn new(
+        plan: &'p Plan<'s>,
+        checks: &[Check],
+        (cache, target): (&IrradianceCache, f64),
+        wanted: u32,
+        seed: u64,
+    ) -> Self {
+        let key = Key::new(seed).with(6);
+        let mut store = Store::new(plan.scene, cache, allowed(target));
+        let place = |vertex: usize| {
+            let carries =
+                plan.standings[vertex].is_some() && plan.carriers.is_active(vertex as u32);
+            carries.then(|| Place::from(&plan.gatherers[vertex]))
+        };
+        let places: Vec<Option<Place>> = (0..plan.indirect_vertices).map(place).collect();
+        store.serve(places.iter().flatten().copied().collect());
+        let caustic = vec![Rgb::BLACK; plan.indirect_vertices];
+        let given =
+            |at: &SurfacePoint, dice: &mut Dice| given(plan, &plan.direct, &caustic, at, dice);
+        let rays = FEWEST_RAYS;
+        let deadline = Deadline::NEVER;
+        store.guess(&Making { index: 0, rays, key: key.with(0), given: &given, deadline });
+        let ties = |place: &Option<Place>| place.map_or(Vec::new(), |place| store.ties(&place));
+        let ties = places.par_iter().map(ties).collect();
+        let checked: Vec<Place> = checks.iter().map(|check| Place::from(&check.gatherer)).collect();
+        let far_ties = checked.par_iter().map(|place| store.far_ties(place)).collect();
+        let check_direct = checks::direct(plan, checks, key.with(0));
+        let rays = wanted.max(FEWEST_RAYS).next_power_of_two();
+        Self { plan, store, ties, checks: checked, far_ties, check_direct, rays, key }
+    }
+
+    /// Time that an increment takes, s, roughly: the light between samples is tried.
+    pub(in crate::engine) fn pace_s(&mut self) -> f64 {
+        let started = Instant::now();
+        let (direct, caustic) = (&self.plan.direct, vec![Rgb::BLACK; self.plan.indirect_vertices]);
+        let given =
+            |at: &SurfacePoint, dice: &mut Dice| given(self.plan, direct, &caustic, at, dice);
+        let key = self.key.with(u64::MAX);
+        let making =
+            Making { index: 0, rays: FEWEST_RAYS, key, given: &given, deadline: Deadline::NEVER };
+        let places: Vec<Place> = self.checks.iter().step_by(8).copied().collect();
+        self.store.fresh(
+            &places,
+            &making,
+            &vec![Default::default(); self.store.far.layer.sites.len()],
+        );
+        let a_ray_s =
+            started.elapsed().as_secs_f64() / (places.len().max(1) as f64 * f64::from(FEWEST_RAYS));
+        let near = self.store.near.layer.sites.len() as f64 * f64::from(self.rays);
+        let far = self.store.far.layer.sites.len() as f64 * f64::from(self.far_rays());
+        let checked = self.checks.len() as f64 * f64::from(self.rays);
+        a_ray_s * (near + far + checked)
+    }
+
+    fn far_rays(&self) -> u32 {
+        ((f64::from(self.rays) * FAR_RAYS) as u32).max(FEWEST_RAYS)
+    }
+
+    /// Adds increment `index`; nothing, and `None`, if the deadline passes meanwhile.
+    pub(in crate::engine) fn increment(
+        &mut self,
+        index: u64,
+        receivers: &mut Accumulator,
+        checks: &[Check],
+        check_sums: &mut Accumulator,
+        deadline: Deadline,
+    ) -> Option<Effort> {
+        let plan = self.plan;
+        let key = self.key.with(1 + index);
+        let (direct, check_direct) =
+            hybrid::direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
+        let (caustic, particles) = caustics::deposit(plan, key.with(1));
+        let given = |at: &SurfacePoint, dice: &mut Dice| given(plan, &direct, &caustic, at, dice);
+        let making = |part: u64, rays: u32| Making {
+            index,
+            rays,
+            key: self.key.with(u64::MAX - part),
+            given: &given,
+            deadline,
+        };
+        let (for_far, for_near) = (making(1, self.far_rays()), making(2, self.rays));
+        let for_checks = making(3, self.rays);
+        let Replicate { lights: far, rays: far_rays, lost: far_lost } =
+            self.store.far_replicate(&for_far)?;
+        let Replicate { lights: near, rays: near_rays, lost } =
+            self.store.near_replicate(&for_near, &far)?;
+        let (fresh, check_rays) = self.store.fresh(&self.checks, &for_checks, &far);
+        let mut gathered: Vec<Rgb> = self.ties.par_iter().map(|ties| tied(ties, &near)).collect();
+        plan.carriers.fill(&mut gathered);
+        let gathered = plan.fit.apply(&gathered);
+        let lookups: Vec<Rgb> = self
+            .far_ties
+            .iter()
+            .zip(&fresh)
+            .map(|(ties, &fresh)| tied(ties, &far) - fresh)
+            .collect();
+        let (indirect, caustic) = (plan.prolongate(&gathered), plan.prolongate(&caustic));
+        let map = [direct.as_slice(), &caustic, &indirect];
+        checks::add(check_sums, checks, (&fresh, &check_direct), map, &lookups);
+        receivers.add((0..direct.len()).map(|k| Sample {
+            direct: direct[k],
+            caustic: caustic[k],
+            indirect: indirect[k],
+        }));
+        Some(Effort {
+            rays: far_rays + near_rays + check_rays + particles.rays,
+            given_up_lx: particles.given_up_lx + (lost + far_lost) * plan.rms_lx,
+        })
+    }
+
+    /// The samples made, if they have all their replicates.
+    pub(in crate::engine) fn made(&mut self) -> Vec<CacheSample> {
+        self.store.make_known()
+    }
+}
+
+/// Light from luminaires where a ray ends: read from the map where there are many.
+fn given(plan: &Plan, direct: &[Rgb], caustic: &[Rgb], at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+    let caustic = if plan.lighting.leaves_caustics() {
+        plan.read(plan.level, caustic, at)
+    } else {
+        Rgb::BLACK
+    };
+    let direct = if plan.lighting.are_read_at_ends() {
+        plan.read(u32::MAX, direct, at)
+    } else {
+        plan.lighting.estimate(at, dice)
+    };
+    direct + caustic
+}

@@ -1,0 +1,168 @@
+//! Placing samples: where places are asked for that none serves yet.
+//!
+//! Places are taken in a random order of their own, fixed by where they are, in batches that double:
+//! the first samples come to lie far apart, later ones between them. A batch is looked at all at once,
+//! then samples are taken one after another; so nothing depends on threads.
+
+use super::hemisphere::{polar, reflected};
+use super::layer::{Layer, Site};
+use crate::engine::gather::Gatherer;
+use crate::engine::path::{Dice, follow};
+use crate::engine::place::place_key;
+use crate::engine::surface::SurfacePoint;
+use crate::sampling::{Key, Sequence};
+use crate::scene::{Body, Scene};
+use isolux_geometry::{Normal, Point, Ray};
+use rayon::prelude::*;
+
+/// Rays that tell how far things are from a place.
+const FEELERS: u32 = 32;
+
+/// Places of the first batch.
+const FIRST_BATCH: usize = 32;
+
+/// Rounds in which samples are placed where rays of those of the round before end: what the last one
+/// leaves is served from farther off.
+const ROUNDS: usize = 12;
+
+/// A place that light is asked for at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    /// Where rays start.
+    pub(super) origin: Point,
+    pub(super) normal: Normal,
+    /// The triangle that it lies on.
+    pub(super) triangle: u32,
+}
+
+impl From<&SurfacePoint> for Place {
+    fn from(at: &SurfacePoint) -> Self {
+        Self { origin: at.start(), normal: at.shading, triangle: at.triangle }
+    }
+}
+
+impl From<&Gatherer> for Place {
+    fn from(at: &Gatherer) -> Self {
+        Self { origin: at.origin, normal: at.normal, triangle: at.surface.triangle }
+    }
+}
+
+/// Least and greatest radius of a sample, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Radii {
+    pub(super) least_m: f64,
+    pub(super) most_m: f64,
+}
+
+/// What feelers find about a place.
+struct Felt {
+    site: Site,
+    /// The places that they end on.
+    ends: Vec<Place>,
+}
+
+/// Adds samples until all places are served; returns the places that those see, and the rays traced.
+pub(super) fn serve(
+    scene: &Scene,
+    layer: &mut Layer,
+    places: Vec<Place>,
+    radii: Radii,
+) -> (Vec<Place>, u64) {
+    let places = in_random_order(places);
+    let (mut seen, mut rays) = (Vec::new(), 0);
+    let (mut first, mut batch) = (0, FIRST_BATCH);
+    while first < places.len() {
+        let end = (first + batch).min(places.len());
+        let part = &places[first..end];
+        let felt: Vec<Felt> = part
+            .par_iter()
+            .filter(|place| !layer.covers(scene, place.origin, place.normal))
+            .map(|place| feel(scene, place, radii))
+            .collect();
+        rays += felt.len() as u64 * u64::from(FEELERS);
+        for Felt { site, ends } in felt {
+            if !layer.covers(scene, site.origin, site.normal) {
+                layer.insert(site);
+                seen.extend(ends);
+            }
+        }
+        (first, batch) = (end, 2 * batch);
+    }
+    (seen, rays)
+}
+
+/// The same, and again for the places that the new samples see, and so on.
+pub(super) fn serve_all_seen(
+    scene: &Scene,
+    layer: &mut Layer,
+    mut places: Vec<Place>,
+    radii: Radii,
+) -> u64 {
+    let mut rays = 0;
+    for _ in 0..ROUNDS {
+        if places.is_empty() {
+            break;
+        }
+        let (seen, traced) = serve(scene, layer, places, radii);
+        places = seen;
+        rays += traced;
+    }
+    rays
+}
+
+/// Each place once, in an order that is random but depends on the places alone.
+fn in_random_order(places: Vec<Place>) -> Vec<Place> {
+    let bits = |p: &Place| {
+        let n = p.normal.to_vector();
+        [p.origin.x, p.origin.y, p.origin.z, n.x, n.y, n.z].map(f64::to_bits)
+    };
+    let key = Key::new(0).with(8);
+    let order = |p: &Place| bits(p).iter().fold(key, |key, &b| key.with(b)).bits();
+    let mut ordered: Vec<(u64, Place)> = places.into_par_iter().map(|p| (order(&p), p)).collect();
+    ordered.par_sort_unstable_by(|a, b| {
+        let full = |(order, p): &(u64, Place)| (*order, bits(p), p.triangle);
+        full(a).cmp(&full(b))
+    });
+    ordered.dedup_by(|a, b| a.0 == b.0 && bits(&a.1) == bits(&b.1));
+    ordered.into_iter().map(|(_, place)| place).collect()
+}
+
+fn feel(scene: &Scene, place: &Place, radii: Radii) -> Felt {
+    let sequence = Sequence::new(place_key(place.origin).with(9));
+    let axis = place.normal.to_direction();
+    let (mut nearness, mut nearest_m) = (0.0, f64::INFINITY);
+    let mut ends = Vec::new();
+    for index in 0..FEELERS {
+        let mut dice = Dice::new(sequence, index);
+        let direction = axis.from_local(polar(dice.pair()));
+        let ray = Ray::new(place.origin, direction).skipping(place.triangle);
+        let Some(hit) = scene.bvh().closest_hit(&ray) else { continue };
+        nearest_m = nearest_m.min(f64::from(hit.t));
+        let mut of_ray = None;
+        let mut meet = |surface: &SurfacePoint, finish: &crate::scene::Finish| {
+            let distance_m = (surface.point - place.origin).length();
+            of_ray = of_ray.or(Some(distance_m));
+            if !reflected(scene, surface, finish).is_black() {
+                ends.push(Place::from(surface));
+            }
+        };
+        let surface = SurfacePoint::from_hit(scene, &hit);
+        match &scene.material(hit.triangle).body {
+            Body::Opaque { front, back } => {
+                let finish = if hit.back { back } else { front };
+                if finish.mirror.is_black() && finish.gloss.is_none() {
+                    meet(&surface, finish);
+                } else {
+                    follow(scene, ray, direction, &mut dice, |at, finish, _| meet(at, finish));
+                }
+            }
+            Body::Dielectric(_) => {
+                follow(scene, ray, direction, &mut dice, |at, finish, _| meet(at, finish));
+            }
+        }
+        nearness += of_ray.map_or(0.0, |distance_m| 1.0 / distance_m.max(1e-12));
+    }
+    let radius_m = (f64::from(FEELERS) / nearness).clamp(radii.least_m, radii.most_m);
+    let Place { origin, normal, triangle } = *place;
+    Felt { site: Site { origin, normal, triangle, radius_m, nearest_m }, ends }
+}

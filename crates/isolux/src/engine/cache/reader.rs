@@ -1,0 +1,175 @@
+//! Reading a scene by its cache alone, without a map: for views.
+
+use super::hemisphere::Light;
+use super::placing::Place;
+use super::record::{CACHE_REPLICATES, CacheError, CacheSample, IrradianceCache};
+use super::store::{Making, Store};
+use crate::elements::carries_map;
+use crate::engine::deadline::Deadline;
+use crate::engine::direct::Lighting;
+use crate::engine::path::Dice;
+use crate::engine::place::{Places, place_key};
+use crate::engine::probe::GLANCE_SAMPLES;
+use crate::engine::surface::SurfacePoint;
+use crate::map::{Illuminance, Standing};
+use crate::sampling::{Key, Sequence};
+use crate::scene::Scene;
+use crate::units::Rgb;
+
+/// How densely samples are placed and how well they are known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CacheSettings {
+    /// The error of carrying a sample over that the split-sphere model may estimate, relative; what is
+    /// read errs far less, like its square.
+    pub allowed: f64,
+    /// Rays of a sample and replicate, a power of two.
+    pub rays: u32,
+    /// Rays of one that other rays read.
+    pub far_rays: u32,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+impl Default for CacheSettings {
+    /// Two to three per cent of noise in a room, too smooth to be seen.
+    fn default() -> Self {
+        Self { allowed: 0.3, rays: 64, far_rays: 32, seed: 1 }
+    }
+}
+
+/// What more samples took.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Served {
+    /// The new samples.
+    pub made: IrradianceCache,
+    /// Rays traced for them.
+    pub rays: u64,
+}
+
+/// A place on one side of a triangle of the scene, by the barycentric weights of its second and third
+/// corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CachedPlace {
+    /// Index of the triangle.
+    pub triangle: u32,
+    /// Whether it is on the back of it.
+    pub back: bool,
+    /// Weight of the second corner.
+    pub u: f64,
+    /// Weight of the third corner.
+    pub v: f64,
+}
+
+/// Reads a scene by samples.
+pub struct CacheReader<'s> {
+    scene: &'s Scene,
+    lighting: Lighting<'s>,
+    places: Places<'s>,
+    store: Store<'s>,
+    settings: CacheSettings,
+    /// Means of the samples that are read, and their variances.
+    lights: Vec<Light>,
+    variances: Vec<f64>,
+}
+
+impl<'s> CacheReader<'s> {
+    /// With the samples of a cache, which may come from anywhere.
+    pub fn new(
+        scene: &'s Scene,
+        cache: &IrradianceCache,
+        settings: CacheSettings,
+    ) -> Result<Self, CacheError> {
+        cache.check(scene)?;
+        let mut reader = Self {
+            scene,
+            lighting: Lighting::new(scene),
+            places: Places::of(scene),
+            store: Store::new(scene, cache, settings.allowed),
+            settings,
+            lights: Vec::new(),
+            variances: Vec::new(),
+        };
+        reader.learn();
+        Ok(reader)
+    }
+
+    /// Whether some light reaches surfaces by ways that samples do not see: caustics of glass, gloss and
+    /// curved mirrors. It is left out.
+    pub fn leaves_caustics(&self) -> bool {
+        self.lighting.leaves_caustics()
+    }
+
+    /// Makes the samples that these places still need. The same places in any order and number, from
+    /// the same cache, make the same samples on any number of threads.
+    pub fn serve(&mut self, places: &[CachedPlace]) -> Served {
+        let Self { scene, lighting, store, settings, .. } = self;
+        let places = places.iter().filter_map(|at| place(scene, &self.places, at));
+        let mut rays = store.serve(places.map(|at| Place::from(&at)).collect());
+        let given = |at: &SurfacePoint, dice: &mut Dice| lighting.estimate(at, dice);
+        let key = Key::new(settings.seed).with(7);
+        let making = |part: u64, index: u64, rays: u32| Making {
+            index,
+            rays,
+            key: key.with(part),
+            given: &given,
+            deadline: Deadline::NEVER,
+        };
+        if store.far.known.is_empty() {
+            rays += store.guess(&making(0, 0, settings.far_rays));
+        }
+        for index in 0..CACHE_REPLICATES as u64 {
+            let far = store.far_replicate(&making(1, index, settings.far_rays));
+            let far = far.expect("without a deadline nothing is given up");
+            let near = store.near_replicate(&making(2, index, settings.rays), &far.lights);
+            rays += far.rays + near.map_or(0, |near| near.rays);
+        }
+        let samples = store.make_known();
+        self.learn();
+        Served { made: IrradianceCache { samples }, rays }
+    }
+
+    /// Takes up the means of samples that are known since the last time.
+    fn learn(&mut self) {
+        let new = self.store.near.known[self.lights.len()..].iter().map(CacheSample::mean);
+        let (lights, variances): (Vec<Light>, Vec<f64>) = new.unzip();
+        self.lights.extend(lights);
+        self.variances.extend(variances);
+    }
+
+    /// The illuminance at a place: direct light afresh by a few shadow rays for every emitting surface,
+    /// for pictures, which take a mean over many places anyway; indirect light from the samples around.
+    /// The standard error is that of the samples. `None` where no sample is near, and where the surface
+    /// carries no map. `number` tells readings of one place apart.
+    pub fn glance(&self, at: &CachedPlace, number: u64) -> Option<Illuminance> {
+        let at = place(self.scene, &self.places, at)?;
+        let ties = self.store.ties(&Place::from(&at));
+        let variance = |tie: &super::layer::Tie| {
+            let share = f64::from(tie.shares[0]);
+            share * share * self.variances[tie.sample as usize]
+        };
+        let error_lx = ties.iter().map(variance).sum::<f64>().sqrt();
+        if ties.is_empty() {
+            return None;
+        }
+        let indirect = super::hemisphere::tied(&ties, &self.lights).map(|channel| channel.max(0.0));
+        let sequence = Sequence::new(place_key(at.point).with(number));
+        let direct_lx = self.lighting.sampled(&at, GLANCE_SAMPLES, &mut Dice::new(sequence, 0));
+        Some(Illuminance {
+            direct_lx,
+            caustic_lx: Rgb::BLACK,
+            indirect_lx: indirect,
+            standard_error_lx: error_lx,
+            indirect_standard_error_lx: error_lx,
+            interpolation_error_lx: 0.0,
+            standing: Standing::Open,
+            samples: ties.len() as u64,
+        })
+    }
+}
+
+/// The surface at a place, if it carries light.
+fn place(scene: &Scene, places: &Places, at: &CachedPlace) -> Option<SurfacePoint> {
+    let CachedPlace { triangle, back, u, v } = *at;
+    carries_map(scene, triangle, back)
+        .then(|| places.pulled_in(SurfacePoint::new(scene, triangle, back, u, v)))
+}
