@@ -52,12 +52,12 @@ pub(crate) fn look(
     scene: &Scene,
     camera: &Camera,
     (width, height): (u32, u32),
-    path: &Path,
+    (path, accuracy): (&Path, f64),
 ) -> Result<(LuminanceImage, CacheUse), Failure> {
     let size = Size::new(width, height).map_err(Failure::bad_input)?;
     let started = Instant::now();
     let (mut file, cache) = cache_samples::open(path, scene, MAX_CACHE_BYTES)?;
-    let mut reader = CacheReader::new(scene, &cache, CacheSettings::default())
+    let mut reader = CacheReader::new(scene, &cache, CacheSettings::for_accuracy(accuracy))
         .map_err(|error| cache_samples::impossible(path, &error))?;
     if reader.leaves_caustics() {
         note(

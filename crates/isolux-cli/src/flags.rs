@@ -262,6 +262,10 @@ pub(crate) struct RenderFlags {
     /// Take indirect light from this cache of samples, and add those that are missing
     #[arg(long, value_name = "FILE", conflicts_with = "interpolated")]
     pub cache: Option<PathBuf>,
+    /// With --cache: how good a map those samples would make (best effort)
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "1%",
+          requires = "cache")]
+    pub accuracy: f64,
     #[command(flatten)]
     pub look: LookFlags,
 }

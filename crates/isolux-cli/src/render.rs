@@ -27,7 +27,7 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     let (view, camera, cache) = if let Some(path) = &flags.cache {
         let scene = scene_of(&flags.map)?;
         let camera = camera(&scene)?;
-        let (view, used) = cached_view::look(&scene, &camera, flags.size, path)?;
+        let (view, used) = cached_view::look(&scene, &camera, flags.size, (path, flags.accuracy))?;
         (view, camera, Some(used))
     } else {
         let (scene, map) = map_file::read(&flags.map)?;

@@ -210,8 +210,8 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
     let looked_up = |k: usize| sums.estimate(2 * checks.len() + k).mean.indirect.luminance();
     if sums.sums.len() > 2 * checks.len() {
         let mean_lx = |(k, check): (usize, &Check)| check.area_m2 / area * looked_up(k);
-        mean[1] += checks.iter().enumerate().map(mean_lx).sum::<f64>() - mean[0];
-        mean[0] = checks.iter().enumerate().map(mean_lx).sum::<f64>();
+        // All of it, whichever light is read there.
+        mean = [checks.iter().enumerate().map(mean_lx).sum::<f64>(); 2];
     }
     InterpolationErrors {
         indirect_lx: root(0),

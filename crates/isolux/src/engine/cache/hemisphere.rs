@@ -7,6 +7,7 @@
 //! evaluated at once and the light of further reflections is left open, as ties to other samples.
 
 use super::layer::{Layer, Site, Tie};
+use crate::engine::direct::Lighting;
 use crate::engine::path::{Dice, PathEnd, follow};
 use crate::engine::surface::SurfacePoint;
 use crate::sampling::Sequence;
@@ -18,6 +19,9 @@ use std::f64::consts::PI;
 /// Obstacles nearer than this share of the radius of a sample move no faster past it: so near, two rays in
 /// neighbouring cells do not tell where an edge lies.
 const NEAREST_EDGE: f64 = 0.25;
+
+/// Samples that one ray reads at most.
+pub(super) const TIES_OF_RAY: usize = 4;
 
 /// Irradiance at a sample: its value, lx, how it changes along the axes of the world, lx/m, and how when
 /// the normal turns about them, lx/rad; channels one after the other.
@@ -35,7 +39,10 @@ pub(super) fn tied(ties: &[Tie], lights: &[Light]) -> Rgb {
     let mut sum = [0.0; 3];
     for tie in ties {
         let Light(parts) = &lights[tie.sample as usize];
-        for (part, &share) in parts.iter().zip(&tie.shares) {
+        // Most surfaces are flat: nothing turns there.
+        let is_flat = tie.shares[4..] == [0.0; 3];
+        let shares = if is_flat { &tie.shares[..4] } else { &tie.shares[..] };
+        for (part, &share) in parts.iter().zip(shares) {
             for (sum, channel) in sum.iter_mut().zip(part) {
                 *sum += f64::from(share) * channel;
             }
@@ -44,14 +51,19 @@ pub(super) fn tied(ties: &[Tie], lights: &[Light]) -> Rgb {
     Rgb(sum)
 }
 
+/// Caustics at a place, lx.
+pub(super) type Caustic<'a> = &'a (dyn Fn(&SurfacePoint) -> Rgb + Sync);
+
 /// All that rays read where they end.
 #[derive(Clone, Copy)]
 pub(super) struct Surroundings<'a> {
     pub(super) scene: &'a Scene,
     /// The samples that stand for light of further reflections.
     pub(super) far: &'a Layer,
-    /// Light from luminaires, caustics included.
-    pub(super) given: &'a (dyn Fn(&SurfacePoint, &mut Dice) -> Rgb + Sync),
+    /// Evaluated there, unless it is read from the samples with the rest.
+    pub(super) lighting: Option<&'a Lighting<'a>>,
+    /// Caustics.
+    pub(super) caustic: Caustic<'a>,
 }
 
 /// What a sample sees.
@@ -60,6 +72,8 @@ pub(super) struct Hemisphere {
     rays: Vec<Sight>,
     ends: Vec<End>,
     ties: Vec<Tie>,
+    /// Light from luminaires here, where it is read with the rest.
+    pub(super) own: Rgb,
     /// Share of the rays that were given up on their way over specular surfaces, or that ended where
     /// no sample is.
     pub(super) lost: f64,
@@ -131,11 +145,13 @@ impl Hemisphere {
         }
         for (surface, reflectance) in met {
             let before = self.ties.len();
-            of.far.ties(of.scene, surface.start(), surface.shading, &mut self.ties);
+            let place = (surface.start(), surface.shading);
+            of.far.ties(of.scene, place, TIES_OF_RAY, &mut self.ties);
             if self.ties.len() == before {
                 self.lost += share * reflectance.luminance();
             }
-            let given = (of.given)(&surface, dice);
+            let direct = of.lighting.map_or(Rgb::BLACK, |all| all.estimate(&surface, dice));
+            let given = direct + (of.caustic)(&surface);
             self.ends.push(End { share: reflectance, given, ties: self.ties.len() as u32 });
         }
         let ends = self.ends.len() as u32;
@@ -146,6 +162,7 @@ impl Hemisphere {
     /// The light here, with so much on the samples that it is tied to.
     pub(super) fn light(&self, far: &[Light]) -> Light {
         let mut light = Light::default();
+        light.0[0] = self.own.0;
         let (mut end, mut tie) = (0, 0);
         for ray in &self.rays {
             let mut of_ray = [0.0; 3];

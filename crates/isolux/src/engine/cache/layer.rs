@@ -5,6 +5,7 @@
 //! (Ward, Rubinstein, Clear 1988). Its weight falls to zero there, so that nothing jumps.
 
 use super::octree::Octree;
+use crate::engine::surface::SurfacePoint;
 use crate::scene::Scene;
 use isolux_geometry::{Normal, Point, Ray, Vector};
 
@@ -62,8 +63,8 @@ impl Layer {
         Self { sites: Vec::new(), allowed, near: tree.clone(), wide: tree }
     }
 
-    /// Adds a sample; returns its number. Its radius is held to those of its neighbours, and theirs
-    /// to its own (Krivanek, Bouatouch, Pattanaik, Zara 2006, "Making radiance and irradiance caching
+    /// Adds a sample; returns its number. Its radius is held to those of the ones that reach it, and
+    /// theirs to its own (Krivanek, Bouatouch, Pattanaik, Zara 2006, "Making radiance and irradiance caching
     /// practical"): what one sample has seen close by is as close to the next one.
     pub(super) fn insert(&mut self, site: Site) -> u32 {
         let number = self.sites.len() as u32;
@@ -102,11 +103,22 @@ impl Layer {
 
     /// What a place takes from the samples around it, weights summing to one, or from those farther
     /// off where none serves it; nothing where there is none either.
-    pub(super) fn ties(&self, scene: &Scene, at: Point, normal: Normal, ties: &mut Vec<Tie>) {
+    pub(super) fn ties(
+        &self,
+        scene: &Scene,
+        (at, normal): (Point, Normal),
+        most: usize,
+        ties: &mut Vec<Tie>,
+    ) {
         let first = ties.len();
         self.collect(&self.near, self.allowed, (scene, at, normal), ties);
         if ties.len() == first {
             self.collect(&self.wide, RELAXED * self.allowed, (scene, at, normal), ties);
+        }
+        // The heaviest tell nearly all.
+        if ties.len() > first + most {
+            ties[first..].sort_by(|a, b| b.shares[0].total_cmp(&a.shares[0]));
+            ties.truncate(first + most);
         }
         let sum: f32 = ties[first..].iter().map(|tie| tie.shares[0]).sum();
         for tie in &mut ties[first..] {
@@ -137,6 +149,12 @@ impl Layer {
 }
 
 impl Site {
+    /// The place for direct light.
+    pub(super) fn surface(&self) -> SurfacePoint {
+        let surface = SurfacePoint::in_space(self.origin, self.normal);
+        SurfacePoint { triangle: self.triangle, ..surface }
+    }
+
     /// The estimated error of serving a place, relative; `None` where it lies on another surface.
     fn error_at(&self, at: Point, normal: Normal) -> Option<f64> {
         let shift = at - self.origin;

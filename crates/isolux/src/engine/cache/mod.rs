@@ -18,6 +18,9 @@ mod reader;
 mod record;
 mod store;
 
+#[cfg(test)]
+mod tests;
+
 pub(super) use increments::Cached;
 pub use reader::{CacheReader, CacheSettings, CachedPlace, Served};
 pub use record::{CACHE_REPLICATES, CacheError, CacheSample, IrradianceCache, SampleKind};

@@ -6,6 +6,7 @@
 
 use super::hemisphere::{polar, reflected};
 use super::layer::{Layer, Site};
+use crate::elements::carries_map;
 use crate::engine::gather::Gatherer;
 use crate::engine::path::{Dice, follow};
 use crate::engine::place::place_key;
@@ -17,6 +18,9 @@ use rayon::prelude::*;
 
 /// Rays that tell how far things are from a place.
 const FEELERS: u32 = 32;
+
+/// Places of all surfaces that tell how large rooms are.
+const TYPICAL_PLACES: u32 = 256;
 
 /// Places of the first batch.
 const FIRST_BATCH: usize = 32;
@@ -54,9 +58,48 @@ pub(super) struct Radii {
     pub(super) most_m: f64,
 }
 
+impl Radii {
+    /// That of a place from which things lie so far: no more than the nearest of them, as what is near
+    /// an edge or a contact changes within the distance of it.
+    fn of(self, mean_m: f64, nearest_m: f64) -> f64 {
+        mean_m.min(nearest_m).clamp(self.least_m, self.most_m)
+    }
+}
+
+/// Mean over the area of the radius that samples would have, m: the size of the rooms.
+pub(super) fn typical_radius_m(scene: &Scene, most_m: f64) -> f64 {
+    let mut sides = Vec::new();
+    let mut area_m2 = 0.0;
+    for triangle in 0..scene.triangle_count() {
+        for back in [false, true].into_iter().filter(|&b| carries_map(scene, triangle, b)) {
+            area_m2 += scene.triangle(triangle).area();
+            sides.push((area_m2, triangle, back));
+        }
+    }
+    let radii = Radii { least_m: 0.0, most_m };
+    let one = |index: u32| {
+        let mut dice = Dice::new(Sequence::new(Key::new(0).with(10)), index);
+        // Stratified: one place in each of so many equal parts of the area.
+        let [pick, _] = dice.pair();
+        let at_m2 = (f64::from(index) + pick) / f64::from(TYPICAL_PLACES) * area_m2;
+        let (_, triangle, back) =
+            sides[sides.partition_point(|s| s.0 <= at_m2).min(sides.len() - 1)];
+        let [a, b] = dice.pair();
+        let (u, v) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
+        feel(scene, &Place::from(&SurfacePoint::new(scene, triangle, back, u, v)), radii).mean_m
+    };
+    if sides.is_empty() {
+        return most_m;
+    }
+    let sum: f64 = (0..TYPICAL_PLACES).into_par_iter().map(one).collect::<Vec<f64>>().iter().sum();
+    (sum / f64::from(TYPICAL_PLACES)).max(f64::MIN_POSITIVE)
+}
+
 /// What feelers find about a place.
 struct Felt {
     site: Site,
+    /// Harmonic mean of the distances, m, but not more than the greatest radius.
+    mean_m: f64,
     /// The places that they end on.
     ends: Vec<Place>,
 }
@@ -80,7 +123,7 @@ pub(super) fn serve(
             .map(|place| feel(scene, place, radii))
             .collect();
         rays += felt.len() as u64 * u64::from(FEELERS);
-        for Felt { site, ends } in felt {
+        for Felt { site, ends, .. } in felt {
             if !layer.covers(scene, site.origin, site.normal) {
                 layer.insert(site);
                 seen.extend(ends);
@@ -162,7 +205,8 @@ fn feel(scene: &Scene, place: &Place, radii: Radii) -> Felt {
         }
         nearness += of_ray.map_or(0.0, |distance_m| 1.0 / distance_m.max(1e-12));
     }
-    let radius_m = (f64::from(FEELERS) / nearness).clamp(radii.least_m, radii.most_m);
+    let mean_m = (f64::from(FEELERS) / nearness).min(radii.most_m);
+    let radius_m = radii.of(mean_m, nearest_m);
     let Place { origin, normal, triangle } = *place;
-    Felt { site: Site { origin, normal, triangle, radius_m, nearest_m }, ends }
+    Felt { site: Site { origin, normal, triangle, radius_m, nearest_m }, mean_m, ends }
 }

@@ -1,6 +1,7 @@
 //! Reading a scene by its cache alone, without a map: for views.
 
 use super::hemisphere::Light;
+use super::increments::allowed;
 use super::placing::Place;
 use super::record::{CACHE_REPLICATES, CacheError, CacheSample, IrradianceCache};
 use super::store::{Making, Store};
@@ -30,12 +31,18 @@ pub struct CacheSettings {
     pub seed: u64,
 }
 
-impl Default for CacheSettings {
-    /// Two to three per cent of noise in a room, too smooth to be seen.
-    fn default() -> Self {
-        Self { allowed: 0.3, rays: 64, far_rays: 32, seed: 1 }
+impl CacheSettings {
+    /// As densely as a map of this accuracy (a fraction) would have them, with rays in the same
+    /// proportion. Best effort: a view has no check points that would tell whether it is reached.
+    pub fn for_accuracy(accuracy: f64) -> Self {
+        let rays = (RAYS_AT_ONE_PERCENT * 0.01 / accuracy.max(1e-6)).clamp(16.0, 1024.0);
+        let rays = (rays as u32).next_power_of_two();
+        Self { allowed: allowed(accuracy), rays, far_rays: (rays / 2).max(16), seed: 1 }
     }
 }
+
+/// Rays of a sample and replicate for an accuracy of one per cent: a trial of maps asks for 16 to 64.
+const RAYS_AT_ONE_PERCENT: f64 = 64.0;
 
 /// What more samples took.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -105,13 +112,13 @@ impl<'s> CacheReader<'s> {
         let Self { scene, lighting, store, settings, .. } = self;
         let places = places.iter().filter_map(|at| place(scene, &self.places, at));
         let mut rays = store.serve(places.map(|at| Place::from(&at)).collect());
-        let given = |at: &SurfacePoint, dice: &mut Dice| lighting.estimate(at, dice);
         let key = Key::new(settings.seed).with(7);
         let making = |part: u64, index: u64, rays: u32| Making {
             index,
             rays,
             key: key.with(part),
-            given: &given,
+            lighting,
+            caustic: &|_| Rgb::BLACK,
             deadline: Deadline::NEVER,
         };
         if store.far.known.is_empty() {

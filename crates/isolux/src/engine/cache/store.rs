@@ -1,32 +1,29 @@
 //! Samples at work: where they lie, what is known of them, and how more are made.
 
-use super::hemisphere::{Hemisphere, Light, Surroundings};
+use super::hemisphere::{Caustic, Hemisphere, Light, Surroundings, TIES_OF_RAY};
 use super::layer::{Layer, Site, Tie};
-use super::placing::{Place, Radii, serve, serve_all_seen};
+use super::placing::{Place, Radii, serve, serve_all_seen, typical_radius_m};
 use super::record::{CACHE_REPLICATES, CacheSample, IrradianceCache, SampleKind, Sum};
 use crate::engine::deadline::Deadline;
+use crate::engine::direct::Lighting;
 use crate::engine::path::Dice;
 use crate::engine::place::place_key;
-use crate::engine::surface::SurfacePoint;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::Point;
 use rayon::prelude::*;
 
-/// Least radius of a sample, in extents of the scene; for those that rays read, which see it from
-/// afar, more.
-const LEAST_RADIUS: f64 = 2e-3;
-const LEAST_RADIUS_FAR: f64 = 1e-2;
+/// Least radius of a sample, in typical radii of the scene; for those that rays read, which look at it
+/// from afar, more: on CUBE four times as many samples at its edges bring little.
+const LEAST_RADIUS: f64 = 0.01;
+const LEAST_RADIUS_FAR: f64 = 0.2;
 
 /// Greatest radius, in extents of the scene.
 const MOST_RADIUS: f64 = 0.5;
 
-/// What rays read may err by more than what is read, as it is read in the mean over many.
-const FAR_ALLOWANCE: f64 = 1.5;
-
 /// Sweeps over the light between samples end when they change less than this, relative; and at most.
-const TOLERANCE: f64 = 1e-4;
+const TOLERANCE: f64 = 3e-4;
 const MAX_SWEEPS: usize = 2000;
 
 /// Greatest factor from change to change that is believed.
@@ -66,8 +63,9 @@ pub(super) struct Making<'a> {
     /// Rays of a sample.
     pub(super) rays: u32,
     pub(super) key: Key,
-    /// Light from luminaires at the ends of rays.
-    pub(super) given: &'a (dyn Fn(&SurfacePoint, &mut Dice) -> Rgb + Sync),
+    /// Where sources are many, rays read their light from samples, too; else they evaluate it.
+    pub(super) lighting: &'a Lighting<'a>,
+    pub(super) caustic: Caustic<'a>,
     pub(super) deadline: Deadline,
 }
 
@@ -76,8 +74,10 @@ impl<'s> Store<'s> {
     pub(super) fn new(scene: &'s Scene, cache: &IrradianceCache, allowed: f64) -> Self {
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high): (Point, Point)| (high - low).length());
-        let family = |kind: SampleKind, least: f64, allowed: f64| {
-            let radii = Radii { least_m: least * extent_m, most_m: MOST_RADIUS * extent_m };
+        let most_m = MOST_RADIUS * extent_m;
+        let typical_m = typical_radius_m(scene, most_m);
+        let family = |kind: SampleKind, least: f64| {
+            let radii = Radii { least_m: least * typical_m, most_m };
             let mut layer = Layer::new(scene, allowed);
             let known: Vec<CacheSample> =
                 cache.samples.iter().filter(|s| s.kind == kind).cloned().collect();
@@ -88,8 +88,8 @@ impl<'s> Store<'s> {
         };
         Self {
             scene,
-            near: family(SampleKind::Near, LEAST_RADIUS, allowed),
-            far: family(SampleKind::Far, LEAST_RADIUS_FAR, FAR_ALLOWANCE * allowed),
+            near: family(SampleKind::Near, LEAST_RADIUS),
+            far: family(SampleKind::Far, LEAST_RADIUS_FAR),
             guess: Vec::new(),
         }
     }
@@ -104,22 +104,21 @@ impl<'s> Store<'s> {
     /// What a place takes from the samples that are read.
     pub(super) fn ties(&self, place: &Place) -> Vec<Tie> {
         let mut ties = Vec::new();
-        self.near.layer.ties(self.scene, place.origin, place.normal, &mut ties);
+        self.near.layer.ties(self.scene, (place.origin, place.normal), usize::MAX / 2, &mut ties);
         ties
     }
 
     /// The same of those that rays read.
     pub(super) fn far_ties(&self, place: &Place) -> Vec<Tie> {
         let mut ties = Vec::new();
-        self.far.layer.ties(self.scene, place.origin, place.normal, &mut ties);
+        self.far.layer.ties(self.scene, (place.origin, place.normal), TIES_OF_RAY, &mut ties);
         ties
     }
 
     /// Takes a first guess of the light that rays read from a replicate that is not counted.
     pub(super) fn guess(&mut self, making: &Making) -> u64 {
-        let sites = &self.far.layer.sites;
-        let Some(seen) = self.look(sites, making) else { return 0 };
-        let mut lights = vec![Light::default(); sites.len()];
+        let Some(seen) = self.look_far(0, making) else { return 0 };
+        let mut lights = vec![Light::default(); seen.len()];
         settle(&seen, &mut lights, 0);
         self.guess = lights;
         seen.iter().map(Hemisphere::ray_count).sum()
@@ -129,7 +128,7 @@ impl<'s> Store<'s> {
     /// between samples. `None` if the deadline passes meanwhile.
     pub(super) fn far_replicate(&mut self, making: &Making) -> Option<Replicate> {
         let (mut lights, first) = self.far.start(making.index);
-        let seen = self.look(&self.far.layer.sites[first..], making)?;
+        let seen = self.look_far(first, making)?;
         let guess = self.guess.get(first..).unwrap_or(&[]);
         lights.extend_from_slice(guess);
         lights.resize(first + seen.len(), Light::default());
@@ -177,13 +176,29 @@ impl<'s> Store<'s> {
     }
 
     fn look(&self, sites: &[Site], making: &Making) -> Option<Vec<Hemisphere>> {
-        let of = Surroundings { scene: self.scene, far: &self.far.layer, given: making.given };
+        let Making { lighting, caustic, .. } = *making;
+        let lighting = (!lighting.are_read_at_ends()).then_some(lighting);
+        let of = Surroundings { scene: self.scene, far: &self.far.layer, lighting, caustic };
         let one = |site: &Site| {
             let key = place_key(site.origin).with(making.key.with(making.index).bits());
             let one = || Hemisphere::look(&of, site, making.rays, Sequence::new(key));
             (!making.deadline.has_passed()).then(one)
         };
         sites.par_iter().map(one).collect()
+    }
+
+    /// What samples see that rays read, with the light from luminaires on them if it is read there.
+    fn look_far(&self, first: usize, making: &Making) -> Option<Vec<Hemisphere>> {
+        let sites = &self.far.layer.sites[first..];
+        let mut seen = self.look(sites, making)?;
+        if making.lighting.are_read_at_ends() {
+            seen.par_iter_mut().zip(sites).for_each(|(seen, site)| {
+                let key = place_key(site.origin).with(making.key.with(making.index).bits());
+                let mut dice = Dice::new(Sequence::new(key.with(u64::MAX)), 0);
+                seen.own = making.lighting.illuminance(&site.surface(), &mut dice);
+            });
+        }
+        Some(seen)
     }
 
     /// The samples made since the last time, if every replicate of them is there; they are known then.

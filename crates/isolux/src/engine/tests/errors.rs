@@ -33,7 +33,7 @@ fn check_sums(
     common: impl Fn(&Check) -> f64,
     sigma: f64,
 ) -> Accumulator {
-    let mut sums = Accumulator::new(checks::places(checks.len()), plan.rms_lx);
+    let mut sums = Accumulator::new(checks::places(checks.len(), true), plan.rms_lx);
     let vertices = plan.elements.vertices().len();
     let (coarse, fine) = (vec![Rgb::grey(5.0); plan.indirect_vertices], vec![Rgb::BLACK; vertices]);
     for increment in 0..16 {
@@ -44,7 +44,7 @@ fn check_sums(
             .map(|(k, c)| Rgb::grey(5.0 - common(c) + sigma * noise(key.with(k as u64))))
             .collect();
         let direct = vec![Rgb::BLACK; checks.len()];
-        checks::add(&mut sums, checks, &fresh, &direct, [&fine, &fine, &coarse]);
+        checks::add(&mut sums, checks, (&fresh, &direct), [&fine, &fine, &coarse], &[]);
     }
     sums
 }
@@ -136,7 +136,7 @@ fn noise_is_that_of_readings_over_the_surface() {
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
     let checks = checks::draw(&plan, 0, Key::new(2));
-    let mut sums = Accumulator::new(checks::places(checks.len()), plan.rms_lx);
+    let mut sums = Accumulator::new(checks::places(checks.len(), true), plan.rms_lx);
     let black = vec![Rgb::BLACK; plan.elements.vertices().len().max(checks.len())];
     for increment in 0..16 {
         let key = Key::new(5).with(increment);
@@ -144,7 +144,7 @@ fn noise_is_that_of_readings_over_the_surface() {
             .map(|k| Rgb::grey(5.0 + noise(key.with(k as u64))))
             .collect();
         let fresh = &black[..checks.len()];
-        checks::add(&mut sums, &checks, fresh, fresh, [&black, &black, &coarse]);
+        checks::add(&mut sums, &checks, (fresh, fresh), [&black, &black, &coarse], &[]);
     }
     let noise_lx = checks::errors(&sums, &checks).noise_lx.unwrap();
     // Barycentric weights have a mean square of 1/6 each; 16 increments; some hundred vertices tell.

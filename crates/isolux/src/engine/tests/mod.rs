@@ -25,7 +25,7 @@ use crate::units::Rgb;
 use isolux_geometry::{Point, Transform, Vector};
 
 /// The rectangle `corner + s u + t v` as two triangles; the front is where `u x v` points.
-fn rectangle(corner: [f64; 3], u: [f64; 3], v: [f64; 3], material: u32) -> Shape {
+pub(super) fn rectangle(corner: [f64; 3], u: [f64; 3], v: [f64; 3], material: u32) -> Shape {
     let at = |s: f64, t: f64| [0, 1, 2].map(|k| corner[k] + s * u[k] + t * v[k]);
     Shape {
         name: "rectangle".into(),
@@ -37,7 +37,7 @@ fn rectangle(corner: [f64; 3], u: [f64; 3], v: [f64; 3], material: u32) -> Shape
 }
 
 /// The faces of an axis-parallel box from the origin, fronts inside: floor first, ceiling last.
-fn inward_box([x, y, z]: [f64; 3], material: u32) -> Vec<Shape> {
+pub(super) fn inward_box([x, y, z]: [f64; 3], material: u32) -> Vec<Shape> {
     let (u, v, w) = ([x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]);
     vec![
         rectangle([0.0; 3], u, v, material),
@@ -49,11 +49,11 @@ fn inward_box([x, y, z]: [f64; 3], material: u32) -> Vec<Shape> {
     ]
 }
 
-fn painted(reflectance: Rgb) -> Material {
+pub(super) fn painted(reflectance: Rgb) -> Material {
     Material::one_sided("painted", Finish::diffuse(reflectance))
 }
 
-fn glowing(luminance_cd_m2: f64) -> Material {
+pub(super) fn glowing(luminance_cd_m2: f64) -> Material {
     let finish = Finish { luminance_cd_m2: Rgb::grey(luminance_cd_m2), ..Finish::BLACK };
     Material::one_sided("glowing", finish)
 }
@@ -63,16 +63,20 @@ fn luminaire(kind: LuminaireKind) -> Luminaire {
 }
 
 /// A luminaire that stands upright.
-fn point(position: [f64; 3], intensity: IntensityDistribution) -> Luminaire {
+pub(super) fn point(position: [f64; 3], intensity: IntensityDistribution) -> Luminaire {
     let (position, world_from_luminaire) = (Point::from(position), Transform::IDENTITY);
     luminaire(LuminaireKind::Point { position, world_from_luminaire, intensity })
 }
 
-fn isotropic(position: [f64; 3], intensity_cd: f64) -> Luminaire {
+pub(super) fn isotropic(position: [f64; 3], intensity_cd: f64) -> Luminaire {
     point(position, IntensityDistribution::Isotropic { intensity_cd })
 }
 
-fn scene(shapes: Vec<Shape>, materials: Vec<Material>, luminaires: Vec<Luminaire>) -> Scene {
+pub(super) fn scene(
+    shapes: Vec<Shape>,
+    materials: Vec<Material>,
+    luminaires: Vec<Luminaire>,
+) -> Scene {
     let parts = SceneParts { shapes, materials, luminaires, ..SceneParts::default() };
     Scene::assemble(parts).unwrap()
 }
