@@ -5,9 +5,12 @@ use crate::notes::{Note, note};
 use crate::source::{bad_file, show_warnings};
 use isolux::engine::{CacheError, IrradianceCache};
 use isolux::scene::Scene;
-use isolux_formats::cache_file::{CacheFile, Found};
+use isolux_formats::cache_file::{self, CacheFile, CacheHead, Found};
 use isolux_formats::{Problem, Problems};
 use std::path::Path;
+
+/// Largest cache that is read where no limit is given, bytes: four million samples.
+pub(crate) const MAX_CACHE_BYTES: u64 = 1 << 30;
 
 /// Opens a cache and reads the samples of a scene.
 pub(crate) fn open(
@@ -21,6 +24,14 @@ pub(crate) fn open(
     show_warnings(warning.as_slice());
     cache.check(scene).map_err(|error| impossible(path, &error))?;
     Ok((file, cache))
+}
+
+/// Reads a cache of whatever scene.
+pub(crate) fn read(path: &Path) -> Result<(CacheHead, IrradianceCache), Failure> {
+    let read = cache_file::read(path, MAX_CACHE_BYTES);
+    let (head, Found { cache, warning }) = read.map_err(|p| bad_file(Problems::from(p)))?;
+    show_warnings(warning.as_slice());
+    Ok((head, cache))
 }
 
 /// Samples that are whole and yet none of this scene.

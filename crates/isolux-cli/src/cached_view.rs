@@ -12,9 +12,6 @@ use std::path::Path;
 use std::sync::Mutex;
 use std::time::Instant;
 
-/// Largest cache that is read, bytes: four million samples.
-const MAX_CACHE_BYTES: u64 = 1 << 30;
-
 /// What the cache gave and what was added.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct CacheUse {
@@ -56,7 +53,7 @@ pub(crate) fn look(
 ) -> Result<(LuminanceImage, CacheUse), Failure> {
     let size = Size::new(width, height).map_err(Failure::bad_input)?;
     let started = Instant::now();
-    let (mut file, cache) = cache_samples::open(path, scene, MAX_CACHE_BYTES)?;
+    let (mut file, cache) = cache_samples::open(path, scene, cache_samples::MAX_CACHE_BYTES)?;
     let mut reader = CacheReader::new(scene, &cache, CacheSettings::for_accuracy(accuracy))
         .map_err(|error| cache_samples::impossible(path, &error))?;
     if reader.leaves_caustics() {

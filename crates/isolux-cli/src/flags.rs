@@ -148,7 +148,8 @@ pub(crate) enum ProgressStyle {
   isolux info map.glb
   isolux info lamp.ies --json")]
 pub(crate) struct InfoFlags {
-    /// A map (.glb), a scene (.gltf, .glb, .obj, scene.toml, builtin:NAME) or a photometric file (.ies, .ldt)
+    /// A map (.glb), a scene (.gltf, .glb, .obj, scene.toml, builtin:NAME), a photometric file (.ies, .ldt) or a cache
+    /// of samples
     pub file: PathBuf,
 }
 

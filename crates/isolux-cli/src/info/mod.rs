@@ -1,5 +1,6 @@
 //! `isolux info`: what a file holds.
 
+mod cache;
 mod map;
 mod scene;
 
@@ -9,6 +10,7 @@ use crate::flags::InfoFlags;
 use crate::lamp::Contents;
 use crate::source::{bad_file, show_warnings};
 use crate::{map_file, source};
+use isolux_formats::cache_file;
 use isolux_formats::photometric_file::PhotometricFile;
 use std::path::Path;
 
@@ -18,6 +20,7 @@ pub(crate) fn run(flags: &InfoFlags, json: bool) -> Result<Outcome, Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("ies" | "ldt") => show_lamp(path, json)?,
+        _ if cache_file::is_cache(path) => cache::show(path, json)?,
         _ if map_file::is_map(path) => {
             let (scene, map) = map_file::read(path)?;
             map::show(&scene, &map, json)?;

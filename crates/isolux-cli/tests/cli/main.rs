@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "tests may stop at the first surprise")]
 
 mod bad_input;
+#[cfg(unix)]
+mod caches;
 mod grids;
 #[cfg(unix)]
 mod interrupted;
