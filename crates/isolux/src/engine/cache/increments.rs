@@ -7,7 +7,7 @@ use super::hemisphere::tied;
 use super::layer::Tie;
 use super::placing::Place;
 use super::record::{CacheSample, IrradianceCache};
-use super::store::{Making, Replicate, Store};
+use super::store::{LEAST_RADIUS_AT_VERTICES, Making, Replicate, Store};
 use crate::engine::accumulate::{Accumulator, Effort, Sample};
 use crate::engine::caustics;
 use crate::engine::checks::{self, Check};
@@ -60,7 +60,7 @@ impl<'p, 's> Cached<'p, 's> {
         seed: u64,
     ) -> Self {
         let key = Key::new(seed).with(6);
-        let mut store = Store::new(plan.scene, cache, allowed(target));
+        let mut store = Store::new(plan.scene, cache, (allowed(target), LEAST_RADIUS_AT_VERTICES));
         let place = |vertex: usize| {
             let carries =
                 plan.standings[vertex].is_some() && plan.carriers.is_active(vertex as u32);
@@ -149,6 +149,10 @@ impl<'p, 's> Cached<'p, 's> {
         let gathered = plan.fit.apply(&gathered);
         let is_direct_read = plan.lighting.are_read_at_ends();
         let lookup = |k: usize| {
+            // No ray ends where no sample is.
+            if self.far_ties[k].is_empty() {
+                return Rgb::BLACK;
+            }
             let direct = if is_direct_read { check_direct[k] } else { Rgb::BLACK };
             tied(&self.far_ties[k], &far) - fresh[k] - direct
         };

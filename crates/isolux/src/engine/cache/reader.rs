@@ -4,7 +4,7 @@ use super::hemisphere::Light;
 use super::increments::allowed;
 use super::placing::Place;
 use super::record::{CACHE_REPLICATES, CacheError, CacheSample, IrradianceCache};
-use super::store::{Making, Store};
+use super::store::{LEAST_RADIUS_IN_VIEWS, Making, Store};
 use crate::elements::carries_map;
 use crate::engine::deadline::Deadline;
 use crate::engine::direct::Lighting;
@@ -91,7 +91,7 @@ impl<'s> CacheReader<'s> {
             scene,
             lighting: Lighting::new(scene),
             places: Places::of(scene),
-            store: Store::new(scene, cache, settings.allowed),
+            store: Store::new(scene, cache, (settings.allowed, LEAST_RADIUS_IN_VIEWS)),
             settings,
             lights: Vec::new(),
             variances: Vec::new(),

@@ -14,9 +14,11 @@ use crate::units::Rgb;
 use isolux_geometry::Point;
 use rayon::prelude::*;
 
-/// Least radius of a sample, in typical radii of the scene; for those that rays read, which look at it
-/// from afar, more: on CUBE four times as many samples at its edges bring little.
-const LEAST_RADIUS: f64 = 0.01;
+/// Least radius of a sample, in typical radii of the scene: at vertices, of which there are only so many;
+/// in views, which would ask for a sample at every pixel along an edge; and of those that rays read, which
+/// look at it from afar: on CUBE four times as many samples at its edges bring little.
+pub(super) const LEAST_RADIUS_AT_VERTICES: f64 = 0.01;
+pub(super) const LEAST_RADIUS_IN_VIEWS: f64 = 0.1;
 const LEAST_RADIUS_FAR: f64 = 0.2;
 
 /// Greatest radius, in extents of the scene.
@@ -70,8 +72,12 @@ pub(super) struct Making<'a> {
 }
 
 impl<'s> Store<'s> {
-    /// With the samples of a cache, to be as dense as an error allows.
-    pub(super) fn new(scene: &'s Scene, cache: &IrradianceCache, allowed: f64) -> Self {
+    /// With the samples of a cache, to be as dense as an error allows and no denser than a least radius.
+    pub(super) fn new(
+        scene: &'s Scene,
+        cache: &IrradianceCache,
+        (allowed, least_radius): (f64, f64),
+    ) -> Self {
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high): (Point, Point)| (high - low).length());
         let most_m = MOST_RADIUS * extent_m;
@@ -88,7 +94,7 @@ impl<'s> Store<'s> {
         };
         Self {
             scene,
-            near: family(SampleKind::Near, LEAST_RADIUS),
+            near: family(SampleKind::Near, least_radius),
             far: family(SampleKind::Far, LEAST_RADIUS_FAR),
             guess: Vec::new(),
         }
