@@ -41,7 +41,7 @@ pub(super) struct Work<'p, 's> {
 enum Engine<'p, 's> {
     Hybrid(Hybrid<'p, 's>),
     Forward(Forward<'p, 's>),
-    Cache(Cached<'p, 's>),
+    Cache(Box<Cached<'p, 's>>),
 }
 
 /// The points that the hybrid engine checks itself at.
@@ -93,7 +93,7 @@ impl<'p, 's> Work<'p, 's> {
             Method::Cache => {
                 let cached =
                     Cached::new(plan, &checks.points, (&request.cache, target), rays, request.seed);
-                Engine::Cache(cached)
+                Engine::Cache(Box::new(cached))
             }
             Method::Forward => {
                 let emission = Emission::new(plan.scene).expect("a scene without light is refused");
