@@ -63,8 +63,11 @@ impl Blocks {
     }
 }
 
+/// A block and what comes after it.
+type Cut<'a> = (&'a [u8], &'a [u8]);
+
 /// The first block and what comes after it; `None` if it is cut short.
-fn cut(rest: &[u8]) -> Result<Option<(&[u8], &[u8])>, String> {
+fn cut(rest: &[u8]) -> Result<Option<Cut<'_>>, String> {
     let mark = &rest[..rest.len().min(MARK.len())];
     if !MARK.starts_with(mark) {
         return Err("is damaged: something else stands where a block should begin".into());
