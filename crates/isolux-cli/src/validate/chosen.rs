@@ -8,8 +8,8 @@ use isolux_compare::Case;
 use isolux_compare::case::{cases, find};
 
 pub(super) fn methods(flags: &ValidateFlags) -> Vec<Method> {
-    let both = vec![Method::Hybrid, Method::Forward];
-    flags.method.map_or(both, |name| vec![request::method(name)])
+    let all = vec![Method::Hybrid, Method::Forward, Method::Radiosity];
+    flags.method.map_or(all, |name| vec![request::method(name)])
 }
 
 pub(super) fn seeds(count: u32) -> Vec<u64> {

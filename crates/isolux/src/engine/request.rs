@@ -1,5 +1,6 @@
 //! What is asked of an engine and what it says while it works.
 
+use super::radiosity::RadiositySettings;
 use crate::map::{Accuracy, Method};
 use std::time::Duration;
 
@@ -21,6 +22,8 @@ pub struct SolveRequest {
     pub filter: bool,
     /// Refuse to need more memory than this, bytes.
     pub max_memory_bytes: u64,
+    /// How finely radiosity works.
+    pub radiosity: RadiositySettings,
 }
 
 impl Default for SolveRequest {
@@ -34,6 +37,7 @@ impl Default for SolveRequest {
             seed: 1,
             filter: true,
             max_memory_bytes: 8 << 30,
+            radiosity: RadiositySettings::default(),
         }
     }
 }
@@ -56,6 +60,8 @@ pub struct Progress {
     pub increments: u64,
     /// Error of the scene; `None` until it can be believed.
     pub accuracy: Option<Accuracy>,
+    /// The share of all light that is unshot, of radiosity.
+    pub unshot: Option<f64>,
     /// Accuracy asked for.
     pub target: Option<f64>,
     /// Vertices of the elements.
