@@ -46,6 +46,7 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["info", "missing.ies"], "missing.ies"),
     (&["info", "text.ies"], "text.ies"),
     (&["info", "text.xyz"], "text.xyz"),
+    (&["validate", "--calibrate", "--method", "radiosity"], "replicates"),
     (&["probe", "text.glb"], "--points"),
     (&["probe", "missing.glb", "--points", "good.pts"], "missing.glb"),
     (&["probe", "text.glb", "--points", "good.pts"], "text.glb"),
