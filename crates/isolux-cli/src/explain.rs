@@ -8,6 +8,9 @@ use isolux::scene::{LuminaireKind, Scene};
 /// One sentence a line.
 pub(crate) fn lines(scene: &Scene, request: &SolveRequest) -> Vec<String> {
     let mut said = vec![light(scene), surfaces(scene), method(request.method), stop(request)];
+    if request.method == Method::Radiosity {
+        said.extend(limits(request));
+    }
     said.push(format!(
         "Elements are bisected until the map read without its scene is good to {}, or memory reaches \
          {}.",
@@ -69,8 +72,63 @@ fn method(method: Method) -> String {
             "Particles leave the luminaires in proportion to their flux and are counted where they \
              land: a complete picture in the first second, and slow to converge after it."
         }
+        Method::Radiosity => {
+            "Direct light is evaluated at every receiver. Then the patch with most light still to send \
+             shoots it to all receivers, over form factors in closed form whose visibility is told \
+             by rays, until little is left; light by planar mirrors comes from their images, by gloss \
+             and glass along rays. Light gathered afresh at check points tells the error."
+        }
     }
     .to_owned()
+}
+
+/// What the accuracy, or its quality, sets for radiosity, and why.
+fn limits(request: &SolveRequest) -> Vec<String> {
+    let accuracy = request.accuracy.unwrap_or(0.01);
+    let by = |flag: &str, is_set: bool| {
+        if is_set { format!("set by {flag}") } else { format!("{flag} sets it by hand") }
+    };
+    let set = &request.radiosity;
+    let limits = set.limits(accuracy);
+    let subdivision = match (set.max_receivers, set.min_element_m) {
+        (None, None) => {
+            "Elements for indirect light are bisected by its gradient and at borders of \
+                         shadows, down to a thousandth of the scene, up to 40,000 receivers; \
+                         --min-element and --max-receivers set these limits by hand."
+                .to_owned()
+        }
+        (most, least) => format!(
+            "Elements for indirect light are bisected by its gradient and at borders of shadows, down \
+             to {}, up to {} receivers.",
+            least.map_or("a thousandth of the scene".to_owned(), |m| format!("{m} m")),
+            most.unwrap_or(40_000)
+        ),
+    };
+    let tolerance = show_share(limits.form_factor_tolerance);
+    let links = show_share(limits.largest_link);
+    let visibility = show_share(limits.visibility_tolerance);
+    vec![
+        subdivision,
+        format!(
+            "Form factors: a source is divided for a receiver until its light is linear to {tolerance} \
+             of the scene's light, so that even errors of one sign stay below the accuracy; {}.",
+            by("--form-factor-tolerance", set.form_factor_tolerance.is_some())
+        ),
+        format!(
+            "Visibility: two rays a source, which brings {links} of the light at most; where they \
+             disagree about more than {visibility}, it is divided.",
+        ),
+        format!(
+            "Shooting stops at {} unshot, whose reflections are a small part of the accuracy; {}.",
+            show_share(limits.unshot),
+            by("--unshot", set.unshot.is_some())
+        ),
+        format!(
+            "Check points gather {} rays each, eight times, over the finished map: what they find \
+             different is the error that the run stops at.",
+            limits.check_rays
+        ),
+    ]
 }
 
 fn stop(request: &SolveRequest) -> String {

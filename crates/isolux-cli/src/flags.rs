@@ -93,6 +93,8 @@ pub(crate) struct SolveFlags {
     /// Leave the noise in: without it, single receivers are as far off as their standard errors say
     #[arg(long)]
     pub no_filter: bool,
+    #[command(flatten)]
+    pub radiosity: RadiosityFlags,
     /// Go on from where an earlier run with the same flags stopped: its state is kept beside the
     /// map, as MAP.checkpoint
     #[arg(long)]
@@ -111,6 +113,32 @@ pub(crate) struct SolveFlags {
     pub progress: Option<ProgressStyle>,
 }
 
+/// What a quality or accuracy sets for radiosity, by hand.
+#[derive(Debug, Args)]
+#[command(
+    next_help_heading = "Options of --method radiosity [default: what the accuracy asks for, see --explain]"
+)]
+pub(crate) struct RadiosityFlags {
+    /// What taking a source as simple may change at a receiver, a share of the scene's light
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
+    pub form_factor_tolerance: Option<f64>,
+    /// Stop shooting when this share of all light is unshot
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
+    pub unshot: Option<f64>,
+    /// Subdivide for indirect light up to so many receivers
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_receivers: Option<u32>,
+    /// Do not bisect elements below this edge: 5cm, 0.1m
+    #[arg(long, value_name = "LENGTH", value_parser = quantity::length_m, allow_hyphen_values = true)]
+    pub min_element: Option<f64>,
+    /// Leave light that is unshot dark instead of spreading it evenly
+    #[arg(long)]
+    pub no_ambient: bool,
+    /// Leave mirrors, gloss and refraction out, as the radiosity system of the study did
+    #[arg(long)]
+    pub diffuse_only: bool,
+}
+
 /// Aliases of accuracies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Quality {
@@ -120,6 +148,8 @@ pub(crate) enum Quality {
     Medium,
     /// 0.3 %
     High,
+    /// 0.1 %
+    Production,
 }
 
 /// The engines by name.
@@ -131,6 +161,8 @@ pub(crate) enum MethodName {
     Forward,
     /// Samples of indirect light with gradients, made where they are asked for (an irradiance cache)
     Cache,
+    /// Shots from the patches with most light to send, over form factors
+    Radiosity,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

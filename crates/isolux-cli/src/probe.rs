@@ -17,10 +17,11 @@ type Values = Vec<Option<Illuminance>>;
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
     let points = points::read(&flags.points)?;
-    let values = if map_file::is_map(&flags.source) {
-        read_map(flags, &points)?
+    let (values, ambient_lx) = if map_file::is_map(&flags.source) {
+        let (values, ambient_lx) = read_map(flags, &points)?;
+        (values, Some(ambient_lx))
     } else {
-        trace_paths(flags, &points)?
+        (trace_paths(flags, &points)?, None)
     };
     let unknown = values.iter().filter(|v| v.is_none()).count();
     if unknown > 0 {
@@ -32,8 +33,9 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
         note(Note::Warning, text);
     }
     if json {
+        let ambient_lx = ambient_lx.filter(|lx| *lx != 0.0);
         let points = values.iter().map(|v| Reading::of(v.as_ref())).collect();
-        print_json(&Readings { points })?;
+        print_json(&Readings { points, ambient_lx })?;
     } else {
         print(HEADER)?;
         for (points, values) in points.chunks(ROWS_AT_ONCE).zip(values.chunks(ROWS_AT_ONCE)) {
@@ -43,7 +45,8 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Values, Failure> {
+/// The values, and how much of each is ambient light.
+fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<(Values, f64), Failure> {
     let unused = [("--paths", flags.paths.is_some()), ("--seed", flags.seed.is_some())];
     refuse(flags, &unused, "a map, whose points are not traced; leave it out or give a scene")?;
     let (scene, map) = map_file::read(&flags.source)?;
@@ -57,7 +60,7 @@ fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Values, Failure
             reader.probe(*at)
         }
     };
-    Ok(points.par_iter().map(read).collect())
+    Ok((points.par_iter().map(read).collect(), map.ambient_lx().luminance()))
 }
 
 fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Values, Failure> {
@@ -96,6 +99,10 @@ fn settings(flags: &ProbeFlags) -> ExactSettings {
 #[derive(Serialize)]
 struct Readings {
     points: Vec<Reading>,
+    /// How much of the indirect light of every point is an ambient term in place of what was not
+    /// computed, lx.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ambient_lx: Option<f64>,
 }
 
 /// A value in the order asked for; `null` where it is not known.

@@ -89,7 +89,12 @@ fn share_done(progress: &Progress) -> f64 {
 fn line(progress: &Progress) -> String {
     let mut parts = vec![match progress.stage {
         Stage::Pilot => "subdividing".to_owned(),
-        Stage::Increments => format!("{} increments", progress.increments),
+        Stage::Increments => match progress.unshot {
+            Some(unshot) => {
+                format!("{} shots, {} of the light unshot", progress.increments, show_share(unshot))
+            }
+            None => format!("{} increments", progress.increments),
+        },
     }];
     match progress.accuracy {
         Some(accuracy) => parts.push(format!("error {}", show_share(accuracy.reached))),
@@ -118,6 +123,8 @@ struct Report {
     increments: u64,
     accuracy: Option<f64>,
     accuracy_statistical: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unshot: Option<f64>,
     target: Option<f64>,
     receivers: u64,
     rays: u64,
@@ -138,6 +145,7 @@ impl Report {
             increments: progress.increments,
             accuracy: progress.accuracy.map(|a| a.reached),
             accuracy_statistical: progress.accuracy.map(|a| a.statistical),
+            unshot: progress.unshot,
             target: progress.target,
             receivers: progress.receivers,
             rays: progress.rays,
@@ -161,6 +169,7 @@ mod tests {
             stage: Stage::Increments,
             increments: 12,
             accuracy: None,
+            unshot: None,
             target: Some(0.01),
             receivers: 3458,
             rays: 3_000_000,

@@ -33,6 +33,14 @@ pub(crate) fn duration(text: &str) -> Result<Duration, String> {
     if duration.is_zero() { Err(format!("no time at all; {remedy}")) } else { Ok(duration) }
 }
 
+const LENGTH_UNITS_M: [(&str, f64); 3] = [("mm", 1e-3), ("cm", 1e-2), ("m", 1.0)];
+
+/// A length as `5cm`, `0.1m`, in metres.
+pub(crate) fn length_m(text: &str) -> Result<f64, String> {
+    let length_m = scaled(text, &LENGTH_UNITS_M).filter(|m| *m > 0.0);
+    length_m.ok_or_else(|| "write a number above zero and a unit: 5cm, 0.1m".into())
+}
+
 const MEMORY_UNITS: [(&str, f64); 9] = [
     ("KiB", 1024.0),
     ("MiB", 1_048_576.0),

@@ -19,6 +19,8 @@ pub(crate) struct Report {
     accuracy_discretization: Option<f64>,
     accuracy_bias: Option<f64>,
     accuracy_interpolated: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unshot: Option<f64>,
     time_s: f64,
     increments: u64,
     rays: u64,
@@ -42,6 +44,7 @@ impl Report {
             accuracy_discretization: from.accuracy.map(|a| a.discretization),
             accuracy_bias: from.accuracy.map(|a| a.bias),
             accuracy_interpolated: from.accuracy.map(|a| a.interpolated),
+            unshot: from.unshot.map(|unshot| unshot.share),
             time_s: solution.time_s,
             increments: from.increments,
             rays: from.rays,
@@ -60,7 +63,7 @@ impl Report {
             }
             _ => share(self.accuracy_reached),
         };
-        facts(&[
+        let mut all = vec![
             ("map", self.map.clone()),
             ("error", reached),
             ("  from noise", share(self.accuracy_statistical)),
@@ -71,6 +74,10 @@ impl Report {
             ("receivers", self.receivers.to_string()),
             ("increments", self.increments.to_string()),
             ("rays", show_count(self.rays as f64)),
-        ])
+        ];
+        if let Some(unshot) = self.unshot {
+            all.push(("light unshot", show_share(unshot)));
+        }
+        facts(&all)
     }
 }

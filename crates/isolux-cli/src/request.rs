@@ -1,9 +1,9 @@
 //! Arguments as resolved.
 
 use crate::failure::Failure;
-use crate::flags::{MethodName, Quality, SolveFlags};
+use crate::flags::{MethodName, Quality, RadiosityFlags, SolveFlags};
 use crate::output::OutputPath;
-use isolux::engine::{IrradianceCache, SolveRequest};
+use isolux::engine::{IrradianceCache, RadiositySettings, SolveRequest};
 use isolux::map::Method;
 
 /// A solution to compute.
@@ -26,7 +26,39 @@ pub(crate) fn solution(flags: &SolveFlags) -> Result<Solution, Failure> {
             "--cache FILE: samples are made by --method cache alone; add it, or leave --cache out",
         ));
     }
+    if flags.method != MethodName::Radiosity {
+        refuse_radiosity(&flags.radiosity)?;
+    }
     Ok(Solution { request: request(flags), output })
+}
+
+/// Flags that another method has no use for are mistakes.
+fn refuse_radiosity(flags: &RadiosityFlags) -> Result<(), Failure> {
+    let given = [
+        ("--form-factor-tolerance", flags.form_factor_tolerance.is_some()),
+        ("--unshot", flags.unshot.is_some()),
+        ("--max-receivers", flags.max_receivers.is_some()),
+        ("--min-element", flags.min_element.is_some()),
+        ("--no-ambient", flags.no_ambient),
+        ("--diffuse-only", flags.diffuse_only),
+    ];
+    match given.iter().find(|(_, is_given)| *is_given) {
+        Some((flag, _)) => Err(Failure::bad_input(format!(
+            "{flag} is only for --method radiosity; leave it out or choose that method"
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn radiosity(flags: &RadiosityFlags) -> RadiositySettings {
+    RadiositySettings {
+        form_factor_tolerance: flags.form_factor_tolerance,
+        unshot: flags.unshot,
+        max_receivers: flags.max_receivers,
+        min_element_m: flags.min_element,
+        ambient: !flags.no_ambient,
+        diffuse_only: flags.diffuse_only,
+    }
 }
 
 fn request(flags: &SolveFlags) -> SolveRequest {
@@ -39,6 +71,7 @@ fn request(flags: &SolveFlags) -> SolveRequest {
         filter: !flags.no_filter,
         max_memory_bytes: flags.max_memory,
         cache: IrradianceCache::default(),
+        radiosity: radiosity(&flags.radiosity),
     }
 }
 
@@ -48,6 +81,7 @@ pub(crate) fn method(name: MethodName) -> Method {
         MethodName::Hybrid => Method::Hybrid,
         MethodName::Forward => Method::Forward,
         MethodName::Cache => Method::Cache,
+        MethodName::Radiosity => Method::Radiosity,
     }
 }
 
@@ -57,6 +91,7 @@ pub(crate) fn method_name(method: Method) -> &'static str {
         Method::Hybrid => "hybrid",
         Method::Forward => "forward",
         Method::Cache => "cache",
+        Method::Radiosity => "radiosity",
     }
 }
 
@@ -65,6 +100,7 @@ fn accuracy(quality: Quality) -> f64 {
         Quality::Draft => 0.05,
         Quality::Medium => 0.01,
         Quality::High => 0.003,
+        Quality::Production => 0.001,
     }
 }
 

@@ -23,6 +23,10 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     let mut asked = request::solution(flags)?;
     request::use_threads(flags.threads)?;
     let scene = source::read_scene(&flags.scene)?;
+    let scene = match flags.radiosity.diffuse_only {
+        true => source::diffuse(&flags.scene, &scene)?,
+        false => scene,
+    };
     if flags.explain {
         explain::lines(&scene, &asked.request).iter().for_each(|line| note(Note::Info, line));
     }

@@ -20,12 +20,18 @@ pub(crate) fn read_scene(source: &Path) -> Result<Scene, Failure> {
 /// Reads a scene.
 pub(crate) fn read_scene_with_warnings(source: &Path) -> Result<Loaded<Scene>, Failure> {
     let Loaded { value, warnings } = read_parts(source)?;
-    let value = Scene::assemble(value).map_err(|problems| {
-        let file = source;
-        let problem = |p: SceneProblem| Problem::new(file, p.place.to_string(), p.what, p.remedy);
-        bad_file(Problems(problems.into_iter().map(problem).collect()))
-    })?;
+    let value = Scene::assemble(value).map_err(|problems| bad_scene(source, problems))?;
     Ok(Loaded { value, warnings })
+}
+
+/// The same scene without specular transport.
+pub(crate) fn diffuse(source: &Path, scene: &Scene) -> Result<Scene, Failure> {
+    scene.diffuse_only().map_err(|problems| bad_scene(source, problems))
+}
+
+fn bad_scene(file: &Path, problems: Vec<SceneProblem>) -> Failure {
+    let problem = |p: SceneProblem| Problem::new(file, p.place.to_string(), p.what, p.remedy);
+    bad_file(Problems(problems.into_iter().map(problem).collect()))
 }
 
 /// Reads what a scene is made of.

@@ -76,7 +76,7 @@ impl Sum {
         let third_m2 = Triangle { corners }.area() / 3.0;
         self.area_m2 += 3.0 * third_m2;
         for vertex in element.vertices {
-            let Some(value) = &map.values[vertex as usize] else { continue };
+            let Some(value) = &map.read_at_vertex(vertex) else { continue };
             let lx = Illuminance::illuminance_lx(value);
             self.known_m2 += third_m2;
             self.flux_lm += third_m2 * lx;

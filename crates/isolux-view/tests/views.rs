@@ -220,6 +220,8 @@ fn rising_map(scene: &Scene) -> IlluminationMap {
             accuracy_target: None,
             fresh: None,
             filter: None,
+            unshot: None,
+            diffuse_only: false,
             complete: true,
             accuracy: None,
         },

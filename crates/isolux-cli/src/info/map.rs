@@ -3,10 +3,10 @@
 use super::scene::list;
 use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
-use crate::quantity::{show_count, show_share};
+use crate::quantity::{show_count, show_share, significant};
 use crate::request::method_name;
 use crate::summary::{self, Lit};
-use isolux::map::{IlluminationMap, Provenance};
+use isolux::map::{IlluminationMap, Provenance, Unshot};
 use isolux::scene::Scene;
 use serde::Serialize;
 
@@ -43,7 +43,7 @@ impl Contents<'_> {
         let share = |s: Option<f64>| s.map_or("not known".to_owned(), show_share);
         let target = from.accuracy_target.map_or("none".to_owned(), show_share);
         let reached = if from.complete { "reached" } else { "not reached" };
-        let facts = facts(&[
+        let mut all = vec![
             ("map of", from.scene.clone()),
             ("computed by", format!("isolux {}, {}", from.version, method_name(from.method))),
             ("seed", from.seed.to_string()),
@@ -54,7 +54,17 @@ impl Contents<'_> {
             ("rays", show_count(from.rays as f64)),
             ("receivers", format!("{}, {} of them unknown", self.receivers, self.unknown)),
             ("cameras", list(&self.cameras)),
-        ]);
-        format!("{facts}\n{}", summary::text(&self.surfaces))
+        ];
+        if let Some(Unshot { share, ambient_lx }) = from.unshot {
+            let lx = significant(ambient_lx.luminance(), 3);
+            all.push((
+                "light unshot",
+                format!("{}, {lx} lx of ambient light instead", show_share(share)),
+            ));
+        }
+        if from.diffuse_only {
+            all.push(("left out", "mirrors, gloss and refraction (--diffuse-only)".to_owned()));
+        }
+        format!("{}\n{}", facts(&all), summary::text(&self.surfaces))
     }
 }

@@ -8,7 +8,10 @@ use isolux_compare::Case;
 use isolux_compare::case::{cases, find};
 
 pub(super) fn methods(flags: &ValidateFlags) -> Vec<Method> {
-    let all = vec![Method::Hybrid, Method::Forward, Method::Cache];
+    let mut all = vec![Method::Hybrid, Method::Forward, Method::Cache];
+    if !flags.calibrate {
+        all.push(Method::Radiosity);
+    }
     flags.method.map_or(all, |name| vec![request::method(name)])
 }
 

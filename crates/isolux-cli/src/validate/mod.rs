@@ -6,7 +6,7 @@ mod chosen;
 
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
-use crate::flags::ValidateFlags;
+use crate::flags::{MethodName, ValidateFlags};
 use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use crate::quantity::{show_seconds, show_share, significant};
@@ -19,6 +19,12 @@ use isolux_compare::{
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ValidateFlags, json: bool) -> Result<Outcome, Failure> {
+    if flags.calibrate && flags.method == Some(MethodName::Radiosity) {
+        return Err(Failure::bad_input(
+            "--calibrate judges the spread of replicates, which --method radiosity has none of; leave \
+             one of them out",
+        ));
+    }
     if flags.calibrate {
         return calibrate::run(flags, json);
     }

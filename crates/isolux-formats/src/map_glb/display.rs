@@ -75,12 +75,12 @@ pub(super) fn texture_of(scene: &Scene, triangle: u32, back: bool) -> Option<u32
 impl Surface {
     fn add_element(&mut self, scene: &Scene, map: &IlluminationMap, element: &Element) {
         let textured = texture_of(scene, element.triangle, element.back).is_some();
-        let known = element.vertices.map(|vertex| map.values[vertex as usize]);
+        let known = element.vertices.map(|vertex| map.read_at_vertex(vertex));
         let highest = Standing::highest(known.map(|value| value.map(|v| v.standing)));
         // Where others are in the open, the light of a gap is not shown between them.
         let read = Illuminance::mix(known.map(|value| (value, 1.0)));
         let corners = turned(element.vertices, element.back).map(|vertex| {
-            let own = map.values[vertex as usize];
+            let own = map.read_at_vertex(vertex);
             let is_read = own.map(|v| v.standing) == highest;
             let place = &map.elements.vertices()[vertex as usize];
             let uv = if textured { uv_at(scene, element.triangle, place.position) } else { None };

@@ -85,7 +85,7 @@ fn patch(
 ) -> Option<Patch> {
     let finish = scene.material(element.triangle).finish(element.back)?;
     let [a, b, c] = element.vertices.map(|v| map.elements.vertices()[v as usize].position);
-    let known = element.vertices.iter().filter_map(|&v| map.values[v as usize].and_then(storable));
+    let known = element.vertices.iter().filter_map(|&v| map.read_at_vertex(v).and_then(storable));
     let (sum, count) = known.fold((Rgb::BLACK, 0.0), |(s, n), v| (s + v.total_lx(), n + 1.0));
     let texture = texture_of(scene, element.triangle, element.back);
     let texture = texture.map_or(Rgb::WHITE, |t| textures[t as usize]);

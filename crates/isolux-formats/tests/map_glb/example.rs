@@ -170,6 +170,8 @@ fn provenance() -> Provenance {
         accuracy_target: Some(0.01),
         fresh: Some(Fresh { above_lx: Some(0.7), lookup_lx: 0.3 }),
         filter: None,
+        unshot: None,
+        diffuse_only: false,
         complete: true,
         accuracy: Some(Accuracy {
             reached: 0.009_3,

@@ -71,6 +71,16 @@ impl Elements {
         &self.vertices
     }
 
+    /// A node by its number.
+    pub(crate) fn node(&self, node: u32) -> Node {
+        self.nodes[node as usize]
+    }
+
+    /// The roots of front and back of every triangle of the scene.
+    pub(crate) fn roots(&self) -> &[[Option<u32>; 2]] {
+        &self.roots
+    }
+
     /// All elements, in the order of the triangles of the scene.
     pub fn elements(&self) -> Vec<Element> {
         let mut found = Vec::new();

@@ -68,6 +68,15 @@ pub(super) struct Estimate {
     pub(super) indirect_variance: f64,
 }
 
+impl Estimate {
+    /// With a further independent standard error of indirect light.
+    pub(super) fn in_doubt_by(mut self, lx: f64) -> Self {
+        self.variance += lx * lx;
+        self.indirect_variance += lx * lx;
+        self
+    }
+}
+
 impl Accumulator {
     /// No increments yet; `reference_lx` sets the unit.
     pub(super) fn new(receivers: usize, reference_lx: f64) -> Self {
@@ -98,6 +107,44 @@ impl Accumulator {
             }
         }
         self.increments += 1;
+    }
+
+    /// Three channels of the sums of a receiver, from place `first` on, lx.
+    pub(super) fn part(&self, receiver: usize, first: usize) -> Rgb {
+        let values = &self.sums[receiver].values;
+        Rgb([0, 1, 2].map(|c| values[first + c] as f64 * self.lux_per_unit))
+    }
+
+    /// Adds to them alone.
+    pub(super) fn add_part(&mut self, receiver: usize, first: usize, lx: Rgb) {
+        for (channel, value) in lx.0.into_iter().enumerate() {
+            let sum = &mut self.sums[receiver].values[first + channel];
+            // Sums from a file may be anything.
+            *sum = sum.saturating_add(fixed(value / self.lux_per_unit));
+        }
+    }
+
+    /// Adds to a variance that is kept instead of squares, lx2.
+    pub(super) fn add_variance(&mut self, receiver: usize, lx2: f64) {
+        let units = lx2 / (self.lux_per_unit * self.lux_per_unit);
+        let sum = &mut self.sums[receiver].squares[0];
+        *sum = sum.saturating_add(fixed(units).into());
+    }
+
+    /// That variance, lx2.
+    pub(super) fn variance_at(&self, receiver: usize) -> f64 {
+        self.sums[receiver].squares[0].max(0) as f64 * self.lux_per_unit * self.lux_per_unit
+    }
+
+    /// Counts one more.
+    pub(super) fn count(&mut self, receiver: usize) {
+        let sum = &mut self.sums[receiver].totals[0];
+        *sum = sum.saturating_add(1);
+    }
+
+    /// How often that was.
+    pub(super) fn count_at(&self, receiver: usize) -> i64 {
+        self.sums[receiver].totals[0]
     }
 
     /// Mean and its variance at a receiver, from the spread of the increments.

@@ -1,8 +1,9 @@
 //! How good a map is: the error of the scene from replicates, check points and details.
 
-use super::accumulate::Accumulator;
+use super::accumulate::{Accumulator, Estimate};
 use super::checks::InterpolationErrors;
 use super::plan::Plan;
+use super::trial::OF_INTERPOLATED;
 use crate::map::Accuracy;
 
 /// Replicates from which on their spread is believed. The scene figure pools thousands of
@@ -19,7 +20,34 @@ pub(super) fn accuracy(
     if sums.increments < BELIEVED_INCREMENTS {
         return None;
     }
-    let Pooled { area_m2: area, squared, variance } = Pooled::of(plan, sums);
+    let Pooled { area_m2: area, squared, variance } = Pooled::of(plan, |k| sums.estimate(k));
+    let noise_lx = interpolation.noise_lx.unwrap_or((variance / area).sqrt());
+    in_all(plan, (area, squared, noise_lx), interpolation)
+}
+
+/// The error of a map without replicates, of which check points tell all but what they do not see: the
+/// noise of the values at the vertices is part of what they see.
+pub(super) fn accuracy_of_map(
+    plan: &Plan,
+    estimate: impl Fn(usize) -> Estimate,
+    seen: &InterpolationErrors,
+) -> Option<Accuracy> {
+    let Pooled { area_m2: area, squared, variance } = Pooled::of(plan, estimate);
+    let noise_lx = (OF_INTERPOLATED * variance / area).sqrt();
+    let beyond = |lx: f64| (lx * lx - noise_lx * noise_lx).max(0.0).sqrt();
+    let rest = InterpolationErrors {
+        indirect_lx: beyond(seen.indirect_lx),
+        total_lx: beyond(seen.total_lx),
+        ..*seen
+    };
+    in_all(plan, (area, squared, noise_lx), &rest)
+}
+
+fn in_all(
+    plan: &Plan,
+    (area, squared, noise_lx): (f64, f64, f64),
+    interpolation: &InterpolationErrors,
+) -> Option<Accuracy> {
     if !(squared > 0.0 && area > 0.0) {
         // No light at all is known exactly, if none was lost on the way and the pilot saw none.
         let dark = area > 0.0 && plan.rms_lx == 0.0 && interpolation.given_up_lx == 0.0;
@@ -30,8 +58,7 @@ pub(super) fn accuracy(
     if given_up > 1.0 {
         return None;
     }
-    let statistical =
-        interpolation.noise_lx.map_or((variance / squared).sqrt(), |noise_lx| noise_lx / rms_lx);
+    let statistical = noise_lx / rms_lx;
     let of_readers = interpolation.nearness * lookup_lx(plan, interpolation);
     let discretization = libm::hypot(interpolation.indirect_lx, of_readers) / rms_lx;
     // Check points see what their rays read of indirect light; direct light that is read, too, adds what
@@ -62,7 +89,7 @@ pub(super) fn lookup_lx(plan: &Plan, interpolation: &InterpolationErrors) -> f64
 /// The statistical error alone, from two replicates on: not believed by anyone, but good enough to
 /// say when a run may end.
 pub(super) fn early_statistical(plan: &Plan, sums: &Accumulator) -> Option<f64> {
-    let Pooled { squared, variance, .. } = Pooled::of(plan, sums);
+    let Pooled { squared, variance, .. } = Pooled::of(plan, |k| sums.estimate(k));
     (sums.increments >= 2 && squared > 0.0).then(|| (variance / squared).sqrt())
 }
 
@@ -74,11 +101,11 @@ struct Pooled {
 }
 
 impl Pooled {
-    fn of(plan: &Plan, sums: &Accumulator) -> Self {
+    fn of(plan: &Plan, estimate: impl Fn(usize) -> Estimate) -> Self {
         let mut pooled = Self { area_m2: 0.0, squared: 0.0, variance: 0.0 };
         let vertices = plan.elements.vertices().iter().enumerate();
         for (k, vertex) in vertices.filter(|&(k, _)| plan.standings[k].is_some()) {
-            let estimate = sums.estimate(k);
+            let estimate = estimate(k);
             let mean = &estimate.mean;
             let lx = (mean.direct + mean.caustic + mean.indirect).luminance();
             pooled.area_m2 += vertex.area_m2;

@@ -23,7 +23,7 @@ const TOLERANCE: f64 = 1e-6;
 
 impl<'a> Gathering<'a> {
     /// Over what a plan has fixed; rays that read direct light from the map read these values.
-    fn of(plan: &'a Plan<'_>, direct: &'a [Rgb]) -> Self {
+    pub(super) fn of(plan: &'a Plan<'_>, direct: &'a [Rgb]) -> Self {
         Self {
             scene: plan.scene,
             lighting: plan.lighting,

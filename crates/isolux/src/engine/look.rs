@@ -23,6 +23,9 @@ pub(super) struct PilotRequest {
     /// Whether the map will be fitted to the light over elements.
     pub(super) is_fitted: bool,
     pub(super) max_vertices: usize,
+    /// Set by hand: vertices for indirect light at most, and the shortest edge, m.
+    pub(super) most_for_indirect_light: Option<usize>,
+    pub(super) least_edge_m: Option<f64>,
 }
 
 /// What a round of the pilot sees.

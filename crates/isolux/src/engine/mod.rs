@@ -25,6 +25,7 @@ mod place;
 mod plan;
 mod predict;
 mod probe;
+mod radiosity;
 mod reference;
 mod request;
 mod run;
@@ -47,6 +48,7 @@ pub use cache::{
 };
 pub use place::ProbePoint;
 pub use probe::{ExactSettings, MapReader};
+pub use radiosity::{RadiosityLimits, RadiositySettings};
 pub use reference::PathTracer;
 pub use request::{Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
 pub use run::{Solution, Watcher, foresee, solve, solve_with_maps};

@@ -79,8 +79,10 @@ struct Unseen {
 impl<'a> MapReader<'a> {
     /// Prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
-        let reflected =
-            |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx);
+        let ambient = map.ambient_lx();
+        let reflected = |v: &Option<Illuminance>| {
+            v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx + ambient)
+        };
         let lighting = Lighting::new(scene);
         let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
         let are_read = lighting.are_read_at_ends();

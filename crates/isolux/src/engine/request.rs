@@ -1,6 +1,7 @@
 //! What is asked of an engine and what it says while it works.
 
 use super::cache::IrradianceCache;
+use super::radiosity::RadiositySettings;
 use crate::map::{Accuracy, Method};
 use std::time::Duration;
 
@@ -24,6 +25,8 @@ pub struct SolveRequest {
     pub max_memory_bytes: u64,
     /// Samples that the `cache` method starts from.
     pub cache: IrradianceCache,
+    /// How finely radiosity works.
+    pub radiosity: RadiositySettings,
 }
 
 impl Default for SolveRequest {
@@ -38,6 +41,7 @@ impl Default for SolveRequest {
             filter: true,
             max_memory_bytes: 8 << 30,
             cache: IrradianceCache::default(),
+            radiosity: RadiositySettings::default(),
         }
     }
 }
@@ -60,6 +64,8 @@ pub struct Progress {
     pub increments: u64,
     /// Error of the scene; `None` until it can be believed.
     pub accuracy: Option<Accuracy>,
+    /// The share of all light that is unshot, of radiosity.
+    pub unshot: Option<f64>,
     /// Accuracy asked for.
     pub target: Option<f64>,
     /// Vertices of the elements.

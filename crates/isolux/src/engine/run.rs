@@ -12,7 +12,7 @@ use super::plan::Plan;
 use super::predict;
 use super::request::{Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
 use super::state::{RunIdentity, RunState};
-use super::work::{FEWEST_INCREMENTS, Work};
+use super::work::Work;
 use crate::map::{Accuracy, IlluminationMap, Method, Provenance};
 use crate::scene::Scene;
 use std::time::{Duration, Instant};
@@ -181,12 +181,15 @@ impl<'s, 'r> Run<'s, 'r> {
     }
 
     fn pilot_request(&self) -> PilotRequest {
+        let by_hand = self.request.radiosity;
         PilotRequest {
             target: self.mesh_for(),
             mesh_target: self.request.mesh_accuracy,
             seed: self.request.seed,
             is_fitted: self.request.method != Method::Forward,
             max_vertices: (self.request.max_memory_bytes / BYTES_A_VERTEX) as usize,
+            most_for_indirect_light: by_hand.max_receivers.map(|most| most as usize),
+            least_edge_m: by_hand.min_element_m,
         }
     }
 
@@ -227,6 +230,7 @@ impl<'s, 'r> Run<'s, 'r> {
             stage,
             increments,
             accuracy,
+            unshot: None,
             target: self.request.accuracy,
             receivers,
             rays: self.rays,
@@ -277,8 +281,7 @@ impl<'s, 'r> Run<'s, 'r> {
     /// Whether and why these increments should end here.
     fn end(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
         let goal = self.request.accuracy;
-        let enough = work.sums.increments >= FEWEST_INCREMENTS;
-        if enough && accuracy.zip(goal).is_some_and(|(a, goal)| a.reached <= goal) {
+        if work.may_end() && accuracy.zip(goal).is_some_and(|(a, goal)| a.reached <= goal) {
             return Some(End::Reached);
         }
         if work.is_vain(accuracy) {
@@ -286,7 +289,7 @@ impl<'s, 'r> Run<'s, 'r> {
         }
         // No number of increments helps where interpolation alone takes the whole error.
         let finer = self.stage < MOST_STAGES && !self.refined_long_enough();
-        match self.is_hopeless(work, accuracy) {
+        match work.is_hopeless(accuracy, goal) {
             true if finer => Some(End::TooCoarse),
             true if work.is_settled(accuracy) => Some(End::InVain),
             _ => None,
@@ -338,13 +341,8 @@ impl<'s, 'r> Run<'s, 'r> {
             predict::finish(needed, count, each_s, progress.elapsed_s)
         });
         let ends = end.is_some_and(|end| end != End::TooCoarse);
-        Progress { prediction, ends, ..progress }
-    }
-
-    fn is_hopeless(&self, work: &Work, accuracy: Option<Accuracy>) -> bool {
-        let count = work.sums.increments;
-        let wanted = accuracy.zip(self.request.accuracy).filter(|_| count >= FEWEST_INCREMENTS);
-        wanted.is_some_and(|(a, goal)| predict::increments_needed(&a, count, goal).is_none())
+        let unshot = work.unshot().map(|unshot| unshot.share);
+        Progress { prediction, ends, unshot, ..progress }
     }
 
     fn solution(
@@ -369,8 +367,7 @@ impl<'s, 'r> Run<'s, 'r> {
     }
 
     fn map(&self, work: &Work, accuracy: Option<Accuracy>, reached: bool) -> IlluminationMap {
-        let believed = work.sums.increments >= BELIEVED_INCREMENTS;
-        let (values, filter) = work.values(self.request.filter && believed);
+        let (values, filter) = work.values(self.request.filter && work.is_believed());
         IlluminationMap {
             elements: work.plan.elements.clone(),
             values,
@@ -387,6 +384,8 @@ impl<'s, 'r> Run<'s, 'r> {
                 accuracy,
                 fresh: work.fresh(),
                 filter,
+                unshot: work.unshot(),
+                diffuse_only: self.request.radiosity.diffuse_only,
             },
         }
     }

@@ -1,6 +1,7 @@
 //! A run between two increments: integers and counters, enough to go on bit for bit.
 
 use super::accumulate::{Accumulator, Sums};
+use super::radiosity::RadiositySettings;
 use super::request::{SolveError, SolveRequest};
 use crate::map::Method;
 use crate::scene::Scene;
@@ -42,6 +43,9 @@ pub struct RunIdentity {
     pub mesh_accuracy: f64,
     /// Memory allowed, which bounds elements and rays, bytes.
     pub max_memory_bytes: u64,
+    /// How finely radiosity works.
+    #[serde(default)]
+    pub radiosity: RadiositySettings,
 }
 
 impl RunIdentity {
@@ -54,6 +58,7 @@ impl RunIdentity {
             accuracy: request.accuracy,
             mesh_accuracy: request.mesh_accuracy,
             max_memory_bytes: request.max_memory_bytes,
+            radiosity: request.radiosity,
         }
     }
 
@@ -67,6 +72,7 @@ impl RunIdentity {
             ("the accuracy", self.accuracy == saved.accuracy),
             ("the mesh accuracy", self.mesh_accuracy == saved.mesh_accuracy),
             ("the memory allowed", self.max_memory_bytes == saved.max_memory_bytes),
+            ("the limits of radiosity", self.radiosity == saved.radiosity),
         ];
         match differs.iter().find(|(_, same)| !same) {
             Some((what, _)) => Err(SolveError::OtherRun(what)),

@@ -15,7 +15,7 @@ const NOISE_SHARE: f64 = 0.5;
 
 /// Variance of what is interpolated between three vertices, in the mean over an element, as a share of
 /// theirs: the integral of the sum of the squares of the hat functions over the area.
-const OF_INTERPOLATED: f64 = 0.5;
+pub(super) const OF_INTERPOLATED: f64 = 0.5;
 
 /// Nets of n rays err like this power of 1/n: measured between 0.8 and 1.1 on CUBE and SPHERE from 8
 /// to 128 rays (independent rays err like 0.5).

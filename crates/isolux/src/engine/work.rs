@@ -1,7 +1,9 @@
 //! The increments on one mesh: an engine, what it has summed, and the map that makes.
 
-use super::accumulate::{Accumulator, Sample, Sums};
-use super::accuracy::{BELIEVED_INCREMENTS, accuracy, early_statistical, lookup_lx};
+use super::accumulate::{Accumulator, Estimate, Sample, Sums};
+use super::accuracy::{
+    BELIEVED_INCREMENTS, accuracy, accuracy_of_map, early_statistical, lookup_lx,
+};
 use super::cache::{CacheSample, Cached};
 use super::checks::{self, Check, InterpolationErrors};
 use super::deadline::Deadline;
@@ -11,20 +13,25 @@ use super::forward::Forward;
 use super::hybrid::Hybrid;
 use super::plan::Plan;
 use super::predict;
+use super::radiosity::{Left, Radiosity};
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
 use super::tally;
-use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method};
+use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method, Unshot};
 use crate::sampling::Key;
 use crate::units::Rgb;
 
 /// Increments before a run may stop at its accuracy: as soon as it is believed. (Readings mix three
 /// vertices, whose spreads make one good enough: decision 12.)
-pub(super) const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
+const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
 
 /// Greatest factor between the interpolation error seen and that expected that is believed, either
 /// way: details tell the order at least.
 const MOST_OVER: f64 = 10.0;
+
+/// How far the light that an ambient term stands for is from it at a place, as a share of it: between
+/// none, in gaps, and twice as much.
+const DOUBT_OF_AMBIENT: f64 = 0.5;
 
 /// The increments on one mesh.
 pub(super) struct Work<'p, 's> {
@@ -36,15 +43,21 @@ pub(super) struct Work<'p, 's> {
     pub(super) given_up: Accumulator,
     /// Samples of a receiver in an increment: its gathering rays, or one for all particles.
     samples: u32,
+    /// What radiosity has left to shoot.
+    left: Option<Left>,
+    /// Whether it ends there, however good the map is.
+    stops_at_unshot: bool,
 }
 
 enum Engine<'p, 's> {
     Hybrid(Hybrid<'p, 's>),
     Forward(Forward<'p, 's>),
     Cache(Box<Cached<'p, 's>>),
+    Radiosity(Box<Radiosity<'p, 's>>),
 }
 
-/// The points that the hybrid engine checks itself at.
+/// The points that the hybrid engine and radiosity check themselves at. Radiosity, which has no
+/// replicates, keeps the shots of its patches in the sums.
 pub(super) struct Checks {
     points: Vec<Check>,
     pub(super) sums: Accumulator,
@@ -56,7 +69,7 @@ impl<'p, 's> Work<'p, 's> {
         match &mut self.engine {
             Engine::Hybrid(hybrid) => Some(hybrid.pace_s()),
             Engine::Cache(cached) => Some(cached.pace_s()),
-            Engine::Forward(_) => None,
+            Engine::Forward(_) | Engine::Radiosity(_) => None,
         }
     }
 
@@ -73,40 +86,60 @@ impl<'p, 's> Work<'p, 's> {
                 plan.trial.rays_for(target, plan.rms_lx, FEWEST_INCREMENTS)
             }
             Method::Forward => 1,
+            Method::Radiosity => request.radiosity.limits(target).check_rays,
         };
         let most = most_rays(plan.indirect_vertices, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
         let points = match request.method {
-            Method::Hybrid | Method::Cache => {
+            Method::Hybrid | Method::Cache | Method::Radiosity => {
                 checks::draw(plan, rays, Key::new(request.seed).with(3))
             }
             Method::Forward => Vec::new(),
         };
-        let sums = Accumulator::new(plan.elements.vertices().len(), reference);
-        let check_sums = Accumulator::new(
-            checks::places(points.len(), request.method != Method::Cache),
-            reference,
-        );
-        let checks = Checks { points, sums: check_sums };
         let engine = match request.method {
-            Method::Hybrid => Engine::Hybrid(Hybrid::new(plan, &checks.points, rays, request.seed)),
+            Method::Hybrid => Engine::Hybrid(Hybrid::new(plan, &points, rays, request.seed)),
             Method::Cache => {
                 let cached =
-                    Cached::new(plan, &checks.points, (&request.cache, target), rays, request.seed);
+                    Cached::new(plan, &points, (&request.cache, target), rays, request.seed);
                 Engine::Cache(Box::new(cached))
             }
             Method::Forward => {
                 let emission = Emission::new(plan.scene).expect("a scene without light is refused");
                 Engine::Forward(Forward::new(plan, emission, request.seed))
             }
+            Method::Radiosity => {
+                let (settings, seed) = (&request.radiosity, request.seed);
+                Engine::Radiosity(Box::new(Radiosity::new(plan, &points, settings, target, seed)))
+            }
         };
-        Self { plan, engine, sums, checks, given_up: Accumulator::new(1, reference), samples: rays }
+        let (places, reference) = match &engine {
+            Engine::Radiosity(radiosity) => (radiosity.patches(), radiosity.reference_lx()),
+            Engine::Cache(_) => (checks::places(points.len(), false), reference),
+            _ => (checks::places(points.len(), true), reference),
+        };
+        let sums = Accumulator::new(plan.elements.vertices().len(), reference);
+        let checks = Checks { points, sums: Accumulator::new(places, reference) };
+        let given_up = Accumulator::new(1, reference);
+        let stops_at_unshot = request.radiosity.unshot.is_some();
+        let (samples, left) = (rays, None);
+        let mut work =
+            Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot };
+        work.look_what_is_left();
+        work
     }
 
     pub(super) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
         restore(&mut self.sums, &saved.receivers, saved.increments)?;
         restore(&mut self.checks.sums, &saved.checks, saved.increments)?;
-        restore(&mut self.given_up, &saved.given_up, saved.increments)
+        restore(&mut self.given_up, &saved.given_up, saved.increments)?;
+        self.look_what_is_left();
+        Ok(())
+    }
+
+    fn look_what_is_left(&mut self) {
+        if let Engine::Radiosity(radiosity) = &self.engine {
+            self.left = Some(radiosity.left(&self.sums, &self.checks.sums));
+        }
     }
 
     /// Adds one increment; returns the rays traced, or nothing if the deadline passes before.
@@ -122,7 +155,12 @@ impl<'p, 's> Work<'p, 's> {
                 cached.increment(index, &mut self.sums, points, sums, deadline)?
             }
             Engine::Forward(forward) => forward.increment(index, &mut self.sums),
+            Engine::Radiosity(radiosity) => {
+                let left = self.left.as_ref().expect("radiosity always knows what is left");
+                radiosity.shoot(&mut self.sums, &mut self.checks.sums, left, deadline)?
+            }
         };
+        self.look_what_is_left();
         let direct = Rgb::grey(effort.given_up_lx);
         self.given_up.add(std::iter::once(Sample { direct, ..Sample::default() }));
         Some(effort.rays)
@@ -132,17 +170,56 @@ impl<'p, 's> Work<'p, 's> {
     pub(super) fn made(&mut self) -> Vec<CacheSample> {
         match &mut self.engine {
             Engine::Cache(cached) => cached.made(),
-            Engine::Hybrid(_) | Engine::Forward(_) => Vec::new(),
+            _ => Vec::new(),
         }
     }
 
     fn interpolation(&self) -> InterpolationErrors {
-        match self.engine {
+        match &self.engine {
             Engine::Hybrid(_) | Engine::Cache(_) => {
                 checks::errors(&self.checks.sums, &self.checks.points)
             }
             Engine::Forward(_) => tally::errors(self.plan, &self.sums),
+            Engine::Radiosity(radiosity) => {
+                radiosity.errors(&self.sums, &self.checks.points, self.ambient_lx())
+            }
         }
+    }
+
+    /// What radiosity has not shot.
+    pub(super) fn unshot(&self) -> Option<Unshot> {
+        self.left.as_ref().map(|left| Unshot { share: left.share, ambient_lx: left.ambient_lx })
+    }
+
+    fn ambient_lx(&self) -> Rgb {
+        self.unshot().map_or(Rgb::BLACK, |unshot| unshot.ambient_lx)
+    }
+
+    /// The light at a vertex.
+    fn estimate(&self, vertex: usize) -> Estimate {
+        match &self.engine {
+            Engine::Radiosity(radiosity) => {
+                let ambient = self.ambient_lx().luminance();
+                radiosity.estimate(&self.sums, vertex).in_doubt_by(DOUBT_OF_AMBIENT * ambient)
+            }
+            _ => self.sums.estimate(vertex),
+        }
+    }
+
+    /// Whether a run may stop at its accuracy.
+    pub(super) fn may_end(&self) -> bool {
+        self.left.as_ref().map_or_else(|| self.is_believed(), |left| left.all_have_shot)
+    }
+
+    /// Whether no number of increments will reach a target on these elements.
+    pub(super) fn is_hopeless(&self, accuracy: Option<Accuracy>, target: Option<f64>) -> bool {
+        if let Some(left) = &self.left {
+            let misses = |a: Accuracy| target.is_none_or(|target| a.reached > target);
+            return accuracy.is_some_and(misses) && left.is_shot;
+        }
+        let count = self.sums.increments;
+        let wanted = accuracy.zip(target).filter(|_| self.may_end());
+        wanted.is_some_and(|(a, goal)| predict::increments_needed(&a, count, goal).is_none())
     }
 
     /// The factor by which elements err more than the pilot has expected.
@@ -151,8 +228,12 @@ impl<'p, 's> Work<'p, 's> {
         seen.map_or(1.0, |factor| factor.clamp(1.0 / MOST_OVER, MOST_OVER))
     }
 
-    fn is_believed(&self) -> bool {
-        self.sums.increments >= BELIEVED_INCREMENTS
+    pub(super) fn is_believed(&self) -> bool {
+        let fewest = match self.engine {
+            Engine::Radiosity(_) => 1,
+            _ => BELIEVED_INCREMENTS,
+        };
+        self.sums.increments >= fewest
     }
 
     /// Where readers gather afresh.
@@ -170,8 +251,23 @@ impl<'p, 's> Work<'p, 's> {
             return None;
         }
         let interpolation = self.interpolation();
-        let given_up_lx = self.given_up.estimate(0).mean.direct.luminance();
+        if self.left.as_ref().is_some_and(|left| !left.is_bounded) {
+            return None;
+        }
+        let given_up_lx = match &self.engine {
+            Engine::Radiosity(radiosity) => radiosity.given_up_lx(),
+            _ => self.given_up.estimate(0).mean.direct.luminance(),
+        };
         let errors = InterpolationErrors { given_up_lx, ..interpolation };
+        if self.left.is_some() {
+            let ambient_lx = self.ambient_lx();
+            let estimate = |vertex: usize| {
+                let mut estimate = self.estimate(vertex);
+                estimate.mean.indirect += ambient_lx;
+                estimate
+            };
+            return accuracy_of_map(self.plan, estimate, &errors);
+        }
         accuracy(self.plan, &self.sums, &errors)
     }
 
@@ -179,6 +275,9 @@ impl<'p, 's> Work<'p, 's> {
     /// believed, by noise alone; from one increment, what elements and rays are made for.
     pub(super) fn increments_needed(&self, accuracy: Option<Accuracy>, target: f64) -> Option<f64> {
         let count = self.sums.increments;
+        if let (Engine::Radiosity(radiosity), Some(left)) = (&self.engine, &self.left) {
+            return radiosity.shots_needed(count, left);
+        }
         let needed = if count < BELIEVED_INCREMENTS {
             let statistical = early_statistical(self.plan, &self.sums).unwrap_or(0.0);
             let share = statistical / target;
@@ -190,16 +289,25 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     /// Whether no number of increments will tell how good the map is: there is no light on it, or
-    /// the light that was given up may be more than what is there.
+    /// the light that was given up may be more than what is there; or whether radiosity was told to
+    /// shoot no more.
     pub(super) fn is_vain(&self, accuracy: Option<Accuracy>) -> bool {
         let dark = self.plan.rms_lx == 0.0;
-        let given_up = self.given_up.sums != [Sums::default()];
-        self.sums.increments >= FEWEST_INCREMENTS && accuracy.is_none() && (dark || given_up)
+        let lost = self.given_up.sums != [Sums::default()];
+        let given_up = lost || self.left.as_ref().is_some_and(|left| !left.is_bounded);
+        if self.stops_at_unshot && self.left.as_ref().is_some_and(|left| left.is_shot) {
+            return true;
+        }
+        self.may_end() && accuracy.is_none() && (dark || given_up)
     }
 
-    /// Whether more increments would change little: noise is a small part of the error.
+    /// Whether more increments, of those that are hopeless, would change little: noise is a small part
+    /// of the error.
     pub(super) fn is_settled(&self, accuracy: Option<Accuracy>) -> bool {
-        accuracy.is_some_and(|a| a.statistical <= 0.25 * libm::hypot(a.discretization, a.bias))
+        let is_shot = matches!(self.engine, Engine::Radiosity(_));
+        is_shot
+            || accuracy
+                .is_some_and(|a| a.statistical <= 0.25 * libm::hypot(a.discretization, a.bias))
     }
 
     /// The values of the map, and what the filter did to them.
@@ -229,7 +337,7 @@ impl<'p, 's> Work<'p, 's> {
             parts.push(part(&|v| v.direct_lx - v.caustic_lx));
         }
         let variance: Vec<f64> = (0..coarse)
-            .map(|k| self.sums.estimate(k))
+            .map(|k| self.estimate(k))
             .map(|e| if direct { e.variance } else { e.indirect_variance })
             .collect();
         let filtered = filter(self.plan, &parts, &variance, self.plan.rms_lx);
@@ -247,13 +355,18 @@ impl<'p, 's> Work<'p, 's> {
 
     fn value(&self, vertex: usize, interpolation_error_lx: f64) -> Option<Illuminance> {
         let standing = self.plan.standings[vertex]?;
-        let estimate = self.sums.estimate(vertex);
+        let estimate = self.estimate(vertex);
         let mean = estimate.mean;
+        // Radiosity has counted it.
+        let direct_variance = match self.engine {
+            Engine::Radiosity(_) => 0.0,
+            _ => self.plan.direct_variance[vertex],
+        };
         Some(Illuminance {
             direct_lx: mean.direct + mean.caustic,
             caustic_lx: mean.caustic,
             indirect_lx: mean.indirect,
-            standard_error_lx: (estimate.variance + self.plan.direct_variance[vertex]).sqrt(),
+            standard_error_lx: (estimate.variance + direct_variance).sqrt(),
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
             interpolation_error_lx,
             standing,

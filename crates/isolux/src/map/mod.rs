@@ -7,10 +7,11 @@ mod standing;
 
 pub use grid::{Figure, GridFigures};
 pub use illuminance::Illuminance;
-pub use provenance::{Accuracy, FilterReport, Fresh, Method, Provenance};
+pub use provenance::{Accuracy, FilterReport, Fresh, Method, Provenance, Unshot};
 pub use standing::Standing;
 
 use crate::elements::Elements;
+use crate::units::Rgb;
 
 /// The illuminance on every surface of a scene, with its standard error: a value for every vertex
 /// of the elements, linear between them.
@@ -28,10 +29,25 @@ pub struct IlluminationMap {
 impl IlluminationMap {
     /// The map at barycentric weights `(1 - u - v, u, v)` of a triangle of the scene, on one side:
     /// linear over the element there, over those of its vertices that are known and of the highest
-    /// standing. `None` where the
+    /// standing, with the ambient term. `None` where the
     /// side carries no map or none of them is known.
     pub fn interpolate(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         let corners = self.elements.locate(triangle, back, u, v)?;
-        Illuminance::mix(corners.map(|(vertex, weight)| (self.values[vertex as usize], weight)))
+        let values = corners.map(|(vertex, weight)| (self.values[vertex as usize], weight));
+        let mut found = Illuminance::mix(values)?;
+        found.indirect_lx += self.ambient_lx();
+        Some(found)
+    }
+
+    /// The value of a vertex as readers have it: with the ambient term.
+    pub fn read_at_vertex(&self, vertex: u32) -> Option<Illuminance> {
+        let stored = self.values[vertex as usize]?;
+        Some(Illuminance { indirect_lx: stored.indirect_lx + self.ambient_lx(), ..stored })
+    }
+
+    /// What stands in place of indirect light that was not computed, the same everywhere; readers add
+    /// it to the values of vertices, lx.
+    pub fn ambient_lx(&self) -> Rgb {
+        self.provenance.unshot.map_or(Rgb::BLACK, |unshot| unshot.ambient_lx)
     }
 }

@@ -1,5 +1,6 @@
 //! Where a map came from and how good it is.
 
+use crate::units::Rgb;
 use serde::{Deserialize, Serialize};
 
 /// Everything needed to repeat a run and to judge its result.
@@ -30,6 +31,17 @@ pub struct Provenance {
     pub fresh: Option<Fresh>,
     /// What the filter did; `None` where it was off.
     pub filter: Option<FilterReport>,
+    /// What stands in place of light that was not shot, where it was not all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unshot: Option<Unshot>,
+    /// Whether mirrors, gloss and glass were left out, for comparison.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub diffuse_only: bool,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]
+const fn is_false(value: &bool) -> bool {
+    !*value
 }
 
 /// Where a map is not to be trusted, and what those know who gather there over it.
@@ -40,6 +52,16 @@ pub struct Fresh {
     pub above_lx: Option<f64>,
     /// What light is wrong by that comes from close by, where the map is not trusted either, lx.
     pub lookup_lx: f64,
+}
+
+/// The light that a radiosity solution has not shot.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Unshot {
+    /// Its share of all light.
+    pub share: f64,
+    /// What readers add to indirect light in its place, the same everywhere; values of vertices
+    /// are without it, lx.
+    pub ambient_lx: Rgb,
 }
 
 /// What the filter did to a map.
@@ -78,4 +100,6 @@ pub enum Method {
     Hybrid,
     /// Samples of indirect light with gradients, made where they are asked for.
     Cache,
+    /// Shots over form factors.
+    Radiosity,
 }

@@ -5,6 +5,7 @@
 
 mod assemble;
 mod check;
+mod diffuse_only;
 mod grid;
 mod hanging;
 mod hash;

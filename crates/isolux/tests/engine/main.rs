@@ -4,6 +4,7 @@ mod balance;
 mod calibration;
 mod degenerate;
 mod hidden;
+mod radiosity;
 mod refusals;
 mod repeat;
 mod rooms;

@@ -73,7 +73,9 @@ fn a_run_stopped_at_once_is_a_map() {
             let map = solution.expect(name).map;
             assert_valid(name, &map);
             assert!(map.provenance.increments >= 1 && !map.provenance.complete, "{name}");
-            assert!(map.provenance.accuracy.is_none(), "{name}: nothing can be believed yet");
+            // Check points judge a map by shots; a spread of replicates takes some.
+            let is_judged = map.provenance.accuracy.is_some();
+            assert!(!is_judged || method == Method::Radiosity, "{name}: believed too soon");
             let lit = map.values.iter().flatten().filter(|v| v.illuminance_lx() > 0.0).count();
             assert!(lit > map.values.len() / 2, "{name}, {method:?}: {lit} are lit");
         }

@@ -6,7 +6,7 @@ use isolux::scene::Scene;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-pub(crate) const METHODS: [Method; 2] = [Method::Hybrid, Method::Forward];
+pub(crate) const METHODS: [Method; 3] = [Method::Hybrid, Method::Forward, Method::Radiosity];
 
 /// What an engine counts for a vertex, bytes: memory is how its meshes are kept small here.
 const BYTES_A_VERTEX: u64 = 2400;

@@ -7,6 +7,7 @@
 //! [`Lighting::covers`].
 
 mod area;
+mod chains;
 mod cut;
 mod kind;
 mod lobe;
@@ -22,6 +23,7 @@ use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
+pub(super) use chains::Chain;
 pub(super) use measured::{Goal, Measured};
 use mirrors::Mirrors;
 use panes::Panes;

@@ -149,7 +149,7 @@ impl<'s> Pilot<'s> {
             costs: Costs::default(),
             is_measured: false,
             trial: None,
-            least_edge_m: LEAST_EDGE_SHARE * extent_m,
+            least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
         }
     }
 
@@ -160,7 +160,8 @@ impl<'s> Pilot<'s> {
         go_on: &mut GoOn<'_>,
     ) -> Look {
         let mut look = self.look(request, go_on);
-        let most = MOST_FOR_INDIRECT_LIGHT.max(look.elements.vertices().len() / 2 * 3);
+        let most = request.most_for_indirect_light.unwrap_or(MOST_FOR_INDIRECT_LIGHT);
+        let most = most.max(look.elements.vertices().len() / 2 * 3);
         let most = request.max_vertices.min(most);
         self.try_some(&look);
         let excess = |look: &Look| (Some(look.greatest_excess(request)), None);

@@ -105,6 +105,8 @@ fn particles_carry_the_flux_and_what_is_reflected() {
         seed: 1,
         is_fitted: false,
         max_vertices: 150,
+        most_for_indirect_light: None,
+        least_edge_m: None,
     };
     let (lx, areas_m2) = forward(&room(), &request);
     let arriving_lm: f64 = lx.iter().zip(&areas_m2).map(|(e, a)| e * a).sum();
@@ -125,6 +127,8 @@ fn particles_light_all_vertices() {
         seed: 1,
         is_fitted: false,
         max_vertices: 3000,
+        most_for_indirect_light: None,
+        least_edge_m: None,
     };
     let (lx, _) = forward(&room(), &request);
     let dark = lx.iter().filter(|&&e| e == 0.0).count();

@@ -16,8 +16,15 @@ pub(super) fn room() -> Scene {
 }
 
 pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Plan<'s> {
-    let request =
-        PilotRequest { target: 1.0, mesh_target: 1.0, seed: 1, is_fitted: true, max_vertices: 150 };
+    let request = PilotRequest {
+        target: 1.0,
+        mesh_target: 1.0,
+        seed: 1,
+        is_fitted: true,
+        max_vertices: 150,
+        most_for_indirect_light: None,
+        least_edge_m: None,
+    };
     pilot(scene, lighting, &request, &mut |_| true)
 }
 
