@@ -14,6 +14,11 @@ use rayon::prelude::*;
 /// Particles a vertex and increment.
 const PARTICLES_A_VERTEX: usize = 4;
 
+/// Particles of an increment for so many vertices.
+pub(super) fn particles(vertices: usize) -> u32 {
+    (PARTICLES_A_VERTEX * vertices).next_power_of_two() as u32
+}
+
 /// Caustic illuminance at the vertices that indirect light lives on, and what it took.
 pub(super) fn deposit(plan: &Plan, key: Key) -> (Vec<Rgb>, Effort) {
     let nothing = || (vec![Rgb::BLACK; plan.indirect_vertices], Effort::default());
@@ -24,7 +29,7 @@ pub(super) fn deposit(plan: &Plan, key: Key) -> (Vec<Rgb>, Effort) {
         return (black, Effort { rays: 0, given_up_lx });
     }
     let tally = Tally::new(plan, emission.flux_lm(), 1);
-    let count = (PARTICLES_A_VERTEX * plan.indirect_vertices).next_power_of_two() as u32;
+    let count = particles(plan.indirect_vertices);
     let sequence = Sequence::new(key);
     let most = scatterings(plan.scene);
     let fly = |index: u32| {

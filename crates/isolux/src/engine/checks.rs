@@ -71,10 +71,15 @@ pub(super) const fn places(checks: usize, is_map_read_by_rays: bool) -> usize {
     if is_map_read_by_rays { 2 * checks } else { 3 * checks }
 }
 
+/// How many there are on so many vertices.
+pub(super) fn count(vertices: usize) -> usize {
+    (vertices / SHARE).clamp(FEWEST, MOST)
+}
+
 /// Draws the check points of a plan.
 pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let errors = &plan.indirect_errors;
-    let count = (plan.indirect_vertices / SHARE).clamp(FEWEST, MOST);
+    let count = count(plan.indirect_vertices);
     let area: f64 = errors.iter().map(|e| e.area_m2).sum();
     let squared: f64 = errors.iter().map(|e| e.squared()).sum();
     let is_trusted = |e: &LeafError| e.error <= plan.trusted_up_to_lx && !e.is_beset;

@@ -61,6 +61,9 @@ pub(super) struct Outlook {
     /// Rays of each in the pilot, and in an increment.
     pub(super) pilot_rays: f64,
     pub(super) rays: f64,
+    /// Check points, which take as many rays, and particles of an increment.
+    pub(super) checks: f64,
+    pub(super) particles: f64,
     /// Accuracy asked for.
     pub(super) target: f64,
     /// By how much errors exceed what they should be, and what that was with how many carriers a
@@ -111,8 +114,9 @@ impl Outlook {
             + costs.direct.of(vertices - self.vertices)
             + costs.looks.of(if growth > 1.0 { vertices } else { 0.0 });
         let direct_s = costs.direct.of(self.measurements * vertices);
-        let each_s = costs.rays.of(carriers * self.rays)
-            + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
+        let rays = (carriers + self.checks) * self.rays + self.particles * growth;
+        let each_s =
+            costs.rays.of(rays) + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
         let factor = match self.excess {
             None => BLIND,
             Some(excess) if excess > 1.0 => REFINING,

@@ -2,6 +2,8 @@
 
 use super::Pilot;
 use crate::engine::accuracy::BELIEVED_INCREMENTS;
+use crate::engine::caustics;
+use crate::engine::checks;
 use crate::engine::forecast::{Excess, Outlook, Round};
 use crate::engine::look::{Look, PilotRequest};
 use crate::engine::trial::Trial;
@@ -36,6 +38,12 @@ impl Pilot<'_> {
             vertices: vertices as f64,
             pilot_rays: f64::from(self.rays),
             rays: f64::from(trial.rays_for(request.target, rms_lx, BELIEVED_INCREMENTS)),
+            checks: checks::count(vertices) as f64,
+            particles: if self.lighting.leaves_caustics() {
+                f64::from(caustics::particles(vertices))
+            } else {
+                0.0
+            },
             target: request.target,
             excess,
             before,

@@ -17,6 +17,8 @@ fn known() -> (Outlook, Costs) {
         vertices: 2000.0,
         pilot_rays: 64.0,
         rays: 16.0,
+        checks: 0.0,
+        particles: 0.0,
         target: 0.01,
         excess: Some(1.0),
         before: None,
@@ -33,6 +35,8 @@ fn when_elements_are_fixed_increments_are_left() {
     // Eight increments of a thousand times sixteen rays.
     let left_s = outlook.left(&costs).time_s;
     assert!((left_s - 0.128).abs() < 1e-9, "{left_s}");
+    let beside = Outlook { checks: 500.0, particles: 8000.0, ..outlook }.left(&costs).time_s;
+    assert!((beside - 0.256).abs() < 1e-9, "half as many again to check, and as many for caustics");
     let measured = Outlook { measured_each: true, ..outlook }.left(&costs).time_s;
     assert!((measured - left_s - 8.0 * 0.002).abs() < 1e-9, "direct light in each: {measured}");
 }
