@@ -101,8 +101,8 @@ pub(super) fn middle(shape: &Shape) -> Option<Middle> {
     for t in &shape.triangles {
         let [a, b, c] = t.map(corner);
         let twice = (b - a).cross(c - a);
-        moment = moment + (a + b + c) * (twice.length() / 6.0);
-        sum = sum + twice * 0.5;
+        moment += (a + b + c) * (twice.length() / 6.0);
+        sum += twice * 0.5;
         total += 0.5 * twice.length();
     }
     let centroid = Point::ORIGIN + moment * (1.0 / total);

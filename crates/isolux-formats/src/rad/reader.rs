@@ -167,30 +167,40 @@ impl<'a> Reader<'a> {
             Ok(frames) => frames,
             Err(what) => return self.full(&at, what),
         };
+        let paths = match &source {
+            Source::Files(names) => self.paths_of(names, &at),
+            Source::Ies(command) => self.paths_of(std::slice::from_ref(&command.file), &at),
+            Source::Objects(_) => Some(Vec::new()),
+        };
+        let Some(paths) = paths else { return Some(()) };
         for frame in &frames {
-            self.source(&source, &at, frame)?;
+            self.visit(&at)?;
+            match &source {
+                Source::Files(_) => {
+                    paths.iter().try_for_each(|path| self.file(path, frame, &at))?;
+                }
+                Source::Objects(objects) => {
+                    objects.iter().try_for_each(|object| self.object(object, at.clone(), frame))?;
+                }
+                Source::Ies(command) => self.ies(command, &paths[0], &at, frame)?,
+            }
         }
         Some(())
     }
 
-    fn source(&mut self, source: &Source, at: &At, frame: &Frame) -> Going {
-        self.visit(at)?;
-        match source {
-            Source::Files(names) => {
-                names.iter().try_for_each(|name| match self.path_of(name, &at.file) {
-                    Ok(path) => self.file(&path, frame, at),
-                    Err(why) => {
-                        let (what, remedy) = why.explain(name);
-                        self.notes.problem(at, what, remedy);
-                        Some(())
-                    }
-                })
+    /// The paths of files that a command names; `None` after a problem.
+    fn paths_of(&mut self, names: &[String], at: &At) -> Option<Vec<PathBuf>> {
+        let mut paths = Vec::new();
+        for name in names {
+            match self.path_of(name, &at.file) {
+                Ok(path) => paths.push(path),
+                Err(why) => {
+                    let (what, remedy) = why.explain(name);
+                    self.notes.problem(at, what, remedy);
+                }
             }
-            Source::Objects(objects) => {
-                objects.iter().try_for_each(|object| self.object(object, at.clone(), frame))
-            }
-            Source::Ies(command) => self.ies(command, at, frame),
         }
+        (paths.len() == names.len()).then_some(paths)
     }
 
     /// A file named in another, relative to it or to the scene.
@@ -199,25 +209,17 @@ impl<'a> Reader<'a> {
         beside.or_else(|_| source::within(&self.root, &self.root, name))
     }
 
-    fn ies(&mut self, command: &IesCommand, at: &At, frame: &Frame) -> Going {
-        let path = match self.path_of(&command.file, &at.file) {
-            Ok(path) => path,
-            Err(why) => {
-                let (what, remedy) = why.explain(&command.file);
-                self.notes.problem(at, what, remedy);
-                return Some(());
-            }
-        };
-        if !self.photometry.contains_key(&path) {
-            let read = self.notes.findings().absorb(luminaires::read_ies(&path));
-            self.photometry.insert(path.clone(), read);
+    fn ies(&mut self, command: &IesCommand, path: &Path, at: &At, frame: &Frame) -> Going {
+        if !self.photometry.contains_key(path) {
+            let read = self.notes.findings().absorb(luminaires::read_ies(path));
+            self.photometry.insert(path.to_owned(), read);
         }
         if command.looks_up_lamp {
             let what =
                 "the light of `!ies2rad` is white and undiminished: no table of lamps is read";
             self.notes.warning(at, what, "give -c and -m, or -t default to say that this is meant");
         }
-        let Some(Some(intensity)) = self.photometry.get(&path) else { return Some(()) };
+        let Some(Some(intensity)) = self.photometry.get(path) else { return Some(()) };
         let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
         let position = frame.world_from_file.point(Point::ORIGIN);
         let intensity = intensity.scaled(command.factor);
@@ -380,10 +382,9 @@ impl<'a> Reader<'a> {
         let luminance = look.luminance_cd_m2();
         let made = luminaires::distant(name, &object.numbers, luminance, &frame.world_from_file);
         match made {
-            Ok(luminaire) if look.is_emitter() => self.add_luminaire(Some(luminaire), at),
             // What is dark lights nothing, however large it is.
             _ if !look.is_emitter() => Some(()),
-            Ok(_) => Some(()),
+            Ok(luminaire) => self.add_luminaire(Some(luminaire), at),
             Err((what, remedy)) => {
                 self.notes.problem(at, format!("{label}: {what}"), remedy);
                 Some(())

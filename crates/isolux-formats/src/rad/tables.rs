@@ -109,7 +109,8 @@ impl Light {
         builder: &mut Builder,
     ) -> Result<(), String> {
         let total: f64 = self.faces.iter().map(|face| face.area_m2).sum();
-        if !((total / due_m2 - 1.0).abs() < UNLIKE_BODY) {
+        let is_like = (total / due_m2 - 1.0).abs() < UNLIKE_BODY;
+        if !is_like {
             return Err(format!("surfaces of {total:.6} m2 on a body of {due_m2:.6} m2"));
         }
         let moment = self.faces.iter().fold(Vector::ZERO, |sum, face| {
