@@ -19,6 +19,8 @@ mod plain_text;
 pub mod png;
 mod polygon;
 mod problem;
+pub mod rad;
+mod round;
 pub mod scene_toml;
 mod source;
 

@@ -1,6 +1,6 @@
 //! A scene file of any kind.
 
-use crate::{Loaded, Problem, Problems, gltf, obj, scene_toml};
+use crate::{Loaded, Problem, Problems, gltf, obj, rad, scene_toml};
 use isolux::scene::SceneParts;
 use std::path::Path;
 
@@ -10,6 +10,7 @@ pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     match extension.as_deref() {
         Some("gltf" | "glb") => gltf::read(path),
         Some("obj") => obj::read(path),
+        Some("rad") => rad::read(path),
         Some("toml") => scene_toml::read(path),
         other => {
             let what = "is not a scene by its extension";
@@ -23,8 +24,8 @@ fn instead_of(extension: &str) -> &'static str {
     match extension {
         "ies" | "ldt" => "name it in a [[luminaire]] of a scene.toml",
         "mtl" => "name the .obj file that refers to it",
-        "rad" | "oct" => "convert the Radiance scene to .obj, and name that in a scene.toml",
+        "oct" => "name the .rad file that the octree was made from",
         "bin" => "name the .gltf file that refers to it",
-        _ => "name a .toml, .gltf, .glb or .obj file",
+        _ => "name a .toml, .gltf, .glb, .obj or .rad file",
     }
 }

@@ -55,6 +55,8 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["solve", "scene.xyz", "-o", "m.glb"], "scene.xyz"),
     (&["solve", "text.toml", "-o", "m.glb"], "text.toml"),
     (&["solve", "empty.obj", "-o", "m.glb"], "empty.obj"),
+    (&["solve", "sky.rad", "-o", "m.glb"], "sky.rad: line 2: source `sky`"),
+    (&["check", "shell.rad"], "`!rm` is not run"),
     (&["info", "text.ldt"], "text.ldt"),
     (&["info", "missing.ies"], "missing.ies"),
     (&["info", "text.ies"], "text.ies"),
@@ -120,6 +122,8 @@ fn bad_input_is_refused_with_a_reason() {
     home.file("dark.toml", DARK);
     home.file("latin.toml", b"# caf\xc3\xa9\n# caf\xe9\n");
     home.file("empty.obj", "");
+    home.file("sky.rad", "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 180\n");
+    home.file("shell.rad", "!rm good.pts\n");
     home.file("text.xyz", "this is nothing");
     home.file("empty.glb", "");
     home.file("good.pts", "0 0 0 0 0 1\n");

@@ -252,3 +252,27 @@ fn exports_agree_with_what_probe_reads() {
     assert!(refused.code == 2 && refused.err.contains(".wrl"), "{refused:?}");
     assert_eq!(home.names(), ["cube.csv", "cube.glb"]);
 }
+
+/// A floor below a sun of Radiance: luminance times solid angle, and nothing to reflect it back.
+const SUNNY: &str = "!xform -n here -t 1 0 0 floor.rad\nvoid light solar 0 0 3 1e6 1e6 1e6\n\
+                     solar source sun 0 0 4 0 0 1 .533\n";
+
+#[test]
+fn a_radiance_scene_is_solved_from_its_file() {
+    let home = Home::new();
+    home.file("sunny.rad", SUNNY);
+    home.file(
+        "floor.rad",
+        "void plastic m 0 0 5 .5 .5 .5 0 0\nm polygon f 0 0 12\n 0 0 0 2 0 0 2 2 0 0 2 0\n",
+    );
+    home.file("p.pts", "2 1 0 0 0 1\n");
+    let solved = home.run(&["solve", "sunny.rad", "-o", "sunny.glb", "--quality", "draft"]);
+    assert_eq!(solved.code, 0, "{solved:?}");
+    assert!(solved.err.contains("179 lm/W"), "{solved:?}");
+    let probed = home.run(&["probe", "sunny.glb", "--points", "p.pts"]);
+    let row = probed.out.lines().nth(1).unwrap_or_else(|| panic!("{probed:?}"));
+    let lux: f64 = row.split(',').nth(6).unwrap().parse().unwrap();
+    let due = 179e6 * std::f64::consts::TAU * (1.0 - 0.2665_f64.to_radians().cos());
+    // The map keeps single precision; 1 - cos loses ten digits of sixteen.
+    assert!((lux / due - 1.0).abs() < 1e-6, "{lux} {due}");
+}

@@ -6,7 +6,7 @@ use super::placement::scene_from_up;
 use super::record::GeometryRecord;
 use super::shapes::Piece;
 use super::spans::At;
-use crate::{gltf, obj};
+use crate::{gltf, obj, rad};
 use isolux::geometry::Direction;
 use isolux::geometry::Transform;
 use isolux::photometry::IntensityDistribution;
@@ -33,17 +33,21 @@ pub(super) fn read(
 ) -> Option<Import> {
     let path = context.path_of(&file.span(), file.get_ref())?;
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let is_replaced = |name: &str| record.material.is_some() || record.materials.contains_key(name);
     let (read, usual_unit_m) = match extension.as_deref() {
         Some("obj") => {
-            let is_replaced =
-                |name: &str| record.material.is_some() || record.materials.contains_key(name);
             let reading = obj::Reading { unit_is_known: true, is_replaced: &is_replaced };
             (obj::read_as(&path, &reading), context.unit_m)
         }
         Some("gltf" | "glb") => (gltf::read(&path), 1.0),
+        Some("rad") => {
+            let unit_is_known = record.units.is_some();
+            let reading = rad::Reading { unit_is_known, is_replaced: &is_replaced };
+            (rad::read_as(&path, &reading), 1.0)
+        }
         _ => {
             let what = format!("`{}` is not geometry by its extension", file.get_ref());
-            context.problem(&file.span(), what, "name an .obj, .gltf or .glb file");
+            context.problem(&file.span(), what, "name an .obj, .gltf, .glb or .rad file");
             return None;
         }
     };

@@ -5,8 +5,8 @@ use super::quantity::{Positive, Triple, plain};
 use super::record::{BoxRecord, DiscRecord, RectangleRecord, SphereRecord};
 use super::shapes::Piece;
 use super::spans::{At, Span};
-use super::sphere;
 use crate::polygon::{MOST_CORNERS, area_vector, triangulate};
+use crate::round;
 use isolux::geometry::{Point, Vector};
 use isolux::scene::Shape;
 
@@ -122,7 +122,7 @@ pub(super) fn disc(record: &At<DiscRecord>, context: &mut Context) -> Option<Vec
         context.problem(&record.span(), what, format!("give 3 to {MOST_SEGMENTS}"));
         return None;
     }
-    let shape = sphere::unit_disc(count, normal);
+    let shape = round::unit_disc(count, normal);
     Some(vec![Piece::whole(scaled(shape, *centre, *radius))])
 }
 
@@ -130,7 +130,7 @@ pub(super) fn disc(record: &At<DiscRecord>, context: &mut Context) -> Option<Vec
 pub(super) fn ball(record: &At<SphereRecord>, context: &mut Context) -> Option<Vec<Piece>> {
     let SphereRecord { centre, radius, segments, inward, octant } = record.get_ref();
     let count = sphere_segments(*segments, &record.span(), context)?;
-    let shape = sphere::unit_sphere(count, *octant, *inward);
+    let shape = round::unit_sphere(count, *octant, *inward);
     Some(vec![Piece::whole(scaled(shape, *centre, *radius))])
 }
 

@@ -20,7 +20,6 @@ mod record;
 mod resolve;
 mod shapes;
 mod spans;
-mod sphere;
 mod text;
 mod write;
 

@@ -1,6 +1,6 @@
 //! Shapes before they have a material, and into the scene.
 
-use super::sphere::turn_inside_out;
+use crate::round::turn_inside_out;
 use isolux::geometry::{Normal, Point, Transform, Vector};
 use isolux::scene::Shape;
 

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 /// sphere; `segments` of them make the equator, half as many steps lead from pole to pole.
 ///
 /// `segments` must be a multiple of four, so that the coordinate planes hold vertices.
-pub(super) fn unit_sphere(segments: u32, octant: bool, inward: bool) -> Shape {
+pub(crate) fn unit_sphere(segments: u32, octant: bool, inward: bool) -> Shape {
     let (around, down) =
         if octant { (segments / 4, segments / 4) } else { (segments, segments / 2) };
     let positions: Vec<[f64; 3]> = (0..=down)
@@ -37,7 +37,7 @@ pub(super) fn unit_sphere(segments: u32, octant: bool, inward: bool) -> Shape {
 }
 
 /// Disc of radius one about the origin, facing a direction.
-pub(super) fn unit_disc(segments: u32, normal: Direction) -> Shape {
+pub(crate) fn unit_disc(segments: u32, normal: Direction) -> Shape {
     let (u, v) = normal.frame();
     let rim = (0..segments).map(|step| {
         let (s, c) = sincos_of_turn(step, segments);
@@ -49,7 +49,7 @@ pub(super) fn unit_disc(segments: u32, normal: Direction) -> Shape {
 }
 
 /// Turns the front of every triangle to the other side.
-pub(super) fn turn_inside_out(shape: &mut Shape) {
+pub(crate) fn turn_inside_out(shape: &mut Shape) {
     shape.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
 }
 
@@ -60,7 +60,7 @@ fn on_sphere(ring: u32, step: u32, segments: u32) -> [f64; 3] {
 }
 
 /// Of `k` parts of `n` of a full turn; exact at quarters.
-fn sincos_of_turn(k: u32, n: u32) -> (f64, f64) {
+pub(crate) fn sincos_of_turn(k: u32, n: u32) -> (f64, f64) {
     match (4 * (k % n)) % n {
         0 => [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][(4 * (k % n) / n) as usize],
         _ => libm::sincos(TAU * f64::from(k % n) / f64::from(n)),

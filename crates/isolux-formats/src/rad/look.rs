@@ -1,0 +1,138 @@
+//! From the modifier of a surface to what it is made of.
+
+use super::limits;
+use super::material::{self, Made};
+use super::modifiers::{Modifiers, Named};
+use super::notes::Notes;
+use super::record::{At, Kind, kind_of};
+use isolux::scene::Body;
+use isolux::units::Rgb;
+
+/// What a surface of a modifier is.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Look {
+    /// The name of the modifier.
+    pub(super) name: String,
+    pub(super) made: Made,
+    /// The `brightdata` of a light.
+    pub(super) table: Option<usize>,
+}
+
+impl Look {
+    /// Luminance in front of the surface.
+    pub(super) fn luminance_cd_m2(&self) -> Rgb {
+        match &self.made {
+            Made::Body(Body::Opaque { front, .. }) => front.luminance_cd_m2,
+            Made::Spot(spot) => spot.luminance_cd_m2,
+            Made::Body(Body::Dielectric(_)) | Made::Invisible => Rgb::BLACK,
+        }
+    }
+
+    /// Whether it gives light.
+    pub(super) fn is_emitter(&self) -> bool {
+        !self.luminance_cd_m2().is_black()
+    }
+}
+
+/// What surfaces of a modifier are; `None` after a problem.
+pub(super) fn look(modifier: usize, modifiers: &Modifiers, notes: &mut Notes) -> Option<Look> {
+    let mut chain = Chain { modifiers, patterns: Vec::new(), left: limits::CHAIN };
+    let name = modifiers.get(modifier).object.name.clone();
+    let material = match chain.follow(Named::Known(modifier), notes) {
+        Ok(Some(index)) => index,
+        Ok(None) => return Some(Look { name, made: Made::Invisible, table: None }),
+        Err(()) => return None,
+    };
+    let definition = modifiers.get(material);
+    let made = material::make(&definition.object, &definition.at, notes)?;
+    // A material may modify a material; then only the first counts.
+    chain.follow(definition.modifier, notes).ok()?;
+    let mut look = Look { name, made, table: None };
+    look.table = chain.end(&look, &definition.at, notes)?;
+    Some(look)
+}
+
+/// Modifiers upon modifiers.
+struct Chain<'a> {
+    modifiers: &'a Modifiers,
+    patterns: Vec<usize>,
+    left: usize,
+}
+
+impl Chain<'_> {
+    /// Up to the next material.
+    fn follow(&mut self, from: Named, notes: &mut Notes) -> Result<Option<usize>, ()> {
+        let mut next = from;
+        while let Named::Known(index) = next {
+            let definition = self.modifiers.get(index);
+            let object = &definition.object;
+            let label = format!("{} `{}`", object.type_, object.name);
+            if self.left == 0 {
+                let what =
+                    format!("{label}: more than {} modifiers one upon the other", limits::CHAIN);
+                notes.problem(&definition.at, what, "use fewer");
+                return Err(());
+            }
+            self.left -= 1;
+            next = definition.modifier;
+            match kind_of(&object.type_) {
+                Some(Kind::Material) => return Ok(Some(index)),
+                Some(Kind::Pattern) => self.patterns.push(index),
+                Some(Kind::Alias) => {
+                    self.follow_side(definition.modifier, notes)?;
+                    next = definition.target;
+                }
+                Some(Kind::Texture) => {
+                    let what = format!("{label}: textures are left out, the surface is smooth");
+                    notes.warning(&definition.at, what, "model its shape where it matters");
+                }
+                _ => {
+                    let what = format!("{label} is not read");
+                    notes.problem(&definition.at, what, "choose one of what it mixes");
+                    return Err(());
+                }
+            }
+        }
+        if next == Named::Unknown {
+            // Where the name stands it was told.
+            return Err(());
+        }
+        Ok(None)
+    }
+
+    /// What an alias puts upon the material it stands for.
+    fn follow_side(&mut self, modifier: Named, notes: &mut Notes) -> Result<(), ()> {
+        self.follow(modifier, notes).map(|_| ())
+    }
+
+    /// The one pattern of a light that is read; `None` after a problem.
+    fn end(&self, look: &Look, at: &At, notes: &mut Notes) -> Option<Option<usize>> {
+        let mut table = None;
+        for &index in &self.patterns {
+            let definition = self.modifiers.get(index);
+            let label = format!("{} `{}`", definition.object.type_, definition.object.name);
+            if !look.is_emitter() {
+                let what = format!(
+                    "{label}: patterns are left out; `{}` reflects evenly what it says",
+                    look.name
+                );
+                notes.warning(&definition.at, what, "give the material its mean colour");
+            } else if definition.object.type_ == "brightdata" && self.patterns.len() == 1 {
+                table = Some(index);
+            } else {
+                let what =
+                    format!("{label}: patterns of lights are not read, as of `{}`", look.name);
+                let remedy = "only one brightdata as ies2rad writes it is; name the photometric file \
+                              in `!ies2rad FILE.ies` or in a [[luminaire]] of a scene.toml";
+                notes.problem(&definition.at, what, remedy);
+                return None;
+            }
+        }
+        if table.is_some() && matches!(look.made, Made::Spot(_)) {
+            let what = format!("spotlight of `{}` with brightdata", look.name);
+            notes.problem(at, what, "use a light instead of the spotlight");
+            return None;
+        }
+        Some(table)
+    }
+}
