@@ -118,7 +118,7 @@ fn names_stand_for_what_was_defined_last() {
     assert_eq!((colours, parts.up), (vec![0.2, 0.1, 0.1], UpAxis::Z));
 }
 
-/// Positions are those that Radiance 5.4's `xform` prints for these arguments.
+/// Positions are those that Radiance's `xform` prints for these arguments.
 #[test]
 fn arrays_stand_where_xform_puts_them() {
     let chair = "void plastic m 0 0 5 .5 .5 .5 0 0\n!genbox m box .4 .5 .6\n";
