@@ -33,7 +33,7 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     render::write(&files.picture, &render::shown(&view, &look(false))?)?;
     render::write(&files.false_colour, &render::shown(&view, &look(true))?)?;
     let results = Results {
-        solution: report::Report::of(&solved.solution, &files.map),
+        solution: report::Report::of(&solved.solution.map, solved.solution.time_s, &files.map),
         picture: files.picture.path().display().to_string(),
         false_colour: files.false_colour.path().display().to_string(),
         surfaces: summary::by_shape(&scene, &solved.solution.map),

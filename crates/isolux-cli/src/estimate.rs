@@ -46,6 +46,18 @@ impl Estimate {
         })
     }
 
+    /// Of runs one after another: the memory of the largest, the time of all.
+    pub(crate) fn one_after_another(runs: &[Self]) -> Self {
+        let time = |of: fn(&Self) -> Option<f64>| runs.iter().map(of).sum::<Option<f64>>();
+        Self {
+            receivers: runs.iter().map(|run| run.receivers).max().unwrap_or(0),
+            memory_bytes: runs.iter().map(|run| run.memory_bytes).max().unwrap_or(0),
+            time_s: time(|run| run.time_s),
+            time_earliest_s: time(|run| run.time_earliest_s),
+            time_latest_s: time(|run| run.time_latest_s),
+        }
+    }
+
     /// Receivers, memory and time as a user reads them.
     pub(crate) fn shown(&self) -> [String; 3] {
         let time = match (self.time_s, self.time_earliest_s, self.time_latest_s) {

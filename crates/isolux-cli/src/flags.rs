@@ -1,5 +1,6 @@
 //! Arguments as written.
 
+use crate::mix::{DimmedMap, dimmed_group};
 use crate::quantity;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use isolux_view::Exposure;
@@ -39,6 +40,8 @@ pub(crate) enum Command {
     Render(RenderFlags),
     /// Write a map for other software: .wrl, .x3d, .vtu, .ply, .csv
     Export(ExportFlags),
+    /// Add maps of luminaire groups, each dimmed as you like, without a new run
+    Mix(MixFlags),
     /// Audit a scene before a run
     Check(CheckFlags),
     /// Audit photometric files, draw them, convert between IES and EULUMDAT
@@ -102,6 +105,9 @@ pub(crate) struct SolveFlags {
     /// With --method cache: reuse the samples in this file, and add those that are missing
     #[arg(long, value_name = "FILE", conflicts_with = "resume")]
     pub cache: Option<PathBuf>,
+    /// Solve every group of luminaires by itself, as MAP.GROUP.glb, and write their sum; see `mix`
+    #[arg(long, conflicts_with = "cache")]
+    pub group: bool,
     /// Predict memory, receivers and time, and compute nothing
     #[arg(long)]
     pub dry_run: bool,
@@ -350,6 +356,26 @@ pub(crate) struct ExportFlags {
     pub map: PathBuf,
     /// Where to write, with the extension of the kind
     #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux solve room.toml --group -o map.glb
+  isolux mix map.glb --dim spots=30% --dim daylight=0 -o evening.glb
+  isolux mix map.spots.glb=30% map.ambient.glb -o evening.glb
+
+The sum is a map like any other. Noise of its parts adds in squares; errors of interpolation and bias are added as they
+are, so that the sum is no worse than it says. The maps of groups are looked for beside the map of their sum.")]
+pub(crate) struct MixFlags {
+    /// Maps of the same surfaces in different light (.glb), each with what all of it is dimmed to
+    #[arg(required = true, value_name = "MAP.glb[=DIMMING]", value_parser = DimmedMap::parse)]
+    pub maps: Vec<DimmedMap>,
+    /// Dim the luminaires of a group: 30%, 0.3, 0 for off
+    #[arg(long, value_name = "GROUP=DIMMING", value_parser = dimmed_group)]
+    pub dim: Vec<(String, f64)>,
+    /// Where to write the sum (.glb)
+    #[arg(short, long, value_name = "OUT.glb")]
     pub output: PathBuf,
 }
 

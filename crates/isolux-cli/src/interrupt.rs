@@ -2,16 +2,23 @@
 
 use crate::failure::Failure;
 use crate::notes::{Note, note};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+
+/// The one that listens, from the first run on.
+static INSTALLED: OnceLock<Interrupt> = OnceLock::new();
 
 /// Whether the user wants the run to end.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// From now on the first signal asks for an end with a valid map, the second ends at once.
+    /// From now on the first signal asks for an end with a valid map, the second ends at once. Runs
+    /// one after another have one in common: who was stopped in one does not begin another.
     pub(crate) fn install() -> Result<Self, Failure> {
+        if let Some(installed) = INSTALLED.get() {
+            return Ok(installed.clone());
+        }
         let interrupt = Self::default();
         let flag = Arc::clone(&interrupt.0);
         let handler = move || {
@@ -22,7 +29,7 @@ impl Interrupt {
         };
         ctrlc::set_handler(handler)
             .map_err(|e| Failure::Refused(format!("cannot listen to Ctrl-C: {e}")))?;
-        Ok(interrupt)
+        Ok(INSTALLED.get_or_init(|| interrupt).clone())
     }
 
     /// Whether a signal has arrived.

@@ -11,11 +11,13 @@ mod export;
 mod failure;
 mod flags;
 mod grid;
+mod groups;
 mod info;
 mod interrupt;
 mod lamp;
 mod lint;
 mod map_file;
+mod mix;
 mod notes;
 mod output;
 mod points;
@@ -60,6 +62,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Validate(flags) => validate::run(flags, json),
         Command::Scene(flags) => scene::run(flags, json),
         Command::Demo(flags) => demo::run(flags, json),
+        Command::Mix(flags) => mix::run(flags, json),
         Command::Info(flags) => info::run(flags, json),
     }
 }

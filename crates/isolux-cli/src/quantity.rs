@@ -17,6 +17,19 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
     }
 }
 
+/// What light is multiplied by, as `30%` or `0.3`: 0 is off, more than 1 is brighter.
+pub(crate) fn dimming(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let (number, unit) = match text.strip_suffix('%') {
+        Some(percent) => (percent.trim_end(), 100.0),
+        None => (text, 1.0),
+    };
+    let value = number.parse::<f64>().ok().map(|value| value / unit);
+    // Beyond that there is no light left to tell from rounding.
+    let value = value.filter(|value| *value == 0.0 || (1e-6..=1e6).contains(value));
+    value.ok_or_else(|| format!("{text:?} is no dimming; write 30% or 0.3, 0 for off"))
+}
+
 /// A seed of random numbers.
 pub(crate) fn seed(text: &str) -> Result<u64, String> {
     text.parse().map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))

@@ -4,7 +4,7 @@ use crate::console::facts;
 use crate::output::OutputPath;
 use crate::quantity::{show_count, show_seconds, show_share};
 use crate::request::method_name;
-use isolux::engine::Solution;
+use isolux::map::IlluminationMap;
 use serde::Serialize;
 
 /// What `solve --json` prints.
@@ -14,25 +14,24 @@ pub(crate) struct Report {
     method: &'static str,
     complete: bool,
     accuracy_target: Option<f64>,
-    accuracy_reached: Option<f64>,
+    pub(crate) accuracy_reached: Option<f64>,
     accuracy_statistical: Option<f64>,
     accuracy_discretization: Option<f64>,
     accuracy_bias: Option<f64>,
     accuracy_interpolated: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unshot: Option<f64>,
-    time_s: f64,
+    pub(crate) time_s: f64,
     increments: u64,
     rays: u64,
     receivers: usize,
     seed: u64,
-    map: String,
+    pub(crate) map: String,
 }
 
 impl Report {
-    /// Of a map and where it was written.
-    pub(crate) fn of(solution: &Solution, output: &OutputPath) -> Self {
-        let map = &solution.map;
+    /// Of a map, the time it took, and where it was written.
+    pub(crate) fn of(map: &IlluminationMap, time_s: f64, output: &OutputPath) -> Self {
         let from = &map.provenance;
         Self {
             scene: from.scene.clone(),
@@ -45,7 +44,7 @@ impl Report {
             accuracy_bias: from.accuracy.map(|a| a.bias),
             accuracy_interpolated: from.accuracy.map(|a| a.interpolated),
             unshot: from.unshot.map(|unshot| unshot.share),
-            time_s: solution.time_s,
+            time_s,
             increments: from.increments,
             rays: from.rays,
             receivers: map.values.len(),

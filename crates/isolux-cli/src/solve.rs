@@ -10,7 +10,7 @@ use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::show_bytes;
 use crate::report::Report;
-use crate::{cache_samples, explain, map_file, request, saved_run, source};
+use crate::{cache_samples, explain, groups, map_file, request, saved_run, source};
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
 use isolux::scene::Scene;
 use std::path::Path;
@@ -30,9 +30,18 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     if flags.explain {
         explain::lines(&scene, &asked.request).iter().for_each(|line| note(Note::Info, line));
     }
+    let groups = flags.group.then(|| groups::of(&scene, &flags.scene)).transpose()?;
     let Some(output) = asked.output.filter(|_| !flags.dry_run) else {
-        return dry_run(&flags.scene, &scene, &asked.request, json);
+        let estimate = match &groups {
+            Some(groups) => groups::estimate(groups, &flags.scene, &asked.request)?,
+            None => estimate(&scene, &flags.scene, &asked.request)?,
+        };
+        return print_estimate(&estimate, json);
     };
+    if let Some(groups) = groups {
+        let run = Run { source: &flags.scene, output: &output, request: &asked.request };
+        return groups::run(&groups, &run, flags, json);
+    }
     saved_run::check_writable(&output)?;
     let saved =
         if flags.resume { saved_run::read(&output, asked.request.max_memory_bytes)? } else { None };
@@ -53,7 +62,7 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         cache_samples::keep(file, &solved.solution.cache);
     }
     saved_run::keep(&output, &solved.solution.state, finished)?;
-    let report = Report::of(&solved.solution, &output);
+    let report = Report::of(&solved.solution.map, solved.solution.time_s, &output);
     if json {
         print_json(&report)?
     } else {
@@ -62,16 +71,18 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     Ok(solved.outcome)
 }
 
-/// Says what a run would need.
-fn dry_run(
-    source: &Path,
+/// What a run would need.
+pub(crate) fn estimate(
     scene: &Scene,
+    source: &Path,
     request: &SolveRequest,
-    json: bool,
-) -> Result<Outcome, Failure> {
-    let estimate = Estimate::of(scene, request).map_err(|error| unsolvable(error, source))?;
+) -> Result<Estimate, Failure> {
+    Estimate::of(scene, request).map_err(|error| unsolvable(error, source))
+}
+
+fn print_estimate(estimate: &Estimate, json: bool) -> Result<Outcome, Failure> {
     if json {
-        print_json(&estimate)?;
+        print_json(estimate)?;
     } else {
         let [receivers, memory, time] = estimate.shown();
         print(&facts(&[("receivers", receivers), ("memory", memory), ("time", time)]))?;

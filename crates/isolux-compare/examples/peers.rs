@@ -4,7 +4,8 @@
 
 use isolux::engine::ProbePoint;
 use isolux::geometry::{Point, Vector};
-use isolux::scene::{SceneParts, Shape};
+use isolux::photometry::IntensityDistribution;
+use isolux::scene::{Luminaire, LuminaireKind, SceneParts, Shape};
 use isolux_compare::case::{cube, sphere};
 use isolux_compare::{builtin, cube_grid, sphere_grid};
 use serde_json::{Value, json};
@@ -13,7 +14,7 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let name = std::env::args().nth(1).unwrap_or_default();
     let (Ok(parts), Some(points)) = (builtin(&name), point_sets(&name)) else {
-        eprintln!("there are no exact points for a scene `{name}`; choose cube or sphere");
+        eprintln!("there are no points for a scene `{name}`; choose cube, sphere or hall");
         return ExitCode::from(2);
     };
     println!("{}", scene(&parts, &points));
@@ -24,6 +25,14 @@ fn main() -> ExitCode {
 struct PointSet {
     name: &'static str,
     points: Vec<ExactPoint>,
+    /// What the expected values are off by themselves, in the measure of errors.
+    own_error: f64,
+}
+
+impl PointSet {
+    fn exact(name: &'static str, points: Vec<ExactPoint>) -> Self {
+        Self { name, points, own_error: 0.0 }
+    }
 }
 
 /// The exact illuminance at a place, and how much the place counts.
@@ -40,8 +49,9 @@ impl ExactPoint {
 }
 
 /// The map of the whole scene first, then the places of the paper.
-fn point_sets(scene: &str) -> Option<[PointSet; 2]> {
+fn point_sets(scene: &str) -> Option<Vec<PointSet>> {
     let (map, paper): (Vec<ExactPoint>, Vec<ExactPoint>) = match scene {
+        "hall" => return Some(vec![hall_map()]),
         "cube" => (cube_map(), cube_table()),
         "sphere" => {
             let at = sphere::centre();
@@ -50,7 +60,33 @@ fn point_sets(scene: &str) -> Option<[PointSet; 2]> {
         }
         _ => return None,
     };
-    Some([PointSet { name: "map", points: map }, PointSet { name: "paper", points: paper }])
+    Some(vec![PointSet::exact("map", map), PointSet::exact("paper", paper)])
+}
+
+/// The places of the reference that were chosen by area. Relative errors would make the darkest corner count as
+/// much as a desk: weights turn them into errors relative to the root mean square of the light.
+fn hall_map() -> PointSet {
+    /// Gaps of a millimetre between solids, where one side is meant and the other hit.
+    const LEAST_LX: f64 = 0.3;
+    let text = include_str!("../../../benchmarks/hall/reference.csv");
+    let (mut points, mut squared, mut own) = (Vec::new(), 0.0, 0.0);
+    for line in text.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        let number = |k: usize| fields[k].parse::<f64>().expect("the reference holds numbers");
+        let (expected_lx, own_lx) = (number(6), number(9));
+        if fields[10] != "area" || expected_lx < LEAST_LX {
+            continue;
+        }
+        let normal = Vector::new(number(3), number(4), number(5)).normal();
+        let at = ProbePoint {
+            position: [0, 1, 2].map(number).into(),
+            normal: normal.expect("normals have a direction"),
+        };
+        points.push(ExactPoint { at, expected_lx, weight: expected_lx * expected_lx });
+        squared += expected_lx * expected_lx;
+        own += own_lx * own_lx;
+    }
+    PointSet { name: "map", points, own_error: (own / squared).sqrt() }
 }
 
 /// The grid of the floor on all six faces.
@@ -90,11 +126,15 @@ fn cube_table() -> Vec<ExactPoint> {
 }
 
 fn scene(parts: &SceneParts, sets: &[PointSet]) -> Value {
+    let mut distributions: Vec<&IntensityDistribution> = Vec::new();
+    let luminaires: Vec<Value> =
+        parts.luminaires.iter().map(|lamp| luminaire(lamp, &mut distributions)).collect();
     json!({
         "name": parts.name,
         "shapes": parts.shapes.iter().map(|s| shape(s, &parts.name)).collect::<Vec<_>>(),
         "materials": parts.materials,
-        "luminaires": parts.luminaires,
+        "luminaires": luminaires,
+        "distributions": distributions,
         "point_sets": sets.iter().map(point_set).collect::<Vec<_>>(),
     })
 }
@@ -112,10 +152,29 @@ fn shape(shape: &Shape, scene: &str) -> Value {
     })
 }
 
+/// Where a luminaire is and how it stands, and the number of its distribution.
+fn luminaire<'a>(lamp: &'a Luminaire, known: &mut Vec<&'a IntensityDistribution>) -> Value {
+    let LuminaireKind::Point { position, world_from_luminaire, intensity } = &lamp.kind else {
+        panic!("{}: only luminaires at a point can be written", lamp.name);
+    };
+    let number = known.iter().position(|d| *d == intensity).unwrap_or_else(|| {
+        known.push(intensity);
+        known.len() - 1
+    });
+    json!({
+        "name": lamp.name,
+        "position": position,
+        "axes": world_from_luminaire.columns,
+        "colour": lamp.colour,
+        "distribution": number,
+    })
+}
+
 fn point_set(set: &PointSet) -> Value {
     let of = |f: fn(&ExactPoint) -> Value| set.points.iter().map(f).collect::<Vec<_>>();
     json!({
         "name": set.name,
+        "own_error": set.own_error,
         "positions": of(|p| json!(<[f64; 3]>::from(p.at.position))),
         "normals": of(|p| json!(<[f64; 3]>::from(p.at.normal.to_vector()))),
         "expected_lx": of(|p| json!(p.expected_lx)),

@@ -222,6 +222,7 @@ fn rising_map(scene: &Scene) -> IlluminationMap {
             filter: None,
             unshot: None,
             diffuse_only: false,
+            mixed: Vec::new(),
             complete: true,
             accuracy: None,
         },

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::quantity::{show_count, show_share, significant};
 use crate::request::method_name;
 use crate::summary::{self, Lit};
-use isolux::map::{IlluminationMap, Provenance, Unshot};
+use isolux::map::{IlluminationMap, MixedPart, Provenance, Unshot};
 use isolux::scene::Scene;
 use serde::Serialize;
 
@@ -62,9 +62,19 @@ impl Contents<'_> {
                 format!("{}, {lx} lx of ambient light instead", show_share(share)),
             ));
         }
+        if !from.mixed.is_empty() {
+            let parts: Vec<String> = from.mixed.iter().map(part).collect();
+            all.push(("sum of", parts.join(", ")));
+        }
         if from.diffuse_only {
             all.push(("left out", "mirrors, gloss and refraction (--diffuse-only)".to_owned()));
         }
         format!("{}\n{}", facts(&all), summary::text(&self.surfaces))
     }
+}
+
+/// A part of a sum, as `spots 30 %`.
+fn part(part: &MixedPart) -> String {
+    let name = if part.groups.is_empty() { "a map".to_owned() } else { part.groups.join(" and ") };
+    format!("{name} {}", show_share(part.dimming))
 }

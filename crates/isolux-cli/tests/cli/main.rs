@@ -5,6 +5,7 @@ mod bad_input;
 #[cfg(unix)]
 mod caches;
 mod grids;
+mod groups;
 #[cfg(unix)]
 mod interrupted;
 mod lint;

@@ -172,6 +172,7 @@ fn provenance() -> Provenance {
         filter: None,
         unshot: None,
         diffuse_only: false,
+        mixed: Vec::new(),
         complete: true,
         accuracy: Some(Accuracy {
             reached: 0.009_3,

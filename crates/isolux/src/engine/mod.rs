@@ -18,6 +18,7 @@ mod gather;
 mod hidden;
 mod hybrid;
 mod look;
+mod mix;
 mod particle;
 mod path;
 mod pilot;
@@ -46,6 +47,7 @@ pub use cache::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
     IrradianceCache, SampleKind, Served,
 };
+pub use mix::{MixError, MixPart, mix};
 pub use place::ProbePoint;
 pub use probe::{ExactSettings, MapReader};
 pub use radiosity::{RadiosityLimits, RadiositySettings};

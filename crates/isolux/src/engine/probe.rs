@@ -390,7 +390,7 @@ impl Unseen {
 }
 
 /// Root mean square of the illuminance over the known surface.
-fn rms_lx(map: &IlluminationMap) -> f64 {
+pub(super) fn rms_lx(map: &IlluminationMap) -> f64 {
     let (mut area_m2, mut squared) = (0.0, 0.0);
     for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
         let Some(value) = value else { continue };

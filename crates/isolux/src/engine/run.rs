@@ -386,6 +386,7 @@ impl<'s, 'r> Run<'s, 'r> {
                 filter,
                 unshot: work.unshot(),
                 diffuse_only: self.request.radiosity.diffuse_only,
+                mixed: Vec::new(),
             },
         }
     }

@@ -7,7 +7,7 @@ mod standing;
 
 pub use grid::{Figure, GridFigures};
 pub use illuminance::Illuminance;
-pub use provenance::{Accuracy, FilterReport, Fresh, Method, Provenance, Unshot};
+pub use provenance::{Accuracy, FilterReport, Fresh, Method, MixedPart, Provenance, Unshot};
 pub use standing::Standing;
 
 use crate::elements::Elements;

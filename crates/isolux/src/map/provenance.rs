@@ -37,6 +37,23 @@ pub struct Provenance {
     /// Whether mirrors, gloss and glass were left out, for comparison.
     #[serde(default, skip_serializing_if = "is_false")]
     pub diffuse_only: bool,
+    /// Of which maps it is the sum, where it is one: then the seed is that of the first, rays are those of
+    /// all, and increments the fewest.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub mixed: Vec<MixedPart>,
+}
+
+/// A map that another was made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MixedPart {
+    /// The groups whose light it holds; none where its scene has no groups.
+    pub groups: Vec<String>,
+    /// What its light was multiplied by.
+    pub dimming: f64,
+    /// Hash of its scene.
+    pub scene_hash: String,
+    /// Its seed.
+    pub seed: u64,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks for it")]

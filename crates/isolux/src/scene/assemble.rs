@@ -97,6 +97,18 @@ impl Scene {
         }
     }
 
+    /// The same surfaces with other luminaires, and materials that differ in their own light alone.
+    pub(super) fn relit(
+        &self,
+        luminaires: Vec<Luminaire>,
+        groups: Vec<String>,
+        materials: Vec<Material>,
+    ) -> Self {
+        let mut scene = Self { luminaires, groups, materials, ..self.clone() };
+        scene.area_luminaires = scene.find_area_luminaires();
+        scene
+    }
+
     fn append_triangle(&self, triangle: u32, shape: &mut Shape) {
         let first = shape.positions.len() as u32;
         shape.triangles.push([first, first + 1, first + 2]);

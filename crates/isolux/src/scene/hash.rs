@@ -1,6 +1,7 @@
 //! A scene in 256 bits.
 
-use super::Scene;
+use super::{Body, Finish, Material, Scene};
+use crate::units::Rgb;
 use serde::Serialize;
 
 impl Scene {
@@ -8,6 +9,25 @@ impl Scene {
     /// stores it, shading normals, texture coordinates, materials, textures, luminaires, groups.
     pub fn hash(&self) -> String {
         let mut hasher = blake3::Hasher::new();
+        self.update_with_triangles(&mut hasher);
+        update_json(&mut hasher, &self.materials());
+        update_json(&mut hasher, &self.luminaires());
+        update_json(&mut hasher, &self.groups());
+        self.update_with_textures(&mut hasher);
+        hasher.finalize().to_hex().to_string()
+    }
+
+    /// The same of the surfaces alone, without any light of their own.
+    pub fn surfaces_hash(&self) -> String {
+        let mut hasher = blake3::Hasher::new();
+        self.update_with_triangles(&mut hasher);
+        let materials: Vec<Material> = self.materials().iter().map(dark).collect();
+        update_json(&mut hasher, &materials);
+        self.update_with_textures(&mut hasher);
+        hasher.finalize().to_hex().to_string()
+    }
+
+    fn update_with_triangles(&self, hasher: &mut blake3::Hasher) {
         let mesh = self.bvh().mesh();
         for triangle in 0..self.triangle_count() {
             for corner in mesh.triangles[triangle as usize] {
@@ -19,22 +39,30 @@ impl Scene {
             hasher.update(&self.shape_of(triangle).to_le_bytes());
             for normal in self.corner_normals(triangle).into_iter().flatten() {
                 let v = normal.to_vector();
-                update_all(&mut hasher, &[v.x, v.y, v.z]);
+                update_all(hasher, &[v.x, v.y, v.z]);
             }
             for uv in self.corner_uvs(triangle).into_iter().flatten() {
-                update_all(&mut hasher, &uv);
+                update_all(hasher, &uv);
             }
         }
-        update_json(&mut hasher, &self.materials());
-        update_json(&mut hasher, &self.luminaires());
-        update_json(&mut hasher, &self.groups());
+    }
+
+    fn update_with_textures(&self, hasher: &mut blake3::Hasher) {
         for texture in self.textures() {
             hasher.update(&texture.width.to_le_bytes());
             hasher.update(&texture.height.to_le_bytes());
             hasher.update(&texture.srgb);
         }
-        hasher.finalize().to_hex().to_string()
     }
+}
+
+fn dark(material: &Material) -> Material {
+    let off = |finish: &Finish| Finish { luminance_cd_m2: Rgb::BLACK, ..finish.clone() };
+    let body = match &material.body {
+        Body::Opaque { front, back } => Body::Opaque { front: off(front), back: off(back) },
+        glass @ Body::Dielectric(_) => glass.clone(),
+    };
+    Material { body, ..material.clone() }
 }
 
 fn update_all(hasher: &mut blake3::Hasher, values: &[f64]) {

@@ -13,6 +13,7 @@ mod luminaire;
 mod material;
 mod parts;
 mod problem;
+mod relight;
 mod texture;
 mod view;
 

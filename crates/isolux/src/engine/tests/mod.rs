@@ -14,6 +14,7 @@ mod glass;
 mod gloss;
 mod many;
 mod mirrors;
+mod mixing;
 mod sums;
 mod trusting;
 

@@ -1,0 +1,216 @@
+//! `solve --group`: a map for every group of luminaires, and their sum.
+
+use crate::console::{print, print_json, table};
+use crate::estimate::Estimate;
+use crate::failure::{Failure, Outcome};
+use crate::flags::SolveFlags;
+use crate::notes::{Note, note};
+use crate::output::OutputPath;
+use crate::progress::Reporter;
+use crate::quantity::{show_seconds, show_share};
+use crate::report::Report;
+use crate::solve::{self, Run, Solved};
+use crate::{map_file, saved_run};
+use isolux::engine::{MixPart, SolveRequest, mix};
+use isolux::map::IlluminationMap;
+use isolux::scene::Scene;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// A group with light of its own.
+pub(crate) struct Group {
+    name: String,
+    scene: Scene,
+}
+
+/// The groups of a scene that have light; those without are told of.
+pub(crate) fn of(scene: &Scene, source: &Path) -> Result<Vec<Group>, Failure> {
+    let mut groups = Vec::new();
+    for (number, name) in scene.groups().iter().enumerate() {
+        match scene.lit_by(number as u32) {
+            Some(lit) => groups.push(Group { name: name.clone(), scene: lit }),
+            None => note(Note::Info, &format!("group {name:?} has no light and gets no map")),
+        }
+    }
+    if !groups.is_empty() {
+        return Ok(groups);
+    }
+    Err(Failure::bad_input(format!(
+        "{}: has no groups of luminaires; give luminaires a `group = \"NAME\"` in a scene.toml, or leave \
+         --group out",
+        source.display()
+    )))
+}
+
+/// What all runs together would need.
+pub(crate) fn estimate(
+    groups: &[Group],
+    source: &Path,
+    request: &SolveRequest,
+) -> Result<Estimate, Failure> {
+    let each = groups.iter().map(|group| solve::estimate(&group.scene, source, request));
+    Ok(Estimate::one_after_another(&each.collect::<Result<Vec<_>, _>>()?))
+}
+
+/// Where the map of a group goes: beside the sum, with the name of the group before the extension.
+pub(crate) fn path_of(sum: &Path, group: &str) -> PathBuf {
+    let safe = |c: char| if c.is_alphanumeric() || c == '_' { c } else { '-' };
+    let name: String = group.chars().map(safe).collect();
+    sum.with_extension(format!("{name}.glb"))
+}
+
+/// What is asked of the run of one group, of so many in all.
+struct Turn<'a> {
+    request: &'a SolveRequest,
+    resume: bool,
+    number: usize,
+    left: usize,
+    started: Instant,
+}
+
+/// Solves all groups, writes their maps and the sum.
+pub(crate) fn run(
+    groups: &[Group],
+    whole: &Run,
+    flags: &SolveFlags,
+    json: bool,
+) -> Result<Outcome, Failure> {
+    let started = Instant::now();
+    let resume = flags.resume;
+    let mut outputs = Vec::new();
+    for group in groups {
+        let path = path_of(whole.output.path(), &group.name);
+        let output = OutputPath::check(&path, "glb")?;
+        if outputs.iter().any(|other: &OutputPath| other.path() == path) {
+            return Err(Failure::bad_input(format!(
+                "{}: would be the map of two groups; give them names that differ in letters or digits",
+                path.display()
+            )));
+        }
+        saved_run::check_writable(&output)?;
+        outputs.push(output);
+    }
+    let (mut maps, mut reports) = (Vec::new(), Vec::new());
+    let mut outcome = Outcome::Done;
+    for (number, (group, output)) in groups.iter().zip(&outputs).enumerate() {
+        let left = groups.len() - number;
+        let turn = Turn { request: whole.request, resume, number, left, started };
+        let reporter = &mut Reporter::new(flags.progress);
+        let solved = solve_one(group, (whole.source, output), &turn, reporter)?;
+        reports.push(GroupReport { group: group.name.clone(), report: solved.report });
+        maps.push(solved.map);
+        match solved.outcome {
+            Outcome::Done => {}
+            Outcome::Interrupted if left > 1 => {
+                let path = whole.output.path().display();
+                note(
+                    Note::Warning,
+                    &format!(
+                        "{path}: not written, {} groups have no map yet; go on with --resume",
+                        left - 1
+                    ),
+                );
+                return Ok(Outcome::Interrupted);
+            }
+            other => outcome = other,
+        }
+    }
+    let parts = groups.iter().zip(&maps);
+    let parts: Vec<MixPart<'_>> =
+        parts.map(|(group, map)| MixPart { scene: &group.scene, map, dimming: 1.0 }).collect();
+    let (scene, map) = mix(&parts).map_err(|error| Failure::Refused(error.to_string()))?;
+    map_file::write(whole.output, &scene, &map)?;
+    let report = Reports {
+        sum: Report::of(&map, started.elapsed().as_secs_f64(), whole.output),
+        groups: reports,
+    };
+    if json {
+        print_json(&report)?
+    } else {
+        print(&report.text())?
+    }
+    Ok(outcome)
+}
+
+struct SolvedGroup {
+    map: IlluminationMap,
+    report: Report,
+    outcome: Outcome,
+}
+
+fn solve_one(
+    group: &Group,
+    (source, output): (&Path, &OutputPath),
+    turn: &Turn<'_>,
+    reporter: &mut Reporter,
+) -> Result<SolvedGroup, Failure> {
+    // Noise of groups must be independent, or it could not be told how they add up.
+    let seed = turn.request.seed.wrapping_add(turn.number as u64);
+    let share = |limit: std::time::Duration| {
+        limit.saturating_sub(turn.started.elapsed()) / turn.left.max(1) as u32
+    };
+    let time_limit = turn.request.time_limit.map(share);
+    let request = SolveRequest { seed, time_limit, ..turn.request.clone() };
+    if turn.resume
+        && let Some(map) = finished(output, group, &request)
+    {
+        note(Note::Info, &format!("{}: is complete already", output.path().display()));
+        let report = Report::of(&map, 0.0, output);
+        return Ok(SolvedGroup { map, report, outcome: Outcome::Done });
+    }
+    let saved = match turn.resume {
+        true => saved_run::read(output, request.max_memory_bytes)?,
+        false => None,
+    };
+    note(Note::Info, &format!("group {:?}", group.name));
+    let run = Run { source, output, request: &request };
+    let Solved { solution, outcome } = solve::solve(&group.scene, &run, saved.as_ref(), reporter)?;
+    map_file::write(output, &group.scene, &solution.map)?;
+    saved_run::keep(output, &solution.state, matches!(outcome, Outcome::Done))?;
+    let report = Report::of(&solution.map, solution.time_s, output);
+    Ok(SolvedGroup { map: solution.map, report, outcome })
+}
+
+/// The map that an earlier run of the same kind has completed.
+fn finished(output: &OutputPath, group: &Group, request: &SolveRequest) -> Option<IlluminationMap> {
+    if !output.path().exists() || saved_run::path_beside(output.path()).exists() {
+        return None;
+    }
+    let (scene, map) = map_file::read(output.path()).ok()?;
+    let from = &map.provenance;
+    let same = from.complete
+        && from.scene_hash == group.scene.hash()
+        && scene.hash() == from.scene_hash
+        && from.version == env!("CARGO_PKG_VERSION")
+        && from.method == request.method
+        && from.seed == request.seed
+        && from.accuracy_target == request.accuracy;
+    same.then_some(map)
+}
+
+#[derive(Serialize)]
+struct Reports {
+    #[serde(flatten)]
+    sum: Report,
+    groups: Vec<GroupReport>,
+}
+
+#[derive(Serialize)]
+struct GroupReport {
+    group: String,
+    #[serde(flatten)]
+    report: Report,
+}
+
+impl Reports {
+    fn text(&self) -> String {
+        let row = |g: &GroupReport| {
+            let Report { accuracy_reached, time_s, map, .. } = &g.report;
+            let error = accuracy_reached.map_or("not known".to_owned(), show_share);
+            vec![g.group.clone(), error, show_seconds(*time_s), map.clone()]
+        };
+        let rows: Vec<Vec<String>> = self.groups.iter().map(row).collect();
+        format!("{}\n{}", self.sum.text(), table(&["group", "error", "time", "map"], &rows))
+    }
+}

@@ -1,0 +1,154 @@
+//! `isolux mix`: luminaires re-dimmed without a new run.
+
+use crate::console::{print, print_json};
+use crate::failure::{Failure, Outcome};
+use crate::flags::MixFlags;
+use crate::output::OutputPath;
+use crate::report::Report;
+use crate::{groups, map_file, quantity};
+use isolux::engine::{MixError, MixPart, mix};
+use isolux::map::{IlluminationMap, MixedPart};
+use isolux::scene::Scene;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &MixFlags, json: bool) -> Result<Outcome, Failure> {
+    let started = Instant::now();
+    let output = OutputPath::check(&flags.output, "glb")?;
+    let mut read = Vec::new();
+    for asked in &flags.maps {
+        read.extend(parts_of(&asked.path, asked.dimming)?);
+    }
+    for (name, dimming) in &flags.dim {
+        dim(&mut read, name, *dimming)?;
+    }
+    for part in &read {
+        output.differs_from(&part.path)?;
+    }
+    let parts: Vec<MixPart<'_>> = read
+        .iter()
+        .map(|part| MixPart { scene: &part.scene, map: &part.map, dimming: part.dimming })
+        .collect();
+    let (scene, map) = mix(&parts).map_err(|error| failure(&error, &read))?;
+    map_file::write(&output, &scene, &map)?;
+    let report = Report::of(&map, started.elapsed().as_secs_f64(), &output);
+    if json {
+        print_json(&report)?
+    } else {
+        print(&report.text())?
+    }
+    Ok(Outcome::Done)
+}
+
+/// A map to add.
+struct Part {
+    path: PathBuf,
+    scene: Scene,
+    map: IlluminationMap,
+    dimming: f64,
+}
+
+/// A map, or, of a sum of groups, the maps beside it that it was made of.
+fn parts_of(path: &Path, dimming: f64) -> Result<Vec<Part>, Failure> {
+    let (scene, map) = map_file::read(path)?;
+    let mixed = &map.provenance.mixed;
+    let is_beside = |part: &MixedPart| match &part.groups[..] {
+        [group] => groups::path_of(path, group).exists(),
+        _ => false,
+    };
+    if mixed.is_empty() || !mixed.iter().all(is_beside) {
+        return Ok(vec![Part { path: path.to_owned(), scene, map, dimming }]);
+    }
+    let part = |part: &MixedPart| {
+        let beside = groups::path_of(path, &part.groups[0]);
+        let (scene, map) = map_file::read(&beside)?;
+        if map.provenance.scene_hash != part.scene_hash || map.provenance.seed != part.seed {
+            return Err(Failure::bad_input(format!(
+                "{}: is not the map that {} was made of; solve again with --group, or name the maps of groups \
+                 themselves",
+                beside.display(),
+                path.display()
+            )));
+        }
+        Ok(Part { path: beside, scene, map, dimming: dimming * part.dimming })
+    };
+    mixed.iter().map(part).collect()
+}
+
+/// Dims the parts that hold the light of a group.
+fn dim(parts: &mut [Part], group: &str, dimming: f64) -> Result<(), Failure> {
+    let mut found = false;
+    for part in parts.iter_mut() {
+        let groups = lit_groups(&part.scene);
+        if !groups.iter().any(|name| name == group) {
+            continue;
+        }
+        if groups.len() > 1 {
+            return Err(Failure::bad_input(format!(
+                "{}: holds the light of several groups ({}), which cannot be dimmed apart; solve with --group",
+                part.path.display(),
+                groups.join(", ")
+            )));
+        }
+        part.dimming *= dimming;
+        found = true;
+    }
+    if found {
+        return Ok(());
+    }
+    let mut known: Vec<String> = parts.iter().flat_map(|part| lit_groups(&part.scene)).collect();
+    known.sort_unstable();
+    known.dedup();
+    let known = if known.is_empty() { "no groups".to_owned() } else { known.join(", ") };
+    Err(Failure::bad_input(format!(
+        "--dim {group}: no map has the light of that group; there are {known}"
+    )))
+}
+
+/// The groups whose light a scene has.
+fn lit_groups(scene: &Scene) -> Vec<String> {
+    let shines = |group: u32| group == 0 && !scene.area_luminaires().is_empty();
+    let is_lit = |group: u32| shines(group) || scene.luminaires().iter().any(|l| l.group == group);
+    let names = scene.groups().iter().enumerate();
+    names.filter(|(k, _)| is_lit(*k as u32)).map(|(_, name)| name.clone()).collect()
+}
+
+fn failure(error: &MixError, parts: &[Part]) -> Failure {
+    let (number, remedy) = match error {
+        MixError::Surfaces(k) => (*k, "add maps of one scene in different light"),
+        MixError::Method(k) => (*k, "solve all of them by one method"),
+        MixError::Stale(k) => (*k, "solve it again"),
+        _ => return Failure::bad_input(format!("{error}; leave light on")),
+    };
+    Failure::bad_input(format!("{}: {error}; {remedy}", parts[number].path.display()))
+}
+
+/// A map and what it is dimmed to, written `MAP.glb` or `MAP.glb=30%`.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct DimmedMap {
+    path: PathBuf,
+    dimming: f64,
+}
+
+impl DimmedMap {
+    /// Reads one.
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        // A file of that very name needs no number.
+        let split = text.rsplit_once('=').filter(|_| !Path::new(text).exists());
+        let Some((path, number)) = split else {
+            return Ok(Self { path: PathBuf::from(text), dimming: 1.0 });
+        };
+        if path.is_empty() {
+            return Err("names no map; write MAP.glb=30%".into());
+        }
+        Ok(Self { path: PathBuf::from(path), dimming: quantity::dimming(number)? })
+    }
+}
+
+/// A group and what it is dimmed to, written `NAME=30%`.
+pub(crate) fn dimmed_group(text: &str) -> Result<(String, f64), String> {
+    let split = text.rsplit_once('=').filter(|(name, _)| !name.is_empty());
+    let (name, number) = split.ok_or("write GROUP=30% or GROUP=0.3")?;
+    Ok((name.to_owned(), quantity::dimming(number)?))
+}

@@ -1,0 +1,110 @@
+//! The same surfaces in other light.
+
+use super::{Body, Finish, Luminaire, LuminaireKind, Material, Scene};
+use crate::photometry::{IntensityDistribution, PhotometricWeb};
+use crate::units::Rgb;
+use std::sync::Arc;
+
+/// The group of surfaces that shine, and of light that names none.
+const UNGROUPED: u32 = 0;
+
+impl Scene {
+    /// The same scene with the light of one group alone; surfaces that shine are in the first. `None` where
+    /// there is no such light.
+    pub fn lit_by(&self, group: u32) -> Option<Self> {
+        let luminaires: Vec<Luminaire> =
+            self.luminaires().iter().filter(|l| l.group == group).cloned().collect();
+        let shine = if group == UNGROUPED { 1.0 } else { 0.0 };
+        let materials = self.materials().iter().map(|m| shining(m, [(m, shine)])).collect();
+        let scene = self.relit(luminaires, self.groups().to_vec(), materials);
+        let is_lit = !scene.luminaires().is_empty() || !scene.area_luminaires().is_empty();
+        is_lit.then_some(scene)
+    }
+
+    /// The surfaces of the first of several scenes in the light of all of them, each times a factor >= 0.
+    /// They must have the same [`Scene::surfaces_hash`]. Groups are told apart by name; the light of a
+    /// scene without groups is in one named after it.
+    ///
+    /// # Panics
+    ///
+    /// Without any scene.
+    pub fn mixed(parts: &[(&Self, f64)]) -> Self {
+        let (first, _) = parts[0];
+        let mut groups: Vec<String> = Vec::new();
+        let mut luminaires = Vec::new();
+        for &(scene, factor) in parts.iter().filter(|(_, factor)| *factor > 0.0) {
+            let own = [scene.name().to_owned()];
+            let names = if scene.groups().is_empty() { &own } else { scene.groups() };
+            let numbers: Vec<u32> = names.iter().map(|name| number(&mut groups, name)).collect();
+            let mut dimmer = Dimmer { factor, webs: Vec::new() };
+            luminaires.extend(scene.luminaires().iter().map(|luminaire| Luminaire {
+                group: numbers[luminaire.group as usize],
+                kind: dimmer.dimmed(&luminaire.kind),
+                ..luminaire.clone()
+            }));
+        }
+        let mixed = |(k, material): (usize, &Material)| {
+            shining(material, parts.iter().map(|&(scene, by)| (&scene.materials()[k], by)))
+        };
+        let materials = first.materials().iter().enumerate().map(mixed).collect();
+        first.relit(luminaires, groups, materials)
+    }
+}
+
+/// The number of a name, which is added where it is new.
+fn number(names: &mut Vec<String>, name: &str) -> u32 {
+    let known = names.iter().position(|n| n == name);
+    known.unwrap_or_else(|| {
+        names.push(name.to_owned());
+        names.len() - 1
+    }) as u32
+}
+
+/// A material with the light that others have of their own, each times a factor.
+fn shining<'a>(
+    material: &Material,
+    others: impl IntoIterator<Item = (&'a Material, f64)> + Clone,
+) -> Material {
+    let Body::Opaque { front, back } = &material.body else { return material.clone() };
+    let side = |finish: &Finish, back: bool| {
+        let others = others.clone().into_iter();
+        let light = others.filter_map(|(m, by)| Some(m.finish(back)?.luminance_cd_m2 * by));
+        Finish { luminance_cd_m2: light.sum::<Rgb>(), ..finish.clone() }
+    };
+    let body = Body::Opaque { front: side(front, false), back: side(back, true) };
+    Material { body, ..material.clone() }
+}
+
+/// Dims luminaires; those that share a web go on sharing one.
+struct Dimmer {
+    factor: f64,
+    webs: Vec<(Arc<PhotometricWeb>, IntensityDistribution)>,
+}
+
+impl Dimmer {
+    fn dimmed(&mut self, kind: &LuminaireKind) -> LuminaireKind {
+        match kind.clone() {
+            kind if self.factor == 1.0 => kind,
+            LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+                let intensity = self.scaled(&intensity);
+                LuminaireKind::Point { position, world_from_luminaire, intensity }
+            }
+            LuminaireKind::Directional { direction, illuminance_lx } => {
+                let illuminance_lx = illuminance_lx * self.factor;
+                LuminaireKind::Directional { direction, illuminance_lx }
+            }
+        }
+    }
+
+    fn scaled(&mut self, intensity: &IntensityDistribution) -> IntensityDistribution {
+        let IntensityDistribution::Web(web) = intensity else {
+            return intensity.scaled(self.factor);
+        };
+        let known = self.webs.iter().find(|(of, _)| Arc::ptr_eq(of, web));
+        known.map(|(_, scaled)| scaled.clone()).unwrap_or_else(|| {
+            let scaled = intensity.scaled(self.factor);
+            self.webs.push((Arc::clone(web), scaled.clone()));
+            scaled
+        })
+    }
+}
