@@ -6,6 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 
+# The share of places that a result must tell of.
+LEAST_KNOWN = 0.98
+
+
 @dataclass(frozen=True)
 class Shape:
     """Triangles of one material; `sphere` is what they stand for, if anything: (centre, radius_m)."""
@@ -22,26 +26,54 @@ class Shape:
         fan = [[0, k - 1, k] for k in range(2, last)]
         return list(range(last)) if self.triangles == fan else None
 
+    def quads(self):
+        """The triangles, those that are halves of a rectangle joined."""
+        found, rest = [], [list(t) for t in self.triangles]
+        while rest:
+            a, b, c = rest.pop(0)
+            joins = rest and rest[0][:2] == [a, c] and self.are_rectangle(a, b, c, rest[0][2])
+            found.append([a, b, c, rest.pop(0)[2]] if joins else [a, b, c])
+        return found
+
+    def are_rectangle(self, *corners):
+        a, b, c, d = (self.positions[k] for k in corners)
+        return all(abs(a[k] + c[k] - b[k] - d[k]) < 1e-6 for k in range(3))
+
     def area_m2(self):
         return sum(_area(*(self.positions[v] for v in corners)) for corners in self.triangles)
 
 
 @dataclass(frozen=True)
 class Material:
-    """A front that is diffuse or a mirror, reflectances of red, green and blue."""
+    """A front that is diffuse or a mirror, reflectances of red, green and blue; or `pane`, thin glass:
+    (refractive index, transmittance of its inside)."""
 
     name: str
     diffuse: tuple
     mirror: tuple
+    pane: tuple | None
+
+
+@dataclass(frozen=True)
+class Web:
+    """Intensities, cd, by C plane and gamma, degrees; one plane stands for all."""
+
+    planes_deg: list
+    gammas_deg: list
+    candela: list
 
 
 @dataclass(frozen=True)
 class PointLuminaire:
-    """An isotropic point."""
+    """A point. `axes` are where x, y and z of its own frame point; nadir is -z and C0 along x."""
 
     name: str
     position: tuple
-    intensity_cd: float
+    axes: tuple
+    colour: tuple
+    intensity_cd: float | None
+    """The same in every direction; None where `web` tells."""
+    web: Web | None
 
 
 @dataclass(frozen=True)
@@ -53,16 +85,21 @@ class PointSet:
     normals: list
     expected_lx: list
     weights: list
+    own_error: float
+    """Of the expected values themselves, in the same measure; its square is taken off."""
 
     def error(self, values_lx):
-        """Weighted root mean square of relative differences; None where a value is missing."""
+        """Weighted root mean square of relative differences; None where a value is missing. (A map may not know some
+        places between solids; those that it knows count then, if they are nearly all.)"""
         if len(values_lx) != len(self.expected_lx):
             raise SystemExit(f"{len(values_lx)} values for {len(self.expected_lx)} points")
-        if any(v is None or not math.isfinite(v) for v in values_lx):
+        rows = list(zip(values_lx, self.expected_lx, self.weights))
+        known = [row for row in rows if row[0] is not None and math.isfinite(row[0])]
+        if len(known) < LEAST_KNOWN * len(rows):
             return None
-        rows = zip(values_lx, self.expected_lx, self.weights)
-        total = sum(weight * (value / expected - 1.0) ** 2 for value, expected, weight in rows)
-        return math.sqrt(total / sum(self.weights))
+        total = sum(weight * (value / expected - 1.0) ** 2 for value, expected, weight in known)
+        squared = total / sum(weight for _, _, weight in known) - self.own_error**2
+        return math.sqrt(max(squared, 0.0))
 
 
 @dataclass(frozen=True)
@@ -91,8 +128,8 @@ class Scene:
         positions = [p for shape in self.shapes for p in shape.positions]
         return [[pick(p[k] for p in positions) for k in range(3)] for pick in (min, max)]
 
-    def has_mirrors(self):
-        return any(max(m.mirror) > 0 for m in self.materials)
+    def has_specular(self):
+        return any(max(m.mirror) > 0 or m.pane for m in self.materials)
 
     def mean_luminance_cd_m2(self):
         """Of a closed scene without mirrors, by the balance of energy: what is absorbed is emitted."""
@@ -128,7 +165,7 @@ def read(path):
             name=record["name"],
             shapes=[_shape(s) for s in record["shapes"]],
             materials=[_material(m) for m in record["materials"]],
-            luminaires=[_luminaire(lamp) for lamp in record["luminaires"]],
+            luminaires=_luminaires(record["luminaires"], record["distributions"]),
             point_sets=[PointSet(**p) for p in record["point_sets"]],
         )
     except (KeyError, TypeError) as e:
@@ -146,15 +183,35 @@ def _shape(record):
 
 
 def _material(record):
+    if "dielectric" in record["body"]:
+        glass = record["body"]["dielectric"]
+        if not glass["thin"]:
+            raise KeyError("thin")
+        pane = (glass["ior"], luminance(glass["transmittance"]))
+        return Material(record["name"], (0.0,) * 3, (0.0,) * 3, pane)
     front = record["body"]["opaque"]["front"]
-    return Material(record["name"], tuple(front["diffuse"]["colour"]), tuple(front["mirror"]))
+    return Material(record["name"], tuple(front["diffuse"]["colour"]), tuple(front["mirror"]), None)
 
 
-def _luminaire(record):
-    point = record["kind"]["point"]
-    return PointLuminaire(
-        record["name"], tuple(point["position"]), point["intensity"]["isotropic"]["intensity_cd"]
-    )
+def _luminaires(records, distributions):
+    webs = [_intensity(d) for d in distributions]
+    return [
+        PointLuminaire(
+            r["name"], tuple(r["position"]), tuple(map(tuple, r["axes"])), tuple(r["colour"]),
+            *webs[r["distribution"]],
+        )
+        for r in records
+    ]
+
+
+def _intensity(record):
+    """Intensity and web, one of them None."""
+    if "isotropic" in record:
+        return record["isotropic"]["intensity_cd"], None
+    web = record["web"]
+    if web.get("system", "c") != "c":
+        raise KeyError("system")
+    return None, Web(web["planes_deg"], web["gammas_deg"], web["candela"])
 
 
 def _area(a, b, c):

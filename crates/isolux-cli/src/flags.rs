@@ -1,6 +1,6 @@
 //! Arguments as written.
 
-use crate::mix::{DimmedMap, dimmed_group};
+use crate::dimming::{DimmedMap, dimmed_group};
 use crate::quantity;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use isolux_view::Exposure;

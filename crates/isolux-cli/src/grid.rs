@@ -6,7 +6,7 @@ use crate::flags::GridFlags;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::quantity::significant;
-use crate::{map_file, render, solve, source};
+use crate::{map_file, render, solving, source};
 use isolux::engine::{MapReader, ProbePoint, SolveRequest};
 use isolux::geometry::{Point, Vector};
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
@@ -151,7 +151,7 @@ fn solved(flags: &GridFlags, scene: &Scene) -> Result<(IlluminationMap, Outcome)
     let default = SolveRequest::default();
     let accuracy = flags.accuracy.or(default.accuracy);
     let request = SolveRequest { accuracy, ..default };
-    let solved = solve::solve_here((scene, &flags.source), &request)?;
+    let solved = solving::solve_here((scene, &flags.source), &request)?;
     Ok((solved.solution.map, solved.outcome))
 }
 

@@ -9,7 +9,7 @@ use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::{show_seconds, show_share};
 use crate::report::Report;
-use crate::solve::{self, Run, Solved};
+use crate::solving::{self, Run, Solved};
 use crate::{map_file, saved_run};
 use isolux::engine::{MixPart, SolveRequest, mix};
 use isolux::map::IlluminationMap;
@@ -30,7 +30,7 @@ pub(crate) fn of(scene: &Scene, source: &Path) -> Result<Vec<Group>, Failure> {
     for (number, name) in scene.groups().iter().enumerate() {
         match scene.lit_by(number as u32) {
             Some(lit) => groups.push(Group { name: name.clone(), scene: lit }),
-            None => note(Note::Info, &format!("group {name:?} has no light and gets no map")),
+            None => note(Note::Info, format!("group {name:?} has no light and gets no map")),
         }
     }
     if !groups.is_empty() {
@@ -49,7 +49,7 @@ pub(crate) fn estimate(
     source: &Path,
     request: &SolveRequest,
 ) -> Result<Estimate, Failure> {
-    let each = groups.iter().map(|group| solve::estimate(&group.scene, source, request));
+    let each = groups.iter().map(|group| solving::estimate(&group.scene, source, request));
     Ok(Estimate::one_after_another(&each.collect::<Result<Vec<_>, _>>()?))
 }
 
@@ -106,7 +106,7 @@ pub(crate) fn run(
                 let path = whole.output.path().display();
                 note(
                     Note::Warning,
-                    &format!(
+                    format!(
                         "{path}: not written, {} groups have no map yet; go on with --resume",
                         left - 1
                     ),
@@ -155,7 +155,7 @@ fn solve_one(
     if turn.resume
         && let Some(map) = finished(output, group, &request)
     {
-        note(Note::Info, &format!("{}: is complete already", output.path().display()));
+        note(Note::Info, format!("{}: is complete already", output.path().display()));
         let report = Report::of(&map, 0.0, output);
         return Ok(SolvedGroup { map, report, outcome: Outcome::Done });
     }
@@ -163,9 +163,10 @@ fn solve_one(
         true => saved_run::read(output, request.max_memory_bytes)?,
         false => None,
     };
-    note(Note::Info, &format!("group {:?}", group.name));
+    note(Note::Info, format!("group {:?}", group.name));
     let run = Run { source, output, request: &request };
-    let Solved { solution, outcome } = solve::solve(&group.scene, &run, saved.as_ref(), reporter)?;
+    let Solved { solution, outcome } =
+        solving::solve(&group.scene, &run, saved.as_ref(), reporter)?;
     map_file::write(output, &group.scene, &solution.map)?;
     saved_run::keep(output, &solution.state, matches!(outcome, Outcome::Done))?;
     let report = Report::of(&solution.map, solution.time_s, output);

@@ -1,0 +1,110 @@
+//! A run of an engine as a user sees it: progress, interruption, and who can mend what went wrong.
+
+use crate::estimate::Estimate;
+use crate::failure::{Failure, Outcome};
+use crate::interrupt::Interrupt;
+use crate::output::OutputPath;
+use crate::progress::Reporter;
+use crate::quantity::show_bytes;
+use crate::{saved_run, source};
+use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
+use isolux::scene::Scene;
+use std::path::Path;
+
+/// What a run would need.
+pub(crate) fn estimate(
+    scene: &Scene,
+    source: &Path,
+    request: &SolveRequest,
+) -> Result<Estimate, Failure> {
+    Estimate::of(scene, request).map_err(|error| unsolvable(error, source))
+}
+
+/// A solution and how its computation ended.
+pub(crate) struct Solved {
+    /// The map and the state of the run.
+    pub solution: Solution,
+    /// Done, stopped by a limit, or interrupted.
+    pub outcome: Outcome,
+}
+
+/// What is computed from what, and where it goes.
+pub(crate) struct Run<'a> {
+    /// The scene as the user named it.
+    pub source: &'a Path,
+    /// The map.
+    pub output: &'a OutputPath,
+    /// What is asked of the engine.
+    pub request: &'a SolveRequest,
+}
+
+/// Computes a map, reports progress, and ends early at a signal.
+pub(crate) fn solve(
+    scene: &Scene,
+    run: &Run,
+    saved: Option<&RunState>,
+    reporter: &mut Reporter,
+) -> Result<Solved, Failure> {
+    follow(scene, run.request, saved, reporter, |error| failure(error, run))
+}
+
+/// The same where the map goes nowhere.
+pub(crate) fn solve_here(
+    (scene, source): (&Scene, &Path),
+    request: &SolveRequest,
+) -> Result<Solved, Failure> {
+    let reporter = &mut Reporter::new(None);
+    follow(scene, request, None, reporter, |error| unsolvable(error, source))
+}
+
+fn follow(
+    scene: &Scene,
+    request: &SolveRequest,
+    saved: Option<&RunState>,
+    reporter: &mut Reporter,
+    failure: impl Fn(SolveError) -> Failure,
+) -> Result<Solved, Failure> {
+    let interrupt = Interrupt::install()?;
+    let solved = engine::solve(scene, request, saved, &mut |progress| {
+        reporter.show(progress);
+        if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
+    });
+    reporter.finish();
+    let solution = solved.map_err(failure)?;
+    let outcome = match (solution.map.provenance.complete, interrupt.is_requested()) {
+        (true, _) => Outcome::Done,
+        (false, true) => Outcome::Interrupted,
+        (false, false) => Outcome::StoppedEarly,
+    };
+    Ok(Solved { solution, outcome })
+}
+
+/// Sorted by who can mend it.
+fn failure(error: SolveError, run: &Run) -> Failure {
+    match error {
+        SolveError::OtherRun(what) => Failure::bad_input(format!(
+            "{}: the saved run differs in {what}; repeat its flags, or solve without --resume",
+            saved_run::path_beside(run.output.path()).display()
+        )),
+        other => unsolvable(other, run.source),
+    }
+}
+
+/// Why a scene cannot be solved.
+fn unsolvable(error: SolveError, path: &Path) -> Failure {
+    let source = path.display();
+    match error {
+        SolveError::Memory { needed, allowed } => Failure::Refused(format!(
+            "{source}: the map needs about {}, more than the {} of --max-memory; raise it, or ask \
+             for less with --mesh-accuracy",
+            show_bytes(needed),
+            show_bytes(allowed)
+        )),
+        SolveError::NoLight => source::no_light(path),
+        SolveError::NoReceiver => Failure::bad_input(format!(
+            "{source}: no surface can carry a map: all are mirrors, glass or without area; give one \
+             a diffuse reflectance, and check the scales"
+        )),
+        other => Failure::bad_input(format!("{source}: {other}")),
+    }
+}
