@@ -21,6 +21,8 @@ class Ladder:
 # Renderers that are left out, and why: it is said in the results.
 CANNOT = {
     ("sphere", "luxcore"): "its baker traces paths from the surface, and none finds a point lamp in a mirror",
+    ("hall", "mitsuba"): "it has no luminaire with a measured distribution",
+    ("hall", "luxcore"): "its baker takes rectangles, each a light map of its own, from this script",
 }
 
 LADDERS = [
@@ -48,4 +50,6 @@ LADDERS = [
          "0.1:1024:0:8:12"], 4,
     ),
     Ladder("sphere", "map", "mitsuba", ["1:16", "1:64", "1:256", "1:1024", "1:4096"], 3),
+    Ladder("hall", "map", "isolux", ["0.2", "0.05", "0.03", "0.02", "0.01"], 3),
+    Ladder("hall", "map", "radiance", ["0.5:64:0:4:2", "0.3:128:0:16:5"], 1),
 ]

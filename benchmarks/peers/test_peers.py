@@ -1,5 +1,6 @@
 """What can be checked without any other renderer: python3 -m unittest."""
 
+import dataclasses
 import json
 import math
 import os
@@ -13,6 +14,7 @@ import curve
 import ladders
 import report
 import scene as scenes
+import with_radiance
 from arguments import effort
 
 HERE = Path(__file__).parent
@@ -33,11 +35,12 @@ RECORD = {
          "body": {"opaque": {"front": {"diffuse": {"colour": [0.5] * 3}, "mirror": [0, 0, 0]}}}}
     ],
     "luminaires": [
-        {"name": "lamp", "kind": {"point": {
-            "position": [0, 0, 1], "intensity": {"isotropic": {"intensity_cd": 100}}}}}
+        {"name": "lamp", "position": [0, 0, 1], "axes": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+         "colour": [1, 1, 1], "distribution": 0}
     ],
+    "distributions": [{"isotropic": {"intensity_cd": 100}}],
     "point_sets": [
-        {"name": "map", "positions": [[1, 0.5, 0], [2, 1, 0]], "normals": [[0, 0, 1]] * 2,
+        {"name": "map", "own_error": 0.0, "positions": [[1, 0.5, 0], [2, 1, 0]], "normals": [[0, 0, 1]] * 2,
          "expected_lx": [100, 50], "weights": [1, 3]}
     ],
 }
@@ -107,6 +110,27 @@ class Scene(Folder):
         self.assertIsNone(points.error([math.nan, 50.0]))
         for refused in (lambda: points.error([1.0]), lambda: scenes.read(self.scene).points("desk")):
             self.assertRaises(SystemExit, refused)
+
+    def test_what_the_expected_values_are_off_by_is_taken_off(self):
+        points = dataclasses.replace(scenes.read(self.scene).points("map"), own_error=0.03)
+        self.assertAlmostEqual(points.error([110.0, 50.0]), math.sqrt(0.1**2 * 0.25 - 0.03**2))
+        self.assertEqual(points.error([100.0, 50.0]), 0.0)
+
+    def test_measured_distributions(self):
+        web = {"planes_deg": [0, 90, 180, 270], "gammas_deg": [0, 45, 90], "candela": [9, 5, 0] * 4}
+        self.scene.write_text(json.dumps({**RECORD, "distributions": [{"web": web}]}))
+        scene = scenes.read(self.scene)
+        text = with_radiance.rad(scene, self.folder)
+        self.assertIn("src_phi src_theta -rz 0.0", text)
+        table = (self.folder / "web0.dat").read_text().splitlines()
+        # The circle is closed, and nothing shines above the horizon.
+        self.assertEqual(table[:3], ["2", "0 0 5 0 90 180 270 360.0", "0 0 5 0 45 90 90.001 180.0"])
+        self.assertEqual(table[3:], ["9 5 0 0.0 0.0"] * 5)
+
+    def test_halves_of_rectangles_are_joined(self):
+        positions = [[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [5, 5, 0]]
+        shape = scenes.Shape("s", positions, [[0, 1, 2], [0, 2, 3], [0, 2, 4]], 0, None)
+        self.assertEqual(shape.quads(), [[0, 1, 2, 3], [0, 2, 4]])
 
     def test_geometry(self):
         scene = scenes.read(self.scene)

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// Scenes of the bench, as built in.
-const SCENES: [&str; 2] = ["cube", "sphere"];
+const SCENES: [&str; 3] = ["cube", "sphere", "hall"];
 
 /// Measures isolux beside its peers; the arguments go on to the script, but for `--save`, which
 /// keeps the result in the repository.
@@ -62,7 +62,7 @@ fn build(root: &Path) -> Result<PathBuf, String> {
     Ok(built.join("release").join(format!("isolux{}", std::env::consts::EXE_SUFFIX)))
 }
 
-/// Scenes with exact points, each as JSON.
+/// Scenes with their points, each as JSON.
 fn export(root: &Path, folder: &Path) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     for scene in SCENES {
