@@ -59,7 +59,7 @@ fn in_all(
         return None;
     }
     let statistical = noise_lx / rms_lx;
-    let of_readers = interpolation.nearness * lookup_lx(plan, interpolation);
+    let of_readers = interpolation.close * interpolation.untrusted_lx;
     let discretization = libm::hypot(interpolation.indirect_lx, of_readers) / rms_lx;
     // Check points see what their rays read of indirect light; direct light that is read, too, adds what
     // is reflected of its own error.
@@ -78,12 +78,6 @@ fn in_all(
         bias,
         interpolated: root(&[statistical, interpolation.total_lx / rms_lx, bias]),
     })
-}
-
-/// What readers that gather where the map is not trusted get wrong for all that they see close by, which
-/// is not to be trusted either: what it errs by, reflected.
-pub(super) fn lookup_lx(plan: &Plan, interpolation: &InterpolationErrors) -> f64 {
-    mean_reflectance(plan) * interpolation.untrusted_lx
 }
 
 /// The statistical error alone, from two replicates on: not believed by anyone, but good enough to

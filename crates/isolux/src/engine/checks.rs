@@ -9,7 +9,7 @@
 use super::accumulate::{Accumulator, Sample};
 use super::detail::LeafError;
 use super::direct::Goal;
-use super::gather::{Gatherer, known_weights};
+use super::gather::{Gatherer, Gathering, known_weights};
 use super::path::Dice;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
@@ -22,6 +22,9 @@ use rayon::prelude::*;
 const SHARE: usize = 8;
 const FEWEST: usize = 256;
 const MOST: usize = 1024;
+
+/// Rays that tell how much a reader reads close by.
+const CLOSE_RAYS: u32 = 64;
 
 /// A place where the map is checked.
 pub(super) struct Check {
@@ -36,8 +39,8 @@ pub(super) struct Check {
     expected_lx: f64,
     /// Whether readers interpolate there.
     is_trusted: bool,
-    /// The share of what is seen there that is as near as the element is long.
-    nearness: f64,
+    /// The share of a unit of light that readers who gather there read close by all the same.
+    close: f64,
 }
 
 /// Errors beyond noise, lx: of interpolation over the surface, root mean squares and the signed
@@ -48,8 +51,8 @@ pub(super) struct InterpolationErrors {
     pub(super) indirect_lx: f64,
     /// The same where they do not.
     pub(super) untrusted_lx: f64,
-    /// The share of what is seen there that is close by, root mean square over all the surface.
-    pub(super) nearness: f64,
+    /// What is read close by there of a unit of light, root mean square over all the surface.
+    pub(super) close: f64,
     /// Of direct and indirect together, but in gaps.
     pub(super) total_lx: f64,
     /// Mean of the indirect error, with its sign and standard error.
@@ -110,7 +113,14 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
         let area_m2 = errors[k].area_m2 / (count as f64 * density(k) / sum);
         check(plan, Gatherer::on_surface(surface, rays), area_m2, errors[k].error)
     };
-    (0..count).filter_map(one).collect()
+    let mut checks: Vec<Check> = (0..count).filter_map(one).collect();
+    let untrusted = || checks.iter().filter(|check| !check.is_trusted);
+    let rows: Vec<Gatherer> = untrusted().map(|c| c.gatherer.with_rays(CLOSE_RAYS)).collect();
+    let gathering = Gathering { regathers: true, ..Gathering::of(plan, &plan.direct) };
+    let operator = gathering.operator(&rows, |k| key.with(1).with(k as u64));
+    let untrusted = checks.iter_mut().filter(|check| !check.is_trusted);
+    untrusted.zip(operator.close()).for_each(|(check, close)| check.close = close);
+    checks
 }
 
 fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Option<Check> {
@@ -128,7 +138,7 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Opt
     let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
     let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !is_beset;
     let gatherer = gatherer.in_gap(in_gap);
-    Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted, nearness })
+    Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted, close: 0.0 })
 }
 
 /// Direct light at the check points, as readings evaluate it; `key` only matters where it has noise.
@@ -180,7 +190,7 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
     let area: f64 = checks.iter().map(|c| c.area_m2).sum();
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     let (mut noise, mut expected) = (0.0, 0.0);
-    let (mut untrusted, mut near, mut share_untrusted) = (0.0, 0.0, 0.0);
+    let (mut untrusted, mut close, mut share_untrusted) = (0.0, 0.0, 0.0);
     for (k, check) in checks.iter().enumerate() {
         let estimate = sums.estimate(k);
         let indirect = estimate.mean.indirect.luminance();
@@ -195,7 +205,7 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         } else {
             share_untrusted += share;
             untrusted += share * (indirect * indirect - estimate.indirect_variance);
-            near += share * check.nearness * check.nearness;
+            close += share * check.close * check.close;
         }
         // Neither rays nor views come to what is closed in.
         let seen = if check.gatherer.in_gap { 0..0 } else { 0..2 };
@@ -224,7 +234,7 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         indirect_mean_lx: mean[0],
         direct_mean_lx: mean[1] - mean[0],
         untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
-        nearness: near.sqrt(),
+        close: close.sqrt(),
         given_up_lx: 0.0,
         noise_lx: (!checks.is_empty()).then(|| noise.sqrt()),
         over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),

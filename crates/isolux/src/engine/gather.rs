@@ -85,7 +85,14 @@ pub(super) struct Gathering<'a> {
     /// What vertices stand for; those without have no value to be read.
     pub(super) standings: &'a [Option<Standing>],
     pub(super) direct: DirectAtEnds<'a>,
+    /// Whether a ray that ends nearer than the element there is long gathers again from there, instead of
+    /// reading a map that tells little of places so close to something: up to [`REGATHERED`] times.
+    pub(super) regathers: bool,
 }
+
+/// How often a ray goes on from surfaces that are close by. In a corner half of the rays meet the other wall close
+/// by, and half of those the first again: with usual reflectances a hundredth of the light is left.
+const REGATHERED: u32 = 3;
 
 /// Where rays get the direct light of the surfaces that they end on.
 #[derive(Clone, Copy)]
@@ -134,8 +141,35 @@ struct Rows {
     sources: Vec<Rgb>,
     /// Whether some ray left the scene or came to a surface that could be lit.
     open: Vec<bool>,
+    /// Of every row, the share of a unit of light that is read close by.
+    close: Vec<f64>,
     /// Sum of the shares of rays that were given up on their way over specular surfaces.
     given_up: f64,
+    /// Rays beside those of the receivers.
+    further_rays: u64,
+}
+
+/// A row while it is made.
+#[derive(Default)]
+struct Row {
+    source: Rgb,
+    open: bool,
+    close: f64,
+}
+
+/// A ray of a row.
+struct Leg {
+    /// Where it starts, and the triangle there.
+    origin: Point,
+    triangle: u32,
+    /// About what its direction is distributed.
+    normal: Normal,
+    /// What of the light there arrives at the receiver.
+    share: Rgb,
+    /// Whether it starts in a gap.
+    in_gap: bool,
+    /// How many rays came before it.
+    number: u32,
 }
 
 /// The operator of all receivers: one noisy sample of light transport.
@@ -177,47 +211,84 @@ impl Gathering<'_> {
         };
         let chunks: Option<Vec<Rows>> =
             gatherers.par_chunks(CHUNK).enumerate().map(chunk).collect();
-        let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum();
+        let chunks = chunks?;
+        let further: u64 = chunks.iter().map(|rows| rows.further_rays).sum();
+        let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum::<u64>() + further;
         let receivers = gatherers.iter().filter(|g| g.rays > 0).count();
-        Some(Operator { chunks: chunks?, receivers, rays })
+        Some(Operator { chunks, receivers, rays })
     }
 
     fn row(&self, gatherer: &Gatherer, key: Key, rows: &mut Rows) {
         let sequence = Sequence::new(key);
-        let axis = gatherer.normal.to_direction();
-        let (mut source, mut open) = (Rgb::BLACK, false);
-        let share_of_ray = 1.0 / f64::from(gatherer.rays);
-        let mut ends: Vec<(SurfacePoint, Rgb)> = Vec::new();
+        let mut row = Row::default();
         for index in 0..gatherer.rays {
             let mut dice = Dice::new(sequence, index);
-            let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
-            let ray = Ray::new(gatherer.origin, direction).skipping(gatherer.surface.triangle);
-            let end =
-                follow(self.scene, ray, direction, &mut dice, |surface, finish, throughput| {
-                    match self.end(surface, finish, throughput) {
-                        End::Lit(reflectance) => ends.push((*surface, reflectance)),
-                        End::Black => open = true,
-                        End::Closed => {}
-                    }
-                });
-            match end {
-                PathEnd::Left => open = true,
-                PathEnd::Absorbed => {}
-                PathEnd::GivenUp(share) => rows.given_up += share * share_of_ray,
-            }
-            for (surface, reflectance) in ends.drain(..) {
-                let share = reflectance * share_of_ray;
-                let distance_m = (surface.point - gatherer.origin).length();
-                let out_of = gatherer.in_gap.then_some(distance_m);
-                source += share * self.direct_at(&surface, (distance_m, out_of), &mut dice);
-                if let Some(entry) = self.entry(&surface, out_of) {
-                    rows.push(entry, share.0.map(|c| c as f32));
-                }
-            }
+            let first = Leg {
+                origin: gatherer.origin,
+                triangle: gatherer.surface.triangle,
+                normal: gatherer.normal,
+                share: Rgb::WHITE / f64::from(gatherer.rays),
+                in_gap: gatherer.in_gap,
+                number: 0,
+            };
+            self.leg(&first, &mut dice, &mut row, rows);
         }
         rows.ends.push(rows.runs.len());
-        rows.sources.push(source);
-        rows.open.push(open);
+        rows.sources.push(row.source);
+        rows.open.push(row.open);
+        rows.close.push(row.close);
+    }
+
+    fn leg(&self, leg: &Leg, dice: &mut Dice, row: &mut Row, rows: &mut Rows) {
+        let axis = leg.normal.to_direction();
+        let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
+        let ray = Ray::new(leg.origin, direction).skipping(leg.triangle);
+        let mut ends: Vec<(SurfacePoint, Rgb)> = Vec::new();
+        let end =
+            follow(self.scene, ray, direction, dice, |surface, finish, throughput| {
+                match self.end(surface, finish, throughput) {
+                    End::Lit(reflectance) => ends.push((*surface, reflectance)),
+                    End::Black => row.open = true,
+                    End::Closed => {}
+                }
+            });
+        match end {
+            PathEnd::Left => row.open = true,
+            PathEnd::Absorbed => {}
+            PathEnd::GivenUp(share) => rows.given_up += share * leg.share.luminance(),
+        }
+        for (surface, reflectance) in ends {
+            let share = reflectance * leg.share;
+            let distance_m = (surface.point - leg.origin).length();
+            let out_of = leg.in_gap.then_some(distance_m);
+            row.source += share * self.direct_at(&surface, (distance_m, out_of), dice);
+            let is_close = self.regathers && self.is_close(&surface, distance_m);
+            if is_close && leg.number < REGATHERED {
+                rows.further_rays += 1;
+                let further = Leg {
+                    origin: surface.start(),
+                    triangle: surface.triangle,
+                    normal: surface.shading,
+                    share,
+                    in_gap: leg.in_gap && self.is_in_gap(&surface, distance_m),
+                    number: leg.number + 1,
+                };
+                self.leg(&further, dice, row, rows);
+            } else if let Some(entry) = self.entry(&surface, out_of) {
+                row.close += if is_close { share.luminance() } else { 0.0 };
+                rows.push(entry, share.0.map(|c| c as f32));
+            }
+        }
+    }
+
+    /// Whether a ray has come less far than the element is long where it ends.
+    fn is_close(&self, at: &SurfacePoint, distance_m: f64) -> bool {
+        distance_m <= trust::edge_at_m(self.elements, at)
+    }
+
+    /// Whether a ray from within a gap may still be in it.
+    fn is_in_gap(&self, at: &SurfacePoint, distance_m: f64) -> bool {
+        distance_m < trust::NEAR * trust::edge_at_m(self.elements, at)
     }
 
     fn direct_at(
@@ -233,9 +304,7 @@ impl Gathering<'_> {
         };
         match self.direct {
             DirectAtEnds::Read { values, level } => read(values, level),
-            DirectAtEnds::ReadFarOff { values }
-                if distance_m > trust::edge_at_m(self.elements, at) =>
-            {
+            DirectAtEnds::ReadFarOff { values } if !self.is_close(at, distance_m) => {
                 read(values, u32::MAX)
             }
             _ => self.lighting.estimate(at, dice),
@@ -342,6 +411,11 @@ impl Operator {
     /// Whether each receiver is open: not closed in by black backs.
     pub(super) fn open(&self) -> Vec<bool> {
         self.chunks.iter().flat_map(|rows| rows.open.iter().copied()).collect()
+    }
+
+    /// Of every receiver, the share of a unit of light everywhere that it reads close by all the same.
+    pub(super) fn close(&self) -> impl Iterator<Item = f64> + '_ {
+        self.chunks.iter().flat_map(|rows| rows.close.iter().copied())
     }
 
     /// The share of all that is gathered whose rays were given up.

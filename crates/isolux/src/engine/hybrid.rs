@@ -8,7 +8,7 @@ use super::accumulate::{Accumulator, Effort, Sample};
 use super::caustics;
 use super::checks::{self, Check};
 use super::deadline::Deadline;
-use super::gather::{DirectAtEnds, Gatherer, Gathering};
+use super::gather::{Gatherer, Gathering};
 use super::path::Dice;
 use super::plan::Plan;
 use crate::map::Standing;
@@ -20,24 +20,6 @@ use std::time::Instant;
 /// Sweeps of the fixed point end when they change less than this, relative to the light: far below
 /// the noise of an increment, which is above 1e-4 at the rays it has.
 const TOLERANCE: f64 = 1e-6;
-
-impl<'a> Gathering<'a> {
-    /// Over what a plan has fixed; rays that read direct light from the map read these values.
-    pub(super) fn of(plan: &'a Plan<'_>, direct: &'a [Rgb]) -> Self {
-        Self {
-            scene: plan.scene,
-            lighting: plan.lighting,
-            elements: &plan.elements,
-            level: plan.level,
-            standings: &plan.standings,
-            direct: if plan.lighting.are_read_at_ends() {
-                DirectAtEnds::Read { values: direct, level: u32::MAX }
-            } else {
-                DirectAtEnds::Evaluated
-            },
-        }
-    }
-}
 
 /// One receiver in so many is tried to tell how long an increment takes.
 const TRIED: usize = 64;
@@ -110,6 +92,8 @@ impl<'p, 's> Hybrid<'p, 's> {
         );
         let gathered = plan.fit.apply(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
+        // As readers gather.
+        let gathering = Gathering { regathers: true, ..gathering };
         let fresh = gathering.operator(&self.check_rows, |row| key.with(3).with(row as u64));
         let fresh_light = fresh.apply(&light);
         let indirect = plan.prolongate(&gathered);

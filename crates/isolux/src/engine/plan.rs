@@ -4,7 +4,7 @@ use super::carriers::Carriers;
 use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
-use super::gather::{Gatherer, known_weights};
+use super::gather::{DirectAtEnds, Gatherer, Gathering, known_weights};
 use super::surface::SurfacePoint;
 use super::trial::Trial;
 use super::trust;
@@ -87,5 +87,24 @@ impl Plan<'_> {
             values.push(known.iter().copied().sum::<Rgb>() / known.len().max(1) as f64);
         }
         values
+    }
+}
+
+impl<'a> Gathering<'a> {
+    /// Over what a plan has fixed; rays that read direct light from the map read these values.
+    pub(super) fn of(plan: &'a Plan<'_>, direct: &'a [Rgb]) -> Self {
+        Self {
+            scene: plan.scene,
+            lighting: plan.lighting,
+            elements: &plan.elements,
+            level: plan.level,
+            standings: &plan.standings,
+            direct: if plan.lighting.are_read_at_ends() {
+                DirectAtEnds::Read { values: direct, level: u32::MAX }
+            } else {
+                DirectAtEnds::Evaluated
+            },
+            regathers: false,
+        }
     }
 }

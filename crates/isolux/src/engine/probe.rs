@@ -64,6 +64,15 @@ pub struct MapReader<'a> {
     unseen: Unseen,
 }
 
+/// What replicates have gathered.
+struct Gathered {
+    lx: Rgb,
+    /// Of the mean, lx2.
+    variance: f64,
+    /// The share of a unit of light that was read close by all the same.
+    close: f64,
+}
+
 /// Errors of what is read from vertices that replicates do not tell, lx.
 struct Unseen {
     /// Of interpolation, root mean square over the scene.
@@ -72,8 +81,6 @@ struct Unseen {
     bias_lx: f64,
     /// Of the whole map.
     reached_lx: f64,
-    /// How long elements are, m: of half squares that many vertices make on so large a surface.
-    usual_edge_m: f64,
 }
 
 impl<'a> MapReader<'a> {
@@ -138,10 +145,7 @@ impl<'a> MapReader<'a> {
         } else {
             let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
             let trial = Gatherer::on_surface(at, FRESH_TRIAL_RAYS).in_gap(in_gap);
-            Illuminance {
-                interpolation_error_lx: nearness * fresh.lookup_lx,
-                ..self.gathered(stored, trial)
-            }
+            self.gathered(stored, trial, fresh.lookup_lx)
         };
         Some(self.with_fresh_direct(indirect, &at))
     }
@@ -155,8 +159,8 @@ impl<'a> MapReader<'a> {
     }
 
     /// Indirect light gathered over the map, by as many rays as bring its noise down to that
-    /// of the map.
-    fn gathered(&self, stored: Illuminance, trial: Gatherer) -> Illuminance {
+    /// of the map. What is read close by all the same is wrong by `lookup_lx`.
+    fn gathered(&self, stored: Illuminance, trial: Gatherer, lookup_lx: f64) -> Illuminance {
         // Other numbers for every seed of the map: readings of several maps have errors of their own.
         let key = place_key(trial.surface.point).with(7).with(self.map.provenance.seed);
         let goal = FRESH_NOISE * self.unseen.reached_lx;
@@ -164,17 +168,18 @@ impl<'a> MapReader<'a> {
             Some(values) => DirectAtEnds::ReadFarOff { values },
             None => DirectAtEnds::Evaluated,
         };
-        let (_, variance) = self.gather(trial, direct, (FRESH_REPLICATES, key.with(0)));
+        let Gathered { variance, .. } = self.gather(trial, direct, (FRESH_REPLICATES, key.with(0)));
         let rays = f64::from(FRESH_TRIAL_RAYS)
             * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / NET_ORDER);
         let rays = libm::log2(rays.clamp(f64::from(FRESH_TRIAL_RAYS), FRESH_MOST_RAYS));
         // With numbers of its own: who stopped at a small variance would report too small ones.
         let gatherer = trial.with_rays(1 << libm::round(rays) as u32);
-        let (indirect_lx, variance) =
+        let Gathered { lx, variance, close } =
             self.gather(gatherer, direct, (FRESH_REPLICATES, key.with(1)));
         Illuminance {
-            indirect_lx,
+            indirect_lx: lx,
             indirect_standard_error_lx: variance.sqrt(),
+            interpolation_error_lx: close * lookup_lx,
             samples: u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays),
             ..stored
         }
@@ -188,20 +193,22 @@ impl<'a> MapReader<'a> {
             level: u32::MAX,
             standings: &self.standings,
             direct,
+            regathers: true,
         }
     }
 
-    /// Mean over replicates and its variance.
+    /// By so many replicates.
     fn gather(
         &self,
         gatherer: Gatherer,
         direct: DirectAtEnds<'_>,
         (replicates, key): (u32, Key),
-    ) -> (Rgb, f64) {
+    ) -> Gathered {
         let gathering = self.gathering(direct);
         let rows = vec![gatherer; replicates as usize];
-        let values = gathering.operator(&rows, |k| key.with(k as u64)).apply(&self.light);
-        mean_and_variance(&values)
+        let operator = gathering.operator(&rows, |k| key.with(k as u64));
+        let (lx, variance) = mean_and_variance(&operator.apply(&self.light));
+        Gathered { lx, variance, close: operator.close().sum::<f64>() / f64::from(replicates) }
     }
 
     /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
@@ -243,11 +250,7 @@ impl<'a> MapReader<'a> {
                 return None;
             }
             let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
-            let indirect = self.gathered(Illuminance::NOTHING, trial);
-            let edge_m = self.unseen.usual_edge_m;
-            let nearness = trust::nearness(self.scene, &trial.surface, edge_m);
-            let interpolation_error_lx = nearness * lookup_lx;
-            let indirect = Illuminance { interpolation_error_lx, ..indirect };
+            let indirect = self.gathered(Illuminance::NOTHING, trial, lookup_lx);
             Some(self.with_fresh_direct(indirect, &trial.surface))
         })
     }
@@ -309,7 +312,7 @@ impl<'a> MapReader<'a> {
             .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);
-        let (indirect_lx, variance) =
+        let Gathered { lx: indirect_lx, variance, .. } =
             self.gather(gatherer, DirectAtEnds::Evaluated, (replicates, key));
         let looked_up = self.lookup_error() * indirect_lx.luminance();
         let indirect_variance = variance + looked_up * looked_up;
@@ -376,7 +379,6 @@ impl Unseen {
     /// fewer intervals hold the truth: dark edges err most.)
     fn of(map: &IlluminationMap) -> Self {
         let rms_lx = rms_lx(map);
-        let area_m2: f64 = map.elements.vertices().iter().map(|v| v.area_m2).sum();
         let share = |part: fn(&Accuracy) -> f64| {
             map.provenance.accuracy.as_ref().map_or(0.0, |accuracy| part(accuracy) * rms_lx)
         };
@@ -384,7 +386,6 @@ impl Unseen {
             discretization_lx: share(|a| a.discretization),
             bias_lx: share(|a| a.bias),
             reached_lx: share(|a| a.reached),
-            usual_edge_m: (2.0 * area_m2 / map.values.len().max(1) as f64).sqrt(),
         }
     }
 }

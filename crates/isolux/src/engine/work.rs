@@ -1,9 +1,7 @@
 //! The increments on one mesh: an engine, what it has summed, and the map that makes.
 
 use super::accumulate::{Accumulator, Estimate, Sample, Sums};
-use super::accuracy::{
-    BELIEVED_INCREMENTS, accuracy, accuracy_of_map, early_statistical, lookup_lx,
-};
+use super::accuracy::{BELIEVED_INCREMENTS, accuracy, accuracy_of_map, early_statistical};
 use super::cache::{CacheSample, Cached};
 use super::checks::{self, Check, InterpolationErrors};
 use super::deadline::Deadline;
@@ -242,7 +240,7 @@ impl<'p, 's> Work<'p, 's> {
             return None;
         }
         let limit_lx = self.plan.trusted_up_to_lx * self.over_expected();
-        let lookup_lx = lookup_lx(self.plan, &self.interpolation());
+        let lookup_lx = self.interpolation().untrusted_lx;
         Some(Fresh { above_lx: limit_lx.is_finite().then_some(limit_lx), lookup_lx })
     }
 

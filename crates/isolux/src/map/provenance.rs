@@ -67,7 +67,7 @@ pub struct Fresh {
     /// Where the interpolation error of an element is larger, lx; `None` if it is small enough
     /// everywhere. (And everywhere that something stands nearer than the element is long.)
     pub above_lx: Option<f64>,
-    /// What light is wrong by that comes from close by, where the map is not trusted either, lx.
+    /// What light is wrong by that is read close by, where the map is not trusted either, lx.
     pub lookup_lx: f64,
 }
 

@@ -242,7 +242,15 @@ impl<'s> Pilot<'s> {
         } else {
             DirectAtEnds::Evaluated
         };
-        Gathering { scene: self.scene, lighting: self.lighting, elements, level, standings, direct }
+        Gathering {
+            scene: self.scene,
+            lighting: self.lighting,
+            elements,
+            level,
+            standings,
+            direct,
+            regathers: false,
+        }
     }
 
     /// Whether something stands close before the nodes that were not looked at yet.

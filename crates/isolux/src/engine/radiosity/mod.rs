@@ -488,7 +488,8 @@ struct Flux {
 
 impl Checks {
     fn new(plan: &Plan, points: &[Check], rays: u32, direct: &[Rgb], key: Key) -> Self {
-        let gathering = Gathering::of(plan, direct);
+        // As readers gather.
+        let gathering = Gathering { regathers: true, ..Gathering::of(plan, direct) };
         let rows: Vec<Gatherer> = points.iter().map(|p| p.gatherer.with_rays(rays)).collect();
         let operator = |k: u64| {
             let key = key.with(1 + k);

@@ -170,7 +170,7 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
         indirect_mean_lx: -2.0,
         direct_mean_lx: -100.0,
         untrusted_lx: 8.0,
-        nearness: 0.5,
+        close: 0.25,
         given_up_lx: 0.0,
         noise_lx: None,
         over_expected: None,
@@ -179,7 +179,7 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
     // Some 150 vertices of 25 increments: the variance is known to sqrt(2 / 3600) = 2.4 %.
     assert!((found.statistical / 0.02 - 1.0).abs() < 5.0 * 0.012, "{found:?}");
     // The root mean square of 100 lx with noise of 2 lx.
-    // Where readers gather, half of what they see errs by 8 lx, of which half is reflected: 2 lx.
+    // Where readers gather, they read a quarter of a light that errs by 8 lx close by: 2 lx.
     assert!((found.discretization - 0.03_f64.hypot(0.02)).abs() < 2e-4, "{found:?}");
     // At a reflectance of one half what is read wrong is reflected once in all, and adds to what is
     // wrong where it is read: (1 + 1)2 of its square, less the one of discretization.

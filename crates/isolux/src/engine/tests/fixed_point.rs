@@ -28,6 +28,7 @@ fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer]) -> Opera
         level: u32::MAX,
         standings: &standings,
         direct: DirectAtEnds::Read { values: &black, level: u32::MAX },
+        regathers: false,
     };
     gathering.operator(gatherers, |k| Key::new(1).with(k as u64))
 }
@@ -155,4 +156,45 @@ fn weights_go_to_what_is_known() {
     // On the edge of two unknown vertices the third is all there is.
     let far = [(0, 0.0), (1, 0.4), (2, 0.6)];
     assert_eq!(known_weights(far, &[open, None, None]), Some([1.0, 0.0, 0.0]));
+}
+
+/// In a furnace every ray reads the same light, wherever it ends and however often it goes on; and
+/// only what has gone on three times is read close by.
+#[test]
+fn rays_that_end_close_by_gather_again() {
+    let scene = scene(inward_box([3.0, 2.0, 2.5], 0), vec![painted(Rgb::grey(0.5))], vec![]);
+    // Walls as they are.
+    let subdivision = Subdivision::new(&scene);
+    let receivers = subdivision.receivers(0.01);
+    let gatherers: Vec<Gatherer> =
+        receivers.iter().map(|r| Gatherer::at_vertex(&scene, r, 64)).collect();
+    let elements = subdivision.elements();
+    let lighting = Lighting::new(&scene);
+    let vertices = elements.vertices().len();
+    let standings = vec![Some(Standing::Open); vertices];
+    // Half of the light is direct, so that half of it, reflected, and that again make up the rest.
+    let half = vec![Rgb::grey(0.5); vertices];
+    let gathering = |regathers: bool| Gathering {
+        scene: &scene,
+        lighting: &lighting,
+        elements: &elements,
+        level: u32::MAX,
+        standings: &standings,
+        direct: DirectAtEnds::Read { values: &half, level: u32::MAX },
+        regathers,
+    };
+    let [once, again] = [false, true]
+        .map(|again| gathering(again).operator(&gatherers, |k| Key::new(1).with(k as u64)));
+    for (read, regathered) in once.apply(&half).iter().zip(again.apply(&half)) {
+        // Weights are stored in 32 bits.
+        assert!((*read - Rgb::grey(0.5)).luminance().abs() < 1e-6, "{read:?}");
+        assert!((regathered - Rgb::grey(0.5)).luminance().abs() < 1e-6, "{regathered:?}");
+    }
+    assert!(once.close().all(|close| close == 0.0), "nobody asked");
+    let most = 0.5_f64.powi(4) * (1.0 + 1e-12);
+    assert!(
+        again.close().all(|close| close > 0.25 * most && close <= most),
+        "of walls so long most is close"
+    );
+    assert!(again.rays > 2 * once.rays, "{} {}", again.rays, once.rays);
 }
