@@ -164,7 +164,7 @@ fn has_parts(node: &Node) -> bool {
 }
 
 /// Column-major; the last row of an affine map is 0 0 0 1.
-fn from_matrix(m: &[f64; 16]) -> Result<Transform, Flaw> {
+pub(super) fn from_matrix(m: &[f64; 16]) -> Result<Transform, Flaw> {
     if !m.iter().all(|c| c.is_finite()) {
         return Err(not_finite("matrix"));
     }
@@ -184,21 +184,22 @@ fn from_parts(node: &Node) -> Result<Transform, Flaw> {
             return Err(not_finite(name));
         }
     }
-    let rotation = unit_quaternion(node.rotation.unwrap_or_default().0.map(f64::from))?;
+    let rotation = unit_quaternion(node.rotation.unwrap_or_default().0.map(f64::from))
+        .map_err(|flaw| flaw.at("rotation"))?;
     Ok(Transform::translation(translation.into())
         .then_from(&Transform::rotation(rotation))
         .then_from(&Transform::scale(scale[0], scale[1], scale[2])))
 }
 
 /// Files store quaternions rounded to `f32`; the length is made one again.
-fn unit_quaternion(q: [f64; 4]) -> Result<[f64; 4], Flaw> {
+pub(super) fn unit_quaternion(q: [f64; 4]) -> Result<[f64; 4], Flaw> {
     let length = q.iter().map(|c| c * c).sum::<f64>().sqrt();
     if !length.is_finite() {
-        return Err(not_finite("rotation"));
+        return Err(not_finite(""));
     }
     if length == 0.0 {
         let what = "a quaternion of length zero";
-        return Err(Flaw::new(what, "no rotation is 0 0 0 1").at("rotation"));
+        return Err(Flaw::new(what, "no rotation is 0 0 0 1"));
     }
     Ok(q.map(|c| c / length))
 }
