@@ -15,11 +15,13 @@ const KNOWN: &[&str] = &[
     "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_materials_volume",
     "KHR_meshopt_compression",
+    "KHR_node_visibility",
     "KHR_texture_transform",
 ];
 const QUANTIZATION: &str = "KHR_mesh_quantization";

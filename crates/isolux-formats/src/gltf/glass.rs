@@ -45,7 +45,7 @@ impl Reading<'_, '_> {
         if pbr.roughness > 0.0 {
             self.warn(TRANSMISSION, "rough glass is taken as smooth", "use a roughness of 0");
         }
-        if self.record.pbr_metallic_roughness.base_color_texture.is_some() {
+        if self.base_info()?.0.is_some() {
             let what = "a transparent material is tinted by the mean of its texture";
             self.warn(TRANSMISSION, what, "split the surface where its colour changes");
         }

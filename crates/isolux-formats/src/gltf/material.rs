@@ -30,10 +30,23 @@ pub(super) struct Reading<'r, 'a> {
 impl Reading<'_, '_> {
     /// The texture coordinates its base colour asks for.
     pub(super) fn texcoord(&self) -> Result<Option<TexCoord>, Flaw> {
-        let info = self.record.pbr_metallic_roughness.base_color_texture.as_ref();
-        info.map(|info| TexCoord::read(self.document, info))
+        let (info, member) = self.base_info()?;
+        info.map(|info| TexCoord::read(self.document, &info))
             .transpose()
-            .map_err(|flaw| flaw.at("pbrMetallicRoughness.baseColorTexture"))
+            .map_err(|flaw| flaw.at(member))
+    }
+
+    /// The texture of the base colour, and its place.
+    pub(super) fn base_info(&self) -> Result<(Option<Info>, String), Flaw> {
+        let own = || {
+            let info = self.record.pbr_metallic_roughness.base_color_texture.clone();
+            (info, "pbrMetallicRoughness.baseColorTexture".to_owned())
+        };
+        let is_unlit = self.record.extensions.as_ref().is_some_and(|e| e.unlit.is_some());
+        if is_unlit {
+            return Ok(own());
+        }
+        Ok(self.diffuse_texture()?.unwrap_or_else(own))
     }
 
     /// What it is made of, its base colour times `tint`.
@@ -42,7 +55,10 @@ impl Reading<'_, '_> {
         if self.record.extensions.as_ref().is_some_and(|e| e.unlit.is_some()) {
             return self.unlit(tint);
         }
-        let pbr = self.metallic_roughness(tint)?;
+        let pbr = match self.specular_glossiness(tint)? {
+            Some(pbr) => pbr,
+            None => self.metallic_roughness(tint)?,
+        };
         let luminance_cd_m2 = self.luminance_cd_m2()?;
         let transmission = self.transmission()? * (1.0 - pbr.metallic);
         if transmission > 0.0 {
@@ -137,21 +153,19 @@ impl Reading<'_, '_> {
     }
 
     /// Index of the base colour texture, where something will show it, and its mean.
-    fn base_texture(&mut self, metallic: f64) -> Result<(Option<u32>, Rgb), Flaw> {
-        const MEMBER: &str = "pbrMetallicRoughness.baseColorTexture";
-        let Some(info) = &self.record.pbr_metallic_roughness.base_color_texture else {
-            return Ok((None, Rgb::WHITE));
-        };
+    pub(super) fn base_texture(&mut self, metallic: f64) -> Result<(Option<u32>, Rgb), Flaw> {
+        let (info, member) = self.base_info()?;
+        let Some(info) = info else { return Ok((None, Rgb::WHITE)) };
         let texture = info.index.value();
-        let mean = self.pictures.means(texture).map_err(|flaw| flaw.at(MEMBER))?.colour;
+        let mean = self.pictures.means(texture).map_err(|flaw| flaw.at(&member))?.colour;
         let index = match metallic < 1.0 {
-            true => Some(self.pictures.texture(texture).map_err(|flaw| flaw.at(MEMBER))?),
+            true => Some(self.pictures.texture(texture).map_err(|flaw| flaw.at(&member))?),
             false => None,
         };
         if metallic > 0.0 {
             let what =
                 "the specular colour of a textured metal is taken as the mean of its texture";
-            self.warn(MEMBER, what, "split the surface where its colour changes");
+            self.warn(&member, what, "split the surface where its colour changes");
         }
         Ok((index, mean))
     }
@@ -216,7 +230,7 @@ pub(super) fn share(value: f32, member: &str) -> Result<f64, Flaw> {
     Err(Flaw::new(format!("{value} is not between 0 and 1"), "give a share").at(member))
 }
 
-fn share_colour(colour: [f32; 3], member: &str) -> Result<Rgb, Flaw> {
+pub(super) fn share_colour(colour: [f32; 3], member: &str) -> Result<Rgb, Flaw> {
     let [r, g, b] = colour;
     Ok(Rgb::new(share(r, member)?, share(g, member)?, share(b, member)?))
 }

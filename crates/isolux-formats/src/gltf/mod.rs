@@ -31,6 +31,7 @@ mod primitive;
 mod punctual;
 mod record;
 mod skin;
+mod specular_gloss;
 mod surfaces;
 mod texcoord;
 mod topology;

@@ -32,6 +32,12 @@ pub(super) fn place(root: &Root, notes: &mut Notes) -> Vec<Placed> {
         let world = world_from_node(root, node, &world_from_parent, notes);
         let world = world.map_err(|flaw| flaw.rooted(format!("nodes[{node}]")));
         let Some(world_from_node) = notes.accept(world) else { continue };
+        if is_hidden(&root.nodes[node]) {
+            let what = "what is hidden is left out";
+            let place = format!("nodes[{node}].extensions.{VISIBILITY}");
+            notes.warn(Flaw::new(what, "show it if it is there").at(place));
+            continue;
+        }
         placed.push(Placed { node, world_from_node });
         open.extend(children(&root.nodes[node]).rev().map(|c| (c, world_from_node, depth + 1)));
     }
@@ -41,6 +47,15 @@ pub(super) fn place(root: &Root, notes: &mut Notes) -> Vec<Placed> {
 /// Name of a node, by its number where it has none.
 pub(super) fn name(root: &Root, node: usize) -> String {
     root.nodes[node].name.clone().unwrap_or_else(|| format!("node {node}"))
+}
+
+const VISIBILITY: &str = "KHR_node_visibility";
+
+/// Whether a node is hidden, with all below it.
+fn is_hidden(node: &Node) -> bool {
+    let others = node.extensions.as_ref().map(|e| &e.others);
+    let visible = others.and_then(|others| others.get(VISIBILITY)?.get("visible"));
+    visible.is_some_and(|visible| visible == false)
 }
 
 fn children(node: &Node) -> impl DoubleEndedIterator<Item = usize> {

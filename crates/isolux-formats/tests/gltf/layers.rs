@@ -102,6 +102,45 @@ fn clear_coat() {
 }
 
 #[test]
+fn specular_glossiness() {
+    let material = |extension: Value| {
+        let parts =
+            with_extensions(json!({"KHR_materials_pbrSpecularGlossiness": extension})).parts();
+        let finish = front(&parts).clone();
+        Scene::assemble(parts).unwrap();
+        finish
+    };
+    let paint = material(json!({
+        "diffuseFactor": [0.8, 0.4, 0.2, 1], "specularFactor": [0.1, 0.2, 0.1], "glossinessFactor": 0.5,
+    }));
+    assert_near(paint.diffuse.colour, [0.8, 0.4, 0.2].map(|c| c * (1.0 - mean_albedo(0.2))));
+    assert_near(paint.gloss.unwrap().f0, [0.1, 0.2, 0.1]);
+    assert_eq!(paint.gloss.unwrap().alpha, 0.25);
+    // What the extension leaves out is a white mirror.
+    let default = material(json!({}));
+    assert!(default.diffuse.colour.is_black());
+    assert_near(default.gloss.unwrap().f0, [1.0; 3]);
+}
+
+/// The diffuse texture is read with its own coordinates, and the means of the other are in colour and alpha.
+#[test]
+fn specular_glossiness_textures() {
+    let mut file = textured(json!({"source": 0}), json!([{}]));
+    let view = file.view(&png(&[[255, 0, 0], [0, 0, 0]]));
+    file.json["images"] = json!([{"bufferView": view}]);
+    let shifted =
+        json!({"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.25, 0]}}});
+    file.json["materials"][0]["extensions"] = json!({"KHR_materials_pbrSpecularGlossiness": {
+        "diffuseTexture": shifted, "specularGlossinessTexture": {"index": 0},
+    }});
+    let loaded = file.load();
+    assert_warns(&loaded, "specularGlossinessTexture", "only the mean");
+    assert_near(front(&loaded.value).gloss.unwrap().f0, [0.5, 0.0, 0.0]);
+    assert_eq!(front(&loaded.value).diffuse.texture, Some(0));
+    assert_eq!(loaded.value.shapes[0].uvs.as_deref(), Some(&[[0.25, 0.0]; 3][..]));
+}
+
+#[test]
 fn refused() {
     let table = [
         ("specularFactor", json!({"KHR_materials_specular": {"specularFactor": 1.5}})),

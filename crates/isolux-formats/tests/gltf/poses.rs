@@ -227,3 +227,18 @@ fn skins_that_cannot_be_read() {
     file.primitive()["attributes"].as_object_mut().unwrap().remove("WEIGHTS_0");
     assert_warns(&file.load(), "meshes[0].primitives[0]", "without JOINTS_0");
 }
+
+#[test]
+fn hidden_nodes() {
+    let mut file = File::triangle();
+    let hidden = json!({"KHR_node_visibility": {"visible": false}});
+    file.json["nodes"] = json!([
+        {"name": "shown", "mesh": 0, "extensions": {"KHR_node_visibility": {"visible": true}}},
+        {"children": [2], "extensions": hidden}, {"mesh": 0},
+    ]);
+    file.json["scenes"][0]["nodes"] = json!([0, 1]);
+    let loaded = file.load();
+    assert_warns(&loaded, "nodes[1]", "hidden");
+    let names: Vec<&str> = loaded.value.shapes.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(names, ["shown"]);
+}
