@@ -51,9 +51,10 @@ pub(super) fn is_quantized(root: &Root) -> bool {
 
 fn remedy(name: &str) -> &'static str {
     match name {
-        "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" | "MSFT_texture_dds" => {
-            "export the textures as PNG or JPEG"
+        "KHR_texture_basisu" => {
+            "export the textures as PNG or JPEG, or unpack them by `gltf-transform ktxdecompress`"
         }
+        "EXT_texture_avif" | "MSFT_texture_dds" => "export the textures as PNG or JPEG",
         _ => "export without it",
     }
 }
