@@ -14,7 +14,7 @@ use crate::quantity::{flux, significant};
 use crate::source;
 use finding::Finding;
 use isolux::engine::SolveRequest;
-use isolux::scene::Scene;
+use isolux::scene::{Scene, UpAxis};
 use serde::Serialize;
 
 /// Runs the subcommand.
@@ -35,6 +35,8 @@ struct Audit {
     scene: String,
     triangles: u32,
     size_m: [f64; 3],
+    /// The axis that points up in the scene as written.
+    up: UpAxis,
     area_m2: f64,
     luminaires: usize,
     /// Of them, sources of parallel light, which have an illuminance but no flux.
@@ -62,6 +64,7 @@ impl Audit {
             scene: scene.name().to_owned(),
             triangles: scene.triangle_count(),
             size_m: extent.size_m,
+            up: scene.up(),
             area_m2: energy.area_m2,
             luminaires: scene.luminaires().len(),
             parallel: energy.parallel,
@@ -77,6 +80,10 @@ impl Audit {
 
     fn text(&self) -> String {
         let [x, y, z] = self.size_m.map(|side| significant(side, 3));
+        let up = match self.up {
+            UpAxis::Y => "y",
+            UpAxis::Z => "z",
+        };
         let mean = self
             .mean_illuminance_lx
             .map_or("not known: no closed room, or no light".to_owned(), |lx| {
@@ -87,6 +94,7 @@ impl Audit {
         let mut text = facts(&[
             ("scene", self.scene.clone()),
             ("size", format!("{x} x {y} x {z} m")),
+            ("up", up.to_owned()),
             ("triangles", self.triangles.to_string()),
             ("surface", format!("{} m2", significant(self.area_m2, 3))),
             ("open edges", self.open_edges.to_string()),

@@ -11,7 +11,7 @@ use gltf_json::validation::Checked;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Format {
     pub(super) component: ComponentType,
-    /// Components of an element: 1 for SCALAR, 2 to 4 for VEC2 to VEC4.
+    /// Components of an element: 1 for SCALAR, 2 to 4 for VEC2 to VEC4, 16 for MAT4.
     pub(super) width: usize,
     pub(super) normalized: bool,
     pub(super) count: usize,
@@ -24,7 +24,13 @@ impl Format {
 
     /// Name of the type in the file: `VEC3 of float`.
     pub(super) fn name(&self) -> String {
-        let width = ["SCALAR", "VEC2", "VEC3", "VEC4"][self.width - 1];
+        let width = match self.width {
+            1 => "SCALAR",
+            2 => "VEC2",
+            3 => "VEC3",
+            4 => "VEC4",
+            _ => "MAT4",
+        };
         let component = match self.component {
             ComponentType::I8 => "signed bytes",
             ComponentType::U8 => "unsigned bytes",
@@ -38,8 +44,17 @@ impl Format {
     }
 }
 
-/// The format of an accessor, before any of its data is touched.
+/// The format of an accessor of numbers or vectors, before any of its data is touched.
 pub(super) fn format(document: &Document, index: usize) -> Result<Format, Flaw> {
+    let format = any_format(document, index)?;
+    if format.width > 4 {
+        let flaw = Flaw::new("matrices where vectors belong", "export the file again");
+        return Err(flaw.rooted(place(index)));
+    }
+    Ok(format)
+}
+
+fn any_format(document: &Document, index: usize) -> Result<Format, Flaw> {
     let accessor = get(document, index)?;
     let at = |flaw: Flaw| flaw.rooted(place(index));
     let (Checked::Valid(component), Checked::Valid(type_)) =
@@ -55,11 +70,14 @@ pub(super) fn format(document: &Document, index: usize) -> Result<Format, Flaw> 
         Type::Vec2 => 2,
         Type::Vec3 => 3,
         Type::Vec4 => 4,
-        Type::Mat2 | Type::Mat3 | Type::Mat4 => {
+        Type::Mat4 => 16,
+        // Their columns may be padded; nothing that is read has them.
+        Type::Mat2 | Type::Mat3 => {
             return Err(at(Flaw::new("matrices where vectors belong", "export the file again")));
         }
     };
-    let count = accessor.count.0;
+    let unpacked = document.unpacked.accessors.get(&index);
+    let count = unpacked.map_or(accessor.count.0, |elements| elements.count as u64);
     if count > limits::ELEMENTS {
         let what = format!("{count} elements, at most {} are read", limits::ELEMENTS);
         return Err(at(Flaw::new(what, "split the scene")));
@@ -68,12 +86,26 @@ pub(super) fn format(document: &Document, index: usize) -> Result<Format, Flaw> 
     Ok(Format { component, width, normalized: accessor.normalized, count: count as usize })
 }
 
+/// All elements as matrices of 4 x 4 finite floats, column by column.
+pub(super) fn matrices(document: &Document, index: usize) -> Result<Vec<[f64; 16]>, Flaw> {
+    let form = any_format(document, index)?;
+    if form.width != 16 || form.component != ComponentType::F32 {
+        let what = format!("{} where matrices of floats belong", form.name());
+        return Err(Flaw::new(what, "export the file again").rooted(place(index)));
+    }
+    let values = elements(document, index, form, [0.0; 16], |bytes| element(form, bytes))?;
+    finite(values, index)
+}
+
 /// All elements as vectors of `N` finite numbers. The caller has looked at the format.
 pub(super) fn vectors<const N: usize>(
     document: &Document,
     index: usize,
 ) -> Result<Vec<[f64; N]>, Flaw> {
-    let values = unchecked_vectors(document, index)?;
+    finite(unchecked_vectors(document, index)?, index)
+}
+
+fn finite<const N: usize>(values: Vec<[f64; N]>, index: usize) -> Result<Vec<[f64; N]>, Flaw> {
     match values.iter().position(|value| !is_finite(value)) {
         Some(bad) => Err(Flaw::new(
             format!("element {bad} is not made of finite numbers"),
@@ -133,7 +165,13 @@ fn elements<T: Clone>(
     read: impl Fn(&[u8]) -> T,
 ) -> Result<Vec<T>, Flaw> {
     let accessor = get(document, index)?;
+    let unpacked = document.unpacked.accessors.get(&index);
     let mut values = match (&accessor.buffer_view, &accessor.sparse) {
+        _ if unpacked.is_some() => {
+            let bytes = unpacked.map_or(&[][..], |elements| &elements.bytes);
+            let strided = Strided::new(View { bytes, stride: None }, 0, form);
+            strided.map_err(|f| f.rooted(place(index)))?.elements().map(&read).collect()
+        }
         (Some(view), _) => {
             let offset = accessor.byte_offset.map_or(0, |o| o.0);
             let view = document.view(view.value())?;

@@ -2,6 +2,8 @@
 
 use super::limits;
 use super::notes::{Flaw, Notes, no_such};
+use super::placeholders;
+use super::unpacked::Unpacked;
 use super::uri::Folder;
 use gltf_json::Root;
 use std::borrow::Cow;
@@ -10,6 +12,8 @@ use std::borrow::Cow;
 pub(super) struct Document<'a> {
     pub(super) root: Root,
     pub(super) folder: Folder,
+    /// What is stored compressed, once it is unpacked.
+    pub(super) unpacked: Unpacked,
     buffers: Vec<Cow<'a, [u8]>>,
 }
 
@@ -30,35 +34,49 @@ impl<'a> Document<'a> {
     ) -> Self {
         let mut left = limits::BUFFER_BYTES;
         let mut buffers = Vec::with_capacity(root.buffers.len());
+        let is_placeholder = placeholders::find(&root);
         for (index, buffer) in root.buffers.iter().enumerate() {
+            if is_placeholder[index] {
+                buffers.push(Cow::default());
+                continue;
+            }
             let embedded = embedded.filter(|_| index == 0);
             let fetched = fetch(buffer, &folder, embedded, left);
             let bytes = notes.accept(fetched.map_err(|f| f.rooted(format!("buffers[{index}]"))));
             left -= bytes.as_ref().map_or(0, |b| b.len() as u64);
             buffers.push(bytes.unwrap_or_default());
         }
-        Self { root, folder, buffers }
+        Self { root, folder, unpacked: Unpacked::default(), buffers }
     }
 
     /// The bytes of a view, found to lie inside its buffer.
     pub(super) fn view(&self, index: usize) -> Result<View<'_>, Flaw> {
         let views = &self.root.buffer_views;
         let view = views.get(index).ok_or_else(|| no_such("bufferViews", index, views.len()))?;
-        let buffer = self.buffers.get(view.buffer.value()).ok_or_else(|| {
-            no_such("buffers", view.buffer.value(), self.buffers.len())
-                .rooted(format!("bufferViews[{index}].buffer"))
-        })?;
+        let stride = view.byte_stride.map(|s| s.0);
+        if let Some(bytes) = self.unpacked.views.get(&index) {
+            return Ok(View { bytes, stride });
+        }
         let (offset, length) = (view.byte_offset.map_or(0, |o| o.0), view.byte_length.0);
-        let bytes = part(buffer, offset, length).ok_or_else(|| {
+        let bytes = self
+            .stored(view.buffer.value(), offset, length)
+            .map_err(|flaw| flaw.rooted(format!("bufferViews[{index}]")))?;
+        Ok(View { bytes, stride })
+    }
+
+    /// Bytes as they are in a buffer.
+    pub(super) fn stored(&self, buffer: usize, offset: u64, length: u64) -> Result<&[u8], Flaw> {
+        let bytes = self
+            .buffers
+            .get(buffer)
+            .ok_or_else(|| no_such("buffers", buffer, self.buffers.len()).at("buffer"))?;
+        part(bytes, offset, length).ok_or_else(|| {
             let what = format!(
-                "{length} bytes from byte {offset} reach past the end of buffers[{}], which has {}",
-                view.buffer.value(),
-                buffer.len()
+                "{length} bytes from byte {offset} reach past the end of buffers[{buffer}], which has {}",
+                bytes.len()
             );
             Flaw::new(what, "the file is damaged; export it again")
-                .rooted(format!("bufferViews[{index}]"))
-        })?;
-        Ok(View { bytes, stride: view.byte_stride.map(|s| s.0) })
+        })
     }
 }
 

@@ -6,13 +6,22 @@ use gltf_json::Root;
 /// Read in full, or ignored with a warning where they are met.
 const KNOWN: &[&str] = &[
     "EXT_lights_ies",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     QUANTIZATION,
+    "KHR_materials_clearcoat",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_materials_volume",
+    "KHR_meshopt_compression",
+    "KHR_node_visibility",
     "KHR_texture_transform",
 ];
 const QUANTIZATION: &str = "KHR_mesh_quantization";
@@ -42,12 +51,10 @@ pub(super) fn is_quantized(root: &Root) -> bool {
 
 fn remedy(name: &str) -> &'static str {
     match name {
-        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
-            "export without mesh compression"
+        "KHR_texture_basisu" => {
+            "export the textures as PNG or JPEG, or unpack them by `gltf-transform ktxdecompress`"
         }
-        "KHR_texture_basisu" | "EXT_texture_webp" | "EXT_texture_avif" | "MSFT_texture_dds" => {
-            "export the textures as PNG or JPEG"
-        }
+        "EXT_texture_avif" | "MSFT_texture_dds" => "export the textures as PNG or JPEG",
         _ => "export without it",
     }
 }

@@ -9,6 +9,10 @@ pub(super) const JSON_OBJECTS: u64 = 1 << 22;
 pub(super) const JSON_VALUES: u64 = 1 << 26;
 /// Bytes of a whole file and of all its buffers together: what 32 bits of GLB can say.
 pub(super) const BUFFER_BYTES: u64 = 1 << 32;
+/// Bytes that compressed parts may unpack to together: as much as the largest placed scene holds.
+pub(super) const UNPACKED_BYTES: u64 = 1 << 31;
+/// Copies of a mesh that one node may place (EXT_mesh_gpu_instancing), and all of them together.
+pub(super) const INSTANCES: usize = 1 << 20;
 /// Bytes of all pictures together as stored.
 pub(super) const PICTURE_BYTES: u64 = 1 << 30;
 /// Bytes of one photometric file.

@@ -8,14 +8,12 @@ use super::texcoord::TexCoord;
 use gltf_json::material::AlphaMode;
 use gltf_json::texture::Info;
 use gltf_json::validation::Checked;
-use isolux::scene::{Body, Dielectric, Finish};
+use isolux::scene::{Body, Finish, Reflectance};
 use isolux::units::Rgb;
-use serde_json::Value;
+use serde::de::DeserializeOwned;
 
 /// Factors may exceed one by this much: the rounding of decimal fractions.
 const SHARE_ROUNDING: f64 = 1e-6;
-/// KHR_materials_ior, default.
-const DEFAULT_IOR: f64 = 1.5;
 
 /// A material while it is read.
 pub(super) struct Reading<'r, 'a> {
@@ -25,21 +23,42 @@ pub(super) struct Reading<'r, 'a> {
     pub(super) place: &'r str,
     pub(super) pictures: &'r mut Pictures<'a>,
     pub(super) notes: &'r mut Notes,
+    /// Luminance of unlit white, if unlit materials shine.
+    pub(super) unlit_luminance_cd_m2: Option<f64>,
 }
 
 impl Reading<'_, '_> {
     /// The texture coordinates its base colour asks for.
     pub(super) fn texcoord(&self) -> Result<Option<TexCoord>, Flaw> {
-        let info = self.record.pbr_metallic_roughness.base_color_texture.as_ref();
-        info.map(|info| TexCoord::read(self.document, info))
+        let (info, member) = self.base_info()?;
+        info.map(|info| TexCoord::read(self.document, &info))
             .transpose()
-            .map_err(|flaw| flaw.at("pbrMetallicRoughness.baseColorTexture"))
+            .map_err(|flaw| flaw.at(member))
+    }
+
+    /// The texture of the base colour, and its place.
+    pub(super) fn base_info(&self) -> Result<(Option<Info>, String), Flaw> {
+        let own = || {
+            let info = self.record.pbr_metallic_roughness.base_color_texture.clone();
+            (info, "pbrMetallicRoughness.baseColorTexture".to_owned())
+        };
+        let is_unlit = self.record.extensions.as_ref().is_some_and(|e| e.unlit.is_some());
+        if is_unlit {
+            return Ok(own());
+        }
+        Ok(self.diffuse_texture()?.unwrap_or_else(own))
     }
 
     /// What it is made of, its base colour times `tint`.
     pub(super) fn body(&mut self, tint: Rgb) -> Result<Body, Flaw> {
         self.warn_of_what_is_left_out();
-        let pbr = self.metallic_roughness(tint)?;
+        if self.record.extensions.as_ref().is_some_and(|e| e.unlit.is_some()) {
+            return self.unlit(tint);
+        }
+        let pbr = match self.specular_glossiness(tint)? {
+            Some(pbr) => pbr,
+            None => self.metallic_roughness(tint)?,
+        };
         let luminance_cd_m2 = self.luminance_cd_m2()?;
         let transmission = self.transmission()? * (1.0 - pbr.metallic);
         if transmission > 0.0 {
@@ -52,12 +71,38 @@ impl Reading<'_, '_> {
             }
             return self.dielectric(&pbr, transmission);
         }
-        let front = Finish { luminance_cd_m2, ..finish::finish(&pbr) };
-        let back = if self.record.double_sided { front.clone() } else { Finish::BLACK };
-        Ok(Body::Opaque { front, back })
+        Ok(self.opaque(Finish { luminance_cd_m2, ..finish::finish(&pbr) }))
     }
 
-    fn warn(&mut self, member: &str, what: &str, remedy: &str) {
+    fn opaque(&self, front: Finish) -> Body {
+        let back = if self.record.double_sided { front.clone() } else { Finish::BLACK };
+        Body::Opaque { front, back }
+    }
+
+    /// KHR_materials_unlit: finished colours, of which only the reader of the file can say whether they are
+    /// reflectances or lights.
+    fn unlit(&mut self, tint: Rgb) -> Result<Body, Flaw> {
+        const MEMBER: &str = "extensions.KHR_materials_unlit";
+        let [r, g, b, _] = self.record.pbr_metallic_roughness.base_color_factor.0;
+        let base = share_colour([r, g, b], "baseColorFactor")
+            .map_err(|flaw| flaw.at("pbrMetallicRoughness"))?
+            * tint;
+        if let Some(luminance_cd_m2) = self.unlit_luminance_cd_m2 {
+            let info = self.record.pbr_metallic_roughness.base_color_texture.as_ref();
+            let means = self.mean(info, "pbrMetallicRoughness.baseColorTexture")?;
+            let colour = base * means.map_or(Rgb::WHITE, |means| means.colour);
+            let luminance_cd_m2 = colour * luminance_cd_m2;
+            return Ok(self.opaque(Finish { luminance_cd_m2, ..Finish::BLACK }));
+        }
+        let what = "an unlit material is taken as diffuse: its base colour is the reflectance";
+        let remedy = "if it shines, refer to the file from a scene.toml with unlit_luminance_cd_m2";
+        self.warn(MEMBER, what, remedy);
+        let (texture, _) = self.base_texture(0.0)?;
+        let diffuse = Reflectance { colour: base, texture };
+        Ok(self.opaque(Finish { diffuse, ..Finish::BLACK }))
+    }
+
+    pub(super) fn warn(&mut self, member: &str, what: &str, remedy: &str) {
         let place = if member.is_empty() {
             self.place.to_owned()
         } else {
@@ -84,10 +129,6 @@ impl Reading<'_, '_> {
             let what = "occlusion maps are left out: occlusion is computed";
             self.warn("occlusionTexture", what, "nothing needs to be done");
         }
-        if self.record.extensions.as_ref().is_some_and(|e| e.unlit.is_some()) {
-            let what = "unlit is ignored: the base colour is taken as reflectance";
-            self.warn("extensions.KHR_materials_unlit", what, "make luminous surfaces emissive");
-        }
     }
 
     fn metallic_roughness(&mut self, tint: Rgb) -> Result<MetallicRoughness, Flaw> {
@@ -107,25 +148,24 @@ impl Reading<'_, '_> {
             metallic,
             roughness: roughness * data[1],
             dielectric_f0: self.dielectric_f0()?,
+            coat: self.coat()?,
         })
     }
 
     /// Index of the base colour texture, where something will show it, and its mean.
-    fn base_texture(&mut self, metallic: f64) -> Result<(Option<u32>, Rgb), Flaw> {
-        const MEMBER: &str = "pbrMetallicRoughness.baseColorTexture";
-        let Some(info) = &self.record.pbr_metallic_roughness.base_color_texture else {
-            return Ok((None, Rgb::WHITE));
-        };
+    pub(super) fn base_texture(&mut self, metallic: f64) -> Result<(Option<u32>, Rgb), Flaw> {
+        let (info, member) = self.base_info()?;
+        let Some(info) = info else { return Ok((None, Rgb::WHITE)) };
         let texture = info.index.value();
-        let mean = self.pictures.means(texture).map_err(|flaw| flaw.at(MEMBER))?.colour;
+        let mean = self.pictures.means(texture).map_err(|flaw| flaw.at(&member))?.colour;
         let index = match metallic < 1.0 {
-            true => Some(self.pictures.texture(texture).map_err(|flaw| flaw.at(MEMBER))?),
+            true => Some(self.pictures.texture(texture).map_err(|flaw| flaw.at(&member))?),
             false => None,
         };
         if metallic > 0.0 {
             let what =
                 "the specular colour of a textured metal is taken as the mean of its texture";
-            self.warn(MEMBER, what, "split the surface where its colour changes");
+            self.warn(&member, what, "split the surface where its colour changes");
         }
         Ok((index, mean))
     }
@@ -138,7 +178,11 @@ impl Reading<'_, '_> {
     }
 
     /// The means of a texture that cannot be used pixel by pixel.
-    fn mean(&mut self, info: Option<&Info>, member: &str) -> Result<Option<Means>, Flaw> {
+    pub(super) fn mean(
+        &mut self,
+        info: Option<&Info>,
+        member: &str,
+    ) -> Result<Option<Means>, Flaw> {
         let Some(info) = info else { return Ok(None) };
         let means = self.pictures.means(info.index.value()).map_err(|flaw| flaw.at(member))?;
         let name = member.rsplit('.').next().unwrap_or(member);
@@ -163,78 +207,22 @@ impl Reading<'_, '_> {
         Ok(self.mean(info, "emissiveTexture")?.map_or(luminance, |means| luminance * means.colour))
     }
 
-    fn ior(&self) -> Result<Option<f64>, Flaw> {
-        let Some(ior) = self.record.extensions.as_ref().and_then(|e| e.ior.as_ref()) else {
-            return Ok(None);
-        };
-        let ior = f64::from(ior.ior.0);
-        if ior == 0.0 || (ior >= 1.0 && ior.is_finite()) {
-            return Ok(Some(ior));
-        }
-        let flaw = Flaw::new(format!("refractive index {ior}"), "give one of 1 or more");
-        Err(flaw.at("extensions.KHR_materials_ior.ior"))
+    /// What an extension says that the typed model does not know.
+    pub(super) fn extension<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, Flaw> {
+        let extensions = self.record.extensions.as_ref().map(|e| &e.others);
+        let Some(value) = extensions.and_then(|others| others.get(name)) else { return Ok(None) };
+        let read = T::deserialize(value).map(Some);
+        read.map_err(|error| {
+            Flaw::new(error.to_string(), "export the file again").at(format!("extensions.{name}"))
+        })
     }
 
-    /// An index of 0 stands for infinity: it reflects all (KHR_materials_ior).
-    fn dielectric_f0(&self) -> Result<f64, Flaw> {
-        let ior = self.ior()?.unwrap_or(DEFAULT_IOR);
-        Ok(if ior == 0.0 { 1.0 } else { finish::f0_from_ior(ior) })
-    }
-
-    fn transmission(&mut self) -> Result<f64, Flaw> {
-        const MEMBER: &str = "extensions.KHR_materials_transmission";
-        let extension = self.record.extensions.as_ref().and_then(|e| e.transmission.as_ref());
-        let Some(extension) = extension else { return Ok(0.0) };
-        let factor = share(extension.transmission_factor.0, "transmissionFactor")
-            .map_err(|flaw| flaw.at(MEMBER))?;
-        let member = format!("{MEMBER}.transmissionTexture");
-        let means = self.mean(extension.transmission_texture.as_ref(), &member)?;
-        Ok(factor * means.map_or(1.0, |means| means.data[0]))
-    }
-
-    fn dielectric(&mut self, pbr: &MetallicRoughness, transmission: f64) -> Result<Body, Flaw> {
-        const MEMBER: &str = "extensions.KHR_materials_transmission";
-        if transmission < 1.0 {
-            let what =
-                "light that a transparent material would scatter or reflect as metal is absorbed";
-            self.warn(MEMBER, what, "use a transmission factor of 1");
-        }
-        if pbr.roughness > 0.0 {
-            self.warn(MEMBER, "rough glass is taken as smooth", "use a roughness of 0");
-        }
-        if self.record.pbr_metallic_roughness.base_color_texture.is_some() {
-            let what = "a transparent material is tinted by the mean of its texture";
-            self.warn(MEMBER, what, "split the surface where its colour changes");
-        }
-        let mut ior = self.ior()?.unwrap_or(DEFAULT_IOR);
-        if ior == 0.0 {
-            let what =
-                "a transparent material of infinite refractive index is taken as glass of 1.5";
-            self.warn("extensions.KHR_materials_ior", what, "give an index of 1 or more");
-            ior = DEFAULT_IOR;
-        }
-        let transmittance = pbr.base * pbr.texture_mean * transmission;
-        Ok(Body::Dielectric(Dielectric { ior, transmittance, thin: !self.bounds_a_solid() }))
-    }
-
-    /// Whether KHR_materials_volume says that the surface encloses a medium.
-    fn bounds_a_solid(&mut self) -> bool {
-        let others = self.record.extensions.as_ref().map(|e| &e.others);
-        let Some(volume) = others.and_then(|others| others.get("KHR_materials_volume")) else {
-            return false;
-        };
-        let is_solid =
-            volume.get("thicknessFactor").and_then(Value::as_f64).is_some_and(|t| t > 0.0);
-        if is_solid && volume.get("attenuationDistance").is_some() {
-            let what = "absorption along the way through a solid is left out";
-            let remedy = "tint the base colour, which counts once at each surface";
-            self.warn("extensions.KHR_materials_volume", what, remedy);
-        }
-        is_solid
+    pub(super) fn has_extension(&self, name: &str) -> bool {
+        self.record.extensions.as_ref().is_some_and(|e| e.others.contains_key(name))
     }
 }
 
-fn share(value: f32, member: &str) -> Result<f64, Flaw> {
+pub(super) fn share(value: f32, member: &str) -> Result<f64, Flaw> {
     let value = f64::from(value);
     if (0.0..=1.0 + SHARE_ROUNDING).contains(&value) {
         return Ok(value.min(1.0));
@@ -242,7 +230,7 @@ fn share(value: f32, member: &str) -> Result<f64, Flaw> {
     Err(Flaw::new(format!("{value} is not between 0 and 1"), "give a share").at(member))
 }
 
-fn share_colour(colour: [f32; 3], member: &str) -> Result<Rgb, Flaw> {
+pub(super) fn share_colour(colour: [f32; 3], member: &str) -> Result<Rgb, Flaw> {
     let [r, g, b] = colour;
     Ok(Rgb::new(share(r, member)?, share(g, member)?, share(b, member)?))
 }

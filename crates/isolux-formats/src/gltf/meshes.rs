@@ -1,11 +1,13 @@
-//! Meshes to shapes in world coordinates, one for every node that names the mesh.
+//! Meshes to shapes in world coordinates, one for every place of the mesh.
 
 use super::buffers::Document;
-use super::limits;
 use super::nodes::{self, Placed};
 use super::notes::{Flaw, Notes, no_such};
-use super::primitive::{Size, Source};
+use super::primitive::{Pose, Size, Source};
+use super::skin::{self, WorldFromNode};
 use super::surfaces::Surfaces;
+use super::{instances, limits};
+use isolux::geometry::Transform;
 use isolux::scene::Shape;
 use std::collections::HashMap;
 
@@ -18,13 +20,13 @@ pub(super) fn shapes(
 ) -> Vec<Shape> {
     let mut budget = Budget { vertices: limits::VERTICES, triangles: limits::TRIANGLES };
     let mut shapes = Vec::new();
-    for (mesh, instances) in uses(document, placed, notes) {
+    for Use { mesh, pose, copies } in uses(document, placed, notes) {
         for (index, record) in document.root.meshes[mesh].primitives.iter().enumerate() {
             let source = Source::new(document, record, mesh, index);
-            let made = instantiate(source, &instances, &mut budget, surfaces, notes);
+            let made = instantiate(source, (&pose, &copies), &mut budget, surfaces, notes);
             if let Some(made) = notes.accept(made.map_err(|flaw| flaw.rooted(source.place()))) {
-                shapes.extend(made.into_iter().zip(&instances).map(|(shape, instance)| {
-                    let name = shape_name(document, instance.node, mesh, index);
+                shapes.extend(made.into_iter().zip(&copies).map(|(shape, copy)| {
+                    let name = shape_name(document, copy, mesh, index);
                     Shape { name, ..shape }
                 }));
             }
@@ -33,15 +35,29 @@ pub(super) fn shapes(
     shapes
 }
 
-/// Meshes in the order of their first use, with the nodes that use them.
-fn uses<'p>(
-    document: &Document,
-    placed: &'p [Placed],
-    notes: &mut Notes,
-) -> Vec<(usize, Vec<&'p Placed>)> {
+/// A mesh in one pose, and where it stands.
+struct Use {
+    mesh: usize,
+    pose: Pose,
+    copies: Vec<Copy>,
+}
+
+/// One of the places of a mesh.
+struct Copy {
+    node: usize,
+    /// Its number where a node has several.
+    number: Option<usize>,
+    world_from_mesh: Transform,
+}
+
+/// Meshes in the order of their first use; one is used anew by each node that bends it.
+fn uses(document: &Document, placed: &[Placed], notes: &mut Notes) -> Vec<Use> {
     let root = &document.root;
-    let mut uses: Vec<(usize, Vec<&Placed>)> = Vec::new();
+    let mut uses: Vec<Use> = Vec::new();
     let mut slot_of_mesh = HashMap::new();
+    let mut instances_left = limits::INSTANCES;
+    let has_skin = placed.iter().any(|p| root.nodes[p.node].skin.is_some());
+    let world_from_node = if has_skin { skin::places(placed) } else { HashMap::new() };
     for instance in placed {
         let node = &root.nodes[instance.node];
         let place = || format!("nodes[{}]", instance.node);
@@ -50,22 +66,62 @@ fn uses<'p>(
             notes.problem(no_such("meshes", mesh, root.meshes.len()).at("mesh").rooted(place()));
             continue;
         }
-        if node.skin.is_some() {
-            let what = "skins are left out; the mesh stands as stored, placed by its own node";
-            notes.warn(Flaw::new(what, "apply the pose before export").at(place()));
-        }
-        let slot = *slot_of_mesh.entry(mesh).or_insert_with(|| {
-            uses.push((mesh, Vec::new()));
+        let made = copies(document, instance, &mut instances_left).and_then(|copies| {
+            Ok((copies, pose(document, instance.node, mesh, &world_from_node)?))
+        });
+        let made = made.map_err(|flaw| flaw.rooted(place()));
+        let Some((copies, pose)) = notes.accept(made) else { continue };
+        let bent_by = pose.is_of_node.then_some(instance.node);
+        let slot = *slot_of_mesh.entry((mesh, bent_by)).or_insert_with(|| {
+            uses.push(Use { mesh, pose, copies: Vec::new() });
             uses.len() - 1
         });
-        uses[slot].1.push(instance);
+        uses[slot].copies.extend(copies);
     }
     uses
 }
 
+/// The places of a node's mesh.
+fn copies(document: &Document, node: &Placed, left: &mut usize) -> Result<Vec<Copy>, Flaw> {
+    let Some(instances) = instances::node_from_instances(document, node.node)? else {
+        let world_from_mesh = node.world_from_node;
+        return Ok(vec![Copy { node: node.node, number: None, world_from_mesh }]);
+    };
+    *left = left.checked_sub(instances.len()).ok_or_else(|| {
+        let what = format!("more than {} instances in all", limits::INSTANCES);
+        Flaw::new(what, "split the scene")
+    })?;
+    let place = |(number, node_from_mesh): (usize, &Transform)| Copy {
+        node: node.node,
+        number: Some(number),
+        world_from_mesh: node.world_from_node.then_from(node_from_mesh),
+    };
+    Ok(instances.iter().enumerate().map(place).collect())
+}
+
+/// How a node bends its mesh.
+fn pose(
+    document: &Document,
+    node: usize,
+    mesh: usize,
+    world_from_node: &WorldFromNode,
+) -> Result<Pose, Flaw> {
+    let record = &document.root.nodes[node];
+    let own = record.weights.as_ref();
+    let weights = own.or(document.root.meshes[mesh].weights.as_ref());
+    let weights: Vec<f64> = weights.into_iter().flatten().copied().map(f64::from).collect();
+    if !weights.iter().all(|weight| weight.is_finite()) {
+        let flaw = Flaw::new("a weight that is no finite number", "mend it");
+        return Err(flaw.at("weights"));
+    }
+    let joints = record.skin.map(|s| skin::world_from_mesh(document, s.value(), world_from_node));
+    let joints = joints.transpose()?;
+    Ok(Pose { is_of_node: own.is_some() || joints.is_some(), weights, joints })
+}
+
 fn instantiate(
     source: Source,
-    instances: &[&Placed],
+    (pose, copies): (&Pose, &[Copy]),
     budget: &mut Budget,
     surfaces: &mut Surfaces,
     notes: &mut Notes,
@@ -73,18 +129,20 @@ fn instantiate(
     let Some(size) = source.size(notes)?.filter(|size| size.triangles > 0) else {
         return Ok(Vec::new());
     };
-    budget.spend(size, instances.len())?;
-    let decoded = source.decode(size, surfaces, notes)?;
-    let place = |instance: &&Placed| decoded.placed(String::new(), &instance.world_from_node);
-    Ok(instances.iter().map(place).collect())
+    budget.spend(size, copies.len())?;
+    let decoded = source.decode(size, pose, surfaces, notes)?;
+    Ok(copies.iter().map(|copy| decoded.placed(&copy.world_from_mesh)).collect())
 }
 
-/// After its node, else its mesh; with the number of the primitive where there are several.
-fn shape_name(document: &Document, node: usize, mesh: usize, primitive: usize) -> String {
+/// After its node, else its mesh; with the number of the copy and of the primitive where there are several.
+fn shape_name(document: &Document, copy: &Copy, mesh: usize, primitive: usize) -> String {
     let root = &document.root;
     let record = &root.meshes[mesh];
-    let named = root.nodes[node].name.as_ref().or(record.name.as_ref());
-    let name = named.cloned().unwrap_or_else(|| nodes::name(root, node));
+    let named = root.nodes[copy.node].name.as_ref().or(record.name.as_ref());
+    let mut name = named.cloned().unwrap_or_else(|| nodes::name(root, copy.node));
+    if let Some(number) = copy.number {
+        name += &format!("[{number}]");
+    }
     if record.primitives.len() > 1 { format!("{name} [{primitive}]") } else { name }
 }
 

@@ -7,24 +7,35 @@
 mod accessor;
 mod buffers;
 mod cameras;
+mod coats;
+mod compression;
 mod container;
+mod draco;
 mod extensions;
 mod finish;
+mod glass;
 mod ies_profile;
+mod instances;
 mod limits;
 mod luminaires;
 mod material;
 mod meshes;
+mod meshopt;
+mod morph;
 mod nodes;
 mod notes;
 mod orientation;
 mod pictures;
+mod placeholders;
 mod primitive;
 mod punctual;
 mod record;
+mod skin;
+mod specular_gloss;
 mod surfaces;
 mod texcoord;
 mod topology;
+mod unpacked;
 mod uri;
 
 use crate::extent::{IMPLAUSIBLE_EXTENT_M, largest_side_m};
@@ -39,17 +50,33 @@ use std::path::Path;
 use surfaces::Surfaces;
 use uri::Folder;
 
+/// What is asked of a file beyond what it says.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Reading {
+    /// Whether its unit of length is known, so that its size surprises nobody.
+    pub(crate) unit_is_known: bool,
+    /// Luminance of white in unlit materials, cd/m2; without it they are taken as diffuse.
+    pub(crate) unlit_luminance_cd_m2: Option<f64>,
+}
+
 /// Reads the default scene of a file; on failure, all problems that could be found.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
+    read_as(path, Reading::default())
+}
+
+/// Reads a file of which something is asked.
+pub(crate) fn read_as(path: &Path, reading: Reading) -> Result<Loaded<SceneParts>, Problems> {
     let mut notes = Notes::new(path);
     let bytes = read_bytes(path, limits::BUFFER_BYTES)?;
     let container = or_fail(container::open(&bytes), &mut notes)?;
     let root = or_fail(record::parse(container.json), &mut notes)?;
     extensions::check(&root, &mut notes);
     let placed = nodes::place(&root, &mut notes);
-    let document = Document::load(root, Folder::of(path), container.binary, &mut notes);
+    let mut document = Document::load(root, Folder::of(path), container.binary, &mut notes);
     notes.check()?;
-    let value = resolve(&document, &placed, path, &mut notes);
+    compression::unpack(&mut document, &mut notes);
+    notes.check()?;
+    let value = resolve(&document, &placed, (path, reading), &mut notes);
     notes.check()?;
     Ok(Loaded { value, warnings: notes.into_warnings() })
 }
@@ -62,11 +89,16 @@ fn or_fail<T>(result: Result<T, Flaw>, notes: &mut Notes) -> Result<T, Problems>
 }
 
 /// From the file as written to the scene, with what cannot be resolved noted.
-fn resolve(document: &Document, placed: &[Placed], path: &Path, notes: &mut Notes) -> SceneParts {
-    let mut surfaces = Surfaces::new(document);
+fn resolve(
+    document: &Document,
+    placed: &[Placed],
+    (path, reading): (&Path, Reading),
+    notes: &mut Notes,
+) -> SceneParts {
+    let mut surfaces = Surfaces::new(document, reading.unlit_luminance_cd_m2);
     let shapes = meshes::shapes(document, placed, &mut surfaces, notes);
     let largest_m = largest_side_m(&shapes);
-    if largest_m > IMPLAUSIBLE_EXTENT_M {
+    if largest_m > IMPLAUSIBLE_EXTENT_M && !reading.unit_is_known {
         notes.warn(Flaw::new(
             format!("glTF is in metres; so read, it is {largest_m:.0} m large"),
             "if it was exported in another unit, scale its root node, or set the unit at the export",

@@ -32,6 +32,12 @@ pub(super) fn place(root: &Root, notes: &mut Notes) -> Vec<Placed> {
         let world = world_from_node(root, node, &world_from_parent, notes);
         let world = world.map_err(|flaw| flaw.rooted(format!("nodes[{node}]")));
         let Some(world_from_node) = notes.accept(world) else { continue };
+        if is_hidden(&root.nodes[node]) {
+            let what = "what is hidden is left out";
+            let place = format!("nodes[{node}].extensions.{VISIBILITY}");
+            notes.warn(Flaw::new(what, "show it if it is there").at(place));
+            continue;
+        }
         placed.push(Placed { node, world_from_node });
         open.extend(children(&root.nodes[node]).rev().map(|c| (c, world_from_node, depth + 1)));
     }
@@ -41,6 +47,15 @@ pub(super) fn place(root: &Root, notes: &mut Notes) -> Vec<Placed> {
 /// Name of a node, by its number where it has none.
 pub(super) fn name(root: &Root, node: usize) -> String {
     root.nodes[node].name.clone().unwrap_or_else(|| format!("node {node}"))
+}
+
+const VISIBILITY: &str = "KHR_node_visibility";
+
+/// Whether a node is hidden, with all below it.
+fn is_hidden(node: &Node) -> bool {
+    let others = node.extensions.as_ref().map(|e| &e.others);
+    let visible = others.and_then(|others| others.get(VISIBILITY)?.get("visible"));
+    visible.is_some_and(|visible| visible == false)
 }
 
 fn children(node: &Node) -> impl DoubleEndedIterator<Item = usize> {
@@ -164,7 +179,7 @@ fn has_parts(node: &Node) -> bool {
 }
 
 /// Column-major; the last row of an affine map is 0 0 0 1.
-fn from_matrix(m: &[f64; 16]) -> Result<Transform, Flaw> {
+pub(super) fn from_matrix(m: &[f64; 16]) -> Result<Transform, Flaw> {
     if !m.iter().all(|c| c.is_finite()) {
         return Err(not_finite("matrix"));
     }
@@ -184,21 +199,22 @@ fn from_parts(node: &Node) -> Result<Transform, Flaw> {
             return Err(not_finite(name));
         }
     }
-    let rotation = unit_quaternion(node.rotation.unwrap_or_default().0.map(f64::from))?;
+    let rotation = unit_quaternion(node.rotation.unwrap_or_default().0.map(f64::from))
+        .map_err(|flaw| flaw.at("rotation"))?;
     Ok(Transform::translation(translation.into())
         .then_from(&Transform::rotation(rotation))
         .then_from(&Transform::scale(scale[0], scale[1], scale[2])))
 }
 
 /// Files store quaternions rounded to `f32`; the length is made one again.
-fn unit_quaternion(q: [f64; 4]) -> Result<[f64; 4], Flaw> {
+pub(super) fn unit_quaternion(q: [f64; 4]) -> Result<[f64; 4], Flaw> {
     let length = q.iter().map(|c| c * c).sum::<f64>().sqrt();
     if !length.is_finite() {
-        return Err(not_finite("rotation"));
+        return Err(not_finite(""));
     }
     if length == 0.0 {
         let what = "a quaternion of length zero";
-        return Err(Flaw::new(what, "no rotation is 0 0 0 1").at("rotation"));
+        return Err(Flaw::new(what, "no rotation is 0 0 0 1"));
     }
     Ok(q.map(|c| c / length))
 }

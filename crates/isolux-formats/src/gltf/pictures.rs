@@ -3,7 +3,7 @@
 use super::buffers::Document;
 use super::limits;
 use super::notes::{Flaw, no_such};
-use image::ImageReader;
+use image::{DynamicImage, GenericImageView, ImageReader};
 use isolux::scene::Texture;
 use isolux::units::Rgb;
 use std::borrow::Cow;
@@ -17,6 +17,8 @@ pub(super) struct Means {
     pub(super) colour: Rgb,
     /// Of a data picture: bytes over 255, no transfer function.
     pub(super) data: [f64; 3],
+    /// Of the fourth channel, 1 where there is none.
+    pub(super) alpha: f64,
 }
 
 /// Pictures met so far; each is decoded once, or twice if first only its mean was asked for.
@@ -77,22 +79,34 @@ impl<'a> Pictures<'a> {
         self.textures
     }
 
+    /// The picture of a texture: the one every reader can read, else that of EXT_texture_webp.
     fn image_of(&self, texture: usize) -> Result<usize, Flaw> {
         let textures = &self.document.root.textures;
-        let found = textures.get(texture);
-        let source = found.ok_or_else(|| no_such("textures", texture, textures.len()))?.source;
-        let images = self.document.root.images.len();
+        let record = textures.get(texture);
+        let record = record.ok_or_else(|| no_such("textures", texture, textures.len()))?;
+        let others = record.extensions.as_ref().map(|e| &e.others);
+        let webp =
+            others.and_then(|others| others.get("EXT_texture_webp")?.get("source")?.as_u64());
         // What the typed model puts where a texture names no image.
-        if source.value() == u32::MAX as usize {
-            let what = "no picture but perhaps one of an extension";
-            return Err(Flaw::new(what, "export the textures as PNG or JPEG")
-                .rooted(format!("textures[{texture}]")));
-        }
-        if source.value() >= images {
-            let flaw = no_such("images", source.value(), images);
+        let own = Some(record.source.value()).filter(|&source| source != u32::MAX as usize);
+        let Some(source) = own.or_else(|| webp.and_then(|index| usize::try_from(index).ok()))
+        else {
+            let names: Vec<&str> =
+                others.into_iter().flat_map(|o| o.keys()).map(|k| &**k).collect();
+            let what = match &names[..] {
+                [] => "no picture".to_owned(),
+                names => format!("no picture but that of {}", names.join(", ")),
+            };
+            let remedy =
+                "save the textures as PNG, JPEG or WebP (KTX2: `gltf-transform ktxdecompress`)";
+            return Err(Flaw::new(what, remedy).rooted(format!("textures[{texture}]")));
+        };
+        let images = self.document.root.images.len();
+        if source >= images {
+            let flaw = no_such("images", source, images);
             return Err(flaw.rooted(format!("textures[{texture}].source")));
         }
-        Ok(source.value())
+        Ok(source)
     }
 
     /// Decodes and keeps the averages, or the reason why there are none.
@@ -104,11 +118,12 @@ impl<'a> Pictures<'a> {
                 decode(&bytes, self.pixels_left)
             })
             .map_err(|flaw| flaw.rooted(format!("images[{image}]")));
-        if let Ok(picture) = &decoded {
+        if let Ok((picture, _)) = &decoded {
             self.pixels_left -= u64::from(picture.width) * u64::from(picture.height);
         }
-        self.means_of_image.insert(image, decoded.as_ref().map(means).map_err(Flaw::clone));
-        decoded
+        let averages = decoded.as_ref().map(|(picture, alpha)| means(picture, *alpha));
+        self.means_of_image.insert(image, averages.map_err(Flaw::clone));
+        decoded.map(|(picture, _)| picture)
     }
 
     fn bytes(&self, image: usize) -> Result<Cow<'a, [u8]>, Flaw> {
@@ -122,10 +137,10 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// PNG or JPEG to sRGB bytes; what is transparent is taken as opaque.
-fn decode(bytes: &[u8], pixels_left: u64) -> Result<Texture, Flaw> {
+/// PNG, JPEG or WebP to sRGB bytes, and the mean of alpha; what is transparent is taken as opaque.
+fn decode(bytes: &[u8], pixels_left: u64) -> Result<(Texture, f64), Flaw> {
     let broken = |error: image::ImageError| {
-        Flaw::new(format!("the picture cannot be read: {error}"), "save it as PNG or JPEG")
+        Flaw::new(format!("the picture cannot be read: {error}"), "save it as PNG, JPEG or WebP")
     };
     let reader = || {
         ImageReader::new(Cursor::new(bytes))
@@ -143,11 +158,20 @@ fn decode(bytes: &[u8], pixels_left: u64) -> Result<Texture, Flaw> {
         );
         return Err(Flaw::new(what, remedy));
     }
-    let picture = reader()?.decode().map_err(broken)?.into_rgb8();
-    Ok(Texture { width: picture.width(), height: picture.height(), srgb: picture.into_raw() })
+    let picture = reader()?.decode().map_err(broken)?;
+    let alpha = if picture.color().has_alpha() { mean_alpha(&picture) } else { 1.0 };
+    let picture = picture.into_rgb8();
+    let (width, height) = picture.dimensions();
+    Ok((Texture { width, height, srgb: picture.into_raw() }, alpha))
 }
 
-fn means(picture: &Texture) -> Means {
+fn mean_alpha(picture: &DynamicImage) -> f64 {
+    let sum: u64 = picture.pixels().map(|(_, _, pixel)| u64::from(pixel.0[3])).sum();
+    let pixels = u64::from(picture.width()) * u64::from(picture.height());
+    sum as f64 / (255.0 * pixels as f64)
+}
+
+fn means(picture: &Texture, alpha: f64) -> Means {
     let mut sums = [0_u64; 3];
     for pixel in picture.srgb.chunks_exact(3) {
         for (sum, &byte) in sums.iter_mut().zip(pixel) {
@@ -155,5 +179,5 @@ fn means(picture: &Texture) -> Means {
         }
     }
     let count = (picture.srgb.len() / 3).max(1) as f64;
-    Means { colour: picture.mean(), data: sums.map(|sum| sum as f64 / (255.0 * count)) }
+    Means { colour: picture.mean(), data: sums.map(|sum| sum as f64 / (255.0 * count)), alpha }
 }

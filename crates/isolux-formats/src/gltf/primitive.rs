@@ -3,9 +3,10 @@
 use super::accessor::{self, Format};
 use super::buffers::Document;
 use super::notes::{Flaw, Notes};
+use super::skin::{self, Influence, Influences};
 use super::surfaces::Surfaces;
 use super::texcoord::TexCoord;
-use super::{extensions, topology};
+use super::{extensions, morph, topology};
 use gltf_json::accessor::ComponentType;
 use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
@@ -20,11 +21,25 @@ pub(super) struct Decoded {
     uvs: Option<Vec<[f64; 2]>>,
     triangles: Vec<[u32; 3]>,
     material: u32,
+    /// Whether joints have brought it to the world already.
+    is_in_world: bool,
+}
+
+/// How a mesh is bent before it is placed.
+pub(super) struct Pose {
+    /// Whether a node has a pose of its own.
+    pub(super) is_of_node: bool,
+    /// Weights of the morph targets.
+    pub(super) weights: Vec<f64>,
+    /// What each joint of the skin does, from the mesh to the world.
+    pub(super) joints: Option<Vec<Transform>>,
 }
 
 impl Decoded {
-    /// The shape it makes in the world, its front kept in front by reflections too.
-    pub(super) fn placed(&self, name: String, world_from_mesh: &Transform) -> Shape {
+    /// The shape it makes in the world, its front kept in front by reflections too. Its name is left
+    /// to the caller.
+    pub(super) fn placed(&self, world_from_mesh: &Transform) -> Shape {
+        let world_from_mesh = if self.is_in_world { &Transform::IDENTITY } else { world_from_mesh };
         let is_reflected = world_from_mesh.determinant() < 0.0;
         let place = |&p: &[f64; 3]| world_from_mesh.point(p.into()).into();
         // A normal lost on the way is given as zero, for which the scene takes the triangle's own.
@@ -34,7 +49,7 @@ impl Decoded {
         };
         let wind = |&[a, b, c]: &[u32; 3]| if is_reflected { [a, c, b] } else { [a, b, c] };
         Shape {
-            name,
+            name: String::new(),
             positions: self.positions.iter().map(place).collect(),
             normals: self.normals.as_ref().map(|list| list.iter().map(turn).collect()),
             uvs: self.uvs.clone(),
@@ -106,11 +121,20 @@ impl<'a> Source<'a> {
     pub(super) fn decode(
         &self,
         size: Size,
+        pose: &Pose,
         surfaces: &mut Surfaces,
         notes: &mut Notes,
     ) -> Result<Decoded, Flaw> {
-        let positions = self.vectors::<3>(Semantic::Positions, size)?.unwrap_or_default();
-        let triangles = self.triangles(size)?;
+        let mut positions = self.vectors::<3>(Semantic::Positions, size)?.unwrap_or_default();
+        let mut normals = self.normals(size, notes)?;
+        let mut triangles = self.triangles(size)?;
+        self.morph(&pose.weights, &mut positions, normals.as_deref_mut())?;
+        let carried = self.carried(pose, size, notes)?;
+        if let Some(world_from_mesh) = &carried {
+            skin::carry_points(&mut positions, world_from_mesh);
+            skin::carry_normals(normals.as_deref_mut().unwrap_or_default(), world_from_mesh);
+            skin::keep_fronts(&mut triangles, world_from_mesh);
+        }
         let tint = self.tint(&positions, &triangles, size, notes)?;
         let material = self.record.material.map(|m| m.value());
         if material.is_none() {
@@ -119,21 +143,51 @@ impl<'a> Source<'a> {
         }
         let surface =
             surfaces.surface(material, tint, notes).map_err(|flaw| flaw.at("material"))?;
-        self.warn_of_morph_targets(notes);
         Ok(Decoded {
-            normals: self.normals(size, notes)?,
+            normals,
             uvs: surface.texcoord.map(|t| self.uvs(t, size, notes)).transpose()?,
             positions,
             triangles,
             material: surface.material,
+            is_in_world: carried.is_some(),
         })
     }
 
-    fn warn_of_morph_targets(&self, notes: &mut Notes) {
-        if self.record.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-            let what = "morph targets are left out; the mesh keeps its base shape";
-            notes.warn(Flaw::new(what, "apply them before export").at(self.place()));
+    fn morph(
+        &self,
+        weights: &[f64],
+        positions: &mut [[f64; 3]],
+        normals: Option<&mut [[f64; 3]]>,
+    ) -> Result<(), Flaw> {
+        let targets = self.record.targets.as_deref().unwrap_or_default();
+        let document = self.document;
+        let index = |accessor: &Option<gltf_json::Index<_>>| accessor.map(|a| a.value());
+        morph::add(document, targets, weights, |target| index(&target.positions), positions)?;
+        let normals = normals.unwrap_or_default();
+        morph::add(document, targets, weights, |target| index(&target.normals), normals)
+    }
+
+    /// What takes each vertex to the world, where joints do.
+    fn carried(
+        &self,
+        pose: &Pose,
+        size: Size,
+        notes: &mut Notes,
+    ) -> Result<Option<Vec<Transform>>, Flaw> {
+        let Some(joints) = &pose.joints else { return Ok(None) };
+        let mut sets = Vec::new();
+        for set in 0.. {
+            let joints = self.vectors::<4>(Semantic::Joints(set), size)?;
+            let weights = self.vectors::<4>(Semantic::Weights(set), size)?;
+            let (Some(joints), Some(weights)) = (joints, weights) else { break };
+            sets.push(Influence { joints, weights });
         }
+        if sets.is_empty() {
+            let what = "a skin without JOINTS_0 and WEIGHTS_0 is left out";
+            notes.warn(Flaw::new(what, "export the file again").at(self.place()));
+            return Ok(None);
+        }
+        Influences { sets }.blend(joints, size.vertices).map(Some)
     }
 
     fn attribute(&self, semantic: Semantic) -> Option<usize> {
@@ -278,6 +332,9 @@ fn may_have(semantic: &Semantic, format: Format, is_quantized: bool) -> bool {
         (Semantic::TexCoords(_), I8 | I16) => is_quantized && width == 2,
         (Semantic::Colors(_), F32) => width == 3 || width == 4,
         (Semantic::Colors(_), U8 | U16) => normalized && (width == 3 || width == 4),
+        (Semantic::Joints(_), U8 | U16) => !normalized && width == 4,
+        (Semantic::Weights(_), F32) => width == 4,
+        (Semantic::Weights(_), U8 | U16) => normalized && width == 4,
         _ => false,
     }
 }

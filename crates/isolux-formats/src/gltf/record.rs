@@ -100,10 +100,26 @@ impl Holds {
     fn below(self, key: &str) -> Self {
         match key {
             _ if self == Self::IndexMap => Self::Index,
-            "attributes" => Self::IndexMap,
-            "buffer" | "bufferView" | "camera" | "children" | "componentType" | "index"
-            | "indices" | "light" | "material" | "mesh" | "mode" | "nodes" | "sampler"
-            | "scene" | "skin" | "source" => Self::Index,
+            "attributes" | "targets" => Self::IndexMap,
+            "buffer"
+            | "bufferView"
+            | "camera"
+            | "children"
+            | "componentType"
+            | "index"
+            | "indices"
+            | "inverseBindMatrices"
+            | "joints"
+            | "light"
+            | "material"
+            | "mesh"
+            | "mode"
+            | "nodes"
+            | "sampler"
+            | "scene"
+            | "skeleton"
+            | "skin"
+            | "source" => Self::Index,
             _ => Self::Other,
         }
     }

@@ -22,15 +22,18 @@ pub(super) struct Surfaces<'a> {
     pictures: Pictures<'a>,
     materials: Vec<Material>,
     known: HashMap<(Option<usize>, [u64; 3]), Result<Surface, Flaw>>,
+    /// Luminance of unlit white, if unlit materials shine.
+    unlit_luminance_cd_m2: Option<f64>,
 }
 
 impl<'a> Surfaces<'a> {
-    pub(super) fn new(document: &'a Document<'a>) -> Self {
+    pub(super) fn new(document: &'a Document<'a>, unlit_luminance_cd_m2: Option<f64>) -> Self {
         Self {
             document,
             pictures: Pictures::new(document),
             materials: Vec::new(),
             known: HashMap::new(),
+            unlit_luminance_cd_m2,
         }
     }
 
@@ -72,8 +75,14 @@ impl<'a> Surfaces<'a> {
             None => (&default, "glTF default".to_owned(), "meshes".to_owned()),
         };
         let document = self.document;
-        let mut reading =
-            Reading { document, record, place: &place, pictures: &mut self.pictures, notes };
+        let mut reading = Reading {
+            document,
+            record,
+            place: &place,
+            pictures: &mut self.pictures,
+            notes,
+            unlit_luminance_cd_m2: self.unlit_luminance_cd_m2,
+        };
         let body = reading.body(tint).map_err(|flaw| flaw.rooted(&place))?;
         let is_textured =
             matches!(&body, Body::Opaque { front, .. } if front.diffuse.texture.is_some());

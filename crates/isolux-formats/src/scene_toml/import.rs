@@ -33,13 +33,25 @@ pub(super) fn read(
 ) -> Option<Import> {
     let path = context.path_of(&file.span(), file.get_ref())?;
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let is_gltf = matches!(extension.as_deref(), Some("gltf" | "glb"));
+    if let Some(luminance) = record.unlit_luminance_cd_m2.as_ref().filter(|_| !is_gltf) {
+        let what = "`unlit_luminance_cd_m2` for a file that is not glTF";
+        context.problem(&luminance.span(), what, "only glTF has unlit materials; remove it");
+        return None;
+    }
     let is_replaced = |name: &str| record.material.is_some() || record.materials.contains_key(name);
     let (read, usual_unit_m) = match extension.as_deref() {
         Some("obj") => {
             let reading = obj::Reading { unit_is_known: true, is_replaced: &is_replaced };
             (obj::read_as(&path, &reading), context.unit_m)
         }
-        Some("gltf" | "glb") => (gltf::read(&path), 1.0),
+        Some("gltf" | "glb") => {
+            let reading = gltf::Reading {
+                unit_is_known: record.units.is_some(),
+                unlit_luminance_cd_m2: record.unlit_luminance_cd_m2.as_ref().map(|l| l.get_ref().0),
+            };
+            (gltf::read_as(&path, reading), 1.0)
+        }
         Some("rad") => {
             let unit_is_known = record.units.is_some();
             let reading = rad::Reading { unit_is_known, is_replaced: &is_replaced };

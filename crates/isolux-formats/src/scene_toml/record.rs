@@ -35,6 +35,8 @@ pub(super) struct GeometryRecord {
     pub(super) units: Option<At<LengthUnit>>,
     pub(super) up: Option<At<UpAxis>>,
     pub(super) luminaires: Option<At<bool>>,
+    /// Luminance of white in unlit materials of a glTF file.
+    pub(super) unlit_luminance_cd_m2: Option<At<Positive>>,
     pub(super) material: Option<At<String>>,
     #[serde(default)]
     pub(super) materials: BTreeMap<At<String>, At<String>>,

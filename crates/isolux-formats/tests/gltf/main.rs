@@ -3,8 +3,11 @@
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
 mod build;
+mod compressed;
 mod geometry;
 mod hostile;
+mod layers;
 mod lights;
 mod materials;
+mod poses;
 mod samples;

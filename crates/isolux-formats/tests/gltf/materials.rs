@@ -178,13 +178,11 @@ fn glass() {
 fn left_out_with_a_warning() {
     let mut file = with_material(json!({
         "alphaMode": "BLEND", "normalTexture": {"index": 0}, "occlusionTexture": {"index": 0},
-        "extensions": {"KHR_materials_unlit": {}},
     }));
     let loaded = file.load();
     assert_warns(&loaded, "materials[0].alphaMode", "opaque everywhere");
     assert_warns(&loaded, "materials[0].normalTexture", "normal maps");
     assert_warns(&loaded, "materials[0].occlusionTexture", "occlusion maps");
-    assert_warns(&loaded, "materials[0].extensions.KHR_materials_unlit", "unlit");
     file.json["materials"][0]["alphaMode"] = json!("MASK");
     assert_warns(&file.load(), "materials[0].alphaMode", "opaque everywhere");
 }
