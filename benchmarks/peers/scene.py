@@ -87,6 +87,8 @@ class PointSet:
     weights: list
     own_error: float
     """Of the expected values themselves, in the same measure; its square is taken off."""
+    has_caustics: bool
+    """Whether expected values hold what glass and gloss throw on surfaces."""
 
     def error(self, values_lx):
         """Weighted root mean square of relative differences; None where a value is missing. (A map may not know some

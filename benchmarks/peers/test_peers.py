@@ -40,7 +40,7 @@ RECORD = {
     ],
     "distributions": [{"isotropic": {"intensity_cd": 100}}],
     "point_sets": [
-        {"name": "map", "own_error": 0.0, "positions": [[1, 0.5, 0], [2, 1, 0]], "normals": [[0, 0, 1]] * 2,
+        {"name": "map", "own_error": 0.0, "has_caustics": True, "positions": [[1, 0.5, 0], [2, 1, 0]], "normals": [[0, 0, 1]] * 2,
          "expected_lx": [100, 50], "weights": [1, 3]}
     ],
 }

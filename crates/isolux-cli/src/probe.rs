@@ -111,6 +111,8 @@ struct Reading {
     illuminance_lx: Option<f64>,
     standard_error_lx: Option<f64>,
     direct_lx: Option<f64>,
+    /// The part of it that particles alone find, through glass, gloss and curved mirrors.
+    caustic_lx: Option<f64>,
     indirect_lx: Option<f64>,
     rgb_lx: Option<[f64; 3]>,
 }
@@ -121,6 +123,7 @@ impl Reading {
             illuminance_lx: value.map(Illuminance::illuminance_lx),
             standard_error_lx: value.map(|v| v.standard_error_lx),
             direct_lx: value.map(|v| v.direct_lx.luminance()),
+            caustic_lx: value.map(|v| v.caustic_lx.luminance()),
             indirect_lx: value.map(|v| v.indirect_lx.luminance()),
             rgb_lx: value.map(|v| v.total_lx().0),
         }

@@ -3,11 +3,13 @@
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::interrupt::Interrupt;
+use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
-use crate::quantity::show_bytes;
+use crate::quantity::{show_bytes, show_share};
 use crate::{saved_run, source};
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
+use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use std::path::Path;
 
@@ -45,7 +47,22 @@ pub(crate) fn solve(
     saved: Option<&RunState>,
     reporter: &mut Reporter,
 ) -> Result<Solved, Failure> {
-    follow(scene, run.request, saved, reporter, |error| failure(error, run))
+    let solved = follow(scene, run.request, saved, reporter, |error| failure(error, run))?;
+    tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
+    Ok(solved)
+}
+
+/// A map that reaches its accuracy may still show less than was hoped for in a viewer.
+fn tell_of_bare_map(map: &IlluminationMap, hoped: f64) {
+    let Some(accuracy) = map.provenance.accuracy.filter(|a| a.interpolated > hoped) else { return };
+    let (found, hoped) = (show_share(accuracy.interpolated), show_share(hoped));
+    note(
+        Note::Info,
+        format!(
+            "the bare map, as viewers of the file see it, errs by {found}, more than the {hoped} of --mesh-accuracy: \
+             shadows are finer than its elements; probe, grid and render evaluate direct light afresh"
+        ),
+    );
 }
 
 /// The same where the map goes nowhere.

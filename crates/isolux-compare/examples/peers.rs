@@ -27,11 +27,13 @@ struct PointSet {
     points: Vec<ExactPoint>,
     /// What the expected values are off by themselves, in the measure of errors.
     own_error: f64,
+    /// Whether they hold the light that glass and gloss throw on surfaces.
+    has_caustics: bool,
 }
 
 impl PointSet {
     fn exact(name: &'static str, points: Vec<ExactPoint>) -> Self {
-        Self { name, points, own_error: 0.0 }
+        Self { name, points, own_error: 0.0, has_caustics: true }
     }
 }
 
@@ -86,7 +88,8 @@ fn hall_map() -> PointSet {
         squared += expected_lx * expected_lx;
         own += own_lx * own_lx;
     }
-    PointSet { name: "map", points, own_error: (own / squared).sqrt() }
+    let own_error = (own / squared).sqrt();
+    PointSet { name: "map", points, own_error, has_caustics: false }
 }
 
 /// The grid of the floor on all six faces.
@@ -175,6 +178,7 @@ fn point_set(set: &PointSet) -> Value {
     json!({
         "name": set.name,
         "own_error": set.own_error,
+        "has_caustics": set.has_caustics,
         "positions": of(|p| json!(<[f64; 3]>::from(p.at.position))),
         "normals": of(|p| json!(<[f64; 3]>::from(p.at.normal.to_vector()))),
         "expected_lx": of(|p| json!(p.expected_lx)),

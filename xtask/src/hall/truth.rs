@@ -65,9 +65,11 @@ fn read(
 }
 
 fn reading(value: &Value) -> Option<Reading> {
+    // The reference lacks caustics.
+    let caustic_lx = value["caustic_lx"].as_f64()?;
     Some(Reading {
-        total_lx: value["illuminance_lx"].as_f64()?,
-        direct_lx: value["direct_lx"].as_f64()?,
+        total_lx: value["illuminance_lx"].as_f64()? - caustic_lx,
+        direct_lx: value["direct_lx"].as_f64()? - caustic_lx,
         indirect_lx: value["indirect_lx"].as_f64()?,
         standard_error_lx: value["standard_error_lx"].as_f64()?,
     })
