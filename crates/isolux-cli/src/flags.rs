@@ -54,7 +54,7 @@ pub(crate) enum Command {
     Demo(DemoFlags),
 }
 
-const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, .rad, scene.toml), builtin:cube, builtin:sphere, builtin:hall or a \
+const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, .ply, .rad, .stl, scene.toml), builtin:cube, builtin:sphere, builtin:hall or a \
      variant of it (builtin:hall,triangles=1e6,luminaires=100)";
 
 #[derive(Debug, Args)]
@@ -186,7 +186,7 @@ pub(crate) enum ProgressStyle {
   isolux info map.glb
   isolux info lamp.ies --json")]
 pub(crate) struct InfoFlags {
-    /// A map (.glb), a scene (.gltf, .glb, .obj, .rad, scene.toml, builtin:NAME), a photometric file (.ies, .ldt) or a cache
+    /// A map (.glb), a scene (.gltf, .glb, .obj, .ply, .rad, .stl, scene.toml, builtin:NAME), a photometric file (.ies, .ldt) or a cache
     /// of samples
     pub file: PathBuf,
 }

@@ -1,6 +1,7 @@
 //! Files to values and values to files: scenes, photometry, maps.
 
 pub mod atomic;
+mod bare;
 pub mod cache_file;
 pub mod checkpoint;
 pub mod export;
@@ -16,6 +17,7 @@ pub mod obj;
 pub mod photometric_file;
 mod picture;
 mod plain_text;
+pub mod ply;
 pub mod png;
 mod polygon;
 mod problem;
@@ -23,6 +25,7 @@ pub mod rad;
 mod round;
 pub mod scene_toml;
 mod source;
+pub mod stl;
 
 pub use load::load;
 pub use problem::{Loaded, Problem, Problems};

@@ -1,6 +1,6 @@
 //! A scene file of any kind.
 
-use crate::{Loaded, Problem, Problems, gltf, obj, rad, scene_toml};
+use crate::{Loaded, Problem, Problems, gltf, obj, ply, rad, scene_toml, stl};
 use isolux::scene::SceneParts;
 use std::path::Path;
 
@@ -10,7 +10,9 @@ pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     match extension.as_deref() {
         Some("gltf" | "glb") => gltf::read(path),
         Some("obj") => obj::read(path),
+        Some("ply") => ply::read(path),
         Some("rad") => rad::read(path),
+        Some("stl") => stl::read(path),
         Some("toml") => scene_toml::read(path),
         other => {
             let what = "is not a scene by its extension";
@@ -26,6 +28,6 @@ fn instead_of(extension: &str) -> &'static str {
         "mtl" => "name the .obj file that refers to it",
         "oct" => "name the .rad file that the octree was made from",
         "bin" => "name the .gltf file that refers to it",
-        _ => "name a .toml, .gltf, .glb, .obj or .rad file",
+        _ => "name a .toml, .gltf, .glb, .obj, .ply, .rad or .stl file",
     }
 }

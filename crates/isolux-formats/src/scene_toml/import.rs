@@ -6,7 +6,7 @@ use super::placement::scene_from_up;
 use super::record::GeometryRecord;
 use super::shapes::Piece;
 use super::spans::At;
-use crate::{gltf, obj, rad};
+use crate::{bare, gltf, obj, ply, rad, stl};
 use isolux::geometry::Direction;
 use isolux::geometry::Transform;
 use isolux::photometry::IntensityDistribution;
@@ -32,6 +32,7 @@ pub(super) fn read(
     context: &mut Context,
 ) -> Option<Import> {
     let path = context.path_of(&file.span(), file.get_ref())?;
+    refuse_vertex_colours(file, record, context);
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     let is_gltf = matches!(extension.as_deref(), Some("gltf" | "glb"));
     if let Some(luminance) = record.unlit_luminance_cd_m2.as_ref().filter(|_| !is_gltf) {
@@ -57,9 +58,23 @@ pub(super) fn read(
             let reading = rad::Reading { unit_is_known, is_replaced: &is_replaced };
             (rad::read_as(&path, &reading), 1.0)
         }
+        Some("stl" | "ply") => {
+            let reading = bare::Reading {
+                unit_is_known: true,
+                is_replaced: &is_replaced,
+                vertex_colours: record.asks_for_vertex_colours(),
+            };
+            let is_stl = extension.as_deref() == Some("stl");
+            let read = if is_stl { stl::read_as } else { ply::read_as };
+            (read(&path, &reading), context.unit_m)
+        }
         _ => {
             let what = format!("`{}` is not geometry by its extension", file.get_ref());
-            context.problem(&file.span(), what, "name an .obj, .gltf, .glb or .rad file");
+            context.problem(
+                &file.span(),
+                what,
+                "name an .obj, .gltf, .glb, .ply, .rad or .stl file",
+            );
             return None;
         }
     };
@@ -79,6 +94,22 @@ pub(super) fn read(
         label: path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned()),
         parts,
     })
+}
+
+/// Colours of vertices where there are none, or where a material stands in for them.
+fn refuse_vertex_colours(file: &At<String>, record: &GeometryRecord, context: &mut Context) {
+    let Some(asked) = record.vertex_colours.as_ref().filter(|asked| *asked.get_ref()) else {
+        return;
+    };
+    let is_ply = file.get_ref().to_lowercase().ends_with(".ply");
+    let what = match is_ply {
+        false => "`vertex_colours` of a file that is no .ply",
+        true if record.material.is_some() || !record.materials.is_empty() => {
+            "`vertex_colours` beside a material"
+        }
+        true => return,
+    };
+    context.problem(&asked.span(), what, "remove it, or what it contradicts");
 }
 
 impl Import {
