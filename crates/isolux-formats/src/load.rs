@@ -1,6 +1,6 @@
 //! A scene file of any kind.
 
-use crate::{Loaded, Problem, Problems, gltf, obj, ply, rad, scene_toml, stl};
+use crate::{Loaded, Problem, Problems, gltf, mitsuba, obj, ply, rad, scene_toml, stl};
 use isolux::scene::SceneParts;
 use std::path::Path;
 
@@ -13,6 +13,7 @@ pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
         Some("ply") => ply::read(path),
         Some("rad") => rad::read(path),
         Some("stl") => stl::read(path),
+        Some("xml") => mitsuba::read(path),
         Some("toml") => scene_toml::read(path),
         other => {
             let what = "is not a scene by its extension";
@@ -28,6 +29,6 @@ fn instead_of(extension: &str) -> &'static str {
         "mtl" => "name the .obj file that refers to it",
         "oct" => "name the .rad file that the octree was made from",
         "bin" => "name the .gltf file that refers to it",
-        _ => "name a .toml, .gltf, .glb, .obj, .ply, .rad or .stl file",
+        _ => "name a .toml, .gltf, .glb, .obj, .ply, .rad, .stl or .xml file",
     }
 }

@@ -1,5 +1,6 @@
 //! Colours of vertices as a texture: a pixel for every colour that a triangle has.
 
+use crate::srgb::{code, linear};
 use isolux::scene::Texture;
 use std::collections::HashMap;
 
@@ -24,7 +25,7 @@ impl Painter {
         colours: [[u8; 3]; 3],
     ) -> Option<[u32; 3]> {
         let mean = std::array::from_fn(|channel| {
-            let sum: f64 = colours.iter().map(|c| linear(c[channel])).sum();
+            let sum: f64 = colours.iter().map(|c| linear(f64::from(c[channel]) / 255.0)).sum();
             code(sum / 3.0)
         });
         let next = self.colours.len() as u32;
@@ -57,32 +58,9 @@ impl Painter {
     }
 }
 
-/// IEC 61966-2-1.
-fn linear(code: u8) -> f64 {
-    let c = f64::from(code) / 255.0;
-    if c <= 0.04045 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) }
-}
-
-/// Its inverse, to the nearest code.
-fn code(linear: f64) -> u8 {
-    let c = if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
-    };
-    (255.0 * c).round() as u8
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn codes_come_back() {
-        for k in 0..=255 {
-            assert_eq!(code(linear(k)), k);
-        }
-    }
 
     #[test]
     fn every_vertex_sees_its_colour_alone() {

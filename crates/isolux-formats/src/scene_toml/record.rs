@@ -38,6 +38,7 @@ pub(super) struct GeometryRecord {
     /// Luminance of white in unlit materials of a glTF file.
     pub(super) unlit_luminance_cd_m2: Option<At<Positive>>,
     pub(super) vertex_colours: Option<At<bool>>,
+    pub(super) efficacy_lm_w: Option<At<Positive>>,
     pub(super) material: Option<At<String>>,
     #[serde(default)]
     pub(super) materials: BTreeMap<At<String>, At<String>>,
