@@ -33,7 +33,12 @@ pub(crate) use reader::Reading;
 
 /// Reads a scene and the files it names, which must lie in its directory tree.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
-    let reading = Reading { unit_is_known: false, is_replaced: &|_| false, efficacy_lm_w: None };
+    let reading = Reading {
+        unit_is_known: false,
+        is_replaced: &|_| false,
+        efficacy_lm_w: None,
+        is_all: true,
+    };
     read_as(path, &reading)
 }
 

@@ -14,7 +14,7 @@ use crate::efficacy::EFFICACY_LM_W;
 use crate::round::inside_out;
 use crate::source;
 use isolux::geometry::{Point, Transform};
-use isolux::scene::{Camera, Luminaire, SceneParts, Shape, UpAxis};
+use isolux::scene::{Camera, Luminaire, LuminaireKind, SceneParts, Shape, UpAxis};
 use isolux::units::Rgb;
 use std::path::Path;
 
@@ -26,6 +26,8 @@ pub(crate) struct Reading<'a> {
     pub(crate) is_replaced: &'a dyn Fn(&str) -> bool,
     /// Lumens for each watt of the file, where somebody chose.
     pub(crate) efficacy_lm_w: Option<f64>,
+    /// Whether the file is all of the scene: nothing lies or shines around it.
+    pub(crate) is_all: bool,
 }
 
 /// The scene that a tree of elements is; what is wrong goes to the notes.
@@ -45,7 +47,8 @@ pub(super) fn read(
         shapes: Vec::new(),
         luminaires: Vec::new(),
         cameras: Vec::new(),
-        surroundings: Rgb::BLACK,
+        surroundings: None,
+        is_all: reading.is_all,
         visits_left: limits::SHAPES,
         triangles: 0,
         idle: Vec::new(),
@@ -67,8 +70,9 @@ struct Reader<'a, 'r, 'n> {
     shapes: Vec<Shape>,
     luminaires: Vec<Luminaire>,
     cameras: Vec<Camera>,
-    /// Luminance of what is seen where there is nothing.
-    surroundings: Rgb,
+    /// What is seen where there is nothing, and its luminance.
+    surroundings: Option<(&'a Element, Rgb)>,
+    is_all: bool,
     visits_left: usize,
     triangles: usize,
     /// What makes pictures, and no light.
@@ -229,13 +233,7 @@ impl<'a> Reader<'a, '_, '_> {
             "point" => emitter::point,
             "spot" => emitter::spot,
             "directional" => emitter::directional,
-            "constant" => {
-                let read = emitter::light(emitter, "radiance", self.efficacy_lm_w);
-                self.surroundings += self.scope.take(&emitter.at, read)?;
-                self.scope.finish(emitter);
-                self.say_efficacy(emitter);
-                return Some(());
-            }
+            "constant" => return self.constant(emitter),
             _ => {
                 let remedy = "use point, spot, directional, constant, or area on a shape";
                 self.scope.refuse(emitter, "is not read", remedy);
@@ -253,6 +251,34 @@ impl<'a> Reader<'a, '_, '_> {
             return None;
         }
         Some(())
+    }
+
+    fn constant(&mut self, emitter: &'a Element) -> Option<()> {
+        let read = emitter::light(emitter, "radiance", self.efficacy_lm_w);
+        let luminance_cd_m2 = self.scope.take(&emitter.at, read)?;
+        self.scope.finish(emitter);
+        if !self.is_all || self.surroundings.is_some() {
+            let what =
+                if self.is_all { "is there twice" } else { "is read only of a scene of its own" };
+            let remedy = "remove it; a luminous rectangle before each window does the same";
+            self.scope.refuse(emitter, what, remedy);
+            return None;
+        }
+        self.say_efficacy(emitter);
+        self.surroundings = Some((emitter, luminance_cd_m2));
+        Some(())
+    }
+
+    /// A box that would keep the sun out.
+    fn refuse_sky_with_sun(&mut self) {
+        let has_sun =
+            self.luminaires.iter().any(|l| matches!(l.kind, LuminaireKind::Directional { .. }));
+        if let Some((emitter, _)) = self.surroundings.filter(|_| has_sun) {
+            let what = "is not read beside directional light";
+            let remedy =
+                "keep one of them; a luminous rectangle before each window does what it does";
+            self.scope.refuse(emitter, what, remedy);
+        }
     }
 
     fn say_efficacy(&mut self, emitter: &Element) {
@@ -295,7 +321,8 @@ impl<'a> Reader<'a, '_, '_> {
         self.scope.finish(sensor);
     }
 
-    fn finish(self, path: &Path) -> SceneParts {
+    fn finish(mut self, path: &Path) -> SceneParts {
+        self.refuse_sky_with_sun();
         if let Some(first) = self.idle.first() {
             let mut labels: Vec<String> = self.idle.iter().map(|idle| idle.label()).collect();
             labels.sort();
@@ -316,8 +343,8 @@ impl<'a> Reader<'a, '_, '_> {
             cameras: self.cameras,
             ..SceneParts::default()
         };
-        if !self.surroundings.is_black() {
-            surroundings::add(&mut parts, self.surroundings);
+        if let Some((_, luminance_cd_m2)) = self.surroundings {
+            surroundings::add(&mut parts, luminance_cd_m2);
         }
         parts
     }

@@ -1,17 +1,23 @@
 //! Light that comes from everywhere alike, `constant`: a luminous box around the scene gives exactly
 //! the same at every place within it, whatever its size, because luminance does not fall with distance.
 
-use isolux::scene::{Finish, Material, SceneParts, Shape};
+use isolux::scene::{Finish, LuminaireKind, Material, SceneParts, Shape};
 use isolux::units::Rgb;
 
-/// How far its faces stay away, in sizes of the scene.
-const MARGIN: f64 = 1.0;
+/// How far its faces stay away, in sizes of the scene: the nearer, the less of their light is lost
+/// to luminaires chosen by flux.
+const MARGIN: f64 = 0.01;
 const NAME: &str = "constant emitter";
 
-/// Puts the box around all surfaces, luminaires aside, and cameras.
+/// Puts the box around all surfaces, luminaires and cameras.
 pub(super) fn add(parts: &mut SceneParts, luminance_cd_m2: Rgb) {
     let eyes = parts.cameras.iter().map(|camera| <[f64; 3]>::from(camera.position));
-    let places = parts.shapes.iter().flat_map(|shape| shape.positions.iter().copied()).chain(eyes);
+    let lamps = parts.luminaires.iter().filter_map(|luminaire| match luminaire.kind {
+        LuminaireKind::Point { position, .. } => Some(<[f64; 3]>::from(position)),
+        LuminaireKind::Directional { .. } => None,
+    });
+    let surfaces = parts.shapes.iter().flat_map(|shape| shape.positions.iter().copied());
+    let places = surfaces.chain(eyes).chain(lamps);
     let (mut low, mut high) = ([f64::MAX; 3], [f64::MIN; 3]);
     for place in places {
         for axis in 0..3 {
@@ -55,7 +61,10 @@ mod tests {
         parts.shapes.push(Shape { positions, ..Shape::default() });
         add(&mut parts, Rgb::WHITE);
         let shape = &parts.shapes[1];
-        assert_eq!((shape.positions[0], shape.positions[7]), ([-1.0, 0.0, 1.0], [4.0, 6.0, 5.5]));
+        assert_eq!(
+            (shape.positions[0], shape.positions[7]),
+            ([0.98, 1.98, 2.98], [2.02, 4.02, 3.52])
+        );
         let middle = Vector::new(1.5, 3.0, 3.25);
         for t in &shape.triangles {
             let [a, b, c] = t.map(|k| Vector::from(shape.positions[k as usize]));

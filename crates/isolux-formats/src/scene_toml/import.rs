@@ -86,6 +86,7 @@ fn open(
                 unit_is_known: record.units.is_some(),
                 is_replaced: &is_replaced,
                 efficacy_lm_w: record.efficacy_lm_w.as_ref().map(|e| e.get_ref().0),
+                is_all: false,
             };
             (mitsuba::read_as(path, &reading), 1.0)
         }
