@@ -28,6 +28,10 @@ fn instead_of(extension: &str) -> &'static str {
         "ies" | "ldt" => "name it in a [[luminaire]] of a scene.toml",
         "mtl" => "name the .obj file that refers to it",
         "oct" => "name the .rad file that the octree was made from",
+        "jpg" | "jpeg" | "png" => "name it as the `texture` of a material of a scene.toml",
+        "wrl" | "x3d" | "vtu" | "csv" | "res" => {
+            "name the scene, or the map, that it was made from"
+        }
         "bin" => "name the .gltf file that refers to it",
         _ => "name a .toml, .gltf, .glb, .obj, .ply, .rad, .stl or .xml file",
     }

@@ -214,6 +214,9 @@ fn what_is_wrong_is_told_with_its_place() {
     refused(&simple("0 0 x\n", "end_header\n"), "line 8: `x` is not a number");
     refused(&simple(SQUARE, "element a 9\nend_header\n"), "line 7: element `a` has no properties");
     refused(b"", "line 1: does not begin with `ply`");
+    let odd = String::from_utf8(text()).unwrap().replace("comment by", "Made by");
+    let told = read(odd.as_bytes()).unwrap().warnings.remove(0).to_string();
+    assert!(told.contains("line 3: `Made` is no word of a header"), "{told}");
     refused(b"ply\n", "line 2: the header does not end");
     refused(b"ply\nend_header\n", "line 1: there is no `format`");
     refused(b"ply\nformat ascii 2.0\n", "line 2: version 2.0");

@@ -50,6 +50,8 @@ pub(super) struct Header {
     pub(super) elements: Vec<Element>,
     /// Number of its lines.
     pub(super) lines: usize,
+    /// The first line that says nothing known: Blender 2.47 wrote a comment without the word.
+    pub(super) odd_line: Option<(usize, String)>,
 }
 
 /// What keeps a file from being read.
@@ -100,7 +102,8 @@ impl Element {
 
 /// The header and where the data begins.
 pub(super) fn parse(bytes: &[u8]) -> Result<(Header, usize), Wrong> {
-    let mut header = Header { format: Format::Text, elements: Vec::new(), lines: 0 };
+    let mut header =
+        Header { format: Format::Text, elements: Vec::new(), lines: 0, odd_line: None };
     let (mut at, mut format) = (0, None);
     loop {
         let rest = &bytes[at..bytes.len().min(MOST_BYTES)];
@@ -129,8 +132,8 @@ pub(super) fn parse(bytes: &[u8]) -> Result<(Header, usize), Wrong> {
             }
             "end_header" => break,
             other => {
-                let shown: String = other.chars().take(40).collect();
-                return Err(wrong(format!("`{shown}` is no word of a header")));
+                let shown = other.chars().take(40).collect();
+                header.odd_line.get_or_insert((number, shown));
             }
         }
         let names = header.elements.len()

@@ -16,6 +16,10 @@ pub(super) struct Mesh {
 /// Reads the data after the header.
 pub(super) fn parse(header: &Header, data: &[u8], findings: &mut Findings) -> Result<Mesh, Wrong> {
     let mut mesh = Mesh::default();
+    if let Some((line, word)) = &header.odd_line {
+        let what = format!("`{word}` is no word of a header; the line is left out");
+        findings.warning(format!("line {line}"), what, "write `comment` before it");
+    }
     let mut body = Body::new(header.format, data, header.lines);
     let mut row = Row::default();
     for element in &header.elements {
