@@ -37,7 +37,8 @@ mod tests {
             assert!((lux / Rgb(rgb).luminance() - 1.0).abs() < 1e-14, "{rgb:?}");
             assert!((watts[0] * rgb[2] - watts[2] * rgb[0]).abs() < 1e-12 * lux);
         }
-        assert_eq!(irradiance_w_m2(Rgb::grey(179.0)), [1.0; 3]);
+        let ones = irradiance_w_m2(Rgb::grey(179.0));
+        assert!(ones.iter().all(|w| (w - 1.0).abs() < 1e-14), "{ones:?}");
         assert_eq!(irradiance_w_m2(Rgb::BLACK), [0.0; 3]);
     }
 
