@@ -1,5 +1,6 @@
 //! Judges of the reading of photometric files: Radiance's ies2rad and photompy, through Python.
 
+use crate::judge::is_ci;
 use crate::peers::{environment, wait};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -34,11 +35,7 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
     Ok("the judges read the lamps alike".to_owned())
 }
 
-fn is_ci() -> bool {
-    std::env::var_os("CI").is_some_and(|value| value == "true")
-}
-
-fn has_python() -> Result<(), String> {
+pub(crate) fn has_python() -> Result<(), String> {
     let version = Command::new("python3").arg("--version").output();
     let works = version.is_ok_and(|output| output.status.success());
     works.then_some(()).ok_or_else(|| "python3 is not installed".to_owned())
@@ -61,7 +58,7 @@ fn unpacked(folder: &Path, python: &Path) -> Result<PathBuf, String> {
 }
 
 /// Builds isolux as its tests do; where it is.
-fn built(root: &Path) -> Result<PathBuf, String> {
+pub(crate) fn built(root: &Path) -> Result<PathBuf, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let build = ["build", "--quiet", "--package", "isolux-cli"];
     wait(Command::new(cargo).args(build).current_dir(root), "cargo build")?;

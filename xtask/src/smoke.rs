@@ -7,9 +7,31 @@ use std::process::Command;
 pub(crate) struct Made {
     /// A map of the cube.
     pub map: PathBuf,
-    /// The same to walk through, as VRML97 and X3D.
-    pub worlds: [PathBuf; 2],
+    /// Another scene, for other software.
+    pub room: Room,
 }
+
+/// The map of a room with a camera, and what comes of it.
+pub(crate) struct Room {
+    pub map: PathBuf,
+    /// To walk through, as VRML97 and X3D.
+    pub worlds: [PathBuf; 2],
+    /// For VTK.
+    pub grid: PathBuf,
+    /// A row a vertex.
+    pub table: PathBuf,
+    /// A linear picture from the camera, of the bare map.
+    pub picture: PathBuf,
+    /// Factor on luminances in the colours of the walk-throughs, m2/cd.
+    pub exposure_m2_cd: f64,
+    /// The luminance they show as white, cd/m2.
+    pub white_cd_m2: f64,
+}
+
+/// Pixels of pictures of the room.
+pub(crate) const PICTURE_SIZE: &str = "640x360";
+/// The luminance that the linear picture shows as white, cd/m2: brighter than anything but the lamp.
+pub(crate) const PICTURE_WHITE_CD_M2: f64 = 200.0;
 
 /// Solves the cube, says what the map holds, and reads it at the middle of a wall.
 pub(crate) fn run(root: &Path) -> Result<Made, String> {
@@ -26,11 +48,39 @@ pub(crate) fn run(root: &Path) -> Result<Made, String> {
     let values = isolux(root, &["probe", &map_text, "--points", &points.to_string_lossy()])?;
     println!("{values}");
     expect_middle_of_wall(&values)?;
-    let worlds = ["cube.wrl", "cube.x3d"].map(|name| folder.join(name));
-    for world in &worlds {
-        isolux(root, &["export", &map_text, "-o", &world.to_string_lossy()])?;
-    }
-    Ok(Made { map, worlds })
+    let room = room(root, &folder)?;
+    Ok(Made { map, room })
+}
+
+/// Solves a box of coloured walls and exports its map.
+fn room(root: &Path, folder: &Path) -> Result<Room, String> {
+    let at = |name: &str| folder.join(name);
+    let text = |path: &Path| path.to_string_lossy().into_owned();
+    let map = at("room.glb");
+    let scene = text(&root.join("scenes").join("cornell_mitsuba").join("scene.xml"));
+    isolux(root, &["solve", &scene, "--quality", "draft", "-o", &text(&map)])?;
+    let export = |name: &str| {
+        let file = at(name);
+        let said = isolux(root, &["export", &text(&map), "-o", &text(&file), "--json"])?;
+        let said: serde_json::Value = serde_json::from_str(&said).map_err(|e| e.to_string())?;
+        Ok::<_, String>((file, said))
+    };
+    let (wrl, said) = export("room.wrl")?;
+    let number = |name: &str| said[name].as_f64().ok_or(format!("export does not say `{name}`"));
+    let picture = at("room.png");
+    let exposure = format!("{PICTURE_WHITE_CD_M2}cd/m2");
+    let look = ["--camera", "front", "--size", PICTURE_SIZE, "--interpolated", "--tone", "linear"];
+    let into = ["render", &text(&map), "-o", &text(&picture), "--exposure", &exposure];
+    isolux(root, &[&into[..], &look].concat())?;
+    Ok(Room {
+        worlds: [wrl, export("room.x3d")?.0],
+        grid: export("room.vtu")?.0,
+        table: export("room.csv")?.0,
+        picture,
+        exposure_m2_cd: number("exposure_m2_cd")?,
+        white_cd_m2: number("white_cd_m2")?,
+        map,
+    })
 }
 
 /// Luminance at A of the published table, 892.8 cd/m2, as an illuminance: pi L / rho, rho = 2/3.

@@ -1,6 +1,6 @@
 //! Everything that must hold before a change lands, in one command.
 
-use crate::{judge, lamps, peers, smoke, tidy, worlds};
+use crate::{grids, judge, lamps, peers, smoke, tidy, worlds};
 use std::path::Path;
 use std::process::Command;
 
@@ -31,8 +31,10 @@ pub(crate) fn smoke_and_judge(root: &Path) -> Result<String, String> {
     let made = smoke::run(root)?;
     announce("outside judges of the map: glTF validator, three.js");
     println!("{}", judge::run(root, &made.map)?);
-    announce("outside judge of walk-throughs: view3dscene");
-    worlds::run(&made.worlds)
+    announce("outside judges of walk-throughs: view3dscene, X_ITE");
+    println!("{}", worlds::run(root, &made.room)?);
+    announce("outside judge of grids: VTK");
+    grids::run(root, &made.room)
 }
 
 fn announce(step: &str) {

@@ -1,17 +1,59 @@
-//! A judge of walk-throughs: view3dscene, without a screen.
+//! Judges of walk-throughs: view3dscene and X_ITE, without a screen.
 
+use crate::judge::{is_ci, missing_for_node};
+use crate::peers::wait;
+use crate::smoke::{PICTURE_SIZE, PICTURE_WHITE_CD_M2, Room};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Shows both kinds of file of one map to the judge; they must come without a warning to the same picture. Where it
-/// or a screen to draw on is missing, it is left out.
-pub(crate) fn run(files: &[PathBuf; 2]) -> Result<String, String> {
-    for tool in ["view3dscene", "xvfb-run"] {
-        if Command::new("which").arg(tool).output().is_ok_and(|found| !found.status.success()) {
-            return Ok(format!("skipped, as it is optional: {tool} is not installed"));
-        }
+/// Shows both kinds of file of one map to the judges; each must draw both alike and without a warning, and
+/// all pictures are compared with one of isolux. A judge that is missing, or a screen to draw on, is left out.
+pub(crate) fn run(root: &Path, room: &Room) -> Result<String, String> {
+    let mut said = Vec::new();
+    let mut pictures = Vec::new();
+    match missing_for_view3dscene() {
+        Some(missing) => said.push(format!("view3dscene skipped, as it is optional: {missing}")),
+        None => pictures.push(by_view3dscene(&room.worlds)?),
     }
-    let [one, other] = [drawn(&files[0])?, drawn(&files[1])?];
+    let checks = root.join("checks");
+    match missing_for_node(&checks).map(str::to_owned) {
+        Some(missing) if is_ci() => return Err(format!("not optional with CI=true: {missing}")),
+        missing => match missing.or_else(missing_browser) {
+            None => pictures.extend(by_x_ite(&checks, &room.worlds)?),
+            Some(missing) => {
+                said.push(format!("X_ITE skipped, as it is optional: {missing}"));
+                return Ok(said.join("\n"));
+            }
+        },
+    }
+    compare(&checks, room, &pictures)?;
+    said.push("the browsers of worlds draw what isolux does".to_owned());
+    Ok(said.join("\n"))
+}
+
+fn missing_for_view3dscene() -> Option<String> {
+    let is_missing = |tool: &&str| {
+        Command::new("which").arg(tool).output().is_ok_and(|found| !found.status.success())
+    };
+    let tool = ["view3dscene", "xvfb-run"].into_iter().find(is_missing)?;
+    Some(format!("{tool} is not installed"))
+}
+
+const BROWSERS: [&str; 3] =
+    ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+
+fn missing_browser() -> Option<String> {
+    let is_named = std::env::var_os("CHROMIUM").is_some();
+    let is_there = is_named || BROWSERS.iter().any(|path| Path::new(path).is_file());
+    (!is_there).then(|| "Chromium is not installed, nor named in CHROMIUM".to_owned())
+}
+
+/// The picture of both files, which must be the same.
+fn by_view3dscene(files: &[PathBuf; 2]) -> Result<PathBuf, String> {
+    let pictures = [drawn(&files[0], "view-wrl.png")?, drawn(&files[1], "view-x3d.png")?];
+    let bytes =
+        |path: &PathBuf| std::fs::read(path).map_err(|e| format!("{}: {e}", path.display()));
+    let [one, other] = [bytes(&pictures[0])?, bytes(&pictures[1])?];
     if one != other {
         return Err("view3dscene draws .wrl and .x3d differently".to_owned());
     }
@@ -19,18 +61,19 @@ pub(crate) fn run(files: &[PathBuf; 2]) -> Result<String, String> {
     if one.len() < 2048 {
         return Err(format!("view3dscene draws nothing: {} bytes", one.len()));
     }
-    Ok("view3dscene draws .wrl and .x3d alike".to_owned())
+    let [picture, _] = pictures;
+    Ok(picture)
 }
 
-/// The bytes of a picture of a file.
-fn drawn(file: &Path) -> Result<Vec<u8>, String> {
-    let picture = file.with_extension("png");
+/// A picture of a file.
+fn drawn(file: &Path, name: &str) -> Result<PathBuf, String> {
+    let picture = file.with_file_name(name);
     let output = Command::new("xvfb-run")
         .args(["--auto-servernum", "view3dscene"])
         .arg(file)
         .args(["--screenshot", "0"])
         .arg(&picture)
-        .args(["--geometry", "640x360"])
+        .args(["--geometry", PICTURE_SIZE])
         .output()
         .map_err(|e| format!("cannot run xvfb-run: {e}"))?;
     let said = String::from_utf8_lossy(&output.stderr);
@@ -38,5 +81,27 @@ fn drawn(file: &Path) -> Result<Vec<u8>, String> {
     if !output.status.success() || said.contains("Warning") {
         return Err(format!("view3dscene refuses {}: {said}", file.display()));
     }
-    std::fs::read(&picture).map_err(|e| format!("{}: {e}", picture.display()))
+    Ok(picture)
+}
+
+fn by_x_ite(checks: &Path, files: &[PathBuf; 2]) -> Result<[PathBuf; 2], String> {
+    let pictures = ["x-ite-wrl.png", "x-ite-x3d.png"];
+    let pictures = [0, 1].map(|k| files[k].with_file_name(pictures[k]));
+    let mut node = Command::new("node");
+    node.args(["worlds.mjs", PICTURE_SIZE]).current_dir(checks);
+    for (file, picture) in files.iter().zip(&pictures) {
+        node.arg(file).arg(picture);
+    }
+    wait(&mut node, "checks/worlds.mjs")?;
+    Ok(pictures)
+}
+
+fn compare(checks: &Path, room: &Room, pictures: &[PathBuf]) -> Result<(), String> {
+    let mut node = Command::new("node");
+    node.arg("pictures.mjs").current_dir(checks);
+    node.args(["--exposure", &room.exposure_m2_cd.to_string()]);
+    node.args(["--white", &room.white_cd_m2.to_string()]);
+    node.args(["--full", &PICTURE_WHITE_CD_M2.to_string()]);
+    node.arg(&room.picture).args(pictures);
+    wait(&mut node, "checks/pictures.mjs")
 }

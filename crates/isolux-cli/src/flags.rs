@@ -54,7 +54,7 @@ pub(crate) enum Command {
     Demo(DemoFlags),
 }
 
-const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, .rad, scene.toml), builtin:cube, builtin:sphere, builtin:hall or a \
+const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, .ply, .rad, .stl, .xml, scene.toml), builtin:cube, builtin:sphere, builtin:hall or a \
      variant of it (builtin:hall,triangles=1e6,luminaires=100)";
 
 #[derive(Debug, Args)]
@@ -186,7 +186,7 @@ pub(crate) enum ProgressStyle {
   isolux info map.glb
   isolux info lamp.ies --json")]
 pub(crate) struct InfoFlags {
-    /// A map (.glb), a scene (.gltf, .glb, .obj, .rad, scene.toml, builtin:NAME), a photometric file (.ies, .ldt) or a cache
+    /// A map (.glb), a scene (.gltf, .glb, .obj, .ply, .rad, .stl, .xml, scene.toml, builtin:NAME), a photometric file (.ies, .ldt) or a cache
     /// of samples
     pub file: PathBuf,
 }
@@ -195,6 +195,7 @@ pub(crate) struct InfoFlags {
 #[command(after_help = "Examples:
   isolux probe map.glb --points desk.pts
   echo '1 2 0.75  0 0 1' | isolux probe map.glb --points - --exact --json
+  isolux probe map.glb --points desk.pts -o desk.res
   isolux probe builtin:hall --points desk.pts --paths 65536
 
 Points are `x y z nx ny nz`, one a line, in metres and in the axes of the scene as written; # starts a comment.
@@ -209,6 +210,10 @@ pub(crate) struct ProbeFlags {
     /// File of points, - for standard input
     #[arg(long, value_name = "P.pts")]
     pub points: PathBuf,
+    /// Write irradiances as Radiance's `rtrace -I -h` does, instead of the table: `red green blue` in W/m2,
+    /// of which 179 (0.265 red + 0.670 green + 0.065 blue) is the illuminance in lx
+    #[arg(short, long, value_name = "FILE.res")]
+    pub output: Option<PathBuf>,
     /// Estimate each point afresh instead of interpolating the indirect light of the map
     #[arg(long, conflicts_with = "interpolated")]
     pub exact: bool,

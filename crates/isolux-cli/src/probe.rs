@@ -4,9 +4,11 @@ use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ProbeFlags;
 use crate::notes::{Note, note};
+use crate::output::OutputPath;
 use crate::{map_file, points, source};
 use isolux::engine::{ExactSettings, MapReader, PathTracer, ProbePoint};
 use isolux::map::Illuminance;
+use isolux_formats::rad::irradiance_lines;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt::Write;
@@ -16,6 +18,11 @@ type Values = Vec<Option<Illuminance>>;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
+    let output = flags.output.as_deref().map(|path| OutputPath::check(path, "res")).transpose()?;
+    if let Some(output) = &output {
+        output.differs_from(&flags.source)?;
+        output.differs_from(&flags.points)?;
+    }
     let points = points::read(&flags.points)?;
     let (values, ambient_lx) = if map_file::is_map(&flags.source) {
         let (values, ambient_lx) = read_map(flags, &points)?;
@@ -32,17 +39,34 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
         );
         note(Note::Warning, text);
     }
+    if let Some(output) = &output {
+        write_irradiances(output, &values)?;
+    }
     if json {
         let ambient_lx = ambient_lx.filter(|lx| *lx != 0.0);
         let points = values.iter().map(|v| Reading::of(v.as_ref())).collect();
         print_json(&Readings { points, ambient_lx })?;
-    } else {
+    } else if output.is_none() {
         print(HEADER)?;
         for (points, values) in points.chunks(ROWS_AT_ONCE).zip(values.chunks(ROWS_AT_ONCE)) {
             print(&rows(points, values))?;
         }
     }
     Ok(Outcome::Done)
+}
+
+/// Radiance's lines have no word for a value that is not known.
+fn write_irradiances(output: &OutputPath, values: &Values) -> Result<(), Failure> {
+    let known: Vec<Illuminance> = values.iter().flatten().copied().collect();
+    if known.len() < values.len() {
+        return Err(Failure::bad_input(format!(
+            "{}: {} points have no value, which lines of irradiance cannot say; move them onto a \
+             surface, use --exact, or ask for the table",
+            output.path().display(),
+            values.len() - known.len()
+        )));
+    }
+    output.write(irradiance_lines(known.iter().map(Illuminance::total_lx)).as_bytes())
 }
 
 /// The values, and how much of each is ambient light.

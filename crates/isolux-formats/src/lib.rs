@@ -1,8 +1,10 @@
 //! Files to values and values to files: scenes, photometry, maps.
 
 pub mod atomic;
+mod bare;
 pub mod cache_file;
 pub mod checkpoint;
+mod efficacy;
 pub mod export;
 mod extent;
 mod findings;
@@ -12,10 +14,12 @@ pub mod ldt;
 pub mod lint;
 mod load;
 pub mod map_glb;
+pub mod mitsuba;
 pub mod obj;
 pub mod photometric_file;
 mod picture;
 mod plain_text;
+pub mod ply;
 pub mod png;
 mod polygon;
 mod problem;
@@ -23,6 +27,8 @@ pub mod rad;
 mod round;
 pub mod scene_toml;
 mod source;
+mod srgb;
+pub mod stl;
 
 pub use load::load;
 pub use problem::{Loaded, Problem, Problems};

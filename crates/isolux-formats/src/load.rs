@@ -1,6 +1,6 @@
 //! A scene file of any kind.
 
-use crate::{Loaded, Problem, Problems, gltf, obj, rad, scene_toml};
+use crate::{Loaded, Problem, Problems, gltf, mitsuba, obj, ply, rad, scene_toml, stl};
 use isolux::scene::SceneParts;
 use std::path::Path;
 
@@ -10,7 +10,10 @@ pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     match extension.as_deref() {
         Some("gltf" | "glb") => gltf::read(path),
         Some("obj") => obj::read(path),
+        Some("ply") => ply::read(path),
         Some("rad") => rad::read(path),
+        Some("stl") => stl::read(path),
+        Some("xml") => mitsuba::read(path),
         Some("toml") => scene_toml::read(path),
         other => {
             let what = "is not a scene by its extension";
@@ -25,7 +28,11 @@ fn instead_of(extension: &str) -> &'static str {
         "ies" | "ldt" => "name it in a [[luminaire]] of a scene.toml",
         "mtl" => "name the .obj file that refers to it",
         "oct" => "name the .rad file that the octree was made from",
+        "jpg" | "jpeg" | "png" => "name it as the `texture` of a material of a scene.toml",
+        "wrl" | "x3d" | "vtu" | "csv" | "res" => {
+            "name the scene, or the map, that it was made from"
+        }
         "bin" => "name the .gltf file that refers to it",
-        _ => "name a .toml, .gltf, .glb, .obj or .rad file",
+        _ => "name a .toml, .gltf, .glb, .obj, .ply, .rad, .stl or .xml file",
     }
 }

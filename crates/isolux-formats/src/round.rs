@@ -48,6 +48,13 @@ pub(crate) fn unit_disc(segments: u32, normal: Direction) -> Shape {
     Shape { positions, triangles, ..Shape::default() }
 }
 
+/// A shape whose front is on the other side, its normals too.
+pub(crate) fn inside_out(mut shape: Shape) -> Shape {
+    turn_inside_out(&mut shape);
+    shape.normals.iter_mut().flatten().for_each(|n| *n = n.map(|c| -c));
+    shape
+}
+
 /// Turns the front of every triangle to the other side.
 pub(crate) fn turn_inside_out(shape: &mut Shape) {
     shape.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));

@@ -3,26 +3,16 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+mod spoil;
+
 use isolux_formats::lint::audit;
 use isolux_formats::photometric_file::{PhotometricFile, Target, convert};
+use spoil::{Dice, spoil};
 use std::path::{Path, PathBuf};
 
 /// Spoilt copies of every file; of the larger ones fewer.
 const COPIES: usize = 120;
 const WORK_BYTES: usize = 200_000;
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, most: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % most.max(1) as u64) as usize
-    }
-}
 
 fn lamps() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/photometry");
@@ -56,36 +46,6 @@ const WORDS: [&str; 16] = [
     "1e15",
 ];
 
-/// One change: a byte, a word, a stretch left out, doubled or moved, or the end cut off.
-fn spoil(bytes: &mut Vec<u8>, dice: &mut Dice) {
-    let at = dice.below(bytes.len());
-    let end = (at + 1 + dice.below(80)).min(bytes.len());
-    match dice.below(7) {
-        0 => bytes[at] = dice.below(256) as u8,
-        1 => bytes.truncate(at + 1),
-        2 => drop(bytes.drain(at..end)),
-        3 => {
-            let copy = bytes[at..end].to_vec();
-            bytes.splice(at..at, copy);
-        }
-        4 => {
-            let copy: Vec<u8> = bytes.drain(at..end).collect();
-            let to = dice.below(bytes.len());
-            bytes.splice(to..to, copy);
-        }
-        _ => {
-            let is_space = |b: &u8| b.is_ascii_whitespace();
-            let start = bytes[..at].iter().rposition(is_space).map_or(0, |k| k + 1);
-            let stop = bytes[at..].iter().position(is_space).map_or(bytes.len(), |k| at + k);
-            let word = WORDS[dice.below(WORDS.len())].bytes();
-            bytes.splice(start..stop.max(start), word);
-        }
-    }
-    if bytes.is_empty() {
-        bytes.push(b'0');
-    }
-}
-
 /// Whether the bytes are read.
 fn check(bytes: &[u8], path: &Path) -> bool {
     let audit = audit(path, bytes, PhotometricFile::parse(bytes, path));
@@ -114,7 +74,7 @@ fn spoilt_files_are_read_or_refused() {
         for _ in 0..COPIES.min(WORK_BYTES / good.len()) {
             let mut bytes = good.clone();
             for _ in 0..=dice.below(3) {
-                spoil(&mut bytes, &mut dice);
+                spoil(&mut bytes, &mut dice, &WORDS);
             }
             if check(&bytes, &path) { read += 1 } else { refused += 1 }
         }

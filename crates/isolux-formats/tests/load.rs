@@ -31,9 +31,21 @@ fn extensions_in_capitals() {
 fn anything_else_is_refused_with_what_is_read() {
     for name in ["scene.fbx", "scene", ".toml", "scene.gltf.zip", ""] {
         let message = load(Path::new(name)).unwrap_err().to_string();
-        assert!(message.contains("name a .toml, .gltf, .glb, .obj or .rad file"), "{message}");
+        assert!(
+            message.contains("name a .toml, .gltf, .glb, .obj, .ply, .rad, .stl or .xml file"),
+            "{message}"
+        );
     }
-    for name in ["none.toml", "none.gltf", "none.glb", "none.obj", "none.rad"] {
+    for name in [
+        "none.toml",
+        "none.gltf",
+        "none.glb",
+        "none.obj",
+        "none.rad",
+        "none.stl",
+        "none.ply",
+        "none.xml",
+    ] {
         let message = load(Path::new(name)).unwrap_err().to_string();
         assert!(message.contains(name) && message.contains("read"), "{message}");
     }

@@ -276,3 +276,58 @@ fn a_radiance_scene_is_solved_from_its_file() {
     // The map keeps single precision; 1 - cos loses ten digits of sixteen.
     assert!((lux / due - 1.0).abs() < 1e-6, "{lux} {due}");
 }
+
+#[test]
+fn irradiances_are_written_as_rtrace_does() {
+    let home = Home::new();
+    home.file("sunny.rad", SUNNY);
+    home.file(
+        "floor.rad",
+        "void plastic m 0 0 5 .5 .5 .5 0 0\nm polygon f 0 0 12\n 0 0 0 2 0 0 2 2 0 0 2 0\n",
+    );
+    home.file("p.pts", "2 1 0 0 0 1\n1.5 1 0 0 0 1\n");
+    let arguments = ["probe", "sunny.rad", "--points", "p.pts", "-o", "p.res", "--paths", "64"];
+    let ran = home.run(&arguments);
+    assert_eq!((ran.code, ran.out.as_str()), (0, ""), "{ran:?}");
+    let lines = std::fs::read_to_string(home.path("p.res")).unwrap();
+    // Radiance, too: 1e6 W/(sr m2) in its own solid angle of the sun.
+    let due = 1e6 * std::f64::consts::TAU * (1.0 - 0.2665_f64.to_radians().cos());
+    assert_eq!(lines.lines().count(), 2, "{lines}");
+    for word in lines.split_whitespace() {
+        // 1 - cos loses ten digits of sixteen.
+        assert!((word.parse::<f64>().unwrap() / due - 1.0).abs() < 1e-6, "{lines}: {due}");
+    }
+    for (name, expected) in [("p.csv", ".res"), ("missing/p.res", "missing")] {
+        let refused = home.run(&["probe", "sunny.rad", "--points", "p.pts", "-o", name]);
+        assert!(refused.code == 2 && refused.err.contains(expected), "{refused:?}");
+    }
+}
+
+#[test]
+fn a_mesh_without_light_is_solved_from_a_scene_that_gives_it_some() {
+    let home = Home::new();
+    let facet = |corners: [&str; 3]| {
+        let vertices: String = corners.iter().map(|c| format!("vertex {c}\n")).collect();
+        format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
+    };
+    let floor =
+        facet(["0 0 0", "2000 0 0", "2000 2000 0"]) + &facet(["0 0 0", "2000 2000 0", "0 2000 0"]);
+    home.file("room.stl", format!("solid floor\n{floor}endsolid floor\n"));
+    let dark = home.run(&["solve", "room.stl", "-o", "m.glb"]);
+    assert_eq!(dark.code, 2, "{dark:?}");
+    for expected in ["no light; name the file in a scene.toml", "taken as grey 0.5", "2000 m large"]
+    {
+        assert!(dark.err.contains(expected), "{expected}: {dark:?}");
+    }
+    home.file(
+        "room.toml",
+        "[materials.paint]\ndiffuse = 0.7\n[[geometry]]\nfile = 'room.stl'\nunits = 'mm'\nmaterial = 'paint'\n\
+         [[luminaire]]\nposition = [1, 1, 2]\nisotropic = { intensity_cd = 400 }\n",
+    );
+    let solved = home.run(&["solve", "room.toml", "-o", "m.glb", "--quality", "draft"]);
+    assert_eq!((solved.code, solved.err.contains("warning")), (0, false), "{solved:?}");
+    let probed = home.run_with_input(&["probe", "m.glb", "--points", "-", "--json"], "1 1 0 0 0 1");
+    let lux = probed.json()["points"][0]["illuminance_lx"].as_f64().unwrap();
+    // 400 cd two metres above, and nothing to reflect it back; the map keeps single precision.
+    assert!((lux - 100.0).abs() < 1e-3, "{lux}");
+}

@@ -1,9 +1,7 @@
 //! Radiance's light in photometric units.
 
+use crate::efficacy::EFFICACY_LM_W;
 use isolux::units::Rgb;
-
-/// Luminous efficacy of Radiance's white, lm/W (`WHTEFFICACY` of its `color.h`).
-pub(super) const EFFICACY_LM_W: f64 = 179.0;
 
 /// Share of each channel in luminance (`CIE_rf`, `CIE_gf`, `CIE_bf` of the same file).
 const WEIGHTS: [f64; 3] = [0.265, 0.670, 0.065];

@@ -9,6 +9,7 @@ mod build;
 mod command;
 mod frame;
 mod genbox;
+mod irradiance;
 mod light;
 mod limits;
 mod look;
@@ -27,6 +28,7 @@ mod xform;
 
 use crate::extent::{IMPLAUSIBLE_EXTENT_M, largest_side_m};
 use crate::{Loaded, Problems};
+pub use irradiance::irradiance_lines;
 use isolux::scene::SceneParts;
 use reader::Reader;
 use std::path::Path;

@@ -3,7 +3,6 @@
 use super::build::{Builder, placed};
 use super::command::{self, Command, IesCommand, Source};
 use super::frame::Frame;
-use super::light::EFFICACY_LM_W;
 use super::limits;
 use super::look::{Look, look};
 use super::luminaires;
@@ -14,6 +13,7 @@ use super::parse::parse;
 use super::record::{At, Item, Kind, Object, kind_of};
 use super::tables::Tables;
 use super::tessellate::tessellate;
+use crate::efficacy::EFFICACY_LM_W;
 use crate::source::{self, Unreachable};
 use isolux::geometry::Point;
 use isolux::photometry::IntensityDistribution;

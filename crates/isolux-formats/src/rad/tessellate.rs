@@ -2,7 +2,7 @@
 
 use super::record::Object;
 use crate::polygon::{self, MOST_CORNERS};
-use crate::round::{sincos_of_turn, turn_inside_out, unit_sphere};
+use crate::round::{inside_out, sincos_of_turn, turn_inside_out, unit_sphere};
 use isolux::geometry::{Direction, Point, Vector};
 use isolux::scene::Shape;
 use std::f64::consts::PI;
@@ -32,12 +32,6 @@ pub(super) fn tessellate(object: &Object, keeps_area: bool) -> Result<Tessellate
         other => return Err(format!("{other} is not read")),
     };
     Ok(Tessellated { shape, oddity: None })
-}
-
-fn inside_out(mut shape: Shape) -> Shape {
-    turn_inside_out(&mut shape);
-    shape.normals.iter_mut().flatten().for_each(|n| *n = n.map(|c| -c));
-    shape
 }
 
 fn exactly<const N: usize>(numbers: &[f64]) -> Result<[f64; N], String> {

@@ -134,6 +134,8 @@ fn refuse_keys_of_files(record: &GeometryRecord, context: &mut Context) {
         ("up", record.up.as_ref().map(At::span)),
         ("luminaires", record.luminaires.as_ref().map(At::span)),
         ("unlit_luminance_cd_m2", record.unlit_luminance_cd_m2.as_ref().map(At::span)),
+        ("efficacy_lm_w", record.efficacy_lm_w.as_ref().map(At::span)),
+        ("vertex_colours", record.vertex_colours.as_ref().map(At::span)),
     ];
     for (key, span) in spans {
         if let Some(span) = span {

@@ -6,11 +6,12 @@ use super::placement::scene_from_up;
 use super::record::GeometryRecord;
 use super::shapes::Piece;
 use super::spans::At;
-use crate::{gltf, obj, rad};
+use crate::{Loaded, Problems, bare, gltf, mitsuba, obj, ply, rad, stl};
 use isolux::geometry::Direction;
 use isolux::geometry::Transform;
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Body, Camera, Finish, Luminaire, LuminaireKind, Material, SceneParts};
+use std::path::Path;
 
 /// The units and axes of a file, and what is in it.
 #[derive(Debug)]
@@ -32,37 +33,10 @@ pub(super) fn read(
     context: &mut Context,
 ) -> Option<Import> {
     let path = context.path_of(&file.span(), file.get_ref())?;
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    let is_gltf = matches!(extension.as_deref(), Some("gltf" | "glb"));
-    if let Some(luminance) = record.unlit_luminance_cd_m2.as_ref().filter(|_| !is_gltf) {
-        let what = "`unlit_luminance_cd_m2` for a file that is not glTF";
-        context.problem(&luminance.span(), what, "only glTF has unlit materials; remove it");
-        return None;
-    }
-    let is_replaced = |name: &str| record.material.is_some() || record.materials.contains_key(name);
-    let (read, usual_unit_m) = match extension.as_deref() {
-        Some("obj") => {
-            let reading = obj::Reading { unit_is_known: true, is_replaced: &is_replaced };
-            (obj::read_as(&path, &reading), context.unit_m)
-        }
-        Some("gltf" | "glb") => {
-            let reading = gltf::Reading {
-                unit_is_known: record.units.is_some(),
-                unlit_luminance_cd_m2: record.unlit_luminance_cd_m2.as_ref().map(|l| l.get_ref().0),
-            };
-            (gltf::read_as(&path, reading), 1.0)
-        }
-        Some("rad") => {
-            let unit_is_known = record.units.is_some();
-            let reading = rad::Reading { unit_is_known, is_replaced: &is_replaced };
-            (rad::read_as(&path, &reading), 1.0)
-        }
-        _ => {
-            let what = format!("`{}` is not geometry by its extension", file.get_ref());
-            context.problem(&file.span(), what, "name an .obj, .gltf, .glb or .rad file");
-            return None;
-        }
-    };
+    refuse_vertex_colours(file, record, context);
+    refuse_efficacy(file, record, context);
+    refuse_unlit_luminance(file, record, context);
+    let (read, usual_unit_m) = open(&path, file, record, context)?;
     let mut parts = context.findings.absorb(read)?;
     let unit_m = record.units.as_ref().map_or(usual_unit_m, |unit| unit.get_ref().metres());
     let up = record.up.as_ref().map_or(parts.up, |up| *up.get_ref());
@@ -79,6 +53,98 @@ pub(super) fn read(
         label: path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned()),
         parts,
     })
+}
+
+/// What a file holds, and the metres in its unit where nothing else is said.
+fn open(
+    path: &Path,
+    file: &At<String>,
+    record: &GeometryRecord,
+    context: &mut Context,
+) -> Option<(Result<Loaded<SceneParts>, Problems>, f64)> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let is_replaced = |name: &str| record.material.is_some() || record.materials.contains_key(name);
+    Some(match extension.as_deref() {
+        Some("obj") => {
+            let reading = obj::Reading { unit_is_known: true, is_replaced: &is_replaced };
+            (obj::read_as(path, &reading), context.unit_m)
+        }
+        Some("gltf" | "glb") => {
+            let reading = gltf::Reading {
+                unit_is_known: record.units.is_some(),
+                unlit_luminance_cd_m2: record.unlit_luminance_cd_m2.as_ref().map(|l| l.get_ref().0),
+            };
+            (gltf::read_as(path, reading), 1.0)
+        }
+        Some("rad") => {
+            let unit_is_known = record.units.is_some();
+            let reading = rad::Reading { unit_is_known, is_replaced: &is_replaced };
+            (rad::read_as(path, &reading), 1.0)
+        }
+        Some("xml") => {
+            let reading = mitsuba::Reading {
+                unit_is_known: record.units.is_some(),
+                is_replaced: &is_replaced,
+                efficacy_lm_w: record.efficacy_lm_w.as_ref().map(|e| e.get_ref().0),
+                is_all: false,
+            };
+            (mitsuba::read_as(path, &reading), 1.0)
+        }
+        Some("stl" | "ply") => {
+            let reading = bare::Reading {
+                unit_is_known: true,
+                is_replaced: &is_replaced,
+                vertex_colours: record.asks_for_vertex_colours(),
+            };
+            let is_stl = extension.as_deref() == Some("stl");
+            let read = if is_stl { stl::read_as } else { ply::read_as };
+            (read(path, &reading), context.unit_m)
+        }
+        _ => {
+            let what = format!("`{}` is not geometry by its extension", file.get_ref());
+            context.problem(
+                &file.span(),
+                what,
+                "name an .obj, .gltf, .glb, .ply, .rad, .stl or .xml file",
+            );
+            return None;
+        }
+    })
+}
+
+/// Colours of vertices where there are none, or where a material stands in for them.
+fn refuse_vertex_colours(file: &At<String>, record: &GeometryRecord, context: &mut Context) {
+    let Some(asked) = record.vertex_colours.as_ref().filter(|asked| *asked.get_ref()) else {
+        return;
+    };
+    let is_ply = file.get_ref().to_lowercase().ends_with(".ply");
+    let what = match is_ply {
+        false => "`vertex_colours` of a file that is no .ply",
+        true if record.material.is_some() || !record.materials.is_empty() => {
+            "`vertex_colours` beside a material"
+        }
+        true => return,
+    };
+    context.problem(&asked.span(), what, "remove it, or what it contradicts");
+}
+
+/// A luminance of unlit materials of a file that has none.
+fn refuse_unlit_luminance(file: &At<String>, record: &GeometryRecord, context: &mut Context) {
+    let name = file.get_ref().to_lowercase();
+    let is_gltf = name.ends_with(".gltf") || name.ends_with(".glb");
+    if let Some(luminance) = record.unlit_luminance_cd_m2.as_ref().filter(|_| !is_gltf) {
+        let what = "`unlit_luminance_cd_m2` for a file that is not glTF";
+        context.problem(&luminance.span(), what, "only glTF has unlit materials; remove it");
+    }
+}
+
+/// An efficacy of a file that is not in watts, or of which the reader knows it.
+fn refuse_efficacy(file: &At<String>, record: &GeometryRecord, context: &mut Context) {
+    let is_mitsuba = file.get_ref().to_lowercase().ends_with(".xml");
+    if let Some(given) = record.efficacy_lm_w.as_ref().filter(|_| !is_mitsuba) {
+        let what = "`efficacy_lm_w` of a file that is no Mitsuba .xml";
+        context.problem(&given.span(), what, "remove it");
+    }
 }
 
 impl Import {

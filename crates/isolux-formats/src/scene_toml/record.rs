@@ -37,6 +37,8 @@ pub(super) struct GeometryRecord {
     pub(super) luminaires: Option<At<bool>>,
     /// Luminance of white in unlit materials of a glTF file.
     pub(super) unlit_luminance_cd_m2: Option<At<Positive>>,
+    pub(super) vertex_colours: Option<At<bool>>,
+    pub(super) efficacy_lm_w: Option<At<Positive>>,
     pub(super) material: Option<At<String>>,
     #[serde(default)]
     pub(super) materials: BTreeMap<At<String>, At<String>>,
@@ -213,6 +215,13 @@ pub(super) struct LightRecord<'a> {
     pub(super) extended_m: Option<&'a At<Positive>>,
     pub(super) colour: Option<&'a At<Colour>>,
     pub(super) cct_k: Option<&'a At<Number>>,
+}
+
+impl GeometryRecord {
+    /// Whether colours of vertices are to be read as diffuse reflectance.
+    pub(super) fn asks_for_vertex_colours(&self) -> bool {
+        self.vertex_colours.as_ref().is_some_and(|asked| *asked.get_ref())
+    }
 }
 
 impl LuminaireRecord {

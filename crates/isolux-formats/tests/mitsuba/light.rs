@@ -1,0 +1,71 @@
+//! Emitters.
+
+use super::*;
+
+#[test]
+fn luminaires_shine_as_mitsubas_do() {
+    let parts = read(&format!(
+        "{RECTANGLE}<emitter type='point' id='bulb'><point name='position' value='1 2 3'/>\
+         <rgb name='intensity' value='4 0 0'/></emitter>\
+         <emitter type='spot'><spectrum name='intensity' value='2'/><float name='cutoff_angle' value='20'/>\
+         <float name='beam_width' value='12'/><transform name='to_world'>\
+         <lookat origin='0 0 5' target='0 0 0' up='0 1 0'/></transform></emitter>\
+         <emitter type='directional'><vector name='direction' x='0' y='-2' z='0'/>\
+         <float name='irradiance' value='3'/></emitter>"
+    ));
+    let LuminaireKind::Point { position, intensity, .. } = &parts.luminaires[0].kind else {
+        panic!()
+    };
+    assert_eq!(
+        (parts.luminaires[0].name.as_str(), <[f64; 3]>::from(*position)),
+        ("bulb", [1.0, 2.0, 3.0])
+    );
+    near(intensity.max_intensity_cd(), 179.0 * 4.0 * 0.2126, 1e-12);
+    near(parts.luminaires[0].colour.luminance(), 1.0, 1e-12);
+    let LuminaireKind::Point { world_from_luminaire, intensity, .. } = &parts.luminaires[1].kind
+    else {
+        panic!()
+    };
+    assert_eq!(world_from_luminaire.columns[2].z, 1.0, "down -z");
+    // Full, linear in the angle, nothing: what Mitsuba gives at these angles.
+    for (angle, due) in
+        [(0.0, 1.0), (12.0, 1.0), (16.0, 0.5), (18.0, 0.25), (20.001, 0.0), (90.0, 0.0)]
+    {
+        let (s, c) = f64::to_radians(angle).sin_cos();
+        let found = intensity.intensity_cd(Vector::new(s, 0.0, -c).direction().unwrap());
+        assert!((found / (2.0 * 179.0) - due).abs() < 1e-4, "{angle}: {found}");
+    }
+    // Light of equal energy is reddish beside the white of Rec. 709, of the same luminance.
+    near(parts.luminaires[1].colour.0[0], 1.2048, 1e-3);
+    let LuminaireKind::Directional { direction, illuminance_lx } = &parts.luminaires[2].kind else {
+        panic!()
+    };
+    assert_eq!((direction.to_vector().y, *illuminance_lx), (-1.0, 537.0));
+}
+
+#[test]
+fn round_lights_keep_their_flux() {
+    let light = "<emitter type='area'><rgb name='radiance' value='2'/></emitter>";
+    let inside = format!(
+        "<shape type='sphere'><float name='radius' value='.2'/>{light}</shape>\
+         <shape type='disk'>{light}</shape>\
+         <shape type='cylinder'><point name='p1' value='0 0 3'/>{light}</shape>"
+    );
+    let scene = Scene::assemble(read(&inside)).unwrap();
+    let areas: Vec<f64> = scene.area_luminaires().iter().map(|l| l.area_m2).collect();
+    // The kernel keeps coordinates in single precision.
+    areas.iter().zip([0.16 * PI, PI, 6.0 * PI]).for_each(|(a, b)| near(*a, b, 1e-5));
+    assert_eq!(scene.area_luminaires()[0].luminance_cd_m2, Rgb::grey(358.0));
+}
+
+#[test]
+fn a_sky_of_one_luminance_is_a_box_around_the_scene() {
+    let parts = read(&format!(
+        "{RECTANGLE}<emitter type='constant'><rgb name='radiance' value='1 2 3'/></emitter>"
+    ));
+    let sky = parts.shapes.last().unwrap();
+    assert_eq!((sky.name.as_str(), sky.triangles.len()), ("constant emitter", 12));
+    let material = &parts.materials[sky.material as usize];
+    assert_eq!(material.finish(false).unwrap().luminance_cd_m2, Rgb::new(1.0, 2.0, 3.0) * 179.0);
+    assert_eq!(*material.finish(true).unwrap(), Finish::BLACK);
+}
