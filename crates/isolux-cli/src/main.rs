@@ -16,6 +16,8 @@ mod groups;
 mod info;
 mod interrupt;
 mod lamp;
+mod lightmap;
+mod lightmap_files;
 mod lint;
 mod map_file;
 mod mix;

@@ -45,7 +45,7 @@ pub fn bake(
         }
         let values: Vec<Value> = block.par_iter().map(|fragments| baker.texel(fragments)).collect();
         for (fragments, value) in block.iter().zip(values) {
-            value.store(fragments[0].texel as usize, &mut baked);
+            value.store(fragments, &mut baked);
         }
     }
     drop(texels);
@@ -61,6 +61,7 @@ fn empty(layout: &Layout) -> Lightmap {
         layout: layout.clone(),
         shown_lx: vec![[0.0; 3]; count],
         covers: vec![Cover::Empty; count],
+        owners: vec![0; count],
         standard_errors_lx: vec![0.0; count],
         coverage: vec![0.0; count],
         seams: stitch::SeamReport::default(),
@@ -90,12 +91,16 @@ struct Value {
 }
 
 impl Value {
-    fn store(&self, texel: usize, into: &mut Lightmap) {
+    fn store(&self, fragments: &[Fragment], into: &mut Lightmap) {
+        let texel = fragments[0].texel as usize;
+        let largest = fragments.iter().max_by(|a, b| a.share.total_cmp(&b.share));
+        into.owners[texel] = largest.map_or(0, |fragment| fragment.side);
         into.readings += self.readings;
         into.covers[texel] = Cover::Unknown;
-        if let Some((lx, error_lx)) = self.known.filter(|(lx, error)| {
-            lx.0.iter().chain([error]).all(|c| (*c as f32).is_finite())
-        }) {
+        if let Some((lx, error_lx)) = self
+            .known
+            .filter(|(lx, error)| lx.0.iter().chain([error]).all(|c| (*c as f32).is_finite()))
+        {
             into.covers[texel] = Cover::Known;
             into.shown_lx[texel] = lx.0.map(|c| c as f32);
             into.standard_errors_lx[texel] = error_lx as f32;

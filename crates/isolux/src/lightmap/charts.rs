@@ -70,9 +70,5 @@ impl fmt::Display for UnwrapError {
 /// Cuts patches into charts and lays them out without overlap. The same input gives the same bits.
 pub trait Unwrapper {
     /// Charts of all patches, together in as few pages as it can.
-    fn unwrap(
-        &self,
-        patches: &[Patch],
-        request: &UnwrapRequest,
-    ) -> Result<Unwrapped, UnwrapError>;
+    fn unwrap(&self, patches: &[Patch], request: &UnwrapRequest) -> Result<Unwrapped, UnwrapError>;
 }

@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn points_lie_inside_and_evenly() {
         let cell = Polygon::triangle([[0.0, 0.0], [3.0, 0.5], [0.5, 3.0]]).within(0, 0.0, 1.0);
-        let n = 64;
+        let n = 512;
         let mut mean = [0.0; 2];
         for i in 0..n {
             for j in 0..n {
@@ -151,8 +151,9 @@ mod tests {
             }
         }
         let middle = cell.centroid();
-        // The midpoint rule on 64 x 64 points of a piecewise smooth map, about 1 / 64 squared; ten times that.
-        (0..2).for_each(|k| assert!((mean[k] - middle[k]).abs() < 2.5e-3, "{mean:?} {middle:?}"));
+        // The midpoint rule, with a jump from triangle to triangle of the fan: first order, by a size of 3 texels.
+        let off = 3.0 / f64::from(n);
+        (0..2).for_each(|k| assert!((mean[k] - middle[k]).abs() < off, "{mean:?} {middle:?}"));
     }
 
     #[test]

@@ -17,12 +17,13 @@ pub(super) fn fill(lightmap: &mut Lightmap) {
             .collect();
         next.sort_unstable();
         next.dedup();
-        let values: Vec<[f32; 3]> = next.iter().map(|&t| mean(lightmap, &is_lit, t)).collect();
-        for (&texel, value) in next.iter().zip(values) {
+        let values: Vec<_> = next.iter().map(|&t| around(lightmap, &is_lit, t)).collect();
+        for (&texel, (value, owner)) in next.iter().zip(values) {
             lightmap.shown_lx[texel] = value;
             is_lit[texel] = true;
             if lightmap.covers[texel] == Cover::Empty {
                 lightmap.covers[texel] = Cover::Filled;
+                lightmap.owners[texel] = owner;
             }
         }
         if next.is_empty() {
@@ -32,16 +33,17 @@ pub(super) fn fill(lightmap: &mut Lightmap) {
     }
 }
 
-/// Mean of the neighbours that have a value.
-fn mean(lightmap: &Lightmap, is_lit: &[bool], texel: usize) -> [f32; 3] {
-    let (mut sum, mut count) = ([0.0; 3], 0.0);
+/// Mean of the neighbours that have a value, and the side of one of them.
+fn around(lightmap: &Lightmap, is_lit: &[bool], texel: usize) -> ([f32; 3], u32) {
+    let (mut sum, mut count, mut owner) = ([0.0; 3], 0.0, 0);
     for other in neighbours(lightmap, texel).filter(|&other| is_lit[other]) {
         count += 1.0;
+        owner = lightmap.owners[other];
         for (sum, value) in sum.iter_mut().zip(lightmap.shown_lx[other]) {
             *sum += f64::from(value);
         }
     }
-    sum.map(|sum| (sum / f64::max(count, 1.0)) as f32)
+    (sum.map(|sum| (sum / f64::max(count, 1.0)) as f32), owner)
 }
 
 /// The texels around one, on its page.
@@ -49,8 +51,8 @@ fn neighbours(lightmap: &Lightmap, texel: usize) -> impl Iterator<Item = usize> 
     let (width, height) = (lightmap.layout.width as usize, lightmap.layout.height as usize);
     let (x, row) = (texel % width, texel / width);
     let (y, first_row) = (row % height, row - row % height);
-    let around = |at: usize, size: usize| at.saturating_sub(1)..(at + 2).min(size);
-    around(y, height)
-        .flat_map(move |y| around(x, width).map(move |x| (first_row + y) * width + x))
+    let near = |at: usize, size: usize| at.saturating_sub(1)..(at + 2).min(size);
+    near(y, height)
+        .flat_map(move |y| near(x, width).map(move |x| (first_row + y) * width + x))
         .filter(move |&other| other != texel)
 }

@@ -2,13 +2,13 @@
 
 use super::charts::{Patch, UnwrapError, UnwrapRequest, Unwrapper};
 use super::layout::{Layout, Side};
-use crate::map::IlluminationMap;
+use crate::elements::carries_map;
 use crate::scene::Scene;
 use isolux_geometry::Normal;
 use std::collections::HashMap;
 
-/// Without a wish, the density is such that all surfaces have so many texels: a page of 512 x 512, two thirds full.
-const USUAL_TEXELS: f64 = 175_000.0;
+/// Without a wish, the density is such that all surfaces have so many texels: a page of 512 x 512, half full.
+const USUAL_TEXELS: f64 = 131_072.0;
 /// Charts end where neighbours differ by more than this, cosine of 15 degrees: illuminance jumps at a crease, and a
 /// lookup must not mix both its sides. Facets of curved surfaces stay together.
 const CREASE_COS: f64 = 0.965_925_8;
@@ -65,27 +65,23 @@ pub enum LightmapError {
 }
 
 /// Area of all sides that carry the map, m2.
-pub fn lit_area_m2(scene: &Scene, map: &IlluminationMap) -> f64 {
-    lit_sides(scene, map).map(|(triangle, _)| scene.triangle(triangle).area()).sum()
+pub fn lit_area_m2(scene: &Scene) -> f64 {
+    lit_sides(scene).map(|(triangle, _)| scene.triangle(triangle).area()).sum()
 }
 
-fn lit_sides<'a>(
-    scene: &'a Scene,
-    map: &'a IlluminationMap,
-) -> impl Iterator<Item = (u32, bool)> + 'a {
+fn lit_sides(scene: &Scene) -> impl Iterator<Item = (u32, bool)> + '_ {
     (0..scene.triangle_count())
         .flat_map(|triangle| [(triangle, false), (triangle, true)])
-        .filter(|&(triangle, back)| map.elements.locate(triangle, back, 0.3, 0.3).is_some())
+        .filter(|&(triangle, back)| carries_map(scene, triangle, back))
 }
 
 /// Lays out all sides that carry the map.
 pub fn plan(
     scene: &Scene,
-    map: &IlluminationMap,
     settings: &LightmapSettings,
     unwrapper: &impl Unwrapper,
 ) -> Result<Layout, LightmapError> {
-    let area_m2 = lit_area_m2(scene, map);
+    let area_m2 = lit_area_m2(scene);
     if !(area_m2 > 0.0) {
         return Err(LightmapError::NothingLit);
     }
@@ -96,10 +92,8 @@ pub fn plan(
     };
     let texels = area_m2 * texels_per_m * texels_per_m * PACKED;
     check_memory(texels, settings)?;
-    let (patches, sides) = patches(scene, map);
-    let UnwrapRequest { page, padding, .. } =
-        UnwrapRequest { texels_per_m, page: settings.page, padding: settings.padding };
-    let request = UnwrapRequest { texels_per_m, page, padding };
+    let (patches, sides) = patches(scene);
+    let request = UnwrapRequest { texels_per_m, page: settings.page, padding: settings.padding };
     let unwrapped = unwrapper.unwrap(&patches, &request).map_err(|error| match error {
         UnwrapError::TooLarge => LightmapError::Memory {
             needed: (texels.max((1_u64 << 30) as f64)) as u64 * BYTES_PER_TEXEL,
@@ -153,9 +147,9 @@ fn turned<T: Copy>([a, b, c]: [T; 3], back: bool) -> [T; 3] {
 type Sides = Vec<Vec<(u32, bool)>>;
 
 /// One patch for each side of each shape, and the sides in them.
-fn patches(scene: &Scene, map: &IlluminationMap) -> (Vec<Patch>, Sides) {
+fn patches(scene: &Scene) -> (Vec<Patch>, Sides) {
     let mut by_shape: Sides = vec![Vec::new(); 2 * scene.shape_names().len()];
-    for (triangle, back) in lit_sides(scene, map) {
+    for (triangle, back) in lit_sides(scene) {
         by_shape[2 * scene.shape_of(triangle) as usize + usize::from(back)].push((triangle, back));
     }
     by_shape.retain(|sides| !sides.is_empty());
@@ -198,8 +192,8 @@ fn creases(triangles: &[[u32; 3]], normals: &[[Normal; 3]]) -> Vec<[bool; 3]> {
     let mut found = vec![[false; 3]; triangles.len()];
     for run in edges.chunk_by(|a, b| a.0 == b.0) {
         let first = run[0].3;
-        let is_smooth = run.len() == 2
-            && run[1].3.iter().zip(first).all(|(a, b)| a.dot(b) >= CREASE_COS);
+        let is_smooth =
+            run.len() == 2 && run[1].3.iter().zip(first).all(|(a, b)| a.dot(b) >= CREASE_COS);
         for &(_, index, k, _) in run {
             found[index][k] = !is_smooth;
         }

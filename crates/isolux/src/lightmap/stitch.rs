@@ -2,8 +2,9 @@
 //!
 //! The texels about seams are moved so that bilinear lookups along both sides of an edge give the same, by least
 //! squares (Iwanicki 2013, "Lighting technology of The Last of Us", SIGGRAPH talks). Unlike there, every texel is held
-//! to its value in proportion to its standard error: what is well known gives way least, and what was only filled in
-//! beside a chart gives way first.
+//! to its value in proportion to its standard error, and known ones move by no more than twice that: what is well known
+//! gives way least, and what was only filled in beside a chart gives way first. Jumps that are left are no noise but the
+//! size of texels.
 
 use super::seams::{self, Seam};
 use super::solve::{Row, solve};
@@ -21,6 +22,12 @@ const AGREEMENT: f64 = 0.1;
 const SUREST: f64 = 1e-3;
 /// What was filled in beside a chart is held this loosely, a share of its value.
 const FILLED: f64 = 1.0;
+/// Known texels move by no more than so many of their standard errors: within the interval of 95 %.
+const MOST_ERRORS: f64 = 2.0;
+/// Times that texels are stopped there and the others solved for anew.
+const PASSES: usize = 4;
+/// A lookup counts if known texels have this weight in it on either side: beside narrow charts there may be none.
+const KNOWN_WEIGHT: f64 = 0.25;
 
 /// How far apart the two sides of seams are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,8 +57,8 @@ pub struct SeamReport {
     pub largest_change_lx: f64,
     /// Root mean square change of known texels at seams, in their standard errors.
     pub rms_change_errors: f64,
-    /// Share of known texels at seams that moved by more than their standard error.
-    pub moved_beyond_error: f64,
+    /// Share of known texels at seams that were stopped at twice their standard error.
+    pub stopped: f64,
 }
 
 /// A lookup on either side of a seam.
@@ -74,27 +81,55 @@ pub(super) fn stitch(scene: &Scene, lightmap: &mut Lightmap) -> SeamReport {
         return report;
     }
     let (texels, rows) = system(lightmap, &pairs);
-    let held: Vec<f64> = texels.iter().map(|&t| give_lx(lightmap, t)).collect();
-    let change = solve(&rows, &held);
-    let mut squared = 0.0;
-    let (mut known, mut beyond) = (0_usize, 0_usize);
-    for (&texel, change) in texels.iter().zip(&change) {
-        let moved_lx = Rgb(*change).luminance().abs();
-        for (shown, change) in lightmap.shown_lx[texel].iter_mut().zip(change) {
-            *shown = (f64::from(*shown) + change).max(0.0) as f32;
-        }
+    let changes = bounded(lightmap, &texels, rows);
+    let (mut squared, mut known, mut stopped) = (0.0, 0_usize, 0_usize);
+    for (&texel, change) in texels.iter().zip(&changes) {
         if lightmap.covers[texel] == Cover::Known {
+            let moved_lx = Rgb(*change).luminance().abs();
             let errors = moved_lx / give_lx(lightmap, texel);
             squared += errors * errors;
             known += 1;
-            beyond += usize::from(errors > 1.0);
+            stopped += usize::from(errors >= MOST_ERRORS * (1.0 - 1e-9));
             report.largest_change_lx = report.largest_change_lx.max(moved_lx);
         }
     }
+    for (&texel, change) in texels.iter().zip(&changes) {
+        for (shown, change) in lightmap.shown_lx[texel].iter_mut().zip(change) {
+            *shown = (f64::from(*shown) + change).max(0.0) as f32;
+        }
+    }
     report.rms_change_errors = (squared / known.max(1) as f64).sqrt();
-    report.moved_beyond_error = beyond as f64 / known.max(1) as f64;
+    report.stopped = stopped as f64 / known.max(1) as f64;
     report.after = jump(lightmap, &pairs);
     report
+}
+
+/// What texels change by. Those that would move too far are stopped on the way, and the others solved for anew.
+fn bounded(lightmap: &Lightmap, texels: &[usize], mut rows: Vec<Row>) -> Vec<[f64; 3]> {
+    let give: Vec<f64> = texels.iter().map(|&texel| give_lx(lightmap, texel)).collect();
+    let mut stopped: Vec<Option<[f64; 3]>> = vec![None; texels.len()];
+    let mut changes = Vec::new();
+    for _ in 0..PASSES {
+        changes = solve(&rows, &give);
+        let mut is_done = true;
+        for k in 0..texels.len() {
+            if let Some(at) = stopped[k] {
+                changes[k] = at;
+                continue;
+            }
+            let moved = Rgb(changes[k]).luminance().abs() / give[k];
+            if lightmap.covers[texels[k]] == Cover::Known && moved > MOST_ERRORS {
+                changes[k] = changes[k].map(|c| c * MOST_ERRORS / moved);
+                stopped[k] = Some(changes[k]);
+                is_done = false;
+            }
+        }
+        if is_done {
+            break;
+        }
+        rows.iter_mut().for_each(|row| row.fix(&stopped));
+    }
+    changes
 }
 
 fn lookups(lightmap: &Lightmap, seam: &Seam) -> Vec<Pair> {
@@ -109,13 +144,17 @@ fn lookups(lightmap: &Lightmap, seam: &Seam) -> Vec<Pair> {
         };
         Pair { place: seam.ends[0].lerp(seam.ends[1], t), sides: seam.sides.map(side) }
     };
-    let has_light = |pair: &Pair| {
-        let read = |side: &[(usize, f64); 4]| {
-            side.iter().all(|(t, weight)| *weight == 0.0 || lightmap.covers[*t] != Cover::Empty)
-        };
-        pair.sides.iter().all(read)
+    let is_known = |pair: &Pair| {
+        pair.sides.iter().all(|side| {
+            let weight = |cover| -> f64 {
+                let of = |&&(texel, _): &&(usize, f64)| lightmap.covers[texel] == cover;
+                side.iter().filter(of).map(|(_, weight)| weight).sum()
+            };
+            weight(Cover::Known) >= KNOWN_WEIGHT
+                && weight(Cover::Empty) + weight(Cover::Unknown) == 0.0
+        })
     };
-    (0..steps).map(at).filter(has_light).collect()
+    (0..steps).map(at).filter(is_known).collect()
 }
 
 /// Standard error that a texel may give way by, lx.

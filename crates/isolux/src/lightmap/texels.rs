@@ -1,6 +1,7 @@
 //! The values of a lightmap.
 
-use super::layout::Layout;
+use super::cover;
+use super::layout::{Layout, Side};
 use super::stitch::SeamReport;
 use crate::units::Rgb;
 
@@ -38,6 +39,8 @@ pub struct Lightmap {
     pub shown_lx: Vec<[f32; 3]>,
     /// What every texel stands for.
     pub covers: Vec<Cover>,
+    /// Index of the side that covers most of a texel, or that it was filled beside; not meant for empty ones.
+    pub(super) owners: Vec<u32>,
     /// Standard errors of known texels, lx; not meant for others.
     pub(super) standard_errors_lx: Vec<f32>,
     /// Shares of texels that known surface covers.
@@ -49,6 +52,12 @@ pub struct Lightmap {
 }
 
 impl Lightmap {
+    /// The values of a page as lookups read them, row by row.
+    pub fn page(&self, page: u32) -> &[[f32; 3]] {
+        let first = self.layout.index(page, 0, 0);
+        &self.shown_lx[first..first + self.layout.width as usize * self.layout.height as usize]
+    }
+
     /// A texel by its number, where its value is known.
     pub fn texel(&self, index: usize) -> Option<Texel> {
         (self.covers[index] == Cover::Known).then(|| Texel {
@@ -56,6 +65,18 @@ impl Lightmap {
             standard_error_lx: f64::from(self.standard_errors_lx[index]),
             coverage: f64::from(self.coverage[index]),
         })
+    }
+
+    /// The side that covers most of a texel, or beside which it lies, and the barycentric weights (u, v) of its centre
+    /// on the triangle, or of the nearest place there. `None` where it is empty.
+    pub fn place(&self, index: usize) -> Option<(&Side, [f64; 2])> {
+        if self.covers[index] == Cover::Empty {
+            return None;
+        }
+        let (width, height) = (self.layout.width as usize, self.layout.height as usize);
+        let centre = [index % width, index / width % height].map(|at| at as f64 + 0.5);
+        let side = self.owners[index];
+        Some((&self.layout.sides[side as usize], cover::weights(&self.layout, side, centre)))
     }
 
     /// What a bilinear lookup at a place in texels gives, lx.

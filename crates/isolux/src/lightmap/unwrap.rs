@@ -9,11 +9,7 @@ use uvunwrap::{Atlas, Density, Error, MeshInput, Options, OutputMesh};
 pub struct UvUnwrap;
 
 impl Unwrapper for UvUnwrap {
-    fn unwrap(
-        &self,
-        patches: &[Patch],
-        request: &UnwrapRequest,
-    ) -> Result<Unwrapped, UnwrapError> {
+    fn unwrap(&self, patches: &[Patch], request: &UnwrapRequest) -> Result<Unwrapped, UnwrapError> {
         let inputs: Vec<MeshInput> = patches
             .iter()
             .map(|patch| MeshInput {
@@ -23,7 +19,9 @@ impl Unwrapper for UvUnwrap {
             .collect();
         // One page that grows to fit, where it stays small enough.
         let atlas = match generate(&inputs, request, None) {
-            Ok(atlas) if atlas.width <= request.page && atlas.height <= request.page => Ok(atlas),
+            Ok(atlas) if atlas.width <= request.page && atlas.height <= request.page => {
+                squarer(&inputs, request, atlas)
+            }
             Ok(_) | Err(UnwrapError::TooLarge) => generate(&inputs, request, Some(request.page)),
             Err(other) => Err(other),
         }?;
@@ -31,6 +29,27 @@ impl Unwrapper for UvUnwrap {
         let Atlas { width, height, page_count: pages, chart_count: charts, .. } = atlas;
         Ok(Unwrapped { width, height, pages, charts, placed })
     }
+}
+
+/// A page that grows is as wide as its widest chart: large charts make a tower of it. The smallest square that takes
+/// all is better, if there is one of no more texels than half as many again.
+fn squarer(
+    inputs: &[MeshInput<'_>],
+    request: &UnwrapRequest,
+    atlas: Atlas,
+) -> Result<Atlas, UnwrapError> {
+    if atlas.height <= 2 * atlas.width {
+        return Ok(atlas);
+    }
+    let texels = f64::from(atlas.width) * f64::from(atlas.height);
+    for more in [1.0, 1.15, 1.3, 1.5] {
+        let side = ((texels * more).sqrt().ceil() as u32).max(atlas.width).min(request.page);
+        let square = generate(inputs, request, Some(side))?;
+        if square.page_count == 1 {
+            return Ok(square);
+        }
+    }
+    Ok(atlas)
 }
 
 fn generate(
