@@ -10,8 +10,8 @@ use crate::output::OutputPath;
 use crate::quantity::{show_bytes, show_count, show_seconds, show_share, significant};
 use isolux::engine::Watch;
 use isolux::lightmap::{
-    BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, SeamReport,
-    UvUnwrap, bake, plan,
+    BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, OwnPlaces,
+    SeamReport, UvUnwrap, bake, plan,
 };
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
@@ -77,6 +77,15 @@ impl Planned {
                 show_bytes(layout.texel_count() as u64 * BYTES_PER_TEXEL)
             ),
         );
+        match &layout.own_places {
+            OwnPlaces::None => {}
+            OwnPlaces::Kept => {
+                note(Note::Info, "lightmap: surfaces lie where their file puts them")
+            }
+            OwnPlaces::Refused(why) => {
+                note(Note::Warning, format!("{why}; all surfaces are laid out anew"))
+            }
+        }
         Ok(Self { layout })
     }
 

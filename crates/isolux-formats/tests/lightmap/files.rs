@@ -69,7 +69,8 @@ fn exr_keeps_every_bit_and_says_what_it_holds() {
 /// EXT_texture_shared_exponent, section "shared exponent texture color conversion", written anew.
 fn unpacked(word: u32) -> [f64; 3] {
     let scale = 2_f64.powi((word >> 27) as i32 - 15 - 9);
-    [word & 0x1ff, word >> 9 & 0x1ff, word >> 18 & 0x1ff].map(|mantissa| f64::from(mantissa) * scale)
+    [word & 0x1ff, word >> 9 & 0x1ff, word >> 18 & 0x1ff]
+        .map(|mantissa| f64::from(mantissa) * scale)
 }
 
 #[test]

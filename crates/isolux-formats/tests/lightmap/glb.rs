@@ -17,8 +17,14 @@ impl Glb {
         let map = crate::card::map(&scene);
         let lightmap = crate::card::lightmap(&scene, &map);
         let preview = Preview { exposure_m2_cd: 0.01, white_cd_m2: 400.0 };
-        let file =
-            TexelFile { scene: &scene, map: &map, lightmap: &lightmap, preview, target, with_record: false };
+        let file = TexelFile {
+            scene: &scene,
+            map: &map,
+            lightmap: &lightmap,
+            preview,
+            target,
+            with_record: false,
+        };
         let bytes = write_texels(&file).unwrap();
         assert_eq!(bytes, write_texels(&file).unwrap());
         let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;

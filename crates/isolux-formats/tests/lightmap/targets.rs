@@ -128,8 +128,7 @@ fn viewers_get_finished_colours() {
     assert_eq!(card["extensions"].get("KHR_materials_emissive_strength"), None);
     let texel = texel(&glb.picture(&texture["index"]));
     let (exposure, white) = (0.01, 400.0);
-    let luminance =
-        0.2126 * expected(0) + 0.7152 * expected(1) + 0.0722 * expected(2);
+    let luminance = 0.2126 * expected(0) + 0.7152 * expected(1) + 0.0722 * expected(2);
     let (x, w) = (exposure * luminance, exposure * white);
     let scale = exposure * (1.0 + x / (w * w)) / (1.0 + x);
     for k in 0..3 {

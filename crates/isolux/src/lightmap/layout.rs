@@ -15,8 +15,22 @@ pub struct Layout {
     pub padding: u32,
     /// Number of charts.
     pub charts: u32,
+    /// What became of the places in a lightmap that the file has.
+    pub own_places: OwnPlaces,
     /// The sides that carry the map, in the order of the triangles of the scene, the front before the back.
     pub sides: Vec<Side>,
+}
+
+/// Whether surfaces lie where their file puts them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum OwnPlaces {
+    /// The file has no places in a lightmap.
+    #[default]
+    None,
+    /// They are kept: the first page is that of the file.
+    Kept,
+    /// They cannot be used, and why; surfaces are laid out anew.
+    Refused(String),
 }
 
 /// One side of a triangle of the scene.

@@ -10,6 +10,7 @@ mod clip;
 mod cover;
 mod dilate;
 mod layout;
+mod own_places;
 mod plan;
 mod seams;
 mod solve;
@@ -22,7 +23,7 @@ mod tests;
 
 pub use bake::bake;
 pub use charts::{Patch, Placed, UnwrapError, UnwrapRequest, Unwrapped, Unwrapper};
-pub use layout::{Layout, Side};
+pub use layout::{Layout, OwnPlaces, Side};
 pub use plan::{BYTES_PER_TEXEL, LightmapError, LightmapSettings, lit_area_m2, plan};
 pub use stitch::{Jump, SeamReport};
 pub use texels::{Cover, Lightmap, Texel};

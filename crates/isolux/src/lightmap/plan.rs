@@ -1,11 +1,12 @@
 //! From a map to a layout: which sides, how dense, and whether it fits into memory.
 
 use super::charts::{Patch, UnwrapError, UnwrapRequest, Unwrapper};
-use super::layout::{Layout, Side};
+use super::layout::{Layout, OwnPlaces, Side};
+use super::own_places;
 use crate::elements::carries_map;
 use crate::scene::Scene;
 use isolux_geometry::Normal;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Without a wish, the density is such that all surfaces have so many texels: a page of 512 x 512, half full.
 const USUAL_TEXELS: f64 = 131_072.0;
@@ -69,7 +70,7 @@ pub fn lit_area_m2(scene: &Scene) -> f64 {
     lit_sides(scene).map(|(triangle, _)| scene.triangle(triangle).area()).sum()
 }
 
-fn lit_sides(scene: &Scene) -> impl Iterator<Item = (u32, bool)> + '_ {
+pub(super) fn lit_sides(scene: &Scene) -> impl Iterator<Item = (u32, bool)> + '_ {
     (0..scene.triangle_count())
         .flat_map(|triangle| [(triangle, false), (triangle, true)])
         .filter(|&(triangle, back)| carries_map(scene, triangle, back))
@@ -92,11 +93,44 @@ pub fn plan(
     };
     let texels = area_m2 * texels_per_m * texels_per_m * PACKED;
     check_memory(texels, settings)?;
-    let (patches, sides) = patches(scene);
-    let request = UnwrapRequest { texels_per_m, page: settings.page, padding: settings.padding };
+    let own = own_places::find(scene, (texels_per_m, settings.page, settings.padding));
+    let (own, own_places) = match own {
+        Ok(Some(own)) => (Some(own), OwnPlaces::Kept),
+        Ok(None) => (None, OwnPlaces::None),
+        Err(why) => (None, OwnPlaces::Refused(why)),
+    };
+    let layout = match own {
+        None => unwrapped(scene, (texels_per_m, settings), unwrapper, |_| true)?,
+        Some(own) => {
+            let kept: HashSet<(u32, bool)> =
+                own.sides.iter().map(|side| (side.triangle, side.back)).collect();
+            if lit_sides(scene).all(|side| kept.contains(&side)) {
+                own
+            } else {
+                let settings = LightmapSettings { page: own.width, ..*settings };
+                let left = |side: (u32, bool)| !kept.contains(&side);
+                let rest = unwrapped(scene, (own.texels_per_m, &settings), unwrapper, left)?;
+                joined(own, rest)
+            }
+        }
+    };
+    check_memory(layout.texel_count() as f64, settings)?;
+    Ok(Layout { own_places, ..layout })
+}
+
+/// Some sides, laid out anew.
+fn unwrapped(
+    scene: &Scene,
+    (texels_per_m, settings): (f64, &LightmapSettings),
+    unwrapper: &impl Unwrapper,
+    is_wanted: impl Fn((u32, bool)) -> bool,
+) -> Result<Layout, LightmapError> {
+    let (patches, sides) = patches(scene, is_wanted);
+    let LightmapSettings { page, padding, .. } = *settings;
+    let request = UnwrapRequest { texels_per_m, page, padding };
     let unwrapped = unwrapper.unwrap(&patches, &request).map_err(|error| match error {
         UnwrapError::TooLarge => LightmapError::Memory {
-            needed: (texels.max((1_u64 << 30) as f64)) as u64 * BYTES_PER_TEXEL,
+            needed: (1 << 30) * BYTES_PER_TEXEL,
             allowed: settings.max_memory_bytes,
         },
         other => LightmapError::Unwrap(other.to_string()),
@@ -113,17 +147,30 @@ pub fn plan(
         })
         .collect();
     placed.sort_unstable_by_key(|side| (side.triangle, side.back));
-    let layout = Layout {
+    Ok(Layout {
         width: unwrapped.width,
         height: unwrapped.height,
         pages: unwrapped.pages,
         texels_per_m,
-        padding: settings.padding,
+        padding,
         charts: unwrapped.charts,
+        own_places: OwnPlaces::None,
         sides: placed,
-    };
-    check_memory(layout.texel_count() as f64, settings)?;
-    Ok(layout)
+    })
+}
+
+/// The pages of another layout, none larger, after those of the first.
+fn joined(first: Layout, rest: Layout) -> Layout {
+    let share = [(rest.width, first.width), (rest.height, first.height)]
+        .map(|(own, page)| own as f32 / page as f32);
+    let moved = rest.sides.into_iter().map(|side| Side {
+        page: first.pages + side.page,
+        uvs: side.uvs.map(|uv| [uv[0] * share[0], uv[1] * share[1]]),
+        ..side
+    });
+    let mut sides: Vec<Side> = first.sides.into_iter().chain(moved).collect();
+    sides.sort_unstable_by_key(|side| (side.triangle, side.back));
+    Layout { pages: first.pages + rest.pages, charts: first.charts + rest.charts, sides, ..first }
 }
 
 fn check_memory(texels: f64, settings: &LightmapSettings) -> Result<(), LightmapError> {
@@ -146,10 +193,10 @@ fn turned<T: Copy>([a, b, c]: [T; 3], back: bool) -> [T; 3] {
 
 type Sides = Vec<Vec<(u32, bool)>>;
 
-/// One patch for each side of each shape, and the sides in them.
-fn patches(scene: &Scene) -> (Vec<Patch>, Sides) {
+/// One patch for each side of each shape, and the sides in them: those that are wanted.
+fn patches(scene: &Scene, is_wanted: impl Fn((u32, bool)) -> bool) -> (Vec<Patch>, Sides) {
     let mut by_shape: Sides = vec![Vec::new(); 2 * scene.shape_names().len()];
-    for (triangle, back) in lit_sides(scene) {
+    for (triangle, back) in lit_sides(scene).filter(|&side| is_wanted(side)) {
         by_shape[2 * scene.shape_of(triangle) as usize + usize::from(back)].push((triangle, back));
     }
     by_shape.retain(|sides| !sides.is_empty());

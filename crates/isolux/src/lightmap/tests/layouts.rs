@@ -83,3 +83,59 @@ fn large_surfaces_take_several_pages_and_charts_no_more_than_one() {
         assert!(side.uvs.iter().flatten().all(|c| (0.0..=1.0).contains(c)));
     }
 }
+
+/// The floor with places of its own on a page.
+fn placed(places: impl Fn([f64; 3]) -> [f32; 2]) -> Shape {
+    let floor = quad("floor", [0.0; 3], [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], 2);
+    let lightmap_uvs = Some(floor.positions.iter().map(|&p| places(p)).collect());
+    Shape { lightmap_uvs, ..floor }
+}
+
+fn left_half([x, y, _]: [f64; 3]) -> [f32; 2] {
+    [0.05 + 0.1 * x as f32, 0.05 + 0.1 * y as f32]
+}
+
+#[test]
+fn places_of_the_file_are_kept_where_they_serve() {
+    let wall = quad("wall", [0.0; 3], [[0.0, 3.0, 0.0], [0.0, 0.0, 2.5]], 1);
+    let scene = scene(vec![placed(left_half), wall]);
+    let layout = plan(&scene, &settings(10.0), &UvUnwrap).unwrap();
+    assert_eq!(layout.own_places, OwnPlaces::Kept);
+    // 0.1 of the page a metre: ten texels a metre on a page of a hundred.
+    assert_eq!((layout.width, layout.height, layout.pages), (100, 100, 2));
+    for side in &layout.sides {
+        match scene.shape_of(side.triangle) {
+            0 => assert_eq!(Some(side.uvs), scene.corner_lightmap_uvs(side.triangle)),
+            _ => assert_eq!(side.page, 1),
+        }
+    }
+    let rest: f64 = fragments(&scene, &layout)
+        .iter()
+        .filter(|f| scene.shape_of(layout.sides[f.side as usize].triangle) == 1)
+        .map(|f| f64::from(f.share))
+        .sum();
+    // Of the wall, 7.5 m2 at a hundred texels each; coordinates of f32.
+    assert!((rest - 750.0).abs() < 1.0, "{rest}");
+}
+
+#[test]
+fn places_of_the_file_are_refused_with_a_reason() {
+    let apart = |shift: f32| move |[x, y, _]: [f64; 3]| [shift + 0.1 * x as f32, 0.1 * y as f32];
+    let refused = |shapes: Vec<Shape>| {
+        let layout = plan(&scene(shapes), &settings(10.0), &UvUnwrap).unwrap();
+        match layout.own_places {
+            OwnPlaces::Refused(why) => why,
+            other => panic!("{other:?}"),
+        }
+    };
+    let beyond = refused(vec![placed(apart(0.7))]);
+    assert!(beyond.contains("leave 0 to 1"), "{beyond}");
+    let twice = refused(vec![placed(apart(0.1)), placed(apart(0.2))]);
+    assert!(twice.contains("overlap"), "{twice}");
+    let near = refused(vec![placed(apart(0.0)), placed(apart(0.405))]);
+    assert!(near.contains("nearer than a texel"), "{near}");
+    let flat = refused(vec![placed(|_| [0.5, 0.5])]);
+    assert!(flat.contains("no area"), "{flat}");
+    let nan = refused(vec![placed(|_| [f32::NAN, 0.5])]);
+    assert!(nan.contains("leave 0 to 1"), "{nan}");
+}
