@@ -3,15 +3,16 @@
 // Usage: node lightmap.mjs CARD.glb REFLECTANCE ILLUMINANCE_LX
 // The browser is CHROMIUM, or `chromium` of the path; exit code 77 says that there is none.
 import assert from 'node:assert/strict';
-import { execFile } from 'node:child_process';
-import { readFile } from 'node:fs/promises';
+import { spawn } from 'node:child_process';
+import { mkdtemp, readFile, rm } from 'node:fs/promises';
 import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
 import { basename, dirname, extname, join, normalize } from 'node:path';
-import { promisify } from 'node:util';
 
 const HERE = import.meta.dirname;
 const KINDS = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm' };
 const NO_BROWSER = 77;
+const PATIENCE_MS = 60_000;
 // Half a code of eight bits of sRGB near white is 0.5 %, half a step of nine bits 0.2 %; the card is read in the middle of
 // its texels, whose own errors are below.
 const TOLERANCE = { embedded: 0.01, ktx2: 0.005 };
@@ -28,8 +29,18 @@ function folderOf(path) {
   return [HERE, path];
 }
 
+let tell;
+const told = new Promise((resolve) => (tell = resolve));
+
 const server = createServer(async (request, response) => {
   const path = normalize(new URL(request.url, 'http://here').pathname);
+  if (path === '/result') {
+    let text = '';
+    for await (const part of request) text += part;
+    response.end();
+    tell(JSON.parse(text));
+    return;
+  }
   const [folder, inside] = folderOf(path);
   try {
     const bytes = await readFile(join(folder, inside));
@@ -41,26 +52,26 @@ const server = createServer(async (request, response) => {
   }
 });
 await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
-const name = basename(file, '.glb');
-const url = `http://127.0.0.1:${server.address().port}/lightmap.html?file=${name}`;
-const flags = ['--headless', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
-let page;
-try {
-  const run = promisify(execFile);
-  const wait = ['--virtual-time-budget=30000', '--timeout=60000', '--dump-dom'];
-  ({ stdout: page } = await run(process.env.CHROMIUM ?? 'chromium', [...flags, ...wait, url], { maxBuffer: 1 << 24 }));
-} catch (error) {
-  if (error.code === 'ENOENT') {
-    console.log('no browser');
-    process.exit(NO_BROWSER);
-  }
-  throw error;
-} finally {
-  server.close();
+const url = `http://127.0.0.1:${server.address().port}/lightmap.html?file=${basename(file, '.glb')}`;
+const profile = await mkdtemp(join(tmpdir(), 'lightmap-'));
+const flags = ['--headless', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', `--user-data-dir=${profile}`];
+const browser = spawn(process.env.CHROMIUM ?? 'chromium', [...flags, url], { stdio: 'ignore' });
+const gone = new Promise((resolve) => browser.on('exit', resolve));
+browser.on('error', (error) => tell(error.code === 'ENOENT' ? null : { error: String(error) }));
+const patience = setTimeout(() => tell({ error: 'the page came to no result' }), PATIENCE_MS);
+const result = await told;
+clearTimeout(patience);
+server.close();
+server.closeAllConnections();
+if (browser.pid) {
+  browser.kill();
+  await gone;
 }
-const text = /<pre id="result">([^<]*)<\/pre>/.exec(page)?.[1];
-assert.ok(text, `the page came to no result: ${page}`);
-const result = JSON.parse(text.replaceAll('&gt;', '>').replaceAll('&lt;', '<').replaceAll('&amp;', '&'));
+await rm(profile, { recursive: true, force: true, maxRetries: 5 });
+if (result === null) {
+  console.log('no browser');
+  process.exit(NO_BROWSER);
+}
 assert.equal(result.error, undefined);
 const expected = (reflectance * illuminance) / Math.PI;
 for (const [way, tolerance] of Object.entries(TOLERANCE)) {

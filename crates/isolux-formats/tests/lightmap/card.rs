@@ -2,9 +2,10 @@
 
 use isolux::elements::Subdivision;
 use isolux::engine::Watch;
+use isolux::geometry::Direction;
 use isolux::lightmap::{Lightmap, LightmapSettings, UvUnwrap, bake, plan};
 use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
-use isolux::scene::{Finish, Material, Scene, SceneParts, Shape};
+use isolux::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape};
 use isolux::units::Rgb;
 
 /// Reflectance of the card.
@@ -31,7 +32,13 @@ pub(crate) fn scene() -> Scene {
     ];
     let shapes =
         vec![quad("card", 1.0, 0.0, 0), quad("table", 2.0, -1.0, 1), quad("mirror", 1.0, 2.0, 2)];
-    let parts = SceneParts { name: "card".into(), shapes, materials, ..SceneParts::default() };
+    // Its light is in the map already: a file with the light beside the lightmap would show it twice.
+    let sun = LuminaireKind::Directional { direction: Direction::Z, illuminance_lx: 500.0 };
+    let luminaires =
+        vec![Luminaire { name: "sun".into(), group: 0, colour: Rgb::WHITE, kind: sun }];
+    let groups = vec!["general".into()];
+    let name = "card".into();
+    let parts = SceneParts { name, shapes, materials, luminaires, groups, ..SceneParts::default() };
     Scene::assemble(parts).unwrap()
 }
 

@@ -85,5 +85,6 @@ fn extensions_are_declared_where_they_are_used() {
             assert_eq!(declared.contains(&name), text.contains(name), "{target:?} {name}");
         }
         assert_eq!(glb.json["extras"]["isolux_lightmap"]["target"], target.name());
+        assert!(glb.json.get("extensions").is_none(), "no light beside the lightmap: {target:?}");
     }
 }

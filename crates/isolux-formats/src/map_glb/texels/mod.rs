@@ -8,7 +8,7 @@ mod pages;
 mod surfaces;
 
 use super::bytes::Bytes;
-use super::document::{Asset, Buffer, Document, Lights, Objects, Primitive, RootExtensions};
+use super::document::{Asset, Buffer, Document, Objects, Primitive};
 use super::document::{Sampler, Scene as SceneRoots};
 use super::record::Declared;
 use super::write::{add_node, add_textures, record};
@@ -80,20 +80,17 @@ pub fn write_texels(file: &TexelFile<'_>) -> Result<Vec<u8>, LightmapFileError> 
     let pages = pages::add(file, &mut objects, &mut bytes)?;
     add_meshes(file, &pages, (&mut objects, &mut bytes));
     nodes::add_cameras(scene, &mut objects);
-    let lights = nodes::add_lights(scene, &mut objects);
     let children = (0..objects.nodes.len() as u32).collect();
     objects.nodes.push(nodes::root(scene, children));
     let record =
         file.with_record.then(|| record((scene, map, &file.preview), &pictures, &mut bytes));
     objects.buffer_views = bytes.views;
-    let mut extensions_used = materials::extensions(&objects.materials);
-    if !lights.is_empty() {
-        extensions_used.push("KHR_lights_punctual");
-    }
+    // Without lights: all of theirs is in the texels, and a consumer would add it once more.
+    let extensions_used = materials::extensions(&objects.materials);
     let document = Document {
         asset: Asset { version: "2.0", generator: format!("isolux {}", env!("CARGO_PKG_VERSION")) },
         extensions_used,
-        extensions: (!lights.is_empty()).then_some(RootExtensions { lights: Lights { lights } }),
+        extensions: None,
         scene: 0,
         scenes: [SceneRoots { nodes: [objects.nodes.len() as u32 - 1] }],
         objects,
