@@ -17,6 +17,7 @@ mod info;
 mod interrupt;
 mod lamp;
 mod lightmap;
+mod lightmap_export;
 mod lightmap_files;
 mod lint;
 mod map_file;

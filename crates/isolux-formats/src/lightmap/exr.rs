@@ -1,6 +1,7 @@
 //! OpenEXR in 32-bit floats, lossless.
 
-use super::{Convention, LightmapFileError};
+use super::error::LightmapFileError;
+use super::target::Convention;
 use exr::image::write::WritableImage;
 use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer};
 use exr::meta::attribute::{AttributeValue, Chromaticities, LineOrder, Text};

@@ -1,7 +1,8 @@
 //! KTX2 (Khronos, "KTX File Format Specification", version 2.0): one page, uncompressed, four bytes a texel.
 
+use super::error::LightmapFileError;
 use super::shared_exponent::{self, LARGEST};
-use super::{Convention, LightmapFileError};
+use super::target::Convention;
 use isolux::lightmap::Lightmap;
 use ktx2::{Format, Header, Index, LevelIndex, dfd};
 

@@ -131,8 +131,8 @@ fn viewers_get_finished_colours() {
     let luminance = 0.2126 * expected(0) + 0.7152 * expected(1) + 0.0722 * expected(2);
     let (x, w) = (exposure * luminance, exposure * white);
     let scale = exposure * (1.0 + x / (w * w)) / (1.0 + x);
-    for k in 0..3 {
-        let off = texel[k] / (scale * expected(k)) - 1.0;
+    for (k, texel) in texel.into_iter().enumerate() {
+        let off = texel / (scale * expected(k)) - 1.0;
         // Half a code of sRGB in the middle greys.
         assert!(off.abs() < 0.01, "{off}");
     }

@@ -3,6 +3,7 @@
 use super::cover::{self, Fragment};
 use super::layout::Layout;
 use super::plan::LightmapError;
+use super::seam_report::SeamReport;
 use super::texels::{Cover, Lightmap};
 use super::{dilate, stitch};
 use crate::engine::{MapReader, Watch};
@@ -64,7 +65,7 @@ fn empty(layout: &Layout) -> Lightmap {
         owners: vec![0; count],
         standard_errors_lx: vec![0.0; count],
         coverage: vec![0.0; count],
-        seams: stitch::SeamReport::default(),
+        seams: SeamReport::default(),
         readings: 0,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::cover::{Fragment, fragments};
 use super::layout::{Layout, OwnPlaces, Side};
-use super::plan::lit_sides;
+use super::lit::lit_sides;
 use crate::scene::Scene;
 use std::collections::HashMap;
 

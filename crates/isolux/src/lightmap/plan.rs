@@ -2,8 +2,8 @@
 
 use super::charts::{Patch, UnwrapError, UnwrapRequest, Unwrapper};
 use super::layout::{Layout, OwnPlaces, Side};
+use super::lit::{lit_area_m2, lit_sides};
 use super::own_places;
-use crate::elements::carries_map;
 use crate::scene::Scene;
 use isolux_geometry::Normal;
 use std::collections::{HashMap, HashSet};
@@ -65,17 +65,6 @@ pub enum LightmapError {
     Stopped,
 }
 
-/// Area of all sides that carry the map, m2.
-pub fn lit_area_m2(scene: &Scene) -> f64 {
-    lit_sides(scene).map(|(triangle, _)| scene.triangle(triangle).area()).sum()
-}
-
-pub(super) fn lit_sides(scene: &Scene) -> impl Iterator<Item = (u32, bool)> + '_ {
-    (0..scene.triangle_count())
-        .flat_map(|triangle| [(triangle, false), (triangle, true)])
-        .filter(|&(triangle, back)| carries_map(scene, triangle, back))
-}
-
 /// Lays out all sides that carry the map.
 pub fn plan(
     scene: &Scene,
@@ -83,7 +72,7 @@ pub fn plan(
     unwrapper: &impl Unwrapper,
 ) -> Result<Layout, LightmapError> {
     let area_m2 = lit_area_m2(scene);
-    if !(area_m2 > 0.0) {
+    if area_m2 <= 0.0 {
         return Err(LightmapError::NothingLit);
     }
     let texels_per_m = match settings.texels_per_m {

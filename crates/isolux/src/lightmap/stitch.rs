@@ -6,6 +6,7 @@
 //! gives way least, and what was only filled in beside a chart gives way first. Jumps that are left are no noise but the
 //! size of texels.
 
+use super::seam_report::{Jump, SeamReport};
 use super::seams::{self, Seam};
 use super::solve::{Row, solve};
 use super::texels::{Cover, Lightmap};
@@ -28,38 +29,6 @@ const MOST_ERRORS: f64 = 2.0;
 const PASSES: usize = 4;
 /// A lookup counts if known texels have this weight in it on either side: beside narrow charts there may be none.
 const KNOWN_WEIGHT: f64 = 0.25;
-
-/// How far apart the two sides of seams are.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Jump {
-    /// The largest difference of the photometric value, lx.
-    pub largest_lx: f64,
-    /// The same as a share of the mean of both sides there.
-    pub largest_share: f64,
-    /// Where that is, m.
-    pub place: Option<Point>,
-    /// Root mean square over all seams, lx.
-    pub rms_lx: f64,
-}
-
-/// What stitching did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SeamReport {
-    /// Number of edges at which charts meet and the surface is smooth.
-    pub edges: usize,
-    /// Their length, m.
-    pub length_m: f64,
-    /// Before.
-    pub before: Jump,
-    /// After.
-    pub after: Jump,
-    /// The largest change of a known texel, lx.
-    pub largest_change_lx: f64,
-    /// Root mean square change of known texels at seams, in their standard errors.
-    pub rms_change_errors: f64,
-    /// Share of known texels at seams that were stopped at twice their standard error.
-    pub stopped: f64,
-}
 
 /// A lookup on either side of a seam.
 struct Pair {

@@ -2,7 +2,7 @@
 
 use super::cover;
 use super::layout::{Layout, Side};
-use super::stitch::SeamReport;
+use super::seam_report::SeamReport;
 use crate::units::Rgb;
 
 /// What a texel stands for.

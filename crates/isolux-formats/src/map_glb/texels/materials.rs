@@ -1,6 +1,6 @@
 //! Materials with light in textures.
 
-use super::TexelFile;
+use super::file::TexelFile;
 use super::pages::Page;
 use crate::lightmap::Way;
 use crate::map_glb::display::Layer;

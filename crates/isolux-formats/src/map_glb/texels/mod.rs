@@ -3,40 +3,23 @@
 //! The geometry is that of the scene, its vertices split where charts end; `TEXCOORD_1` is the place in the lightmap.
 //! What the texture holds, and how the material refers to it, is up to the consumer ([`Target`]).
 
+mod file;
 mod materials;
 mod pages;
 mod surfaces;
 
+use super::MapTooLarge;
 use super::bytes::Bytes;
+use super::document::Scene as SceneRoots;
 use super::document::{Asset, Buffer, Document, Objects, Primitive};
-use super::document::{Sampler, Scene as SceneRoots};
 use super::record::Declared;
 use super::write::{add_node, add_textures, record};
 use super::{Preview, container, nodes};
-use crate::lightmap::{Convention, LightmapFileError, Target, Way};
-use isolux::lightmap::Lightmap;
-use isolux::map::IlluminationMap;
-use isolux::scene::Scene;
+use crate::lightmap::{Convention, LightmapFileError, Way};
+pub use file::TexelFile;
 use materials::Materials;
 use pages::Page;
 use serde::Serialize;
-
-/// What is to be written.
-#[derive(Clone, Copy, Debug)]
-pub struct TexelFile<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// Its map.
-    pub map: &'a IlluminationMap,
-    /// The same as texels.
-    pub lightmap: &'a Lightmap,
-    /// Exposure of colours that are tone mapped.
-    pub preview: Preview,
-    /// Who will read it.
-    pub target: Target,
-    /// Whether the map itself goes with it, so that isolux can read it back.
-    pub with_record: bool,
-}
 
 /// `extras` of the document.
 #[derive(Serialize)]
@@ -64,9 +47,6 @@ struct Note {
     accuracy_reached: Option<f64>,
 }
 
-const LINEAR: u32 = 9729;
-const CLAMP: u32 = 33071;
-
 /// The bytes of the file. The same lightmap gives the same bytes.
 pub fn write_texels(file: &TexelFile<'_>) -> Result<Vec<u8>, LightmapFileError> {
     let TexelFile { scene, map, .. } = *file;
@@ -74,7 +54,7 @@ pub fn write_texels(file: &TexelFile<'_>) -> Result<Vec<u8>, LightmapFileError> 
     let mut objects = Objects::default();
     let needs_textures = file.with_record || file.target.way() == Way::Lightmap;
     let pictures = match needs_textures {
-        true => add_textures(scene, &mut objects, &mut bytes)?,
+        true => add_textures(scene, &mut objects, &mut bytes).map_err(too_large)?,
         false => Vec::new(),
     };
     let pages = pages::add(file, &mut objects, &mut bytes)?;
@@ -103,7 +83,11 @@ pub fn write_texels(file: &TexelFile<'_>) -> Result<Vec<u8>, LightmapFileError> 
         },
     };
     let json = serde_json::to_vec(&document).expect("plain structs with names for keys");
-    Ok(container::pack(&json, &bytes.content)?)
+    container::pack(&json, &bytes.content).map_err(too_large)
+}
+
+fn too_large(MapTooLarge { bytes }: MapTooLarge) -> LightmapFileError {
+    LightmapFileError::TooLarge { bytes }
 }
 
 fn note(file: &TexelFile<'_>, pages: &[Page]) -> Note {
@@ -159,9 +143,4 @@ fn add_meshes(file: &TexelFile<'_>, pages: &[Page], (objects, bytes): (&mut Obje
             mesh.primitives.push(Primitive { attributes, indices, material });
         }
     }
-}
-
-/// Lightmaps do not repeat, and have no mipmaps: those would mix charts.
-fn sampler() -> Sampler {
-    Sampler { mag_filter: LINEAR, min_filter: LINEAR, wrap_s: CLAMP, wrap_t: CLAMP }
 }

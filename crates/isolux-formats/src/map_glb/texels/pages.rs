@@ -1,16 +1,19 @@
 //! The pages of a lightmap as pictures in the file.
 
-use super::{TexelFile, sampler};
+use super::file::TexelFile;
 use crate::lightmap::{LightmapFileError, Way};
 use crate::map_glb::attributes::UNKNOWN_GREY;
 use crate::map_glb::bytes::Bytes;
 use crate::map_glb::displayed::srgb;
-use crate::map_glb::document::{Image, Objects, Texture};
+use crate::map_glb::document::{Image, Objects, Sampler, Texture};
 use crate::map_glb::preview::luminance_cd_m2;
 use image::{ExtendedColorType, ImageEncoder};
 use isolux::lightmap::{Cover, Side};
 use isolux::scene::{Finish, Reflectance};
 use isolux::units::Rgb;
+
+const LINEAR: u32 = 9729;
+const CLAMP: u32 = 33071;
 
 /// A page in the file.
 #[derive(Clone, Copy, Debug)]
@@ -104,4 +107,9 @@ fn png(file: &TexelFile<'_>, texels: &[Rgb], strength: f64) -> Result<Vec<u8>, L
         .write_image(&pixels, layout.width, layout.height, kind)
         .map_err(|error| LightmapFileError::Png(error.to_string()))?;
     Ok(png)
+}
+
+/// Lightmaps do not repeat, and have no mipmaps: those would mix charts.
+fn sampler() -> Sampler {
+    Sampler { mag_filter: LINEAR, min_filter: LINEAR, wrap_s: CLAMP, wrap_t: CLAMP }
 }

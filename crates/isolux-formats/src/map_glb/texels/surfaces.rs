@@ -1,6 +1,6 @@
 //! The triangles of the scene, grouped by shape, side and page.
 
-use super::TexelFile;
+use super::file::TexelFile;
 use crate::map_glb::display::{Layer, Surface, is_shown, layer, texture_of, turned};
 use isolux::lightmap::Side;
 use isolux::scene::Scene;
