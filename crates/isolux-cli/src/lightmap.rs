@@ -221,7 +221,8 @@ impl Seams {
         };
         Self {
             edges: seams.edges,
-            length_m: seams.length_m,
+            // A sum of nothing is -0.
+            length_m: seams.length_m + 0.0,
             before: jump(&seams.before),
             after: jump(&seams.after),
             largest_change_lx: seams.largest_change_lx,
