@@ -1,12 +1,17 @@
 //! Judges outside the workspace: the glTF validator and three.js, through node.
 
+use crate::smoke::{Card, Made};
+use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
 const JUDGES: [&str; 2] = ["validate.mjs", "three.mjs"];
 
-/// Shows a map to the judges. Without node they are left out, except where `CI` is `true`.
-pub(crate) fn run(root: &Path, map: &Path) -> Result<String, String> {
+/// What `lightmap.mjs` ends with where there is no browser.
+const NO_BROWSER: i32 = 77;
+
+/// Shows a map and its lightmaps to the judges. Without node they are left out, except where `CI` is `true`.
+pub(crate) fn run(root: &Path, made: &Made) -> Result<String, String> {
     let folder = root.join("checks");
     if !folder.join("package.json").is_file() {
         return Ok("skipped: there is no checks/".to_owned());
@@ -20,17 +25,35 @@ pub(crate) fn run(root: &Path, map: &Path) -> Result<String, String> {
         };
     }
     for judge in JUDGES {
-        let status = Command::new("node")
-            .arg(judge)
-            .arg(map)
-            .current_dir(&folder)
-            .status()
-            .map_err(|e| format!("cannot run node: {e}"))?;
-        if !status.success() {
-            return Err(format!("checks/{judge} refuses {}", map.display()));
-        }
+        accept(&folder, judge, &[made.map.as_os_str()])?;
     }
-    Ok("the judges accept the map".to_owned())
+    let lightmaps = made.lightmaps.iter().chain([&made.card.file]);
+    accept(&folder, "validate.mjs", &lightmaps.map(|file| file.as_os_str()).collect::<Vec<_>>())?;
+    let Card { file, reflectance, illuminance_lx } = &made.card;
+    let [reflectance, illuminance_lx] = [reflectance, illuminance_lx].map(ToString::to_string);
+    let card = [file.as_os_str(), OsStr::new(&reflectance), OsStr::new(&illuminance_lx)];
+    match node(&folder, "lightmap.mjs", &card)? {
+        Some(0) => Ok("the judges accept the map and its lightmaps".to_owned()),
+        Some(NO_BROWSER) => {
+            Ok("the judges accept the map and its lightmaps, but three.js drew none: \
+             install chromium, or name it in CHROMIUM"
+                .to_owned())
+        }
+        _ => Err(format!("checks/lightmap.mjs refuses {}", file.display())),
+    }
+}
+
+fn accept(folder: &Path, judge: &str, files: &[&OsStr]) -> Result<(), String> {
+    match node(folder, judge, files)? {
+        Some(0) => Ok(()),
+        _ => Err(format!("checks/{judge} refuses one of {files:?}")),
+    }
+}
+
+/// The exit code of a judge.
+fn node(folder: &Path, judge: &str, arguments: &[&OsStr]) -> Result<Option<i32>, String> {
+    let status = Command::new("node").arg(judge).args(arguments).current_dir(folder).status();
+    status.map(|status| status.code()).map_err(|e| format!("cannot run node: {e}"))
 }
 
 /// Whether nothing may be left out.

@@ -9,6 +9,17 @@ pub(crate) struct Made {
     pub map: PathBuf,
     /// Another scene, for other software.
     pub room: Room,
+    /// The cube as texels, for every consumer.
+    pub lightmaps: Vec<PathBuf>,
+    /// A card under parallel light, for three.js, with the `.ktx2` beside it.
+    pub card: Card,
+}
+
+/// What is known of the card.
+pub(crate) struct Card {
+    pub file: PathBuf,
+    pub reflectance: f64,
+    pub illuminance_lx: f64,
 }
 
 /// The map of a room with a camera, and what comes of it.
@@ -49,7 +60,18 @@ pub(crate) fn run(root: &Path) -> Result<Made, String> {
     println!("{values}");
     expect_middle_of_wall(&values)?;
     let room = room(root, &folder)?;
-    Ok(Made { map, room })
+    let target = |name: &str| {
+        let file = folder.join(format!("cube-{name}.glb"));
+        let texels = ["--layout", "texels", "--texels-per-meter", "2", "--target", name];
+        isolux(
+            root,
+            &[&["export", &map_text, "-o", &file.to_string_lossy()], &texels[..]].concat(),
+        )?;
+        Ok(file)
+    };
+    let lightmaps = TARGETS.into_iter().map(target).collect::<Result<Vec<PathBuf>, String>>()?;
+    let card = card(root, &folder)?;
+    Ok(Made { map, room, lightmaps, card })
 }
 
 /// Solves a box of coloured walls and exports its map.
@@ -81,6 +103,27 @@ fn room(root: &Path, folder: &Path) -> Result<Room, String> {
         white_cd_m2: number("white_cd_m2")?,
         map,
     })
+}
+
+const TARGETS: [&str; 6] = ["viewer", "three", "godot", "unity", "blender", "bevy"];
+const CARD: Card = Card { file: PathBuf::new(), reflectance: 0.8, illuminance_lx: 500.0 };
+
+/// A square metre that faces parallel light, as a lightmap for three.js.
+fn card(root: &Path, folder: &Path) -> Result<Card, String> {
+    let Card { reflectance, illuminance_lx, .. } = CARD;
+    let scene = folder.join("card.toml");
+    let text = format!(
+        "name = \"white card\"\n[materials.card]\ndiffuse = {reflectance:?}\n[[geometry]]\nname = \"card\"\n\
+         rectangle = {{ corner = [0, 0, 0], u = [1, 0, 0], v = [0, 1, 0] }}\nmaterial = \"card\"\n\
+         [[luminaire]]\ndirection = [0, 0, -1]\ndirectional = {{ illuminance_lx = {illuminance_lx:?} }}\n"
+    );
+    std::fs::write(&scene, text).map_err(|e| format!("{}: {e}", scene.display()))?;
+    let [scene, map, file] = [scene, folder.join("card-map.glb"), folder.join("card.glb")];
+    let [scene, map, out] = [&scene, &map, &file].map(|path| path.to_string_lossy().into_owned());
+    isolux(root, &["solve", &scene, "-o", &map, "--quality", "draft"])?;
+    let texels = ["--layout", "texels", "--texels-per-meter", "16", "--target", "three"];
+    isolux(root, &[&["export", &map, "-o", &out], &texels[..]].concat())?;
+    Ok(Card { file, ..CARD })
 }
 
 /// Luminance at A of the published table, 892.8 cd/m2, as an illuminance: pi L / rho, rho = 2/3.

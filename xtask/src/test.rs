@@ -30,7 +30,7 @@ pub(crate) fn smoke_and_judge(root: &Path) -> Result<String, String> {
     announce("smoke test of the command line");
     let made = smoke::run(root)?;
     announce("outside judges of the map: glTF validator, three.js");
-    println!("{}", judge::run(root, &made.map)?);
+    println!("{}", judge::run(root, &made)?);
     announce("outside judges of walk-throughs: view3dscene, X_ITE");
     println!("{}", worlds::run(root, &made.room)?);
     announce("outside judge of grids: VTK");

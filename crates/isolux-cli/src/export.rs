@@ -3,15 +3,21 @@
 use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ExportFlags;
+use crate::lightmap_export;
 use crate::map_file;
 use crate::output::OutputPath;
 use crate::quantity::show_bytes;
+use crate::request;
 use isolux_formats::export::{ExportKind, export};
 use isolux_formats::map_glb::Preview;
 use serde::Serialize;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
+    request::use_threads(flags.threads)?;
+    if let Some(wanted) = lightmap_export::Wanted::of(flags)? {
+        return lightmap_export::run(flags, wanted, json);
+    }
     let (kind, extension) = kind(flags)?;
     let output = OutputPath::check(&flags.output, extension)?;
     let (scene, map) = map_file::read(&flags.map)?;
@@ -37,7 +43,8 @@ fn kind(flags: &ExportFlags) -> Result<(ExportKind, &'static str), Failure> {
     let found = flags.output.extension().map(|e| e.to_string_lossy().to_lowercase());
     let known = ExportKind::ALL.into_iter().find(|(_, e)| found.as_deref() == Some(*e));
     known.ok_or_else(|| {
-        let all: Vec<String> = ExportKind::ALL.iter().map(|(_, e)| format!(".{e}")).collect();
+        let mut all: Vec<String> = ExportKind::ALL.iter().map(|(_, e)| format!(".{e}")).collect();
+        all.extend([".glb", ".exr", ".ktx2"].map(str::to_owned));
         Failure::bad_input(format!(
             "{}: cannot write this kind of file; end its name in one of {}",
             flags.output.display(),

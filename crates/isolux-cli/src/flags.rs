@@ -38,7 +38,7 @@ pub(crate) enum Command {
     Grid(GridFlags),
     /// Draw a view from a map
     Render(RenderFlags),
-    /// Write a map for other software: .wrl, .x3d, .vtu, .ply, .csv
+    /// Write a map for other software: .wrl, .x3d, .vtu, .ply, .csv; lightmaps as .glb, .exr, .ktx2
     Export(ExportFlags),
     /// Add maps of luminaire groups, each dimmed as you like, without a new run
     Mix(MixFlags),
@@ -61,13 +61,16 @@ const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, .ply, .rad, .stl, 
 #[command(after_help = "Examples:
   isolux solve room.glb -o map.glb --accuracy 1%
   isolux solve builtin:cube -o cube.glb --quality draft --json
-  isolux solve room.glb -o map.glb --time-limit 5min")]
+  isolux solve room.glb -o map.glb --time-limit 5min
+  isolux solve room.glb -o map.glb --layout texels --texels-per-meter 20")]
 pub(crate) struct SolveFlags {
     #[arg(help = SCENE_HELP)]
     pub scene: PathBuf,
     /// Where to write the map (.glb)
     #[arg(short, long, value_name = "MAP.glb", required_unless_present = "dry_run")]
     pub output: Option<PathBuf>,
+    #[command(flatten)]
+    pub layout: LayoutFlags,
     /// Stop when the whole error of the scene is this small: 1% or 0.01
     #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "1%",
           conflicts_with = "quality")]
@@ -117,6 +120,25 @@ pub(crate) struct SolveFlags {
     /// How to report progress on standard error [default: bar on a terminal, else lines]
     #[arg(long, value_enum)]
     pub progress: Option<ProgressStyle>,
+}
+
+/// How the light is shown in a `.glb`.
+#[derive(Debug, Args)]
+pub(crate) struct LayoutFlags {
+    /// Light at vertices, or in a lightmap (MAP.exr is written beside it, with every digit)
+    #[arg(long, value_enum, default_value = "vertices")]
+    pub layout: LayoutName,
+    /// Density of a lightmap [default: some 130 000 texels over all surfaces]
+    #[arg(long, value_name = "N", value_parser = quantity::density, allow_hyphen_values = true)]
+    pub texels_per_meter: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LayoutName {
+    /// At the vertices of the elements
+    Vertices,
+    /// As texels of a lightmap over the geometry of the scene
+    Texels,
 }
 
 /// What a quality or accuracy sets for radiosity, by hand.
@@ -353,15 +375,49 @@ pub(crate) enum ToneName {
 #[command(after_help = "Examples:
   isolux export map.glb -o room.wrl
   isolux export map.glb -o room.vtu
+  isolux export map.glb -o room.glb --layout texels --target three --texels-per-meter 20
+  isolux export map.glb -o lightmap.exr
 
 The extension tells the kind: .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row
-a vertex. Values are those of the bare map at its vertices. The map itself is a .glb that viewers of glTF open.")]
+a vertex. Values are those of the bare map at its vertices. The map itself is a .glb that viewers of glTF open.
+
+Lightmaps (.glb with --layout texels, .exr, .ktx2) are baked from the map: direct light afresh, over all of each texel. --target
+says for whom: it decides unit, side of pi and how the .glb refers to the light, all of which is printed. Beside a .glb its
+lightmap is written as .exr, for three and bevy as .ktx2, too. Further pages are named lightmap-1.exr and so on.")]
 pub(crate) struct ExportFlags {
     /// The map (.glb)
     pub map: PathBuf,
     /// Where to write, with the extension of the kind
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+    #[command(flatten)]
+    pub layout: LayoutFlags,
+    /// Who will show the lightmap
+    #[arg(long, value_enum, default_value = "viewer")]
+    pub target: TargetName,
+    /// Refuse to need more memory than this for a lightmap: 8GiB, 500MB
+    #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
+    pub max_memory: u64,
+    /// Threads to use [default: all there are]; the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+/// Consumers of lightmaps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum TargetName {
+    /// Any viewer of glTF: finished colours
+    Viewer,
+    /// three.js: illuminance, MOZ_lightmap
+    Three,
+    /// Godot 4: luminance as emission
+    Godot,
+    /// Unity with glTFast: luminance as emission
+    Unity,
+    /// Blender: luminance as emission
+    Blender,
+    /// Bevy: illuminance over pi, MOZ_lightmap
+    Bevy,
 }
 
 #[derive(Debug, Args)]

@@ -94,6 +94,12 @@ pub(crate) fn metres(text: &str) -> Result<f64, String> {
     if metres.is_finite() { Ok(metres) } else { Err("is not finite; write metres, as 0.75".into()) }
 }
 
+/// A density in texels a metre: `20`.
+pub(crate) fn density(text: &str) -> Result<f64, String> {
+    let found = text.trim().parse::<f64>().ok().filter(|n| n.is_finite() && *n > 0.0);
+    found.ok_or_else(|| "write a number above zero: 20 texels a metre is one every 5 cm".to_owned())
+}
+
 /// Three numbers: `1,2.5,0.75`.
 pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
     let numbers: Option<Vec<f64>> = text
@@ -251,6 +257,14 @@ mod tests {
         }
         for text in ["", "x", "NaN", "inf"] {
             assert!(metres(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn densities() {
+        assert_eq!((density("20"), density(" 0.5 ")), (Ok(20.0), Ok(0.5)));
+        for text in ["", "0", "-1", "NaN", "inf", "x", "5cm"] {
+            assert!(density(text).is_err(), "{text}");
         }
     }
 

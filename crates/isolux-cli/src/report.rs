@@ -1,6 +1,7 @@
 //! How good a map is and what it took.
 
 use crate::console::facts;
+use crate::lightmap;
 use crate::output::OutputPath;
 use crate::quantity::{show_count, show_seconds, show_share};
 use crate::request::method_name;
@@ -27,6 +28,9 @@ pub(crate) struct Report {
     receivers: usize,
     seed: u64,
     pub(crate) map: String,
+    /// Of a map as texels.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lightmap: Option<lightmap::Report>,
 }
 
 impl Report {
@@ -50,7 +54,13 @@ impl Report {
             receivers: map.values.len(),
             seed: from.seed,
             map: output.path().display().to_string(),
+            lightmap: None,
         }
+    }
+
+    /// The same with a lightmap, if there is one.
+    pub(crate) fn with_lightmap(self, lightmap: Option<lightmap::Report>) -> Self {
+        Self { lightmap, ..self }
     }
 
     /// For people.
@@ -77,6 +87,7 @@ impl Report {
         if let Some(unshot) = self.unshot {
             all.push(("light unshot", show_share(unshot)));
         }
-        facts(&all)
+        let lightmap = self.lightmap.as_ref().map(lightmap::Report::text);
+        facts(&all) + &lightmap.unwrap_or_default()
     }
 }

@@ -3,12 +3,16 @@
 use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
-use crate::flags::{ProgressStyle, SolveFlags};
+use crate::flags::{LayoutName, ProgressStyle, SolveFlags};
+use crate::lightmap::{self, Planned};
 use crate::notes::{Note, note, note_as_json};
+use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::report::Report;
-use crate::solving::{Run, estimate, solve};
+use crate::solving::{Run, Solved, estimate, solve};
 use crate::{cache_samples, explain, groups, map_file, request, saved_run, source};
+use isolux::scene::Scene;
+use isolux_formats::lightmap::Target;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
@@ -34,10 +38,13 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         return print_estimate(&estimate, json);
     };
     if let Some(groups) = groups {
+        refuse_texels(flags)?;
         let run = Run { source: &flags.scene, output: &output, request: &asked.request };
         return groups::run(&groups, &run, flags, json);
     }
     saved_run::check_writable(&output)?;
+    let lightmap =
+        Planned::ahead(&flags.layout, &scene, (&output, asked.request.max_memory_bytes))?;
     let saved =
         if flags.resume { saved_run::read(&output, asked.request.max_memory_bytes)? } else { None };
     let mut cache = None;
@@ -51,19 +58,50 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     let mut reporter = Reporter::new(flags.progress);
     let run = Run { source: &flags.scene, output: &output, request: &asked.request };
     let solved = solve(&scene, &run, saved.as_ref(), &mut reporter)?;
-    map_file::write(&output, &scene, &solved.solution.map)?;
     let finished = matches!(solved.outcome, Outcome::Done);
+    map_file::write(&output, &scene, &solved.solution.map)?;
     if let Some(file) = &mut cache {
         cache_samples::keep(file, &solved.solution.cache);
     }
     saved_run::keep(&output, &solved.solution.state, finished)?;
+    let (outcome, lightmap) = bake(&output, &scene, (&solved, lightmap))?;
     let report = Report::of(&solved.solution.map, solved.solution.time_s, &output);
+    let report = report.with_lightmap(lightmap);
     if json {
         print_json(&report)?
     } else {
         print(&report.text())?
     }
-    Ok(solved.outcome)
+    Ok(outcome)
+}
+
+/// Writes the map anew, as texels, if so planned. Interrupted it leaves the map at vertices, which is written
+/// already: hours of work are not lost by what follows.
+fn bake(
+    output: &OutputPath,
+    scene: &Scene,
+    (solved, planned): (&Solved, Option<Planned>),
+) -> Result<(Outcome, Option<lightmap::Report>), Failure> {
+    let Some(planned) = planned.filter(|_| !matches!(solved.outcome, Outcome::Interrupted)) else {
+        return Ok((solved.outcome, None));
+    };
+    let map = &solved.solution.map;
+    match planned.bake(scene, map)? {
+        Some(baked) => {
+            let report = baked.write(scene, map, (output, Target::Viewer, true))?;
+            Ok((solved.outcome, Some(report)))
+        }
+        None => Ok((Outcome::Interrupted, None)),
+    }
+}
+
+fn refuse_texels(flags: &SolveFlags) -> Result<(), Failure> {
+    match flags.layout.layout {
+        LayoutName::Vertices => Ok(()),
+        LayoutName::Texels => Err(Failure::bad_input(
+            "--layout texels cannot be used with --group; mix the groups first, then `export --layout texels`",
+        )),
+    }
 }
 
 fn print_estimate(estimate: &Estimate, json: bool) -> Result<Outcome, Failure> {

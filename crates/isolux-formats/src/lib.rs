@@ -11,6 +11,7 @@ mod findings;
 pub mod gltf;
 pub mod ies;
 pub mod ldt;
+pub mod lightmap;
 pub mod lint;
 mod load;
 pub mod map_glb;

@@ -2,7 +2,7 @@
 //!
 //! The core of isolux. It computes; it reads no file and prints nothing. Modules know only those
 //! before them: [`units`], [`photometry`], [`scene`], [`elements`], [`map`], [`sampling`],
-//! [`engine`].
+//! [`engine`], [`lightmap`].
 //!
 //! Units are SI: metre, candela, lumen, lux (illuminance), cd/m2 (luminance), steradian. A colour
 //! quantity is three channels of linear Rec. 709 whose luminance-weighted sum is the photometric
@@ -12,6 +12,7 @@ pub use isolux_geometry as geometry;
 
 pub mod elements;
 pub mod engine;
+pub mod lightmap;
 pub mod map;
 pub mod photometry;
 pub mod sampling;

@@ -6,7 +6,8 @@ use super::paths::{Path, expressions, uses};
 use super::tree::{File, Tree};
 
 const SOURCES: &str = "crates/isolux/src/";
-const ORDER: [&str; 7] = ["units", "photometry", "scene", "elements", "map", "sampling", "engine"];
+const ORDER: [&str; 8] =
+    ["units", "photometry", "scene", "elements", "map", "sampling", "engine", "lightmap"];
 
 pub(super) fn check(tree: &Tree) -> Vec<Finding> {
     tree.rust_under(SOURCES).flat_map(check_file).collect()

@@ -33,7 +33,30 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
         &["solve", "builtin:cube", "-o", "m.glb", "--method", "radiosity", "--min-element", "5"],
         "5cm",
     ),
-    (&["solve", "builtin:cube", "-o", "m.glb", "--layout", "texels"], "--layout"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--layout", "charts"], "texels"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--texels-per-meter", "9"], "--layout texels"),
+    (
+        &["solve", "builtin:cube", "-o", "m.glb", "--layout", "texels", "--texels-per-meter", "0"],
+        "above zero",
+    ),
+    (
+        &["solve", "builtin:cube", "-o", "m.glb", "--layout", "texels", "--texels-per-meter=NaN"],
+        "above zero",
+    ),
+    (
+        &["solve", "builtin:cube", "-o", "m.glb", "--layout", "texels", "--texels-per-meter", "-4"],
+        "above zero",
+    ),
+    (&["solve", "builtin:cube", "-o", "taken.glb", "--layout", "texels"], "taken.exr"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--layout", "texels", "--group"], "group"),
+    (&["export", "text.glb", "-o", "l.glb"], "--layout texels"),
+    (&["export", "text.glb", "-o", "l.wrl", "--layout", "texels"], ".ktx2"),
+    (&["export", "text.glb", "-o", "l.wrl", "--target", "three"], ".ktx2"),
+    (&["export", "text.glb", "-o", "l.exr", "--target", "quake"], "godot"),
+    (&["export", "text.glb", "-o", "l.exr", "--texels-per-meter", "inf"], "above zero"),
+    (&["export", "text.glb", "-o", "missing/l.exr"], "missing/l.exr"),
+    (&["export", "text.glb", "-o", "l.exr"], "text.glb"),
+    (&["export", "text.glb", "-o", "text.glb", "--layout", "texels"], "input"),
     (&["solve", "builtin:cube", "-o", "m.glb", "--time-limit", "60"], "60s"),
     (&["solve", "builtin:cube", "-o", "m.glb", "--max-memory", "8"], "8GiB"),
     (&["solve", "builtin:cube", "-o", "m.glb", "--threads", "0"], "--threads"),
@@ -128,6 +151,7 @@ fn bad_input_is_refused_with_a_reason() {
     home.file("empty.glb", "");
     home.file("good.pts", "0 0 0 0 0 1\n");
     home.file("bad.pts", "0 0 0 0 0 1\n0 0 zero 0 0 1\n");
+    std::fs::create_dir(home.path("taken.exr")).unwrap();
     let before = home.names();
     for (arguments, expected) in BAD_ARGUMENTS {
         let ran = home.run(arguments);

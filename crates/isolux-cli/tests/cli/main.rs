@@ -8,6 +8,7 @@ mod grids;
 mod groups;
 #[cfg(unix)]
 mod interrupted;
+mod lightmaps;
 mod lint;
 mod ran;
 mod results;

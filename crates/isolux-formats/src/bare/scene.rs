@@ -67,7 +67,15 @@ pub(crate) fn scene(
             }
         };
         let Part { name, positions, normals, uvs, triangles, .. } = part;
-        scene.shapes.push(Shape { name, positions, normals, uvs, triangles, material });
+        scene.shapes.push(Shape {
+            name,
+            positions,
+            normals,
+            uvs,
+            triangles,
+            material,
+            ..Shape::default()
+        });
     }
     scene.shapes.retain(|shape| !shape.triangles.is_empty());
     if scene.shapes.is_empty() {

@@ -19,6 +19,7 @@ pub(super) struct Decoded {
     positions: Vec<[f64; 3]>,
     normals: Option<Vec<[f64; 3]>>,
     uvs: Option<Vec<[f64; 2]>>,
+    lightmap_uvs: Option<Vec<[f32; 2]>>,
     triangles: Vec<[u32; 3]>,
     material: u32,
     /// Whether joints have brought it to the world already.
@@ -53,6 +54,7 @@ impl Decoded {
             positions: self.positions.iter().map(place).collect(),
             normals: self.normals.as_ref().map(|list| list.iter().map(turn).collect()),
             uvs: self.uvs.clone(),
+            lightmap_uvs: self.lightmap_uvs.clone(),
             triangles: self.triangles.iter().map(wind).collect(),
             material: self.material,
         }
@@ -146,6 +148,7 @@ impl<'a> Source<'a> {
         Ok(Decoded {
             normals,
             uvs: surface.texcoord.map(|t| self.uvs(t, size, notes)).transpose()?,
+            lightmap_uvs: self.lightmap_uvs(size)?,
             positions,
             triangles,
             material: surface.material,
@@ -273,6 +276,12 @@ impl<'a> Source<'a> {
                 .warn(Flaw::new(what, "keep texture coordinates between 0 and 1").at(self.place()));
         }
         Ok(uvs)
+    }
+
+    /// The second set of texture coordinates, which by custom is the place in a lightmap.
+    fn lightmap_uvs(&self, size: Size) -> Result<Option<Vec<[f32; 2]>>, Flaw> {
+        let stored = self.vectors::<2>(Semantic::TexCoords(1), size)?;
+        Ok(stored.map(|list| list.into_iter().map(|uv| uv.map(|c| c as f32)).collect()))
     }
 
     /// The vertex colours as one colour: their mean over the area.

@@ -36,7 +36,7 @@ impl Sink<'_> {
         let indices = surface.indices.iter().flat_map(|i| i.to_le_bytes()).collect();
         let layout = Layout { target: INDICES, component: UNSIGNED_INT, kind: "SCALAR" };
         let indices = self.add(indices, surface.indices.len(), layout);
-        (Attributes { position, normal, texcoord, light: None }, indices)
+        (Attributes { position, normal, texcoord, lightmap_texcoord: None, light: None }, indices)
     }
 
     /// Writes what a map says about the vertices of a surface.
@@ -64,6 +64,11 @@ impl Sink<'_> {
             direct_lx: self.floats(&of(|v| v.direct_lx), "VEC3"),
             standard_error_lx: self.floats(&errors, "SCALAR"),
         }
+    }
+
+    /// Writes the places of vertices in a lightmap.
+    pub(super) fn lightmap_uvs(&mut self, uvs: &[[f32; 2]]) -> u32 {
+        self.floats(uvs, "VEC2")
     }
 
     fn floats<const N: usize>(&mut self, rows: &[[f32; N]], kind: &'static str) -> u32 {

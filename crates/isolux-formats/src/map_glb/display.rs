@@ -22,6 +22,8 @@ pub(super) struct Surface {
     pub(super) normals: Vec<[f32; 3]>,
     /// Texture coordinates; none unless the layer has a texture.
     pub(super) uvs: Vec<[f32; 2]>,
+    /// Places in a lightmap; none without one.
+    pub(super) lightmap_uvs: Vec<[f32; 2]>,
     /// What the map says at each vertex; nothing unless the layer has a map.
     pub(super) values: Vec<Option<Illuminance>>,
     pub(super) indices: Vec<u32>,
@@ -52,14 +54,14 @@ pub(super) fn surfaces(scene: &Scene, map: &IlluminationMap) -> BTreeMap<Layer, 
     found
 }
 
-fn layer(scene: &Scene, triangle: u32, mapped: bool, back: bool) -> Layer {
+pub(super) fn layer(scene: &Scene, triangle: u32, mapped: bool, back: bool) -> Layer {
     let (shape, material) = (scene.shape_of(triangle), scene.material_index(triangle));
     Layer { shape, material, mapped, back }
 }
 
 /// Whether a side without map is worth a picture: glass once, for both its sides; black backs of
 /// one-sided materials not at all, so that one looks into a room from outside.
-fn is_shown(scene: &Scene, triangle: u32, back: bool) -> bool {
+pub(super) fn is_shown(scene: &Scene, triangle: u32, back: bool) -> bool {
     match &scene.material(triangle).body {
         Body::Dielectric(_) => !back,
         Body::Opaque { back: rear, .. } => !back || *rear != Finish::BLACK,
@@ -98,7 +100,7 @@ impl Surface {
         self.indices.extend(corners);
     }
 
-    fn add_bare(&mut self, scene: &Scene, triangle: u32, back: bool) {
+    pub(super) fn add_bare(&mut self, scene: &Scene, triangle: u32, back: bool) {
         let normal = |k: usize| match scene.corner_normals(triangle) {
             Some(normals) => normals[k].to_vector(),
             None => scene.geometric_normal(triangle).to_vector(),
@@ -111,7 +113,12 @@ impl Surface {
         }
     }
 
-    fn add_vertex(&mut self, position: Point, normal: Vector, uv: Option<[f32; 2]>) -> u32 {
+    pub(super) fn add_vertex(
+        &mut self,
+        position: Point,
+        normal: Vector,
+        uv: Option<[f32; 2]>,
+    ) -> u32 {
         self.positions.push(position.to_f32());
         self.normals.push([normal.x as f32, normal.y as f32, normal.z as f32]);
         self.uvs.extend(uv);
@@ -119,7 +126,7 @@ impl Surface {
     }
 }
 
-fn turned<T: Copy>([a, b, c]: [T; 3], back: bool) -> [T; 3] {
+pub(super) fn turned<T: Copy>([a, b, c]: [T; 3], back: bool) -> [T; 3] {
     if back { [a, c, b] } else { [a, b, c] }
 }
 

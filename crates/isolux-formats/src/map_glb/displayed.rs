@@ -65,7 +65,7 @@ fn one(
 }
 
 /// The transfer function of IEC 61966-2-1.
-fn srgb(linear: f64) -> f64 {
+pub(super) fn srgb(linear: f64) -> f64 {
     if linear <= 0.003_130_8 {
         12.92 * linear
     } else {

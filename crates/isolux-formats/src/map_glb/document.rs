@@ -53,6 +53,8 @@ pub(super) struct Objects {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) textures: Vec<Texture>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) samplers: Vec<Sampler>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) images: Vec<Image>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) cameras: Vec<Camera>,
@@ -141,6 +143,8 @@ pub(super) struct Attributes {
     pub(super) normal: u32,
     #[serde(rename = "TEXCOORD_0", skip_serializing_if = "Option::is_none")]
     pub(super) texcoord: Option<u32>,
+    #[serde(rename = "TEXCOORD_1", skip_serializing_if = "Option::is_none")]
+    pub(super) lightmap_texcoord: Option<u32>,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub(super) light: Option<LightAttributes>,
 }
@@ -164,6 +168,10 @@ pub(super) struct Material {
     pub(super) name: String,
     pub(super) pbr_metallic_roughness: BaseColour,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) emissive_texture: Option<TextureReference>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) emissive_factor: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) alpha_mode: Option<&'static str>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) double_sided: Option<bool>,
@@ -181,14 +189,45 @@ pub(super) struct BaseColour {
 }
 
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 pub(super) struct TextureReference {
     pub(super) index: u32,
+    /// 0 where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) tex_coord: Option<u32>,
+}
+
+#[derive(Default, Serialize)]
+pub(super) struct MaterialExtensions {
+    #[serde(rename = "KHR_materials_unlit", skip_serializing_if = "Option::is_none")]
+    pub(super) unlit: Option<Empty>,
+    #[serde(rename = "KHR_materials_specular", skip_serializing_if = "Option::is_none")]
+    pub(super) specular: Option<Specular>,
+    #[serde(rename = "KHR_materials_emissive_strength", skip_serializing_if = "Option::is_none")]
+    pub(super) emissive_strength: Option<EmissiveStrength>,
+    #[serde(rename = "MOZ_lightmap", skip_serializing_if = "Option::is_none")]
+    pub(super) lightmap: Option<LightmapTexture>,
 }
 
 #[derive(Serialize)]
-pub(super) struct MaterialExtensions {
-    #[serde(rename = "KHR_materials_unlit")]
-    pub(super) unlit: Empty,
+#[serde(rename_all = "camelCase")]
+pub(super) struct Specular {
+    pub(super) specular_factor: f64,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct EmissiveStrength {
+    pub(super) emissive_strength: f64,
+}
+
+/// As Mozilla Hubs reads it.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct LightmapTexture {
+    pub(super) index: u32,
+    pub(super) tex_coord: u32,
+    pub(super) intensity: f64,
 }
 
 /// `{}`.
@@ -197,7 +236,18 @@ pub(super) struct Empty {}
 
 #[derive(Serialize)]
 pub(super) struct Texture {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) sampler: Option<u32>,
     pub(super) source: u32,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct Sampler {
+    pub(super) mag_filter: u32,
+    pub(super) min_filter: u32,
+    pub(super) wrap_s: u32,
+    pub(super) wrap_t: u32,
 }
 
 #[derive(Serialize)]

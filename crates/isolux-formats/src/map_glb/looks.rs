@@ -39,7 +39,7 @@ impl Looks {
             let source = &scene.materials()[layer.material as usize];
             let mut look = unlit(&source.name, [1.0; 4]);
             look.pbr_metallic_roughness.base_color_texture =
-                texture.map(|index| TextureReference { index });
+                texture.map(|index| TextureReference { index, tex_coord: None });
             if !layer.mapped {
                 bare(&mut look, &source.body, layer.back, preview);
             }
@@ -58,9 +58,11 @@ fn unlit(name: &str, base_color_factor: [f64; 4]) -> Material {
             metallic_factor: 0.0,
             roughness_factor: 1.0,
         },
+        emissive_texture: None,
+        emissive_factor: None,
         alpha_mode: None,
         double_sided: None,
-        extensions: MaterialExtensions { unlit: Empty {} },
+        extensions: MaterialExtensions { unlit: Some(Empty {}), ..MaterialExtensions::default() },
     }
 }
 

@@ -15,12 +15,14 @@ mod preview;
 mod read;
 mod record;
 mod scene_arrays;
+mod texels;
 mod value_arrays;
 mod write;
 
 pub(crate) use displayed::{Displayed, displayed};
 pub use preview::Preview;
 pub use read::{is_map, read};
+pub use texels::{TexelFile, write_texels};
 pub use write::write;
 
 /// A map that does not fit into a file.

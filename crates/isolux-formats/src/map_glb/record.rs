@@ -84,6 +84,8 @@ pub(super) struct ShapeRecord {
     pub(super) triangles: usize,
     pub(super) has_normals: bool,
     pub(super) has_uvs: bool,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(super) has_lightmap_uvs: bool,
 }
 
 #[derive(Serialize, Deserialize)]

@@ -12,6 +12,8 @@ use std::collections::HashMap;
 const POSITIONS: &str = "scene_positions";
 const NORMALS: &str = "scene_normals";
 const UVS: &str = "scene_uvs";
+/// Only where a shape has them: maps of before know none.
+const LIGHTMAP_UVS: &str = "scene_lightmap_uvs";
 
 /// Writes the arrays of a scene and returns its record. `textures` are the buffer views of the
 /// pictures.
@@ -29,6 +31,11 @@ pub(super) fn write(
     arrays::write_floats((bytes, table), NORMALS, 3, &normals);
     let uvs = parts.shapes.iter().flat_map(|s| s.uvs.iter().flatten().flatten());
     arrays::write_floats((bytes, table), UVS, 2, &uvs.copied().collect::<Vec<f64>>());
+    let placed = parts.shapes.iter().filter_map(|s| s.lightmap_uvs.as_deref());
+    let placed: Vec<f64> = placed.flatten().flatten().map(|&c| f64::from(c)).collect();
+    if !placed.is_empty() {
+        arrays::write_floats((bytes, table), LIGHTMAP_UVS, 2, &placed);
+    }
     let mut distributions = Distributions::default();
     SceneRecord {
         name: parts.name,
@@ -51,6 +58,7 @@ fn shape_record(shape: &Shape) -> ShapeRecord {
         triangles: shape.triangles.len(),
         has_normals: shape.normals.is_some(),
         has_uvs: shape.uvs.is_some(),
+        has_lightmap_uvs: shape.lightmap_uvs.is_some(),
     }
 }
 
@@ -96,10 +104,15 @@ pub(super) fn read(record: SceneRecord, arrays: &Arrays<'_>) -> Result<ScenePart
         positions: arrays.float_rows(POSITIONS)?.into_iter(),
         normals: arrays.float_rows(NORMALS)?.into_iter(),
         uvs: arrays.float_rows(UVS)?.into_iter(),
+        lightmap_uvs: match record.shapes.iter().any(|shape| shape.has_lightmap_uvs) {
+            true => arrays.float_rows(LIGHTMAP_UVS)?.into_iter(),
+            false => Vec::new().into_iter(),
+        },
     };
     let shapes =
         record.shapes.into_iter().map(|s| corners.shape(s)).collect::<Result<Vec<_>, _>>()?;
-    if corners.positions.len() + corners.normals.len() + corners.uvs.len() > 0 {
+    let Corners { positions, normals, uvs, lightmap_uvs } = &corners;
+    if positions.len() + normals.len() + uvs.len() + lightmap_uvs.len() > 0 {
         return Err(Fault::new("extras.isolux.scene.shapes", "leave triangles over"));
     }
     let distributions = &record.distributions;
@@ -125,6 +138,7 @@ struct Corners {
     positions: std::vec::IntoIter<[f64; 3]>,
     normals: std::vec::IntoIter<[f64; 3]>,
     uvs: std::vec::IntoIter<[f64; 2]>,
+    lightmap_uvs: std::vec::IntoIter<[f64; 2]>,
 }
 
 impl Corners {
@@ -135,10 +149,15 @@ impl Corners {
         let normals = record.has_normals.then(|| take(&mut self.normals, count).ok_or_else(short));
         let uvs = record.has_uvs.then(|| take(&mut self.uvs, count).ok_or_else(short));
         let (normals, uvs) = (normals.transpose()?, uvs.transpose()?);
+        let placed = record.has_lightmap_uvs;
+        let lightmap_uvs = placed.then(|| take(&mut self.lightmap_uvs, count).ok_or_else(short));
+        let single =
+            |list: Vec<[f64; 2]>| list.into_iter().map(|uv| uv.map(|c| c as f32)).collect();
         Ok(Shape {
             positions,
             normals,
             uvs,
+            lightmap_uvs: lightmap_uvs.transpose()?.map(single),
             // An array of 12 bytes a corner in a file of 4 GiB at most: indices fit.
             triangles: (0..record.triangles as u32)
                 .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])

@@ -52,7 +52,7 @@ pub fn write(
 }
 
 /// Embeds the textures and returns their buffer views.
-fn add_textures(
+pub(super) fn add_textures(
     scene: &Scene,
     objects: &mut Objects,
     bytes: &mut Bytes,
@@ -63,13 +63,13 @@ fn add_textures(
         let png = images::encode(texture).ok_or(too_large)?;
         let buffer_view = bytes.view(&png, None);
         objects.images.push(Image { buffer_view, mime_type: "image/png" });
-        objects.textures.push(Texture { source: index as u32 });
+        objects.textures.push(Texture { sampler: None, source: index as u32 });
         views.push(buffer_view);
     }
     Ok(views)
 }
 
-type Input<'a> = (&'a Scene, &'a IlluminationMap, &'a Preview);
+pub(super) type Input<'a> = (&'a Scene, &'a IlluminationMap, &'a Preview);
 
 /// One mesh and one node a shape.
 fn add_meshes(input: Input<'_>, objects: &mut Objects, bytes: &mut Bytes) {
@@ -87,7 +87,7 @@ fn add_meshes(input: Input<'_>, objects: &mut Objects, bytes: &mut Bytes) {
     }
 }
 
-fn add_node(name: &str, objects: &mut Objects) {
+pub(super) fn add_node(name: &str, objects: &mut Objects) {
     let mesh = Some(objects.meshes.len() as u32);
     objects.meshes.push(Mesh { name: name.to_owned(), primitives: Vec::new() });
     objects.nodes.push(Node { name: name.to_owned(), mesh, ..Node::default() });
@@ -112,7 +112,11 @@ fn primitive(
 }
 
 /// Writes all arrays and says what they are.
-fn record((scene, map, preview): Input<'_>, pictures: &[u32], bytes: &mut Bytes) -> Record {
+pub(super) fn record(
+    (scene, map, preview): Input<'_>,
+    pictures: &[u32],
+    bytes: &mut Bytes,
+) -> Record {
     let mut table = Table::new();
     let scene = scene_arrays::write(scene.to_parts(), pictures, bytes, &mut table);
     value_arrays::write(map, bytes, &mut table);

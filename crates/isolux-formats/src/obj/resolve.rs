@@ -107,6 +107,7 @@ impl<'a> Builder<'a> {
             uvs: self.uvs(),
             triangles: self.triangles,
             material,
+            ..Shape::default()
         }
     }
 

@@ -30,6 +30,7 @@ pub(super) fn placed(shape: &Shape, scene_from_shape: &Transform) -> Shape {
         positions: shape.positions.iter().map(position).collect(),
         normals: shape.normals.as_ref().map(|list| list.iter().map(normal).collect()),
         uvs: shape.uvs.clone(),
+        lightmap_uvs: shape.lightmap_uvs.clone(),
         triangles: shape.triangles.clone(),
         material: shape.material,
     };

@@ -128,11 +128,17 @@ impl<'a> MapReader<'a> {
     }
 
     fn read(&self, surface: SurfacePoint) -> Option<Illuminance> {
+        let (indirect, at) = self.indirect(surface)?;
+        Some(self.with_fresh_direct(indirect, &at))
+    }
+
+    /// What is known of the indirect light at a place, and the place to evaluate direct light at.
+    fn indirect(&self, surface: SurfacePoint) -> Option<(Illuminance, SurfacePoint)> {
         let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.places.pulled_in(surface);
         let Some(fresh) = self.map.provenance.fresh else {
-            return Some(self.with_fresh_direct(stored, &at));
+            return Some((stored, at));
         };
         let edge_m = trust::edge_at_m(&self.map.elements, &at);
         let nearness = trust::nearness(self.scene, &at, edge_m);
@@ -147,7 +153,7 @@ impl<'a> MapReader<'a> {
             let trial = Gatherer::on_surface(at, FRESH_TRIAL_RAYS).in_gap(in_gap);
             self.gathered(stored, trial, fresh.lookup_lx)
         };
-        Some(self.with_fresh_direct(indirect, &at))
+        Some((indirect, at))
     }
 
     /// A value of the map with what interpolation is expected to err by. Half of the error of the
@@ -231,6 +237,22 @@ impl<'a> MapReader<'a> {
             standard_error_lx: stored.indirect_standard_error_lx,
             ..stored
         })
+    }
+
+    /// The parts of [`MapReader::at`] apart, for means over a surface: direct light afresh, caustics of the map
+    /// included, and the variance of its photometric value. `None` where the map knows nothing.
+    pub fn direct_at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<(Rgb, f64)> {
+        let stored = self.map.interpolate(triangle, back, u, v)?;
+        let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
+        let (direct, variance) = self.direct(&at);
+        Some((direct + stored.caustic_lx, variance))
+    }
+
+    /// The other part: indirect light, and the standard error of its photometric value and of the caustics, as
+    /// [`MapReader::at`] counts it.
+    pub fn indirect_at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<(Rgb, f64)> {
+        let (read, _) = self.indirect(SurfacePoint::new(self.scene, triangle, back, u, v))?;
+        Some((read.indirect_lx, self.indirect_error_lx(&read)))
     }
 
     /// As [`MapReader::at`] at a point on a surface, on the side that `normal` points to. `None` where no
@@ -348,14 +370,19 @@ impl<'a> MapReader<'a> {
 
     fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {
         let (direct, variance) = self.direct(at);
-        let unseen = libm::hypot(stored.interpolation_error_lx, self.unseen.bias_lx);
-        let indirect = libm::hypot(stored.indirect_standard_error_lx, unseen);
+        let indirect = self.indirect_error_lx(&stored);
         Illuminance {
             direct_lx: direct + stored.caustic_lx,
             standard_error_lx: (indirect * indirect + variance).sqrt(),
             indirect_standard_error_lx: indirect,
             ..stored
         }
+    }
+
+    /// Of replicates, of interpolation, and what is common to all of the map.
+    fn indirect_error_lx(&self, read: &Illuminance) -> f64 {
+        let unseen = libm::hypot(read.interpolation_error_lx, self.unseen.bias_lx);
+        libm::hypot(read.indirect_standard_error_lx, unseen)
     }
 
     /// Direct light at a place and the variance of its mean.

@@ -18,6 +18,8 @@ pub struct Scene {
     /// Shading normals at the corners, for triangles of shapes that have them.
     corner_normals: Vec<Option<[Normal; 3]>>,
     corner_uvs: Vec<Option<[[f64; 2]; 3]>>,
+    /// Places in a lightmap, for triangles of shapes that have them; empty where none has.
+    corner_lightmap_uvs: Vec<Option<[[f32; 2]; 3]>>,
     triangle_shape: Vec<u32>,
     shape_names: Vec<String>,
     shape_material: Vec<u32>,
@@ -38,11 +40,13 @@ impl Scene {
         if !problems.is_empty() {
             return Err(problems);
         }
-        let mut build = Build::default();
+        let has_lightmap = parts.shapes.iter().any(|shape| shape.lightmap_uvs.is_some());
+        let mut build = Build { has_lightmap, ..Build::default() };
         for (index, shape) in parts.shapes.iter().enumerate() {
             build.add(index as u32, shape);
         }
-        let Build { mesh, corner_normals, corner_uvs, triangle_shape } = build;
+        let Build { mesh, corner_normals, corner_uvs, corner_lightmap_uvs, triangle_shape, .. } =
+            build;
         let is_transparent = |triangle: u32| {
             let shape = &parts.shapes[triangle_shape[triangle as usize] as usize];
             matches!(parts.materials[shape.material as usize].body, Body::Dielectric(_))
@@ -57,6 +61,7 @@ impl Scene {
             up: parts.up,
             corner_normals,
             corner_uvs,
+            corner_lightmap_uvs,
             triangle_shape,
             shape_names: parts.shapes.iter().map(|s| s.name.clone()).collect(),
             shape_material: parts.shapes.iter().map(|s| s.material).collect(),
@@ -119,6 +124,9 @@ impl Scene {
         }
         if let Some(uvs) = self.corner_uvs[triangle as usize] {
             shape.uvs.get_or_insert_default().extend(uvs);
+        }
+        if let Some(uvs) = self.corner_lightmap_uvs(triangle) {
+            shape.lightmap_uvs.get_or_insert_default().extend(uvs);
         }
     }
 
@@ -244,6 +252,11 @@ impl Scene {
         self.corner_uvs[triangle as usize]
     }
 
+    /// Places of the corners of a triangle in a lightmap, as its file has them.
+    pub fn corner_lightmap_uvs(&self, triangle: u32) -> Option<[[f32; 2]; 3]> {
+        self.corner_lightmap_uvs.get(triangle as usize).copied().flatten()
+    }
+
     /// The front shading normal at barycentric weights `(1 - u - v, u, v)`.
     pub fn shading_normal(&self, triangle: u32, u: f64, v: f64) -> Normal {
         self.corner_normals[triangle as usize]
@@ -286,7 +299,10 @@ struct Build {
     mesh: TriangleMesh,
     corner_normals: Vec<Option<[Normal; 3]>>,
     corner_uvs: Vec<Option<[[f64; 2]; 3]>>,
+    corner_lightmap_uvs: Vec<Option<[[f32; 2]; 3]>>,
     triangle_shape: Vec<u32>,
+    /// Whether any shape has a place in a lightmap.
+    has_lightmap: bool,
 }
 
 impl Build {
@@ -309,6 +325,10 @@ impl Build {
             );
             let uvs = shape.uvs.as_ref();
             self.corner_uvs.push(uvs.map(|list| corners.map(|v| list[v as usize])));
+            if self.has_lightmap {
+                let uvs = shape.lightmap_uvs.as_ref();
+                self.corner_lightmap_uvs.push(uvs.map(|list| corners.map(|v| list[v as usize])));
+            }
         }
     }
 }

@@ -92,6 +92,7 @@ fn check_shape(shape: &Shape, materials: usize, report: Report) {
     for (what, count) in [
         ("normals", shape.normals.as_ref().map(Vec::len)),
         ("texture coordinates", shape.uvs.as_ref().map(Vec::len)),
+        ("places in a lightmap", shape.lightmap_uvs.as_ref().map(Vec::len)),
     ] {
         if let Some(count) = count.filter(|&count| count != vertices) {
             say(format!("{count} {what} for {vertices} vertices"), "give one a vertex, or none");

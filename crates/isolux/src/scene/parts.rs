@@ -38,6 +38,8 @@ pub struct Shape {
     pub normals: Option<Vec<[f64; 3]>>,
     /// Texture coordinates, one a vertex, `v` downwards.
     pub uvs: Option<Vec<[f64; 2]>>,
+    /// A second set of them, one a vertex: the place in a lightmap, 0 to 1, as the file has it.
+    pub lightmap_uvs: Option<Vec<[f32; 2]>>,
     /// Vertex indices, counter-clockwise seen from the front.
     pub triangles: Vec<[u32; 3]>,
     /// Index of the material.

@@ -1,0 +1,284 @@
+//! Lightmaps: planned before the work, baked from a map, reported on.
+
+use crate::console::facts;
+use crate::failure::Failure;
+use crate::flags::{LayoutFlags, LayoutName};
+use crate::interrupt::Interrupt;
+use crate::lightmap_files;
+use crate::notes::{Note, note};
+use crate::output::OutputPath;
+use crate::quantity::{show_bytes, show_count, show_seconds, show_share, significant};
+use isolux::engine::Watch;
+use isolux::lightmap::{
+    BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, OwnPlaces,
+    SeamReport, UvUnwrap, bake, plan,
+};
+use isolux::map::IlluminationMap;
+use isolux::scene::Scene;
+use isolux_formats::lightmap::{Convention, Target};
+use serde::Serialize;
+use std::time::Instant;
+
+/// Progress is told once in so many seconds.
+const LINE_EVERY_S: f64 = 10.0;
+
+/// A lightmap that fits into memory and whose files can be written.
+pub(crate) struct Planned {
+    layout: Layout,
+}
+
+/// A lightmap and how long it took.
+pub(crate) struct Baked {
+    /// The lightmap.
+    pub lightmap: Lightmap,
+    time_s: f64,
+}
+
+impl Planned {
+    /// Before a scene is solved: nothing where the layout asked for is another.
+    pub(crate) fn ahead(
+        flags: &LayoutFlags,
+        scene: &Scene,
+        (output, max_memory_bytes): (&OutputPath, u64),
+    ) -> Result<Option<Self>, Failure> {
+        if flags.layout == LayoutName::Vertices {
+            return match flags.texels_per_meter {
+                None => Ok(None),
+                Some(_) => Err(Failure::bad_input(
+                    "--texels-per-meter is only for --layout texels; add it, or leave the density out",
+                )),
+            };
+        }
+        OutputPath::check(&output.path().with_extension("exr"), "exr")?;
+        Self::new(flags, scene, max_memory_bytes).map(Some)
+    }
+
+    /// Lays out all surfaces and says what comes.
+    pub(crate) fn new(
+        flags: &LayoutFlags,
+        scene: &Scene,
+        max_memory_bytes: u64,
+    ) -> Result<Self, Failure> {
+        let settings = LightmapSettings {
+            texels_per_m: flags.texels_per_meter,
+            max_memory_bytes,
+            ..LightmapSettings::default()
+        };
+        let layout = plan(scene, &settings, &UvUnwrap).map_err(failure)?;
+        note(
+            Note::Info,
+            format!(
+                "lightmap: {} of {} x {} texels, {} a metre, {} charts, up to {} of memory",
+                pages(layout.pages),
+                layout.width,
+                layout.height,
+                significant(layout.texels_per_m, 3),
+                layout.charts,
+                show_bytes(layout.texel_count() as u64 * BYTES_PER_TEXEL)
+            ),
+        );
+        match &layout.own_places {
+            OwnPlaces::None => {}
+            OwnPlaces::Kept => {
+                note(Note::Info, "lightmap: surfaces lie where their file puts them")
+            }
+            OwnPlaces::Refused(why) => {
+                note(Note::Warning, format!("{why}; all surfaces are laid out anew"))
+            }
+        }
+        Ok(Self { layout })
+    }
+
+    /// Reads the map over all texels; nothing if interrupted.
+    pub(crate) fn bake(
+        &self,
+        scene: &Scene,
+        map: &IlluminationMap,
+    ) -> Result<Option<Baked>, Failure> {
+        let interrupt = Interrupt::install()?;
+        let started = Instant::now();
+        let mut last_s = 0.0;
+        let baked = bake(scene, map, &self.layout, &mut |share| {
+            let now_s = started.elapsed().as_secs_f64();
+            if share > 0.0 && now_s > last_s + LINE_EVERY_S {
+                last_s = now_s;
+                let left_s = now_s / share - now_s;
+                let text =
+                    format!("lightmap: {} done, {} left", show_share(share), show_seconds(left_s));
+                note(Note::Info, text);
+            }
+            if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
+        });
+        match baked {
+            Ok(lightmap) => Ok(Some(Baked { lightmap, time_s: started.elapsed().as_secs_f64() })),
+            Err(LightmapError::Stopped) => Ok(None),
+            Err(other) => Err(failure(other)),
+        }
+    }
+}
+
+impl Baked {
+    /// Writes the `.glb` and what belongs beside it.
+    pub(crate) fn write(
+        &self,
+        scene: &Scene,
+        map: &IlluminationMap,
+        (output, target, with_record): (&OutputPath, Target, bool),
+    ) -> Result<Report, Failure> {
+        let files =
+            lightmap_files::glb(&self.lightmap, (scene, map), (output, target, with_record))?;
+        Ok(self.report(target, files))
+    }
+
+    /// What was made, in which files.
+    pub(crate) fn report(&self, target: Target, files: Vec<String>) -> Report {
+        let map = &self.lightmap;
+        let Layout { width, height, pages, charts, texels_per_m, .. } = map.layout;
+        Report {
+            target: target.name(),
+            convention: target.convention(),
+            files,
+            width,
+            height,
+            pages,
+            charts,
+            texels_per_meter: texels_per_m,
+            texels_known: map.count(Cover::Known),
+            texels_unknown: map.count(Cover::Unknown),
+            texels_filled: map.count(Cover::Filled),
+            readings: map.readings,
+            time_s: self.time_s,
+            seams: Seams::of(&map.seams),
+        }
+    }
+}
+
+/// Sorted by who can mend it.
+fn failure(error: LightmapError) -> Failure {
+    match error {
+        LightmapError::Memory { needed, allowed } => Failure::Refused(format!(
+            "the lightmap needs about {}, more than the {} of --max-memory; ask for fewer \
+             --texels-per-meter, or raise it",
+            show_bytes(needed),
+            show_bytes(allowed)
+        )),
+        LightmapError::NothingLit => Failure::bad_input(
+            "no surface can carry a lightmap: all are mirrors, glass or without area",
+        ),
+        other => Failure::bad_input(format!("{other}; try other --texels-per-meter")),
+    }
+}
+
+fn pages(count: u32) -> String {
+    if count == 1 { "one page".to_owned() } else { format!("{count} pages") }
+}
+
+/// What `--json` says of a lightmap.
+#[derive(Serialize)]
+pub(crate) struct Report {
+    target: &'static str,
+    convention: Convention,
+    files: Vec<String>,
+    width: u32,
+    height: u32,
+    pages: u32,
+    charts: u32,
+    texels_per_meter: f64,
+    texels_known: usize,
+    texels_unknown: usize,
+    texels_filled: usize,
+    readings: u64,
+    time_s: f64,
+    seams: Seams,
+}
+
+#[derive(Serialize)]
+struct Seams {
+    edges: usize,
+    length_m: f64,
+    before: JumpReport,
+    after: JumpReport,
+    largest_change_lx: f64,
+    rms_change_standard_errors: f64,
+    stopped_at_two_standard_errors: f64,
+}
+
+#[derive(Serialize)]
+struct JumpReport {
+    largest_lx: f64,
+    largest_share: f64,
+    place: Option<[f64; 3]>,
+    rms_lx: f64,
+}
+
+impl Seams {
+    fn of(seams: &SeamReport) -> Self {
+        let jump = |j: &Jump| JumpReport {
+            largest_lx: j.largest_lx,
+            largest_share: j.largest_share,
+            place: j.place.map(<[f64; 3]>::from),
+            rms_lx: j.rms_lx,
+        };
+        Self {
+            edges: seams.edges,
+            // A sum of nothing is -0.
+            length_m: seams.length_m + 0.0,
+            before: jump(&seams.before),
+            after: jump(&seams.after),
+            largest_change_lx: seams.largest_change_lx,
+            rms_change_standard_errors: seams.rms_change_errors,
+            stopped_at_two_standard_errors: seams.stopped,
+        }
+    }
+}
+
+impl Report {
+    /// For people.
+    pub(crate) fn text(&self) -> String {
+        let jump = |j: &JumpReport| {
+            format!(
+                "{} lx, {} there; rms {} lx",
+                significant(j.largest_lx, 3),
+                show_share(j.largest_share),
+                significant(j.rms_lx, 3)
+            )
+        };
+        let Convention { quantity, unit, formula, setting, .. } = self.convention;
+        let mut all = vec![
+            ("lightmap", self.files.join(", ")),
+            ("  holds", format!("{quantity}, in {unit}; {formula}")),
+            (
+                "  size",
+                format!(
+                    "{} of {} x {}, {} texels a metre, {} charts",
+                    pages(self.pages),
+                    self.width,
+                    self.height,
+                    significant(self.texels_per_meter, 3),
+                    self.charts
+                ),
+            ),
+            (
+                "  texels",
+                format!(
+                    "{} known, {} unknown, {} filled beside charts",
+                    self.texels_known, self.texels_unknown, self.texels_filled
+                ),
+            ),
+            ("  readings", show_count(self.readings as f64)),
+            ("  time", show_seconds(self.time_s)),
+        ];
+        if !setting.is_empty() {
+            all.insert(2, ("  set", format!("{}: {setting}", self.target)));
+        }
+        if self.seams.edges > 0 {
+            all.push((
+                "  seams",
+                format!("{} edges, {} m", self.seams.edges, significant(self.seams.length_m, 3)),
+            ));
+            all.push(("    largest jump before", jump(&self.seams.before)));
+            all.push(("    and after stitching", jump(&self.seams.after)));
+        }
+        facts(&all)
+    }
+}

@@ -1,0 +1,91 @@
+//! Lightmaps as files.
+
+use crate::failure::Failure;
+use crate::output::OutputPath;
+use isolux::lightmap::Lightmap;
+use isolux::map::IlluminationMap;
+use isolux::scene::Scene;
+use isolux_formats::lightmap::{LightmapFileError, Target, Way, write_exr, write_ktx2};
+use isolux_formats::map_glb::{Preview, TexelFile, write_texels};
+use std::path::{Path, PathBuf};
+
+/// A lightmap alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// In 32-bit floats.
+    Exr,
+    /// In shared exponents.
+    Ktx2,
+}
+
+impl Kind {
+    /// Its extension.
+    pub(crate) const fn extension(self) -> &'static str {
+        match self {
+            Self::Exr => "exr",
+            Self::Ktx2 => "ktx2",
+        }
+    }
+}
+
+/// Writes a `.glb` and the lightmaps beside it.
+pub(crate) fn glb(
+    lightmap: &Lightmap,
+    (scene, map): (&Scene, &IlluminationMap),
+    (output, target, with_record): (&OutputPath, Target, bool),
+) -> Result<Vec<String>, Failure> {
+    let preview = Preview::automatic(scene, map);
+    let file = TexelFile { scene, map, lightmap, preview, target, with_record };
+    let bytes = write_texels(&file).map_err(|error| unwritable(output.path(), &error))?;
+    output.write(&bytes)?;
+    let mut files = vec![output.path().display().to_string()];
+    for &kind in beside(target) {
+        let path = output.path().with_extension(kind.extension());
+        files.extend(pages(lightmap, &path, (kind, target))?);
+    }
+    Ok(files)
+}
+
+/// What is written beside a `.glb`.
+pub(crate) fn beside(target: Target) -> &'static [Kind] {
+    match target.way() {
+        Way::Lightmap => &[Kind::Exr, Kind::Ktx2],
+        _ => &[Kind::Exr],
+    }
+}
+
+/// Writes every page; all but the first have their number in their name.
+pub(crate) fn pages(
+    lightmap: &Lightmap,
+    path: &Path,
+    (kind, target): (Kind, Target),
+) -> Result<Vec<String>, Failure> {
+    let convention = target.convention();
+    let mut files = Vec::new();
+    for page in 0..lightmap.layout.pages {
+        let path = numbered(path, page);
+        let bytes = match kind {
+            Kind::Ktx2 => write_ktx2(lightmap, page, &convention).map(|file| file.bytes),
+            Kind::Exr => write_exr(lightmap, page, &convention),
+        };
+        let bytes = bytes.map_err(|error| unwritable(&path, &error))?;
+        OutputPath::check(&path, kind.extension())?.write(&bytes)?;
+        files.push(path.display().to_string());
+    }
+    Ok(files)
+}
+
+/// `lightmap.exr`, `lightmap-1.exr`, and so on.
+fn numbered(path: &Path, page: u32) -> PathBuf {
+    if page == 0 {
+        return path.to_owned();
+    }
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{page}."));
+    name.push(path.extension().unwrap_or_default());
+    path.with_file_name(name)
+}
+
+fn unwritable(path: &Path, error: &LightmapFileError) -> Failure {
+    Failure::Refused(format!("{}: {error}", path.display()))
+}

@@ -1,0 +1,146 @@
+//! Maps as `.glb` files whose light is in textures.
+//!
+//! The geometry is that of the scene, its vertices split where charts end; `TEXCOORD_1` is the place in the lightmap.
+//! What the texture holds, and how the material refers to it, is up to the consumer ([`Target`]).
+
+mod file;
+mod materials;
+mod pages;
+mod surfaces;
+
+use super::MapTooLarge;
+use super::bytes::Bytes;
+use super::document::Scene as SceneRoots;
+use super::document::{Asset, Buffer, Document, Objects, Primitive};
+use super::record::Declared;
+use super::write::{add_node, add_textures, record};
+use super::{Preview, container, nodes};
+use crate::lightmap::{Convention, LightmapFileError, Way};
+pub use file::TexelFile;
+use materials::Materials;
+use pages::Page;
+use serde::Serialize;
+
+/// `extras` of the document.
+#[derive(Serialize)]
+struct Extras<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    isolux: Option<Declared<'a>>,
+    isolux_lightmap: Note,
+}
+
+/// What those need who read the file without its manual.
+#[derive(Serialize)]
+struct Note {
+    target: &'static str,
+    /// Of the `.exr` and the `.ktx2` of this target.
+    texels: Convention,
+    /// What the pictures in this file hold.
+    pictures: String,
+    texels_per_meter: f64,
+    width: u32,
+    height: u32,
+    pages: u32,
+    preview: Preview,
+    scene: String,
+    scene_hash: String,
+    accuracy_reached: Option<f64>,
+}
+
+/// The bytes of the file. The same lightmap gives the same bytes.
+pub fn write_texels(file: &TexelFile<'_>) -> Result<Vec<u8>, LightmapFileError> {
+    let TexelFile { scene, map, .. } = *file;
+    let mut bytes = Bytes::default();
+    let mut objects = Objects::default();
+    let needs_textures = file.with_record || file.target.way() == Way::Lightmap;
+    let pictures = match needs_textures {
+        true => add_textures(scene, &mut objects, &mut bytes).map_err(too_large)?,
+        false => Vec::new(),
+    };
+    let pages = pages::add(file, &mut objects, &mut bytes)?;
+    add_meshes(file, &pages, (&mut objects, &mut bytes));
+    nodes::add_cameras(scene, &mut objects);
+    let children = (0..objects.nodes.len() as u32).collect();
+    objects.nodes.push(nodes::root(scene, children));
+    let record =
+        file.with_record.then(|| record((scene, map, &file.preview), &pictures, &mut bytes));
+    objects.buffer_views = bytes.views;
+    // Without lights: all of theirs is in the texels, and a consumer would add it once more.
+    let extensions_used = materials::extensions(&objects.materials);
+    let document = Document {
+        asset: Asset { version: "2.0", generator: format!("isolux {}", env!("CARGO_PKG_VERSION")) },
+        extensions_used,
+        extensions: None,
+        scene: 0,
+        scenes: [SceneRoots { nodes: [objects.nodes.len() as u32 - 1] }],
+        objects,
+        buffers: Vec::from_iter(
+            (!bytes.content.is_empty()).then_some(Buffer { byte_length: bytes.content.len() }),
+        ),
+        extras: Extras {
+            isolux: record.as_ref().map(Declared::new),
+            isolux_lightmap: note(file, &pages),
+        },
+    };
+    let json = serde_json::to_vec(&document).expect("plain structs with names for keys");
+    container::pack(&json, &bytes.content).map_err(too_large)
+}
+
+fn too_large(MapTooLarge { bytes }: MapTooLarge) -> LightmapFileError {
+    LightmapFileError::TooLarge { bytes }
+}
+
+fn note(file: &TexelFile<'_>, pages: &[Page]) -> Note {
+    let layout = &file.lightmap.layout;
+    let pictures = match file.target.way() {
+        Way::Preview => {
+            "emission: luminance rho E / pi, tone mapped as `preview` says, sRGB".to_owned()
+        }
+        Way::Emission => {
+            "emission: luminance rho E / pi in cd/m2, sRGB, times emissiveStrength".to_owned()
+        }
+        Way::Lightmap => {
+            format!("MOZ_lightmap: {}, sRGB, times intensity", file.target.convention().quantity)
+        }
+    };
+    let strengths: Vec<f64> = pages.iter().map(|page| page.strength).collect();
+    Note {
+        target: file.target.name(),
+        texels: file.target.convention(),
+        pictures: format!("{pictures}; factors of the pages {strengths:?}"),
+        texels_per_meter: layout.texels_per_m,
+        width: layout.width,
+        height: layout.height,
+        pages: layout.pages,
+        preview: file.preview,
+        scene: file.map.provenance.scene.clone(),
+        scene_hash: file.map.provenance.scene_hash.clone(),
+        accuracy_reached: file.map.provenance.accuracy.map(|a| a.reached).filter(|a| a.is_finite()),
+    }
+}
+
+/// One mesh and one node a shape; a primitive for each of its sides and pages.
+fn add_meshes(file: &TexelFile<'_>, pages: &[Page], (objects, bytes): (&mut Objects, &mut Bytes)) {
+    let mut materials = Materials::default();
+    let mut current = None;
+    for ((layer, page), surface) in surfaces::all(file) {
+        if current != Some(layer.shape) {
+            current = Some(layer.shape);
+            add_node(&file.scene.shape_names()[layer.shape as usize], objects);
+        }
+        let mut sink = super::attributes::Sink { bytes, accessors: &mut objects.accessors };
+        let (mut attributes, indices) = sink.geometry(&surface);
+        if !surface.lightmap_uvs.is_empty() {
+            let places = sink.lightmap_uvs(&surface.lightmap_uvs);
+            attributes.lightmap_texcoord = Some(places);
+            // glTF wants the first set where there is a second.
+            attributes.texcoord = attributes.texcoord.or(Some(places));
+        }
+        let page = layer.mapped.then(|| &pages[page as usize]);
+        let is_textured = !surface.uvs.is_empty();
+        let material = materials.of(file, (layer, page, is_textured), objects);
+        if let Some(mesh) = objects.meshes.last_mut() {
+            mesh.primitives.push(Primitive { attributes, indices, material });
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Edges at which the surface goes on smoothly and the chart does not.
+
+use super::layout::Layout;
+use crate::scene::Scene;
+use isolux_geometry::{Normal, Point};
+
+/// As elements have it: normals within one degree belong to one smooth surface.
+const CREASE_COS: f64 = 0.999_847_7;
+/// Nearer than this in texels, both sides of an edge lie in the same place: inside a chart.
+const SAME_TEXELS: f64 = 1e-3;
+
+/// An edge and where its two sides lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Seam {
+    /// Ends of the edge, m.
+    pub(super) ends: [Point; 2],
+    /// Of both sides: the page, and both ends in texels.
+    pub(super) sides: [(u32, [[f64; 2]; 2]); 2],
+}
+
+/// An edge of a side; ends in the order of their coordinates.
+#[derive(Clone, Copy)]
+struct Edge {
+    ends: [Point; 2],
+    normals: [Normal; 2],
+    page: u32,
+    texels: [[f64; 2]; 2],
+}
+
+/// All seams, found by the places of their ends: of whatever objects.
+pub(super) fn find(scene: &Scene, layout: &Layout) -> Vec<Seam> {
+    let mut edges: Vec<([[u64; 3]; 2], Edge)> = Vec::with_capacity(3 * layout.sides.len());
+    for side in &layout.sides {
+        let points = scene.triangle(side.triangle).corners;
+        let flat = [scene.geometric_normal(side.triangle); 3];
+        let normals = scene.corner_normals(side.triangle).unwrap_or(flat);
+        let normals = normals.map(|n| if side.back { -n } else { n });
+        let texels = layout.corners(side);
+        for k in 0..3 {
+            let (p, q) = (k, (k + 1) % 3);
+            let (p, q) = if key(points[p]) < key(points[q]) { (p, q) } else { (q, p) };
+            let edge = Edge {
+                ends: [points[p], points[q]],
+                normals: [normals[p], normals[q]],
+                page: side.page,
+                texels: [texels[p], texels[q]],
+            };
+            edges.push((edge.ends.map(key), edge));
+        }
+    }
+    // Stable: edges at one place stay in the order of the sides.
+    edges.sort_by_key(|(key, _)| *key);
+    edges.chunk_by(|a, b| a.0 == b.0).flat_map(pairs).collect()
+}
+
+/// Coordinates as whole numbers, with one zero.
+fn key(point: Point) -> [u64; 3] {
+    [point.x, point.y, point.z].map(|c| (c + 0.0).to_bits())
+}
+
+/// Each edge with the next that continues it smoothly elsewhere: a chain joins all of them.
+fn pairs(run: &[([[u64; 3]; 2], Edge)]) -> Vec<Seam> {
+    let mut found = Vec::new();
+    for (index, (_, a)) in run.iter().enumerate() {
+        let smooth = |(_, b): &&([[u64; 3]; 2], Edge)| {
+            (0..2).all(|end| a.normals[end].dot(b.normals[end]) >= CREASE_COS)
+        };
+        if let Some((_, b)) = run[index + 1..].iter().find(smooth).filter(|(_, b)| !is_inside(a, b))
+        {
+            let sides = [(a.page, a.texels), (b.page, b.texels)];
+            found.push(Seam { ends: a.ends, sides });
+        }
+    }
+    found
+}
+
+fn is_inside(a: &Edge, b: &Edge) -> bool {
+    let near = |p: [f64; 2], q: [f64; 2]| {
+        (p[0] - q[0]).abs() < SAME_TEXELS && (p[1] - q[1]).abs() < SAME_TEXELS
+    };
+    a.page == b.page && (0..2).all(|end| near(a.texels[end], b.texels[end]))
+}

@@ -1,0 +1,190 @@
+//! Both sides of every seam are made to agree.
+//!
+//! The texels about seams are moved so that bilinear lookups along both sides of an edge give the same, by least
+//! squares (Iwanicki 2013, "Lighting technology of The Last of Us", SIGGRAPH talks). Unlike there, every texel is held
+//! to its value in proportion to its standard error, and known ones move by no more than twice that: what is well known
+//! gives way least, and what was only filled in beside a chart gives way first. Jumps that are left are no noise but the
+//! size of texels.
+
+use super::seam_report::{Jump, SeamReport};
+use super::seams::{self, Seam};
+use super::solve::{Row, solve};
+use super::texels::{Cover, Lightmap};
+use crate::scene::Scene;
+use crate::units::Rgb;
+use isolux_geometry::Point;
+use std::collections::HashMap;
+
+/// Lookups compared for every texel along the longer side of a seam: bilinear values have kinks at every texel.
+const A_TEXEL: f64 = 2.0;
+/// Both sides are to agree within this share of the standard error there.
+const AGREEMENT: f64 = 0.1;
+/// Texels that are known better than this share of their value are held no harder, so that the system stays solvable.
+const SUREST: f64 = 1e-3;
+/// What was filled in beside a chart is held this loosely, a share of its value.
+const FILLED: f64 = 1.0;
+/// Known texels move by no more than so many of their standard errors: within the interval of 95 %.
+const MOST_ERRORS: f64 = 2.0;
+/// Times that texels are stopped there and the others solved for anew.
+const PASSES: usize = 4;
+/// A lookup counts if known texels have this weight in it on either side: beside narrow charts there may be none.
+const KNOWN_WEIGHT: f64 = 0.25;
+
+/// A lookup on either side of a seam.
+struct Pair {
+    place: Point,
+    sides: [[(usize, f64); 4]; 2],
+}
+
+/// Adjusts the texels about all seams.
+pub(super) fn stitch(scene: &Scene, lightmap: &mut Lightmap) -> SeamReport {
+    let seams = seams::find(scene, &lightmap.layout);
+    let pairs: Vec<Pair> = seams.iter().flat_map(|seam| lookups(lightmap, seam)).collect();
+    let mut report = SeamReport {
+        edges: seams.len(),
+        length_m: seams.iter().map(|s| (s.ends[1] - s.ends[0]).length()).sum(),
+        before: jump(lightmap, &pairs),
+        ..SeamReport::default()
+    };
+    if pairs.is_empty() {
+        return report;
+    }
+    let (texels, rows) = system(lightmap, &pairs);
+    let changes = bounded(lightmap, &texels, rows);
+    let (mut squared, mut known, mut stopped) = (0.0, 0_usize, 0_usize);
+    for (&texel, change) in texels.iter().zip(&changes) {
+        if lightmap.covers[texel] == Cover::Known {
+            let moved_lx = Rgb(*change).luminance().abs();
+            let errors = moved_lx / give_lx(lightmap, texel);
+            squared += errors * errors;
+            known += 1;
+            stopped += usize::from(errors >= MOST_ERRORS * (1.0 - 1e-9));
+            report.largest_change_lx = report.largest_change_lx.max(moved_lx);
+        }
+    }
+    for (&texel, change) in texels.iter().zip(&changes) {
+        for (shown, change) in lightmap.shown_lx[texel].iter_mut().zip(change) {
+            *shown = (f64::from(*shown) + change).max(0.0) as f32;
+        }
+    }
+    report.rms_change_errors = (squared / known.max(1) as f64).sqrt();
+    report.stopped = stopped as f64 / known.max(1) as f64;
+    report.after = jump(lightmap, &pairs);
+    report
+}
+
+/// What texels change by. Those that would move too far are stopped on the way, and the others solved for anew.
+fn bounded(lightmap: &Lightmap, texels: &[usize], mut rows: Vec<Row>) -> Vec<[f64; 3]> {
+    let give: Vec<f64> = texels.iter().map(|&texel| give_lx(lightmap, texel)).collect();
+    let mut stopped: Vec<Option<[f64; 3]>> = vec![None; texels.len()];
+    let mut changes = Vec::new();
+    for _ in 0..PASSES {
+        changes = solve(&rows, &give);
+        let mut is_done = true;
+        for k in 0..texels.len() {
+            if let Some(at) = stopped[k] {
+                changes[k] = at;
+                continue;
+            }
+            let moved = Rgb(changes[k]).luminance().abs() / give[k];
+            if lightmap.covers[texels[k]] == Cover::Known && moved > MOST_ERRORS {
+                changes[k] = changes[k].map(|c| c * MOST_ERRORS / moved);
+                stopped[k] = Some(changes[k]);
+                is_done = false;
+            }
+        }
+        if is_done {
+            break;
+        }
+        rows.iter_mut().for_each(|row| row.fix(&stopped));
+    }
+    changes
+}
+
+fn lookups(lightmap: &Lightmap, seam: &Seam) -> Vec<Pair> {
+    let length = |[p, q]: [[f64; 2]; 2]| libm::hypot(q[0] - p[0], q[1] - p[1]);
+    let texels = length(seam.sides[0].1).max(length(seam.sides[1].1));
+    let steps = (A_TEXEL * texels).ceil().max(1.0) as usize;
+    let at = |k: usize| {
+        let t = (k as f64 + 0.5) / steps as f64;
+        let side = |(page, [p, q]): (u32, [[f64; 2]; 2])| {
+            let place = [0, 1].map(|k| p[k] + t * (q[k] - p[k]));
+            lightmap.layout.bilinear(page, place)
+        };
+        Pair { place: seam.ends[0].lerp(seam.ends[1], t), sides: seam.sides.map(side) }
+    };
+    let is_known = |pair: &Pair| {
+        pair.sides.iter().all(|side| {
+            let weight = |cover| -> f64 {
+                let of = |&&(texel, _): &&(usize, f64)| lightmap.covers[texel] == cover;
+                side.iter().filter(of).map(|(_, weight)| weight).sum()
+            };
+            weight(Cover::Known) >= KNOWN_WEIGHT
+                && weight(Cover::Empty) + weight(Cover::Unknown) == 0.0
+        })
+    };
+    (0..steps).map(at).filter(is_known).collect()
+}
+
+/// Standard error that a texel may give way by, lx.
+fn give_lx(lightmap: &Lightmap, texel: usize) -> f64 {
+    let value = Rgb(lightmap.shown_lx[texel].map(f64::from)).luminance().abs();
+    let give = match lightmap.texel(texel) {
+        Some(known) => known.standard_error_lx.max(SUREST * value),
+        None => FILLED * value,
+    };
+    // A black texel of a black surface is held, but not infinitely.
+    give.max(1e-9)
+}
+
+/// Texels that lookups read, each once, and the differences to bring to nothing: weighted lookups over the error
+/// that they may differ by.
+fn system(lightmap: &Lightmap, pairs: &[Pair]) -> (Vec<usize>, Vec<Row>) {
+    let mut texels: Vec<usize> = Vec::new();
+    let mut numbers: HashMap<usize, u32> = HashMap::new();
+    let mut rows = Vec::with_capacity(pairs.len());
+    for pair in pairs {
+        let mut known: Vec<f64> = Vec::with_capacity(8);
+        let mut row = Row { parts: [(0, 0.0); 8], goal: [0.0; 3] };
+        let both = pair.sides[0].into_iter().chain(pair.sides[1].map(|(t, w)| (t, -w)));
+        for (part, (texel, weight)) in row.parts.iter_mut().zip(both) {
+            let number = *numbers.entry(texel).or_insert_with(|| {
+                texels.push(texel);
+                texels.len() as u32 - 1
+            });
+            *part = (number, weight);
+            known.extend(lightmap.texel(texel).map(|_| give_lx(lightmap, texel)));
+            for (goal, value) in row.goal.iter_mut().zip(lightmap.shown_lx[texel]) {
+                *goal -= weight * f64::from(value);
+            }
+        }
+        let give = match known.len() {
+            0 => 1.0,
+            n => known.iter().sum::<f64>() / n as f64,
+        };
+        row.scale(1.0 / (AGREEMENT * give));
+        rows.push(row);
+    }
+    (texels, rows)
+}
+
+fn jump(lightmap: &Lightmap, pairs: &[Pair]) -> Jump {
+    let mut found = Jump::default();
+    let mut squared = 0.0;
+    for pair in pairs {
+        let [a, b] = pair.sides.map(|side| {
+            let light = |(t, w): (usize, f64)| Rgb(lightmap.shown_lx[t].map(f64::from)) * w;
+            side.into_iter().map(light).sum::<Rgb>().luminance()
+        });
+        let jump_lx = (a - b).abs();
+        squared += jump_lx * jump_lx;
+        if jump_lx > found.largest_lx {
+            let mean = 0.5 * (a + b);
+            found.largest_lx = jump_lx;
+            found.largest_share = if mean > 0.0 { jump_lx / mean } else { 0.0 };
+            found.place = Some(pair.place);
+        }
+    }
+    found.rms_lx = (squared / pairs.len().max(1) as f64).sqrt();
+    found
+}

@@ -1,0 +1,141 @@
+//! Where charts lie.
+
+use super::*;
+use crate::lightmap::cover::fragments;
+
+fn room() -> Scene {
+    scene(vec![
+        quad("floor", [0.0; 3], [[4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], 2),
+        quad("wall", [0.0, 0.0, 0.0], [[0.0, 3.0, 0.0], [0.0, 0.0, 2.5]], 3),
+        quad("tile", [1.0, 1.0, 0.8], [[1.0, 0.0, 0.0], [0.0, 0.8, 0.0]], 1),
+    ])
+}
+
+#[test]
+fn no_two_sides_share_a_place_and_every_square_metre_has_its_texels() {
+    let scene = room();
+    let layout = plan(&scene, &settings(20.0), &UvUnwrap).unwrap();
+    assert_eq!(layout.sides.len(), scene.triangle_count() as usize);
+    let found = fragments(&scene, &layout);
+    let mut shares = vec![0.0; layout.texel_count()];
+    for fragment in &found {
+        shares[fragment.texel as usize] += f64::from(fragment.share);
+    }
+    // Sums of a few f32 near one.
+    assert!(shares.iter().all(|share| *share <= 1.0 + 1e-5));
+    let area_m2: f64 = found.iter().map(|f| f64::from(f.area_m2)).sum();
+    assert!((area_m2 / lit_area_m2(&scene) - 1.0).abs() < 1e-5, "{area_m2}");
+    let texels: f64 = shares.iter().sum();
+    // Flat charts are not distorted, but for the rounding of coordinates.
+    assert!((texels / (400.0 * area_m2) - 1.0).abs() < 1e-3, "{texels}");
+}
+
+#[test]
+fn charts_end_at_creases() {
+    let scene = room();
+    let layout = plan(&scene, &settings(10.0), &UvUnwrap).unwrap();
+    // Floor, wall and tile; floor and wall meet at a right angle.
+    assert_eq!(layout.charts, 3);
+    let corner = |triangle: usize| layout.corners(&layout.sides[triangle]);
+    let texels_apart = |a: [[f64; 2]; 3], b: [[f64; 2]; 3]| {
+        let all = a.into_iter().flat_map(|p| b.map(|q| (p[0] - q[0]).hypot(p[1] - q[1])));
+        all.fold(f64::INFINITY, f64::min)
+    };
+    // The first of the floor and of the wall: both in the corner of the room.
+    assert!(texels_apart(corner(0), corner(8)) >= 2.0 * f64::from(layout.padding));
+}
+
+#[test]
+fn a_density_is_chosen_by_the_size_of_the_scene() {
+    let density = |size: f64| {
+        let floor = quad("floor", [0.0; 3], [[size, 0.0, 0.0], [0.0, size, 0.0]], 1);
+        plan(&scene(vec![floor]), &LightmapSettings::default(), &UvUnwrap).unwrap()
+    };
+    let (small, large) = (density(0.1), density(100.0));
+    for layout in [&small, &large] {
+        let texels = layout.texel_count() as f64;
+        assert!((100_000.0..200_000.0).contains(&texels), "{texels}");
+    }
+    assert_eq!((small.texels_per_m, large.texels_per_m), (3600.0, 3.6));
+}
+
+#[test]
+fn what_does_not_fit_is_refused_before_it_is_tried() {
+    let scene = room();
+    for texels_per_m in [1e5, 1e30, f64::MAX] {
+        let refused = plan(&scene, &settings(texels_per_m), &UvUnwrap);
+        assert!(matches!(refused, Err(LightmapError::Memory { .. })), "{refused:?}");
+    }
+    for texels_per_m in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = plan(&scene, &settings(texels_per_m), &UvUnwrap);
+        assert!(matches!(refused, Err(LightmapError::Density(_))), "{refused:?}");
+    }
+}
+
+#[test]
+fn large_surfaces_take_several_pages_and_charts_no_more_than_one() {
+    let scene = room();
+    let small = LightmapSettings { page: 64, ..settings(30.0) };
+    let layout = plan(&scene, &small, &UvUnwrap).unwrap();
+    assert!(layout.pages > 1 && layout.width <= 64 && layout.height <= 64);
+    for side in &layout.sides {
+        assert!(side.page < layout.pages);
+        assert!(side.uvs.iter().flatten().all(|c| (0.0..=1.0).contains(c)));
+    }
+}
+
+/// The floor with places of its own on a page.
+fn placed(places: impl Fn([f64; 3]) -> [f32; 2]) -> Shape {
+    let floor = quad("floor", [0.0; 3], [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], 2);
+    let lightmap_uvs = Some(floor.positions.iter().map(|&p| places(p)).collect());
+    Shape { lightmap_uvs, ..floor }
+}
+
+fn left_half([x, y, _]: [f64; 3]) -> [f32; 2] {
+    [0.05 + 0.1 * x as f32, 0.05 + 0.1 * y as f32]
+}
+
+#[test]
+fn places_of_the_file_are_kept_where_they_serve() {
+    let wall = quad("wall", [0.0; 3], [[0.0, 3.0, 0.0], [0.0, 0.0, 2.5]], 1);
+    let scene = scene(vec![placed(left_half), wall]);
+    let layout = plan(&scene, &settings(10.0), &UvUnwrap).unwrap();
+    assert_eq!(layout.own_places, OwnPlaces::Kept);
+    // 0.1 of the page a metre: ten texels a metre on a page of a hundred.
+    assert_eq!((layout.width, layout.height, layout.pages), (100, 100, 2));
+    for side in &layout.sides {
+        match scene.shape_of(side.triangle) {
+            0 => assert_eq!(Some(side.uvs), scene.corner_lightmap_uvs(side.triangle)),
+            _ => assert_eq!(side.page, 1),
+        }
+    }
+    let rest: f64 = fragments(&scene, &layout)
+        .iter()
+        .filter(|f| scene.shape_of(layout.sides[f.side as usize].triangle) == 1)
+        .map(|f| f64::from(f.share))
+        .sum();
+    // Of the wall, 7.5 m2 at a hundred texels each; coordinates of f32.
+    assert!((rest - 750.0).abs() < 1.0, "{rest}");
+}
+
+#[test]
+fn places_of_the_file_are_refused_with_a_reason() {
+    let apart = |shift: f32| move |[x, y, _]: [f64; 3]| [shift + 0.1 * x as f32, 0.1 * y as f32];
+    let refused = |shapes: Vec<Shape>| {
+        let layout = plan(&scene(shapes), &settings(10.0), &UvUnwrap).unwrap();
+        match layout.own_places {
+            OwnPlaces::Refused(why) => why,
+            other => panic!("{other:?}"),
+        }
+    };
+    let beyond = refused(vec![placed(apart(0.7))]);
+    assert!(beyond.contains("leave 0 to 1"), "{beyond}");
+    let twice = refused(vec![placed(apart(0.1)), placed(apart(0.2))]);
+    assert!(twice.contains("overlap"), "{twice}");
+    let near = refused(vec![placed(apart(0.0)), placed(apart(0.405))]);
+    assert!(near.contains("nearer than a texel"), "{near}");
+    let flat = refused(vec![placed(|_| [0.5, 0.5])]);
+    assert!(flat.contains("no area"), "{flat}");
+    let nan = refused(vec![placed(|_| [f32::NAN, 0.5])]);
+    assert!(nan.contains("leave 0 to 1"), "{nan}");
+}

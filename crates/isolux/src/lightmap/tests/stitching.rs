@@ -1,0 +1,51 @@
+//! Both sides of seams.
+
+use super::*;
+
+/// Two halves of a floor, as objects of their own.
+fn halves() -> Scene {
+    scene(vec![
+        quad("left", [0.0; 3], [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0]], 2),
+        quad("right", [2.0, 0.0, 0.0], [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0]], 2),
+    ])
+}
+
+#[test]
+fn objects_that_continue_each_other_agree_on_their_edge() {
+    let scene = halves();
+    let map = map(&scene, |[x, y, _]| Some(100.0 + 40.0 * x + 10.0 * y * y));
+    let seams = baked(&scene, &map, 8.0).seams;
+    assert_eq!(seams.edges, 2);
+    // Lengths of f32 coordinates.
+    assert!((seams.length_m - 3.0).abs() < 1e-6);
+    assert!(seams.before.largest_lx > 1.0, "{seams:?}");
+    assert!(seams.after.largest_lx < 0.2 * seams.before.largest_lx, "{seams:?}");
+    assert!(seams.after.rms_lx < 0.2 * seams.before.rms_lx, "{seams:?}");
+    assert!(seams.rms_change_errors < 2.0 && seams.stopped < 0.1, "{seams:?}");
+}
+
+#[test]
+fn texels_move_by_no_more_than_twice_their_standard_error() {
+    let scene = halves();
+    // A step of light at the seam, forty errors high: no noise, so it stays.
+    let map = map(&scene, |[x, ..]| Some(if x < 1.9 { 100.0 } else { 140.0 }));
+    let lightmap = baked(&scene, &map, 8.0);
+    for texel in 0..lightmap.covers.len() {
+        let Some(known) = lightmap.texel(texel) else { continue };
+        let (side, [u, v]) = lightmap.place(texel).unwrap();
+        let read = map.interpolate(side.triangle, side.back, u, v).unwrap().illuminance_lx();
+        let moved = (known.illuminance_lx.luminance() - read).abs();
+        // The light rises by 40 lx within a metre: a texel of 1/8 m may differ from its centre by half of 5 lx.
+        assert!(moved <= 2.0 * known.standard_error_lx + 2.5 + 1e-3, "{moved} {known:?}");
+    }
+}
+
+#[test]
+fn creases_are_no_seams() {
+    let scene = scene(vec![
+        quad("floor", [0.0; 3], [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0]], 1),
+        quad("wall", [0.0; 3], [[0.0, 2.0, 0.0], [0.0, 0.0, 2.0]], 1),
+    ]);
+    let map = map(&scene, |[_, _, z]| Some(if z > 0.0 { 10.0 } else { 100.0 }));
+    assert_eq!(baked(&scene, &map, 8.0).seams, SeamReport::default());
+}
