@@ -240,11 +240,17 @@ impl<'a> MapReader<'a> {
     }
 
     /// The parts of [`MapReader::at`] apart, for means over a surface: direct light afresh, caustics of the map
-    /// included, and the variance of its photometric value. `None` where the map knows nothing.
+    /// included, and the variance of its photometric value. Where luminaires are emitting surfaces it is one estimate with
+    /// no variance of its own: its noise is part of what places differ by. `None` where the map knows nothing.
     pub fn direct_at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<(Rgb, f64)> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
-        let (direct, variance) = self.direct(&at);
+        let (direct, variance) = if self.lighting.is_measured_once() {
+            self.direct(&at)
+        } else {
+            let sequence = Sequence::new(place_key(at.point).with(0));
+            (self.lighting.illuminance(&at, &mut Dice::new(sequence, 0)), 0.0)
+        };
         Some((direct + stored.caustic_lx, variance))
     }
 
