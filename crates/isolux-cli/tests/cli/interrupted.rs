@@ -4,7 +4,7 @@ use crate::ran::Home;
 use std::io::{BufRead, BufReader};
 use std::process::Command;
 
-const SOLVE: [&str; 6] = ["solve", "builtin:cube", "-o", "m.glb", "--accuracy", "0.5%"];
+const SOLVE: [&str; 6] = ["solve", "builtin:cube", "-o", "m.glb", "--accuracy", "0.2%"];
 
 /// Starts a run and interrupts it after its first increments; its exit code.
 fn interrupt(home: &Home) -> i32 {
