@@ -12,6 +12,7 @@ pub mod gltf;
 pub mod ies;
 pub mod ldt;
 pub mod lightmap;
+mod lines;
 pub mod lint;
 mod load;
 pub mod map_glb;

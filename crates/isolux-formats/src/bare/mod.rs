@@ -5,5 +5,5 @@ mod scene;
 mod weld;
 
 pub(crate) use paint::Painter;
-pub(crate) use scene::{Kind, Part, Reading, UNNAMED, scene};
+pub(crate) use scene::{ALONE, Kind, Part, Reading, UNNAMED, scene};
 pub(crate) use weld::Weld;

@@ -21,6 +21,10 @@ pub(crate) struct Reading<'a> {
     pub(crate) vertex_colours: bool,
 }
 
+/// Nothing: the file is a scene by itself.
+pub(crate) const ALONE: Reading<'static> =
+    Reading { unit_is_known: false, is_replaced: &|_| false, vertex_colours: false };
+
 /// A kind of file, by name.
 pub(crate) struct Kind(pub(crate) &'static str);
 

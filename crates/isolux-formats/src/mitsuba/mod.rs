@@ -10,7 +10,6 @@ mod emitter;
 mod fresnel;
 mod geometry;
 mod limits;
-mod notes;
 mod palette;
 mod parse;
 mod property;
@@ -24,9 +23,9 @@ mod surroundings;
 mod texture;
 
 use crate::extent::{IMPLAUSIBLE_EXTENT_M, largest_side_m};
+use crate::lines::Notes;
 use crate::{Loaded, Problems};
 use isolux::scene::SceneParts;
-use notes::Notes;
 use std::path::Path;
 
 pub(crate) use reader::Reading;

@@ -1,8 +1,8 @@
 //! XML into elements: parameters are filled in, included files read.
 
 use super::limits;
-use super::notes::Notes;
-use super::record::{At, Element};
+use super::record::Element;
+use crate::lines::{At, Notes};
 use crate::source;
 use roxmltree::{Document, Node, ParsingOptions};
 use std::cell::Cell;

@@ -3,7 +3,6 @@
 use super::emitter;
 use super::geometry::{Files, Mesh, placed};
 use super::limits;
-use super::notes::Notes;
 use super::palette::{Asked, Chosen, Palette};
 use super::property::{boolean, transform};
 use super::record::{Element, Wrong, names};
@@ -11,6 +10,7 @@ use super::scope::Scope;
 use super::sensor;
 use super::surroundings;
 use crate::efficacy::EFFICACY_LM_W;
+use crate::lines::Notes;
 use crate::round::inside_out;
 use crate::source;
 use isolux::geometry::{Point, Transform};

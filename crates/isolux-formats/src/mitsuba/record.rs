@@ -1,16 +1,8 @@
 //! The scene as written: elements with parameters filled in and included files in their place.
 
+use crate::lines::At;
 use std::cell::Cell;
 use std::collections::HashMap;
-use std::path::Path;
-use std::rc::Rc;
-
-/// A place in a file.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) struct At {
-    pub(super) file: Rc<Path>,
-    pub(super) line: usize,
-}
 
 /// What is wrong, and how to mend it.
 pub(super) type Wrong = (String, &'static str);

@@ -1,8 +1,8 @@
 //! What every step of reading one scene shares.
 
-use super::notes::Notes;
 use super::property::string;
-use super::record::{At, Element, Names, Wrong};
+use super::record::{Element, Names, Wrong};
+use crate::lines::{At, Notes};
 use crate::source;
 use std::path::PathBuf;
 

@@ -25,8 +25,7 @@ const MOST_BYTES: u64 = 1 << 30;
 
 /// Reads a PLY file.
 pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
-    let reading = Reading { unit_is_known: false, is_replaced: &|_| false, vertex_colours: false };
-    read_as(path, &reading)
+    read_as(path, &bare::ALONE)
 }
 
 /// Reads a PLY file of which something is known.

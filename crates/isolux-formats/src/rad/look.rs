@@ -3,8 +3,8 @@
 use super::limits;
 use super::material::{self, Made};
 use super::modifiers::{Modifiers, Named};
-use super::notes::Notes;
-use super::record::{At, Kind, kind_of};
+use super::record::{Kind, kind_of};
+use crate::lines::{At, Notes};
 use isolux::scene::Body;
 use isolux::units::Rgb;
 

@@ -1,8 +1,8 @@
 //! Materials of Radiance as materials of ours; the formulas are in this folder's README.
 
 use super::light::luminance_cd_m2;
-use super::notes::Notes;
-use super::record::{At, Object};
+use super::record::Object;
+use crate::lines::{At, Notes};
 use isolux::scene::{Body, Dielectric, Finish, Gloss};
 use isolux::units::Rgb;
 

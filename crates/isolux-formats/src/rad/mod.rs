@@ -16,7 +16,6 @@ mod look;
 mod luminaires;
 mod material;
 mod modifiers;
-mod notes;
 mod parse;
 mod reader;
 mod record;

@@ -1,7 +1,8 @@
 //! Modifiers by name: a name stands for what was last defined under it.
 
 use super::limits;
-use super::record::{At, Kind, Object, kind_of};
+use super::record::{Kind, Object, kind_of};
+use crate::lines::At;
 use isolux::geometry::{Transform, Vector};
 use std::collections::HashMap;
 

@@ -1,9 +1,9 @@
 //! Radiance text into its record.
 
 use super::limits;
-use super::notes::Notes;
-use super::record::{At, Item, Kind, Object, kind_of};
+use super::record::{Item, Kind, Object, kind_of};
 use super::words::{Words, number};
+use crate::lines::{At, Notes};
 use std::path::Path;
 use std::rc::Rc;
 

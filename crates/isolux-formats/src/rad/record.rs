@@ -1,15 +1,5 @@
 //! A Radiance file as written.
 
-use std::path::Path;
-use std::rc::Rc;
-
-/// Where something stands.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct At {
-    pub(super) file: Rc<Path>,
-    pub(super) line: usize,
-}
-
 /// One statement of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Item {

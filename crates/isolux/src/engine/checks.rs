@@ -132,8 +132,7 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Opt
     };
     let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
     let edge_m = trust::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
-    let nearness = trust::nearness(plan.scene, &gatherer.surface, edge_m);
-    let is_beset = trust::besets(nearness);
+    let is_beset = trust::is_beset(plan.scene, &gatherer.surface, edge_m);
     let in_gap = is_beset && trust::is_closed_in(plan.scene, &gatherer.surface, edge_m);
     let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
     let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !is_beset;

@@ -141,11 +141,10 @@ impl<'a> MapReader<'a> {
             return Some((stored, at));
         };
         let edge_m = trust::edge_at_m(&self.map.elements, &at);
-        let nearness = trust::nearness(self.scene, &at, edge_m);
         let limit_lx = fresh.above_lx.unwrap_or(f64::INFINITY);
         let is_trusted = stored.standing == Standing::Open
             && stored.interpolation_error_lx <= limit_lx
-            && !trust::besets(nearness);
+            && !trust::is_beset(self.scene, &at, edge_m);
         let indirect = if is_trusted {
             self.with_interpolation_error(stored)
         } else {

@@ -110,18 +110,6 @@ pub(super) fn beset_from_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f6
     near.get(BESET as usize - 1).map_or(f64::INFINITY, |&t| f64::from(t))
 }
 
-/// The share of what is seen at a place that is as near as an element of such edges is long.
-pub(super) fn nearness(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> f64 {
-    let ray = feeler(at, longest_edge_m);
-    let met = (0..FEELERS).filter(|&index| scene.bvh().any_hit(&ray(index))).count();
-    met as f64 / f64::from(FEELERS)
-}
-
-/// Whether that is enough for a place to be beset.
-pub(super) fn besets(nearness: f64) -> bool {
-    nearness * f64::from(FEELERS) >= f64::from(BESET)
-}
-
 /// The rays that feel about before a place.
 fn feeler(at: &SurfacePoint, reach_m: f64) -> impl Fn(u32) -> Ray + '_ {
     let sequence = Sequence::new(Key::new(0).with(6));
