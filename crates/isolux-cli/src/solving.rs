@@ -6,12 +6,16 @@ use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
-use crate::quantity::{show_bytes, show_share};
+use crate::quantity::{show_bytes, show_seconds, show_share};
 use crate::{saved_run, source};
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use std::path::Path;
+use std::time::Duration;
+
+/// A time limit passed by this factor is told.
+const MUCH_LONGER: f64 = 1.25;
 
 /// What a run would need.
 pub(crate) fn estimate(
@@ -49,7 +53,24 @@ pub(crate) fn solve(
 ) -> Result<Solved, Failure> {
     let solved = follow(scene, run.request, saved, reporter, |error| failure(error, run))?;
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
+    tell_of_time(&solved.solution, run.request.time_limit);
     Ok(solved)
+}
+
+/// The least that makes a map may take longer than allowed.
+fn tell_of_time(solution: &Solution, limit: Option<Duration>) {
+    let Some(limit_s) = limit.map(|limit| limit.as_secs_f64()) else { return };
+    if solution.time_s > MUCH_LONGER * limit_s && solution.map.provenance.increments <= 1 {
+        note(
+            Note::Info,
+            format!(
+                "the time limit of {} was passed: to look once at {} receivers takes {} here",
+                show_seconds(limit_s),
+                solution.map.elements.vertices().len(),
+                show_seconds(solution.time_s)
+            ),
+        );
+    }
 }
 
 /// A map that reaches its accuracy may still show less than was hoped for in a viewer.

@@ -235,9 +235,9 @@ impl<'a> Surfaces<'a> {
         Self { vertices, of, can_wait }
     }
 
-    /// A grid of some of the vertices.
-    fn grid(&self, spacing_m: f64, some: impl Fn(usize) -> bool) -> Grid {
-        let mut grid = Grid { spacing_m, cells: HashMap::new() };
+    /// A grid of some of the vertices, to be asked for those within reach of a place.
+    fn grid(&self, reach_m: f64, some: impl Fn(usize) -> bool) -> Grid {
+        let mut grid = Grid { reach_m, cells: HashMap::new() };
         for (v, of) in self.of.iter().enumerate() {
             if let Some(surface) = of.filter(|_| some(v)) {
                 grid.insert(surface, v as u32, self.vertices[v].position);
@@ -259,7 +259,7 @@ impl<'a> Surfaces<'a> {
                 let (Some(surface), MOST_LEVELS) = (self.of[v], levels[v]) else { continue };
                 let Vertex { position, normal, .. } = self.vertices[v];
                 let mut is_free = true;
-                grid.visit(surface, position, 1, |other| {
+                grid.visit(surface, position, |other| {
                     let other = &self.vertices[other as usize];
                     let near = (other.position - position).length() < spacing_m;
                     is_free = !(near && other.normal.dot(normal) >= LEAST_COS);
@@ -283,9 +283,11 @@ impl<'a> Surfaces<'a> {
         let mut links: Vec<Option<Link>> = vec![None; levels.len()];
         let finest = levels.iter().copied().max().unwrap_or(0);
         for level in 1..=finest {
-            let grid = self.grid(spacing_of(coarsest_m, level - 1), |v| levels[v] < level);
+            let spacing_m = spacing_of(coarsest_m, level - 1);
+            let grid = self.grid(REACH * spacing_m, |v| levels[v] < level);
             let own: Vec<usize> = (0..levels.len()).filter(|&v| levels[v] == level).collect();
-            let found: Vec<Option<Link>> = own.par_iter().map(|&v| self.link(v, &grid)).collect();
+            let link = |&v: &usize| self.link(v, &grid, spacing_m);
+            let found: Vec<Option<Link>> = own.par_iter().map(link).collect();
             for (v, link) in own.into_iter().zip(found) {
                 if link.is_none() {
                     levels[v] = 0;
@@ -296,14 +298,13 @@ impl<'a> Surfaces<'a> {
         links
     }
 
-    fn link(&self, vertex: usize, grid: &Grid) -> Option<Link> {
+    fn link(&self, vertex: usize, grid: &Grid, spacing_m: f64) -> Option<Link> {
         let Vertex { position, normal, .. } = self.vertices[vertex];
-        let reach_m = REACH * grid.spacing_m;
         let mut near: Vec<(f64, u32)> = Vec::new();
-        grid.visit(self.of[vertex]?, position, REACH.ceil() as i64, |other| {
+        grid.visit(self.of[vertex]?, position, |other| {
             let of = &self.vertices[other as usize];
             let distance_m = (of.position - position).length();
-            if distance_m < reach_m && of.normal.dot(normal) >= LEAST_COS {
+            if distance_m < grid.reach_m && of.normal.dot(normal) >= LEAST_COS {
                 near.push((distance_m, other));
             }
             true
@@ -323,7 +324,7 @@ impl<'a> Surfaces<'a> {
         let samples: Vec<Sample> = near.iter().map(sample).collect();
         let weights = [6, 3].into_iter().find_map(|terms| weights_at_origin(&samples, terms))?;
         let parents = near.iter().zip(weights).map(|(&(_, other), weight)| (other, weight));
-        Some(Link { parents: parents.collect(), spacing_m: grid.spacing_m })
+        Some(Link { parents: parents.collect(), spacing_m })
     }
 }
 
@@ -349,30 +350,31 @@ fn spacing_of(coarsest_m: f64, level: u8) -> f64 {
     coarsest_m / f64::from(1_u32 << level)
 }
 
-/// Vertices by the cells of a grid of spacing, surface by surface.
+/// Vertices by the cells of a grid, surface by surface.
 struct Grid {
-    spacing_m: f64,
+    reach_m: f64,
     cells: HashMap<(u32, [i64; 3]), Vec<u32>>,
 }
 
 impl Grid {
-    fn cell(&self, at: Point) -> [i64; 3] {
-        [at.x, at.y, at.z].map(|c| libm::floor(c / self.spacing_m) as i64)
+    /// Cells are twice as long as the reach: what is within reach of a place lies in two of them each way.
+    fn cell(&self, c: f64) -> i64 {
+        libm::floor(0.5 * c / self.reach_m) as i64
     }
 
     fn insert(&mut self, surface: u32, vertex: u32, at: Point) {
-        let cell = self.cell(at);
+        let cell = [at.x, at.y, at.z].map(|c| self.cell(c));
         self.cells.entry((surface, cell)).or_default().push(vertex);
     }
 
-    /// Visits all in the cells within so many of a place, until told to stop.
-    fn visit(&self, surface: u32, at: Point, cells: i64, mut go_on: impl FnMut(u32) -> bool) {
-        let [x, y, z] = self.cell(at);
-        for dx in -cells..=cells {
-            for dy in -cells..=cells {
-                for dz in -cells..=cells {
-                    let key = (surface, [x + dx, y + dy, z + dz]);
-                    for &vertex in self.cells.get(&key).into_iter().flatten() {
+    /// Visits all within reach of a place and some beyond, until told to stop.
+    fn visit(&self, surface: u32, at: Point, mut go_on: impl FnMut(u32) -> bool) {
+        let [x, y, z] =
+            [at.x, at.y, at.z].map(|c| self.cell(c - self.reach_m)..=self.cell(c + self.reach_m));
+        for x in x {
+            for y in y.clone() {
+                for z in z.clone() {
+                    for &vertex in self.cells.get(&(surface, [x, y, z])).into_iter().flatten() {
                         if !go_on(vertex) {
                             return;
                         }

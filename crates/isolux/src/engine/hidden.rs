@@ -49,9 +49,11 @@ impl Sight<'_> {
     /// luminaires bring to all of them.
     pub(super) fn extend_known(&self, direct: &[Rgb], known: &mut Vec<bool>) {
         let first = known.len();
+        let mut lit = known.clone();
+        lit.extend(direct[first..].iter().map(|lx| !lx.is_black()));
         let look = |(k, gatherer): (usize, &Gatherer)| {
             if direct[first + k].is_black() {
-                self.look(gatherer, (first + k) as u64)
+                self.look(gatherer, (first + k) as u64, &lit)
             } else {
                 Seen::Light
             }
@@ -83,13 +85,14 @@ impl Sight<'_> {
     /// comes from behind something. `number` tells places apart.
     pub(super) fn is_cut_off(&self, place: &SurfacePoint, number: u64, known: &[bool]) -> bool {
         !self.sees_open(place, known)
-            && match self.look(&Gatherer::on_surface(*place, RAYS), number) {
+            && match self.look(&Gatherer::on_surface(*place, RAYS), number, known) {
                 Seen::Light => true,
                 Seen::Places(places) => self.any_open(&places, known),
             }
     }
 
-    fn look(&self, from: &Gatherer, number: u64) -> Seen {
+    /// Looks for light, and for places that see a vertex known to be open, which asks no luminaires.
+    fn look(&self, from: &Gatherer, number: u64, known: &[bool]) -> Seen {
         let sequence = Sequence::new(self.key.with(number));
         let axis = from.normal.to_direction();
         let mut places = Vec::new();
@@ -104,7 +107,9 @@ impl Sight<'_> {
                     places.push(*surface);
                 }
             });
-            let mut lit = |place| !self.lighting.estimate(place, &mut dice).is_black();
+            let mut lit = |place: &SurfacePoint| {
+                self.sees_open(place, known) || !self.lighting.estimate(place, &mut dice).is_black()
+            };
             if end == PathEnd::Left || places[before..].iter().any(&mut lit) {
                 return Seen::Light;
             }

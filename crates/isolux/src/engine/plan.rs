@@ -44,6 +44,8 @@ pub(super) struct Plan<'s> {
     pub(super) trial: Trial,
     /// From indirect light at the vertices to the function that fits best.
     pub(super) fit: Fit,
+    /// Whether there was time for all of it.
+    pub(super) is_whole: bool,
     pub(super) rays: u64,
 }
 

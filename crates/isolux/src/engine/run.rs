@@ -204,10 +204,10 @@ impl<'s, 'r> Run<'s, 'r> {
             // Who has said stop is not asked again.
             self.stopped =
                 self.stopped || watch(&progress, &|| None) == Watch::Stop || self.out_of_time();
-            self.cut |= self.stage != self.saved_stage && self.refined_long_enough();
             // The elements of a saved run are made again, whole, or what it has would be lost.
-            self.stage == self.saved_stage || !(self.stopped || self.cut)
+            self.stage == self.saved_stage || !(self.stopped || self.refined_long_enough())
         });
+        self.cut |= !plan.is_whole;
         self.rays = before + plan.rays;
         plan
     }
@@ -256,7 +256,7 @@ impl<'s, 'r> Run<'s, 'r> {
             self.rays = state.rays;
         }
         let pace = Pace { started_s: self.elapsed_s(), before: work.sums.increments };
-        let whole_mesh = saved.is_some() || !(self.stopped || self.cut);
+        let whole_mesh = saved.is_some() || !self.cut;
         loop {
             self.stopped |= !self.advance(&mut work);
             let accuracy = work.accuracy();

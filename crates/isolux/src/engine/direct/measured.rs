@@ -71,7 +71,8 @@ impl Lighting<'_> {
             let lx = self.illuminance(at, &mut Dice::new(sequence, 0));
             return Measured { lx, variance: 0.0 };
         }
-        let cut = self.fine_cut(at);
+        let is_rough = goal.first_look == 0;
+        let cut = if is_rough { self.rough_cut(at) } else { self.fine_cut(at) };
         let teeth = self.teeth(&cut, at, goal, &mut Dice::new(sequence, REPLICATES));
         let of_each =
             (REPLICATES as usize * teeth >= self.count(&cut)).then(|| self.lit_by_each(&cut, at));

@@ -78,7 +78,7 @@ impl Pilot<'_> {
         };
         for _ in 0..MAX_ROUNDS {
             let (errors, excess) = self.direct_excess(&look.elements, request, look.rms_lx);
-            if excess <= 1.0 || !go_on(&self.round(request, Some(look), FINE)) {
+            if excess <= 1.0 || !self.has_time(look, request, FINE, go_on) {
                 break;
             }
             if !refine_worst(&mut self.subdivision, &mut Carriers::all(), &errors, how_far) {

@@ -92,6 +92,8 @@ struct Pilot<'s> {
     is_measured: bool,
     /// What a few receivers tell of noise, once there is light.
     trial: Option<Trial>,
+    /// Whether there was time for all that it wanted to do.
+    is_whole: bool,
 }
 
 /// Looks and refines; `go_on` is asked after every round.
@@ -149,6 +151,7 @@ impl<'s> Pilot<'s> {
             costs: Costs::default(),
             is_measured: false,
             trial: None,
+            is_whole: true,
             least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
         }
     }
@@ -165,13 +168,13 @@ impl<'s> Pilot<'s> {
         let most = request.max_vertices.min(most);
         self.try_some(&look);
         let excess = |look: &Look| (Some(look.greatest_excess(request)), None);
-        let mut has_time = go_on(&self.round(request, Some(&look), excess(&look)));
+        let mut has_time = self.has_time(&look, request, excess(&look), go_on);
         for _ in 0..ROUNDS_FOR_HIDDEN {
             if !(has_time && self.open_up(&look.elements, most)) {
                 break;
             }
             look = self.look(request, go_on);
-            has_time = go_on(&self.round(request, Some(&look), excess(&look)));
+            has_time = self.has_time(&look, request, excess(&look), go_on);
         }
         // Readers gather over gathered maps alone: particles blur what is close by.
         let reads = if request.is_fitted { &[Read::Trusted, Read::All][..] } else { &[Read::All] };
@@ -435,7 +438,7 @@ impl<'s> Pilot<'s> {
             let stalled = excess > before.0 * libm::pow(before.1 / carriers, LEAST_ORDER);
             let known = Some(before).filter(|(excess, _)| excess.is_finite());
             let excesses = (Some(look.greatest_excess(request)), known);
-            if stalled || !go_on(&self.round(request, Some(&look), excesses)) {
+            if stalled || !self.has_time(&look, request, excesses, go_on) {
                 break;
             }
             before = (excess, carriers);
@@ -499,9 +502,12 @@ impl<'s> Pilot<'s> {
         let trusted_up_to_lx = look.trusted_up_to_lx(request);
         let coarse = self.subdivision.clone();
         self.refine_for_direct_light(&mut look, request, go_on);
-        // Once more for all: refinement has moved the receivers on borders.
+        // Once more for all: refinement has moved the receivers on borders. Without time for it, the first
+        // measurement has to do.
         let gatherers = self.gatherers();
-        self.measure_direct(&gatherers, request, look.rms_lx);
+        if self.has_time(&look, request, FINE, go_on) {
+            self.measure_direct(&gatherers, request, look.rms_lx);
+        }
         self.is_measured = true;
         go_on(&self.round(request, Some(&look), FINE));
         self.complete_standings(&gatherers);
@@ -526,6 +532,7 @@ impl<'s> Pilot<'s> {
             standings,
             subdivision: coarse,
             trial: self.trial.unwrap_or(Trial::usual(look.rms_lx)),
+            is_whole: self.is_whole,
             rays: self.traced,
         }
     }

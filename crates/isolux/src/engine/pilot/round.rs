@@ -4,7 +4,7 @@ use super::Pilot;
 use crate::engine::accuracy::BELIEVED_INCREMENTS;
 use crate::engine::caustics;
 use crate::engine::checks;
-use crate::engine::forecast::{Excess, Outlook, Round};
+use crate::engine::forecast::{Excess, GoOn, Outlook, Round};
 use crate::engine::look::{Look, PilotRequest};
 use crate::engine::trial::Trial;
 
@@ -13,6 +13,19 @@ use crate::engine::trial::Trial;
 const AGAIN: f64 = 1.5;
 
 impl Pilot<'_> {
+    /// Tells what is done and asks whether there is time for more, which there is to do.
+    pub(super) fn has_time(
+        &mut self,
+        look: &Look,
+        request: &PilotRequest,
+        excess: Excess,
+        go_on: &mut GoOn<'_>,
+    ) -> bool {
+        let has_time = go_on(&self.round(request, Some(look), excess));
+        self.is_whole &= has_time;
+        has_time
+    }
+
     /// What is done and what will come, from the last look, if there was one.
     pub(super) fn round(
         &self,
