@@ -66,17 +66,22 @@ fn in_all(
     let is_read = plan.lighting.are_read_at_ends();
     let direct_lx = if is_read { interpolation.direct_mean_lx } else { 0.0 };
     let mean_lx = interpolation.indirect_mean_lx + mean_reflectance(plan) * direct_lx;
-    // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign,
-    // and so has the mean of the interpolation error where the map is read.
-    let (lookup, series) = (mean_lx.abs() / rms_lx, reflected_series(plan));
-    let bias = lookup * (series * series + 2.0 * series).sqrt() + given_up;
+    // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign, and so may have
+    // the mean of what is wrong where it is read, which is counted for itself already.
+    let reflected = reflected_series(plan) * mean_lx / rms_lx;
+    let bias_beside = |read_lx: f64| {
+        let alike = (2.0 * reflected * read_lx / rms_lx).max(0.0);
+        (reflected * reflected + alike).sqrt() + given_up
+    };
+    let bias = bias_beside(interpolation.trusted_mean_lx);
+    let bias_of_bare_map = bias_beside(mean_lx);
     let root = |parts: &[f64]| parts.iter().map(|p| p * p).sum::<f64>().sqrt();
     Some(Accuracy {
         reached: root(&[statistical, discretization, bias]),
         statistical,
         discretization,
         bias,
-        interpolated: root(&[statistical, interpolation.total_lx / rms_lx, bias]),
+        interpolated: root(&[statistical, interpolation.total_lx / rms_lx, bias_of_bare_map]),
     })
 }
 

@@ -2,9 +2,10 @@
 //!
 //! At random places of the surfaces each increment gathers afresh and compares with its own map,
 //! interpolated. The mean difference over increments is the discretization error there, with a
-//! known variance that is subtracted: an unbiased estimate of the squared error of the scene. A third
-//! of the points are drawn by area, a third where details are large (most of the error lies in little
-//! of the area), a third where they are large among elements that readers trust, and weighted accordingly.
+//! known variance that is subtracted: an unbiased estimate of the squared error of the scene. Points are
+//! drawn by area, where details are large (most of the error lies in little of the area), where they are
+//! large among elements that readers trust, and in proportion to details for the sake of the mean error, a
+//! fourth each, and weighted accordingly.
 
 use super::accumulate::{Accumulator, Sample};
 use super::detail::LeafError;
@@ -57,6 +58,8 @@ pub(super) struct InterpolationErrors {
     pub(super) total_lx: f64,
     /// Mean of the indirect error, with its sign and standard error.
     pub(super) indirect_mean_lx: f64,
+    /// What of it lies where readers interpolate, likewise.
+    pub(super) trusted_mean_lx: f64,
     /// Mean of the interpolation error of direct light, with its sign.
     pub(super) direct_mean_lx: f64,
     /// What paths given up would bring in the mean, before it is reflected.
@@ -85,15 +88,19 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let count = count(plan.indirect_vertices);
     let area: f64 = errors.iter().map(|e| e.area_m2).sum();
     let squared: f64 = errors.iter().map(|e| e.squared()).sum();
+    let whole: f64 = errors.iter().map(|e| e.error * e.area_m2).sum();
     let is_trusted = |e: &LeafError| e.error <= plan.trusted_up_to_lx && !e.is_beset;
     let trusted = errors.iter().filter(|e| is_trusted(e)).map(|e| e.squared()).sum::<f64>();
-    // Density of the draw over elements: an even mixture of area, squared error, and squared error
-    // where the map is trusted.
+    // Density of the draw over elements: an even mixture of area, squared error, squared error where the map
+    // is trusted, and error, which tells the mean best (Kahn and Marshall 1953: with the signs unknown).
     let density = |k: usize| {
         let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
         let own = errors[k].squared();
         let own_trusted = if is_trusted(&errors[k]) { own } else { 0.0 };
-        share(errors[k].area_m2, area) + share(own, squared) + share(own_trusted, trusted)
+        share(errors[k].area_m2, area)
+            + share(own, squared)
+            + share(own_trusted, trusted)
+            + share(errors[k].error * errors[k].area_m2, whole)
     };
     let mut sums = Vec::with_capacity(errors.len());
     let mut sum = 0.0;
@@ -188,7 +195,7 @@ pub(super) fn add(
 pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationErrors {
     let area: f64 = checks.iter().map(|c| c.area_m2).sum();
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-    let (mut noise, mut expected) = (0.0, 0.0);
+    let (mut noise, mut expected, mut trusted_mean_lx) = (0.0, 0.0, 0.0);
     let (mut untrusted, mut close, mut share_untrusted) = (0.0, 0.0, 0.0);
     for (k, check) in checks.iter().enumerate() {
         let estimate = sums.estimate(k);
@@ -201,6 +208,7 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         ];
         if check.is_trusted {
             expected += share * check.expected_lx * check.expected_lx;
+            trusted_mean_lx += share * indirect;
         } else {
             share_untrusted += share;
             untrusted += share * (indirect * indirect - estimate.indirect_variance);
@@ -231,6 +239,7 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         indirect_lx: root(0),
         total_lx: root(1),
         indirect_mean_lx: mean[0],
+        trusted_mean_lx,
         direct_mean_lx: mean[1] - mean[0],
         untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
         close: close.sqrt(),

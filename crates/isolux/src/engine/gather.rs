@@ -155,6 +155,9 @@ struct Row {
     source: Rgb,
     open: bool,
     close: f64,
+    /// Surfaces that rays have come to and what they reflect, the latest last: kept, as to ask for memory at
+    /// every ray takes its time.
+    ends: Vec<(SurfacePoint, Rgb)>,
 }
 
 /// A ray of a row.
@@ -178,6 +181,17 @@ pub(super) struct Operator {
     /// Rows that have rays.
     receivers: usize,
     pub(super) rays: u64,
+}
+
+/// A diffuse surface that a ray has come to.
+struct LegEnd {
+    surface: SurfacePoint,
+    /// Vertices and weights there on the level gathered over.
+    corners: Option<[(u32, f64); 3]>,
+    /// How far it has come.
+    distance_m: f64,
+    /// The same if it starts in a gap.
+    out_of_gap_m: Option<f64>,
 }
 
 impl Gathering<'_> {
@@ -243,11 +257,11 @@ impl Gathering<'_> {
         let axis = leg.normal.to_direction();
         let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
         let ray = Ray::new(leg.origin, direction).skipping(leg.triangle);
-        let mut ends: Vec<(SurfacePoint, Rgb)> = Vec::new();
+        let first = row.ends.len();
         let end =
             follow(self.scene, ray, direction, dice, |surface, finish, throughput| {
                 match self.end(surface, finish, throughput) {
-                    End::Lit(reflectance) => ends.push((*surface, reflectance)),
+                    End::Lit(reflectance) => row.ends.push((*surface, reflectance)),
                     End::Black => row.open = true,
                     End::Closed => {}
                 }
@@ -257,12 +271,16 @@ impl Gathering<'_> {
             PathEnd::Absorbed => {}
             PathEnd::GivenUp(share) => rows.given_up += share * leg.share.luminance(),
         }
-        for (surface, reflectance) in ends {
+        for k in first..row.ends.len() {
+            let (surface, reflectance) = row.ends[k];
             let share = reflectance * leg.share;
             let distance_m = (surface.point - leg.origin).length();
             let out_of = leg.in_gap.then_some(distance_m);
-            row.source += share * self.direct_at(&surface, (distance_m, out_of), dice);
-            let is_close = self.regathers && self.is_close(&surface, distance_m);
+            // Once for all: it takes as long as to trace the ray.
+            let corners = self.located(self.level, &surface, None);
+            let end = LegEnd { surface, corners, distance_m, out_of_gap_m: out_of };
+            row.source += share * self.direct_at(&end, dice);
+            let is_close = self.regathers && self.is_close(&end);
             if is_close && leg.number < REGATHERED {
                 rows.further_rays += 1;
                 let further = Leg {
@@ -274,16 +292,30 @@ impl Gathering<'_> {
                     number: leg.number + 1,
                 };
                 self.leg(&further, dice, row, rows);
-            } else if let Some(entry) = self.entry(&surface, out_of) {
+            } else if let Some(entry) = corners.and_then(|c| self.entry(c, out_of)) {
                 row.close += if is_close { share.luminance() } else { 0.0 };
                 rows.push(entry, share.0.map(|c| c as f32));
             }
         }
+        row.ends.truncate(first);
+    }
+
+    /// Vertices and weights of a place on a level, unless those of its own are these.
+    fn located(
+        &self,
+        level: u32,
+        at: &SurfacePoint,
+        own: Option<[(u32, f64); 3]>,
+    ) -> Option<[(u32, f64); 3]> {
+        let SurfacePoint { triangle, back, u, v, .. } = *at;
+        own.filter(|_| level == self.level)
+            .or_else(|| self.elements.locate_above(level, triangle, back, u, v))
     }
 
     /// Whether a ray has come less far than the element is long where it ends.
-    fn is_close(&self, at: &SurfacePoint, distance_m: f64) -> bool {
-        distance_m <= trust::edge_at_m(self.elements, at)
+    fn is_close(&self, end: &LegEnd) -> bool {
+        let corners = self.located(u32::MAX, &end.surface, end.corners);
+        end.distance_m <= corners.map_or(0.0, |corners| self.edge_m(corners))
     }
 
     /// Whether a ray from within a gap may still be in it.
@@ -291,23 +323,18 @@ impl Gathering<'_> {
         distance_m < trust::NEAR * trust::edge_at_m(self.elements, at)
     }
 
-    fn direct_at(
-        &self,
-        at: &SurfacePoint,
-        (distance_m, out_of_gap_m): (f64, Option<f64>),
-        dice: &mut Dice,
-    ) -> Rgb {
+    fn direct_at(&self, end: &LegEnd, dice: &mut Dice) -> Rgb {
         let read = |values: &[Rgb], level: u32| {
-            self.corners(level, at, out_of_gap_m).map_or(Rgb::BLACK, |corners| {
+            let corners = self.located(level, &end.surface, end.corners);
+            let known = corners.and_then(|corners| self.known(corners, end.out_of_gap_m));
+            known.map_or(Rgb::BLACK, |corners| {
                 corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
             })
         };
         match self.direct {
             DirectAtEnds::Read { values, level } => read(values, level),
-            DirectAtEnds::ReadFarOff { values } if !self.is_close(at, distance_m) => {
-                read(values, u32::MAX)
-            }
-            _ => self.lighting.estimate(at, dice),
+            DirectAtEnds::ReadFarOff { values } if !self.is_close(end) => read(values, u32::MAX),
+            _ => self.lighting.estimate(&end.surface, dice),
         }
     }
 
@@ -321,30 +348,32 @@ impl Gathering<'_> {
     }
 
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
-    fn entry(&self, at: &SurfacePoint, out_of_gap_m: Option<f64>) -> Option<Entry> {
-        let corners = self.corners(self.level, at, out_of_gap_m)?;
+    fn entry(&self, corners: [(u32, f64); 3], out_of_gap_m: Option<f64>) -> Option<Entry> {
+        let corners = self.known(corners, out_of_gap_m)?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
             weights: corners.map(|(_, weight)| weight as f32),
         })
     }
 
-    /// Vertices and weights of a place on a level, over the known ones; for a ray that has come so far
-    /// from within a gap, over those in gaps as long as it may still be there.
-    fn corners(
+    /// Vertices and weights of a place, over the known ones; for a ray that has come so far from within a
+    /// gap, over those in gaps as long as it may still be there.
+    fn known(
         &self,
-        level: u32,
-        at: &SurfacePoint,
+        corners: [(u32, f64); 3],
         out_of_gap_m: Option<f64>,
     ) -> Option<[(u32, f64); 3]> {
-        let corners = self.elements.locate_above(level, at.triangle, at.back, at.u, at.v)?;
-        let edge_m = || trust::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex));
-        let weights = if out_of_gap_m.is_some_and(|m| m < trust::NEAR * edge_m()) {
+        let weights = if out_of_gap_m.is_some_and(|m| m < trust::NEAR * self.edge_m(corners)) {
             weights_in_gap(corners, self.standings)?
         } else {
             known_weights(corners, self.standings)?
         };
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
+    }
+
+    /// Longest edge of the element of some corners, m.
+    fn edge_m(&self, corners: [(u32, f64); 3]) -> f64 {
+        trust::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex))
     }
 }
 

@@ -22,10 +22,13 @@ const DIRECT_REPLICATES: u64 = 8;
 /// is not trusted.
 const FRESH_NOISE: f64 = 0.7;
 
-/// Independent gatherings of a place where the map is not trusted; rays of each, when tried and at most.
+/// Independent gatherings of a place where the map is not trusted, and rays of each, at least and at most.
 const FRESH_REPLICATES: u32 = 16;
-const FRESH_TRIAL_RAYS: u32 = 8;
+const FRESH_FEWEST_RAYS: f64 = 8.0;
 const FRESH_MOST_RAYS: f64 = 1024.0;
+
+/// Rays of each in the trial that tells how many it takes: half of the fewest, as they are thrown away.
+const TRIAL_RAYS: u32 = 4;
 
 /// Rays that look about from a place in space: one that sees light in a fifth of its hemisphere is taken to be
 /// inside something once in a thousand times.
@@ -149,7 +152,7 @@ impl<'a> MapReader<'a> {
             self.with_interpolation_error(stored)
         } else {
             let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
-            let trial = Gatherer::on_surface(at, FRESH_TRIAL_RAYS).in_gap(in_gap);
+            let trial = Gatherer::on_surface(at, TRIAL_RAYS).in_gap(in_gap);
             self.gathered(stored, trial, fresh.lookup_lx)
         };
         Some((indirect, at))
@@ -174,9 +177,9 @@ impl<'a> MapReader<'a> {
             None => DirectAtEnds::Evaluated,
         };
         let Gathered { variance, .. } = self.gather(trial, direct, (FRESH_REPLICATES, key.with(0)));
-        let rays = f64::from(FRESH_TRIAL_RAYS)
+        let rays = f64::from(TRIAL_RAYS)
             * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / NET_ORDER);
-        let rays = libm::log2(rays.clamp(f64::from(FRESH_TRIAL_RAYS), FRESH_MOST_RAYS));
+        let rays = libm::log2(rays.clamp(FRESH_FEWEST_RAYS, FRESH_MOST_RAYS));
         // With numbers of its own: who stopped at a small variance would report too small ones.
         let gatherer = trial.with_rays(1 << libm::round(rays) as u32);
         let Gathered { lx, variance, close } =
@@ -272,7 +275,7 @@ impl<'a> MapReader<'a> {
     /// seen.
     pub fn measure(&self, at: ProbePoint) -> Option<Illuminance> {
         self.probe(at).or_else(|| {
-            let trial = Gatherer::in_space(at.position, at.normal, FRESH_TRIAL_RAYS);
+            let trial = Gatherer::in_space(at.position, at.normal, TRIAL_RAYS);
             if !self.sees_light(&trial) {
                 return None;
             }

@@ -21,8 +21,12 @@ use std::time::{Duration, Instant};
 const PILOT_SHARE: f64 = 0.4;
 /// Halvings of the rays of an increment at most, where time is short.
 const MOST_HALVINGS: u32 = 8;
-/// Meshes tried before a run settles for what it has.
-const MOST_STAGES: u32 = 4;
+/// Each stage is for elements that err by this factor less than those of the one before.
+const FINER: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Stages at most, then a run settles for what it has: elements for an eighth of the error asked for.
+const MOST_STAGES: u32 = 7;
+/// What elements too coarse at first are to err by, as a share of the error asked for: noise needs the rest.
+const LEFT_TO_ELEMENTS: f64 = 0.8;
 /// Accuracy that elements are made for where none is asked.
 const DEFAULT_ACCURACY: f64 = 0.01;
 /// Memory of a vertex, bytes: the subdivision with its edges, the operator's entries at the fewest
@@ -101,18 +105,18 @@ pub fn solve_with_maps(
     loop {
         let plan = run.pilot(&lighting, watch);
         let saved = resume.filter(|state| state.stage == run.stage);
-        if let Outcome::Done(solution) = run.increments(&plan, saved, watch)? {
-            return Ok(*solution);
+        match run.increments(&plan, saved, watch)? {
+            Outcome::Done(solution) => return Ok(*solution),
+            Outcome::TooCoarse(stages) => run.stage = (run.stage + stages).min(MOST_STAGES),
         }
-        run.stage += 1;
     }
 }
 
 /// What came of the increments on one mesh.
 enum Outcome {
     Done(Box<Solution>),
-    /// The elements are too coarse for the accuracy asked for.
-    TooCoarse,
+    /// The elements are too coarse for the accuracy asked for: so many stages on they will do.
+    TooCoarse(u32),
 }
 
 fn check(scene: &Scene, request: &SolveRequest) -> Result<(), SolveError> {
@@ -177,7 +181,7 @@ impl<'s, 'r> Run<'s, 'r> {
     /// The accuracy that the elements of this stage are made for.
     fn mesh_for(&self) -> f64 {
         let target = self.request.accuracy.unwrap_or(DEFAULT_ACCURACY);
-        target * libm::exp2(1.0 - f64::from(self.stage))
+        target * libm::pow(FINER, f64::from(self.stage) - 1.0)
     }
 
     fn pilot_request(&self) -> PilotRequest {
@@ -273,7 +277,7 @@ impl<'s, 'r> Run<'s, 'r> {
                 )));
             }
             if end == Some(End::TooCoarse) && answer != Watch::Insist {
-                return Ok(Outcome::TooCoarse);
+                return Ok(Outcome::TooCoarse(self.stages_missing(accuracy)));
             }
         }
     }
@@ -294,6 +298,15 @@ impl<'s, 'r> Run<'s, 'r> {
             true if work.is_settled(accuracy) => Some(End::InVain),
             _ => None,
         }
+    }
+
+    /// How many stages on elements are fine enough, if they keep what they err by in proportion.
+    fn stages_missing(&self, accuracy: Option<Accuracy>) -> u32 {
+        let err = |a: Accuracy| libm::hypot(a.discretization, a.bias);
+        let missed = accuracy.zip(self.request.accuracy).map_or(1.0, |(a, goal)| err(a) / goal);
+        let stages =
+            libm::log2(LEFT_TO_ELEMENTS / missed.max(LEFT_TO_ELEMENTS)) / libm::log2(FINER);
+        stages.ceil().max(1.0) as u32
     }
 
     /// The same with fewer rays an increment, if the time left is too short to know how good the map

@@ -71,7 +71,8 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// With the rays of an increment halved so many times.
+    /// On elements made for a target, with the rays of an increment halved so many times. Rays of `hybrid` are for
+    /// the accuracy asked for, however much finer its elements had to become.
     pub(super) fn new(
         plan: &'p Plan<'s>,
         request: &SolveRequest,
@@ -80,9 +81,11 @@ impl<'p, 's> Work<'p, 's> {
     ) -> Self {
         let reference = plan.rms_lx;
         let wanted = match request.method {
-            Method::Hybrid | Method::Cache => {
-                plan.trial.rays_for(target, plan.rms_lx, FEWEST_INCREMENTS)
+            Method::Hybrid => {
+                let goal = request.accuracy.unwrap_or(target);
+                plan.trial.rays_for(goal, plan.rms_lx, FEWEST_INCREMENTS)
             }
+            Method::Cache => plan.trial.rays_for(target, plan.rms_lx, FEWEST_INCREMENTS),
             Method::Forward => 1,
             Method::Radiosity => request.radiosity.limits(target).check_rays,
         };

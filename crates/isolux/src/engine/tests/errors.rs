@@ -103,6 +103,7 @@ fn common_errors_are_seen_through_noise() {
     near(found.indirect_lx, 0.3 * trusted.sqrt(), 1e-3);
     near(found.untrusted_lx, 0.3, 1e-3);
     near(found.indirect_mean_lx, 0.3, 1e-3);
+    near(found.trusted_mean_lx, 0.3 * trusted, 1e-3);
     near(found.total_lx, 0.3, 1e-3);
     // Noise of 0.4 an increment, 0.1 of the mean of sixteen: its square is taken off, its standard
     // error left on, sqrt(2 / 256) of 0.01 and a few times that for uneven weights.
@@ -168,6 +169,7 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
         indirect_lx: 3.0,
         total_lx: 4.0,
         indirect_mean_lx: -2.0,
+        trusted_mean_lx: -2.0,
         direct_mean_lx: -100.0,
         untrusted_lx: 8.0,
         close: 0.25,
@@ -183,10 +185,16 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
     assert!((found.discretization - 0.03_f64.hypot(0.02)).abs() < 2e-4, "{found:?}");
     // At a reflectance of one half what is read wrong is reflected once in all, and adds to what is
     // wrong where it is read: (1 + 1)2 of its square, less the one of discretization.
-    assert!((found.bias - 0.02 * 3.0_f64.sqrt()).abs() < 2e-4, "{found:?}");
+    let bias = 0.02 * 3.0_f64.sqrt();
+    assert!((found.bias - bias).abs() < 2e-4, "{found:?}");
     let root = |a: f64| (found.statistical.powi(2) + a * a + found.bias.powi(2)).sqrt();
     assert!((found.reached - root(found.discretization)).abs() < 1e-12);
     assert!((found.interpolated - root(0.04)).abs() < 1e-4);
+    // Where it is wrong nobody interpolates: they read what is reflected alone, but the bare map is as it was.
+    let untrusted = InterpolationErrors { trusted_mean_lx: 0.0, ..errors };
+    let gathered = accuracy(&plan, &sums(&plan, 25, 0.1), &untrusted).unwrap();
+    assert!((gathered.bias - 0.02).abs() < 2e-4, "{gathered:?}");
+    assert!((gathered.interpolated - found.interpolated).abs() < 1e-12);
 }
 
 #[test]
