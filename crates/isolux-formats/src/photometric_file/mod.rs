@@ -2,11 +2,13 @@
 
 mod convert;
 mod difference;
+mod direct_ratios;
 mod to_ies;
 mod to_ldt;
 
 pub use convert::{Conversion, Target, convert};
 pub use difference::Difference;
+pub use direct_ratios::{ROOM_INDICES, direct_ratios};
 
 use crate::ies::{self, IesFile};
 use crate::ldt::{self, LdtFile};
