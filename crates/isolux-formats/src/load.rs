@@ -37,6 +37,13 @@ fn instead_of(extension: &str) -> &'static str {
             "name the scene, or the map, that it was made from"
         }
         "bin" => "name the .gltf file that refers to it",
+        "3ds" | "abc" | "blend" | "dae" | "dxf" | "dwg" | "fbx" | "ifc" | "max" | "skp"
+        | "step" | "stp" | "usd" | "usda" | "usdc" | "usdz" => {
+            "export it as .glb from the program that made it"
+        }
+        "exr" | "hdr" => "skies and environments are not read as files; give a sky in a scene.toml",
+        "pbrt" => "convert it to Mitsuba 3 (.xml) or export it as .glb",
+        "vf" => "name the .rad file of the scene, and views of it in a scene.toml",
         _ => "name a .toml, .gltf, .glb, .obj, .ply, .rad, .stl or .xml file",
     }
 }

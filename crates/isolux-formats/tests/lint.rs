@@ -150,7 +150,9 @@ fn stray_light_and_hidden_symmetry_are_told() {
 
 #[test]
 fn other_formats_and_absent_files_are_named() {
-    for (name, what) in [("lamp.gldf", "by its extension"), ("gone.ies", "cannot be read")] {
+    for (name, what) in
+        [("lamp.gldf", "GLDF"), ("lamp.txt", "by its extension"), ("gone.ies", "cannot be read")]
+    {
         let audit = lint(Path::new(name));
         assert!(!audit.is_usable());
         let [finding] = audit.findings.as_slice() else { panic!("{:?}", audit.findings) };

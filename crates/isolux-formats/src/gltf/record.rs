@@ -53,14 +53,26 @@ struct Versioned {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Asset {
-    version: String,
+    version: Version,
     min_version: Option<String>,
+}
+
+/// Text, and in files of version 1 also a number.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Version {
+    Text(String),
+    Number(f64),
 }
 
 /// Looked at first: a file of version 1 would only fail with a riddle.
 fn check_version(json: &[u8]) -> Result<(), Flaw> {
     let Versioned { asset } = serde_json::from_slice(json).map_err(|error| flaw(&error))?;
-    let readable = match (&asset.min_version, asset.version.split_once('.')) {
+    let version = match asset.version {
+        Version::Text(text) => text,
+        Version::Number(number) => number.to_string(),
+    };
+    let readable = match (&asset.min_version, version.split_once('.')) {
         (Some(needed), _) => needed == "2.0",
         (None, Some((major, _))) => major == "2",
         (None, None) => false,
@@ -68,7 +80,7 @@ fn check_version(json: &[u8]) -> Result<(), Flaw> {
     if readable {
         return Ok(());
     }
-    let what = format!("glTF version `{}`", asset.min_version.unwrap_or(asset.version));
+    let what = format!("glTF version `{}`", asset.min_version.unwrap_or(version));
     Err(Flaw::new(what, "convert the file to glTF 2.0").at("asset"))
 }
 
