@@ -34,6 +34,15 @@ fn a_map_given_as_a_scene_was_said_to_have_no_light() {
 }
 
 #[test]
+fn a_lightmap_given_as_a_scene_was_lit_by_its_own_light() {
+    let baked =
+        br#"{"asset": {"version": "2.0"}, "extras": {"isolux_lightmap": {"target": "unity"}}}"#;
+    let found = only_problem(in_file(baked, gltf::read));
+    assert_eq!(found.place, "extras.isolux_lightmap");
+    assert!(found.what.contains("baked"), "{found}");
+}
+
+#[test]
 fn garbage_with_the_name_of_a_scene_was_said_to_be_faulty_json() {
     for (bytes, what) in [
         (&b""[..], "is empty"),

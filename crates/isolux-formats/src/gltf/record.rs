@@ -23,15 +23,21 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, Flaw> {
     Ok(root)
 }
 
-/// A map's materials are made for viewers: solved again they would say that there is no light.
+/// A map's materials are made for viewers: solved again they would say that there is no light, or, of a lightmap, that all
+/// surfaces shine.
 fn refuse_map(root: &Root) -> Result<(), Flaw> {
-    let extras = root.extras.as_deref().map(|raw| serde_json::from_str::<HashMap<_, _>>(raw.get()));
-    let is_map = |extras: HashMap<String, IgnoredAny>| extras.contains_key("isolux");
-    if !extras.and_then(Result::ok).is_some_and(is_map) {
-        return Ok(());
+    let extras = root.extras.as_deref().map(|raw| serde_json::from_str(raw.get()));
+    let Some(Ok::<HashMap<String, IgnoredAny>, _>(extras)) = extras else { return Ok(()) };
+    for (key, what) in [
+        ("isolux", "is an illumination map, no scene"),
+        ("isolux_lightmap", "is a scene with its light baked in, no scene to light"),
+    ] {
+        if extras.contains_key(key) {
+            let remedy = "give the scene that it was computed from";
+            return Err(Flaw::new(what, remedy).at(format!("extras.{key}")));
+        }
     }
-    Err(Flaw::new("is an illumination map, no scene", "give the scene that it was computed from")
-        .at("extras.isolux"))
+    Ok(())
 }
 
 fn flaw(error: &serde_json::Error) -> Flaw {
