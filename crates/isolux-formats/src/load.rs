@@ -41,7 +41,9 @@ fn instead_of(extension: &str) -> &'static str {
         | "step" | "stp" | "usd" | "usda" | "usdc" | "usdz" => {
             "export it as .glb from the program that made it"
         }
-        "exr" | "hdr" => "skies and environments are not read as files; give a sky in a scene.toml",
+        "exr" | "hdr" => {
+            "pictures of surroundings are not read; `constant` of a Mitsuba scene shines evenly"
+        }
         "pbrt" => "convert it to Mitsuba 3 (.xml) or export it as .glb",
         "vf" => "name the .rad file of the scene, and views of it in a scene.toml",
         _ => "name a .toml, .gltf, .glb, .obj, .ply, .rad, .stl or .xml file",

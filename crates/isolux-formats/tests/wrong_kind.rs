@@ -64,7 +64,7 @@ fn version_1_of_gltf_as_a_number_was_said_to_be_faulty_json() {
 
 #[test]
 fn text_in_utf_16_was_said_to_hold_nothing() {
-    let found = only_problem(in_file(b"\xfe\xff\0v\0 \0001", obj::read));
+    let found = only_problem(in_file(b"\xfe\xff\x00v\x00 \x001", obj::read));
     assert!(found.what.contains("UTF-16"), "{found}");
     let lamp = ies::parse(b"\xff\xfeI\0E\0", Path::new("lamp.ies"), &mut |_| unreachable!());
     assert!(only_problem(lamp).what.contains("UTF-16"));
