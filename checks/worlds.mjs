@@ -1,5 +1,5 @@
-// Draws a walk-through (.wrl, .x3d) with X_ITE in headless Chromium.
-// Usage: node worlds.mjs WIDTHxHEIGHT FILE.wrl|FILE.x3d OUTPUT.png [FILE OUTPUT.png]...
+// Draws a walk-through (.wrl, .x3d) with X_ITE, or a map (.glb) with three.js from its first camera, in headless Chromium.
+// Usage: node worlds.mjs WIDTHxHEIGHT FILE.wrl|FILE.x3d|FILE.glb OUTPUT.png [FILE OUTPUT.png]...
 import { createServer } from 'node:http';
 import { readFile, writeFile } from 'node:fs/promises';
 import { existsSync } from 'node:fs';
@@ -9,11 +9,14 @@ import { chromium } from 'playwright-core';
 
 const HERE = fileURLToPath(new URL('.', import.meta.url));
 const BROWSERS = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
-const TYPES = { '.html': 'text/html', '.css': 'text/css', '.mjs': 'text/javascript', '.js': 'text/javascript', '.wrl': 'model/vrml', '.x3d': 'model/x3d+xml' };
+const TYPES = { '.html': 'text/html', '.css': 'text/css', '.mjs': 'text/javascript', '.js': 'text/javascript', '.wrl': 'model/vrml', '.glb': 'model/gltf-binary', '.x3d': 'model/x3d+xml' };
 // Until a world of this size is drawn; a machine without a graphics card draws in software.
 const PATIENCE_MS = 120_000;
 
-const page = (file, width, height) => `<!DOCTYPE html>
+// Under these names pages find the packages.
+const PACKAGES = { '/x_ite/': 'node_modules/x_ite/dist', '/three/': 'node_modules/three' };
+
+const worldPage = (file, width, height) => `<!DOCTYPE html>
 <script type="module" src="/x_ite/x_ite.mjs"></script>
 <style>x3d-canvas { position: fixed; inset: 0; width: ${width}px; height: ${height}px; max-height: ${height}px }</style>
 <x3d-canvas src="/world/${file}" contentScale="1" antialiased="false" splashScreen="false" notifications="false"></x3d-canvas>
@@ -36,6 +39,34 @@ canvas.addEventListener('load', async () => {
 });
 </script>`;
 
+// Without tone mapping: the colours of vertices are finished, three.js encodes them as sRGB.
+const mapPage = (file, width, height) => `<!DOCTYPE html>
+<script type="importmap">{ "imports": { "three": "/three/build/three.module.js", "three/addons/": "/three/examples/jsm/" } }</script>
+<script type="module">
+import * as THREE from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+try {
+  const gltf = await new GLTFLoader().loadAsync('/world/${file}');
+  const renderer = new THREE.WebGLRenderer({ preserveDrawingBuffer: true });
+  renderer.setSize(${width}, ${height});
+  const [camera] = gltf.cameras;
+  camera.aspect = ${width / height};
+  camera.updateProjectionMatrix();
+  renderer.render(gltf.scene, camera);
+  window.picture = renderer.domElement.toDataURL('image/png');
+} catch (error) {
+  console.error(error);
+  window.failed = true;
+}
+</script>`;
+
+const page = (file, width, height) => (extname(file) === '.glb' ? mapPage : worldPage)(file, width, height);
+
+function pathOf(url) {
+  const [prefix, folder] = Object.entries(PACKAGES).find(([prefix]) => url.startsWith(prefix)) ?? ['/', 'nowhere'];
+  return join(HERE, folder, decodeURIComponent(url.slice(prefix.length)));
+}
+
 function serve(world, width, height) {
   const server = createServer(async (request, response) => {
     const name = basename(decodeURIComponent(request.url.split('?')[0]));
@@ -44,7 +75,7 @@ function serve(world, width, height) {
     try {
       const isWorld = request.url.startsWith('/world/');
       const isPage = request.url === '/';
-      const path = isWorld ? world : join(HERE, 'node_modules/x_ite/dist', decodeURIComponent(request.url.replace('/x_ite/', '')));
+      const path = isWorld ? world : pathOf(request.url);
       const body = isPage ? page(basename(world), width, height) : await readFile(path);
       response.writeHead(200, { 'content-type': isPage ? TYPES['.html'] : type });
       response.end(body);
@@ -66,9 +97,9 @@ async function draw(browser, world, output, width, height) {
     await tab.goto(`http://127.0.0.1:${server.address().port}/`);
     await tab.waitForFunction(() => window.picture || window.failed, null, { timeout: PATIENCE_MS });
     const picture = await tab.evaluate(() => window.picture);
-    if (!picture) throw new Error('X_ITE could not read it');
+    if (!picture) throw new Error('it could not be read');
     // Warnings may be of the graphics; a file that is read in part makes an error.
-    if (said.length > 0) throw new Error('X_ITE complains');
+    if (said.length > 0) throw new Error('the page complains');
     await writeFile(output, Buffer.from(picture.split(',')[1], 'base64'));
   } catch (error) {
     throw new Error(`${world}: ${error.message}\n${said.join('\n')}`);

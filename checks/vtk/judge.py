@@ -1,4 +1,4 @@
-"""Reads a map exported as .vtu with VTK and compares it with the same map as .csv and with `isolux probe`.
+"""Reads a map exported as .vtu with VTK and with PyVista and compares it with the same map as .csv and with `isolux probe`.
 
 Usage: python judge.py --isolux PATH MAP.glb MAP.vtu MAP.csv"""
 
@@ -8,6 +8,9 @@ import json
 import math
 import subprocess
 import sys
+
+import numpy
+import pyvista
 
 # These need no graphics.
 from vtkmodules.vtkCommonCore import vtkVersion
@@ -35,9 +38,11 @@ def main():
     grid = read(flags.vtu)
     rows = list(csv.DictReader(open(flags.csv)))
     vertices = compare_vertices(grid, rows)
+    values = compare_arrays(pyvista.read(flags.vtu), rows)
     known = compare_places(grid, flags)
     print(f"VTK {vtkVersion().GetVTKVersion()}: {vertices} vertices as in the table, "
-          f"{grid.GetNumberOfCells()} triangles, {known} places as `probe` reads them")
+          f"{grid.GetNumberOfCells()} triangles, {known} places as `probe` reads them; "
+          f"PyVista {pyvista.__version__}: {values} values have the bits of the table")
 
 
 def read(path):
@@ -74,6 +79,27 @@ def compare_vertices(grid, rows):
             if not same:
                 sys.exit(f"vertex {k}: {text or 'nothing'} in the table, {number} in the grid")
     return count
+
+
+def compare_arrays(mesh, rows):
+    """What PyVista makes of the file: arrays of numbers that have the bits of those in the table, unknown ones NaN."""
+    if not isinstance(mesh, pyvista.UnstructuredGrid):
+        sys.exit(f"PyVista reads a {type(mesh).__name__}")
+    found = {name: mesh.point_data[name] for name in FIELDS}
+    found |= {name: mesh.point_data["rgb_lx"][:, k] for k, name in enumerate(COLOURS)}
+    found |= {axis: mesh.points[:, k] for k, axis in enumerate("xyz")}
+    for name, numbers in found.items():
+        due = numpy.array([float(row[name] or "nan") for row in rows])
+        numbers = numpy.ascontiguousarray(numbers)
+        if numbers.dtype != numpy.float64 or numbers.shape != due.shape:
+            sys.exit(f"PyVista reads {name} as {numbers.shape} of {numbers.dtype}, not {due.shape} of float64")
+        # A NaN has many bits.
+        same = (numbers.view(numpy.uint64) == due.view(numpy.uint64)) | (numpy.isnan(numbers) & numpy.isnan(due))
+        if not same.all():
+            sys.exit(f"PyVista: {name} of vertices {numpy.flatnonzero(~same)[:5]} differs from the table")
+    if set(mesh.celltypes) != {VTK_TRIANGLE} or not (mesh.cells.reshape(-1, 4)[:, 1:] < len(rows)).all():
+        sys.exit("PyVista finds other cells than triangles of the vertices")
+    return len(found) * len(rows)
 
 
 def compare_places(grid, flags):

@@ -1,4 +1,4 @@
-//! A judge of grids for VTK: VTK itself, through Python.
+//! Judges of grids for VTK: VTK itself and PyVista.
 
 use crate::judge::is_ci;
 use crate::lamps::{built, has_python};
@@ -7,7 +7,7 @@ use crate::smoke::Room;
 use std::path::Path;
 use std::process::Command;
 
-/// Shows the grid of a map to VTK, beside its table. Without Python or a package index it is left out, except
+/// Shows the grid of a map to both, beside its table. Without Python or a package index it is left out, except
 /// where `CI` is `true`.
 pub(crate) fn run(root: &Path, room: &Room) -> Result<String, String> {
     let source = root.join("checks").join("vtk");
@@ -25,5 +25,5 @@ pub(crate) fn run(root: &Path, room: &Room) -> Result<String, String> {
     judge.arg(source.join("judge.py")).arg("--isolux").arg(built(root)?);
     judge.args([&room.map, &room.grid, &room.table]);
     wait(&mut judge, "checks/vtk/judge.py")?;
-    Ok("VTK reads the grid as it is".to_owned())
+    Ok("VTK and PyVista read the grid as it is".to_owned())
 }

@@ -2,6 +2,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks")]
 
 mod bench;
+mod consumers;
 mod grids;
 mod hall;
 mod judge;
@@ -20,6 +21,7 @@ cargo xtask test    everything that must hold before a change lands
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
+cargo xtask consumers     lightmaps in Blender and Godot, by hand
 cargo xtask bench setup   download Embree 4.4 into target/embree
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
 cargo xtask bench hall    time to an accuracy against triangles and luminaires, and true errors
@@ -36,6 +38,7 @@ fn main() -> ExitCode {
         ["tidy"] => tidy::run(root),
         ["smoke"] => test::smoke_and_judge(root),
         ["lamps"] => lamps::run(root),
+        ["consumers"] => consumers::run(root),
         ["bench", "setup"] => bench::setup(root),
         ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),
         ["bench", "rays", ref arguments @ ..] => bench::rays(root, arguments),

@@ -54,7 +54,7 @@ pub(crate) fn environment(source: &Path, folder: &Path) -> Result<PathBuf, Strin
 }
 
 /// Builds isolux as it is shipped; where it is.
-fn build(root: &Path) -> Result<PathBuf, String> {
+pub(crate) fn build(root: &Path) -> Result<PathBuf, String> {
     let target = std::env::var_os("CARGO_TARGET_DIR").map(PathBuf::from);
     let built = root.join(target.unwrap_or_else(|| "target".into()));
     let arguments = ["build", "--release", "--quiet", "--package", "isolux-cli"];

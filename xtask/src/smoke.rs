@@ -106,10 +106,11 @@ fn room(root: &Path, folder: &Path) -> Result<Room, String> {
 }
 
 const TARGETS: [&str; 6] = ["viewer", "three", "godot", "unity", "blender", "bevy"];
-const CARD: Card = Card { file: PathBuf::new(), reflectance: 0.8, illuminance_lx: 500.0 };
+pub(crate) const CARD: Card =
+    Card { file: PathBuf::new(), reflectance: 0.8, illuminance_lx: 500.0 };
 
-/// A square metre that faces parallel light, as a lightmap for three.js.
-fn card(root: &Path, folder: &Path) -> Result<Card, String> {
+/// The scene of a square metre that faces parallel light.
+pub(crate) fn card_scene(folder: &Path) -> Result<PathBuf, String> {
     let Card { reflectance, illuminance_lx, .. } = CARD;
     let scene = folder.join("card.toml");
     let text = format!(
@@ -118,6 +119,12 @@ fn card(root: &Path, folder: &Path) -> Result<Card, String> {
          [[luminaire]]\ndirection = [0, 0, -1]\ndirectional = {{ illuminance_lx = {illuminance_lx:?} }}\n"
     );
     std::fs::write(&scene, text).map_err(|e| format!("{}: {e}", scene.display()))?;
+    Ok(scene)
+}
+
+/// The same as a lightmap for three.js.
+fn card(root: &Path, folder: &Path) -> Result<Card, String> {
+    let scene = card_scene(folder)?;
     let [scene, map, file] = [scene, folder.join("card-map.glb"), folder.join("card.glb")];
     let [scene, map, out] = [&scene, &map, &file].map(|path| path.to_string_lossy().into_owned());
     isolux(root, &["solve", &scene, "-o", &map, "--quality", "draft"])?;

@@ -31,9 +31,9 @@ pub(crate) fn smoke_and_judge(root: &Path) -> Result<String, String> {
     let made = smoke::run(root)?;
     announce("outside judges of the map: glTF validator, three.js");
     println!("{}", judge::run(root, &made)?);
-    announce("outside judges of walk-throughs: view3dscene, X_ITE");
+    announce("outside judges of pictures: view3dscene, X_ITE, three.js");
     println!("{}", worlds::run(root, &made.room)?);
-    announce("outside judge of grids: VTK");
+    announce("outside judges of grids: VTK, PyVista");
     grids::run(root, &made.room)
 }
 

@@ -1,4 +1,4 @@
-//! Judges of walk-throughs: view3dscene and X_ITE, without a screen.
+//! Judges of pictures: view3dscene and X_ITE of walk-throughs, three.js of the map itself, without a screen.
 
 use crate::judge::{is_ci, missing_for_node};
 use crate::peers::wait;
@@ -21,13 +21,16 @@ pub(crate) fn run(root: &Path, room: &Room) -> Result<String, String> {
         missing => match missing.or_else(missing_browser) {
             None => pictures.extend(by_x_ite(&checks, &room.worlds)?),
             Some(missing) => {
-                said.push(format!("X_ITE skipped, as it is optional: {missing}"));
+                said.push(format!("X_ITE and three.js skipped, as they are optional: {missing}"));
                 return Ok(said.join("\n"));
             }
         },
     }
-    compare(&checks, room, &pictures)?;
-    said.push("the browsers of worlds draw what isolux does".to_owned());
+    compare(&checks, room, &pictures, &[])?;
+    let shown = room.map.with_file_name("three-map.png");
+    drawn_by_node(&checks, [(&room.map, &shown)])?;
+    compare(&checks, room, &[shown], &["--light"])?;
+    said.push("the browsers of worlds, and three.js, draw what isolux does".to_owned());
     Ok(said.join("\n"))
 }
 
@@ -87,18 +90,26 @@ fn drawn(file: &Path, name: &str) -> Result<PathBuf, String> {
 fn by_x_ite(checks: &Path, files: &[PathBuf; 2]) -> Result<[PathBuf; 2], String> {
     let pictures = ["x-ite-wrl.png", "x-ite-x3d.png"];
     let pictures = [0, 1].map(|k| files[k].with_file_name(pictures[k]));
-    let mut node = Command::new("node");
-    node.args(["worlds.mjs", PICTURE_SIZE]).current_dir(checks);
-    for (file, picture) in files.iter().zip(&pictures) {
-        node.arg(file).arg(picture);
-    }
-    wait(&mut node, "checks/worlds.mjs")?;
+    drawn_by_node(checks, files.iter().zip(&pictures))?;
     Ok(pictures)
 }
 
-fn compare(checks: &Path, room: &Room, pictures: &[PathBuf]) -> Result<(), String> {
+/// Pictures of files, by headless Chromium.
+fn drawn_by_node<'a>(
+    checks: &Path,
+    files: impl IntoIterator<Item = (&'a PathBuf, &'a PathBuf)>,
+) -> Result<(), String> {
     let mut node = Command::new("node");
-    node.arg("pictures.mjs").current_dir(checks);
+    node.args(["worlds.mjs", PICTURE_SIZE]).current_dir(checks);
+    for (file, picture) in files {
+        node.arg(file).arg(picture);
+    }
+    wait(&mut node, "checks/worlds.mjs")
+}
+
+fn compare(checks: &Path, room: &Room, pictures: &[PathBuf], how: &[&str]) -> Result<(), String> {
+    let mut node = Command::new("node");
+    node.arg("pictures.mjs").args(how).current_dir(checks);
     node.args(["--exposure", &room.exposure_m2_cd.to_string()]);
     node.args(["--white", &room.white_cd_m2.to_string()]);
     node.args(["--full", &PICTURE_WHITE_CD_M2.to_string()]);

@@ -220,10 +220,10 @@ pub(crate) struct InfoFlags {
   isolux probe map.glb --points desk.pts -o desk.res
   isolux probe builtin:hall --points desk.pts --paths 65536
 
-Points are `x y z nx ny nz`, one a line, in metres and in the axes of the scene as written; # starts a comment.
+Points are `x y z nx ny nz`, one a line, in metres and in the axes of the scene as written; # starts a comment. \
 A point on no surface with a known value has empty fields (null in JSON), unless --exact is given.
 
-Of a scene instead of a map, paths are traced at every point: slow, but without the bias of a map and on
+Of a scene instead of a map, paths are traced at every point: slow, but without the bias of a map and on \
 no surface, too. It leaves out the light that glass, gloss and curved mirrors throw on surfaces (caustics).")]
 pub(crate) struct ProbeFlags {
     /// The map (.glb), or a scene, which needs no map but time
@@ -258,8 +258,8 @@ pub(crate) struct ProbeFlags {
   isolux grid room.toml --accuracy 2% --name desk --csv desk.csv
   isolux grid map.glb --corner 0,0,0.75 --u 2,0,0 --v 0,1,0 --spacing 0.25
 
-Grids are those of the scene ([[grid]] in scene.toml), or one given here. Points lie in the middles of cells as
-EN 12464-1 spaces them and face the way of u cross v. Values are maintained illuminance: the initial one times
+Grids are those of the scene ([[grid]] in scene.toml), or one given here. Points lie in the middles of cells as \
+EN 12464-1 spaces them and face the way of u cross v. Values are maintained illuminance: the initial one times \
 the maintenance factor. Intervals are of 95 %. A scene is solved first; to keep its map, solve it yourself.")]
 pub(crate) struct GridFlags {
     /// The map (.glb), or a scene
@@ -307,7 +307,7 @@ pub(crate) struct GridFlags {
   isolux render map.glb --camera door -o lux.png --false-colour --limits 0:500 --contours
   isolux render builtin:hall --cache hall.cache --camera entrance -o entrance.png
 
-With --cache no map is read: indirect light comes from the samples in the file, and what the view still
+With --cache no map is read: indirect light comes from the samples in the file, and what the view still \
 needs is computed and added to it. A later view of the same scene computes only what is new.")]
 pub(crate) struct RenderFlags {
     /// The map (.glb); with --cache a scene will do
@@ -378,11 +378,11 @@ pub(crate) enum ToneName {
   isolux export map.glb -o room.glb --layout texels --target three --texels-per-meter 20
   isolux export map.glb -o lightmap.exr
 
-The extension tells the kind: .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row
+The extension tells the kind: .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row \
 a vertex. Values are those of the bare map at its vertices. The map itself is a .glb that viewers of glTF open.
 
-Lightmaps (.glb with --layout texels, .exr, .ktx2) are baked from the map: direct light afresh, over all of each texel. --target
-says for whom: it decides unit, side of pi and how the .glb refers to the light, all of which is printed. Beside a .glb its
+Lightmaps (.glb with --layout texels, .exr, .ktx2) are baked from the map: direct light afresh, over all of each texel. --target \
+says for whom: it decides unit, side of pi and how the .glb refers to the light, all of which is printed. Beside a .glb its \
 lightmap is written as .exr, for three and bevy as .ktx2, too. Further pages are named lightmap-1.exr and so on.")]
 pub(crate) struct ExportFlags {
     /// The map (.glb)
@@ -426,7 +426,7 @@ pub(crate) enum TargetName {
   isolux mix map.glb --dim spots=30% --dim daylight=0 -o evening.glb
   isolux mix map.spots.glb=30% map.ambient.glb -o evening.glb
 
-The sum is a map like any other. Noise of its parts adds in squares; errors of interpolation and bias are added as they
+The sum is a map like any other. Noise of its parts adds in squares; errors of interpolation and bias are added as they \
 are, so that the sum is no worse than it says. The maps of groups are looked for beside the map of their sum.")]
 pub(crate) struct MixFlags {
     /// Maps of the same surfaces in different light (.glb), each with what all of it is dimmed to
@@ -478,8 +478,8 @@ pub(crate) struct LintFlags {
   isolux validate --case cube --method forward --seeds 5
   isolux validate --calibrate --seeds 50 --method hybrid
 
-Exit code 1 if a case fails; with --calibrate if a promise is broken beyond doubt: fewer than 93 % in
-intervals of 95 %, a wrong value without error, stopping that makes errors look small, or fewer
+Exit code 1 if a case fails; with --calibrate if a promise is broken beyond doubt: fewer than 93 % in \
+intervals of 95 %, a wrong value without error, stopping that makes errors look small, or fewer \
 than nine in ten predicted finishing times within 20 %, from 10 % of the time on.")]
 pub(crate) struct ValidateFlags {
     /// One case only
@@ -504,7 +504,7 @@ pub(crate) struct ValidateFlags {
   isolux scene builtin:hall -o hall
   isolux scene builtin:hall,triangles=1e5,luminaires=500 -o hall-fine
 
-The folder gets scene.toml, scene.gltf with scene.bin, and photometric files. Reading scene.toml gives
+The folder gets scene.toml, scene.gltf with scene.bin, and photometric files. Reading scene.toml gives \
 the scene again, with the same hash if its geometry is flat.")]
 pub(crate) struct SceneFlags {
     #[arg(help = SCENE_HELP)]

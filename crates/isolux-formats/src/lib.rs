@@ -25,6 +25,7 @@ pub mod ply;
 pub mod png;
 mod polygon;
 mod problem;
+mod product_file;
 pub mod rad;
 mod round;
 pub mod scene_toml;

@@ -1,6 +1,8 @@
 //! A scene file of any kind.
 
-use crate::{Loaded, Problem, Problems, gltf, mitsuba, obj, ply, rad, scene_toml, stl};
+use crate::{
+    Loaded, Problem, Problems, gltf, mitsuba, obj, ply, product_file, rad, scene_toml, stl,
+};
 use isolux::scene::SceneParts;
 use std::path::Path;
 
@@ -15,10 +17,12 @@ pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
         Some("stl") => stl::read(path),
         Some("xml") => mitsuba::read(path),
         Some("toml") => scene_toml::read(path),
-        other => {
-            let what = "is not a scene by its extension";
-            Err(Problem::new(path, "", what, instead_of(other.unwrap_or_default())).into())
-        }
+        other => Err(product_file::by_extension(path)
+            .unwrap_or_else(|| {
+                let what = "is not a scene by its extension";
+                Problem::new(path, "", what, instead_of(other.unwrap_or_default()))
+            })
+            .into()),
     }
 }
 
@@ -33,6 +37,15 @@ fn instead_of(extension: &str) -> &'static str {
             "name the scene, or the map, that it was made from"
         }
         "bin" => "name the .gltf file that refers to it",
+        "3ds" | "abc" | "blend" | "dae" | "dxf" | "dwg" | "fbx" | "ifc" | "max" | "skp"
+        | "step" | "stp" | "usd" | "usda" | "usdc" | "usdz" => {
+            "export it as .glb from the program that made it"
+        }
+        "exr" | "hdr" => {
+            "pictures of surroundings are not read; `constant` of a Mitsuba scene shines evenly"
+        }
+        "pbrt" => "convert it to Mitsuba 3 (.xml) or export it as .glb",
+        "vf" => "name the .rad file of the scene, and views of it in a scene.toml",
         _ => "name a .toml, .gltf, .glb, .obj, .ply, .rad, .stl or .xml file",
     }
 }

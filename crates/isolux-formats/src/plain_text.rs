@@ -1,6 +1,7 @@
 //! Plain text of unknown encoding: bounded reading, decoding, lines.
 
 use crate::Problem;
+use crate::source::{SAVE_AS_UTF8, is_utf16};
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::Read;
@@ -46,6 +47,9 @@ pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Problem {
 /// The text of a file: UTF-8 with or without a byte order mark, or else Windows-1252, of which
 /// Latin-1 is a part; up to the Ctrl-Z that ends files from DOS.
 pub(crate) fn decode<'a>(bytes: &'a [u8], file: &Path) -> Result<Cow<'a, str>, Problem> {
+    if is_utf16(bytes) {
+        return Err(Problem::new(file, "", "is text in UTF-16, which is not read", SAVE_AS_UTF8));
+    }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let end = bytes.iter().position(|&b| b == 0x1a).unwrap_or(bytes.len());
     let bytes = &bytes[..end];

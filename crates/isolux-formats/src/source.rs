@@ -29,9 +29,20 @@ pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Problem> {
     Ok(bytes)
 }
 
+/// What to do about text in UTF-16.
+pub(crate) const SAVE_AS_UTF8: &str = "save it as UTF-8";
+
+/// Whether bytes begin as Windows begins text in UTF-16.
+pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")
+}
+
 /// The text of a file; bytes that are not UTF-8 become replacement characters.
 pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, Problem> {
     let bytes = read_bytes(path, limit)?;
+    if is_utf16(&bytes) {
+        return Err(Problem::new(path, "", "is text in UTF-16, which is not read", SAVE_AS_UTF8));
+    }
     let text = String::from_utf8(bytes)
         .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
     Ok(match text.strip_prefix('\u{feff}') {

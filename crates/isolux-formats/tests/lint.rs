@@ -13,7 +13,7 @@ const IES: &str = "IES:LM-63-2019\n[TEST] 1\n[TESTLAB] lab\n[ISSUEDATE] today\n[
 /// Symmetric about both planes, 682 lm out of 1000.
 const LDT: &str = "m\n3\n4\n8\n45\n7\n15\nr\nl\nn\nf\nd\n600\n600\n80\n500\n500\n0\n0\n0\n0\n\
                    100\n68\n1\n0\n1\n1\nLED\n1000\n4000\n80\n20\n\
-                   0.5\n0.6\n0.7\n0.8\n0.85\n0.9\n0.92\n0.95\n0.97\n1\n\
+                   0.27\n0.36\n0.44\n0.51\n0.57\n0.65\n0.71\n0.75\n0.8\n0.84\n\
                    0\n45\n90\n135\n180\n225\n270\n315\n0\n15\n30\n45\n60\n75\n90\n\
                    250\n240\n215\n170\n120\n60\n0\n250\n235\n200\n150\n100\n50\n0\n\
                    250\n230\n190\n140\n90\n40\n0\n";
@@ -106,8 +106,15 @@ fn every_rule_for_eulumdat() {
             ("68\n1\n0", "63\n0.97\n0", Note, 24, "conversion factor 0.97"),
             ("68\n1\n0", "68\n1,0\n0", Note, 24, "a decimal comma: 1,0"),
             ("1\n1\nLED", "1\n0\nLED", Note, 26, "number of lamps is 0"),
-            ("0.92\n", "1.92\n", Note, 39, "direct ratio 1.92"),
-            ("0.92\n", "0.12\n", Note, 39, "direct ratio falls from 0.9 to 0.12"),
+            ("0.71\n", "1.92\n", Note, 39, "direct ratio 1.92"),
+            ("0.71\n", "0.12\n", Note, 39, "direct ratio falls from 0.65 to 0.12"),
+            (
+                "0.27\n0.36\n0.44\n0.51\n0.57\n",
+                "0.55\n0.6\n0.6\n0.62\n0.64\n",
+                Warning,
+                33,
+                "0.55 of room index 0.6 is not",
+            ),
             ("250\n235\n200\n150", "250\n235\n200\n1500", Warning, 68, "spike at C 45, gamma 45"),
             ("m\n3\n4\n8\n", "m\n3\n4\n7\n", Error, 4, "no multiple of 4"),
         ],
@@ -143,7 +150,9 @@ fn stray_light_and_hidden_symmetry_are_told() {
 
 #[test]
 fn other_formats_and_absent_files_are_named() {
-    for (name, what) in [("lamp.gldf", "by its extension"), ("gone.ies", "cannot be read")] {
+    for (name, what) in
+        [("lamp.gldf", "GLDF"), ("lamp.txt", "by its extension"), ("gone.ies", "cannot be read")]
+    {
         let audit = lint(Path::new(name));
         assert!(!audit.is_usable());
         let [finding] = audit.findings.as_slice() else { panic!("{:?}", audit.findings) };

@@ -29,12 +29,22 @@ fn extensions_in_capitals() {
 
 #[test]
 fn anything_else_is_refused_with_what_is_read() {
-    for name in ["scene.fbx", "scene", ".toml", "scene.gltf.zip", ""] {
+    for name in ["scene.what", "scene", ".toml", "scene.gltf.zip", ""] {
         let message = load(Path::new(name)).unwrap_err().to_string();
         assert!(
             message.contains("name a .toml, .gltf, .glb, .obj, .ply, .rad, .stl or .xml file"),
             "{message}"
         );
+    }
+    for (name, remedy) in [
+        ("scene.fbx", "export it as .glb"),
+        ("scene.USDZ", "export it as .glb"),
+        ("lamp.gldf", "unpack it"),
+        ("lamp.ldt", "[[luminaire]]"),
+        ("room.hdr", "`constant`"),
+    ] {
+        let message = load(Path::new(name)).unwrap_err().to_string();
+        assert!(message.contains(remedy), "{message}");
     }
     for name in [
         "none.toml",

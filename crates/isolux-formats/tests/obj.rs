@@ -176,6 +176,8 @@ fn mtl_properties() {
     let (solid, _) = glass("illum 6\nNi 1.33");
     assert_eq!((solid.thin, solid.ior, solid.transmittance), (false, 1.33, Rgb::WHITE));
     assert!(opaque("Kd 0.5\nPr 0.3\nmap_Bump x.png").1.contains("`Pr`, `map_Bump`"));
+    // Regression: refused, though programs that know no index write 0 everywhere.
+    assert!(opaque("Kd 0.5\nNi 0").1.contains("`Ni 0`"));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
-use isolux_formats::{Problem, Problems, gltf, ies, map_glb};
+use isolux_formats::{Problem, Problems, gltf, ies, map_glb, obj};
 use std::fs;
 use std::path::Path;
 
@@ -34,6 +34,15 @@ fn a_map_given_as_a_scene_was_said_to_have_no_light() {
 }
 
 #[test]
+fn a_lightmap_given_as_a_scene_was_lit_by_its_own_light() {
+    let baked =
+        br#"{"asset": {"version": "2.0"}, "extras": {"isolux_lightmap": {"target": "unity"}}}"#;
+    let found = only_problem(in_file(baked, gltf::read));
+    assert_eq!(found.place, "extras.isolux_lightmap");
+    assert!(found.what.contains("baked"), "{found}");
+}
+
+#[test]
 fn garbage_with_the_name_of_a_scene_was_said_to_be_faulty_json() {
     for (bytes, what) in [
         (&b""[..], "is empty"),
@@ -45,6 +54,20 @@ fn garbage_with_the_name_of_a_scene_was_said_to_be_faulty_json() {
         let found = only_problem(in_file(bytes, gltf::read));
         assert!(found.what.contains(what), "{found}");
     }
+}
+
+#[test]
+fn version_1_of_gltf_as_a_number_was_said_to_be_faulty_json() {
+    let found = only_problem(in_file(br#"{"asset": {"version": 1}}"#, gltf::read));
+    assert!(found.what.contains("version `1`"), "{found}");
+}
+
+#[test]
+fn text_in_utf_16_was_said_to_hold_nothing() {
+    let found = only_problem(in_file(b"\xfe\xff\x00v\x00 \x001", obj::read));
+    assert!(found.what.contains("UTF-16"), "{found}");
+    let lamp = ies::parse(b"\xff\xfeI\0E\0", Path::new("lamp.ies"), &mut |_| unreachable!());
+    assert!(only_problem(lamp).what.contains("UTF-16"));
 }
 
 #[test]

@@ -23,15 +23,21 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, Flaw> {
     Ok(root)
 }
 
-/// A map's materials are made for viewers: solved again they would say that there is no light.
+/// A map's materials are made for viewers: solved again they would say that there is no light, or, of a lightmap, that all
+/// surfaces shine.
 fn refuse_map(root: &Root) -> Result<(), Flaw> {
-    let extras = root.extras.as_deref().map(|raw| serde_json::from_str::<HashMap<_, _>>(raw.get()));
-    let is_map = |extras: HashMap<String, IgnoredAny>| extras.contains_key("isolux");
-    if !extras.and_then(Result::ok).is_some_and(is_map) {
-        return Ok(());
+    let extras = root.extras.as_deref().map(|raw| serde_json::from_str(raw.get()));
+    let Some(Ok::<HashMap<String, IgnoredAny>, _>(extras)) = extras else { return Ok(()) };
+    for (key, what) in [
+        ("isolux", "is an illumination map, no scene"),
+        ("isolux_lightmap", "is a scene with its light baked in, no scene to light"),
+    ] {
+        if extras.contains_key(key) {
+            let remedy = "give the scene that it was computed from";
+            return Err(Flaw::new(what, remedy).at(format!("extras.{key}")));
+        }
     }
-    Err(Flaw::new("is an illumination map, no scene", "give the scene that it was computed from")
-        .at("extras.isolux"))
+    Ok(())
 }
 
 fn flaw(error: &serde_json::Error) -> Flaw {
@@ -53,14 +59,26 @@ struct Versioned {
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct Asset {
-    version: String,
+    version: Version,
     min_version: Option<String>,
+}
+
+/// Text, and in files of version 1 also a number.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Version {
+    Text(String),
+    Number(f64),
 }
 
 /// Looked at first: a file of version 1 would only fail with a riddle.
 fn check_version(json: &[u8]) -> Result<(), Flaw> {
     let Versioned { asset } = serde_json::from_slice(json).map_err(|error| flaw(&error))?;
-    let readable = match (&asset.min_version, asset.version.split_once('.')) {
+    let version = match asset.version {
+        Version::Text(text) => text,
+        Version::Number(number) => number.to_string(),
+    };
+    let readable = match (&asset.min_version, version.split_once('.')) {
         (Some(needed), _) => needed == "2.0",
         (None, Some((major, _))) => major == "2",
         (None, None) => false,
@@ -68,7 +86,7 @@ fn check_version(json: &[u8]) -> Result<(), Flaw> {
     if readable {
         return Ok(());
     }
-    let what = format!("glTF version `{}`", asset.min_version.unwrap_or(asset.version));
+    let what = format!("glTF version `{}`", asset.min_version.unwrap_or(version));
     Err(Flaw::new(what, "convert the file to glTF 2.0").at("asset"))
 }
 

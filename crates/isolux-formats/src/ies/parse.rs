@@ -7,7 +7,7 @@ use super::{
     Edition, IesFile, LampFactor, LengthUnit, LuminousOpening, PhotometricType, RecordLines, audit,
 };
 use crate::plain_text::{decode, lines};
-use crate::{Loaded, Problem, Problems};
+use crate::{Loaded, Problem, Problems, product_file};
 use std::path::{Component, Path};
 
 /// Intensities a file may hold: a quarter of a degree over the whole sphere.
@@ -20,6 +20,9 @@ pub fn parse(
     file: &Path,
     read_tilt: &mut dyn FnMut(&str) -> Result<Vec<u8>, Problem>,
 ) -> Result<Loaded<IesFile>, Problems> {
+    if let Some(problem) = product_file::by_content(bytes, file) {
+        return Err(problem.into());
+    }
     let text = decode(bytes, file)?;
     let lines = lines(&text);
     let (header, rest) = split(&lines, file)?;

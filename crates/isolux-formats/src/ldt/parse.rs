@@ -3,7 +3,7 @@
 use super::fields::Fields;
 use super::{Header, LampSet, LdtFile, LdtSymmetry, LuminaireKind, RecordLines, Sizes, audit};
 use crate::plain_text::{decode, lines, read_bounded};
-use crate::{Loaded, Problem, Problems};
+use crate::{Loaded, Problem, Problems, product_file};
 use std::path::Path;
 
 /// Largest file read, bytes: a million intensities of sixty characters.
@@ -25,6 +25,9 @@ pub fn read(path: &Path) -> Result<Loaded<LdtFile>, Problems> {
 
 /// Reads a photometric file from memory. `file` is its name for messages.
 pub fn parse(bytes: &[u8], file: &Path) -> Result<Loaded<LdtFile>, Problems> {
+    if let Some(problem) = product_file::by_content(bytes, file) {
+        return Err(problem.into());
+    }
     let text = decode(bytes, file)?;
     let lines = lines(&text);
     let mut fields = Fields::new(file, &lines);

@@ -90,7 +90,9 @@ fn of_content(file: &PhotometricFile, web: &PhotometricWeb) -> Vec<Finding> {
     findings.extend(spikes::findings(&table));
     findings.extend(match file {
         PhotometricFile::Ies(ies) => [factors::of_ies(ies), ies_fields::findings(ies)].concat(),
-        PhotometricFile::Ldt(ldt) => [factors::of_ldt(ldt), ldt_fields::findings(ldt)].concat(),
+        PhotometricFile::Ldt(ldt) => {
+            [factors::of_ldt(ldt), ldt_fields::findings(ldt, web)].concat()
+        }
     });
     findings
 }

@@ -3,7 +3,7 @@
 use super::limits;
 use super::record::Element;
 use crate::lines::{At, Notes};
-use crate::source;
+use crate::{product_file, source};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -82,8 +82,14 @@ impl Parser<'_> {
         let lines = Lines::of(text);
         if root.tag_name().name() != "scene" {
             let at = At { line: lines.number(root.range().start), ..first };
-            let what = format!("`{}` is not a Mitsuba `scene`", root.tag_name().name());
-            self.notes.problem(&at, what, "give a scene of Mitsuba 3");
+            let name = root.tag_name().name();
+            match product_file::by_root(name) {
+                Some([what, remedy]) => self.notes.problem(&at, what, remedy),
+                None => {
+                    let what = format!("`{name}` is not a Mitsuba `scene`");
+                    self.notes.problem(&at, what, "give a scene of Mitsuba 3");
+                }
+            }
             return None;
         }
         self.children(root, &lines, file, depth)

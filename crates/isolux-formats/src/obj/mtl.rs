@@ -56,9 +56,13 @@ fn take(
         "Ks" => colour(&mut material.ks),
         "Ke" => colour(&mut material.ke),
         "Tf" => colour(&mut material.tf),
-        "Ni" => match number(rest).filter(|n| *n > 0.0) {
-            Some(value) => material.ni = Some(value),
-            None => bad("a positive number"),
+        "Ni" => match number(rest) {
+            // Programs without a notion of it write 0 for every material.
+            Some(0.0) => {
+                unused.insert("Ni 0".to_owned());
+            }
+            Some(value) if value > 0.0 => material.ni = Some(value),
+            _ => bad("a positive number"),
         },
         "d" | "Tr" => match rest.split_whitespace().last().and_then(number) {
             Some(value) if (0.0..=1.0).contains(&value) => {

@@ -2,15 +2,17 @@
 
 mod convert;
 mod difference;
+mod direct_ratios;
 mod to_ies;
 mod to_ldt;
 
 pub use convert::{Conversion, Target, convert};
 pub use difference::Difference;
+pub use direct_ratios::{ROOM_INDICES, direct_ratios};
 
 use crate::ies::{self, IesFile};
 use crate::ldt::{self, LdtFile};
-use crate::{Loaded, Problem, Problems};
+use crate::{Loaded, Problem, Problems, product_file};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use std::path::Path;
 use std::sync::Arc;
@@ -37,15 +39,13 @@ impl Kind {
         match extension.as_deref() {
             Some("ies") => Ok(Self::Ies),
             Some("ldt") => Ok(Self::Ldt),
-            other => {
-                let remedy = match other {
-                    Some("xml" | "tm33" | "gldf" | "l3d" | "uld" | "rolf") => {
-                        "TM-33, GLDF and product files are not read; export it as .ies or .ldt"
-                    }
+            _ => Err(product_file::by_extension(path).unwrap_or_else(|| {
+                let remedy = match extension.as_deref() {
+                    Some("xml") => "TM-33 and other XML is not read; export it as .ies or .ldt",
                     _ => "give a file that ends in .ies or .ldt",
                 };
-                Err(Problem::new(path, "", "is no photometric file by its extension", remedy))
-            }
+                Problem::new(path, "", "is no photometric file by its extension", remedy)
+            })),
         }
     }
 }

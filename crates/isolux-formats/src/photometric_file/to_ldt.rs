@@ -1,5 +1,6 @@
 //! LM-63 to EULUMDAT.
 
+use super::direct_ratios;
 use crate::Problem;
 use crate::ies::{IesFile, OpeningShape, PhotometricType, Tilt};
 use crate::ldt::{Header, LampSet, LdtFile, LdtSymmetry, LuminaireKind, RecordLines, Sizes};
@@ -61,7 +62,7 @@ pub(super) fn record(
         conversion_factor: 1.0,
         measured_tilt_deg: 0.0,
         lamp_sets: vec![lamps],
-        direct_ratios: [0.0; 10],
+        direct_ratios: direct_ratios(web).unwrap_or_default().map(thousandth),
         candela_per_klm: table.candela.iter().map(|cd| six_digits(cd * per_klm)).collect(),
         symmetry: table.symmetry,
         planes_deg: table.planes_deg,
@@ -185,7 +186,8 @@ fn what_is_lost(file: &IesFile, losses: &mut Vec<String>) {
     let factor = file.intensity_factor();
     lost(factor != 1.0, format!("the factors on intensities, {factor} in all: they are applied"));
     lost(true, "intensities beyond six digits".into());
-    lost(true, "direct ratios are written as 0, the size of the luminaire as its opening's".into());
+    let sizes = "the size of the luminaire is written as its opening's";
+    lost(true, format!("{sizes}; direct ratios are those of an evenly filled ceiling"));
     if file.photometric_type == PhotometricType::C && file.vertical_deg.first() != Some(&0.0) {
         lost(true, "gamma angles begin above 0, which some programs refuse".into());
     }
@@ -202,6 +204,10 @@ fn even_step(angles_deg: &[f64]) -> f64 {
 /// Rounded to as many digits as any goniometer measures.
 fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+fn thousandth(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0
 }
 
 fn tenth(value: f64) -> f64 {

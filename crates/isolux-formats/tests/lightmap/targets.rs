@@ -137,3 +137,22 @@ fn viewers_get_finished_colours() {
         assert!(off.abs() < 0.01, "{off}");
     }
 }
+
+/// Cycles shows both sides of everything: of a front and a back in one place it took either, and the card was black.
+#[test]
+fn backs_stand_off_for_blender() {
+    for (target, _) in Target::ALL {
+        let json = Glb::of(target).json;
+        let meshes = json["meshes"].as_array().unwrap();
+        let table = meshes.iter().find(|mesh| mesh["name"] == "table").unwrap();
+        let heights = [0, 1].map(|side| {
+            let positions = table["primitives"][side]["attributes"]["POSITION"].as_u64().unwrap();
+            number(&json["accessors"][positions as usize]["max"][2])
+        });
+        // A hundred thousandth of three metres from the table to the mirror, below.
+        let stand_off_m = if target == Target::Blender { 3e-5 } else { 0.0 };
+        let off = (heights[0] - heights[1] - stand_off_m).abs();
+        assert_eq!(heights[0], -1.0, "{target:?}");
+        assert!(off < f64::from(f32::EPSILON), "{target:?}: {heights:?}");
+    }
+}

@@ -3,6 +3,7 @@
 //! The geometry is that of the scene, its vertices split where charts end; `TEXCOORD_1` is the place in the lightmap.
 //! What the texture holds, and how the material refers to it, is up to the consumer ([`Target`]).
 
+mod backs;
 mod file;
 mod materials;
 mod pages;

@@ -1,5 +1,6 @@
 //! The triangles of the scene, grouped by shape, side and page.
 
+use super::backs;
 use super::file::TexelFile;
 use crate::map_glb::display::{Layer, Surface, is_shown, layer, texture_of, turned};
 use isolux::lightmap::Side;
@@ -25,7 +26,14 @@ pub(super) fn all(file: &TexelFile<'_>) -> BTreeMap<(Layer, u32), Surface> {
             }
         }
     }
-    found.into_iter().map(|(key, (surface, _))| (key, surface)).collect()
+    let distance_m = backs::distance_m(scene, file.target);
+    let placed = found.into_iter().map(|((layer, page), (mut surface, _))| {
+        if layer.back && distance_m > 0.0 {
+            backs::stand_off(&mut surface, distance_m);
+        }
+        ((layer, page), surface)
+    });
+    placed.collect()
 }
 
 /// Vertices by all that they carry, bit for bit.

@@ -1,0 +1,58 @@
+# Shows card.glb of this project in Godot 3, with no more than a project has to set: its importer leaves out the strength of
+# emission (KHR_materials_emissive_strength, which Godot 4 reads), so that the material is given it times the exposure.
+# Usage: godot3 --path PROJECT -s judge.gd STRENGTH EXPOSURE_M2_CD; prints the codes of the middle of the picture.
+extends SceneTree
+
+# The first pictures are drawn before all is loaded.
+const FRAMES = 8
+
+var viewport = Viewport.new()
+var frames = 0
+
+func _init():
+	var given = OS.get_cmdline_args()
+	var energy = float(given[given.size() - 2]) * float(given[given.size() - 1])
+	var card = load("res://card.glb").instance()
+	strengthen(card, energy)
+	viewport.size = Vector2(9, 9)
+	viewport.own_world = true
+	viewport.render_target_update_mode = Viewport.UPDATE_ALWAYS
+	for node in [card, nothing_else(), camera()]:
+		viewport.add_child(node)
+	get_root().add_child(viewport)
+
+func strengthen(node, energy):
+	if node is MeshInstance:
+		for k in range(node.mesh.get_surface_count()):
+			node.mesh.surface_get_material(k).emission_energy = energy
+	for child in node.get_children():
+		strengthen(child, energy)
+
+# No light but that of the card, and no tone mapping but the encoding as sRGB.
+func nothing_else():
+	var place = WorldEnvironment.new()
+	place.environment = Environment.new()
+	place.environment.background_mode = Environment.BG_COLOR
+	place.environment.ambient_light_energy = 0.0
+	place.environment.tonemap_mode = Environment.TONE_MAPPER_LINEAR
+	return place
+
+# Above the middle of the card, which lies from (0, 0, 0) to (1, 0, -1).
+func camera():
+	var eye = Camera.new()
+	eye.projection = Camera.PROJECTION_ORTHOGONAL
+	eye.size = 0.4
+	eye.transform = Transform(Basis(Vector3(1, 0, 0), -PI / 2), Vector3(0.5, 1, -0.5))
+	eye.current = true
+	return eye
+
+func _idle(_delta):
+	frames += 1
+	if frames < FRAMES:
+		return false
+	var picture = viewport.get_texture().get_data()
+	picture.lock()
+	var middle = picture.get_pixel(4, 4)
+	print("codes ", 255 * middle.r, " ", 255 * middle.g, " ", 255 * middle.b)
+	quit()
+	return true
