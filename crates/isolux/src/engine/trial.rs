@@ -19,7 +19,7 @@ pub(super) const OF_INTERPOLATED: f64 = 0.5;
 
 /// Nets of n rays err like this power of 1/n: measured between 0.8 and 1.1 on CUBE and SPHERE from 8
 /// to 128 rays (independent rays err like 0.5).
-pub(super) const NET_ORDER: f64 = 0.85;
+const NET_ORDER: f64 = 0.85;
 
 /// Rays of a receiver and increment, whatever is asked for.
 const FEWEST_WANTED: f64 = 8.0;
