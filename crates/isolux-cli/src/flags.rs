@@ -480,7 +480,7 @@ pub(crate) struct LintFlags {
 
 Exit code 1 if a case fails; with --calibrate if a promise is broken beyond doubt: fewer than 93 % in \
 intervals of 95 %, a wrong value without error, stopping that makes errors look small, or fewer \
-than nine in ten predicted finishing times within 20 %, from 10 % of the time on.")]
+than nine in ten predicted finishing times within 20 %, from 10 % of the time and 0.25 s on.")]
 pub(crate) struct ValidateFlags {
     /// One case only
     #[arg(long, value_name = "NAME")]

@@ -4,7 +4,8 @@ use crate::console::table;
 use crate::quantity::{show_seconds, show_share, significant};
 use crate::request;
 use isolux_compare::calibrate::{
-    Calibrated, CalibratedCase, CalibratedStage, Coverage, Judgement, PredictionTable, Stage,
+    Calibrated, CalibratedCase, CalibratedStage, Coverage, Decile, Judgement, PredictionTable,
+    Stage,
 };
 
 /// Tables, remarks and the verdict.
@@ -20,7 +21,7 @@ pub(super) fn text(calibrated: &Calibrated) -> String {
     if !calibrated.predictions.is_empty() {
         text += "\n";
         text += &prediction_table(&calibrated.predictions);
-        text += "\nRuns that ended within 20 % of the time predicted, by share of that time.\n";
+        text += "\nRuns that ended within 20 % of the time predicted, by share of that time; -: less than 0.25 s of it.\n";
     }
     let verdict = if calibrated.is_kept() { "no promise is broken" } else { "a promise is broken" };
     format!("{text}\n{verdict}\n")
@@ -187,7 +188,11 @@ fn prediction_table(predictions: &[PredictionTable]) -> String {
             middle(table.increments).map_or("-".to_owned(), |n| significant(n, 2)),
             middle(table.finish_s).map_or("-".to_owned(), show_seconds),
         ];
-        row.extend(table.deciles.iter().map(|d| format!("{:.0}", 100.0 * d.share)));
+        let share = |d: &Decile| match d.runs {
+            0 => "-".to_owned(),
+            _ => format!("{:.0}", 100.0 * d.share),
+        };
+        row.extend(table.deciles.iter().map(share));
         row.resize(15, "-".to_owned());
         let [inside, said] = table
             .deciles

@@ -15,6 +15,8 @@ const NEAR: f64 = 0.2;
 const PROMISED: f64 = 0.9;
 /// ... from this share of the work on.
 const DECILES: std::ops::RangeInclusive<u32> = 1..=9;
+/// ... and as soon as somebody could read it, s: what is shown is renewed about that often.
+const SOON_S: f64 = 0.25;
 const CERTAINTY: f64 = 0.95;
 
 /// Predictions of one scene by one engine.
@@ -50,11 +52,13 @@ impl PredictionTable {
 pub struct Decile {
     /// Share of the time that the run took in the end.
     pub work: f64,
-    /// Runs that had said anything.
+    /// Runs that had lasted for a quarter of a second by then: of others nobody could have been told.
+    pub runs: u64,
+    /// Those of them that had said anything.
     pub said: u64,
     /// Runs that ended within 20 % of what they had said.
     pub near: u64,
-    /// Share of all runs that did; saying nothing is no prediction.
+    /// Share of them that did; saying nothing is no prediction. One if there are none.
     pub share: f64,
     /// Interval of 95 % of the share.
     pub low: f64,
@@ -129,17 +133,20 @@ fn decile(work: f64, traces: &[Trace]) -> Decile {
         let before = |(at_s, _): &&(f64, Prediction)| *at_s <= work * trace.finish_s;
         trace.said.iter().rev().find(before).map(|(_, prediction)| *prediction)
     };
+    let judged = || traces.iter().filter(|trace| work * trace.finish_s >= SOON_S);
     let count = |is_so: &dyn Fn(&Trace, Prediction) -> bool| {
-        traces.iter().filter(|t| standing(t).is_some_and(|p| is_so(t, p))).count() as u64
+        judged().filter(|t| standing(t).is_some_and(|p| is_so(t, p))).count() as u64
     };
     let near = count(&|t, p| (p.finish_s / t.finish_s - 1.0).abs() <= NEAR);
-    let runs = traces.len() as f64;
-    let [low, high] = binomial_interval(near as f64, runs, CERTAINTY);
+    let runs = judged().count() as f64;
+    let [low, high] =
+        if runs > 0.0 { binomial_interval(near as f64, runs, CERTAINTY) } else { [0.0, 1.0] };
     Decile {
         work,
+        runs: runs as u64,
         said: count(&|_, _| true),
         near,
-        share: near as f64 / runs,
+        share: if runs > 0.0 { near as f64 / runs } else { 1.0 },
         low,
         high,
         in_interval: count(&|t, p| p.earliest_s <= t.finish_s && t.finish_s <= p.latest_s),
@@ -184,6 +191,17 @@ mod tests {
         assert!(!late.is_kept());
         assert_eq!((late.deciles[3].said, late.deciles[4].near), (0, 40));
         assert!(!table(&vec![trace(1, 13.0); 40]).is_kept());
+    }
+
+    #[test]
+    fn nobody_is_told_of_the_first_quarter_of_a_second() {
+        let brief = Trace { finish_s: 0.6, ..trace(9, 10.0) };
+        let brief = table(&vec![brief; 40]);
+        let runs: Vec<u64> = brief.deciles.iter().map(|decile| decile.runs).collect();
+        assert_eq!(runs, [0, 0, 0, 0, 40, 40, 40, 40, 40]);
+        assert!(!brief.is_kept(), "half a second has to be told of: {brief:?}");
+        let at_once = table(&vec![Trace { finish_s: 0.2, ..trace(9, 10.0) }; 40]);
+        assert!(at_once.is_kept(), "{at_once:?}");
     }
 
     #[test]
