@@ -9,22 +9,24 @@ use super::plan::LightmapError;
 use super::seam_report::SeamReport;
 use super::shadow::{self, Direct};
 use super::texels::{Cover, Lightmap};
+use super::work::{After, Work};
 use super::{dilate, stitch};
 use crate::engine::{IndirectReading, MapReader, Watch};
 use crate::map::IlluminationMap;
 use crate::scene::Scene;
 use crate::units::Rgb;
-use rayon::prelude::*;
 
 /// Direct light is to err by no more than this share of the error of indirect light, or this share of itself.
 const OF_INDIRECT: f64 = 0.5;
 const OF_VALUE: f64 = 0.002;
-/// Pieces of work between two looks at whether to go on.
-const BLOCK: usize = 1024;
+/// Texels by which the time of direct light is foreseen.
+const TRIED: usize = 128;
+/// Of the texels that a net leaves out, those that it will be refined by, as far as can be foreseen: half of them.
+const REFINED: f64 = 0.5;
 
 /// Reads the map over the part of the surface that each texel covers: direct light at places spread evenly over it,
 /// indirect light in its middle, each as [`MapReader`] has it. Then fills the borders of charts and makes the two
-/// sides of seams agree. `watch` is told the share of the work that is done.
+/// sides of seams agree. `watch` is told the share of the work that is done, as far as it can be foreseen.
 pub fn bake(
     scene: &Scene,
     map: &IlluminationMap,
@@ -35,7 +37,7 @@ pub fn bake(
     let ground = Ground::of(layout, &fragments);
     let places = Places { reader: MapReader::new(scene, map), layout, seed: map.provenance.seed };
     let mut baked = empty(layout);
-    let mut work = Work { watch, readings: 0 };
+    let mut work = Work::new(watch);
     let indirect = indirect(&places, &ground, &mut work)?;
     let direct = direct(&places, (&ground, &indirect), &mut work)?;
     for ((fragments, indirect), direct) in ground.texels.iter().zip(indirect).zip(direct) {
@@ -47,30 +49,6 @@ pub fn bake(
     dilate::fill(&mut baked);
     baked.seams = stitch::stitch(scene, &mut baked);
     Ok(baked)
-}
-
-/// Work done so far, and whoever watches it.
-struct Work<'a> {
-    watch: &'a mut dyn FnMut(f64) -> Watch,
-    readings: u64,
-}
-
-impl Work<'_> {
-    /// Does something to each of many, on all threads; results are in their order.
-    fn each<T: Sync, R: Send>(
-        &mut self,
-        all: &[T],
-        one: impl Fn(&T) -> R + Sync,
-    ) -> Result<Vec<R>, LightmapError> {
-        let mut done = Vec::with_capacity(all.len());
-        for block in all.chunks(BLOCK) {
-            if (self.watch)(done.len() as f64 / all.len() as f64) == Watch::Stop {
-                return Err(LightmapError::Stopped);
-            }
-            done.par_extend(block.par_iter().map(&one));
-        }
-        Ok(done)
-    }
 }
 
 fn empty(layout: &Layout) -> Lightmap {
@@ -93,9 +71,10 @@ fn indirect(
     ground: &Ground<'_>,
     work: &mut Work<'_>,
 ) -> Result<Vec<Option<IndirectReading>>, LightmapError> {
-    let surveys = work.each(&ground.texels, |fragments| places.survey(fragments))?;
+    let all = &ground.texels;
+    let surveys = work.each(all, After::default(), |fragments| places.survey(fragments))?;
     let charts = ground.charts();
-    let mut found = vec![None; ground.texels.len()];
+    let mut found = vec![None; all.len()];
     let mut wanted = Vec::new();
     for (number, (survey, asked)) in surveys.into_iter().enumerate() {
         work.readings += asked;
@@ -108,14 +87,8 @@ fn indirect(
             }
         }
     }
-    let mut net = Net::new(wanted);
-    for step in Step::ALL {
-        let chosen = net.chosen(step);
-        gather(places, &mut net, &chosen, work)?;
-    }
-    let left = net.left();
-    gather(places, &mut net, &left, work)?;
-    net.finish();
+    let direct_s = foresee_direct(places, (ground, &found), work)?;
+    let net = gather(places, Net::new(wanted), direct_s, work)?;
     for (wanted, light) in net.wanted.iter().zip(&net.light) {
         if let Light::Gathered(reading, _) | Light::Continued(reading) = light {
             found[wanted.number] = Some(*reading);
@@ -124,16 +97,52 @@ fn indirect(
     Ok(found)
 }
 
+/// Gathers light on a net, step by step, and continues it to all of its texels.
 fn gather(
     places: &Places<'_>,
-    net: &mut Net,
-    chosen: &[usize],
+    mut net: Net,
+    direct_s: f64,
     work: &mut Work<'_>,
-) -> Result<(), LightmapError> {
-    let gathered = work.each(chosen, |&k| places.gathered(net.wanted[k].place))?;
-    work.readings += chosen.len() as u64;
-    net.store(chosen, &gathered);
-    Ok(())
+) -> Result<Net, LightmapError> {
+    let steps = Step::ALL.into_iter().map(Some).chain([None]);
+    for step in steps {
+        let chosen = step.map_or_else(|| net.left(), |step| net.chosen(step));
+        let pieces = step.map_or(0.0, |step| net.foreseen(step, REFINED)) - chosen.len() as f64;
+        let after = After { pieces: pieces.max(0.0), other_s: direct_s };
+        let gathered = work.each(&chosen, after, |&k| places.gathered(net.wanted[k].place))?;
+        work.readings += chosen.len() as u64;
+        net.store(&chosen, &gathered);
+    }
+    net.finish();
+    Ok(net)
+}
+
+/// The time that direct light will take, s, by a few texels; where indirect light is not known yet, it is taken to err
+/// as it does elsewhere.
+fn foresee_direct(
+    places: &Places<'_>,
+    (ground, found): (&Ground<'_>, &[Option<IndirectReading>]),
+    work: &mut Work<'_>,
+) -> Result<f64, LightmapError> {
+    let errors = || found.iter().flatten().map(|reading| reading.error_lx);
+    let usual_lx = errors().sum::<f64>() / errors().count().max(1) as f64;
+    let numbers: Vec<usize> = (0..ground.texels.len()).collect();
+    work.foresee((&numbers, TRIED), |&number| {
+        let fragments = ground.texels[number];
+        let error_lx = found[number].map_or(usual_lx, |reading| reading.error_lx);
+        let needed = shadow::look(places, fragments).and_then(|direct| {
+            let goal_lx = goal_lx(error_lx, direct.lx.luminance());
+            shadow::needed(direct.variance, goal_lx)
+        });
+        if let Some(count) = needed {
+            shadow::look_closely(places, fragments, count);
+        }
+    })
+}
+
+/// What direct light may err by.
+fn goal_lx(indirect_error_lx: f64, value_lx: f64) -> f64 {
+    (OF_INDIRECT * indirect_error_lx).max(OF_VALUE * value_lx)
 }
 
 /// Direct light of the texels whose indirect light is known.
@@ -142,25 +151,30 @@ fn direct(
     (ground, indirect): (&Ground<'_>, &[Option<IndirectReading>]),
     work: &mut Work<'_>,
 ) -> Result<Vec<Option<Direct>>, LightmapError> {
-    let numbers: Vec<usize> = (0..ground.texels.len()).collect();
-    let look = |&number: &usize| {
-        indirect[number].and_then(|_| shadow::look(places, ground.texels[number]))
-    };
-    let mut found = work.each(&numbers, look)?;
+    let numbers: Vec<usize> =
+        (0..ground.texels.len()).filter(|&number| indirect[number].is_some()).collect();
+    let texel = |number: usize| ground.texels[number];
+    // As a rule one in four texels is looked at closely, with eight times the places.
+    let after = After { pieces: 2.0 * numbers.len() as f64, other_s: 0.0 };
+    let looks = work.each(&numbers, after, |&number| shadow::look(places, texel(number)))?;
     work.readings += u64::from(shadow::FEW) * numbers.len() as u64;
-    let close: Vec<(usize, u32)> = numbers
-        .into_iter()
-        .filter_map(|number| {
-            let (direct, indirect) = (found[number]?, indirect[number]?);
-            let value = (direct.lx + indirect.lx).luminance();
-            let goal_lx = (OF_INDIRECT * indirect.error_lx).max(OF_VALUE * value);
-            Some((number, shadow::needed(variance_about(ground, &found, number), goal_lx)?))
-        })
-        .collect();
-    let closely = |&(number, count): &(usize, u32)| {
-        shadow::look_closely(places, ground.texels[number], count)
+    let mut found = vec![None; ground.texels.len()];
+    numbers.iter().zip(looks).for_each(|(&number, look)| found[number] = look);
+    let about: Vec<f64> =
+        (0..found.len()).map(|number| variance_about(ground, &found, number)).collect();
+    for (direct, about) in found.iter_mut().zip(&about) {
+        // A few places may agree by chance: they are as uncertain as those around them.
+        *direct = direct.map(|direct| Direct { variance: *about, ..direct });
+    }
+    let closely = |number: usize| {
+        let (direct, indirect) = (found[number]?, indirect[number]?);
+        let goal_lx = goal_lx(indirect.error_lx, (direct.lx + indirect.lx).luminance());
+        Some((number, shadow::needed(direct.variance, goal_lx)?))
     };
-    let seen = work.each(&close, closely)?;
+    let close: Vec<(usize, u32)> = numbers.into_iter().filter_map(closely).collect();
+    let seen = work.each(&close, After::default(), |&(number, count)| {
+        shadow::look_closely(places, texel(number), count)
+    })?;
     for ((number, count), seen) in close.into_iter().zip(seen) {
         work.readings += u64::from(count);
         found[number] = seen.or(found[number]);

@@ -21,8 +21,10 @@ mod seams;
 mod shadow;
 mod solve;
 mod stitch;
+mod t_junctions;
 mod texels;
 mod unwrap;
+mod work;
 
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,8 @@
 //! trusted it is therefore gathered at one texel of every square of 8 x 8, then of every 4 x 4; what the second say is
 //! compared with what the first made them expect. Where that differs by more than is asked for, noise aside, squares of 2 x 2
 //! follow, and in the end every texel. Between, a plane is laid through the texels about (moving least squares), and half of the
-//! differences that were found counts as error: they shrink at least so much from net to net.
+//! differences that were found there, or at the texels that it leans on, counts as error: they shrink at least so much from
+//! net to net.
 
 use super::places::Place;
 use crate::engine::IndirectReading;
@@ -21,8 +22,12 @@ const SHRINK: f64 = 0.5;
 const OF_ERROR: f64 = 0.5;
 /// Planes lean by no more than what the spread of their places tells: this share of it is added both ways.
 const STIFFNESS: f64 = 0.1;
+/// Texels farther away than this are not read: half as far again as the widest squares are wide.
+const REACH: f64 = 12.0;
+/// Texels nearer than this weigh little more: one alone makes no plane.
+const SOFT: f64 = 2.0;
 /// Sum of the shares of a plane, taken as positive, beyond which it is a guess.
-const MOST_SHARES: f64 = 2.0;
+const MOST_SHARES: f64 = 3.0;
 
 /// A texel whose indirect light is wanted.
 #[derive(Clone, Copy, Debug)]
@@ -104,6 +109,19 @@ impl Net {
         Self { light: vec![Light::Waiting; wanted.len()], wanted, squares, by_place }
     }
 
+    /// How many texels will be gathered at in a step and after it: all of its squares, and that share of the rest.
+    pub(super) fn foreseen(&self, step: Step, share: f64) -> f64 {
+        let waiting = |of: &[Light]| of.iter().filter(|l| **l == Light::Waiting).count() as f64;
+        let squares = match step {
+            Step::Squares(_) => {
+                let all = self.parts(WIDEST / 2);
+                all.into_iter().filter(|square| !self.has_gathered(square)).count() as f64
+            }
+            Step::Refined(_) => 0.0,
+        };
+        squares + share * (waiting(&self.light) - squares)
+    }
+
     /// The texels to gather at in a step.
     pub(super) fn chosen(&self, step: Step) -> Vec<usize> {
         match step {
@@ -112,8 +130,9 @@ impl Net {
                 self.squares.iter().flat_map(of_square).collect()
             }
             Step::Refined(size) => {
-                let coarse = self.parts(4 * size);
-                let rough = coarse.into_iter().filter(|part| self.is_rough(part));
+                let rough = self.squares.iter().filter(|square| self.is_rough(square));
+                let parts = rough.flat_map(|square| self.split(square.clone(), 4 * size));
+                let rough = parts.filter(|part| self.is_rough(part));
                 rough.flat_map(|part| self.one_of_each(part, size)).collect()
             }
         }
@@ -165,7 +184,7 @@ impl Net {
         if !self.light[part.clone()].contains(&Light::Waiting) {
             return false;
         }
-        let Some(found) = self.found(part) else { return true };
+        let Some(found) = self.found_about(part) else { return true };
         let signal = (found.squared - found.noise).max(0.0) * SHRINK * SHRINK;
         let errors = self.light[part.clone()].iter().filter_map(|light| match light {
             Light::Gathered(reading, _) => Some(reading.error_lx),
@@ -175,6 +194,12 @@ impl Net {
             errors.fold((0.0, 0.0), |(sum, count), error| (sum + error, count + 1.0));
         let goal_lx = OF_ERROR * sum / f64::max(count, 1.0);
         signal > goal_lx * goal_lx
+    }
+
+    /// Mean differences in a part, or else in the square that it is part of.
+    fn found_about(&self, part: &Range<usize>) -> Option<Difference> {
+        let square = self.squares.partition_point(|square| square.end <= part.start);
+        self.found(part).or_else(|| self.found(&self.squares[square]))
     }
 
     /// Mean differences in a part.
@@ -203,7 +228,7 @@ impl Net {
                     let expected = self.continued(k);
                     Light::Gathered(
                         *reading,
-                        expected.map(|expected| difference(reading, &expected)),
+                        expected.map(|expected| difference(reading, &expected.reading)),
                     )
                 }
             })
@@ -223,12 +248,12 @@ impl Net {
     pub(super) fn finish(&mut self) {
         let mut continued = Vec::new();
         for part in self.parts(WIDEST / 2) {
-            let squared =
-                self.found(&part).or_else(|| self.found(&self.squares[self.square_of(part.start)]));
-            let squared = squared.map_or(0.0, |found| SHRINK * SHRINK * found.squared);
+            let found = self.found_about(&part);
+            let found = found.map_or(0.0, |found| found.squared);
             for k in part.filter(|&k| self.light[k] == Light::Waiting) {
-                if let Some(reading) = self.continued(k) {
-                    let error_lx = (reading.error_lx * reading.error_lx + squared).sqrt();
+                if let Some(Continued { reading, squared }) = self.continued(k) {
+                    let left = SHRINK * found.max(squared).sqrt();
+                    let error_lx = libm::hypot(reading.error_lx, left);
                     continued.push((k, IndirectReading { error_lx, ..reading }));
                 }
             }
@@ -238,23 +263,24 @@ impl Net {
         }
     }
 
-    fn square_of(&self, k: usize) -> usize {
-        self.squares.partition_point(|square| square.end <= k)
-    }
-
     /// Light of a texel by a plane through what was gathered about it; nothing if too little was.
-    fn continued(&self, k: usize) -> Option<IndirectReading> {
+    fn continued(&self, k: usize) -> Option<Continued> {
         let Wanted { at, kind, .. } = self.wanted[k];
         let [x, y] = square(at, WIDEST);
         let near = |c: usize| c.saturating_sub(1)..c + 2;
-        let mut about: Vec<([f64; 2], f64, IndirectReading)> = Vec::new();
+        let mut about: Vec<Node> = Vec::new();
         for place in near(y).flat_map(|y| near(x).map(move |x| [x, y])) {
             let Some(&number) = self.by_place.get(&(kind, place)) else { continue };
             for other in self.squares[number].clone() {
-                if let Light::Gathered(reading, _) = self.light[other] {
+                if let Light::Gathered(reading, difference) = self.light[other] {
                     let off = [0, 1].map(|c| self.wanted[other].at[c] as f64 - at[c] as f64);
                     let squared = off[0] * off[0] + off[1] * off[1];
-                    about.push((off, 1.0 / (squared * squared), reading));
+                    let inside = (1.0 - squared / (REACH * REACH)).max(0.0);
+                    if inside > 0.0 {
+                        let weight = (inside / (squared + SOFT * SOFT)).powi(2);
+                        let squared = difference.map_or(0.0, |difference| difference.squared);
+                        about.push(Node { off, weight, reading, squared });
+                    }
                 }
             }
         }
@@ -278,18 +304,33 @@ fn difference(found: &IndirectReading, expected: &IndirectReading) -> Difference
     Difference { squared: off_lx * off_lx, noise }
 }
 
-/// The value at nought of a plane through weighted readings: offsets, weights, values.
-fn plane(about: &[([f64; 2], f64, IndirectReading)]) -> Option<IndirectReading> {
+/// A texel that was gathered, near another.
+struct Node {
+    /// From that, texels.
+    off: [f64; 2],
+    weight: f64,
+    reading: IndirectReading,
+    /// Square of how it differed from what was expected, lx2.
+    squared: f64,
+}
+
+/// Light of a plane.
+struct Continued {
+    reading: IndirectReading,
+    /// Squares of differences, each as far as the plane leans on where it was found, lx2.
+    squared: f64,
+}
+
+/// The value at nought of a plane through weighted readings.
+fn plane(about: &[Node]) -> Option<Continued> {
     if about.len() < 2 {
         return None;
     }
-    let total: f64 = about.iter().map(|(_, weight, _)| weight).sum();
+    let total: f64 = about.iter().map(|node| node.weight).sum();
     let mean =
-        [0, 1].map(|k| about.iter().map(|(off, weight, _)| weight * off[k]).sum::<f64>() / total);
+        [0, 1].map(|k| about.iter().map(|node| node.weight * node.off[k]).sum::<f64>() / total);
     let spread = |j: usize, k: usize| {
-        let one = |(off, weight, _): &([f64; 2], f64, _)| {
-            weight * (off[j] - mean[j]) * (off[k] - mean[k])
-        };
+        let one = |node: &Node| node.weight * (node.off[j] - mean[j]) * (node.off[k] - mean[k]);
         about.iter().map(one).sum::<f64>() / total
     };
     let (xx, xy, yy) = (spread(0, 0), spread(0, 1), spread(1, 1));
@@ -298,18 +339,17 @@ fn plane(about: &[([f64; 2], f64, IndirectReading)]) -> Option<IndirectReading> 
     let (xx, yy) = (xx + stiff, yy + stiff);
     let determinant = xx * yy - xy * xy;
     let lean = [yy * mean[0] - xy * mean[1], xx * mean[1] - xy * mean[0]].map(|c| c / determinant);
-    let share = |(off, weight, _): &([f64; 2], f64, _)| {
+    let (mut lx, mut error_lx, mut noise) = (Rgb::BLACK, 0.0, 0.0);
+    let (mut squared, mut shares) = (0.0, 0.0);
+    for Node { off, weight, reading, squared: of_node } in about {
         let along = lean[0] * (off[0] - mean[0]) + lean[1] * (off[1] - mean[1]);
-        weight / total * (1.0 - along)
-    };
-    let (mut lx, mut error_lx, mut noise, mut shares) = (Rgb::BLACK, 0.0, 0.0, 0.0);
-    for one in about {
-        let (share, reading) = (share(one), one.2);
+        let share = weight / total * (1.0 - along);
         lx += reading.lx * share;
         error_lx += share.abs() * reading.error_lx;
         noise += share * share * reading.noise_lx * reading.noise_lx;
+        squared += share.abs() * of_node;
         shares += share.abs();
     }
     let reading = IndirectReading { lx: lx.map(|c| c.max(0.0)), error_lx, noise_lx: noise.sqrt() };
-    (shares <= MOST_SHARES).then_some(reading)
+    (shares <= MOST_SHARES).then_some(Continued { reading, squared })
 }

@@ -38,10 +38,11 @@ struct Pair {
 
 /// Adjusts the texels about all seams.
 pub(super) fn stitch(scene: &Scene, lightmap: &mut Lightmap) -> SeamReport {
-    let seams = seams::find(scene, &lightmap.layout);
+    let (seams, whole) = seams::find(scene, &lightmap.layout);
     let pairs: Vec<Pair> = seams.iter().flat_map(|seam| lookups(lightmap, seam)).collect();
     let mut report = SeamReport {
         edges: seams.len(),
+        t_junctions: seams.len() - whole,
         length_m: seams.iter().map(|s| (s.ends[1] - s.ends[0]).length()).sum(),
         before: jump(lightmap, &pairs),
         ..SeamReport::default()
