@@ -9,6 +9,7 @@ mod charts;
 mod clip;
 mod cover;
 mod dilate;
+mod edge;
 mod ground;
 mod layout;
 mod lit;

@@ -6,8 +6,9 @@
 //! gives way least, and what was only filled in beside a chart gives way first. Jumps that are left are no noise but the
 //! size of texels.
 
+use super::edge::Seam;
 use super::seam_report::{Jump, SeamReport};
-use super::seams::{self, Seam};
+use super::seams;
 use super::solve::{Row, solve};
 use super::texels::{Cover, Lightmap};
 use crate::scene::Scene;

@@ -1,6 +1,6 @@
 //! Edges that lie along a part of another: a wall in one piece above a skirting in three.
 
-use super::seams::{CREASE_COS, Edge, Seam, is_inside};
+use super::edge::{CREASE_COS, Edge, Seam, is_inside};
 use isolux_geometry::{Point, Vector};
 
 /// How far the ends of an edge may lie beside another, as a share of their coordinates: a few roundings of `f32`.
