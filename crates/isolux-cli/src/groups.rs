@@ -3,7 +3,8 @@
 use crate::console::{print, print_json, table};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
-use crate::flags::SolveFlags;
+use crate::flags::{LayoutName, SolveFlags};
+use crate::lightmap::{self, Planned};
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
@@ -14,6 +15,7 @@ use crate::{map_file, saved_run};
 use isolux::engine::{MixPart, SolveRequest, mix};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
+use isolux_formats::lightmap::Target;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -71,26 +73,15 @@ struct Turn<'a> {
 
 /// Solves all groups, writes their maps and the sum.
 pub(crate) fn run(
-    groups: &[Group],
+    (scene, groups): (&Scene, &[Group]),
     whole: &Run,
     flags: &SolveFlags,
     json: bool,
 ) -> Result<Outcome, Failure> {
     let started = Instant::now();
     let resume = flags.resume;
-    let mut outputs = Vec::new();
-    for group in groups {
-        let path = path_of(whole.output.path(), &group.name);
-        let output = OutputPath::check(&path, "glb")?;
-        if outputs.iter().any(|other: &OutputPath| other.path() == path) {
-            return Err(Failure::bad_input(format!(
-                "{}: would be the map of two groups; give them names that differ in letters or digits",
-                path.display()
-            )));
-        }
-        saved_run::check_writable(&output)?;
-        outputs.push(output);
-    }
+    let outputs = outputs(groups, whole.output)?;
+    let lightmap = planned((scene, &outputs), whole, flags)?;
     let (mut maps, mut reports) = (Vec::new(), Vec::new());
     let mut outcome = Outcome::Done;
     for (number, (group, output)) in groups.iter().zip(&outputs).enumerate() {
@@ -121,16 +112,70 @@ pub(crate) fn run(
         parts.map(|(group, map)| MixPart { scene: &group.scene, map, dimming: 1.0 }).collect();
     let (scene, map) = mix(&parts).map_err(|error| Failure::Refused(error.to_string()))?;
     map_file::write(whole.output, &scene, &map)?;
-    let report = Reports {
+    let mut report = Reports {
         sum: Report::of(&map, started.elapsed().as_secs_f64(), whole.output),
         groups: reports,
     };
+    if let Some(lightmap) = lightmap {
+        let lit = groups.iter().zip(&maps).map(|(group, map)| (&group.scene, map));
+        let lit: Vec<_> = lit.zip(&outputs).chain([((&scene, &map), whole.output)]).collect();
+        match bake(&lightmap, &lit)? {
+            Some(baked) => report = report.with_lightmaps(baked),
+            None => outcome = Outcome::Interrupted,
+        }
+    }
     if json {
         print_json(&report)?
     } else {
         print(&report.text())?
     }
     Ok(outcome)
+}
+
+/// Where the map of each group goes.
+fn outputs(groups: &[Group], sum: &OutputPath) -> Result<Vec<OutputPath>, Failure> {
+    let mut outputs = Vec::new();
+    for group in groups {
+        let path = path_of(sum.path(), &group.name);
+        let output = OutputPath::check(&path, "glb")?;
+        if outputs.iter().any(|other: &OutputPath| other.path() == path) {
+            return Err(Failure::bad_input(format!(
+                "{}: would be the map of two groups; give them names that differ in letters or digits",
+                path.display()
+            )));
+        }
+        saved_run::check_writable(&output)?;
+        outputs.push(output);
+    }
+    Ok(outputs)
+}
+
+/// One layout for all groups: they light the same surfaces.
+fn planned(
+    (scene, outputs): (&Scene, &[OutputPath]),
+    whole: &Run,
+    flags: &SolveFlags,
+) -> Result<Option<Planned>, Failure> {
+    if flags.layout.layout == LayoutName::Texels {
+        for output in outputs {
+            OutputPath::check(&output.path().with_extension("exr"), "exr")?;
+        }
+    }
+    Planned::ahead(&flags.layout, scene, (whole.output, whole.request.max_memory_bytes))
+}
+
+/// Writes all maps anew, as texels of one layout; nothing if interrupted, which leaves maps at vertices.
+fn bake(
+    planned: &Planned,
+    lit: &[((&Scene, &IlluminationMap), &OutputPath)],
+) -> Result<Option<Vec<lightmap::Report>>, Failure> {
+    let mut reports = Vec::new();
+    for &((scene, map), output) in lit {
+        note(Note::Info, format!("lightmap of {}", output.path().display()));
+        let Some(baked) = planned.bake(scene, map)? else { return Ok(None) };
+        reports.push(baked.write(scene, map, (output, Target::Viewer, true))?);
+    }
+    Ok(Some(reports))
 }
 
 struct SolvedGroup {
@@ -205,6 +250,16 @@ struct GroupReport {
 }
 
 impl Reports {
+    /// With the lightmaps of the groups, and of the sum.
+    fn with_lightmaps(self, baked: Vec<lightmap::Report>) -> Self {
+        let mut baked = baked.into_iter();
+        let groups = self
+            .groups
+            .into_iter()
+            .map(|group| GroupReport { report: group.report.with_lightmap(baked.next()), ..group });
+        Self { groups: groups.collect(), sum: self.sum.with_lightmap(baked.next()) }
+    }
+
     fn text(&self) -> String {
         let row = |g: &GroupReport| {
             let Report { accuracy_reached, time_s, map, .. } = &g.report;

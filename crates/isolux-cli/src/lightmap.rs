@@ -11,7 +11,7 @@ use crate::quantity::{show_bytes, show_count, show_seconds, show_share, signific
 use isolux::engine::Watch;
 use isolux::lightmap::{
     BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, OwnPlaces,
-    SeamReport, UvUnwrap, bake, plan,
+    SeamReport, UvUnwrap, bake, lit_area_m2, plan,
 };
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
@@ -41,16 +41,41 @@ impl Planned {
         scene: &Scene,
         (output, max_memory_bytes): (&OutputPath, u64),
     ) -> Result<Option<Self>, Failure> {
-        if flags.layout == LayoutName::Vertices {
-            return match flags.texels_per_meter {
-                None => Ok(None),
-                Some(_) => Err(Failure::bad_input(
-                    "--texels-per-meter is only for --layout texels; add it, or leave the density out",
-                )),
-            };
+        if flags.layout == LayoutName::Texels {
+            OutputPath::check(&output.path().with_extension("exr"), "exr")?;
         }
-        OutputPath::check(&output.path().with_extension("exr"), "exr")?;
-        Self::new(flags, scene, max_memory_bytes).map(Some)
+        Self::asked(flags, scene, max_memory_bytes)
+    }
+
+    /// The same where nothing is to be written.
+    pub(crate) fn asked(
+        flags: &LayoutFlags,
+        scene: &Scene,
+        max_memory_bytes: u64,
+    ) -> Result<Option<Self>, Failure> {
+        match (flags.layout, flags.texels_per_meter) {
+            (LayoutName::Texels, _) => Self::new(flags, scene, max_memory_bytes).map(Some),
+            (LayoutName::Vertices, None) => Ok(None),
+            (LayoutName::Vertices, Some(_)) => Err(Failure::bad_input(
+                "--texels-per-meter is only for --layout texels; add it, or leave the density out",
+            )),
+        }
+    }
+
+    /// What it will be.
+    pub(crate) fn sizes(&self, scene: &Scene) -> Sizes {
+        let Layout { width, height, pages, charts, texels_per_m, .. } = self.layout;
+        let of_surfaces = lit_area_m2(scene) * texels_per_m * texels_per_m;
+        Sizes {
+            width,
+            height,
+            pages,
+            charts,
+            texels_per_meter: texels_per_m,
+            texels: self.layout.texel_count() as u64,
+            texels_of_surfaces: of_surfaces.round() as u64,
+            memory_bytes: self.layout.texel_count() as u64 * BYTES_PER_TEXEL,
+        }
     }
 
     /// Lays out all surfaces and says what comes.
@@ -173,6 +198,34 @@ fn pages(count: u32) -> String {
     if count == 1 { "one page".to_owned() } else { format!("{count} pages") }
 }
 
+/// What `solve --dry-run` says of a lightmap.
+#[derive(Serialize)]
+pub(crate) struct Sizes {
+    width: u32,
+    height: u32,
+    pages: u32,
+    charts: u32,
+    texels_per_meter: f64,
+    texels: u64,
+    texels_of_surfaces: u64,
+    memory_bytes: u64,
+}
+
+impl Sizes {
+    /// For people.
+    pub(crate) fn text(&self) -> String {
+        format!(
+            "{} of {} x {} texels, about {} of them on surfaces, {} a metre, about {}",
+            pages(self.pages),
+            self.width,
+            self.height,
+            self.texels_of_surfaces,
+            significant(self.texels_per_meter, 3),
+            show_bytes(self.memory_bytes)
+        )
+    }
+}
+
 /// What `--json` says of a lightmap.
 #[derive(Serialize)]
 pub(crate) struct Report {
@@ -195,6 +248,7 @@ pub(crate) struct Report {
 #[derive(Serialize)]
 struct Seams {
     edges: usize,
+    t_junctions: usize,
     length_m: f64,
     before: JumpReport,
     after: JumpReport,
@@ -221,6 +275,7 @@ impl Seams {
         };
         Self {
             edges: seams.edges,
+            t_junctions: seams.t_junctions,
             // A sum of nothing is -0.
             length_m: seams.length_m + 0.0,
             before: jump(&seams.before),
@@ -274,7 +329,12 @@ impl Report {
         if self.seams.edges > 0 {
             all.push((
                 "  seams",
-                format!("{} edges, {} m", self.seams.edges, significant(self.seams.length_m, 3)),
+                format!(
+                    "{} edges, {} m, {} at T-junctions",
+                    self.seams.edges,
+                    significant(self.seams.length_m, 3),
+                    self.seams.t_junctions
+                ),
             ));
             all.push(("    largest jump before", jump(&self.seams.before)));
             all.push(("    and after stitching", jump(&self.seams.after)));

@@ -3,7 +3,7 @@
 use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
-use crate::flags::{LayoutName, ProgressStyle, SolveFlags};
+use crate::flags::{ProgressStyle, SolveFlags};
 use crate::lightmap::{self, Planned};
 use crate::notes::{Note, note, note_as_json};
 use crate::output::OutputPath;
@@ -13,6 +13,7 @@ use crate::solving::{Run, Solved, estimate, solve};
 use crate::{cache_samples, explain, groups, map_file, request, saved_run, source};
 use isolux::scene::Scene;
 use isolux_formats::lightmap::Target;
+use serde::Serialize;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
@@ -35,12 +36,14 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
             Some(groups) => groups::estimate(groups, &flags.scene, &asked.request)?,
             None => estimate(&scene, &flags.scene, &asked.request)?,
         };
-        return print_estimate(&estimate, json);
+        let memory_bytes = asked.request.max_memory_bytes;
+        let lightmap = Planned::asked(&flags.layout, &scene, memory_bytes)?;
+        let lightmap = lightmap.map(|planned| planned.sizes(&scene));
+        return print_estimate(&DryRun { estimate, lightmap }, json);
     };
     if let Some(groups) = groups {
-        refuse_texels(flags)?;
         let run = Run { source: &flags.scene, output: &output, request: &asked.request };
-        return groups::run(&groups, &run, flags, json);
+        return groups::run((&scene, &groups), &run, flags, json);
     }
     saved_run::check_writable(&output)?;
     let lightmap =
@@ -95,21 +98,23 @@ fn bake(
     }
 }
 
-fn refuse_texels(flags: &SolveFlags) -> Result<(), Failure> {
-    match flags.layout.layout {
-        LayoutName::Vertices => Ok(()),
-        LayoutName::Texels => Err(Failure::bad_input(
-            "--layout texels cannot be used with --group; mix the groups first, then `export --layout texels`",
-        )),
-    }
+/// What a run would need.
+#[derive(Serialize)]
+struct DryRun {
+    #[serde(flatten)]
+    estimate: Estimate,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lightmap: Option<lightmap::Sizes>,
 }
 
-fn print_estimate(estimate: &Estimate, json: bool) -> Result<Outcome, Failure> {
+fn print_estimate(run: &DryRun, json: bool) -> Result<Outcome, Failure> {
     if json {
-        print_json(estimate)?;
+        print_json(run)?;
     } else {
-        let [receivers, memory, time] = estimate.shown();
-        print(&facts(&[("receivers", receivers), ("memory", memory), ("time", time)]))?;
+        let [receivers, memory, time] = run.estimate.shown();
+        let mut all = vec![("receivers", receivers), ("memory", memory), ("time", time)];
+        all.extend(run.lightmap.as_ref().map(|sizes| ("lightmap", sizes.text())));
+        print(&facts(&all))?;
     }
     Ok(Outcome::Done)
 }

@@ -192,3 +192,71 @@ fn too_many_texels_are_refused() {
     }
     assert_eq!(home.names(), ["m.glb"]);
 }
+
+const ROOM: &str = "name = \"two lamps\"\n[materials.grey]\ndiffuse = 0.5\n\
+    [[geometry]]\nbox = { min = [0, 0, 0], max = [4, 3, 2.5], inward = true }\nmaterial = \"grey\"\n\
+    [[luminaire]]\ngroup = \"left\"\nposition = [1, 1.5, 2]\nisotropic = { intensity_cd = 100 }\n\
+    [[luminaire]]\ngroup = \"right\"\nposition = [3, 1.5, 1]\nisotropic = { intensity_cd = 60 }\n";
+
+/// Bits of all places in the lightmap of a file.
+fn places(glb: &Glb) -> Vec<[u8; 4]> {
+    let meshes = glb.json["meshes"].as_array().unwrap().iter();
+    let primitives = meshes.flat_map(|mesh| mesh["primitives"].as_array().unwrap());
+    primitives.flat_map(|p| glb.words(&p["attributes"]["TEXCOORD_1"])).collect()
+}
+
+#[test]
+fn lightmaps_of_groups_lie_alike_and_add_up() {
+    let home = Home::new();
+    home.file("room.toml", ROOM);
+    let dense = ["--layout", "texels", "--texels-per-meter", "3"];
+    let solve = ["solve", "room.toml", "-o", "map.glb", "--group", "--accuracy", "3%", "--json"];
+    let ran = home.run(&[&solve[..], &dense].concat());
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let report = ran.json();
+    assert_eq!(report["groups"][1]["lightmap"]["files"][1], "map.right.exr", "{report}");
+    let names = ["map", "map.left", "map.right"];
+    let [sum, left, right] = names.map(|name| Page::read(&home.path(&format!("{name}.exr"))));
+    let expected = places(&Glb::read(&home.path("map.glb")));
+    assert!(expected.len() > 8);
+    let (mut known, mut outside) = (0, 0);
+    for texel in 0..sum.photometric.len() {
+        let error = sum.errors[texel].hypot(left.errors[texel]).hypot(right.errors[texel]);
+        if error.is_nan() {
+            continue;
+        }
+        known += 1;
+        let off = sum.photometric[texel] - left.photometric[texel] - right.photometric[texel];
+        outside += usize::from(off.abs() > 1.96 * error);
+    }
+    assert_eq!(known as u64, report["lightmap"]["texels_known"].as_u64().unwrap());
+    // Intervals of 95 %; a few texels at the rims of charts err by more than chance would have it.
+    assert!(20 * outside < known, "{outside} of {known}");
+    // However one comes to a lightmap of these surfaces, it lies as the others.
+    let mixed = home.run(&["mix", "map.glb", "--dim", "left=50%", "-o", "dim.glb"]);
+    assert_eq!(mixed.code, 0, "{mixed:?}");
+    for from in ["map.left", "dim"] {
+        let export = ["export", &format!("{from}.glb"), "-o", "export.glb", "--target", "three"];
+        let ran = home.run(&[&export[..], &dense].concat());
+        assert_eq!(ran.code, 0, "{ran:?}");
+        assert_eq!(places(&Glb::read(&home.path("export.glb"))), expected, "{from}");
+    }
+    for name in names {
+        assert_eq!(places(&Glb::read(&home.path(&format!("{name}.glb")))), expected, "{name}");
+    }
+}
+
+#[test]
+fn a_dry_run_tells_the_size_of_a_lightmap() {
+    let home = Home::new();
+    let solve = ["solve", "builtin:cube", "--dry-run", "--json"];
+    let texels = ["--layout", "texels", "--texels-per-meter", "2"];
+    assert_eq!(home.run(&solve).json()["lightmap"], Value::Null);
+    let sizes = home.run(&[&solve[..], &texels].concat()).json()["lightmap"].clone();
+    assert_eq!(sizes["pages"], 1, "{sizes}");
+    // Six faces of 10 m, 4 texels a square metre.
+    assert_eq!(sizes["texels_of_surfaces"], 2400, "{sizes}");
+    let size = |name: &str| sizes[name].as_u64().unwrap();
+    assert_eq!(size("texels"), size("width") * size("height"));
+    assert!(home.names().is_empty());
+}

@@ -1,5 +1,7 @@
 //! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
 
+mod parts;
+
 use super::accumulate::mean_and_variance;
 use super::direct::{Goal, Lighting, Measured};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
@@ -13,6 +15,7 @@ use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::Ray;
+pub use parts::{IndirectReading, Told};
 
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
@@ -147,11 +150,7 @@ impl<'a> MapReader<'a> {
             return Some((stored, at));
         };
         let edge_m = trust::edge_at_m(&self.map.elements, &at);
-        let limit_lx = fresh.above_lx.unwrap_or(f64::INFINITY);
-        let is_trusted = stored.standing == Standing::Open
-            && stored.interpolation_error_lx <= limit_lx
-            && !trust::is_beset(self.scene, &at, edge_m);
-        let indirect = if is_trusted {
+        let indirect = if self.is_trusted(&stored, &at, edge_m) {
             self.with_interpolation_error(stored)
         } else {
             let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
@@ -159,6 +158,14 @@ impl<'a> MapReader<'a> {
             self.gathered(stored, trial, fresh.lookup_lx)
         };
         Some((indirect, at))
+    }
+
+    /// Whether what the map tells of a place on an element of such edges is to be trusted.
+    fn is_trusted(&self, stored: &Illuminance, at: &SurfacePoint, edge_m: f64) -> bool {
+        let limit_lx = self.map.provenance.fresh.and_then(|fresh| fresh.above_lx);
+        stored.standing == Standing::Open
+            && stored.interpolation_error_lx <= limit_lx.unwrap_or(f64::INFINITY)
+            && !trust::is_beset(self.scene, at, edge_m)
     }
 
     /// A value of the map with what interpolation is expected to err by. Half of the error of the
@@ -242,28 +249,6 @@ impl<'a> MapReader<'a> {
             standard_error_lx: stored.indirect_standard_error_lx,
             ..stored
         })
-    }
-
-    /// The parts of [`MapReader::at`] apart, for means over a surface: direct light afresh, caustics of the map
-    /// included, and the variance of its photometric value. Where luminaires are emitting surfaces it is one estimate with
-    /// no variance of its own: its noise is part of what places differ by. `None` where the map knows nothing.
-    pub fn direct_at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<(Rgb, f64)> {
-        let stored = self.map.interpolate(triangle, back, u, v)?;
-        let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
-        let (direct, variance) = if self.lighting.is_measured_once() {
-            self.direct(&at)
-        } else {
-            let sequence = Sequence::new(place_key(at.point).with(0));
-            (self.lighting.illuminance(&at, &mut Dice::new(sequence, 0)), 0.0)
-        };
-        Some((direct + stored.caustic_lx, variance))
-    }
-
-    /// The other part: indirect light, and the standard error of its photometric value and of the caustics, as
-    /// [`MapReader::at`] counts it.
-    pub fn indirect_at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<(Rgb, f64)> {
-        let (read, _) = self.indirect(SurfacePoint::new(self.scene, triangle, back, u, v))?;
-        Some((read.indirect_lx, self.indirect_error_lx(&read)))
     }
 
     /// As [`MapReader::at`] at a point on a surface, on the side that `normal` points to. `None` where no

@@ -1,35 +1,32 @@
 //! From a map to the values of texels.
 
 use super::cover::{self, Fragment};
+use super::ground::Ground;
 use super::layout::Layout;
+use super::net::{Light, Net, Step, Wanted};
+use super::places::{Places, Survey};
 use super::plan::LightmapError;
 use super::seam_report::SeamReport;
+use super::shadow::{self, Direct};
 use super::texels::{Cover, Lightmap};
+use super::work::{After, Work};
 use super::{dilate, stitch};
-use crate::engine::{MapReader, Watch};
+use crate::engine::{IndirectReading, MapReader, Watch};
 use crate::map::IlluminationMap;
-use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use rayon::prelude::*;
 
-/// Places at which the direct light of a texel is evaluated.
-const PLACES: u32 = 4;
-/// The same where these disagree: at the borders of shadows.
-const MANY_PLACES: u32 = 32;
-/// They disagree if their mean is less certain than this share of the error of indirect light, and than this
-/// share of itself.
+/// Direct light is to err by no more than this share of the error of indirect light, or this share of itself.
 const OF_INDIRECT: f64 = 0.5;
 const OF_VALUE: f64 = 0.002;
-/// Indirect light is smooth: it is read in the middle of the largest parts of a texel, those of at least this share.
-const LARGE: f32 = 0.1;
-const MOST_MIDDLES: usize = 3;
-/// Texels between two looks at whether to go on.
-const BLOCK: usize = 2048;
+/// Texels by which the time of direct light is foreseen.
+const TRIED: usize = 128;
+/// Of the texels that a net leaves out, those that it will be refined by, as far as can be foreseen: half of them.
+const REFINED: f64 = 0.5;
 
 /// Reads the map over the part of the surface that each texel covers: direct light at places spread evenly over it,
 /// indirect light in its middle, each as [`MapReader`] has it. Then fills the borders of charts and makes the two
-/// sides of seams agree. `watch` is told the share of the work that is done.
+/// sides of seams agree. `watch` is told the share of the work that is done, as far as it can be foreseen.
 pub fn bake(
     scene: &Scene,
     map: &IlluminationMap,
@@ -37,19 +34,17 @@ pub fn bake(
     watch: &mut dyn FnMut(f64) -> Watch,
 ) -> Result<Lightmap, LightmapError> {
     let fragments = cover::fragments(scene, layout);
-    let texels: Vec<&[Fragment]> = fragments.chunk_by(|a, b| a.texel == b.texel).collect();
-    let baker = Baker { reader: MapReader::new(scene, map), layout, seed: map.provenance.seed };
+    let ground = Ground::of(layout, &fragments);
+    let places = Places { reader: MapReader::new(scene, map), layout, seed: map.provenance.seed };
     let mut baked = empty(layout);
-    for (done, block) in texels.chunks(BLOCK).enumerate() {
-        if watch((done * BLOCK) as f64 / texels.len() as f64) == Watch::Stop {
-            return Err(LightmapError::Stopped);
-        }
-        let values: Vec<Value> = block.par_iter().map(|fragments| baker.texel(fragments)).collect();
-        for (fragments, value) in block.iter().zip(values) {
-            value.store(fragments, &mut baked);
-        }
+    let mut work = Work::new(watch);
+    let indirect = indirect(&places, &ground, &mut work)?;
+    let direct = direct(&places, (&ground, &indirect), &mut work)?;
+    for ((fragments, indirect), direct) in ground.texels.iter().zip(indirect).zip(direct) {
+        store(fragments, indirect.zip(direct), &mut baked);
     }
-    drop(texels);
+    baked.readings = work.readings;
+    drop(ground);
     drop(fragments);
     dilate::fill(&mut baked);
     baked.seams = stitch::stitch(scene, &mut baked);
@@ -70,154 +65,149 @@ fn empty(layout: &Layout) -> Lightmap {
     }
 }
 
-struct Baker<'a> {
-    reader: MapReader<'a>,
-    layout: &'a Layout,
-    seed: u64,
-}
-
-/// A place on a side.
-#[derive(Clone, Copy)]
-struct Place {
-    side: u32,
-    at: [f64; 2],
-}
-
-/// What the map says over a texel.
-struct Value {
-    /// Illuminance, and the standard error of its photometric value, lx.
-    known: Option<(Rgb, f64)>,
-    coverage: f64,
-    readings: u64,
-}
-
-impl Value {
-    fn store(&self, fragments: &[Fragment], into: &mut Lightmap) {
-        let texel = fragments[0].texel as usize;
-        let largest = fragments.iter().max_by(|a, b| a.share.total_cmp(&b.share));
-        into.owners[texel] = largest.map_or(0, |fragment| fragment.side);
-        into.readings += self.readings;
-        into.covers[texel] = Cover::Unknown;
-        if let Some((lx, error_lx)) = self
-            .known
-            .filter(|(lx, error)| lx.0.iter().chain([error]).all(|c| (*c as f32).is_finite()))
-        {
-            into.covers[texel] = Cover::Known;
-            into.shown_lx[texel] = lx.0.map(|c| c as f32);
-            into.standard_errors_lx[texel] = error_lx as f32;
-            into.coverage[texel] = self.coverage as f32;
-        }
-    }
-}
-
-/// Means over places.
-struct Direct {
-    lx: Rgb,
-    /// Variance of the mean of the photometric value: of the places chosen, and of the readings.
-    spread: f64,
-    noise: f64,
-    known: f64,
-    /// One of the places that the map knows.
-    place: Place,
-}
-
-impl<'a> Baker<'a> {
-    fn texel(&self, fragments: &[Fragment]) -> Value {
-        let share = fragments.iter().map(|f| f64::from(f.share)).sum::<f64>().min(1.0);
-        let key = Key::new(self.seed).with(11).with(u64::from(fragments[0].texel));
-        let mut readings = u64::from(PLACES);
-        let Some(first) = self.direct(fragments, PLACES, key.with(0)) else {
-            return Value { known: None, coverage: 0.0, readings };
-        };
-        let Some((indirect_lx, error_lx, middles)) = self.indirect(fragments, first.place) else {
-            return Value { known: None, coverage: 0.0, readings };
-        };
-        readings += middles;
-        let value = (first.lx + indirect_lx).luminance();
-        let goal = (OF_INDIRECT * error_lx).max(OF_VALUE * value);
-        let direct = if first.spread <= goal * goal {
-            first
-        } else {
-            // With numbers of its own: who goes on where the first few disagree must not count them.
-            readings += u64::from(MANY_PLACES);
-            self.direct(fragments, MANY_PLACES, key.with(1)).unwrap_or(first)
-        };
-        let error_lx = (error_lx * error_lx + direct.spread + direct.noise).sqrt();
-        let known = Some((direct.lx + indirect_lx, error_lx));
-        Value { known, coverage: share * direct.known, readings }
-    }
-
-    /// Direct light at so many places, those that the map knows.
-    fn direct(&self, fragments: &[Fragment], count: u32, key: Key) -> Option<Direct> {
-        let sequence = Sequence::new(key);
-        let area_m2: f64 = fragments.iter().map(|f| f64::from(f.area_m2)).sum();
-        let read = |index: u32| {
-            let place = self.place(fragments, area_m2, sequence.pair(index, 0));
-            let (lx, variance) = self.read(place, MapReader::direct_at)?;
-            Some((place, lx, variance))
-        };
-        let found: Vec<(Place, Rgb, f64)> = (0..count).filter_map(read).collect();
-        let n = found.len() as f64;
-        let place = found.first()?.0;
-        let lx = found.iter().map(|f| f.1).sum::<Rgb>() / n;
-        let squared = |f: &(Place, Rgb, f64)| (f.1.luminance() - lx.luminance()).powi(2);
-        // A single known place says nothing about the others: as if they spread by its own value.
-        let spread = match found.len() {
-            1 => lx.luminance().powi(2),
-            _ => found.iter().map(squared).sum::<f64>() / (n - 1.0) / n,
-        };
-        let noise = found.iter().map(|f| f.2).sum::<f64>() / (n * n);
-        Some(Direct { lx, spread, noise, known: n / f64::from(count), place })
-    }
-
-    /// Indirect light in the middles of the largest parts, its error as if those had all of it in common, and the
-    /// number of readings.
-    fn indirect(&self, fragments: &[Fragment], known: Place) -> Option<(Rgb, f64, u64)> {
-        let whole: f32 = fragments.iter().map(|f| f.area_m2).sum();
-        let mut largest: Vec<&Fragment> =
-            fragments.iter().filter(|f| f.area_m2 >= LARGE * whole).collect();
-        largest.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
-        largest.truncate(MOST_MIDDLES);
-        let middle = |f: &&Fragment| {
-            let at = cover::polygon(self.layout, f).centroid();
-            let read = self.read(Place { side: f.side, at }, MapReader::indirect_at)?;
-            Some((f64::from(f.area_m2), read))
-        };
-        let read: Vec<(f64, (Rgb, f64))> = largest.iter().filter_map(middle).collect();
-        let area_m2: f64 = read.iter().map(|(area, _)| area).sum();
-        if read.is_empty() {
-            let (lx, error_lx) = self.read(known, MapReader::indirect_at)?;
-            return Some((lx, error_lx, 1));
-        }
-        let lx = read.iter().map(|(area, (lx, _))| *lx * (area / area_m2)).sum();
-        let error_lx = read.iter().map(|(area, (_, error))| error * (area / area_m2)).sum();
-        Some((lx, error_lx, read.len() as u64))
-    }
-
-    /// The place for a point of the unit square, evenly over the area on the surface.
-    fn place(&self, fragments: &[Fragment], area_m2: f64, [a, b]: [f64; 2]) -> Place {
-        let mut left = a * area_m2;
-        let mut chosen = (&fragments[0], 0.0);
-        for fragment in fragments {
-            let area = f64::from(fragment.area_m2);
-            chosen = (fragment, (left / area).clamp(0.0, 1.0));
-            if left < area {
-                break;
+/// Indirect light of all texels: as the map tells it, or gathered on a net.
+fn indirect(
+    places: &Places<'_>,
+    ground: &Ground<'_>,
+    work: &mut Work<'_>,
+) -> Result<Vec<Option<IndirectReading>>, LightmapError> {
+    let all = &ground.texels;
+    let surveys = work.each(all, After::default(), |fragments| places.survey(fragments))?;
+    let charts = ground.charts();
+    let mut found = vec![None; all.len()];
+    let mut wanted = Vec::new();
+    for (number, (survey, asked)) in surveys.into_iter().enumerate() {
+        work.readings += asked;
+        match survey {
+            Survey::Unknown => {}
+            Survey::Told(reading) => found[number] = Some(reading),
+            Survey::Wanted { place, in_gap } => {
+                let (at, kind) = (ground.place(number), (charts[number], in_gap));
+                wanted.push(Wanted { number, at, kind, place });
             }
-            left -= area;
         }
-        let (fragment, along) = chosen;
-        let at = cover::polygon(self.layout, fragment).point([along, b]);
-        Place { side: fragment.side, at }
     }
+    let direct_s = foresee_direct(places, (ground, &found), work)?;
+    let net = gather(places, Net::new(wanted), direct_s, work)?;
+    for (wanted, light) in net.wanted.iter().zip(&net.light) {
+        if let Light::Gathered(reading, _) | Light::Continued(reading) = light {
+            found[wanted.number] = Some(*reading);
+        }
+    }
+    Ok(found)
+}
 
-    fn read(
-        &self,
-        place: Place,
-        how: impl Fn(&MapReader<'a>, u32, bool, f64, f64) -> Option<(Rgb, f64)>,
-    ) -> Option<(Rgb, f64)> {
-        let side = &self.layout.sides[place.side as usize];
-        let [u, v] = cover::weights(self.layout, place.side, place.at);
-        how(&self.reader, side.triangle, side.back, u, v)
+/// Gathers light on a net, step by step, and continues it to all of its texels.
+fn gather(
+    places: &Places<'_>,
+    mut net: Net,
+    direct_s: f64,
+    work: &mut Work<'_>,
+) -> Result<Net, LightmapError> {
+    let steps = Step::ALL.into_iter().map(Some).chain([None]);
+    for step in steps {
+        let chosen = step.map_or_else(|| net.left(), |step| net.chosen(step));
+        let pieces = step.map_or(0.0, |step| net.foreseen(step, REFINED)) - chosen.len() as f64;
+        let after = After { pieces: pieces.max(0.0), other_s: direct_s };
+        let gathered = work.each(&chosen, after, |&k| places.gathered(net.wanted[k].place))?;
+        work.readings += chosen.len() as u64;
+        net.store(&chosen, &gathered);
     }
+    net.finish();
+    Ok(net)
+}
+
+/// The time that direct light will take, s, by a few texels; where indirect light is not known yet, it is taken to err
+/// as it does elsewhere.
+fn foresee_direct(
+    places: &Places<'_>,
+    (ground, found): (&Ground<'_>, &[Option<IndirectReading>]),
+    work: &mut Work<'_>,
+) -> Result<f64, LightmapError> {
+    let errors = || found.iter().flatten().map(|reading| reading.error_lx);
+    let usual_lx = errors().sum::<f64>() / errors().count().max(1) as f64;
+    let numbers: Vec<usize> = (0..ground.texels.len()).collect();
+    work.foresee((&numbers, TRIED), |&number| {
+        let fragments = ground.texels[number];
+        let error_lx = found[number].map_or(usual_lx, |reading| reading.error_lx);
+        let needed = shadow::look(places, fragments).and_then(|direct| {
+            let goal_lx = goal_lx(error_lx, direct.lx.luminance());
+            shadow::needed(direct.variance, goal_lx)
+        });
+        if let Some(count) = needed {
+            shadow::look_closely(places, fragments, count);
+        }
+    })
+}
+
+/// What direct light may err by.
+fn goal_lx(indirect_error_lx: f64, value_lx: f64) -> f64 {
+    (OF_INDIRECT * indirect_error_lx).max(OF_VALUE * value_lx)
+}
+
+/// Direct light of the texels whose indirect light is known.
+fn direct(
+    places: &Places<'_>,
+    (ground, indirect): (&Ground<'_>, &[Option<IndirectReading>]),
+    work: &mut Work<'_>,
+) -> Result<Vec<Option<Direct>>, LightmapError> {
+    let numbers: Vec<usize> =
+        (0..ground.texels.len()).filter(|&number| indirect[number].is_some()).collect();
+    let texel = |number: usize| ground.texels[number];
+    // As a rule one in four texels is looked at closely, with eight times the places.
+    let after = After { pieces: 2.0 * numbers.len() as f64, other_s: 0.0 };
+    let looks = work.each(&numbers, after, |&number| shadow::look(places, texel(number)))?;
+    work.readings += u64::from(shadow::FEW) * numbers.len() as u64;
+    let mut found = vec![None; ground.texels.len()];
+    numbers.iter().zip(looks).for_each(|(&number, look)| found[number] = look);
+    let about: Vec<f64> =
+        (0..found.len()).map(|number| variance_about(ground, &found, number)).collect();
+    for (direct, about) in found.iter_mut().zip(&about) {
+        // A few places may agree by chance: they are as uncertain as those around them.
+        *direct = direct.map(|direct| Direct { variance: *about, ..direct });
+    }
+    let closely = |number: usize| {
+        let (direct, indirect) = (found[number]?, indirect[number]?);
+        let goal_lx = goal_lx(indirect.error_lx, (direct.lx + indirect.lx).luminance());
+        Some((number, shadow::needed(direct.variance, goal_lx)?))
+    };
+    let close: Vec<(usize, u32)> = numbers.into_iter().filter_map(closely).collect();
+    let seen = work.each(&close, After::default(), |&(number, count)| {
+        shadow::look_closely(places, texel(number), count)
+    })?;
+    for ((number, count), seen) in close.into_iter().zip(seen) {
+        work.readings += u64::from(count);
+        found[number] = seen.or(found[number]);
+    }
+    Ok(found)
+}
+
+/// How much places differ in a texel, or in the mean over those around it, whichever is more: a few may agree by
+/// chance where a shadow ends.
+fn variance_about(ground: &Ground<'_>, found: &[Option<Direct>], number: usize) -> f64 {
+    let own = found[number].map_or(0.0, |direct| direct.variance);
+    let (mut sum, mut count) = (own, 1.0);
+    for direct in ground.around(number).filter_map(|other| found[other]) {
+        sum += direct.variance;
+        count += 1.0;
+    }
+    own.max(sum / count)
+}
+
+fn store(fragments: &[Fragment], known: Option<(IndirectReading, Direct)>, into: &mut Lightmap) {
+    let texel = fragments[0].texel as usize;
+    let largest = fragments.iter().max_by(|a, b| a.share.total_cmp(&b.share));
+    into.owners[texel] = largest.map_or(0, |fragment| fragment.side);
+    into.covers[texel] = Cover::Unknown;
+    let Some((indirect, direct)) = known else { return };
+    let Rgb(lx) = direct.lx + indirect.lx;
+    let error_lx = (indirect.error_lx * indirect.error_lx + direct.variance).sqrt();
+    if !lx.iter().chain([&error_lx]).all(|c| (*c as f32).is_finite()) {
+        return;
+    }
+    let share = fragments.iter().map(|f| f64::from(f.share)).sum::<f64>().min(1.0);
+    into.covers[texel] = Cover::Known;
+    into.shown_lx[texel] = lx.map(|c| c as f32);
+    into.standard_errors_lx[texel] = error_lx as f32;
+    into.coverage[texel] = (share * direct.known) as f32;
 }

@@ -9,16 +9,23 @@ mod charts;
 mod clip;
 mod cover;
 mod dilate;
+mod edge;
+mod ground;
 mod layout;
 mod lit;
+mod net;
 mod own_places;
+mod places;
 mod plan;
 mod seam_report;
 mod seams;
+mod shadow;
 mod solve;
 mod stitch;
+mod t_junctions;
 mod texels;
 mod unwrap;
+mod work;
 
 #[cfg(test)]
 mod tests;

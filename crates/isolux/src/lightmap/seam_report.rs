@@ -20,6 +20,8 @@ pub struct Jump {
 pub struct SeamReport {
     /// Number of edges at which charts meet and the surface is smooth.
     pub edges: usize,
+    /// Those of them at which an edge lies along a part of another.
+    pub t_junctions: usize,
     /// Their length, m.
     pub length_m: f64,
     /// Before.

@@ -1,34 +1,14 @@
 //! Edges at which the surface goes on smoothly and the chart does not.
 
+use super::edge::{CREASE_COS, Edge, Seam, is_inside};
 use super::layout::Layout;
+use super::t_junctions;
 use crate::scene::Scene;
-use isolux_geometry::{Normal, Point};
+use isolux_geometry::Point;
 
-/// As elements have it: normals within one degree belong to one smooth surface.
-const CREASE_COS: f64 = 0.999_847_7;
-/// Nearer than this in texels, both sides of an edge lie in the same place: inside a chart.
-const SAME_TEXELS: f64 = 1e-3;
-
-/// An edge and where its two sides lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Seam {
-    /// Ends of the edge, m.
-    pub(super) ends: [Point; 2],
-    /// Of both sides: the page, and both ends in texels.
-    pub(super) sides: [(u32, [[f64; 2]; 2]); 2],
-}
-
-/// An edge of a side; ends in the order of their coordinates.
-#[derive(Clone, Copy)]
-struct Edge {
-    ends: [Point; 2],
-    normals: [Normal; 2],
-    page: u32,
-    texels: [[f64; 2]; 2],
-}
-
-/// All seams, found by the places of their ends: of whatever objects.
-pub(super) fn find(scene: &Scene, layout: &Layout) -> Vec<Seam> {
+/// All seams, of whatever objects: first those of edges with the same ends, whose number comes with them, then
+/// those of edges that have a part in common.
+pub(super) fn find(scene: &Scene, layout: &Layout) -> (Vec<Seam>, usize) {
     let mut edges: Vec<([[u64; 3]; 2], Edge)> = Vec::with_capacity(3 * layout.sides.len());
     for side in &layout.sides {
         let points = scene.triangle(side.triangle).corners;
@@ -50,7 +30,11 @@ pub(super) fn find(scene: &Scene, layout: &Layout) -> Vec<Seam> {
     }
     // Stable: edges at one place stay in the order of the sides.
     edges.sort_by_key(|(key, _)| *key);
-    edges.chunk_by(|a, b| a.0 == b.0).flat_map(pairs).collect()
+    let runs = || edges.chunk_by(|a, b| a.0 == b.0);
+    let mut seams: Vec<Seam> = runs().flat_map(pairs).collect();
+    let whole = seams.len();
+    seams.extend(t_junctions::find(runs().flat_map(alone).collect()));
+    (seams, whole)
 }
 
 /// Coordinates as whole numbers, with one zero.
@@ -62,9 +46,7 @@ fn key(point: Point) -> [u64; 3] {
 fn pairs(run: &[([[u64; 3]; 2], Edge)]) -> Vec<Seam> {
     let mut found = Vec::new();
     for (index, (_, a)) in run.iter().enumerate() {
-        let smooth = |(_, b): &&([[u64; 3]; 2], Edge)| {
-            (0..2).all(|end| a.normals[end].dot(b.normals[end]) >= CREASE_COS)
-        };
+        let smooth = |(_, b): &&([[u64; 3]; 2], Edge)| is_smooth(a, b);
         if let Some((_, b)) = run[index + 1..].iter().find(smooth).filter(|(_, b)| !is_inside(a, b))
         {
             let sides = [(a.page, a.texels), (b.page, b.texels)];
@@ -74,9 +56,15 @@ fn pairs(run: &[([[u64; 3]; 2], Edge)]) -> Vec<Seam> {
     found
 }
 
-fn is_inside(a: &Edge, b: &Edge) -> bool {
-    let near = |p: [f64; 2], q: [f64; 2]| {
-        (p[0] - q[0]).abs() < SAME_TEXELS && (p[1] - q[1]).abs() < SAME_TEXELS
+/// Edges that no other continues smoothly.
+fn alone(run: &[([[u64; 3]; 2], Edge)]) -> Vec<Edge> {
+    let is_alone = |&(index, (_, a)): &(usize, &([[u64; 3]; 2], Edge))| {
+        let mut others = run.iter().enumerate().filter(|(other, _)| *other != index);
+        a.ends[0] != a.ends[1] && !others.any(|(_, (_, b))| is_smooth(a, b))
     };
-    a.page == b.page && (0..2).all(|end| near(a.texels[end], b.texels[end]))
+    run.iter().enumerate().filter(is_alone).map(|(_, (_, edge))| *edge).collect()
+}
+
+fn is_smooth(a: &Edge, b: &Edge) -> bool {
+    (0..2).all(|end| a.normals[end].dot(b.normals[end]) >= CREASE_COS)
 }

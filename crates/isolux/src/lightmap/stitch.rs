@@ -6,8 +6,9 @@
 //! gives way least, and what was only filled in beside a chart gives way first. Jumps that are left are no noise but the
 //! size of texels.
 
+use super::edge::Seam;
 use super::seam_report::{Jump, SeamReport};
-use super::seams::{self, Seam};
+use super::seams;
 use super::solve::{Row, solve};
 use super::texels::{Cover, Lightmap};
 use crate::scene::Scene;
@@ -38,10 +39,11 @@ struct Pair {
 
 /// Adjusts the texels about all seams.
 pub(super) fn stitch(scene: &Scene, lightmap: &mut Lightmap) -> SeamReport {
-    let seams = seams::find(scene, &lightmap.layout);
+    let (seams, whole) = seams::find(scene, &lightmap.layout);
     let pairs: Vec<Pair> = seams.iter().flat_map(|seam| lookups(lightmap, seam)).collect();
     let mut report = SeamReport {
         edges: seams.len(),
+        t_junctions: seams.len() - whole,
         length_m: seams.iter().map(|s| (s.ends[1] - s.ends[0]).length()).sum(),
         before: jump(lightmap, &pairs),
         ..SeamReport::default()

@@ -46,6 +46,9 @@ const DRAWN_AT_RECEIVERS: usize = 512;
 /// Shadow rays to points in one replicate at a receiver, where they are many.
 const RAYS_TO_MANY: usize = 16;
 
+/// So many times as many points as rays are looked at one by one, without noise.
+const MORE_POINTS: usize = 4;
+
 /// Samples that all emitting surfaces together get at a receiver in one replicate, and the fewest
 /// for one of them.
 const AREA_SAMPLES: usize = 64;
@@ -177,6 +180,16 @@ impl<'s> Lighting<'s> {
             return self.by_all(at, samples, dice);
         }
         let points = self.lit_by_many(&self.fine_cut(at), at, RAYS_TO_MANY, dice);
+        self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
+    }
+
+    /// An unbiased estimate by about `rays` shadow rays; where points are not many more, by one to each of them.
+    pub(super) fn by_rays(&self, at: &SurfacePoint, rays: usize, dice: &mut Dice) -> Rgb {
+        let samples = (rays / self.area_sources.max(1)).max(1);
+        if self.tree.lamps.is_empty() || self.points <= MORE_POINTS * rays {
+            return self.by_all(at, samples, dice);
+        }
+        let points = self.lit_by_many(&self.fine_cut(at), at, rays, dice);
         self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
     }
 

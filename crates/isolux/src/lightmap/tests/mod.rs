@@ -2,6 +2,7 @@
 
 mod baking;
 mod layouts;
+mod net;
 mod stitching;
 
 use super::*;

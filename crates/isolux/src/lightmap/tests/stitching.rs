@@ -49,3 +49,35 @@ fn creases_are_no_seams() {
     let map = map(&scene, |[_, _, z]| Some(if z > 0.0 { 10.0 } else { 100.0 }));
     assert_eq!(baked(&scene, &map, 8.0).seams, SeamReport::default());
 }
+
+#[test]
+fn edges_that_end_within_others_are_stitched() {
+    // Two edges of 1.5 m beside three of 1 m.
+    let scene = scene(vec![
+        quad("left", [0.0; 3], [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0]], 2),
+        quad("right", [2.0, 0.0, 0.0], [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0]], 3),
+    ]);
+    let map = map(&scene, |[x, y, _]| Some(100.0 + 40.0 * x + 10.0 * y * y));
+    let seams = baked(&scene, &map, 8.0).seams;
+    assert_eq!((seams.edges, seams.t_junctions), (4, 4));
+    // Lengths of f32 coordinates.
+    assert!((seams.length_m - 3.0).abs() < 1e-6);
+    assert!(seams.before.largest_lx > 1.0, "{seams:?}");
+    assert!(seams.after.largest_lx < 0.2 * seams.before.largest_lx, "{seams:?}");
+    assert!(seams.rms_change_errors < 2.0 && seams.stopped < 0.1, "{seams:?}");
+}
+
+#[test]
+fn parallel_edges_and_those_that_meet_at_a_corner_are_no_t_junctions() {
+    let step =
+        |name: &str, corner: [f64; 3]| quad(name, corner, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 1);
+    // A millimetre apart, and corner to corner.
+    let scene = scene(vec![
+        step("first", [0.0; 3]),
+        step("apart", [1.001, 0.25, 0.0]),
+        step("corner", [-1.0, -1.0, 0.0]),
+        step("further", [0.0, 1.0 + 1e-4, 0.0]),
+    ]);
+    let map = map(&scene, |_| Some(100.0));
+    assert_eq!(baked(&scene, &map, 8.0).seams, SeamReport::default());
+}
