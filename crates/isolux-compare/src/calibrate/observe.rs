@@ -185,8 +185,8 @@ fn look(scene: &Scene, map: &IlluminationMap, places: &[Place]) -> Option<Observ
     let freedom = map.provenance.increments.saturating_sub(1).max(1) as f64;
     let reading = |place: &Place| {
         let found = reader.probe(place.at)?;
-        let whole_lx = found.indirect_standard_error_lx;
-        let standard_error_lx = reader.by_replicates(found).indirect_standard_error_lx;
+        let whole_lx = said_lx(place.quantity, &found);
+        let standard_error_lx = said_lx(place.quantity, &reader.by_replicates(found));
         let rest_lx = (whole_lx * whole_lx - standard_error_lx * standard_error_lx).max(0.0).sqrt();
         Some(Interval {
             error_lx: value_lx(place.quantity, &found) - place.expected_lx,
@@ -207,6 +207,16 @@ fn value_lx(quantity: Quantity, found: &Illuminance) -> f64 {
         Quantity::Indirect => found.indirect_lx,
     }
     .luminance()
+}
+
+/// The standard error that a reading says: of direct light, what that of all of it has beside the rest.
+fn said_lx(quantity: Quantity, found: &Illuminance) -> f64 {
+    let (all, indirect) = (found.standard_error_lx, found.indirect_standard_error_lx);
+    match quantity {
+        Quantity::Total => all,
+        Quantity::Direct => (all * all - indirect * indirect).max(0.0).sqrt(),
+        Quantity::Indirect => indirect,
+    }
 }
 
 fn rms_lx(values: impl ExactSizeIterator<Item = f64>) -> f64 {
@@ -241,5 +251,17 @@ mod tests {
         assert!(few.holds(0.95) && !Interval { error_lx: 14.0, ..few }.holds(0.95));
         let exact = Interval { standard_error_lx: 0.0, error_lx: 0.9, ..few };
         assert!(exact.holds(0.95) && !Interval { error_lx: 1.1, ..exact }.holds(0.95));
+    }
+
+    #[test]
+    fn readings_are_judged_by_the_error_of_what_is_read() {
+        let noisy = Illuminance {
+            standard_error_lx: 5.0,
+            indirect_standard_error_lx: 3.0,
+            ..Illuminance::NOTHING
+        };
+        assert_eq!(said_lx(Quantity::Total, &noisy), 5.0);
+        assert_eq!(said_lx(Quantity::Direct, &noisy), 4.0);
+        assert_eq!(said_lx(Quantity::Indirect, &noisy), 3.0);
     }
 }
