@@ -10,16 +10,13 @@ use crate::map::Accuracy;
 /// receivers, so eight give it to a few per cent.
 pub(super) const BELIEVED_INCREMENTS: u64 = 8;
 
-/// The error of the scene so far; `None` while there are too few replicates, and where nothing is
+/// The error of the scene so far, however few replicates there are; `None` where nothing is
 /// known: what paths given up would have brought may be more than what is there.
 pub(super) fn accuracy(
     plan: &Plan,
     sums: &Accumulator,
     interpolation: &InterpolationErrors,
 ) -> Option<Accuracy> {
-    if sums.increments < BELIEVED_INCREMENTS {
-        return None;
-    }
     let Pooled { area_m2: area, squared, variance } = Pooled::of(plan, |k| sums.estimate(k));
     let noise_lx = interpolation.noise_lx.unwrap_or((variance / area).sqrt());
     in_all(plan, (area, squared, noise_lx), interpolation)

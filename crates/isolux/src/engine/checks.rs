@@ -191,11 +191,43 @@ pub(super) fn add(
     sums.add(differences.chain(readings).chain(lookups));
 }
 
+/// What errors are said to be that noise may hide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Noise {
+    /// One standard error more, to be on the safe side.
+    Counted,
+    /// What is seen with noise taken off.
+    TakenOff,
+    /// One standard error less: what is left is hardly noise.
+    RuledOut,
+}
+
+impl Noise {
+    /// A squared error, given the standard error of its estimate.
+    fn of_squared(self, squared: f64, standard_error: f64) -> f64 {
+        match self {
+            Self::Counted => squared.max(0.0) + standard_error,
+            Self::TakenOff => squared.max(0.0),
+            Self::RuledOut => (squared - standard_error).max(0.0),
+        }
+    }
+
+    /// A mean, given its standard error.
+    fn of_mean(self, mean: f64, standard_error: f64) -> f64 {
+        match self {
+            Self::Counted | Self::TakenOff => mean,
+            Self::RuledOut => (mean.abs() - standard_error).max(0.0).copysign(mean),
+        }
+    }
+}
+
 /// The errors seen so far.
-pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationErrors {
+pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> InterpolationErrors {
     let area: f64 = checks.iter().map(|c| c.area_m2).sum();
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-    let (mut noise, mut expected, mut trusted_mean_lx) = (0.0, 0.0, 0.0);
+    let (mut noise, mut expected) = (0.0, 0.0);
+    // Of the mean: all of it, and what lies where the map is trusted, with the variance of the former.
+    let (mut trusted_mean, mut of_mean) = (0.0, 0.0);
     let (mut untrusted, mut close, mut share_untrusted) = (0.0, 0.0, 0.0);
     for (k, check) in checks.iter().enumerate() {
         let estimate = sums.estimate(k);
@@ -208,7 +240,7 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         ];
         if check.is_trusted {
             expected += share * check.expected_lx * check.expected_lx;
-            trusted_mean_lx += share * indirect;
+            trusted_mean += share * indirect;
         } else {
             share_untrusted += share;
             untrusted += share * (indirect * indirect - estimate.indirect_variance);
@@ -219,6 +251,7 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
         for part in seen {
             let (value, variance) = both[part];
             mean[part] += share * value;
+            of_mean += if part == 0 { share * share * variance } else { 0.0 };
             if part == 0 && !check.is_trusted {
                 continue;
             }
@@ -227,8 +260,8 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
             spread[part] += share * share * 2.0 * variance * variance;
         }
     }
-    // One standard error on the safe side: what noise could hide is reported as error.
-    let root = |part: usize| (squared[part].max(0.0) + spread[part].sqrt()).sqrt();
+    let root = |part: usize| noise_is.of_squared(squared[part], spread[part].sqrt()).sqrt();
+    let believed = |mean: f64| noise_is.of_mean(mean, of_mean.sqrt());
     let looked_up = |k: usize| sums.estimate(2 * checks.len() + k).mean.indirect.luminance();
     if sums.sums.len() > 2 * checks.len() {
         let mean_lx = |(k, check): (usize, &Check)| check.area_m2 / area * looked_up(k);
@@ -238,8 +271,8 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check]) -> InterpolationError
     InterpolationErrors {
         indirect_lx: root(0),
         total_lx: root(1),
-        indirect_mean_lx: mean[0],
-        trusted_mean_lx,
+        indirect_mean_lx: believed(mean[0]),
+        trusted_mean_lx: believed(trusted_mean),
         direct_mean_lx: mean[1] - mean[0],
         untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
         close: close.sqrt(),

@@ -7,12 +7,12 @@
 
 use super::carriers::Carriers;
 use super::deadline::Deadline;
-use super::direct::Lighting;
+use super::direct::{About, Lighting};
 use super::fit::Fit;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
 use super::trust;
-use crate::elements::{Elements, Receiver};
+use crate::elements::{Elements, Locator, Place, Receiver};
 use crate::map::Standing;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
@@ -63,6 +63,11 @@ impl Gatherer {
         Self { origin: surface.start(), normal: surface.shading, surface, rays, in_gap: false }
     }
 
+    /// Whether it lies where another does.
+    fn is_at(&self, other: &Self) -> bool {
+        self.origin == other.origin && self.surface.triangle == other.surface.triangle
+    }
+
     /// A place in space that faces a way.
     pub(super) fn in_space(point: Point, normal: Normal, rays: u32) -> Self {
         Self {
@@ -80,6 +85,8 @@ pub(super) struct Gathering<'a> {
     pub(super) scene: &'a Scene,
     pub(super) lighting: &'a Lighting<'a>,
     pub(super) elements: &'a Elements,
+    /// Where places lie on the level gathered over, if that was looked up.
+    pub(super) locator: Option<&'a Locator>,
     /// Nodes of the elements from this number on are finer than the level gathered over.
     pub(super) level: u32,
     /// What vertices stand for; those without have no value to be read.
@@ -103,10 +110,10 @@ pub(super) enum DirectAtEnds<'a> {
     Read {
         /// A value a vertex, lx.
         values: &'a [Rgb],
-        /// As for indirect light, but direct light may live on a finer level.
+        /// As for indirect light, but direct light may live on a finer level; never on a coarser one.
         level: u32,
     },
-    /// Read, but evaluated where a ray ends nearer than the element there is long: what stands that
+    /// Read, but evaluated where a ray that regathers ends nearer than the element there is long: what stands that
     /// close may throw shadows that the map does not resolve.
     ReadFarOff {
         /// A value a vertex, lx.
@@ -158,10 +165,12 @@ struct Row {
     /// Surfaces that rays have come to and what they reflect, the latest last: kept, as to ask for memory at
     /// every ray takes its time.
     ends: Vec<(SurfacePoint, Rgb)>,
+    /// What is seen from about the receiver, once it was asked for.
+    about: Option<Option<About>>,
 }
 
 /// A ray of a row.
-struct Leg {
+struct Leg<'a> {
     /// Where it starts, and the triangle there.
     origin: Point,
     triangle: u32,
@@ -173,6 +182,8 @@ struct Leg {
     in_gap: bool,
     /// How many rays came before it.
     number: u32,
+    /// The place that gathers.
+    receiver: &'a SurfacePoint,
 }
 
 /// The operator of all receivers: one noisy sample of light transport.
@@ -186,12 +197,19 @@ pub(super) struct Operator {
 /// A diffuse surface that a ray has come to.
 struct LegEnd {
     surface: SurfacePoint,
-    /// Vertices and weights there on the level gathered over.
-    corners: Option<[(u32, f64); 3]>,
-    /// How far it has come.
-    distance_m: f64,
-    /// The same if it starts in a gap.
+    /// Where that is on the level gathered over.
+    place: Option<Place>,
+    /// Whether the map tells little there, so close to where the ray starts.
+    is_close: bool,
+    /// How far the ray has come if it starts in a gap.
     out_of_gap_m: Option<f64>,
+}
+
+impl<'a> Gathering<'a> {
+    /// The same with places looked up.
+    pub(super) const fn with(self, locator: &'a Locator) -> Self {
+        Self { locator: Some(locator), ..self }
+    }
 }
 
 impl Gathering<'_> {
@@ -218,8 +236,13 @@ impl Gathering<'_> {
             }
             let mut rows = Rows::default();
             rows.entries.reserve(part.iter().map(|g| g.rays as usize).sum());
+            let mut row = Row::default();
             for (k, gatherer) in part.iter().enumerate() {
-                self.row(gatherer, key_of(index * CHUNK + k), &mut rows);
+                // Readers have many rows of one place.
+                let before = k.checked_sub(1).map(|k| &part[k]);
+                let about = row.about.filter(|_| before.is_some_and(|b| b.is_at(gatherer)));
+                row = Row { about, ..Row::default() };
+                self.row(gatherer, key_of(index * CHUNK + k), &mut row, &mut rows);
             }
             Some(rows)
         };
@@ -232,9 +255,8 @@ impl Gathering<'_> {
         Some(Operator { chunks, receivers, rays })
     }
 
-    fn row(&self, gatherer: &Gatherer, key: Key, rows: &mut Rows) {
+    fn row(&self, gatherer: &Gatherer, key: Key, row: &mut Row, rows: &mut Rows) {
         let sequence = Sequence::new(key);
-        let mut row = Row::default();
         for index in 0..gatherer.rays {
             let mut dice = Dice::new(sequence, index);
             let first = Leg {
@@ -244,8 +266,9 @@ impl Gathering<'_> {
                 share: Rgb::WHITE / f64::from(gatherer.rays),
                 in_gap: gatherer.in_gap,
                 number: 0,
+                receiver: &gatherer.surface,
             };
-            self.leg(&first, &mut dice, &mut row, rows);
+            self.leg(&first, &mut dice, row, rows);
         }
         rows.ends.push(rows.runs.len());
         rows.sources.push(row.source);
@@ -253,7 +276,7 @@ impl Gathering<'_> {
         rows.close.push(row.close);
     }
 
-    fn leg(&self, leg: &Leg, dice: &mut Dice, row: &mut Row, rows: &mut Rows) {
+    fn leg(&self, leg: &Leg<'_>, dice: &mut Dice, row: &mut Row, rows: &mut Rows) {
         let axis = leg.normal.to_direction();
         let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
         let ray = Ray::new(leg.origin, direction).skipping(leg.triangle);
@@ -277,10 +300,10 @@ impl Gathering<'_> {
             let distance_m = (surface.point - leg.origin).length();
             let out_of = leg.in_gap.then_some(distance_m);
             // Once for all: it takes as long as to trace the ray.
-            let corners = self.located(self.level, &surface, None);
-            let end = LegEnd { surface, corners, distance_m, out_of_gap_m: out_of };
-            row.source += share * self.direct_at(&end, dice);
-            let is_close = self.regathers && self.is_close(&end);
+            let place = self.place(&surface);
+            let is_close = self.regathers && self.is_close(place, distance_m);
+            let end = LegEnd { surface, place, is_close, out_of_gap_m: out_of };
+            row.source += share * self.direct_at(&end, leg.receiver, &mut row.about, dice);
             if is_close && leg.number < REGATHERED {
                 rows.further_rays += 1;
                 let further = Leg {
@@ -290,9 +313,10 @@ impl Gathering<'_> {
                     share,
                     in_gap: leg.in_gap && self.is_in_gap(&surface, distance_m),
                     number: leg.number + 1,
+                    receiver: leg.receiver,
                 };
                 self.leg(&further, dice, row, rows);
-            } else if let Some(entry) = corners.and_then(|c| self.entry(c, out_of)) {
+            } else if let Some(entry) = self.entry(place, out_of) {
                 row.close += if is_close { share.luminance() } else { 0.0 };
                 rows.push(entry, share.0.map(|c| c as f32));
             }
@@ -300,22 +324,23 @@ impl Gathering<'_> {
         row.ends.truncate(first);
     }
 
-    /// Vertices and weights of a place on a level, unless those of its own are these.
-    fn located(
-        &self,
-        level: u32,
-        at: &SurfacePoint,
-        own: Option<[(u32, f64); 3]>,
-    ) -> Option<[(u32, f64); 3]> {
+    /// Where a ray has ended on the level gathered over.
+    fn place(&self, at: &SurfacePoint) -> Option<Place> {
         let SurfacePoint { triangle, back, u, v, .. } = *at;
-        own.filter(|_| level == self.level)
-            .or_else(|| self.elements.locate_above(level, triangle, back, u, v))
+        match self.locator {
+            Some(locator) => locator.locate(self.elements, (triangle, back), [u, v]),
+            None => self.elements.place_above(self.level, (triangle, back), [u, v]),
+        }
+    }
+
+    /// Vertices and weights of a place of the level gathered over on that or a finer one.
+    fn corners(&self, place: Place, level: u32) -> [(u32, f64); 3] {
+        self.elements.corners(self.elements.below(place, level))
     }
 
     /// Whether a ray has come less far than the element is long where it ends.
-    fn is_close(&self, end: &LegEnd) -> bool {
-        let corners = self.located(u32::MAX, &end.surface, end.corners);
-        end.distance_m <= corners.map_or(0.0, |corners| self.edge_m(corners))
+    fn is_close(&self, place: Option<Place>, distance_m: f64) -> bool {
+        distance_m <= place.map_or(0.0, |place| self.edge_m(self.corners(place, u32::MAX)))
     }
 
     /// Whether a ray from within a gap may still be in it.
@@ -323,9 +348,15 @@ impl Gathering<'_> {
         distance_m < trust::NEAR * trust::edge_at_m(self.elements, at)
     }
 
-    fn direct_at(&self, end: &LegEnd, dice: &mut Dice) -> Rgb {
+    fn direct_at(
+        &self,
+        end: &LegEnd,
+        receiver: &SurfacePoint,
+        about: &mut Option<Option<About>>,
+        dice: &mut Dice,
+    ) -> Rgb {
         let read = |values: &[Rgb], level: u32| {
-            let corners = self.located(level, &end.surface, end.corners);
+            let corners = end.place.map(|place| self.corners(place, level));
             let known = corners.and_then(|corners| self.known(corners, end.out_of_gap_m));
             known.map_or(Rgb::BLACK, |corners| {
                 corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
@@ -333,8 +364,17 @@ impl Gathering<'_> {
         };
         match self.direct {
             DirectAtEnds::Read { values, level } => read(values, level),
-            DirectAtEnds::ReadFarOff { values } if !self.is_close(end) => read(values, u32::MAX),
-            _ => self.lighting.estimate(&end.surface, dice),
+            DirectAtEnds::ReadFarOff { values } if !end.is_close => read(values, u32::MAX),
+            DirectAtEnds::ReadFarOff { .. } => {
+                let about = about.get_or_insert_with(|| {
+                    self.lighting.about(receiver.point, trust::edge_at_m(self.elements, receiver))
+                });
+                match about {
+                    Some(about) => self.lighting.estimate_by(about, &end.surface, dice),
+                    None => self.lighting.estimate(&end.surface, dice),
+                }
+            }
+            DirectAtEnds::Evaluated => self.lighting.estimate(&end.surface, dice),
         }
     }
 
@@ -348,8 +388,8 @@ impl Gathering<'_> {
     }
 
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
-    fn entry(&self, corners: [(u32, f64); 3], out_of_gap_m: Option<f64>) -> Option<Entry> {
-        let corners = self.known(corners, out_of_gap_m)?;
+    fn entry(&self, place: Option<Place>, out_of_gap_m: Option<f64>) -> Option<Entry> {
+        let corners = self.known(self.elements.corners(place?), out_of_gap_m)?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
             weights: corners.map(|(_, weight)| weight as f32),
@@ -427,7 +467,8 @@ fn weights_over(corners: [(u32, f64); 3], read: [bool; 3]) -> [f64; 3] {
 impl Operator {
     /// `source + A light`, one value a receiver.
     pub(super) fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
-        self.chunks.par_iter().flat_map_iter(|rows| rows.apply(light)).collect()
+        let light: Vec<Packed> = light.iter().map(|&value| packed(value)).collect();
+        self.chunks.par_iter().flat_map_iter(|rows| rows.apply(&light)).collect()
     }
 
     /// Adds the receivers of another.
@@ -548,14 +589,21 @@ impl Rows {
         }
     }
 
-    fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
+    fn apply(&self, light: &[Packed]) -> Vec<Rgb> {
         let (mut run, mut entry) = (0, 0);
         let mut of_row = |(&end, &source): (&usize, &Rgb)| {
             let mut sum = source;
             for Run { end, share } in &self.runs[run..end] {
                 let entries = &self.entries[entry..*end as usize];
-                let read: Rgb = entries.iter().map(|entry| entry.light(light)).sum();
-                sum += read * Rgb(share.map(f64::from));
+                let mut read = [0.0; 4];
+                for of_ray in entries {
+                    let of_ray = of_ray.light(light);
+                    for k in 0..4 {
+                        read[k] += f64::from(of_ray[k]);
+                    }
+                }
+                let [r, g, b, _] = read;
+                sum += Rgb([r, g, b]) * Rgb(share.map(f64::from));
                 entry = *end as usize;
             }
             run = end;
@@ -566,11 +614,21 @@ impl Rows {
 }
 
 impl Entry {
-    fn light(&self, light: &[Rgb]) -> Rgb {
-        let mut value = Rgb::BLACK;
+    fn light(&self, light: &[Packed]) -> Packed {
+        let mut value = [0.0; 4];
         for k in 0..3 {
-            value += light[self.vertices[k] as usize] * f64::from(self.weights[k]);
+            let of_vertex = light[self.vertices[k] as usize];
+            for (value, of_vertex) in value.iter_mut().zip(of_vertex) {
+                *value += of_vertex * self.weights[k];
+            }
         }
         value
     }
+}
+
+/// Light as rays read it: of all that is read again and again, as little as noise leaves worth keeping, in one register.
+type Packed = [f32; 4];
+
+fn packed(Rgb([r, g, b]): Rgb) -> Packed {
+    [r, g, b, 0.0].map(|c: f64| c as f32)
 }

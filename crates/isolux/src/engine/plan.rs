@@ -8,7 +8,7 @@ use super::gather::{DirectAtEnds, Gatherer, Gathering, known_weights};
 use super::surface::SurfacePoint;
 use super::trial::Trial;
 use super::trust;
-use crate::elements::{Elements, Subdivision};
+use crate::elements::{Elements, Locator, Subdivision};
 use crate::map::Standing;
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -22,6 +22,8 @@ pub(super) struct Plan<'s> {
     /// Indirect light lives on the first so many vertices and the nodes below `level`.
     pub(super) indirect_vertices: usize,
     pub(super) level: u32,
+    /// Where places lie on that level.
+    pub(super) locator: Locator,
     /// Which of them carry it; the others are interpolated.
     pub(super) carriers: Carriers,
     /// What vertices stand for; none are hidden in other geometry.
@@ -50,6 +52,13 @@ pub(super) struct Plan<'s> {
 }
 
 impl Plan<'_> {
+    /// How many vertices there are, for indirect light and in all, and how many carry light: plans of one scene that
+    /// agree in these are the same, as elements are only ever bisected further.
+    pub(super) fn size(&self) -> [usize; 3] {
+        let all = self.elements.vertices().len();
+        [self.indirect_vertices, all, self.carriers.count(all)]
+    }
+
     /// Area of all elements, m2.
     pub(super) fn area_m2(&self) -> f64 {
         self.indirect_errors.iter().map(|e| e.area_m2).sum()
@@ -99,6 +108,7 @@ impl<'a> Gathering<'a> {
             scene: plan.scene,
             lighting: plan.lighting,
             elements: &plan.elements,
+            locator: Some(&plan.locator),
             level: plan.level,
             standings: &plan.standings,
             direct: if plan.lighting.are_read_at_ends() {

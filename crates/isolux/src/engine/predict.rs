@@ -11,8 +11,8 @@ const NORMAL_90: f64 = 1.645;
 /// statistical part falls as the root of their number, the rest stays. `None` where the rest alone
 /// exceeds the target.
 pub(super) fn increments_needed(accuracy: &Accuracy, increments: u64, target: f64) -> Option<f64> {
-    let rest = accuracy.discretization * accuracy.discretization + accuracy.bias * accuracy.bias;
-    let left = target * target - rest;
+    let of_elements = accuracy.of_elements();
+    let left = target * target - of_elements * of_elements;
     let statistical = accuracy.statistical * accuracy.statistical;
     (left > 0.0).then(|| increments as f64 * statistical / left)
 }

@@ -102,9 +102,18 @@ pub fn solve_with_maps(
         run.stage = state.stage.clamp(1, MOST_STAGES);
         run.saved_stage = run.stage;
     }
+    let mut tried = None;
     loop {
         let plan = run.pilot(&lighting, watch);
         let saved = resume.filter(|state| state.stage == run.stage);
+        // Elements that were too coarse still are, if these are the same.
+        if tried.replace(plan.size()) == Some(plan.size())
+            && run.stage < MOST_STAGES
+            && plan.is_whole
+        {
+            run.stage += 1;
+            continue;
+        }
         match run.increments(&plan, saved, watch)? {
             Outcome::Done(solution) => return Ok(*solution),
             Outcome::TooCoarse(stages) => run.stage = (run.stage + stages).min(MOST_STAGES),
@@ -277,7 +286,7 @@ impl<'s, 'r> Run<'s, 'r> {
                 )));
             }
             if end == Some(End::TooCoarse) && answer != Watch::Insist {
-                return Ok(Outcome::TooCoarse(self.stages_missing(accuracy)));
+                return Ok(Outcome::TooCoarse(self.stages_missing(work.error_of_elements())));
             }
         }
     }
@@ -291,19 +300,18 @@ impl<'s, 'r> Run<'s, 'r> {
         if work.is_vain(accuracy) {
             return Some(End::InVain);
         }
-        // No number of increments helps where interpolation alone takes the whole error.
         let finer = self.stage < MOST_STAGES && !self.refined_long_enough();
-        match work.is_hopeless(accuracy, goal) {
-            true if finer => Some(End::TooCoarse),
-            true if work.is_settled(accuracy) => Some(End::InVain),
-            _ => None,
+        if finer && goal.is_some_and(|goal| work.is_too_coarse(accuracy, goal)) {
+            return Some(End::TooCoarse);
         }
+        // No number of increments helps where interpolation alone takes the whole error.
+        let vain = work.is_hopeless(accuracy, goal) && work.is_settled(accuracy);
+        vain.then_some(End::InVain)
     }
 
     /// How many stages on elements are fine enough, if they keep what they err by in proportion.
-    fn stages_missing(&self, accuracy: Option<Accuracy>) -> u32 {
-        let err = |a: Accuracy| libm::hypot(a.discretization, a.bias);
-        let missed = accuracy.zip(self.request.accuracy).map_or(1.0, |(a, goal)| err(a) / goal);
+    fn stages_missing(&self, errs: Option<f64>) -> u32 {
+        let missed = errs.zip(self.request.accuracy).map_or(1.0, |(errs, goal)| errs / goal);
         let stages =
             libm::log2(LEFT_TO_ELEMENTS / missed.max(LEFT_TO_ELEMENTS)) / libm::log2(FINER);
         stages.ceil().max(1.0) as u32

@@ -10,6 +10,10 @@ pub(super) const RECEIVERS: usize = 256;
 const INCREMENTS: u64 = 4;
 const RAYS: u32 = 16;
 
+/// Where more rays than that times this are wanted, the trial is made again with so many: what is left is a step of
+/// no more than this.
+const NEARER: u32 = 4;
+
 /// The part of the accuracy asked for that noise may take.
 const NOISE_SHARE: f64 = 0.5;
 
@@ -25,34 +29,53 @@ const NET_ORDER: f64 = 0.85;
 const FEWEST_WANTED: f64 = 8.0;
 
 /// And at most: a run can soon be stopped after that many.
-const MOST_WANTED: f64 = 256.0;
+const MOST_WANTED: f64 = 1024.0;
 
-/// What a trial has found: the noise of one net of its rays, root mean square over the surface, lx.
+/// What a trial has found: the noise of one net of so many rays, root mean square over the surface, lx.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trial {
     noise_lx: f64,
+    rays: u32,
 }
 
 impl Trial {
     /// What is mostly found, as long as nothing is tried: 1.5 to 3.2 % of the light in CUBE, SPHERE and the hall.
     pub(super) fn usual(rms_lx: f64) -> Self {
-        Self { noise_lx: 0.02 * rms_lx }
+        Self { noise_lx: 0.02 * rms_lx, rays: RAYS }
     }
 
-    /// Tries some receivers, each with the surface it stands for, m2; also returns the rays traced.
+    /// Tries some receivers, each with the surface it stands for, m2, for a run of so many increments that
+    /// is to reach a target; also returns the rays traced.
     pub(super) fn of(
+        gathering: &Gathering,
+        some: &[(Gatherer, f64)],
+        light: &[Rgb],
+        (target, rms_lx, increments, key): (f64, f64, u64, Key),
+    ) -> (Self, u64) {
+        let with = |rays: u32| Self::with(rays, gathering, some, light, (rms_lx, key));
+        let (first, traced) = with(RAYS);
+        let nearer = first.rays_for(target, rms_lx, increments) / NEARER;
+        if nearer <= RAYS {
+            return (first, traced);
+        }
+        let (trial, more) = with(nearer);
+        (trial, traced + more)
+    }
+
+    fn with(
+        rays: u32,
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
         light: &[Rgb],
         (rms_lx, key): (f64, Key),
     ) -> (Self, u64) {
-        let rows: Vec<Gatherer> = some.iter().map(|(g, _)| g.with_rays(RAYS)).collect();
+        let rows: Vec<Gatherer> = some.iter().map(|(g, _)| g.with_rays(rays)).collect();
         let mut sums = Accumulator::new(rows.len(), rms_lx);
-        let mut rays = 0;
+        let mut traced = 0;
         for index in 0..INCREMENTS {
             let key = key.with(index);
             let operator = gathering.operator(&rows, |row| key.with(row as u64));
-            rays += operator.rays;
+            traced += operator.rays;
             let gathered = operator.apply(light).into_iter();
             sums.add(gathered.map(|indirect| Sample { indirect, ..Sample::default() }));
         }
@@ -62,7 +85,7 @@ impl Trial {
             of_means += own_m2 * sums.estimate(row).variance;
         }
         let variance = if area_m2 > 0.0 { INCREMENTS as f64 * of_means / area_m2 } else { 0.0 };
-        (Self { noise_lx: variance.sqrt() }, rays)
+        (Self { noise_lx: variance.sqrt(), rays }, traced)
     }
 
     /// Gathering rays of a receiver with which so many increments leave the noise that is due to it.
@@ -72,7 +95,7 @@ impl Trial {
         if !(noise_lx > 0.0 && allowed_lx > 0.0) {
             return FEWEST_WANTED as u32;
         }
-        let wanted = f64::from(RAYS) * libm::pow(noise_lx / allowed_lx, 1.0 / NET_ORDER);
+        let wanted = f64::from(self.rays) * libm::pow(noise_lx / allowed_lx, 1.0 / NET_ORDER);
         libm::exp2(libm::round(libm::log2(wanted.clamp(FEWEST_WANTED, MOST_WANTED)))) as u32
     }
 }

@@ -3,7 +3,7 @@
 use super::accumulate::{Accumulator, Estimate, Sample, Sums};
 use super::accuracy::{BELIEVED_INCREMENTS, accuracy, accuracy_of_map, early_statistical};
 use super::cache::{CacheSample, Cached};
-use super::checks::{self, Check, InterpolationErrors};
+use super::checks::{self, Check, InterpolationErrors, Noise};
 use super::deadline::Deadline;
 use super::emission::Emission;
 use super::filter::filter;
@@ -22,6 +22,12 @@ use crate::units::Rgb;
 /// Increments before a run may stop at its accuracy: as soon as it is believed. (Readings mix three
 /// vertices, whose spreads make one good enough: decision 12.)
 const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
+
+/// Increments after which elements may be seen to be too coarse: the spread of fewer tells little of check points.
+const FEWEST_TO_MISS: u64 = 4;
+
+/// Increments beyond which finer elements are faster, which take their pilot and as many increments as are believed.
+const MOST_INCREMENTS: f64 = 3.0 * BELIEVED_INCREMENTS as f64;
 
 /// Greatest factor between the interpolation error seen and that expected that is believed, either
 /// way: details tell the order at least.
@@ -176,9 +182,13 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     fn interpolation(&self) -> InterpolationErrors {
+        self.interpolation_if(Noise::Counted)
+    }
+
+    fn interpolation_if(&self, noise_is: Noise) -> InterpolationErrors {
         match &self.engine {
             Engine::Hybrid(_) | Engine::Cache(_) => {
-                checks::errors(&self.checks.sums, &self.checks.points)
+                checks::errors(&self.checks.sums, &self.checks.points, noise_is)
             }
             Engine::Forward(_) => tally::errors(self.plan, &self.sums),
             Engine::Radiosity(radiosity) => {
@@ -210,6 +220,42 @@ impl<'p, 's> Work<'p, 's> {
     /// Whether a run may stop at its accuracy.
     pub(super) fn may_end(&self) -> bool {
         self.left.as_ref().map_or_else(|| self.is_believed(), |left| left.all_have_shot)
+    }
+
+    /// Whether finer elements will reach a target, but these will not, or much later.
+    pub(super) fn is_too_coarse(&self, accuracy: Option<Accuracy>, target: f64) -> bool {
+        if let Some(left) = &self.left {
+            return accuracy.is_some_and(|a| a.reached > target) && left.is_shot;
+        }
+        let count = self.sums.increments;
+        let Some(counted) = accuracy.filter(|_| self.may_end()) else {
+            return self.misses_early(target);
+        };
+        // More increments may show that what noise could hide is none.
+        let seen = self.accuracy_if(Noise::TakenOff).unwrap_or(counted);
+        let most = if self.has_nets() { MOST_INCREMENTS } else { f64::INFINITY };
+        [counted, seen].iter().all(|a| {
+            let needed = predict::increments_needed(a, count, target);
+            needed.is_none_or(|needed| needed > most)
+        })
+    }
+
+    /// Whether increments are few, each with many rays of every receiver.
+    const fn has_nets(&self) -> bool {
+        matches!(self.engine, Engine::Hybrid(_) | Engine::Cache(_))
+    }
+
+    /// Whether the elements alone err by more than a target: seen before all of the error is believed.
+    fn misses_early(&self, target: f64) -> bool {
+        let ruled_out = || self.accuracy_if(Noise::RuledOut);
+        self.has_nets()
+            && self.sums.increments >= FEWEST_TO_MISS
+            && ruled_out().is_some_and(|a| a.of_elements() > target)
+    }
+
+    /// What the elements err by, as far as it is seen.
+    pub(super) fn error_of_elements(&self) -> Option<f64> {
+        self.accuracy_if(Noise::TakenOff).map(|a| a.of_elements())
     }
 
     /// Whether no number of increments will reach a target on these elements.
@@ -248,10 +294,11 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     pub(super) fn accuracy(&self) -> Option<Accuracy> {
-        if !self.is_believed() {
-            return None;
-        }
-        let interpolation = self.interpolation();
+        if self.is_believed() { self.accuracy_if(Noise::Counted) } else { None }
+    }
+
+    fn accuracy_if(&self, noise_is: Noise) -> Option<Accuracy> {
+        let interpolation = self.interpolation_if(noise_is);
         if self.left.as_ref().is_some_and(|left| !left.is_bounded) {
             return None;
         }
@@ -306,9 +353,7 @@ impl<'p, 's> Work<'p, 's> {
     /// of the error.
     pub(super) fn is_settled(&self, accuracy: Option<Accuracy>) -> bool {
         let is_shot = matches!(self.engine, Engine::Radiosity(_));
-        is_shot
-            || accuracy
-                .is_some_and(|a| a.statistical <= 0.25 * libm::hypot(a.discretization, a.bias))
+        is_shot || accuracy.is_some_and(|a| a.statistical <= 0.25 * a.of_elements())
     }
 
     /// The values of the map, and what the filter did to them.

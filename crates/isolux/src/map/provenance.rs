@@ -107,6 +107,13 @@ pub struct Accuracy {
     pub interpolated: f64,
 }
 
+impl Accuracy {
+    /// What more increments on the same elements leave: discretization and bias.
+    pub fn of_elements(&self) -> f64 {
+        libm::hypot(self.discretization, self.bias)
+    }
+}
+
 /// The engines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

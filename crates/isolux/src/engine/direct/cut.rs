@@ -94,7 +94,7 @@ impl Lighting<'_> {
     }
 
     /// The view along a chain; `None` from behind its last mirror.
-    fn view(&self, chain: usize, at: &SurfacePoint) -> Option<View<'_>> {
+    pub(super) fn view(&self, chain: usize, at: &SurfacePoint) -> Option<View<'_>> {
         let (mut point, mut reflectance) = (at.point, 1.0);
         let mut normals = [at.shading.to_vector(), at.geometric.to_vector()];
         let planes = self.chains[chain].iter().map(|&p| &self.mirrors.planes[p as usize]);

@@ -136,7 +136,7 @@ impl Lighting<'_> {
     }
 
     /// Direct illuminance from one lamp in a view.
-    fn lit_by_lamp(&self, view: &View, lamp: u32, at: &SurfacePoint) -> Rgb {
+    pub(super) fn lit_by_lamp(&self, view: &View, lamp: u32, at: &SurfacePoint) -> Rgb {
         let chain: &[u32] = &self.chains[view.chain];
         if !chain.is_empty() && !self.images.has(lamp, view.chain) {
             return Rgb::BLACK;

@@ -6,6 +6,7 @@
 //! cover (curved mirrors, glass, gloss, longer chains) is left to particles, which ask
 //! [`Lighting::covers`].
 
+mod about;
 mod area;
 mod chains;
 mod cut;
@@ -23,6 +24,7 @@ use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
+pub(super) use about::About;
 pub(super) use chains::Chain;
 pub(super) use measured::{Goal, Measured};
 use mirrors::Mirrors;
@@ -204,22 +206,48 @@ impl<'s> Lighting<'s> {
         if self.sources.len() <= EXACT_SOURCES {
             return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
         }
-        let weight = |source: &Source| {
-            let is_in_view = |target| self.chain_is_in_view(&source.chain, at, target);
-            source::importance(self.scene, source, at, is_in_view)
-        };
         let cut = (!self.tree.lamps.is_empty()).then(|| self.rough_cut(at));
         let of_tree = cut.as_ref().map_or(0.0, |cut| cut.total);
-        let weights: Vec<f64> = self.others().map(weight).collect();
+        let weights = self.weights_of_others(at);
         let total: f64 = of_tree + weights.iter().sum::<f64>();
         if total <= 0.0 {
             return Rgb::BLACK;
         }
         let [pick, _] = dice.pair();
-        let mut left = pick * total - of_tree;
+        let left = pick * total - of_tree;
         if let Some(cut) = cut.filter(|_| left < 0.0) {
             return self.lit_by_many(&cut, at, 1, dice) * (total / of_tree);
         }
+        self.lit_by_drawn(&weights, (left, total), at, dice)
+    }
+
+    /// The same of the sources that are not in the tree.
+    fn estimate_of_others(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+        let weights = self.weights_of_others(at);
+        let total: f64 = weights.iter().sum();
+        if total <= 0.0 {
+            return Rgb::BLACK;
+        }
+        let [pick, _] = dice.pair();
+        self.lit_by_drawn(&weights, (pick * total, total), at, dice)
+    }
+
+    fn weights_of_others(&self, at: &SurfacePoint) -> Vec<f64> {
+        let weight = |source: &Source| {
+            let is_in_view = |target| self.chain_is_in_view(&source.chain, at, target);
+            source::importance(self.scene, source, at, is_in_view)
+        };
+        self.others().map(weight).collect()
+    }
+
+    /// What all give by the one of the others at a place among their weights.
+    fn lit_by_drawn(
+        &self,
+        weights: &[f64],
+        (mut left, total): (f64, f64),
+        at: &SurfacePoint,
+        dice: &mut Dice,
+    ) -> Rgb {
         let drawn = weights.iter().position(|&w| {
             left -= w;
             left < 0.0

@@ -23,7 +23,7 @@ pub use settings::{RadiosityLimits, RadiositySettings};
 
 use super::accumulate::{Accumulator, Effort, Estimate, Sample, mean_and_variance};
 use super::caustics;
-use super::checks::{self, Check, InterpolationErrors};
+use super::checks::{self, Check, InterpolationErrors, Noise};
 use super::deadline::Deadline;
 use super::direct::Chain;
 use super::gather::{Gatherer, Gathering, Operator};
@@ -455,7 +455,7 @@ impl<'p, 's> Radiosity<'p, 's> {
             let map = [self.direct.as_slice(), &self.caustic, &indirect];
             checks::add(&mut found, points, (&fresh, &self.checks.direct), map, &[]);
         }
-        InterpolationErrors { noise_lx: None, ..checks::errors(&found, points) }
+        InterpolationErrors { noise_lx: None, ..checks::errors(&found, points, Noise::Counted) }
     }
 }
 

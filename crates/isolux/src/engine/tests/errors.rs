@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::engine::accumulate::{Accumulator, Sample};
-use crate::engine::accuracy::{BELIEVED_INCREMENTS, accuracy};
-use crate::engine::checks::{self, Check, InterpolationErrors};
+use crate::engine::accuracy::accuracy;
+use crate::engine::checks::{self, Check, InterpolationErrors, Noise};
 use crate::engine::direct::Lighting;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
@@ -58,7 +58,9 @@ fn check_sums(
 
 /// The share of the surface where readers interpolate: what an error of one everywhere comes to there.
 fn trusted_share(checks: &[Check], plan: &Plan) -> f64 {
-    checks::errors(&check_sums(checks, plan, |_| 1.0, 0.0), checks).indirect_lx.powi(2)
+    checks::errors(&check_sums(checks, plan, |_| 1.0, 0.0), checks, Noise::Counted)
+        .indirect_lx
+        .powi(2)
 }
 
 /// Mean square of the error over all the surface, where readers interpolate and where not.
@@ -75,7 +77,7 @@ fn check_points_stand_for_the_whole_surface() {
     assert!(checks.len() > 100);
     // Floor against all, by the same weights: their common error is one on the floor, zero elsewhere.
     let on_floor = |c: &Check| if c.gatherer.surface.point.z < 1e-3 { 1.0 } else { 0.0 };
-    let found = checks::errors(&check_sums(&checks, &plan, on_floor, 0.0), &checks);
+    let found = checks::errors(&check_sums(&checks, &plan, on_floor, 0.0), &checks, Noise::Counted);
     let share: f64 = 6.0 / (2.0 * (6.0 + 7.5 + 5.0));
     // Half the points are drawn where errors are large; weights differ by a factor of a few, so a
     // share of a sixth of some 256 points is known to 0.04 or better.
@@ -99,7 +101,7 @@ fn common_errors_are_seen_through_noise() {
     };
     // Without noise the error is what it is.
     let trusted = trusted_share(&checks, &plan);
-    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.3, 0.0), &checks);
+    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.3, 0.0), &checks, Noise::Counted);
     near(found.indirect_lx, 0.3 * trusted.sqrt(), 1e-3);
     near(found.untrusted_lx, 0.3, 1e-3);
     near(found.indirect_mean_lx, 0.3, 1e-3);
@@ -107,16 +109,28 @@ fn common_errors_are_seen_through_noise() {
     near(found.total_lx, 0.3, 1e-3);
     // Noise of 0.4 an increment, 0.1 of the mean of sixteen: its square is taken off, its standard
     // error left on, sqrt(2 / 256) of 0.01 and a few times that for uneven weights.
-    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.3, 0.4), &checks);
+    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.3, 0.4), &checks, Noise::Counted);
     near(squared(&found, trusted), 0.09, 0.006);
     near(found.indirect_mean_lx, 0.3, 0.04);
     // Noise alone is no error beyond what it may hide.
-    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.0, 0.4), &checks);
+    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.0, 0.4), &checks, Noise::Counted);
     assert!(found.indirect_lx < 0.06, "{found:?}");
+    let noisy = |error: f64, noise_is: Noise| {
+        checks::errors(&check_sums(&checks, &plan, |_| error, 0.4), &checks, noise_is)
+    };
+    // It is ruled out, but for what one standard error does not cover, and an error that is there is not.
+    assert!(noisy(0.0, Noise::RuledOut).indirect_lx < 0.03);
+    let [ruled, taken_off, counted] =
+        [Noise::RuledOut, Noise::TakenOff, Noise::Counted].map(|noise| noisy(0.3, noise));
+    assert!(
+        ruled.indirect_lx < taken_off.indirect_lx && taken_off.indirect_lx < counted.indirect_lx
+    );
+    near(ruled.indirect_lx, 0.3 * trusted.sqrt(), 0.02);
+    assert!(ruled.indirect_mean_lx < counted.indirect_mean_lx && ruled.indirect_mean_lx > 0.25);
     // As much one way as the other: an error, but no bias.
     let sign =
         |c: &Check| if (c.gatherer.surface.point.x * 997.0) as i64 % 2 == 0 { 1.0 } else { -1.0 };
-    let found = checks::errors(&check_sums(&checks, &plan, sign, 0.0), &checks);
+    let found = checks::errors(&check_sums(&checks, &plan, sign, 0.0), &checks, Noise::Counted);
     near(squared(&found, trusted), 1.0, 2e-3);
     assert!(found.indirect_mean_lx.abs() < 0.3, "{found:?}");
 }
@@ -154,7 +168,7 @@ fn noise_is_that_of_readings_over_the_surface() {
         let fresh = &black[..checks.len()];
         checks::add(&mut sums, &checks, (fresh, fresh), [&black, &black, &coarse], &[]);
     }
-    let noise_lx = checks::errors(&sums, &checks).noise_lx.unwrap();
+    let noise_lx = checks::errors(&sums, &checks, Noise::Counted).noise_lx.unwrap();
     // Barycentric weights have a mean square of 1/6 each; 16 increments; some hundred vertices tell.
     let expected = (3.0 / 6.0_f64).sqrt() / 4.0;
     assert!((noise_lx / expected - 1.0).abs() < 0.2, "{noise_lx} {expected}");
@@ -203,7 +217,6 @@ fn too_few_increments_and_darkness_have_no_accuracy() {
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
     let none = InterpolationErrors::default();
-    assert!(accuracy(&plan, &sums(&plan, BELIEVED_INCREMENTS - 1, 0.1), &none).is_none());
     let mut dark = Accumulator::new(plan.elements.vertices().len(), 1.0);
     (0..16).for_each(|_| dark.add(plan.elements.vertices().iter().map(|_| Sample::default())));
     assert!(accuracy(&plan, &dark, &none).is_none());

@@ -131,6 +131,20 @@ fn one_luminaire_of_many_is_unbiased() {
     assert!(largest < SIGMAS, "{largest} standard errors");
 }
 
+#[test]
+fn one_luminaire_drawn_from_afar_is_unbiased() {
+    let scene = hall(100);
+    // A distribution made elsewhere than for the places asked: worse, but as right.
+    let from = Point::new(1.0, -2.0, 1.0);
+    let estimate = |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| {
+        let about = lighting.about(from, 0.5).expect("there are many");
+        lighting.estimate_by(&about, at, dice)
+    };
+    let (largest, _) = deviation(&scene, estimate, receivers(20));
+    assert!(largest < SIGMAS, "{largest} standard errors");
+    assert!(Lighting::new(&hall(1)).about(from, 0.5).is_none());
+}
+
 /// Root mean square errors, relative: of measurements, as they say, and of their means at a place.
 fn errors(scene: &Scene, goal: Goal) -> [f64; 3] {
     let lighting = Lighting::new(scene);
