@@ -4,14 +4,12 @@
 //! are shared between coplanar (or smoothly joined) neighbours of one side and split at creases.
 
 mod arrays;
-mod locator;
 mod subdivide;
 
 #[cfg(test)]
 mod tests;
 
 pub use arrays::{ElementArrays, ElementArraysError};
-pub(crate) use locator::{Locator, Place};
 pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
 
 use isolux_geometry::{Normal, Point};
@@ -124,6 +122,23 @@ impl Elements {
         u: f64,
         v: f64,
     ) -> Option<[(u32, f64); 3]> {
-        Some(self.corners(self.place_above(level, (triangle, back), [u, v])?))
+        let root = self.roots.get(triangle as usize)?[usize::from(back)]?;
+        let mut node = self.nodes[root as usize];
+        let mut weights = [1.0 - u - v, u, v];
+        while let Some(Split { edge, first_child }) = node.split.filter(|s| s.first_child < level) {
+            let (a, b) = (usize::from(edge), (usize::from(edge) + 1) % 3);
+            // On the edge from a to b the middle has twice the smaller weight.
+            if weights[a] >= weights[b] {
+                weights[a] -= weights[b];
+                weights[b] *= 2.0;
+                node = self.nodes[first_child as usize];
+            } else {
+                weights[b] -= weights[a];
+                weights[a] *= 2.0;
+                node = self.nodes[first_child as usize + 1];
+            }
+        }
+        let [a, b, c] = node.vertices;
+        Some([(a, weights[0]), (b, weights[1]), (c, weights[2])])
     }
 }

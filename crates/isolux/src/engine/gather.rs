@@ -12,7 +12,7 @@ use super::fit::Fit;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
 use super::trust;
-use crate::elements::{Elements, Locator, Place, Receiver};
+use crate::elements::{Elements, Receiver};
 use crate::map::Standing;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
@@ -85,8 +85,6 @@ pub(super) struct Gathering<'a> {
     pub(super) scene: &'a Scene,
     pub(super) lighting: &'a Lighting<'a>,
     pub(super) elements: &'a Elements,
-    /// Where places lie on the level gathered over, if that was looked up.
-    pub(super) locator: Option<&'a Locator>,
     /// Nodes of the elements from this number on are finer than the level gathered over.
     pub(super) level: u32,
     /// What vertices stand for; those without have no value to be read.
@@ -110,7 +108,7 @@ pub(super) enum DirectAtEnds<'a> {
     Read {
         /// A value a vertex, lx.
         values: &'a [Rgb],
-        /// As for indirect light, but direct light may live on a finer level; never on a coarser one.
+        /// As for indirect light, but direct light may live on a finer level.
         level: u32,
     },
     /// Read, but evaluated where a ray that regathers ends nearer than the element there is long: what stands that
@@ -197,19 +195,12 @@ pub(super) struct Operator {
 /// A diffuse surface that a ray has come to.
 struct LegEnd {
     surface: SurfacePoint,
-    /// Where that is on the level gathered over.
-    place: Option<Place>,
+    /// Vertices and weights there on the level gathered over.
+    corners: Option<[(u32, f64); 3]>,
     /// Whether the map tells little there, so close to where the ray starts.
     is_close: bool,
     /// How far the ray has come if it starts in a gap.
     out_of_gap_m: Option<f64>,
-}
-
-impl<'a> Gathering<'a> {
-    /// The same with places looked up.
-    pub(super) const fn with(self, locator: &'a Locator) -> Self {
-        Self { locator: Some(locator), ..self }
-    }
 }
 
 impl Gathering<'_> {
@@ -300,9 +291,9 @@ impl Gathering<'_> {
             let distance_m = (surface.point - leg.origin).length();
             let out_of = leg.in_gap.then_some(distance_m);
             // Once for all: it takes as long as to trace the ray.
-            let place = self.place(&surface);
-            let is_close = self.regathers && self.is_close(place, distance_m);
-            let end = LegEnd { surface, place, is_close, out_of_gap_m: out_of };
+            let corners = self.located(self.level, &surface, None);
+            let is_close = self.regathers && self.is_close(&surface, corners, distance_m);
+            let end = LegEnd { surface, corners, is_close, out_of_gap_m: out_of };
             row.source += share * self.direct_at(&end, leg.receiver, &mut row.about, dice);
             if is_close && leg.number < REGATHERED {
                 rows.further_rays += 1;
@@ -316,7 +307,7 @@ impl Gathering<'_> {
                     receiver: leg.receiver,
                 };
                 self.leg(&further, dice, row, rows);
-            } else if let Some(entry) = self.entry(place, out_of) {
+            } else if let Some(entry) = corners.and_then(|c| self.entry(c, out_of)) {
                 row.close += if is_close { share.luminance() } else { 0.0 };
                 rows.push(entry, share.0.map(|c| c as f32));
             }
@@ -324,23 +315,22 @@ impl Gathering<'_> {
         row.ends.truncate(first);
     }
 
-    /// Where a ray has ended on the level gathered over.
-    fn place(&self, at: &SurfacePoint) -> Option<Place> {
+    /// Vertices and weights of a place on a level, unless those of its own are these.
+    fn located(
+        &self,
+        level: u32,
+        at: &SurfacePoint,
+        own: Option<[(u32, f64); 3]>,
+    ) -> Option<[(u32, f64); 3]> {
         let SurfacePoint { triangle, back, u, v, .. } = *at;
-        match self.locator {
-            Some(locator) => locator.locate(self.elements, (triangle, back), [u, v]),
-            None => self.elements.place_above(self.level, (triangle, back), [u, v]),
-        }
-    }
-
-    /// Vertices and weights of a place of the level gathered over on that or a finer one.
-    fn corners(&self, place: Place, level: u32) -> [(u32, f64); 3] {
-        self.elements.corners(self.elements.below(place, level))
+        own.filter(|_| level == self.level)
+            .or_else(|| self.elements.locate_above(level, triangle, back, u, v))
     }
 
     /// Whether a ray has come less far than the element is long where it ends.
-    fn is_close(&self, place: Option<Place>, distance_m: f64) -> bool {
-        distance_m <= place.map_or(0.0, |place| self.edge_m(self.corners(place, u32::MAX)))
+    fn is_close(&self, at: &SurfacePoint, own: Option<[(u32, f64); 3]>, distance_m: f64) -> bool {
+        let corners = self.located(u32::MAX, at, own);
+        distance_m <= corners.map_or(0.0, |corners| self.edge_m(corners))
     }
 
     /// Whether a ray from within a gap may still be in it.
@@ -356,7 +346,7 @@ impl Gathering<'_> {
         dice: &mut Dice,
     ) -> Rgb {
         let read = |values: &[Rgb], level: u32| {
-            let corners = end.place.map(|place| self.corners(place, level));
+            let corners = self.located(level, &end.surface, end.corners);
             let known = corners.and_then(|corners| self.known(corners, end.out_of_gap_m));
             known.map_or(Rgb::BLACK, |corners| {
                 corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
@@ -388,8 +378,8 @@ impl Gathering<'_> {
     }
 
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
-    fn entry(&self, place: Option<Place>, out_of_gap_m: Option<f64>) -> Option<Entry> {
-        let corners = self.known(self.elements.corners(place?), out_of_gap_m)?;
+    fn entry(&self, corners: [(u32, f64); 3], out_of_gap_m: Option<f64>) -> Option<Entry> {
+        let corners = self.known(corners, out_of_gap_m)?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
             weights: corners.map(|(_, weight)| weight as f32),
@@ -467,8 +457,7 @@ fn weights_over(corners: [(u32, f64); 3], read: [bool; 3]) -> [f64; 3] {
 impl Operator {
     /// `source + A light`, one value a receiver.
     pub(super) fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
-        let light: Vec<Packed> = light.iter().map(|&value| packed(value)).collect();
-        self.chunks.par_iter().flat_map_iter(|rows| rows.apply(&light)).collect()
+        self.chunks.par_iter().flat_map_iter(|rows| rows.apply(light)).collect()
     }
 
     /// Adds the receivers of another.
@@ -589,21 +578,14 @@ impl Rows {
         }
     }
 
-    fn apply(&self, light: &[Packed]) -> Vec<Rgb> {
+    fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
         let (mut run, mut entry) = (0, 0);
         let mut of_row = |(&end, &source): (&usize, &Rgb)| {
             let mut sum = source;
             for Run { end, share } in &self.runs[run..end] {
                 let entries = &self.entries[entry..*end as usize];
-                let mut read = [0.0; 4];
-                for of_ray in entries {
-                    let of_ray = of_ray.light(light);
-                    for k in 0..4 {
-                        read[k] += f64::from(of_ray[k]);
-                    }
-                }
-                let [r, g, b, _] = read;
-                sum += Rgb([r, g, b]) * Rgb(share.map(f64::from));
+                let read: Rgb = entries.iter().map(|entry| entry.light(light)).sum();
+                sum += read * Rgb(share.map(f64::from));
                 entry = *end as usize;
             }
             run = end;
@@ -614,21 +596,11 @@ impl Rows {
 }
 
 impl Entry {
-    fn light(&self, light: &[Packed]) -> Packed {
-        let mut value = [0.0; 4];
+    fn light(&self, light: &[Rgb]) -> Rgb {
+        let mut value = Rgb::BLACK;
         for k in 0..3 {
-            let of_vertex = light[self.vertices[k] as usize];
-            for (value, of_vertex) in value.iter_mut().zip(of_vertex) {
-                *value += of_vertex * self.weights[k];
-            }
+            value += light[self.vertices[k] as usize] * f64::from(self.weights[k]);
         }
         value
     }
-}
-
-/// Light as rays read it: of all that is read again and again, as little as noise leaves worth keeping, in one register.
-type Packed = [f32; 4];
-
-fn packed(Rgb([r, g, b]): Rgb) -> Packed {
-    [r, g, b, 0.0].map(|c: f64| c as f32)
 }

@@ -8,7 +8,7 @@ use super::gather::{DirectAtEnds, Gatherer, Gathering, known_weights};
 use super::surface::SurfacePoint;
 use super::trial::Trial;
 use super::trust;
-use crate::elements::{Elements, Locator, Subdivision};
+use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -22,8 +22,6 @@ pub(super) struct Plan<'s> {
     /// Indirect light lives on the first so many vertices and the nodes below `level`.
     pub(super) indirect_vertices: usize,
     pub(super) level: u32,
-    /// Where places lie on that level.
-    pub(super) locator: Locator,
     /// Which of them carry it; the others are interpolated.
     pub(super) carriers: Carriers,
     /// What vertices stand for; none are hidden in other geometry.
@@ -108,7 +106,6 @@ impl<'a> Gathering<'a> {
             scene: plan.scene,
             lighting: plan.lighting,
             elements: &plan.elements,
-            locator: Some(&plan.locator),
             level: plan.level,
             standings: &plan.standings,
             direct: if plan.lighting.are_read_at_ends() {

@@ -10,7 +10,6 @@ use super::path::{Dice, PathEnd, follow};
 use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
 use super::trust;
-use crate::elements::Locator;
 use crate::map::{Accuracy, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
@@ -71,7 +70,6 @@ pub struct MapReader<'a> {
     /// Direct light at the vertices, where sources are many: there rays read it.
     direct_values: Option<Vec<Rgb>>,
     places: Places<'a>,
-    locator: Locator,
     unseen: Unseen,
 }
 
@@ -112,7 +110,6 @@ impl<'a> MapReader<'a> {
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             light: map.values.iter().map(reflected).collect(),
             places: Places::of(scene),
-            locator: Locator::new(&map.elements, u32::MAX),
             unseen: Unseen::of(map),
         }
     }
@@ -211,7 +208,6 @@ impl<'a> MapReader<'a> {
             scene: self.scene,
             lighting: &self.lighting,
             elements: &self.map.elements,
-            locator: Some(&self.locator),
             level: u32::MAX,
             standings: &self.standings,
             direct,

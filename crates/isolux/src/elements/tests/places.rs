@@ -1,7 +1,6 @@
 //! Places of a triangle and the elements they are in.
 
 use super::*;
-use crate::elements::Locator;
 use isolux_geometry::Point;
 use std::collections::BTreeSet;
 
@@ -83,37 +82,6 @@ fn a_coarser_level_is_what_there_was() {
 }
 
 #[test]
-fn what_is_looked_up_is_what_is_found_by_going_down() {
-    for (name, scene, mut subdivision) in every_kind() {
-        bisect_at_random(&mut subdivision, 7, 300);
-        let elements = subdivision.elements();
-        for level in [0, 20, 100, u32::MAX] {
-            let locator = Locator::new(&elements, level);
-            for (triangle, back) in sides(&scene, &elements) {
-                // On the lines of the grids, too, and a little beyond the rim, as hits of rays are.
-                let lines = [[0.25, 0.5], [0.125, 0.75], [-1e-7, 0.4], [0.6, 0.4 + 1e-7]];
-                for [u, v] in places().into_iter().chain(lines) {
-                    let place = locator.locate(&elements, (triangle, back), [u, v]).unwrap();
-                    let found = elements.corners(place);
-                    let expected = elements.locate_above(level, triangle, back, u, v).unwrap();
-                    let read = |corners: [(u32, f64); 3]| {
-                        let at = |k: u32| linear(elements.vertices()[k as usize].position);
-                        corners.iter().map(|&(k, w)| w * at(k)).sum::<f64>()
-                    };
-                    // A dozen roundings of numbers up to ten; beyond the rim functions go on as their elements do.
-                    let (read, expected) = (read(found), read(expected));
-                    assert!((read - expected).abs() < 1e-13, "{name} {level}: {read} {expected}");
-                    let least = found.iter().map(|&(_, w)| w).fold(0.0, f64::min);
-                    assert!(least > -1e-3, "{name}: {found:?}");
-                }
-            }
-            let none = (scene.triangle_count(), false);
-            assert_eq!(locator.locate(&elements, none, [0.3, 0.3]), None);
-        }
-    }
-}
-
-#[test]
 fn sides_without_a_map_and_triangles_that_are_not_there_have_no_place() {
     let (_, scene, subdivision) = every_kind().remove(0);
     let elements = subdivision.elements();
@@ -126,9 +94,7 @@ fn sides_without_a_map_and_triangles_that_are_not_there_have_no_place() {
 fn weights_that_are_no_weights_end_somewhere() {
     let (_, _, subdivision) = every_kind().remove(3);
     let elements = subdivision.elements();
-    let locator = Locator::new(&elements, u32::MAX);
     for u in [f64::NAN, f64::INFINITY, -1e30, 1e30, -1e-7] {
         assert!(elements.locate(0, false, u, 0.5).is_some());
-        assert!(locator.locate(&elements, (0, false), [u, 0.5]).is_some());
     }
 }

@@ -22,7 +22,7 @@ use super::plan::Plan;
 use super::surface::SurfacePoint;
 use super::trial::{self, Trial};
 use super::trust;
-use crate::elements::{Elements, Locator, Subdivision};
+use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
@@ -250,7 +250,6 @@ impl<'s> Pilot<'s> {
             scene: self.scene,
             lighting: self.lighting,
             elements,
-            locator: None,
             level,
             standings,
             direct,
@@ -320,8 +319,7 @@ impl<'s> Pilot<'s> {
         }
         let new = self.new_carriers(gatherers.len());
         let level = if is_first { u32::MAX } else { self.solved_nodes };
-        let locator = Locator::new(elements, level);
-        let gathering = self.gathering(elements, level, &self.standings).with(&locator);
+        let gathering = self.gathering(elements, level, &self.standings);
         let key = self.key.with(2);
         let rows = self.rows(&new, gatherers);
         let mut started = Instant::now();
@@ -333,7 +331,7 @@ impl<'s> Pilot<'s> {
             go_on(&self.round(request, None, (None, None)));
             started = Instant::now();
         }
-        let gathering = self.gathering(elements, level, &self.standings).with(&locator);
+        let gathering = self.gathering(elements, level, &self.standings);
         let tail = gathering.operator(&rows[head..], |_| key);
         let rays = tail.rays as f64;
         operator.append(tail);
@@ -520,7 +518,6 @@ impl<'s> Pilot<'s> {
         Plan {
             scene: self.scene,
             lighting: self.lighting,
-            locator: Locator::new(&look.elements, coarse.node_count() as u32),
             elements: look.elements,
             gatherers,
             indirect_vertices,
