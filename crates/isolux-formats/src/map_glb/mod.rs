@@ -3,6 +3,7 @@
 
 mod arrays;
 mod attributes;
+mod backs;
 mod bytes;
 mod container;
 mod display;
@@ -17,12 +18,14 @@ mod record;
 mod scene_arrays;
 mod texels;
 mod value_arrays;
+mod vertices;
 mod write;
 
 pub(crate) use displayed::{Displayed, displayed};
 pub use preview::Preview;
 pub use read::{is_map, read};
 pub use texels::{TexelFile, write_texels};
+pub use vertices::{VertexColours, VertexFile, write_vertices};
 pub use write::write;
 
 /// A map that does not fit into a file.

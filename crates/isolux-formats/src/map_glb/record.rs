@@ -3,7 +3,7 @@
 use super::arrays::Table;
 use super::preview::Preview;
 use isolux::geometry::{Direction, Point, Transform};
-use isolux::map::Provenance;
+use isolux::map::{IlluminationMap, Provenance};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{CalculationGrid, Camera, Material, UpAxis};
 use isolux::units::Rgb;
@@ -56,6 +56,22 @@ impl<'a> Declared<'a> {
             accuracy_reached: record.provenance.accuracy.map(|a| a.reached),
             record,
         }
+    }
+}
+
+/// Where the light of a file comes from that is no map itself.
+#[derive(Serialize)]
+pub(super) struct Origin {
+    scene: String,
+    scene_hash: String,
+    accuracy_reached: Option<f64>,
+}
+
+impl Origin {
+    pub(super) fn of(map: &IlluminationMap) -> Self {
+        let Provenance { scene, scene_hash, accuracy, .. } = map.provenance.clone();
+        let accuracy_reached = accuracy.map(|a| a.reached).filter(|a| a.is_finite());
+        Self { scene, scene_hash, accuracy_reached }
     }
 }
 

@@ -90,7 +90,7 @@ fn beside_lightmap(file: &TexelFile<'_>, layer: Layer, page: &Page, is_textured:
 /// Without a map: glass translucent, mirrors grey, luminaires as bright as they are.
 fn bare(file: &TexelFile<'_>, layer: Layer) -> Material {
     let body = &file.scene.materials()[layer.material as usize].body;
-    let [r, g, b, alpha] = looks::bare_colour(body, layer.back, &file.preview);
+    let [r, g, b, alpha] = looks::bare_colour(body, layer.back, &|l| file.preview.colour(l));
     let finish = file.scene.materials()[layer.material as usize].finish(layer.back);
     let emitter = finish.filter(|f| f.is_emitter());
     let is_finished = file.target.way() == Way::Preview;
