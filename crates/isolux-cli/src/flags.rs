@@ -128,7 +128,7 @@ pub(crate) struct LayoutFlags {
     /// Light at vertices, or in a lightmap (MAP.exr is written beside it, with every digit)
     #[arg(long, value_enum, default_value = "vertices")]
     pub layout: LayoutName,
-    /// Density of a lightmap [default: some 130 000 texels over all surfaces]
+    /// Density of a lightmap [default: that of the map, if it has texels already, or some 130 000 texels over all surfaces]
     #[arg(long, value_name = "N", value_parser = quantity::density, allow_hyphen_values = true)]
     pub texels_per_meter: Option<f64>,
 }
@@ -385,7 +385,7 @@ a vertex. Values are those of the bare map at its vertices. The map itself is a 
 A .glb has colours of vertices under unlit materials, without the map: luminance in proportion, as an engine shows it, with the \
 luminance of white printed and noted in the file (--target viewer: tone mapped).
 
-Lightmaps (.glb with --layout texels, .exr, .ktx2) are baked from the map: direct light afresh, over all of each texel. --target \
+Lightmaps (.glb with --layout texels, .exr, .ktx2) are baked from the map: direct light afresh, over all of each texel; or taken from it, if `solve --layout texels` baked them. --target \
 says for whom: it decides unit, side of pi and how the .glb refers to the light, all of which is printed. Beside a .glb its \
 lightmap is written as .exr, for three and bevy as .ktx2, too. Further pages are named lightmap-1.exr and so on.")]
 pub(crate) struct ExportFlags {

@@ -3,11 +3,12 @@
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::ExportFlags;
-use crate::lightmap::Planned;
+use crate::lightmap::{Baked, Planned};
 use crate::lightmap_files::{self, Kind};
 use crate::map_file;
 use crate::output::OutputPath;
 use isolux_formats::lightmap::Target;
+use isolux_formats::map_glb::MapFile;
 
 /// A kind of file with a lightmap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +28,7 @@ impl LightmapFile {
     }
 }
 
-/// Bakes and writes what `export` was asked for.
+/// Takes texels from the map or bakes them, and writes what `export` was asked for.
 pub(crate) fn run(
     flags: &ExportFlags,
     (file, target): (LightmapFile, Target),
@@ -40,9 +41,15 @@ pub(crate) fn run(
             OutputPath::check(&flags.output.with_extension(extension), extension)?;
         }
     }
-    let (scene, map) = map_file::read(&flags.map)?;
-    let planned = Planned::new(&flags.layout, &scene, flags.max_memory)?;
-    let Some(baked) = planned.bake(&scene, &map)? else { return Ok(Outcome::Interrupted) };
+    let MapFile { scene, map, lightmap } = map_file::read_with_texels(&flags.map)?;
+    let baked = match Baked::held(&flags.layout, &map, lightmap) {
+        Some(held) => held,
+        None => {
+            let planned = Planned::new(&flags.layout, &scene, flags.max_memory)?;
+            let Some(baked) = planned.bake(&scene, &map)? else { return Ok(Outcome::Interrupted) };
+            baked
+        }
+    };
     let report = match file {
         LightmapFile::Glb => baked.write(&scene, &map, (&output, target, false))?,
         LightmapFile::Alone(kind) => {

@@ -1,6 +1,7 @@
 //! `extras.isolux`, as written.
 
 use super::arrays::Table;
+use super::lightmap_arrays::LightmapRecord;
 use super::preview::Preview;
 use isolux::geometry::{Direction, Point, Transform};
 use isolux::map::{IlluminationMap, Provenance};
@@ -25,6 +26,9 @@ pub(super) struct Record {
     pub(super) provenance: Provenance,
     pub(super) preview: Preview,
     pub(super) scene: SceneRecord,
+    /// Only where the map was baked, too; maps of before have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) lightmap: Option<LightmapRecord>,
     pub(super) arrays: Table,
     /// BLAKE3 over all arrays.
     pub(super) arrays_blake3: String,

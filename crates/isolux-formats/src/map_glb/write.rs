@@ -11,7 +11,8 @@ use super::document::{
 };
 use super::looks::Looks;
 use super::record::{Declared, Extras, FORMAT_VERSION, Record};
-use super::{MapTooLarge, Preview, images, nodes, scene_arrays, value_arrays};
+use super::{MapTooLarge, Preview, images, lightmap_arrays, nodes, scene_arrays, value_arrays};
+use isolux::lightmap::Lightmap;
 use isolux::map::{IlluminationMap, Provenance};
 use isolux::scene::Scene;
 use serde::Serialize;
@@ -30,7 +31,7 @@ pub fn write(
     let lights = nodes::add_lights(scene, &mut objects);
     let children = (0..objects.nodes.len() as u32).collect();
     objects.nodes.push(nodes::root(scene, children));
-    let record = record((scene, map, preview), &pictures, &mut bytes);
+    let record = record((scene, map, preview), (&pictures, None), &mut bytes);
     let mut extensions_used = vec!["KHR_materials_unlit"];
     if !lights.is_empty() {
         extensions_used.push("KHR_lights_punctual");
@@ -126,18 +127,20 @@ fn primitive(
 /// Writes all arrays and says what they are.
 pub(super) fn record(
     (scene, map, preview): Input<'_>,
-    pictures: &[u32],
+    (pictures, lightmap): (&[u32], Option<&Lightmap>),
     bytes: &mut Bytes,
 ) -> Record {
     let mut table = Table::new();
     let scene = scene_arrays::write(scene.to_parts(), pictures, bytes, &mut table);
     value_arrays::write(map, bytes, &mut table);
+    let lightmap = lightmap.and_then(|l| lightmap_arrays::write(l, (bytes, &mut table)));
     let arrays_blake3 = arrays::checksum(&table, |view| bytes.of(view)).unwrap_or_default();
     Record {
         format_version: FORMAT_VERSION,
         provenance: storable(&map.provenance),
         preview: *preview,
         scene,
+        lightmap,
         arrays: table,
         arrays_blake3,
     }

@@ -60,8 +60,8 @@ pub fn write_texels(file: &TexelFile<'_>) -> Result<Vec<u8>, LightmapFileError> 
     nodes::add_cameras(scene, &mut objects);
     let children = (0..objects.nodes.len() as u32).collect();
     objects.nodes.push(nodes::root(scene, children));
-    let record =
-        file.with_record.then(|| record((scene, map, &file.preview), &pictures, &mut bytes));
+    let texels = (&pictures[..], Some(file.lightmap));
+    let record = file.with_record.then(|| record((scene, map, &file.preview), texels, &mut bytes));
     // Without lights: all of theirs is in the texels, and a consumer would add it once more.
     let extensions_used = materials::extensions(&objects.materials);
     let extras =
