@@ -1,5 +1,7 @@
-//! Programs that show lightmaps, run on what isolux writes for them: Blender, from the package index, and Godot, if installed.
-//! By hand: Blender weighs a gigabyte, and the lightmap of a room takes a minute.
+//! Programs that show light, run on what isolux writes for them: Blender, from the package index, Bevy, from its crates, and
+//! Godot, if installed. By hand: Blender weighs a gigabyte, Bevy takes minutes to build, and the lightmap of a room takes one.
+
+mod bevy;
 
 use crate::lamps::has_python;
 use crate::peers::{build, environment, wait};
@@ -27,7 +29,7 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
     let card = bench.folder.join("card-map.glb");
     let scene = card_scene(&bench.folder)?;
     bench.isolux(&["solve", &text(&scene), "-o", &text(&card), "--quality", "draft"])?;
-    Ok([bench.blender(&card)?, bench.godot(&card)?].join("\n"))
+    Ok([bench.blender(&card)?, bench.godot(&card)?, bevy::show(&bench, &card)?].join("\n"))
 }
 
 impl Bench<'_> {
