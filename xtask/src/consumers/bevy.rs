@@ -1,6 +1,6 @@
 //! Bevy, built from its crates: several hundred, which takes minutes.
 
-use super::{Bench, CODES, luminance_cd_m2, srgb, text};
+use super::bench::{Bench, CODES, codes, luminance_cd_m2, srgb, text};
 use crate::peers::wait;
 use crate::smoke::PICTURE_WHITE_CD_M2;
 use std::path::{Path, PathBuf};
@@ -63,12 +63,9 @@ fn shows(
         .output()
         .map_err(|e| format!("cannot run {}: {e}", judge.display()))?;
     let said = String::from_utf8_lossy(&output.stdout);
-    let codes = said.lines().find_map(|line| line.strip_prefix("codes "));
-    let codes: Option<Vec<f64>> =
-        codes.and_then(|line| line.split(' ').map(|code| code.parse().ok()).collect());
     let due = 255.0 * srgb(luminance_cd_m2() / white_cd_m2);
-    match codes {
-        Some(codes) if codes.len() == 3 && codes.iter().all(|c| (c - due).abs() <= CODES) => {
+    match codes(&said) {
+        Some(codes) if codes.iter().all(|c| (c - due).abs() <= CODES) => {
             Ok(format!("codes {codes:?}, due are {due:.2}"))
         }
         codes => {
