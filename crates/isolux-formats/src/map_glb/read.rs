@@ -3,7 +3,7 @@
 use super::arrays::{self, Arrays};
 use super::bytes::View;
 use super::container;
-use super::record::{Extras, FORMAT_VERSION, Record};
+use super::record::{Extras, Record, VERSIONS};
 use super::{Fault, lightmap_arrays, scene_arrays, value_arrays};
 use crate::{Loaded, Problem, Problems};
 use isolux::lightmap::Lightmap;
@@ -150,10 +150,12 @@ fn check_version(path: &Path, json: &[u8]) -> Result<(), Problem> {
         Problem::new(path, "extras.isolux", what, NOT_A_MAP_REMEDY)
     })?;
     let found = version.extras.isolux.format_version;
-    if found == FORMAT_VERSION {
+    if VERSIONS.contains(&found) {
         return Ok(());
     }
-    let what = format!("the map has format {found}; this version reads format {FORMAT_VERSION}");
+    let (oldest, newest) = VERSIONS.into_inner();
+    let what =
+        format!("the map has format {found}; this version reads formats {oldest} to {newest}");
     let remedy = "use the version of isolux that wrote it, or compute the map again";
     Err(Problem::new(path, "extras.isolux.format_version", what, remedy))
 }

@@ -9,9 +9,18 @@ use isolux::photometry::IntensityDistribution;
 use isolux::scene::{CalculationGrid, Camera, Material, UpAxis};
 use isolux::units::Rgb;
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 
-/// Version of the format; raised when older readers would misread what is written.
-pub(super) const FORMAT_VERSION: u32 = 2;
+/// Versions of the format that are read; raised when older readers would misread what is written.
+pub(super) const VERSIONS: RangeInclusive<u32> = 2..=3;
+
+/// The version that a scene needs: what read version 2 knows no coats, and would leave them out.
+pub(super) fn version(materials: &[Material]) -> u32 {
+    let is_coated = |m: &Material| {
+        [false, true].into_iter().any(|back| m.finish(back).is_some_and(|f| f.coat.is_some()))
+    };
+    if materials.iter().any(is_coated) { 3 } else { 2 }
+}
 
 /// `extras` of the document.
 #[derive(Serialize, Deserialize)]

@@ -10,7 +10,7 @@ use super::document::{
     Scene as SceneRoots, Texture,
 };
 use super::looks::Looks;
-use super::record::{Declared, Extras, FORMAT_VERSION, Record};
+use super::record::{Declared, Extras, Record, version};
 use super::{MapTooLarge, Preview, images, lightmap_arrays, nodes, scene_arrays, value_arrays};
 use isolux::lightmap::Lightmap;
 use isolux::map::{IlluminationMap, Provenance};
@@ -136,7 +136,7 @@ pub(super) fn record(
     let lightmap = lightmap.and_then(|l| lightmap_arrays::write(l, (bytes, &mut table)));
     let arrays_blake3 = arrays::checksum(&table, |view| bytes.of(view)).unwrap_or_default();
     Record {
-        format_version: FORMAT_VERSION,
+        format_version: version(&scene.materials),
         provenance: storable(&map.provenance),
         preview: *preview,
         scene,

@@ -2,12 +2,12 @@
 
 use super::*;
 
-/// Two quads, of one of which half is unknown.
-fn baked_box() -> (Scene, Lightmap) {
-    let along = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let scene =
-        scene(vec![quad("low", [0.0; 3], along, 2), quad("high", [0.0, 0.0, 1.0], along, 2)]);
-    let map = map(&scene, |[x, y, z]| (z < 0.5 || x < 1.5).then_some(100.0 + 30.0 * x + y));
+/// A wide quad and a long one, of which a part is unknown.
+fn baked_quads() -> (Scene, Lightmap) {
+    let wide = quad("wide", [0.0; 3], [[4.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 2);
+    let long = quad("long", [0.0, 0.0, 1.0], [[0.4, 0.0, 0.0], [0.0, 6.0, 0.0]], 3);
+    let scene = scene(vec![wide, long]);
+    let map = map(&scene, |[x, y, z]| (z < 0.5 || y < 3.0).then_some(100.0 + 30.0 * x + y));
     let lightmap = baked(&scene, &map, 8.0);
     (scene, lightmap)
 }
@@ -24,8 +24,10 @@ fn refused(
 
 #[test]
 fn nothing_is_lost() {
-    let (scene, lightmap) = baked_box();
-    assert!(lightmap.count(Cover::Filled) > 0 && lightmap.count(Cover::Empty) > 0);
+    let (scene, lightmap) = baked_quads();
+    for cover in [Cover::Empty, Cover::Filled, Cover::Unknown, Cover::Known] {
+        assert!(lightmap.count(cover) > 0, "{cover:?}");
+    }
     let arrays = lightmap.to_arrays();
     assert!(arrays.shown_lx.len() < lightmap.shown_lx.len());
     assert_eq!(Lightmap::from_arrays(arrays, &scene), Ok(lightmap));
@@ -34,7 +36,7 @@ fn nothing_is_lost() {
 #[test]
 fn what_does_not_fit_together_is_refused() {
     use LightmapArraysError as Why;
-    let (scene, lightmap) = baked_box();
+    let (scene, lightmap) = baked_quads();
     let refused = |spoil: &dyn Fn(&mut LightmapArrays)| refused(spoil, &scene, &lightmap);
     assert_eq!(refused(&|a| a.layout.width = 0), Why::Size);
     assert_eq!(refused(&|a| a.layout.pages = u32::MAX), Why::Size);
