@@ -1,5 +1,5 @@
 // Inside the browser: draws the mesh `card` of a file lit by its lightmap, as embedded and from the KTX2 beside it, and
-// tells the luminance in its middle.
+// tells the luminance in its middle; the same of a file with colours of vertices, of which it says what white is.
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
@@ -49,8 +49,15 @@ function luminanceOf(gltf) {
   return [0, 1, 2].map((channel) => pixels[4 * 40 + channel]);
 }
 
+async function luminanceOfVertices(name) {
+  const gltf = await new GLTFLoader().loadAsync(`/files/${name}.glb`);
+  const white = gltf.userData.isolux_vertices.white_cd_m2;
+  return luminanceOf(gltf).map((colour) => colour * white);
+}
+
 async function run() {
-  const name = new URLSearchParams(location.search).get('file');
+  const asked = new URLSearchParams(location.search);
+  const name = asked.get('file');
   const gltf = await new GLTFLoader().register((parser) => new Lightmaps(parser)).loadAsync(`/files/${name}.glb`);
   const { material } = cardOf(gltf);
   const embedded = luminanceOf(gltf);
@@ -60,7 +67,9 @@ async function run() {
   material.lightMap = texture;
   material.lightMapIntensity = 1;
   material.needsUpdate = true;
-  return { embedded, ktx2: luminanceOf(gltf), material: material.type, three: THREE.REVISION };
+  const ktx2 = luminanceOf(gltf);
+  const vertices = await luminanceOfVertices(asked.get('vertices'));
+  return { embedded, ktx2, vertices, material: material.type, three: THREE.REVISION };
 }
 
 const tell = (result) => fetch('/result', { method: 'POST', body: JSON.stringify(result) });

@@ -1,13 +1,16 @@
-"""Lets Blender import lightmaps written with `--target blender`, render them with Cycles, and say what luminance it shows.
+"""Lets Blender import what is written with `--target blender`, render it with Cycles, and say what luminance it shows.
 
-Usage: python judge.py --card CARD.glb --reflectance RHO --illuminance LX [--room ROOM.glb --picture ROOM.png --white CD_M2]
+Usage: python judge.py --card CARD.glb [--vertices CARD.glb] --reflectance RHO --illuminance LX
+                       [--room ROOM.glb --picture ROOM.png --white CD_M2]
 
 The card is a square of known reflectance under a known illuminance: scene-linear 1 is 1 cd/m2, so that it must render as
-rho E / pi. The room is compared with a linear picture of isolux from the same camera, whose full code stands for CD_M2."""
+rho E / pi; with its light at vertices 1 is the white of the file. The room is compared with a linear picture of isolux from the same camera, whose full code stands for CD_M2."""
 
 import argparse
+import json
 import math
 import os
+import struct
 import sys
 import tempfile
 
@@ -17,6 +20,8 @@ import numpy
 
 # Blender decodes sRGB of 16 bits in single precision; measured 2.4e-5 at white.
 CARD_TOLERANCE = 1e-4
+# Colours of vertices are kept in 8 bits of sRGB; measured 0.34 codes.
+VERTEX_CODES = 0.51
 # Isolux's picture is rounded to codes. At borders of shadows it reads direct light at the point where a texel of 1/71 m holds
 # its mean, and at contacts and edges it interpolates indirect light where the lightmap gathers it. Measured on a draft of the
 # Cornell box: 77.2 % of the pixels within 1, 92.9 % within 4; half of all differ by less than 0.45.
@@ -28,6 +33,7 @@ WIDTH, HEIGHT = 640, 360
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--card", required=True)
+    parser.add_argument("--vertices")
     parser.add_argument("--reflectance", type=float, required=True)
     parser.add_argument("--illuminance", type=float, required=True)
     parser.add_argument("--room")
@@ -35,15 +41,36 @@ def main():
     parser.add_argument("--white", type=float)
     flags = parser.parse_args()
     judge_card(flags)
+    if flags.vertices:
+        judge_vertices(flags)
     if flags.room:
         judge_room(flags)
 
 
-def judge_card(flags):
-    load(flags.card)
+def white_of(file):
+    """What the file says of its colours, cd/m2."""
+    with open(file, "rb") as glb:
+        length = struct.unpack("<3I2I", glb.read(20))[3]
+        return json.loads(glb.read(length))["extras"]["isolux_vertices"]["white_cd_m2"]
+
+
+def middle_of_card(file):
+    load(file)
     look_down_on("card")
-    pixels = rendered(9, 9)
-    found = pixels[4, 4]
+    return rendered(9, 9)[4, 4]
+
+
+def judge_vertices(flags):
+    white = white_of(flags.vertices)
+    due = 255.0 * srgb(flags.reflectance * flags.illuminance / math.pi / white)
+    codes = 255.0 * srgb(middle_of_card(flags.vertices))
+    print(f"with its light at vertices it has codes {codes}, due are {due:.2f} where {white} cd/m2 are white")
+    if not max(abs(codes - due)) <= VERTEX_CODES:
+        sys.exit(f"{flags.vertices}: codes {codes} in place of {due}")
+
+
+def judge_card(flags):
+    found = middle_of_card(flags.card)
     due = flags.reflectance * flags.illuminance / math.pi
     off = max(abs(found / due - 1.0))
     print(f"Blender {bpy.app.version_string}: the card has {found[0]:.4f} cd/m2, rho E / pi is {due:.4f}: off by {off:.1e}")

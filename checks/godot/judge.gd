@@ -1,6 +1,8 @@
 # Shows card.glb of this project in Godot 3, with no more than a project has to set: its importer leaves out the strength of
-# emission (KHR_materials_emissive_strength, which Godot 4 reads), so that the material is given it times the exposure.
-# Usage: godot3 --path PROJECT -s judge.gd STRENGTH EXPOSURE_M2_CD; prints the codes of the middle of the picture.
+# emission (KHR_materials_emissive_strength), so that the material is given it times the exposure; and that vertices have
+# colours, and that materials are unlit (KHR_materials_unlit), so that it is told. Godot 4 reads all of these.
+# Usage: godot3 --path PROJECT -s judge.gd ENERGY, of which 0 stands for colours of vertices; prints the codes of the middle
+# of the picture.
 extends SceneTree
 
 # The first pictures are drawn before all is loaded.
@@ -11,9 +13,8 @@ var frames = 0
 
 func _init():
 	var given = OS.get_cmdline_args()
-	var energy = float(given[given.size() - 2]) * float(given[given.size() - 1])
 	var card = load("res://card.glb").instance()
-	strengthen(card, energy)
+	prepare(card, float(given[given.size() - 1]))
 	viewport.size = Vector2(9, 9)
 	viewport.own_world = true
 	viewport.render_target_update_mode = Viewport.UPDATE_ALWAYS
@@ -21,12 +22,17 @@ func _init():
 		viewport.add_child(node)
 	get_root().add_child(viewport)
 
-func strengthen(node, energy):
+func prepare(node, energy):
 	if node is MeshInstance:
 		for k in range(node.mesh.get_surface_count()):
-			node.mesh.surface_get_material(k).emission_energy = energy
+			var material = node.mesh.surface_get_material(k)
+			if energy > 0:
+				material.emission_energy = energy
+			else:
+				material.flags_unshaded = true
+				material.vertex_color_use_as_albedo = true
 	for child in node.get_children():
-		strengthen(child, energy)
+		prepare(child, energy)
 
 # No light but that of the card, and no tone mapping but the encoding as sRGB.
 func nothing_else():

@@ -10,7 +10,7 @@ const JUDGES: [&str; 2] = ["validate.mjs", "three.mjs"];
 /// What `lightmap.mjs` ends with where there is no browser.
 const NO_BROWSER: i32 = 77;
 
-/// Shows a map and its lightmaps to the judges. Without node they are left out, except where `CI` is `true`.
+/// Shows a map and what is made of it for engines to the judges. Without node they are left out, except where `CI` is `true`.
 pub(crate) fn run(root: &Path, made: &Made) -> Result<String, String> {
     let folder = root.join("checks");
     if !folder.join("package.json").is_file() {
@@ -27,16 +27,17 @@ pub(crate) fn run(root: &Path, made: &Made) -> Result<String, String> {
     for judge in JUDGES {
         accept(&folder, judge, &[made.map.as_os_str()])?;
     }
-    let lightmaps = made.lightmaps.iter().chain([&made.card.file]);
-    accept(&folder, "validate.mjs", &lightmaps.map(|file| file.as_os_str()).collect::<Vec<_>>())?;
-    let Card { file, reflectance, illuminance_lx } = &made.card;
+    let Card { file, vertices, reflectance, illuminance_lx } = &made.card;
+    let files = made.for_engines.iter().chain([file, vertices]);
+    accept(&folder, "validate.mjs", &files.map(|file| file.as_os_str()).collect::<Vec<_>>())?;
     let [reflectance, illuminance_lx] = [reflectance, illuminance_lx].map(ToString::to_string);
-    let card = [file.as_os_str(), OsStr::new(&reflectance), OsStr::new(&illuminance_lx)];
+    let known = [OsStr::new(&reflectance), OsStr::new(&illuminance_lx)];
+    let card = [&[file.as_os_str(), vertices.as_os_str()], &known[..]].concat();
     match node(&folder, "lightmap.mjs", &card)? {
-        Some(0) => Ok("the judges accept the map and its lightmaps".to_owned()),
+        Some(0) => Ok("the judges accept the map and what is made of it for engines".to_owned()),
         Some(NO_BROWSER) => {
-            Ok("the judges accept the map and its lightmaps, but three.js drew none: \
-             install chromium, or name it in CHROMIUM"
+            Ok("the judges accept the map and what is made of it for engines, but three.js drew \
+             none of it: install chromium, or name it in CHROMIUM"
                 .to_owned())
         }
         _ => Err(format!("checks/lightmap.mjs refuses {}", file.display())),

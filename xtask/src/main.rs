@@ -21,7 +21,7 @@ cargo xtask test    everything that must hold before a change lands
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
-cargo xtask consumers     lightmaps in Blender and Godot, by hand
+cargo xtask consumers     light in Blender, Godot and Bevy, by hand
 cargo xtask bench setup   download Embree 4.4 into target/embree
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
 cargo xtask bench hall    time to an accuracy against triangles and luminaires, and true errors

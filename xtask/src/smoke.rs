@@ -9,8 +9,8 @@ pub(crate) struct Made {
     pub map: PathBuf,
     /// Another scene, for other software.
     pub room: Room,
-    /// The cube as texels, for every consumer.
-    pub lightmaps: Vec<PathBuf>,
+    /// The cube for every consumer, as texels and with its light at vertices.
+    pub for_engines: Vec<PathBuf>,
     /// A card under parallel light, for three.js, with the `.ktx2` beside it.
     pub card: Card,
 }
@@ -18,6 +18,8 @@ pub(crate) struct Made {
 /// What is known of the card.
 pub(crate) struct Card {
     pub file: PathBuf,
+    /// The same with its light at vertices.
+    pub vertices: PathBuf,
     pub reflectance: f64,
     pub illuminance_lx: f64,
 }
@@ -60,18 +62,19 @@ pub(crate) fn run(root: &Path) -> Result<Made, String> {
     println!("{values}");
     expect_middle_of_wall(&values)?;
     let room = room(root, &folder)?;
-    let target = |name: &str| {
-        let file = folder.join(format!("cube-{name}.glb"));
-        let texels = ["--layout", "texels", "--texels-per-meter", "2", "--target", name];
-        isolux(
-            root,
-            &[&["export", &map_text, "-o", &file.to_string_lossy()], &texels[..]].concat(),
-        )?;
+    let for_engine = |(name, layout, more): (&str, &str, &[&str])| {
+        let file = folder.join(format!("cube-{name}-{layout}.glb"));
+        let way = ["--layout", layout, "--target", name];
+        let into = ["export", &map_text, "-o", &file.to_string_lossy()];
+        isolux(root, &[&into, &way[..], more].concat())?;
         Ok(file)
     };
-    let lightmaps = TARGETS.into_iter().map(target).collect::<Result<Vec<PathBuf>, String>>()?;
+    let texels = TARGETS.map(|name| (name, "texels", &["--texels-per-meter", "2"][..]));
+    let vertices = TARGETS.map(|name| (name, "vertices", &[][..]));
+    let for_engines = texels.into_iter().chain(vertices).map(for_engine);
+    let for_engines = for_engines.collect::<Result<Vec<PathBuf>, String>>()?;
     let card = card(root, &folder)?;
-    Ok(Made { map, room, lightmaps, card })
+    Ok(Made { map, room, for_engines, card })
 }
 
 /// Solves a box of coloured walls and exports its map.
@@ -106,8 +109,12 @@ fn room(root: &Path, folder: &Path) -> Result<Room, String> {
 }
 
 const TARGETS: [&str; 6] = ["viewer", "three", "godot", "unity", "blender", "bevy"];
-pub(crate) const CARD: Card =
-    Card { file: PathBuf::new(), reflectance: 0.8, illuminance_lx: 500.0 };
+pub(crate) const CARD: Card = Card {
+    file: PathBuf::new(),
+    vertices: PathBuf::new(),
+    reflectance: 0.8,
+    illuminance_lx: 500.0,
+};
 
 /// The scene of a square metre that faces parallel light.
 pub(crate) fn card_scene(folder: &Path) -> Result<PathBuf, String> {
@@ -122,15 +129,20 @@ pub(crate) fn card_scene(folder: &Path) -> Result<PathBuf, String> {
     Ok(scene)
 }
 
-/// The same as a lightmap for three.js.
+/// The same for three.js, as a lightmap and with its light at vertices.
 fn card(root: &Path, folder: &Path) -> Result<Card, String> {
     let scene = card_scene(folder)?;
-    let [scene, map, file] = [scene, folder.join("card-map.glb"), folder.join("card.glb")];
-    let [scene, map, out] = [&scene, &map, &file].map(|path| path.to_string_lossy().into_owned());
-    isolux(root, &["solve", &scene, "-o", &map, "--quality", "draft"])?;
-    let texels = ["--layout", "texels", "--texels-per-meter", "16", "--target", "three"];
-    isolux(root, &[&["export", &map, "-o", &out], &texels[..]].concat())?;
-    Ok(Card { file, ..CARD })
+    let [map, file, vertices] =
+        ["card-map.glb", "card.glb", "card-vertices.glb"].map(|name| folder.join(name));
+    let text = |path: &Path| path.to_string_lossy().into_owned();
+    isolux(root, &["solve", &text(&scene), "-o", &text(&map), "--quality", "draft"])?;
+    let export = |file: &Path, texels: &[&str]| {
+        let into = ["export", &text(&map), "-o", &text(file), "--target", "three"];
+        isolux(root, &[&into[..], texels].concat())
+    };
+    export(&file, &["--layout", "texels", "--texels-per-meter", "16"])?;
+    export(&vertices, &[])?;
+    Ok(Card { file, vertices, ..CARD })
 }
 
 /// Luminance at A of the published table, 892.8 cd/m2, as an illuminance: pi L / rho, rho = 2/3.

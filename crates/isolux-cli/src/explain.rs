@@ -47,7 +47,7 @@ fn surfaces(scene: &Scene) -> String {
         let sides = sides(scene.material_index(triangle));
         clear += u64::from(sides.is_empty());
         mirrors += u64::from(sides.iter().any(|f| !f.mirror.is_black()));
-        glossy += u64::from(sides.iter().any(|f| f.gloss.is_some()));
+        glossy += u64::from(sides.iter().any(|f| f.is_glossy()));
     }
     format!(
         "Of {} triangles {mirrors} mirror, {glossy} are glossy and {clear} are clear; light is \

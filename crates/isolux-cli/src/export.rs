@@ -1,9 +1,9 @@
 //! `isolux export`: a map for other software.
 
 use crate::console::{facts, print, print_json};
+use crate::engine_export;
 use crate::failure::{Failure, Outcome};
 use crate::flags::ExportFlags;
-use crate::lightmap_export;
 use crate::map_file;
 use crate::output::OutputPath;
 use crate::quantity::show_bytes;
@@ -15,8 +15,8 @@ use serde::Serialize;
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
     request::use_threads(flags.threads)?;
-    if let Some(wanted) = lightmap_export::Wanted::of(flags)? {
-        return lightmap_export::run(flags, wanted, json);
+    if let Some(wanted) = engine_export::Wanted::of(flags)? {
+        return wanted.write(flags, json);
     }
     let (kind, extension) = kind(flags)?;
     let output = OutputPath::check(&flags.output, extension)?;

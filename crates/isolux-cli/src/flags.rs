@@ -128,7 +128,7 @@ pub(crate) struct LayoutFlags {
     /// Light at vertices, or in a lightmap (MAP.exr is written beside it, with every digit)
     #[arg(long, value_enum, default_value = "vertices")]
     pub layout: LayoutName,
-    /// Density of a lightmap [default: some 130 000 texels over all surfaces]
+    /// Density of a lightmap [default: that of the map, if it has texels already, or some 130 000 texels over all surfaces]
     #[arg(long, value_name = "N", value_parser = quantity::density, allow_hyphen_values = true)]
     pub texels_per_meter: Option<f64>,
 }
@@ -375,13 +375,17 @@ pub(crate) enum ToneName {
 #[command(after_help = "Examples:
   isolux export map.glb -o room.wrl
   isolux export map.glb -o room.vtu
+  isolux export map.glb -o room.glb --target bevy
   isolux export map.glb -o room.glb --layout texels --target three --texels-per-meter 20
   isolux export map.glb -o lightmap.exr
 
 The extension tells the kind: .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row \
 a vertex. Values are those of the bare map at its vertices. The map itself is a .glb that viewers of glTF open.
 
-Lightmaps (.glb with --layout texels, .exr, .ktx2) are baked from the map: direct light afresh, over all of each texel. --target \
+A .glb has colours of vertices under unlit materials, without the map: luminance in proportion, as an engine shows it, with the \
+luminance of white printed and noted in the file (--target viewer: tone mapped).
+
+Lightmaps (.glb with --layout texels, .exr, .ktx2) are baked from the map: direct light afresh, over all of each texel; or taken from it, if `solve --layout texels` baked them. --target \
 says for whom: it decides unit, side of pi and how the .glb refers to the light, all of which is printed. Beside a .glb its \
 lightmap is written as .exr, for three and bevy as .ktx2, too. Further pages are named lightmap-1.exr and so on.")]
 pub(crate) struct ExportFlags {
@@ -392,9 +396,12 @@ pub(crate) struct ExportFlags {
     pub output: PathBuf,
     #[command(flatten)]
     pub layout: LayoutFlags,
-    /// Who will show the lightmap
+    /// Who will show the light of a .glb or of a lightmap
     #[arg(long, value_enum, default_value = "viewer")]
     pub target: TargetName,
+    /// Luminance that colours of vertices show as white: 500cd/m2 [default: what 99 % of all surfaces stay below]
+    #[arg(long, value_name = "LUMINANCE", value_parser = quantity::luminance_cd_m2, allow_hyphen_values = true)]
+    pub white: Option<f64>,
     /// Refuse to need more memory than this for a lightmap: 8GiB, 500MB
     #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
     pub max_memory: u64,
@@ -403,20 +410,20 @@ pub(crate) struct ExportFlags {
     pub threads: Option<u16>,
 }
 
-/// Consumers of lightmaps.
+/// Consumers of light at vertices or in lightmaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum TargetName {
     /// Any viewer of glTF: finished colours
     Viewer,
-    /// three.js: illuminance, MOZ_lightmap
+    /// three.js: colours; lightmaps of illuminance, MOZ_lightmap
     Three,
-    /// Godot 4: luminance as emission
+    /// Godot 4: colours of 16 bits; lightmaps: luminance as emission
     Godot,
-    /// Unity with glTFast: luminance as emission
+    /// Unity with glTFast: colours; lightmaps: luminance as emission
     Unity,
-    /// Blender: luminance as emission
+    /// Blender: colours; lightmaps: luminance as emission
     Blender,
-    /// Bevy: illuminance over pi, MOZ_lightmap
+    /// Bevy: colours; lightmaps of illuminance over pi, MOZ_lightmap
     Bevy,
 }
 

@@ -31,6 +31,8 @@ pub(crate) struct Planned {
 pub(crate) struct Baked {
     /// The lightmap.
     pub lightmap: Lightmap,
+    /// Whether the map held it already.
+    is_held: bool,
     time_s: f64,
 }
 
@@ -135,7 +137,10 @@ impl Planned {
             if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
         });
         match baked {
-            Ok(lightmap) => Ok(Some(Baked { lightmap, time_s: started.elapsed().as_secs_f64() })),
+            Ok(lightmap) => {
+                let time_s = started.elapsed().as_secs_f64();
+                Ok(Some(Baked { lightmap, is_held: false, time_s }))
+            }
             Err(LightmapError::Stopped) => Ok(None),
             Err(other) => Err(failure(other)),
         }
@@ -143,6 +148,21 @@ impl Planned {
 }
 
 impl Baked {
+    /// What a map holds, if it is what baking anew would give: of the density asked for, if any, by this version.
+    pub(crate) fn held(
+        flags: &LayoutFlags,
+        map: &IlluminationMap,
+        lightmap: Option<Lightmap>,
+    ) -> Option<Self> {
+        let lightmap = lightmap.filter(|held| {
+            let asked = held.layout.asked_texels_per_m;
+            flags.texels_per_meter.is_none_or(|density| density == asked)
+                && map.provenance.version == env!("CARGO_PKG_VERSION")
+        })?;
+        note(Note::Info, "lightmap: its texels are in the map already");
+        Some(Self { lightmap, is_held: true, time_s: 0.0 })
+    }
+
     /// Writes the `.glb` and what belongs beside it.
     pub(crate) fn write(
         &self,
@@ -172,6 +192,7 @@ impl Baked {
             texels_unknown: map.count(Cover::Unknown),
             texels_filled: map.count(Cover::Filled),
             readings: map.readings,
+            taken_from_map: self.is_held,
             time_s: self.time_s,
             seams: Seams::of(&map.seams),
         }
@@ -241,6 +262,8 @@ pub(crate) struct Report {
     texels_unknown: usize,
     texels_filled: usize,
     readings: u64,
+    /// Rather than baked.
+    taken_from_map: bool,
     time_s: f64,
     seams: Seams,
 }

@@ -6,6 +6,7 @@ mod check;
 mod console;
 mod demo;
 mod dimming;
+mod engine_export;
 mod estimate;
 mod explain;
 mod export;
@@ -38,6 +39,7 @@ mod solving;
 mod source;
 mod summary;
 mod validate;
+mod vertex_export;
 mod viewpoint;
 
 use clap::Parser;

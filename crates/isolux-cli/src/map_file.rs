@@ -5,7 +5,7 @@ use crate::output::OutputPath;
 use crate::source::{bad_file, show_warnings};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
-use isolux_formats::map_glb::{self, Preview};
+use isolux_formats::map_glb::{self, MapFile, Preview};
 use std::path::Path;
 
 /// Whether a file is a map and not a scene.
@@ -16,6 +16,13 @@ pub(crate) fn is_map(path: &Path) -> bool {
 /// Reads a map with the scene in it.
 pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
     let loaded = map_glb::read(path).map_err(bad_file)?;
+    show_warnings(&loaded.warnings);
+    Ok(loaded.value)
+}
+
+/// The same with the texels that the file holds.
+pub(crate) fn read_with_texels(path: &Path) -> Result<MapFile, Failure> {
+    let loaded = map_glb::read_with_texels(path).map_err(bad_file)?;
     show_warnings(&loaded.warnings);
     Ok(loaded.value)
 }

@@ -129,6 +129,14 @@ pub(crate) fn range(text: &str) -> Result<(f64, f64), String> {
         .ok_or_else(|| "write LOW:HIGH as 0:500, the lower first".to_owned())
 }
 
+/// Luminance as written: `500 cd/m2`.
+pub(crate) fn luminance_cd_m2(text: &str) -> Result<f64, String> {
+    let number = text.trim().strip_suffix("cd/m2").and_then(|text| text.trim().parse().ok());
+    number
+        .filter(|value: &f64| *value > 0.0 && value.is_normal())
+        .ok_or_else(|| "write a luminance above zero as 500cd/m2".to_owned())
+}
+
 /// Exposure as written: `auto`, `ev 8`, `500 cd/m2`.
 pub(crate) fn exposure(text: &str) -> Result<Exposure, String> {
     let text = text.trim();
@@ -293,6 +301,15 @@ mod tests {
         }
         for text in ["", "8", "ev", "evNaN", "0cd/m2", "-1cd/m2", "cd/m2"] {
             assert!(exposure(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn luminances() {
+        assert_eq!(luminance_cd_m2("500cd/m2"), Ok(500.0));
+        assert_eq!(luminance_cd_m2(" 2.5 cd/m2"), Ok(2.5));
+        for text in ["", "8", "cd/m2", "0cd/m2", "-1cd/m2", "infcd/m2", "1e-310cd/m2"] {
+            assert!(luminance_cd_m2(text).is_err(), "{text}");
         }
     }
 

@@ -118,7 +118,7 @@ mod tests {
         }
     }
 
-    /// Floodlights of types A and B, one of them of a library, the other extended.
+    /// Floodlights of types A and B, one of them of a library, the other extended, on varnished walls.
     #[test]
     fn files_give_floodlights_again() {
         let home = tempfile::tempdir().unwrap();
@@ -134,7 +134,8 @@ mod tests {
         let library = "[luminaires.flood]\nies = 'b.ies'\nmaintenance_factor = 0.7\n";
         std::fs::write(home.path().join("lamps.toml"), library).unwrap();
         let scene = home.path().join("scene.toml");
-        let text = "libraries = ['lamps.toml']\n[materials.grey]\ndiffuse = 0.5\n\
+        let text = "libraries = ['lamps.toml']\n[materials.grey]\ndiffuse = 0.5\ngloss = { f0 = 0.3, roughness = 0.7 }\n\
+                    coat = { cover = 0.7, roughness = 0.1 }\n\
                     [[geometry]]\nbox = { min = [0,0,0], max = [4,4,3], inward = true }\nmaterial = 'grey'\n\
                     [[luminaire]]\ntype = 'flood'\nposition = [1,2,2]\ngroup = 'a'\n\
                     [[luminaire]]\nies = 'a.ies'\nposition = [2,2,2]\nextended_m = 0.2\n";

@@ -3,7 +3,9 @@
 use isolux::elements::{ElementArrays, Elements};
 use isolux::geometry::{Direction, Point, Vector};
 use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
-use isolux::scene::{Body, Camera, Dielectric, Finish, Gloss, Material, Scene, SceneParts, Shape};
+use isolux::scene::{
+    Body, Camera, Coat, Dielectric, Finish, Gloss, Material, Scene, SceneParts, Shape,
+};
 use isolux::units::Rgb;
 use isolux_view::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -96,6 +98,8 @@ fn a_diffuse_wall_shows_its_illuminance_over_pi() {
 fn specular_chains_have_their_closed_form() {
     let glossy = Gloss { f0: Rgb::grey(0.2), alpha: 1e-4 };
     let finish = Finish { gloss: Some(glossy), ..Finish::BLACK };
+    let coat = Some(Coat { cover: 1.0, alpha: 1e-4 });
+    let coated = Finish { coat, ..finish.clone() };
     let wall = 500.0 / PI;
     let lamp = Finish { luminance_cd_m2: Rgb::grey(40.0), ..Finish::diffuse(Rgb::grey(0.5)) };
     for (name, material, expected) in [
@@ -104,6 +108,9 @@ fn specular_chains_have_their_closed_form() {
         ("black", Material::one_sided("m", Finish::BLACK), 0.0),
         // Seen within a degree of the normal, where Schlick's term adds less than rounding.
         ("narrow gloss", Material::one_sided("m", finish), 0.2 * wall),
+        ("coat", Material::one_sided("m", Finish { coat, ..Finish::BLACK }), 0.04 * wall),
+        // Twice through the coat, which reflects 0.04.
+        ("both", Material::one_sided("m", coated), (0.04 + 0.96 * 0.96 * 0.2) * wall),
     ] {
         let scene = scene(room([0, 0, 0, 1, 0, 0]), vec![diffuse(0.5), material]);
         let camera = Camera { vertical_fov_rad: 0.01, ..towards_y(Point::ORIGIN) };

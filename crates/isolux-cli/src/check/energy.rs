@@ -113,8 +113,7 @@ impl Reflectances {
 fn reflectance(finish: &Finish, texture_means: &[Rgb]) -> f64 {
     let texture = finish.diffuse.texture.and_then(|t| texture_means.get(t as usize));
     let mean = texture.map_or(finish.diffuse.colour, |t| finish.diffuse.colour * *t);
-    let gloss = finish.gloss.map_or(0.0, |g| g.f0.luminance());
-    (mean + finish.mirror).luminance() + gloss
+    (mean + finish.mirror).luminance() + finish.glossy_f0().luminance()
 }
 
 fn bright_materials(scene: &Scene, reflectances: &Reflectances) -> Vec<String> {

@@ -260,3 +260,36 @@ fn a_dry_run_tells_the_size_of_a_lightmap() {
     assert_eq!(size("texels"), size("width") * size("height"));
     assert!(home.names().is_empty());
 }
+
+/// Writing for a second engine takes what the map holds, bit for bit what baking it anew gives.
+#[test]
+fn texels_in_the_map_are_those_that_would_be_baked() {
+    let home = Home::new();
+    home.file("room.toml", ROOM);
+    let solve = ["solve", "room.toml", "--quality", "draft", "-o"];
+    let dense = ["--layout", "texels", "--texels-per-meter", "5"];
+    assert_eq!(home.run(&[&solve[..], &["with.glb"], &dense].concat()).code, 0);
+    assert_eq!(home.run(&[&solve[..], &["without.glb"]].concat()).code, 0);
+    for target in ["viewer", "three", "blender"] {
+        let written = ["with", "without"].map(|from| {
+            let (map, out) = (format!("{from}.glb"), format!("{target}-{from}.glb"));
+            let export = ["export", &map, "-o", &out, "--target", target, "--json"];
+            let ran = home.run(&[&export[..], &dense].concat());
+            assert_eq!(ran.code, 0, "{ran:?}");
+            let report = ran.json();
+            assert_eq!(report["taken_from_map"], from == "with", "{report}");
+            assert_eq!(report["texels_per_meter"], 5.0);
+            assert!(report["readings"].as_u64().unwrap() > 1000, "{report}");
+            let files = report["files"].as_array().unwrap().iter();
+            let read = |file: &Value| std::fs::read(home.path(file.as_str().unwrap())).unwrap();
+            files.map(read).collect::<Vec<_>>()
+        });
+        assert!(written[0] == written[1], "{target}");
+    }
+    // Another density is baked; none is that of the map.
+    for (more, is_held) in [(&["--texels-per-meter", "4"][..], false), (&[], true)] {
+        let export = ["export", "with.glb", "-o", "l.exr", "--json"];
+        let report = home.run(&[&export[..], more].concat()).json();
+        assert_eq!(report["taken_from_map"], is_held, "{report}");
+    }
+}

@@ -4,6 +4,7 @@
 mod bad_input;
 #[cfg(unix)]
 mod caches;
+mod engines;
 mod grids;
 mod groups;
 #[cfg(unix)]

@@ -1,6 +1,6 @@
 //! What reflects at the surface of a material, in or above its colour: index of refraction, specular, clear coat.
 
-use super::finish::{self, Coat};
+use super::finish::{self, ClearCoat};
 use super::material::{Reading, share};
 use super::notes::Flaw;
 use gltf_json::texture::Info;
@@ -32,7 +32,7 @@ impl Default for Specular {
 
 #[derive(Default, Deserialize)]
 #[serde(default, rename_all = "camelCase")]
-struct ClearCoat {
+struct ClearCoatRecord {
     clearcoat_factor: f32,
     clearcoat_texture: Option<Info>,
     clearcoat_roughness_factor: f32,
@@ -79,9 +79,9 @@ impl Reading<'_, '_> {
     }
 
     /// The clear coat, if there is one.
-    pub(super) fn coat(&mut self) -> Result<Option<Coat>, Flaw> {
+    pub(super) fn coat(&mut self) -> Result<Option<ClearCoat>, Flaw> {
         const NAME: &str = "KHR_materials_clearcoat";
-        let Some(coat) = self.extension::<ClearCoat>(NAME)? else { return Ok(None) };
+        let Some(coat) = self.extension::<ClearCoatRecord>(NAME)? else { return Ok(None) };
         let place = format!("extensions.{NAME}");
         let at = |flaw: Flaw| flaw.at(&place);
         let factor = share(coat.clearcoat_factor, "clearcoatFactor").map_err(at)?;
@@ -101,7 +101,7 @@ impl Reading<'_, '_> {
             let member = format!("{place}.clearcoatNormalTexture");
             self.warn(&member, what, "model what matters for the light as geometry");
         }
-        Ok(Some(Coat {
+        Ok(Some(ClearCoat {
             cover: factor * cover.map_or(1.0, |means| means.data[0]),
             roughness: roughness * rough.map_or(1.0, |means| means.data[1]),
         }))

@@ -7,8 +7,10 @@ mod exr;
 mod ktx2;
 mod shared_exponent;
 mod target;
+mod vertex_colours;
 
 pub use error::LightmapFileError;
 pub use exr::write_exr;
 pub use ktx2::{Ktx2, write_ktx2};
 pub use target::{Convention, Target, Way};
+pub use vertex_colours::{ColourKind, VertexConvention};

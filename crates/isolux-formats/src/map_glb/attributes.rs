@@ -36,17 +36,24 @@ impl Sink<'_> {
         let indices = surface.indices.iter().flat_map(|i| i.to_le_bytes()).collect();
         let layout = Layout { target: INDICES, component: UNSIGNED_INT, kind: "SCALAR" };
         let indices = self.add(indices, surface.indices.len(), layout);
-        (Attributes { position, normal, texcoord, lightmap_texcoord: None, light: None }, indices)
+        let attributes = Attributes {
+            position,
+            normal,
+            texcoord,
+            lightmap_texcoord: None,
+            colour: None,
+            light: None,
+        };
+        (attributes, indices)
     }
 
-    /// Writes what a map says about the vertices of a surface.
+    /// Writes what a map says about the vertices of a surface: their colour and the rest.
     pub(super) fn light(
         &mut self,
         values: &[Option<Illuminance>],
         (finish, preview): (&Finish, &Preview),
-    ) -> LightAttributes {
-        let values: Vec<Option<Illuminance>> =
-            values.iter().map(|value| value.and_then(storable).filter(is_shown)).collect();
+    ) -> (u32, LightAttributes) {
+        let values = shown(values);
         let of = |f: fn(&Illuminance) -> Rgb| -> Vec<[f32; 3]> {
             values
                 .iter()
@@ -54,21 +61,28 @@ impl Sink<'_> {
                 .collect()
         };
         let errors: Vec<[f32; 1]> = values.iter().map(|v| [shown_error(v.as_ref())]).collect();
-        let colours = values.iter().flat_map(|v| match v {
+        let colours = values.iter().map(|v| match v {
             None => [UNKNOWN_GREY; 3],
             Some(value) => preview.colour(luminance_cd_m2(finish, value.total_lx())),
         });
-        LightAttributes {
-            colour: self.colours(&colours.collect::<Vec<f64>>()),
+        let colour = self.colours(&colours.collect::<Vec<_>>());
+        let light = LightAttributes {
             illuminance_lx: self.floats(&of(Illuminance::total_lx), "VEC3"),
             direct_lx: self.floats(&of(|v| v.direct_lx), "VEC3"),
             standard_error_lx: self.floats(&errors, "SCALAR"),
-        }
+        };
+        (colour, light)
     }
 
     /// Writes the places of vertices in a lightmap.
     pub(super) fn lightmap_uvs(&mut self, uvs: &[[f32; 2]]) -> u32 {
         self.floats(uvs, "VEC2")
+    }
+
+    /// Opaque colours in 32-bit floats.
+    pub(super) fn float_colours(&mut self, pixels: &[[f64; 3]]) -> u32 {
+        let rows: Vec<[f32; 3]> = pixels.iter().map(|rgb| rgb.map(|c| c as f32)).collect();
+        self.floats(&rows, "VEC3")
     }
 
     fn floats<const N: usize>(&mut self, rows: &[[f32; N]], kind: &'static str) -> u32 {
@@ -77,9 +91,9 @@ impl Sink<'_> {
     }
 
     /// Opaque colours in 16 bits a channel: in linear light, 8 bits show steps in the shadows.
-    fn colours(&mut self, channels: &[f64]) -> u32 {
+    pub(super) fn colours(&mut self, pixels: &[[f64; 3]]) -> u32 {
+        // Conversions of floats saturate.
         let quantized = |c: f64| (c * f64::from(u16::MAX)).round() as u16;
-        let (pixels, _) = channels.as_chunks();
         let bytes = pixels
             .iter()
             .flat_map(|&[r, g, b]| [r, g, b, 1.0].map(quantized))
@@ -109,6 +123,11 @@ struct Layout {
     target: u32,
     component: u32,
     kind: &'static str,
+}
+
+/// The values of which a viewer can be told.
+pub(super) fn shown(values: &[Option<Illuminance>]) -> Vec<Option<Illuminance>> {
+    values.iter().map(|value| value.and_then(storable).filter(is_shown)).collect()
 }
 
 /// Whether a viewer can be given a value: attributes must be finite in 32 bits.

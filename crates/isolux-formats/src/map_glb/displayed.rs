@@ -51,7 +51,8 @@ fn one(
             preview.colour(luminance * texture).map(srgb)
         }
     };
-    let [red, green, blue, opacity] = looks::bare_colour(&material.body, layer.back, preview);
+    let [red, green, blue, opacity] =
+        looks::bare_colour(&material.body, layer.back, &|l| preview.colour(l));
     Displayed {
         name: scene.shape_names()[layer.shape as usize].clone(),
         colours: surface.values.iter().map(colour).collect(),

@@ -145,15 +145,15 @@ pub(super) struct Attributes {
     pub(super) texcoord: Option<u32>,
     #[serde(rename = "TEXCOORD_1", skip_serializing_if = "Option::is_none")]
     pub(super) lightmap_texcoord: Option<u32>,
+    #[serde(rename = "COLOR_0", skip_serializing_if = "Option::is_none")]
+    pub(super) colour: Option<u32>,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub(super) light: Option<LightAttributes>,
 }
 
-/// What surfaces with a map carry.
+/// What surfaces with a map carry beside their colour.
 #[derive(Serialize)]
 pub(super) struct LightAttributes {
-    #[serde(rename = "COLOR_0")]
-    pub(super) colour: u32,
     #[serde(rename = "_ILLUMINANCE_LX")]
     pub(super) illuminance_lx: u32,
     #[serde(rename = "_DIRECT_LX")]

@@ -2,7 +2,7 @@
 
 use super::display::Layer;
 use super::document::{BaseColour, Empty, Material, MaterialExtensions, Objects, TextureReference};
-use super::preview::{Preview, luminance_cd_m2};
+use super::preview::luminance_cd_m2;
 use isolux::scene::{Body, Finish, Scene};
 use isolux::units::Rgb;
 use std::collections::HashMap;
@@ -11,6 +11,9 @@ use std::collections::HashMap;
 const MIRROR_GREY: f64 = 0.5;
 /// How much glass hides.
 const GLASS_ALPHA: f64 = 0.25;
+
+/// What a luminance in cd/m2 is shown as.
+pub(super) type Colour<'a> = dyn Fn(Rgb) -> [f64; 3] + 'a;
 
 /// The materials of a document, each once.
 #[derive(Default)]
@@ -28,7 +31,7 @@ impl Looks {
     /// Index of the material of a layer.
     pub(super) fn of(
         &mut self,
-        (scene, preview): (&Scene, &Preview),
+        (scene, colour): (&Scene, &Colour<'_>),
         (layer, texture): (Layer, Option<u32>),
         objects: &mut Objects,
     ) -> u32 {
@@ -41,7 +44,7 @@ impl Looks {
             look.pbr_metallic_roughness.base_color_texture =
                 texture.map(|index| TextureReference { index, tex_coord: None });
             if !layer.mapped {
-                bare(&mut look, &source.body, layer.back, preview);
+                bare(&mut look, &source.body, layer.back, colour);
             }
             objects.materials.push(look);
             objects.materials.len() as u32 - 1
@@ -66,8 +69,8 @@ fn unlit(name: &str, base_color_factor: [f64; 4]) -> Material {
     }
 }
 
-fn bare(look: &mut Material, body: &Body, back: bool, preview: &Preview) {
-    look.pbr_metallic_roughness.base_color_factor = bare_colour(body, back, preview);
+fn bare(look: &mut Material, body: &Body, back: bool, colour: &Colour<'_>) {
+    look.pbr_metallic_roughness.base_color_factor = bare_colour(body, back, colour);
     if matches!(body, Body::Dielectric(_)) {
         look.alpha_mode = Some("BLEND");
         look.double_sided = Some(true);
@@ -76,18 +79,18 @@ fn bare(look: &mut Material, body: &Body, back: bool, preview: &Preview) {
 
 /// Linear colour and opacity without a map: glass translucent, mirrors grey, luminaires as bright as they
 /// are.
-pub(super) fn bare_colour(body: &Body, back: bool, preview: &Preview) -> [f64; 4] {
+pub(super) fn bare_colour(body: &Body, back: bool, colour: &Colour<'_>) -> [f64; 4] {
     match body {
         Body::Dielectric(glass) => with_alpha(glass.transmittance, GLASS_ALPHA),
         Body::Opaque { front, back: rear } => {
-            with_alpha(opaque(if back { rear } else { front }, preview), 1.0)
+            with_alpha(opaque(if back { rear } else { front }, colour), 1.0)
         }
     }
 }
 
-fn opaque(finish: &Finish, preview: &Preview) -> Rgb {
+fn opaque(finish: &Finish, colour: &Colour<'_>) -> Rgb {
     if finish.is_emitter() {
-        Rgb(preview.colour(luminance_cd_m2(finish, Rgb::BLACK)))
+        Rgb(colour(luminance_cd_m2(finish, Rgb::BLACK)))
     } else {
         finish.mirror * MIRROR_GREY
     }

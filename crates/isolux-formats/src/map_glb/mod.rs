@@ -3,12 +3,14 @@
 
 mod arrays;
 mod attributes;
+mod backs;
 mod bytes;
 mod container;
 mod display;
 mod displayed;
 mod document;
 mod images;
+mod lightmap_arrays;
 mod looks;
 mod nodes;
 mod preview;
@@ -17,12 +19,14 @@ mod record;
 mod scene_arrays;
 mod texels;
 mod value_arrays;
+mod vertices;
 mod write;
 
 pub(crate) use displayed::{Displayed, displayed};
 pub use preview::Preview;
-pub use read::{is_map, read};
+pub use read::{MapFile, is_map, read, read_with_texels};
 pub use texels::{TexelFile, write_texels};
+pub use vertices::{VertexColours, VertexFile, write_vertices};
 pub use write::write;
 
 /// A map that does not fit into a file.

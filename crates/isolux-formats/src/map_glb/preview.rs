@@ -99,8 +99,7 @@ fn patch(
 /// Luminance of a surface without its texture, cd/m2: what it emits and `rho E / pi`, gloss counted
 /// as if it were diffuse.
 pub(super) fn luminance_cd_m2(finish: &Finish, illuminance_lx: Rgb) -> Rgb {
-    let gloss = finish.gloss.map_or(Rgb::BLACK, |g| g.f0);
-    (finish.diffuse.colour + gloss) * illuminance_lx / PI + finish.luminance_cd_m2
+    (finish.diffuse.colour + finish.glossy_f0()) * illuminance_lx / PI + finish.luminance_cd_m2
 }
 
 #[cfg(test)]

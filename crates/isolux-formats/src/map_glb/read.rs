@@ -3,9 +3,10 @@
 use super::arrays::{self, Arrays};
 use super::bytes::View;
 use super::container;
-use super::record::{Extras, FORMAT_VERSION, Record};
-use super::{Fault, scene_arrays, value_arrays};
+use super::record::{Extras, Record, VERSIONS};
+use super::{Fault, lightmap_arrays, scene_arrays, value_arrays};
 use crate::{Loaded, Problem, Problems};
+use isolux::lightmap::Lightmap;
 use isolux::map::{IlluminationMap, Provenance};
 use isolux::scene::{Scene, SceneParts, SceneProblem};
 use serde::Deserialize;
@@ -19,9 +20,30 @@ const MOST_BYTES: u64 = u32::MAX as u64;
 const REMEDY: &str = "compute the map again, or take an unchanged copy of it";
 const NOT_A_MAP_REMEDY: &str = "solve it first, or take the file that `solve` wrote";
 
+/// All of a map file.
+#[derive(Clone, Debug)]
+pub struct MapFile {
+    /// The scene.
+    pub scene: Scene,
+    /// Its map.
+    pub map: IlluminationMap,
+    /// The same as texels, if it was baked.
+    pub lightmap: Option<Lightmap>,
+}
+
 /// Reads a map and its scene. Files of any origin are safe to read; one that another program has
 /// written anew is recognized by its checksum and refused.
 pub fn read(path: &Path) -> Result<Loaded<(Scene, IlluminationMap)>, Problems> {
+    let MapFile { scene, map, .. } = file(path, false)?;
+    Ok(Loaded { value: (scene, map), warnings: Vec::new() })
+}
+
+/// The same with its texels, if it has any.
+pub fn read_with_texels(path: &Path) -> Result<Loaded<MapFile>, Problems> {
+    Ok(Loaded { value: file(path, true)?, warnings: Vec::new() })
+}
+
+fn file(path: &Path, with_texels: bool) -> Result<MapFile, Problems> {
     let problem = |fault: Fault| Problem::new(path, fault.place, fault.what, REMEDY);
     let bytes = contents(path).map_err(|error| {
         let remedy = "check that the file exists and may be read";
@@ -35,13 +57,16 @@ pub fn read(path: &Path) -> Result<Loaded<(Scene, IlluminationMap)>, Problems> {
     check_version(path, chunks.json)?;
     let document: Document<Extras<Record>> = serde_json::from_slice(chunks.json)
         .map_err(|error| problem(Fault::new("JSON chunk", error.to_string())))?;
-    let Record { arrays: table, arrays_blake3, scene, provenance, .. } = document.extras.isolux;
+    let Record { arrays: table, arrays_blake3, scene, provenance, lightmap, .. } =
+        document.extras.isolux;
     let arrays = Arrays { binary: chunks.binary, views: &document.buffer_views, table: &table };
     check_sum(&arrays, &arrays_blake3).map_err(problem)?;
     let parts = scene_arrays::read(scene, &arrays).map_err(problem)?;
     let scene = assemble(path, parts)?;
     let map = map(&arrays, &scene, provenance).map_err(problem)?;
-    Ok(Loaded { value: (scene, map), warnings: Vec::new() })
+    let texels = lightmap.filter(|_| with_texels);
+    let lightmap = texels.map(|record| lightmap_arrays::read(record, &arrays, &scene)).transpose();
+    Ok(MapFile { lightmap: lightmap.map_err(problem)?, scene, map })
 }
 
 fn check_sum(arrays: &Arrays<'_>, expected: &str) -> Result<(), Fault> {
@@ -125,10 +150,12 @@ fn check_version(path: &Path, json: &[u8]) -> Result<(), Problem> {
         Problem::new(path, "extras.isolux", what, NOT_A_MAP_REMEDY)
     })?;
     let found = version.extras.isolux.format_version;
-    if found == FORMAT_VERSION {
+    if VERSIONS.contains(&found) {
         return Ok(());
     }
-    let what = format!("the map has format {found}; this version reads format {FORMAT_VERSION}");
+    let (oldest, newest) = VERSIONS.into_inner();
+    let what =
+        format!("the map has format {found}; this version reads formats {oldest} to {newest}");
     let remedy = "use the version of isolux that wrote it, or compute the map again";
     Err(Problem::new(path, "extras.isolux.format_version", what, remedy))
 }

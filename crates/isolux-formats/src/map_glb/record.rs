@@ -1,16 +1,26 @@
 //! `extras.isolux`, as written.
 
 use super::arrays::Table;
+use super::lightmap_arrays::LightmapRecord;
 use super::preview::Preview;
 use isolux::geometry::{Direction, Point, Transform};
-use isolux::map::Provenance;
+use isolux::map::{IlluminationMap, Provenance};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{CalculationGrid, Camera, Material, UpAxis};
 use isolux::units::Rgb;
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 
-/// Version of the format; raised when older readers would misread what is written.
-pub(super) const FORMAT_VERSION: u32 = 2;
+/// Versions of the format that are read; raised when older readers would misread what is written.
+pub(super) const VERSIONS: RangeInclusive<u32> = 2..=3;
+
+/// The version that a scene needs: what read version 2 knows no coats, and would leave them out.
+pub(super) fn version(materials: &[Material]) -> u32 {
+    let is_coated = |m: &Material| {
+        [false, true].into_iter().any(|back| m.finish(back).is_some_and(|f| f.coat.is_some()))
+    };
+    if materials.iter().any(is_coated) { 3 } else { 2 }
+}
 
 /// `extras` of the document.
 #[derive(Serialize, Deserialize)]
@@ -25,6 +35,9 @@ pub(super) struct Record {
     pub(super) provenance: Provenance,
     pub(super) preview: Preview,
     pub(super) scene: SceneRecord,
+    /// Only where the map was baked, too; maps of before have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) lightmap: Option<LightmapRecord>,
     pub(super) arrays: Table,
     /// BLAKE3 over all arrays.
     pub(super) arrays_blake3: String,
@@ -56,6 +69,22 @@ impl<'a> Declared<'a> {
             accuracy_reached: record.provenance.accuracy.map(|a| a.reached),
             record,
         }
+    }
+}
+
+/// Where the light of a file comes from that is no map itself.
+#[derive(Serialize)]
+pub(super) struct Origin {
+    scene: String,
+    scene_hash: String,
+    accuracy_reached: Option<f64>,
+}
+
+impl Origin {
+    pub(super) fn of(map: &IlluminationMap) -> Self {
+        let Provenance { scene, scene_hash, accuracy, .. } = map.provenance.clone();
+        let accuracy_reached = accuracy.map(|a| a.reached).filter(|a| a.is_finite());
+        Self { scene, scene_hash, accuracy_reached }
     }
 }
 

@@ -6,14 +6,16 @@ use super::bytes::Bytes;
 use super::container;
 use super::display::{self, Layer, Surface};
 use super::document::{
-    Asset, Buffer, Document, Image, Lights, Mesh, Node, Objects, Primitive, RootExtensions,
+    Asset, Buffer, Document, Image, Light, Lights, Mesh, Node, Objects, Primitive, RootExtensions,
     Scene as SceneRoots, Texture,
 };
 use super::looks::Looks;
-use super::record::{Declared, Extras, FORMAT_VERSION, Record};
-use super::{MapTooLarge, Preview, images, nodes, scene_arrays, value_arrays};
+use super::record::{Declared, Extras, Record, version};
+use super::{MapTooLarge, Preview, images, lightmap_arrays, nodes, scene_arrays, value_arrays};
+use isolux::lightmap::Lightmap;
 use isolux::map::{IlluminationMap, Provenance};
 use isolux::scene::Scene;
+use serde::Serialize;
 
 /// The bytes of the `.glb` file of a map of `scene`. The same map gives the same bytes.
 pub fn write(
@@ -29,12 +31,22 @@ pub fn write(
     let lights = nodes::add_lights(scene, &mut objects);
     let children = (0..objects.nodes.len() as u32).collect();
     objects.nodes.push(nodes::root(scene, children));
-    let record = record((scene, map, preview), &pictures, &mut bytes);
-    objects.buffer_views = bytes.views;
+    let record = record((scene, map, preview), (&pictures, None), &mut bytes);
     let mut extensions_used = vec!["KHR_materials_unlit"];
     if !lights.is_empty() {
         extensions_used.push("KHR_lights_punctual");
     }
+    let extras = Extras { isolux: Declared::new(&record) };
+    pack((objects, bytes), (extensions_used, lights), extras)
+}
+
+/// A file of these objects, the last node of which is the root.
+pub(super) fn pack(
+    (mut objects, bytes): (Objects, Bytes),
+    (extensions_used, lights): (Vec<&'static str>, Vec<Light>),
+    extras: impl Serialize,
+) -> Result<Vec<u8>, MapTooLarge> {
+    objects.buffer_views = bytes.views;
     let document = Document {
         asset: Asset { version: "2.0", generator: format!("isolux {}", env!("CARGO_PKG_VERSION")) },
         extensions_used,
@@ -45,7 +57,7 @@ pub fn write(
         buffers: Vec::from_iter(
             (!bytes.content.is_empty()).then_some(Buffer { byte_length: bytes.content.len() }),
         ),
-        extras: Extras { isolux: Declared::new(&record) },
+        extras,
     };
     let json = serde_json::to_vec(&document).expect("plain structs with names for keys");
     container::pack(&json, &bytes.content)
@@ -104,28 +116,31 @@ fn primitive(
     let material = &scene.materials()[layer.material as usize];
     let finish = material.finish(layer.back);
     if let Some(finish) = finish.filter(|_| layer.mapped) {
-        attributes.light = Some(sink.light(&surface.values, (finish, preview)));
+        let (colour, light) = sink.light(&surface.values, (finish, preview));
+        (attributes.colour, attributes.light) = (Some(colour), Some(light));
     }
     let texture = finish.and_then(|f| f.diffuse.texture).filter(|_| !surface.uvs.is_empty());
-    let material = looks.of((scene, preview), (layer, texture), objects);
+    let material = looks.of((scene, &|l| preview.colour(l)), (layer, texture), objects);
     Primitive { attributes, indices, material }
 }
 
 /// Writes all arrays and says what they are.
 pub(super) fn record(
     (scene, map, preview): Input<'_>,
-    pictures: &[u32],
+    (pictures, lightmap): (&[u32], Option<&Lightmap>),
     bytes: &mut Bytes,
 ) -> Record {
     let mut table = Table::new();
     let scene = scene_arrays::write(scene.to_parts(), pictures, bytes, &mut table);
     value_arrays::write(map, bytes, &mut table);
+    let lightmap = lightmap.and_then(|l| lightmap_arrays::write(l, (bytes, &mut table)));
     let arrays_blake3 = arrays::checksum(&table, |view| bytes.of(view)).unwrap_or_default();
     Record {
-        format_version: FORMAT_VERSION,
+        format_version: version(&scene.materials),
         provenance: storable(&map.provenance),
         preview: *preview,
         scene,
+        lightmap,
         arrays: table,
         arrays_blake3,
     }

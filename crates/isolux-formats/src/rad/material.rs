@@ -13,6 +13,7 @@ const SMOOTH: f64 = 1e-3;
 
 /// What a surface of a material becomes.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "one at a time, and most are bodies")]
 pub(super) enum Made {
     /// Nothing is there.
     Invisible,

@@ -2,10 +2,10 @@
 
 use super::context::Context;
 use super::quantity::Colour;
-use super::record::{FinishRecord, GlassRecord, GlossRecord, MaterialRecord, Sided};
+use super::record::{CoatRecord, FinishRecord, GlassRecord, GlossRecord, MaterialRecord, Sided};
 use super::spans::{At, Span};
 use crate::picture;
-use isolux::scene::{Body, Dielectric, Finish, Gloss, Material, Reflectance, SceneParts};
+use isolux::scene::{Body, Coat, Dielectric, Finish, Gloss, Material, Reflectance, SceneParts};
 use isolux::units::Rgb;
 use std::collections::HashMap;
 use std::path::PathBuf;
@@ -97,8 +97,7 @@ impl Maker<'_> {
         }
         if front.is_empty() {
             let what = format!("material `{name}` has no property");
-            let remedy =
-                "give `diffuse`, `mirror`, `gloss`, `texture`, `luminance_cd_m2` or `glass`";
+            let remedy = "give `diffuse`, `mirror`, `gloss`, `coat`, `texture`, `luminance_cd_m2` or `glass`";
             self.context.problem(at, what, remedy);
             return None;
         }
@@ -129,20 +128,46 @@ impl Maker<'_> {
         let texture = record.texture.as_ref().map(|file| self.texture(file));
         let (colour, mirror) = (colour?, mirror?);
         let gloss = transpose(gloss)?;
-        let sum = colour + mirror + gloss.map_or(Rgb::BLACK, |g| g.f0);
+        let coat = transpose(record.coat.as_ref().map(|coat| self.coat(coat)))?;
+        if let (Some(at), false) = (&record.coat, mirror.is_black()) {
+            let what = format!("material `{name}` has a coat over a mirror");
+            self.context.problem(
+                &at.span(),
+                what,
+                "use `gloss` of a small roughness in place of `mirror`",
+            );
+            return None;
+        }
+        let diffuse = Reflectance { colour, texture: None };
+        let finish = Finish { diffuse, mirror, gloss, coat, ..Finish::BLACK };
+        let sum = colour + mirror + finish.glossy_f0();
         if sum.max_channel() > 1.0 + ENERGY_ROUNDING {
             let what = format!(
                 "material `{name}` reflects {:.3} of the light it receives",
                 sum.max_channel()
             );
             let remedy = "lower `diffuse` (1 under a texture unless given), `mirror` or `gloss.f0` \
-                          until they sum to at most 1";
+                          until they, and 0.04 of a coat, sum to at most 1";
             self.context.problem(at, what, remedy);
             return None;
         }
         let luminance_cd_m2 = record.luminance_cd_m2.as_ref().map_or(Rgb::BLACK, |l| l.get_ref().0);
         let diffuse = Reflectance { colour, texture: transpose(texture)? };
-        Some(Finish { diffuse, mirror, gloss, luminance_cd_m2 })
+        Some(Finish { diffuse, luminance_cd_m2, ..finish })
+    }
+
+    fn coat(&mut self, record: &At<CoatRecord>) -> Option<Coat> {
+        let CoatRecord { cover, roughness } = record.get_ref();
+        let alpha = roughness.get_ref().0 * roughness.get_ref().0;
+        let cover = cover.as_ref().map_or(1.0, |cover| cover.get_ref().0);
+        if alpha == 0.0 || cover == 0.0 {
+            let what = "a coat of roughness or cover 0";
+            let remedy =
+                "give a small roughness for a smooth coat, and leave one out that covers nothing";
+            self.context.problem(&record.span(), what, remedy);
+            return None;
+        }
+        Some(Coat { cover, alpha })
     }
 
     fn gloss(&mut self, record: &GlossRecord) -> Option<Gloss> {

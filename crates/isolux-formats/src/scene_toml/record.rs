@@ -108,6 +108,7 @@ pub(super) struct MaterialRecord {
     pub(super) diffuse: Option<At<Colour>>,
     pub(super) mirror: Option<At<Colour>>,
     pub(super) gloss: Option<At<GlossRecord>>,
+    pub(super) coat: Option<At<CoatRecord>>,
     pub(super) texture: Option<At<String>>,
     pub(super) luminance_cd_m2: Option<At<Colour>>,
     pub(super) sided: Option<At<Sided>>,
@@ -122,6 +123,7 @@ pub(super) struct FinishRecord {
     pub(super) diffuse: Option<At<Colour>>,
     pub(super) mirror: Option<At<Colour>>,
     pub(super) gloss: Option<At<GlossRecord>>,
+    pub(super) coat: Option<At<CoatRecord>>,
     pub(super) texture: Option<At<String>>,
     pub(super) luminance_cd_m2: Option<At<Colour>>,
 }
@@ -130,6 +132,13 @@ pub(super) struct FinishRecord {
 #[serde(deny_unknown_fields)]
 pub(super) struct GlossRecord {
     pub(super) f0: At<Colour>,
+    pub(super) roughness: At<Share>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CoatRecord {
+    pub(super) cover: Option<At<Share>>,
     pub(super) roughness: At<Share>,
 }
 
@@ -327,6 +336,7 @@ impl MaterialRecord {
             diffuse: self.diffuse.take(),
             mirror: self.mirror.take(),
             gloss: self.gloss.take(),
+            coat: self.coat.take(),
             texture: self.texture.take(),
             luminance_cd_m2: self.luminance_cd_m2.take(),
         }
@@ -339,6 +349,7 @@ impl FinishRecord {
         self.diffuse.is_none()
             && self.mirror.is_none()
             && self.gloss.is_none()
+            && self.coat.is_none()
             && self.texture.is_none()
             && self.luminance_cd_m2.is_none()
     }

@@ -87,18 +87,19 @@ fn clear_coat() {
     let coated = finish(json!({"KHR_materials_clearcoat": coat}));
     let of_coat = 0.5 * mean_albedo(0.04);
     assert_near(coated.diffuse.colour, [bare.diffuse.colour.0[0] * (1.0 - of_coat); 3]);
-    let gloss = coated.gloss.unwrap();
-    let below = mean_albedo(0.04) * (1.0 - of_coat);
-    assert!((mean_albedo(gloss.f0.0[0]) - (of_coat + below)).abs() < SINGLE_ROUNDING);
-    let alpha = (0.01 * of_coat + 0.25 * below) / (of_coat + below);
-    assert!((gloss.alpha - alpha).abs() < SINGLE_ROUNDING);
+    // The base keeps its gloss below: the coat takes from it by the angle.
+    assert_eq!(coated.gloss, bare.gloss);
+    let coat = coated.coat.unwrap();
+    assert!((coat.cover - 0.5).abs() < SINGLE_ROUNDING);
+    assert!((coat.alpha - 0.01).abs() < SINGLE_ROUNDING);
     // Over nothing that shines it is the coat alone.
     let alone = finish(json!({
         "KHR_materials_specular": {"specularFactor": 0},
         "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.2},
     }));
-    assert_near(alone.gloss.unwrap().f0, [0.04; 3]);
-    assert!((alone.gloss.unwrap().alpha - 0.04).abs() < SINGLE_ROUNDING);
+    assert_eq!(alone.gloss, None);
+    assert!((alone.coat.unwrap().alpha - 0.04).abs() < SINGLE_ROUNDING);
+    assert_near(alone.glossy_f0(), [0.04; 3]);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use image::DynamicImage;
 use isolux_formats::lightmap::Target;
-use isolux_formats::map_glb::{Preview, TexelFile, write_texels};
+use isolux_formats::map_glb::{self, Preview, TexelFile, write_texels};
 use serde_json::Value;
 
 /// A file for a target, as its JSON and its bytes.
@@ -87,4 +87,29 @@ fn extensions_are_declared_where_they_are_used() {
         assert_eq!(glb.json["extras"]["isolux_lightmap"]["target"], target.name());
         assert!(glb.json.get("extensions").is_none(), "no light beside the lightmap: {target:?}");
     }
+}
+
+/// The texels of a map come back with every bit, and do not stand in the way of the map.
+#[test]
+fn a_map_keeps_its_texels() {
+    let scene = crate::card::scene();
+    let map = crate::card::map(&scene);
+    let lightmap = crate::card::lightmap(&scene, &map);
+    let preview = Preview { exposure_m2_cd: 0.01, white_cd_m2: 400.0 };
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("map.glb");
+    let file = TexelFile {
+        scene: &scene,
+        map: &map,
+        lightmap: &lightmap,
+        preview,
+        target: Target::Viewer,
+        with_record: true,
+    };
+    std::fs::write(&path, write_texels(&file).unwrap()).unwrap();
+    let read = map_glb::read_with_texels(&path).unwrap().value;
+    assert_eq!((read.lightmap, &read.map), (Some(lightmap), &map));
+    assert_eq!(map_glb::read(&path).unwrap().value.1, map);
+    std::fs::write(&path, map_glb::write(&scene, &map, &preview).unwrap()).unwrap();
+    assert_eq!(map_glb::read_with_texels(&path).unwrap().value.lightmap, None);
 }

@@ -5,3 +5,4 @@ mod card;
 mod files;
 mod glb;
 mod targets;
+mod vertices;

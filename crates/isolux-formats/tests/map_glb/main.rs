@@ -7,7 +7,7 @@ mod hostile;
 
 use example::{map, parts, scene};
 use isolux::map::IlluminationMap;
-use isolux::scene::{Scene, SceneParts, UpAxis};
+use isolux::scene::{Body, Coat, Scene, SceneParts, UpAxis};
 use isolux_formats::map_glb::{self, Preview};
 use isolux_formats::{Loaded, Problems, atomic};
 use serde_json::Value;
@@ -134,4 +134,22 @@ fn examples_are_written_for_outside_judges() {
     plain.cameras.clear();
     plain.shapes.truncate(1);
     write("map-plain.glb", plain);
+}
+
+/// Who reads version 2 alone would leave coats out; without any, files are as before.
+#[test]
+fn coats_come_back_and_raise_the_version() {
+    let plain = parts();
+    let mut coated = parts();
+    let steel = coated.materials.iter_mut().find(|m| m.name == "steel").unwrap();
+    let Body::Opaque { front, .. } = &mut steel.body else { panic!() };
+    front.coat = Some(Coat { cover: 0.5, alpha: 0.04 });
+    for (parts, version) in [(plain, 2), (coated, 3)] {
+        let scene = Scene::assemble(parts).unwrap();
+        let written = bytes(&scene, &map(&scene));
+        assert_eq!(json_and_rest(&written).0["extras"]["isolux"]["format_version"], version);
+        let (read, _) = read_bytes(&written).unwrap().value;
+        assert_eq!(read.to_parts(), scene.to_parts());
+        assert_eq!(read.hash(), scene.hash());
+    }
 }

@@ -1,7 +1,7 @@
 //! Materials.
 
 use super::{FLOOR, problems, read, read_with};
-use isolux::scene::{Body, Dielectric, Finish, Gloss};
+use isolux::scene::{Body, Coat, Dielectric, Finish, Gloss};
 use isolux::units::Rgb;
 
 fn body(properties: &str) -> Body {
@@ -31,6 +31,13 @@ fn every_property() {
     let differing = Body::Opaque { front: grey(0.7), back: Finish::mirror(Rgb::grey(0.9)) };
     assert_eq!(body("diffuse = 0.7\nback = { mirror = 0.9 }"), differing);
     let gloss = Some(Gloss { f0: Rgb::grey(0.04), alpha: 0.25 });
+    let coat = Some(Coat { cover: 0.5, alpha: 0.0625 });
+    assert_eq!(
+        body(
+            "diffuse = 0.5\ngloss = { f0 = 0.04, roughness = 0.5 }\ncoat = { cover = 0.5, roughness = 0.25 }"
+        ),
+        two_sided(Finish { gloss, coat, ..grey(0.5) })
+    );
     assert_eq!(
         body("diffuse = 0.5\ngloss = { f0 = 0.04, roughness = 0.5 }"),
         two_sided(Finish { gloss, ..grey(0.5) })
@@ -96,6 +103,10 @@ fn wrong_materials() {
         ("gloss = { f0 = 0.2, roughness = 0 }", "use `mirror`"),
         ("gloss = { f0 = 0.2, roughness = 1.5 }", "from 0 to 1"),
         ("gloss = { f0 = 0.2 }", "`roughness` is missing"),
+        ("mirror = 0.5\ncoat = { roughness = 0.1 }", "coat over a mirror"),
+        ("diffuse = 0.5\ncoat = { roughness = 0 }", "roughness or cover 0"),
+        ("diffuse = 0.5\ncoat = { cover = 2, roughness = 0.1 }", "from 0 to 1"),
+        ("diffuse = 0.97\ncoat = { roughness = 0.1 }", "reflects 1.010"),
         ("diffuse = 0.1\nback = { diffuse = 0.1 }\nsided = 'one'", "give one of them"),
         ("diffuse = 0.1\nsided = 'both'", "`one` or `two`"),
         ("diffuse = 0.1\nglass = {}", "keep `glass` alone"),

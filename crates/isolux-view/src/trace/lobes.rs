@@ -1,4 +1,4 @@
-//! Where a surface looks on: mirror directions, refraction, glossy facets.
+//! Where a surface looks on: mirror directions, refraction, facets of gloss and coats.
 
 use super::dielectric::Interface;
 use isolux::geometry::{Direction, Normal, Vector};
@@ -6,6 +6,8 @@ use isolux::sampling::{Ggx, Key};
 use isolux::scene::{Dielectric, Finish, Gloss};
 use isolux::units::Rgb;
 
+/// Tells the random shift of the coat from that of what lies below.
+const COAT: u64 = 2;
 /// Facets narrower than this are mirrors: their lobe is thinner than a pixel.
 const MIRROR_ALPHA: f64 = 1e-3;
 
@@ -49,17 +51,39 @@ pub(super) fn opaque(at: &Arrival, finish: &Finish, facets: u32, key: Key) -> Ve
     if !finish.mirror.is_black() {
         lobes.push(Lobe::sharp(finish.mirror, at.mirror()));
     }
+    let cos = -at.direction.cos(at.normal);
     if let Some(gloss) = &finish.gloss {
-        let spare = Rgb::WHITE - finish.diffuse.colour - finish.mirror;
-        if gloss.alpha < MIRROR_ALPHA {
-            let cos = -at.direction.cos(at.normal);
-            lobes.push(Lobe::sharp(fresnel(gloss, spare, cos), at.mirror()));
-        } else {
-            let places = spread(facets, key);
-            lobes.extend(places.filter_map(|place| facet(at, gloss, spare, place, facets)));
-        }
+        let below = |facet: f64, out: f64| {
+            fresnel(gloss, finish.gloss_limit([cos, out]), facet, finish.through_coat([cos, out]))
+        };
+        lobes.extend(glossy(at, gloss.alpha, (facets, key), below));
+    }
+    if let Some(coat) = &finish.coat {
+        let coated = |facet: f64, _| finish.coat_reflectance(facet);
+        lobes.extend(glossy(at, coat.alpha, (facets, key.with(COAT)), coated));
     }
     lobes
+}
+
+/// The lobes of facets of one width, with their reflectance by the cosines of light on a facet and of its way out.
+fn glossy(
+    at: &Arrival,
+    alpha: f64,
+    (facets, key): (u32, Key),
+    reflectance: impl Fn(f64, f64) -> Rgb,
+) -> Vec<Lobe> {
+    if alpha < MIRROR_ALPHA {
+        let cos = -at.direction.cos(at.normal);
+        return vec![Lobe::sharp(reflectance(cos, cos), at.mirror())];
+    }
+    let lobe = |place| {
+        facet(at, alpha, place).map(|facet| Lobe {
+            weight: reflectance(facet.cos, facet.out) * (facet.unmasked / f64::from(facets)),
+            direction: facet.direction,
+            blurred: true,
+        })
+    };
+    spread(facets, key).filter_map(lobe).collect()
 }
 
 /// The lobes of a dielectric.
@@ -72,13 +96,13 @@ pub(super) fn dielectric(at: &Arrival, glass: &Dielectric, inside: bool) -> Vec<
 }
 
 /// Schlick's approximation, cut where diffuse, mirror and gloss would reflect more than they
-/// receive.
-fn fresnel(gloss: &Gloss, spare: Rgb, cos: f64) -> Rgb {
+/// receive; so much of it passes the coat.
+fn fresnel(gloss: &Gloss, spare: Rgb, cos: f64, passing: f64) -> Rgb {
     let c = 1.0 - cos.clamp(0.0, 1.0);
     let c5 = (c * c) * (c * c) * c;
     let channel = |k: usize| {
         let schlick = gloss.f0.0[k] + (1.0 - gloss.f0.0[k]) * c5;
-        schlick.min(spare.0[k].max(0.0))
+        (schlick * passing).min(spare.0[k])
     };
     Rgb([0, 1, 2].map(channel))
 }
@@ -92,21 +116,27 @@ fn spread(n: u32, key: Key) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// One of n visible facets: Fresnel's share of what leaves unmasked (Heitz 2018, "Sampling the GGX
-/// distribution of visible normals").
-fn facet(at: &Arrival, gloss: &Gloss, spare: Rgb, place: [f64; 2], n: u32) -> Option<Lobe> {
+/// A visible facet (Heitz 2018, "Sampling the GGX distribution of visible normals").
+struct Facet {
+    direction: Direction,
+    /// Of the angle of light on it, and on its way out.
+    cos: f64,
+    out: f64,
+    /// The share that leaves unmasked.
+    unmasked: f64,
+}
+
+fn facet(at: &Arrival, alpha: f64, place: [f64; 2]) -> Option<Facet> {
     let axis = at.normal.to_direction();
     let (u, v) = axis.frame();
     let towards = -at.direction;
     let view = Vector::new(towards.dot(u), towards.dot(v), towards.dot(axis).max(1e-6));
-    let ggx = Ggx { alpha: gloss.alpha };
+    let ggx = Ggx { alpha };
     let half = ggx.sample(view, place);
     let out = half * (2.0 * view.dot(half)) - view;
     let direction = axis.from_local(out.direction()?.to_vector());
     if out.z <= 0.0 || direction.cos(at.flat) <= 0.0 {
         return None;
     }
-    let share = ggx.masking(out) / f64::from(n);
-    let weight = fresnel(gloss, spare, view.dot(half)) * share;
-    Some(Lobe { weight, direction, blurred: true })
+    Some(Facet { direction, cos: view.dot(half), out: out.z, unmasked: ggx.masking(out) })
 }

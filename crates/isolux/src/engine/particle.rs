@@ -22,8 +22,7 @@ const SCATTERINGS_WITHOUT_LOSS: f64 = 64.0;
 /// Scatterings after which a particle is given up.
 pub(super) fn scatterings(scene: &Scene) -> u32 {
     let reflected = |finish: &Finish| {
-        let gloss = finish.gloss.map_or(Rgb::BLACK, |gloss| gloss.f0);
-        (finish.diffuse.colour + finish.mirror + gloss).max_channel()
+        (finish.diffuse.colour + finish.mirror + finish.glossy_f0()).max_channel()
     };
     let sides = |m: &Material| [false, true].map(|back| m.finish(back).map_or(0.0, reflected));
     let largest = scene.materials().iter().flat_map(sides).fold(0.0, f64::max);
@@ -179,6 +178,6 @@ impl Particle {
 fn diffuse_chance(finish: &Finish, reflectance: Rgb, flux: Rgb) -> f64 {
     let chance =
         ((flux * reflectance).luminance() / flux.luminance().max(f64::MIN_POSITIVE)).min(1.0);
-    let specular = !finish.mirror.is_black() || finish.gloss.is_some();
+    let specular = !finish.mirror.is_black() || finish.is_glossy();
     if specular { chance.min(0.95) } else { chance }
 }

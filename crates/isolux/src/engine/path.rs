@@ -107,7 +107,7 @@ pub(super) fn specular_step(
             if survive >= chance {
                 return None;
             }
-            let square = if finish.gloss.is_some() { dice.pair() } else { [0.0; 2] };
+            let square = if finish.is_glossy() { dice.pair() } else { [0.0; 2] };
             // `reflect` gives the weight of a sample taken with the probability `share`.
             let next = reflect(finish, surface, incoming, pick, square)?;
             Some(Scattered { weight: next.weight * (share / chance), ..next })

@@ -1,4 +1,4 @@
-//! What specular surfaces do to light: mirrors, gloss, glass.
+//! What specular surfaces do to light: mirrors, gloss, coats, glass.
 
 use super::surface::SurfacePoint;
 use crate::sampling::Ggx;
@@ -20,19 +20,21 @@ pub(super) struct Scattered {
 
 /// Probability with which the specular part of a finish is followed: its largest reflectance.
 pub(super) fn specular_share(finish: &Finish, surface: &SurfacePoint, incoming: Direction) -> f64 {
-    (finish.mirror + gloss_share(finish, surface, incoming)).max_channel().clamp(0.0, 1.0)
+    let cos = -incoming.cos(surface.shading);
+    (finish.mirror + gloss_share(finish, cos) + finish.coat_reflectance(cos))
+        .max_channel()
+        .clamp(0.0, 1.0)
 }
 
 /// Reflectance of the gloss if its facets lay in the surface.
-fn gloss_share(finish: &Finish, surface: &SurfacePoint, incoming: Direction) -> Rgb {
+fn gloss_share(finish: &Finish, cos: f64) -> Rgb {
     finish.gloss.map_or(Rgb::BLACK, |gloss| {
-        let cos = -incoming.cos(surface.shading);
-        schlick(gloss.f0, cos).min(room_for_gloss(finish))
+        (schlick(gloss.f0, cos) * finish.through_coat([cos; 2])).min(finish.gloss_limit([cos; 2]))
     })
 }
 
 /// One sample of the specular part of a finish, weighted as one taken with the probability
-/// [`specular_share`]; `pick` of [0, 1) chooses between mirror and gloss, `square` the facet.
+/// [`specular_share`]; `pick` of [0, 1) chooses between mirror, coat and gloss, `square` the facet.
 pub(super) fn reflect(
     finish: &Finish,
     surface: &SurfacePoint,
@@ -42,19 +44,31 @@ pub(super) fn reflect(
 ) -> Option<Scattered> {
     let share = specular_share(finish, surface, incoming);
     let mirror = finish.mirror.max_channel();
-    let gloss = gloss_share(finish, surface, incoming).max_channel();
-    // Both may be strong in channels of their own: each is drawn by its strongest.
-    let mirror_chance = mirror / (mirror + gloss);
+    let cos = -incoming.cos(surface.shading);
+    let gloss = gloss_share(finish, cos).max_channel();
+    let coat = finish.coat_reflectance(cos).max_channel();
+    // All may be strong in channels of their own: each is drawn by its strongest.
+    let mirror_chance = mirror / (mirror + gloss + coat);
+    let coat_chance = coat / (mirror + gloss + coat);
     if pick < mirror_chance {
         let direction = incoming.reflect(surface.shading);
         let weight = finish.mirror * (1.0 / (share * mirror_chance));
         return scattered(surface, direction, weight, true);
     }
+    if let Some(layer) = finish.coat.filter(|_| pick < mirror_chance + coat_chance) {
+        let facet = facet(layer.alpha, surface, incoming, square)?;
+        let reflectance = finish.coat_reflectance(facet.cos) * facet.unmasked;
+        let weight = reflectance * (1.0 / (share * coat_chance));
+        return scattered(surface, facet.direction, weight, false);
+    }
     let gloss = finish.gloss?;
-    let (direction, reflectance) = glossy(gloss.f0, gloss.alpha, surface, incoming, square)?;
+    let facet = facet(gloss.alpha, surface, incoming, square)?;
+    let cosines = [cos, facet.direction.cos(surface.shading)];
+    let reflectance = schlick(gloss.f0, facet.cos) * facet.unmasked * finish.through_coat(cosines);
     // No more than the other parts leave, whatever the angle.
-    let weight = reflectance.min(room_for_gloss(finish)) * (1.0 / (share * (1.0 - mirror_chance)));
-    scattered(surface, direction, weight, false)
+    let chance = 1.0 - mirror_chance - coat_chance;
+    let weight = reflectance.min(finish.gloss_limit(cosines)) * (1.0 / (share * chance));
+    scattered(surface, facet.direction, weight, false)
 }
 
 fn scattered(
@@ -72,20 +86,21 @@ fn scattered(
     })
 }
 
-/// What diffuse and mirror reflectance leave for gloss. (The diffuse texture only lowers the
-/// diffuse part.)
-fn room_for_gloss(finish: &Finish) -> Rgb {
-    (Rgb::WHITE - finish.diffuse.colour - finish.mirror).map(|c| c.max(0.0))
+/// A reflection at one facet of GGX, drawn from those that are visible.
+struct Facet {
+    direction: Direction,
+    /// Of the angle at which light falls on it.
+    cos: f64,
+    /// What is left of its reflectance: the masking G1 of the direction.
+    unmasked: f64,
 }
 
-/// Direction of a GGX reflection by its visible normals, and its weight F G1.
-fn glossy(
-    f0: Rgb,
+fn facet(
     alpha: f64,
     surface: &SurfacePoint,
     incoming: Direction,
     square: [f64; 2],
-) -> Option<(Direction, Rgb)> {
+) -> Option<Facet> {
     let normal = surface.shading.to_direction();
     let (u, v) = normal.frame();
     let view = -incoming;
@@ -100,7 +115,7 @@ fn glossy(
     if out.z <= 0.0 {
         return None;
     }
-    Some((normal.from_local(out), schlick(f0, cos) * ggx.masking(out)))
+    Some(Facet { direction: normal.from_local(out), cos, unmasked: ggx.masking(out) })
 }
 
 /// Schlick's approximation of Fresnel reflectance (1994).

@@ -1,5 +1,7 @@
 //! Where lit sides lie in the pages of a lightmap.
 
+use serde::{Deserialize, Serialize};
+
 /// The charts of all lit sides. Pages are of one size; texel row 0 is at `v` = 0, the upper edge of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
@@ -11,6 +13,8 @@ pub struct Layout {
     pub pages: u32,
     /// Density that was aimed at, texels a metre.
     pub texels_per_m: f64,
+    /// Density that was asked for, or comes of the size of the scene: where places are kept, they decide.
+    pub asked_texels_per_m: f64,
     /// Texels around each chart that belong to no other.
     pub padding: u32,
     /// Number of charts.
@@ -22,7 +26,8 @@ pub struct Layout {
 }
 
 /// Whether surfaces lie where their file puts them.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum OwnPlaces {
     /// The file has no places in a lightmap.
     #[default]

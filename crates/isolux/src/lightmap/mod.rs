@@ -4,6 +4,7 @@
 //! [`bake`] reads the map over the part of the surface that each texel covers, fills the borders of charts, and
 //! makes the two sides of every seam agree.
 
+mod arrays;
 mod bake;
 mod charts;
 mod clip;
@@ -30,6 +31,7 @@ mod work;
 #[cfg(test)]
 mod tests;
 
+pub use arrays::{LightmapArrays, LightmapArraysError};
 pub use bake::bake;
 pub use charts::{Patch, Placed, UnwrapError, UnwrapRequest, Unwrapped, Unwrapper};
 pub use layout::{Layout, OwnPlaces, Side};

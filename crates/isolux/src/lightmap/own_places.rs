@@ -36,6 +36,7 @@ pub(super) fn find(
         height: size,
         pages: 1,
         texels_per_m: density,
+        asked_texels_per_m: texels_per_m,
         padding,
         charts: 0,
         own_places: OwnPlaces::Kept,

@@ -104,7 +104,7 @@ pub fn plan(
         }
     };
     check_memory(layout.texel_count() as f64, settings)?;
-    Ok(Layout { own_places, ..layout })
+    Ok(Layout { own_places, asked_texels_per_m: texels_per_m, ..layout })
 }
 
 /// Some sides, laid out anew.
@@ -141,6 +141,7 @@ fn unwrapped(
         height: unwrapped.height,
         pages: unwrapped.pages,
         texels_per_m,
+        asked_texels_per_m: texels_per_m,
         padding,
         charts: unwrapped.charts,
         own_places: OwnPlaces::None,

@@ -1,9 +1,10 @@
 //! How well both sides of seams agree.
 
 use isolux_geometry::Point;
+use serde::{Deserialize, Serialize};
 
 /// How far apart the two sides of seams are.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Jump {
     /// The largest difference of the photometric value, lx.
     pub largest_lx: f64,
@@ -16,7 +17,7 @@ pub struct Jump {
 }
 
 /// What stitching did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SeamReport {
     /// Number of edges at which charts meet and the surface is smooth.
     pub edges: usize,
@@ -34,4 +35,14 @@ pub struct SeamReport {
     pub rms_change_errors: f64,
     /// Share of known texels at seams that were stopped at twice their standard error.
     pub stopped: f64,
+}
+
+impl SeamReport {
+    /// Whether all numbers are.
+    pub fn is_finite(&self) -> bool {
+        let of_jump = |jump: &Jump| [jump.largest_lx, jump.largest_share, jump.rms_lx];
+        let own = [self.length_m, self.largest_change_lx, self.rms_change_errors, self.stopped];
+        let jumps = [of_jump(&self.before), of_jump(&self.after)];
+        own.iter().chain(jumps.as_flattened()).all(|number| number.is_finite())
+    }
 }

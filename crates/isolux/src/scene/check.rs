@@ -1,7 +1,7 @@
 //! All problems of a scene at once.
 
 use super::{
-    Body, Camera, Dielectric, Finish, Luminaire, LuminaireKind, Material, Place, SceneParts,
+    Body, Camera, Coat, Dielectric, Finish, Luminaire, LuminaireKind, Material, Place, SceneParts,
     SceneProblem, Shape, Texture,
 };
 use crate::photometry::IntensityDistribution;
@@ -133,6 +133,7 @@ fn check_material(material: &Material, textures: usize, report: Report) {
 
 fn check_finish(finish: &Finish, side: &str, textures: usize, report: Report) {
     let f0 = finish.gloss.map_or(Rgb::BLACK, |g| g.f0);
+    check_coat(finish, side, report);
     for (what, value) in [
         ("diffuse reflectance", finish.diffuse.colour),
         ("mirror reflectance", finish.mirror),
@@ -145,7 +146,7 @@ fn check_finish(finish: &Finish, side: &str, textures: usize, report: Report) {
             );
         }
     }
-    let sum = finish.diffuse.colour + finish.mirror + f0;
+    let sum = finish.diffuse.colour + finish.mirror + finish.glossy_f0();
     if is_share(finish.diffuse.colour) && sum.max_channel() > 1.0 + ENERGY_ROUNDING {
         report(
             format!("{side} reflects more light than it receives ({:.4})", sum.max_channel()),
@@ -163,6 +164,22 @@ fn check_finish(finish: &Finish, side: &str, textures: usize, report: Report) {
     }
     if finish.diffuse.texture.is_some_and(|t| t as usize >= textures) {
         report(format!("{side} names a texture that does not exist"), "name one that does".into());
+    }
+}
+
+fn check_coat(finish: &Finish, side: &str, report: Report) {
+    let Some(Coat { cover, alpha }) = finish.coat else { return };
+    if !(cover > 0.0 && cover <= 1.0) {
+        let what = format!("{side} coat covers {cover} of the surface");
+        report(what, "give a share above 0 to 1, or leave the coat out".into());
+    }
+    if !(alpha > 0.0 && alpha <= 1.0) {
+        let what = format!("{side} coat has an alpha of {alpha}, not in (0, 1]");
+        report(what, "give a roughness above 0 to 1; its square is alpha".into());
+    }
+    if !finish.mirror.is_black() {
+        let what = format!("{side} has a coat over a mirror");
+        report(what, "use gloss of a small roughness in place of the mirror".into());
     }
 }
 

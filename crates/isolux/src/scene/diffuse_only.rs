@@ -20,7 +20,8 @@ impl Scene {
 }
 
 fn diffuse(body: &Body) -> Body {
-    let without = |finish: &Finish| Finish { mirror: Rgb::BLACK, gloss: None, ..finish.clone() };
+    let without =
+        |finish: &Finish| Finish { mirror: Rgb::BLACK, gloss: None, coat: None, ..finish.clone() };
     match body {
         Body::Opaque { front, back } => Body::Opaque { front: without(front), back: without(back) },
         Body::Dielectric(glass) => {

@@ -15,6 +15,10 @@ pub struct Material {
 /// What light can do at a surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "materials are few, and engines read finishes at every hit"
+)]
 pub enum Body {
     /// Light stays on the side it came from.
     Opaque {
@@ -27,9 +31,9 @@ pub enum Body {
     Dielectric(Dielectric),
 }
 
-/// One side of an opaque surface: a sum of a diffuse part, a mirror part, a glossy part, and light
-/// of its own. In each channel diffuse, mirror and glossy reflectance sum to at most one; the
-/// glossy part is cut at grazing angles, where it would exceed that.
+/// One side of an opaque surface: a sum of a diffuse part, a mirror part, a glossy part, a clear coat
+/// over it, and light of its own. In each channel diffuse, mirror and glossy reflectance sum to at
+/// most one; what is glossy is cut at grazing angles, where it would exceed that.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Finish {
     /// Lambertian reflectance.
@@ -38,6 +42,9 @@ pub struct Finish {
     pub mirror: Rgb,
     /// Microfacet reflection.
     pub gloss: Option<Gloss>,
+    /// A second one, over the first; files of scenes without know nothing of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coat: Option<Coat>,
     /// Luminance of the light it emits, the same in every direction, cd/m2.
     pub luminance_cd_m2: Rgb,
 }
@@ -60,6 +67,17 @@ pub struct Gloss {
     pub alpha: f64,
 }
 
+/// A smooth or rough layer of index 1.5 (Khronos, KHR_materials_clearcoat): GGX microfacets with Schlick's Fresnel term.
+/// Gloss below loses `1 - F` on its way in and again on its way out; diffuse reflectance is that with the coat on, as
+/// it is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Coat {
+    /// Share of the surface that it covers, above 0 to 1.
+    pub cover: f64,
+    /// Width of the facet distribution, 0 < alpha <= 1 (perceptual roughness squared).
+    pub alpha: f64,
+}
+
 /// Smooth dielectric.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Dielectric {
@@ -78,6 +96,7 @@ impl Finish {
         diffuse: Reflectance { colour: Rgb::BLACK, texture: None },
         mirror: Rgb::BLACK,
         gloss: None,
+        coat: None,
         luminance_cd_m2: Rgb::BLACK,
     };
 
@@ -91,6 +110,11 @@ impl Finish {
         Self { mirror: reflectance, ..Self::BLACK }
     }
 
+    /// Whether any part of it is glossy.
+    pub fn is_glossy(&self) -> bool {
+        self.gloss.is_some() || self.coat.is_some()
+    }
+
     /// Whether it emits.
     pub fn is_emitter(&self) -> bool {
         !self.luminance_cd_m2.is_black()
@@ -98,7 +122,7 @@ impl Finish {
 
     /// Whether it is nothing but a mirror, so that an illuminance on it would light nothing.
     pub fn is_pure_mirror(&self) -> bool {
-        self.diffuse.colour.is_black() && self.gloss.is_none() && !self.mirror.is_black()
+        self.diffuse.colour.is_black() && !self.is_glossy() && !self.mirror.is_black()
     }
 }
 

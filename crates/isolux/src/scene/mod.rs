@@ -5,6 +5,7 @@
 
 mod assemble;
 mod check;
+mod coat;
 mod diffuse_only;
 mod grid;
 mod hanging;
@@ -21,7 +22,7 @@ pub use assemble::Scene;
 pub use grid::CalculationGrid;
 pub use hanging::world_from_luminaire;
 pub use luminaire::{AreaLuminaire, Luminaire, LuminaireKind};
-pub use material::{Body, Dielectric, Finish, Gloss, Material, Reflectance};
+pub use material::{Body, Coat, Dielectric, Finish, Gloss, Material, Reflectance};
 pub use parts::{SceneParts, Shape, UpAxis};
 pub use problem::{Place, SceneProblem};
 pub use texture::Texture;

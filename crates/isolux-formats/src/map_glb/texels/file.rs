@@ -19,6 +19,6 @@ pub struct TexelFile<'a> {
     pub preview: Preview,
     /// Who will read it.
     pub target: Target,
-    /// Whether the map itself goes with it, so that isolux can read it back.
+    /// Whether the map itself goes with it, and its texels with every digit, so that isolux can read them back.
     pub with_record: bool,
 }

@@ -69,8 +69,7 @@ fn emitting(file: &TexelFile<'_>, layer: Layer, page: &Page) -> Material {
 /// As in the scene, lit by a page. Gloss counts as diffuse.
 fn beside_lightmap(file: &TexelFile<'_>, layer: Layer, page: &Page, is_textured: bool) -> Material {
     let finish = file.scene.materials()[layer.material as usize].finish(layer.back);
-    let colour = finish
-        .map_or(Rgb::BLACK, |f| f.diffuse.colour + f.gloss.map_or(Rgb::BLACK, |gloss| gloss.f0));
+    let colour = finish.map_or(Rgb::BLACK, |f| f.diffuse.colour + f.glossy_f0());
     let mut material = matt(file, layer, colour, 1.0);
     material.pbr_metallic_roughness.base_color_texture = finish
         .and_then(|f| f.diffuse.texture)
@@ -90,7 +89,7 @@ fn beside_lightmap(file: &TexelFile<'_>, layer: Layer, page: &Page, is_textured:
 /// Without a map: glass translucent, mirrors grey, luminaires as bright as they are.
 fn bare(file: &TexelFile<'_>, layer: Layer) -> Material {
     let body = &file.scene.materials()[layer.material as usize].body;
-    let [r, g, b, alpha] = looks::bare_colour(body, layer.back, &file.preview);
+    let [r, g, b, alpha] = looks::bare_colour(body, layer.back, &|l| file.preview.colour(l));
     let finish = file.scene.materials()[layer.material as usize].finish(layer.back);
     let emitter = finish.filter(|f| f.is_emitter());
     let is_finished = file.target.way() == Way::Preview;

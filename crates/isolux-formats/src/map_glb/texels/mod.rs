@@ -3,7 +3,6 @@
 //! The geometry is that of the scene, its vertices split where charts end; `TEXCOORD_1` is the place in the lightmap.
 //! What the texture holds, and how the material refers to it, is up to the consumer ([`Target`]).
 
-mod backs;
 mod file;
 mod materials;
 mod pages;
@@ -11,11 +10,10 @@ mod surfaces;
 
 use super::MapTooLarge;
 use super::bytes::Bytes;
-use super::document::Scene as SceneRoots;
-use super::document::{Asset, Buffer, Document, Objects, Primitive};
-use super::record::Declared;
-use super::write::{add_node, add_textures, record};
-use super::{Preview, container, nodes};
+use super::document::{Objects, Primitive};
+use super::record::{Declared, Origin};
+use super::write::{add_node, add_textures, pack, record};
+use super::{Preview, nodes};
 use crate::lightmap::{Convention, LightmapFileError, Way};
 pub use file::TexelFile;
 use materials::Materials;
@@ -43,9 +41,8 @@ struct Note {
     height: u32,
     pages: u32,
     preview: Preview,
-    scene: String,
-    scene_hash: String,
-    accuracy_reached: Option<f64>,
+    #[serde(flatten)]
+    origin: Origin,
 }
 
 /// The bytes of the file. The same lightmap gives the same bytes.
@@ -63,28 +60,13 @@ pub fn write_texels(file: &TexelFile<'_>) -> Result<Vec<u8>, LightmapFileError> 
     nodes::add_cameras(scene, &mut objects);
     let children = (0..objects.nodes.len() as u32).collect();
     objects.nodes.push(nodes::root(scene, children));
-    let record =
-        file.with_record.then(|| record((scene, map, &file.preview), &pictures, &mut bytes));
-    objects.buffer_views = bytes.views;
+    let texels = (&pictures[..], Some(file.lightmap));
+    let record = file.with_record.then(|| record((scene, map, &file.preview), texels, &mut bytes));
     // Without lights: all of theirs is in the texels, and a consumer would add it once more.
     let extensions_used = materials::extensions(&objects.materials);
-    let document = Document {
-        asset: Asset { version: "2.0", generator: format!("isolux {}", env!("CARGO_PKG_VERSION")) },
-        extensions_used,
-        extensions: None,
-        scene: 0,
-        scenes: [SceneRoots { nodes: [objects.nodes.len() as u32 - 1] }],
-        objects,
-        buffers: Vec::from_iter(
-            (!bytes.content.is_empty()).then_some(Buffer { byte_length: bytes.content.len() }),
-        ),
-        extras: Extras {
-            isolux: record.as_ref().map(Declared::new),
-            isolux_lightmap: note(file, &pages),
-        },
-    };
-    let json = serde_json::to_vec(&document).expect("plain structs with names for keys");
-    container::pack(&json, &bytes.content).map_err(too_large)
+    let extras =
+        Extras { isolux: record.as_ref().map(Declared::new), isolux_lightmap: note(file, &pages) };
+    pack((objects, bytes), (extensions_used, Vec::new()), extras).map_err(too_large)
 }
 
 fn too_large(MapTooLarge { bytes }: MapTooLarge) -> LightmapFileError {
@@ -114,9 +96,7 @@ fn note(file: &TexelFile<'_>, pages: &[Page]) -> Note {
         height: layout.height,
         pages: layout.pages,
         preview: file.preview,
-        scene: file.map.provenance.scene.clone(),
-        scene_hash: file.map.provenance.scene_hash.clone(),
-        accuracy_reached: file.map.provenance.accuracy.map(|a| a.reached).filter(|a| a.is_finite()),
+        origin: Origin::of(file.map),
     }
 }
 

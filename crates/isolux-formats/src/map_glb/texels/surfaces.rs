@@ -1,7 +1,7 @@
 //! The triangles of the scene, grouped by shape, side and page.
 
-use super::backs;
 use super::file::TexelFile;
+use crate::map_glb::backs;
 use crate::map_glb::display::{Layer, Surface, is_shown, layer, texture_of, turned};
 use isolux::lightmap::Side;
 use isolux::scene::Scene;

@@ -68,6 +68,11 @@ fn finish(finish: &Finish, prefix: &str) -> String {
         let (f0, roughness) = (colour(gloss.f0), number(roughness));
         line("gloss", format!("{{ f0 = {f0}, roughness = {roughness} }}"));
     }
+    if let Some(coat) = finish.coat {
+        let roughness = shortest(coat.alpha.sqrt(), |r| r * r == coat.alpha);
+        let (cover, roughness) = (number(coat.cover), number(roughness));
+        line("coat", format!("{{ cover = {cover}, roughness = {roughness} }}"));
+    }
     if finish.luminance_cd_m2 != Rgb::BLACK {
         line("luminance_cd_m2", colour(finish.luminance_cd_m2));
     }

@@ -193,7 +193,7 @@ fn feel(scene: &Scene, place: &Place, radii: Radii) -> Felt {
         match &scene.material(hit.triangle).body {
             Body::Opaque { front, back } => {
                 let finish = if hit.back { back } else { front };
-                if finish.mirror.is_black() && finish.gloss.is_none() {
+                if finish.mirror.is_black() && !finish.is_glossy() {
                     meet(&surface, finish);
                 } else {
                     follow(scene, ray, direction, &mut dice, |at, finish, _| meet(at, finish));

@@ -291,5 +291,5 @@ fn image(sources: &[Source], starts: &[usize], luminaire: usize, chain: &[u32]) 
 }
 
 fn has_gloss(material: &crate::scene::Material) -> bool {
-    [false, true].iter().any(|&back| material.finish(back).is_some_and(|f| f.gloss.is_some()))
+    [false, true].iter().any(|&back| material.finish(back).is_some_and(|f| f.is_glossy()))
 }

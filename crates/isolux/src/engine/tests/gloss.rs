@@ -9,9 +9,9 @@ use crate::scene::{Body, Gloss};
 use isolux_geometry::{Direction, Normal};
 use std::f64::consts::PI;
 
-const ANGLES_DEG: [f64; 6] = [0.0, 25.0, 50.0, 70.0, 84.0, 89.0];
+pub(super) const ANGLES_DEG: [f64; 6] = [0.0, 25.0, 50.0, 70.0, 84.0, 89.0];
 
-fn place() -> SurfacePoint {
+pub(super) fn place() -> SurfacePoint {
     SurfacePoint {
         triangle: 0,
         back: false,
@@ -24,7 +24,7 @@ fn place() -> SurfacePoint {
     }
 }
 
-fn incoming(angle_deg: f64) -> Direction {
+pub(super) fn incoming(angle_deg: f64) -> Direction {
     let (s, c) = libm::sincos(angle_deg.to_radians());
     direction([0.6 * s, 0.8 * s, -c])
 }

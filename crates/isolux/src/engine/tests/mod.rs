@@ -1,6 +1,7 @@
 //! The parts of the engines, each against what can be computed by hand.
 
 mod carrying;
+mod coat;
 mod deposits;
 mod details;
 mod direct_light;

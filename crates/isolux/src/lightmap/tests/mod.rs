@@ -1,5 +1,6 @@
 //! Lightmaps of small scenes.
 
+mod arrays;
 mod baking;
 mod layouts;
 mod net;

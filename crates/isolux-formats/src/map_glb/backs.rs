@@ -1,7 +1,7 @@
 //! Backs that stand off from their fronts, for renderers that show every surface from both sides.
 
+use super::display::Surface;
 use crate::lightmap::Target;
-use crate::map_glb::display::Surface;
 use isolux::scene::Scene;
 
 /// Distance of a back from its front, of the longest side of the scene: 0.1 mm in a room of 10 m. Rays in single

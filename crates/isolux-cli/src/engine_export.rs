@@ -1,0 +1,66 @@
+//! `isolux export` of light for engines: which kind of file, and for whom.
+
+use crate::failure::{Failure, Outcome};
+use crate::flags::{ExportFlags, LayoutName, TargetName};
+use crate::lightmap_export::{self, LightmapFile};
+use crate::lightmap_files::Kind;
+use crate::vertex_export;
+use isolux_formats::lightmap::Target;
+
+/// A kind of file for engines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Geometry and colours of its vertices.
+    Vertices,
+    /// Light as texels.
+    Lightmap(LightmapFile),
+}
+
+impl Wanted {
+    /// By extension and flags; nothing where the file is of another kind.
+    pub(crate) fn of(flags: &ExportFlags) -> Result<Option<Self>, Failure> {
+        let refused =
+            |why: &str| Err(Failure::bad_input(format!("{}: {why}", flags.output.display())));
+        let extension = flags.output.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let is_texels = flags.layout.layout == LayoutName::Texels;
+        let has_density = flags.layout.texels_per_meter.is_some();
+        let is_coloured = extension.as_deref() == Some("glb") && !is_texels;
+        if flags.white.is_some() && !is_coloured {
+            return refused("--white is for colours of vertices in a .glb; leave it out");
+        }
+        match extension.as_deref() {
+            Some("exr") => Ok(Some(Self::Lightmap(LightmapFile::Alone(Kind::Exr)))),
+            Some("ktx2") => Ok(Some(Self::Lightmap(LightmapFile::Alone(Kind::Ktx2)))),
+            Some("glb") if is_texels => Ok(Some(Self::Lightmap(LightmapFile::Glb))),
+            Some("glb") if has_density => {
+                refused("--texels-per-meter is for lightmaps; add --layout texels, or leave it out")
+            }
+            Some("glb") => Ok(Some(Self::Vertices)),
+            _ if is_texels || has_density || flags.target != TargetName::Viewer => refused(
+                "--layout texels, --texels-per-meter and --target are for engines; end the name in .glb, or for \
+                 lightmaps in .exr or .ktx2, or leave them out",
+            ),
+            _ => Ok(None),
+        }
+    }
+
+    /// Writes it.
+    pub(crate) fn write(self, flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
+        let target = target(flags.target);
+        match self {
+            Self::Vertices => vertex_export::run(flags, target, json),
+            Self::Lightmap(file) => lightmap_export::run(flags, (file, target), json),
+        }
+    }
+}
+
+fn target(name: TargetName) -> Target {
+    match name {
+        TargetName::Viewer => Target::Viewer,
+        TargetName::Three => Target::Three,
+        TargetName::Godot => Target::Godot,
+        TargetName::Unity => Target::Unity,
+        TargetName::Blender => Target::Blender,
+        TargetName::Bevy => Target::Bevy,
+    }
+}

@@ -1,0 +1,88 @@
+//! `isolux export` of maps whose light is in the colours of vertices.
+
+use crate::console::{facts, print, print_json};
+use crate::failure::{Failure, Outcome};
+use crate::flags::ExportFlags;
+use crate::map_file;
+use crate::output::OutputPath;
+use crate::quantity::{show_bytes, significant};
+use isolux_formats::lightmap::{Target, VertexConvention};
+use isolux_formats::map_glb::{Preview, VertexColours, VertexFile, write_vertices};
+use serde::Serialize;
+
+/// Writes a `.glb` for a consumer.
+pub(crate) fn run(flags: &ExportFlags, target: Target, json: bool) -> Result<Outcome, Failure> {
+    if flags.white.is_some() && target == Target::Viewer {
+        return Err(Failure::bad_input(
+            "--white is for colours in proportion to luminance, and those of --target viewer are tone mapped; \
+             name another target, or leave it out",
+        ));
+    }
+    let output = OutputPath::check(&flags.output, "glb")?;
+    output.differs_from(&flags.map)?;
+    let (scene, map) = map_file::read(&flags.map)?;
+    let preview = Preview::automatic(&scene, &map);
+    let white_cd_m2 = flags.white;
+    let file = VertexFile { scene: &scene, map: &map, preview, target, white_cd_m2 };
+    let made = write_vertices(&file)
+        .map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
+    output.write(&made.bytes)?;
+    let report = Report::of(&made, target, output.path().display().to_string());
+    if json {
+        print_json(&report)?
+    } else {
+        print(&report.text())?
+    }
+    Ok(Outcome::Done)
+}
+
+/// What `--json` says.
+#[derive(Serialize)]
+struct Report {
+    target: &'static str,
+    convention: VertexConvention,
+    file: String,
+    bytes: u64,
+    vertices: usize,
+    exposure_m2_cd: f64,
+    white_cd_m2: f64,
+    largest_colour: f64,
+    vertices_above_white: usize,
+}
+
+impl Report {
+    fn of(made: &VertexColours, target: Target, file: String) -> Self {
+        Self {
+            target: target.name(),
+            convention: target.vertex_convention(),
+            file,
+            bytes: made.bytes.len() as u64,
+            vertices: made.vertices,
+            exposure_m2_cd: made.exposure_m2_cd,
+            white_cd_m2: made.white_cd_m2,
+            largest_colour: made.largest,
+            vertices_above_white: made.above_white,
+        }
+    }
+
+    /// For people.
+    fn text(&self) -> String {
+        let VertexConvention { quantity, formula, setting, .. } = self.convention;
+        let mut all = vec![
+            ("file", self.file.clone()),
+            ("  size", show_bytes(self.bytes)),
+            ("  COLOR_0", format!("{quantity}; {formula}")),
+            ("  white", format!("{} cd/m2", significant(self.white_cd_m2, 3))),
+            ("  vertices", self.vertices.to_string()),
+        ];
+        if self.vertices_above_white > 0 {
+            let (largest, count) = (significant(self.largest_colour, 3), self.vertices_above_white);
+            let text = format!("{count} vertices, up to {largest} times; cut (--white says where)");
+            all.push(("  above white", text));
+        }
+        if !setting.is_empty() {
+            all.push(("  set", format!("{}: {setting}", self.target)));
+        }
+        facts(&all)
+    }
+}
