@@ -18,6 +18,8 @@ const WIDEST: usize = 8;
 /// From one net to the next twice as fine differences shrink by this at least: by a quarter where light is smooth,
 /// by a half where it has a kink.
 const SHRINK: f64 = 0.5;
+/// Differences in a square count as much as so many in each of its parts.
+const OF_SQUARE: f64 = 2.0;
 /// What is left may be this share of the error that a reading has anyway.
 const OF_ERROR: f64 = 0.5;
 /// Planes lean by no more than what the spread of their places tells: this share of it is added both ways.
@@ -26,6 +28,10 @@ const STIFFNESS: f64 = 0.1;
 const REACH: f64 = 12.0;
 /// Texels nearer than this weigh little more: one alone makes no plane.
 const SOFT: f64 = 2.0;
+/// Planes are continued beyond the texels that they were laid through no farther than this, texels; where it is more
+/// than the first, one of a square tells how far off that is.
+const BEYOND: f64 = 1.5;
+const MOST_BEYOND: f64 = 2.5;
 /// Sum of the shares of a plane, taken as positive, beyond which it is a guess.
 const MOST_SHARES: f64 = 3.0;
 
@@ -78,15 +84,18 @@ pub(super) struct Net {
 pub(super) enum Step {
     /// One texel of every square of so many texels across.
     Squares(usize),
+    /// One of every square of so many texels across whose rim lies beyond what was gathered.
+    Rims(usize),
     /// The same in those where texels before disagree.
     Refined(usize),
 }
 
 impl Step {
     /// In their order.
-    pub(super) const ALL: [Self; 4] = [
+    pub(super) const ALL: [Self; 5] = [
         Self::Squares(WIDEST),
         Self::Squares(WIDEST / 2),
+        Self::Rims(WIDEST / 2),
         Self::Refined(WIDEST / 4),
         Self::Refined(1),
     ];
@@ -117,34 +126,76 @@ impl Net {
                 let all = self.parts(WIDEST / 2);
                 all.into_iter().filter(|square| !self.has_gathered(square)).count() as f64
             }
-            Step::Refined(_) => 0.0,
+            Step::Rims(_) | Step::Refined(_) => 0.0,
         };
         squares + share * (waiting(&self.light) - squares)
     }
 
     /// The texels to gather at in a step.
     pub(super) fn chosen(&self, step: Step) -> Vec<usize> {
+        let new = |part: &Range<usize>| !self.has_gathered(part);
         match step {
-            Step::Squares(size) => {
-                let of_square = |square: &Range<usize>| self.one_of_each(square.clone(), size);
-                self.squares.iter().flat_map(of_square).collect()
+            Step::Squares(WIDEST) => self.squares.iter().map(|s| self.middle(s.clone())).collect(),
+            Step::Squares(size) => self.farthest(self.parts(size).into_iter().filter(new)),
+            Step::Rims(size) => {
+                let parts = self.parts(size).into_iter();
+                parts.filter_map(|part| self.farthest_out(part)).collect()
             }
             Step::Refined(size) => {
                 let rough = self.squares.iter().filter(|square| self.is_rough(square));
                 let parts = rough.flat_map(|square| self.split(square.clone(), 4 * size));
                 let rough = parts.filter(|part| self.is_rough(part));
-                rough.flat_map(|part| self.one_of_each(part, size)).collect()
+                self.farthest(rough.flat_map(|part| self.split(part, size)).filter(new))
             }
         }
     }
 
-    /// Of every square of a size within a part, its texel in the middle, where none of them was gathered.
-    fn one_of_each(&self, part: Range<usize>, size: usize) -> Vec<usize> {
-        let squares = self.split(part, size).into_iter();
-        squares
-            .filter(|square| !self.has_gathered(square))
-            .map(|square| self.middle(square))
+    /// Of every part, the texel farthest from all that was gathered, or chosen before it: there a plane is most
+    /// likely to be off, and there it is told by how much.
+    fn farthest(&self, parts: impl Iterator<Item = Range<usize>>) -> Vec<usize> {
+        let mut is_taken: Vec<bool> = self.light.iter().map(|l| *l != Light::Waiting).collect();
+        parts
+            .map(|part| {
+                let mut farthest = (part.start, 0);
+                for k in part {
+                    let away = self.away(k, &is_taken);
+                    if away > farthest.1 {
+                        farthest = (k, away);
+                    }
+                }
+                is_taken[farthest.0] = true;
+                farthest.0
+            })
             .collect()
+    }
+
+    /// Square of the distance to the nearest texel that is taken, texels squared.
+    fn away(&self, k: usize, is_taken: &[bool]) -> usize {
+        let taken = self.about(k).filter(|&other| is_taken[other]);
+        let away = taken.map(|other| {
+            let off = [0, 1].map(|c| self.wanted[other].at[c].abs_diff(self.wanted[k].at[c]));
+            off[0] * off[0] + off[1] * off[1]
+        });
+        away.min().unwrap_or(usize::MAX)
+    }
+
+    /// The texel of a part that lies farthest beyond what was gathered.
+    fn farthest_out(&self, part: Range<usize>) -> Option<usize> {
+        let waiting = part.filter(|&k| self.light[k] == Light::Waiting);
+        let beyond = waiting.filter_map(|k| Some((k, self.continued(k)?.beyond)));
+        let farthest = beyond.max_by(|(_, a), (_, b)| a.total_cmp(b));
+        farthest.filter(|&(_, beyond)| beyond > BEYOND).map(|(k, _)| k)
+    }
+
+    /// The texels that the light of one may be continued from, and more.
+    fn about(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
+        let Wanted { at, kind, .. } = self.wanted[k];
+        let [x, y] = square(at, WIDEST);
+        let near = |c: usize| c.saturating_sub(1)..c + 2;
+        near(y)
+            .flat_map(move |y| near(x).map(move |x| [x, y]))
+            .filter_map(move |place| self.by_place.get(&(kind, place)))
+            .flat_map(|&number| self.squares[number].clone())
     }
 
     fn parts(&self, size: usize) -> Vec<Range<usize>> {
@@ -196,25 +247,34 @@ impl Net {
         signal > goal_lx * goal_lx
     }
 
-    /// Mean differences in a part, or else in the square that it is part of.
+    /// Mean differences in a part, to which those in the square that it is part of add as much as a few of its own:
+    /// one or two may be small by chance.
     fn found_about(&self, part: &Range<usize>) -> Option<Difference> {
         let square = self.squares.partition_point(|square| square.end <= part.start);
-        self.found(part).or_else(|| self.found(&self.squares[square]))
+        let (own, count) = self.found(part);
+        let (around, count_around) = self.found(&self.squares[square]);
+        if count_around == 0.0 {
+            return None;
+        }
+        let mean = |own: f64, around: f64| {
+            (own + OF_SQUARE * around / count_around) / (count + OF_SQUARE)
+        };
+        Some(Difference {
+            squared: mean(own.squared, around.squared),
+            noise: mean(own.noise, around.noise),
+        })
     }
 
-    /// Mean differences in a part.
-    fn found(&self, part: &Range<usize>) -> Option<Difference> {
+    /// The sum of differences in a part, and how many.
+    fn found(&self, part: &Range<usize>) -> (Difference, f64) {
         let differences = self.light[part.clone()].iter().filter_map(|light| match light {
             Light::Gathered(_, difference) => *difference,
             _ => None,
         });
-        let (mut sum, mut count) = (Difference::default(), 0.0);
-        for difference in differences {
-            sum.squared += difference.squared;
-            sum.noise += difference.noise;
-            count += 1.0;
-        }
-        (count > 0.0).then(|| Difference { squared: sum.squared / count, noise: sum.noise / count })
+        differences.fold((Difference::default(), 0.0), |(sum, count), difference| {
+            let squared = sum.squared + difference.squared;
+            (Difference { squared, noise: sum.noise + difference.noise }, count + 1.0)
+        })
     }
 
     /// Takes in what was gathered in a step: no value of it is expected from another.
@@ -240,7 +300,8 @@ impl Net {
 
     /// Texels that are left and cannot be continued: they are to be gathered, too.
     pub(super) fn left(&self) -> Vec<usize> {
-        let is_left = |&k: &usize| self.light[k] == Light::Waiting && self.continued(k).is_none();
+        let is_told = |k: usize| self.continued(k).is_some_and(|c| c.beyond <= MOST_BEYOND);
+        let is_left = |&k: &usize| self.light[k] == Light::Waiting && !is_told(k);
         (0..self.light.len()).filter(is_left).collect()
     }
 
@@ -251,7 +312,7 @@ impl Net {
             let found = self.found_about(&part);
             let found = found.map_or(0.0, |found| found.squared);
             for k in part.filter(|&k| self.light[k] == Light::Waiting) {
-                if let Some(Continued { reading, squared }) = self.continued(k) {
+                if let Some(Continued { reading, squared, .. }) = self.continued(k) {
                     let left = SHRINK * found.max(squared).sqrt();
                     let error_lx = libm::hypot(reading.error_lx, left);
                     continued.push((k, IndirectReading { error_lx, ..reading }));
@@ -265,23 +326,17 @@ impl Net {
 
     /// Light of a texel by a plane through what was gathered about it; nothing if too little was.
     fn continued(&self, k: usize) -> Option<Continued> {
-        let Wanted { at, kind, .. } = self.wanted[k];
-        let [x, y] = square(at, WIDEST);
-        let near = |c: usize| c.saturating_sub(1)..c + 2;
+        let at = self.wanted[k].at;
         let mut about: Vec<Node> = Vec::new();
-        for place in near(y).flat_map(|y| near(x).map(move |x| [x, y])) {
-            let Some(&number) = self.by_place.get(&(kind, place)) else { continue };
-            for other in self.squares[number].clone() {
-                if let Light::Gathered(reading, difference) = self.light[other] {
-                    let off = [0, 1].map(|c| self.wanted[other].at[c] as f64 - at[c] as f64);
-                    let squared = off[0] * off[0] + off[1] * off[1];
-                    let inside = (1.0 - squared / (REACH * REACH)).max(0.0);
-                    if inside > 0.0 {
-                        let weight = (inside / (squared + SOFT * SOFT)).powi(2);
-                        let squared = difference.map_or(0.0, |difference| difference.squared);
-                        about.push(Node { off, weight, reading, squared });
-                    }
-                }
+        for other in self.about(k) {
+            let Light::Gathered(reading, difference) = self.light[other] else { continue };
+            let off = [0, 1].map(|c| self.wanted[other].at[c] as f64 - at[c] as f64);
+            let squared = off[0] * off[0] + off[1] * off[1];
+            let inside = (1.0 - squared / (REACH * REACH)).max(0.0);
+            if inside > 0.0 {
+                let weight = (inside / (squared + SOFT * SOFT)).powi(2);
+                let squared = difference.map_or(0.0, |difference| difference.squared);
+                about.push(Node { off, weight, reading, squared });
             }
         }
         plane(&about)
@@ -319,6 +374,8 @@ struct Continued {
     reading: IndirectReading,
     /// Squares of differences, each as far as the plane leans on where it was found, lx2.
     squared: f64,
+    /// How far from the texel the middle of what it was continued from is, texels.
+    beyond: f64,
 }
 
 /// The value at nought of a plane through weighted readings.
@@ -351,5 +408,5 @@ fn plane(about: &[Node]) -> Option<Continued> {
         shares += share.abs();
     }
     let reading = IndirectReading { lx: lx.map(|c| c.max(0.0)), error_lx, noise_lx: noise.sqrt() };
-    (shares <= MOST_SHARES).then_some(Continued { reading, squared })
+    (shares <= MOST_SHARES).then_some(Continued { reading, squared, beyond: libm::hypot(mean[0], mean[1]) })
 }
