@@ -2,7 +2,6 @@
 
 mod baking;
 mod layouts;
-mod net;
 mod stitching;
 
 use super::*;

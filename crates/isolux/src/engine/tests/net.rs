@@ -1,19 +1,23 @@
 //! Light gathered on a net.
 
 use crate::engine::IndirectReading;
-use crate::lightmap::net::{Light, Net, Step, Wanted};
-use crate::lightmap::places::Place;
+use crate::engine::net::{Fineness, Net, Wanted};
 use crate::units::Rgb;
+use std::convert::Infallible;
 
 const SIZE: usize = 48;
 
-/// A chart of so many texels squared, of which two kinds are wanted.
-fn net(kind: impl Fn([usize; 2]) -> (u32, bool)) -> Net {
-    let wanted = (0..SIZE * SIZE).map(|number| {
-        let at = [number % SIZE, number / SIZE];
-        Wanted { number, at, kind: kind(at), place: Place { side: 0, at: [0.0; 2] } }
+/// A chart of so many texels squared, of which several kinds are wanted.
+fn net(size: usize, kind: impl Fn([usize; 2]) -> u64) -> Net {
+    net_of(size, kind, Fineness::TEXELS)
+}
+
+fn net_of(size: usize, kind: impl Fn([usize; 2]) -> u64, fineness: Fineness) -> Net {
+    let wanted = (0..size * size).map(|number| {
+        let at = [number % size, number / size];
+        Wanted { number, at, kind: kind(at) }
     });
-    Net::new(wanted.collect())
+    Net::new(wanted.collect(), fineness)
 }
 
 fn reading(lx: f64) -> IndirectReading {
@@ -22,34 +26,29 @@ fn reading(lx: f64) -> IndirectReading {
 
 /// Gathers this light and continues it: how many texels were gathered, and of all how far off they are, and by how much they
 /// say.
-fn gathered(mut net: Net, lx: impl Fn([usize; 2]) -> f64) -> (usize, Vec<([usize; 2], f64, f64)>) {
-    for step in Step::ALL.into_iter().map(Some).chain([None]) {
-        let chosen = step.map_or_else(|| net.left(), |step| net.chosen(step));
-        let found: Vec<_> = chosen.iter().map(|&k| Some(reading(lx(net.wanted[k].at)))).collect();
-        net.store(&chosen, &found);
-    }
-    net.finish();
-    let mut count = 0;
-    let of_texel = net.wanted.iter().zip(&net.light).map(|(wanted, light)| {
-        let reading = match light {
-            Light::Gathered(reading, _) => {
-                count += 1;
-                reading
-            }
-            Light::Continued(reading) => reading,
-            other => panic!("{other:?} at {:?}", wanted.at),
-        };
-        (wanted.at, reading.lx.luminance() - lx(wanted.at), reading.error_lx)
+fn gathered(
+    size: usize,
+    mut net: Net,
+    lx: impl Fn([usize; 2]) -> f64,
+) -> (usize, Vec<([usize; 2], f64, f64)>) {
+    let at = |number: usize| [number % size, number / size];
+    let found = net.fill(|numbers, _| -> Result<_, Infallible> {
+        Ok(numbers.iter().map(|&number| Some(reading(lx(at(number))))).collect())
     });
-    let all = of_texel.collect();
-    (count, all)
+    let Ok(()) = found;
+    let count = net.filled().filter(|filled| filled.is_gathered).count();
+    let of_texel = net.filled().map(|filled| {
+        let (at, reading) = (at(filled.number), filled.reading.unwrap());
+        (at, reading.lx.luminance() - lx(at), reading.error_lx)
+    });
+    (count, of_texel.collect())
 }
 
 #[test]
 fn smooth_light_is_gathered_at_one_texel_of_sixteen() {
     // Half a lux from square to square of 4 x 4: the half of an error that is left to be continued.
     let smooth = |[x, y]: [usize; 2]| 100.0 + 0.1 * x as f64 + 0.05 * y as f64;
-    let (count, texels) = gathered(net(|_| (0, false)), smooth);
+    let (count, texels) = gathered(SIZE, net(SIZE, |_| 0), smooth);
     // And one in some squares at the rim, if that lies beyond what was gathered.
     assert!((SIZE * SIZE / 16..SIZE * SIZE / 13).contains(&count), "{count}");
     assert!(texels.iter().all(|(_, off, error_lx)| off.abs() < *error_lx));
@@ -61,7 +60,7 @@ fn smooth_light_is_gathered_at_one_texel_of_sixteen() {
 #[test]
 fn light_that_jumps_is_gathered_there_and_nowhere_else() {
     let jump = |[x, _]: [usize; 2]| if x < 22 { 20.0 } else { 220.0 };
-    let (count, texels) = gathered(net(|_| (0, false)), jump);
+    let (count, texels) = gathered(SIZE, net(SIZE, |_| 0), jump);
     // Beside the jump two squares of 8 at most each way, of six.
     assert!(count < SIZE * SIZE / 2, "{count}");
     for (at, off, error_lx) in texels {
@@ -79,10 +78,7 @@ fn light_that_falls_off_at_a_rim_is_gathered_there() {
         let lx = |at: [usize; 2]| {
             100.0 - 20.0 * at.iter().map(|&c| (c as f64 - rim as f64).exp()).sum::<f64>()
         };
-        let wanted = (0..=rim).flat_map(|y| (0..=rim).map(move |x| [x, y])).enumerate();
-        let place = Place { side: 0, at: [0.0; 2] };
-        let wanted = wanted.map(|(number, at)| Wanted { number, at, kind: (0, false), place });
-        let (count, texels) = gathered(Net::new(wanted.collect()), lx);
+        let (count, texels) = gathered(rim + 1, net(rim + 1, |_| 0), lx);
         for (at, off, error_lx) in &texels {
             assert!(off.abs() < 5.0 * error_lx, "{rim} {at:?}: {off} of {error_lx}");
             outside += usize::from(off.abs() > 1.96 * error_lx);
@@ -98,10 +94,10 @@ fn light_that_falls_off_at_a_rim_is_gathered_there() {
 #[test]
 fn gaps_and_charts_know_nothing_of_each_other() {
     let is_gap = |at: [usize; 2]| at[1] < 5;
-    let kind = |at: [usize; 2]| (u32::from(at[0] >= 30), is_gap(at));
+    let kind = |at: [usize; 2]| 2 * u64::from(at[0] >= 30) + u64::from(is_gap(at));
     let lx =
         |at: [usize; 2]| if is_gap(at) { 0.0 } else { 100.0 * (1 + u8::from(at[0] >= 30)) as f64 };
-    let (count, texels) = gathered(net(kind), lx);
+    let (count, texels) = gathered(SIZE, net(SIZE, kind), lx);
     // Squares that a border cuts are more.
     assert!(count < SIZE * SIZE / 10, "{count}");
     // Sums of shares that make one.
@@ -110,6 +106,20 @@ fn gaps_and_charts_know_nothing_of_each_other() {
 
 #[test]
 fn single_texels_are_gathered() {
-    let (count, _) = gathered(net(|[x, y]| ((SIZE * y + x) as u32, false)), |_| 5.0);
+    let (count, _) = gathered(SIZE, net(SIZE, |[x, y]| (SIZE * y + x) as u64), |_| 5.0);
     assert_eq!(count, SIZE * SIZE);
+}
+
+#[test]
+fn pictures_take_wider_squares_and_leave_what_is_not_to_be_seen() {
+    let hill = |[x, y]: [usize; 2]| {
+        let squared = (x as f64 - 20.0).powi(2) + (y as f64 - 25.0).powi(2);
+        100.0 + 50.0 * (-squared / 400.0).exp()
+    };
+    let (of_texels, _) = gathered(SIZE, net(SIZE, |_| 0), hill);
+    let (count, pixels) = gathered(SIZE, net_of(SIZE, |_| 0, Fineness::PIXELS), hill);
+    assert!(count < of_texels / 2, "{count} of {of_texels}");
+    // Half of what differs from square to square, with two errors to spare.
+    let worst = pixels.iter().map(|(_, off, _)| off.abs()).fold(0.0, f64::max);
+    assert!(worst < 0.04 * 150.0, "{worst}");
 }

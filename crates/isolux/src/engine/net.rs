@@ -1,20 +1,18 @@
 //! Indirect light gathered on a net of texels, as fine as it needs to be, and continued between them.
 //!
-//! Indirect light is smooth along most of a chart, and to gather it costs most of a lightmap. Where the map is not to be
-//! trusted it is therefore gathered at one texel of every square of 8 x 8, then of every 4 x 4; what the second say is
-//! compared with what the first made them expect. Where that differs by more than is asked for, noise aside, squares of 2 x 2
-//! follow, and in the end every texel. Between, a plane is laid through the texels about (moving least squares), and half of the
-//! differences that were found there, or at the texels that it leans on, counts as error: they shrink at least so much from
-//! net to net.
+//! Indirect light is smooth along most of a surface, and to gather it costs most of a lightmap, or of a picture. Where the
+//! map is not to be trusted it is therefore gathered at one texel of every wide square, of 8 x 8 as a rule, then of every
+//! one half as wide; what the second say is compared with what the first made them expect. Where that differs by more than
+//! is asked for, noise aside, squares of 2 x 2 follow, and in the end every texel. Between, a plane is laid through the
+//! texels about (moving least squares), and half of the differences that were found there, or at the texels that it leans on,
+//! counts as error: they shrink at least so much from net to net. The texels of a picture are its pixels.
 
-use super::places::Place;
-use crate::engine::IndirectReading;
+use super::probe::IndirectReading;
 use crate::units::Rgb;
+use rayon::prelude::*;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// Texels across the widest squares.
-const WIDEST: usize = 8;
 /// From one net to the next twice as fine differences shrink by this at least: by a quarter where light is smooth,
 /// by a half where it has a kink.
 const SHRINK: f64 = 0.5;
@@ -24,33 +22,76 @@ const OF_SQUARE: f64 = 2.0;
 const OF_ERROR: f64 = 0.5;
 /// Planes lean by no more than what the spread of their places tells: this share of it is added both ways.
 const STIFFNESS: f64 = 0.1;
-/// Texels farther away than this are not read: half as far again as the widest squares are wide.
-const REACH: f64 = 12.0;
-/// Texels nearer than this weigh little more: one alone makes no plane.
-const SOFT: f64 = 2.0;
-/// Planes are continued beyond the texels that they were laid through no farther than this, texels; where it is more
-/// than the first, one of a square tells how far off that is.
-const BEYOND: f64 = 1.5;
-const MOST_BEYOND: f64 = 2.5;
 /// Sum of the shares of a plane, taken as positive, beyond which it is a guess.
 const MOST_SHARES: f64 = 3.0;
+/// Of the texels that a net leaves out, those that it will be refined by, as far as can be foreseen: half of them.
+const REFINED: f64 = 0.5;
+
+/// How fine a net is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fineness {
+    /// Texels across the widest squares, a power of two from 4 to 256.
+    pub widest: usize,
+    /// Texels across the finest: 1, or a smaller power of two.
+    pub finest: usize,
+    /// What is left may be this share of the light, if that is more than half of the error of a reading.
+    pub of_light: f64,
+    /// In the end all texels, those gathered at, too, get the light of a plane through so many of those nearest: a picture
+    /// shows noise that an interval only states.
+    pub smoothed_over: Option<usize>,
+}
+
+impl Fineness {
+    /// For lightmaps: as good as readings.
+    pub const TEXELS: Self = Self { widest: 8, finest: 1, of_light: 0.0, smoothed_over: None };
+    /// For pictures, in which pixels are many and steps of a few per cent are not to be seen.
+    pub const PIXELS: Self =
+        Self { widest: 16, finest: 2, of_light: 0.02, smoothed_over: Some(12) };
+
+    /// Texels farther away than this are not read: half as far again as the widest squares are wide.
+    fn reach(&self) -> f64 {
+        1.5 * self.widest as f64
+    }
+
+    /// Texels nearer than this weigh little more: one alone makes no plane.
+    fn soft(&self) -> f64 {
+        0.25 * self.widest as f64
+    }
+
+    /// Where a plane is continued farther than this beyond the texels that it was laid through, one of a square tells
+    /// how far off that is.
+    fn beyond(&self) -> f64 {
+        0.1875 * self.widest as f64
+    }
+
+    /// No plane is continued farther.
+    fn most_beyond(&self) -> f64 {
+        0.3125 * self.widest as f64
+    }
+
+    /// In their order.
+    fn steps(&self) -> impl Iterator<Item = Step> + use<> {
+        let (half, finest) = (self.widest / 2, self.finest);
+        let refined = std::iter::successors(Some(half / 2), move |size| Some(size / 2))
+            .take_while(move |&size| size >= finest);
+        [Step::Squares(half), Step::Rims(half)].into_iter().chain(refined.map(Step::Refined))
+    }
+}
 
 /// A texel whose indirect light is wanted.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Wanted {
-    /// Its number among those that cover something.
-    pub(super) number: usize,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wanted {
+    /// Its number among those of the caller.
+    pub number: usize,
     /// Column and row.
-    pub(super) at: [usize; 2],
-    /// Light is continued only among texels of the same: chart, and whether in a gap.
-    pub(super) kind: (u32, bool),
-    /// Where to gather.
-    pub(super) place: Place,
+    pub at: [usize; 2],
+    /// Light is continued only among texels of the same kind: of one piece of surface.
+    pub kind: u64,
 }
 
 /// What is known of a texel that is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Light {
+enum Light {
     /// Nothing yet.
     Waiting,
     /// It was gathered, and the map knew nothing.
@@ -61,82 +102,117 @@ pub(super) enum Light {
     Continued(IndirectReading),
 }
 
+/// What became of a texel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Filled {
+    /// Its number among those of the caller.
+    pub number: usize,
+    /// Its light; nothing where the map knows none.
+    pub reading: Option<IndirectReading>,
+    /// Whether that was gathered there, and not continued from others.
+    pub is_gathered: bool,
+}
+
 /// Squares of a difference and of its noise, lx2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Difference {
+struct Difference {
     squared: f64,
     noise: f64,
 }
 
 /// A net over the texels that are wanted.
-pub(super) struct Net {
+pub struct Net {
+    fineness: Fineness,
     /// In the order of squares, of each the squares within.
-    pub(super) wanted: Vec<Wanted>,
+    wanted: Vec<Wanted>,
     /// Of each of them.
-    pub(super) light: Vec<Light>,
+    light: Vec<Light>,
     /// The widest squares.
     squares: Vec<Range<usize>>,
-    by_place: HashMap<((u32, bool), [usize; 2]), usize>,
+    /// Of each square, what was gathered.
+    nodes: Vec<Vec<usize>>,
+    by_place: HashMap<(u64, [usize; 2]), usize>,
 }
 
 /// What comes next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Step {
+enum Step {
     /// One texel of every square of so many texels across.
     Squares(usize),
     /// One of every square of so many texels across whose rim lies beyond what was gathered.
     Rims(usize),
-    /// The same in those where texels before disagree.
+    /// One of every square where texels before disagree.
     Refined(usize),
-}
-
-impl Step {
-    /// In their order.
-    pub(super) const ALL: [Self; 5] = [
-        Self::Squares(WIDEST),
-        Self::Squares(WIDEST / 2),
-        Self::Rims(WIDEST / 2),
-        Self::Refined(WIDEST / 4),
-        Self::Refined(1),
-    ];
 }
 
 impl Net {
     /// Orders the texels.
-    pub(super) fn new(mut wanted: Vec<Wanted>) -> Self {
-        wanted.sort_unstable_by_key(|w| (w.kind, square(w.at, WIDEST), within(w.at), w.number));
+    pub fn new(mut wanted: Vec<Wanted>, fineness: Fineness) -> Self {
+        let widest = fineness.widest;
+        wanted.sort_unstable_by_key(|w| (w.kind, square(w.at, widest), within(w.at), w.number));
+        let key = |w: &Wanted| (w.kind, square(w.at, widest));
         let mut squares = Vec::new();
         let mut first = 0;
-        for of_square in
-            wanted.chunk_by(|a, b| (a.kind, square(a.at, WIDEST)) == (b.kind, square(b.at, WIDEST)))
-        {
+        for of_square in wanted.chunk_by(|a, b| key(a) == key(b)) {
             squares.push(first..first + of_square.len());
             first += of_square.len();
         }
-        let key = |of: &Range<usize>| (wanted[of.start].kind, square(wanted[of.start].at, WIDEST));
-        let by_place = squares.iter().enumerate().map(|(k, of)| (key(of), k)).collect();
-        Self { light: vec![Light::Waiting; wanted.len()], wanted, squares, by_place }
+        let by_place = squares.iter().enumerate().map(|(k, of)| (key(&wanted[of.start]), k));
+        let by_place = by_place.collect();
+        let (light, nodes) = (vec![Light::Waiting; wanted.len()], vec![Vec::new(); squares.len()]);
+        Self { fineness, wanted, light, squares, nodes, by_place }
     }
 
-    /// How many texels will be gathered at in a step and after it: all of its squares, and that share of the rest.
-    pub(super) fn foreseen(&self, step: Step, share: f64) -> f64 {
-        let waiting = |of: &[Light]| of.iter().filter(|l| **l == Light::Waiting).count() as f64;
-        let squares = match step {
-            Step::Squares(_) => {
-                let all = self.parts(WIDEST / 2);
-                all.into_iter().filter(|square| !self.has_gathered(square)).count() as f64
-            }
-            Step::Rims(_) | Step::Refined(_) => 0.0,
+    /// Gathers light, step by step, and continues it to all texels. `gather` is told the numbers of texels to gather at, and
+    /// how many more are expected after them.
+    pub fn fill<E>(
+        &mut self,
+        mut gather: impl FnMut(&[usize], f64) -> Result<Vec<Option<IndirectReading>>, E>,
+    ) -> Result<(), E> {
+        let middles = self.squares.iter().map(|square| self.middle(square.clone())).collect();
+        let mut one_step = |net: &mut Self, chosen: Vec<usize>, after: f64| {
+            let numbers: Vec<usize> = chosen.iter().map(|&k| net.wanted[k].number).collect();
+            let gathered = gather(&numbers, after)?;
+            net.store(&chosen, &gathered);
+            Ok(())
         };
-        squares + share * (waiting(&self.light) - squares)
+        let after = self.foreseen() - self.squares.len() as f64;
+        one_step(self, middles, after)?;
+        for step in self.fineness.steps() {
+            let chosen = self.chosen(step);
+            let after = self.foreseen() - chosen.len() as f64;
+            one_step(self, chosen, after.max(0.0))?;
+        }
+        one_step(self, self.left(), 0.0)?;
+        self.finish();
+        Ok(())
+    }
+
+    /// What all texels have come to.
+    pub fn filled(&self) -> impl Iterator<Item = Filled> + '_ {
+        self.wanted.iter().zip(&self.light).map(|(wanted, light)| {
+            let (reading, is_gathered) = match *light {
+                Light::Gathered(reading, _) => (Some(reading), true),
+                Light::Continued(reading) => (Some(reading), false),
+                Light::Unknown | Light::Waiting => (None, false),
+            };
+            Filled { number: wanted.number, reading, is_gathered }
+        })
+    }
+
+    /// How many texels are still to be gathered at, about: one of each square that has none yet, and a share of the rest.
+    fn foreseen(&self) -> f64 {
+        let waiting = self.light.iter().filter(|light| **light == Light::Waiting).count() as f64;
+        let parts = self.parts(self.fineness.widest / 2);
+        let squares = parts.into_iter().filter(|square| !self.has_gathered(square)).count() as f64;
+        squares + REFINED * (waiting - squares)
     }
 
     /// The texels to gather at in a step.
-    pub(super) fn chosen(&self, step: Step) -> Vec<usize> {
-        let new = |part: &Range<usize>| !self.has_gathered(part);
+    fn chosen(&self, step: Step) -> Vec<usize> {
+        let is_new = |part: &Range<usize>| !self.has_gathered(part);
         match step {
-            Step::Squares(WIDEST) => self.squares.iter().map(|s| self.middle(s.clone())).collect(),
-            Step::Squares(size) => self.farthest(self.parts(size).into_iter().filter(new)),
+            Step::Squares(size) => self.farthest(self.parts(size).into_iter().filter(is_new)),
             Step::Rims(size) => {
                 let parts = self.parts(size).into_iter();
                 parts.filter_map(|part| self.farthest_out(part)).collect()
@@ -145,7 +221,7 @@ impl Net {
                 let rough = self.squares.iter().filter(|square| self.is_rough(square));
                 let parts = rough.flat_map(|square| self.split(square.clone(), 4 * size));
                 let rough = parts.filter(|part| self.is_rough(part));
-                self.farthest(rough.flat_map(|part| self.split(part, size)).filter(new))
+                self.farthest(rough.flat_map(|part| self.split(part, size)).filter(is_new))
             }
         }
     }
@@ -153,29 +229,27 @@ impl Net {
     /// Of every part, the texel farthest from all that was gathered, or chosen before it: there a plane is most
     /// likely to be off, and there it is told by how much.
     fn farthest(&self, parts: impl Iterator<Item = Range<usize>>) -> Vec<usize> {
-        let mut is_taken: Vec<bool> = self.light.iter().map(|l| *l != Light::Waiting).collect();
+        let mut taken = self.nodes.clone();
         parts
             .map(|part| {
                 let mut farthest = (part.start, 0);
                 for k in part {
-                    let away = self.away(k, &is_taken);
+                    let away = self.away(k, &taken);
                     if away > farthest.1 {
                         farthest = (k, away);
                     }
                 }
-                is_taken[farthest.0] = true;
+                taken[self.square_of(farthest.0)].push(farthest.0);
                 farthest.0
             })
             .collect()
     }
 
     /// Square of the distance to the nearest texel that is taken, texels squared.
-    fn away(&self, k: usize, is_taken: &[bool]) -> usize {
-        let taken = self.about(k).filter(|&other| is_taken[other]);
-        let away = taken.map(|other| {
-            let off = [0, 1].map(|c| self.wanted[other].at[c].abs_diff(self.wanted[k].at[c]));
-            off[0] * off[0] + off[1] * off[1]
-        });
+    fn away(&self, k: usize, taken: &[Vec<usize>]) -> usize {
+        let off = |other: usize, c: usize| self.wanted[other].at[c].abs_diff(self.wanted[k].at[c]);
+        let taken = self.squares_about(k).flat_map(|square| &taken[square]);
+        let away = taken.map(|&other| off(other, 0).pow(2) + off(other, 1).pow(2));
         away.min().unwrap_or(usize::MAX)
     }
 
@@ -184,18 +258,21 @@ impl Net {
         let waiting = part.filter(|&k| self.light[k] == Light::Waiting);
         let beyond = waiting.filter_map(|k| Some((k, self.continued(k)?.beyond)));
         let farthest = beyond.max_by(|(_, a), (_, b)| a.total_cmp(b));
-        farthest.filter(|&(_, beyond)| beyond > BEYOND).map(|(k, _)| k)
+        farthest.filter(|&(_, beyond)| beyond > self.fineness.beyond()).map(|(k, _)| k)
     }
 
-    /// The texels that the light of one may be continued from, and more.
-    fn about(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
+    /// The square that a texel lies in, and those around it.
+    fn squares_about(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
         let Wanted { at, kind, .. } = self.wanted[k];
-        let [x, y] = square(at, WIDEST);
+        let [x, y] = square(at, self.fineness.widest);
         let near = |c: usize| c.saturating_sub(1)..c + 2;
         near(y)
             .flat_map(move |y| near(x).map(move |x| [x, y]))
-            .filter_map(move |place| self.by_place.get(&(kind, place)))
-            .flat_map(|&number| self.squares[number].clone())
+            .filter_map(move |place| self.by_place.get(&(kind, place)).copied())
+    }
+
+    fn square_of(&self, k: usize) -> usize {
+        self.squares.partition_point(|square| square.end <= k)
     }
 
     fn parts(&self, size: usize) -> Vec<Range<usize>> {
@@ -237,28 +314,29 @@ impl Net {
         }
         let Some(found) = self.found_about(part) else { return true };
         let signal = (found.squared - found.noise).max(0.0) * SHRINK * SHRINK;
-        let errors = self.light[part.clone()].iter().filter_map(|light| match light {
-            Light::Gathered(reading, _) => Some(reading.error_lx),
-            _ => None,
-        });
-        let (sum, count) =
-            errors.fold((0.0, 0.0), |(sum, count), error| (sum + error, count + 1.0));
-        let goal_lx = OF_ERROR * sum / f64::max(count, 1.0);
+        let (mut errors_lx, mut lx, mut count) = (0.0, 0.0, 0.0);
+        for light in &self.light[part.clone()] {
+            if let Light::Gathered(reading, _) = light {
+                errors_lx += reading.error_lx;
+                lx += reading.lx.luminance();
+                count += 1.0;
+            }
+        }
+        let goal_lx =
+            (OF_ERROR * errors_lx).max(self.fineness.of_light * lx) / f64::max(count, 1.0);
         signal > goal_lx * goal_lx
     }
 
     /// Mean differences in a part, to which those in the square that it is part of add as much as a few of its own:
     /// one or two may be small by chance.
     fn found_about(&self, part: &Range<usize>) -> Option<Difference> {
-        let square = self.squares.partition_point(|square| square.end <= part.start);
         let (own, count) = self.found(part);
-        let (around, count_around) = self.found(&self.squares[square]);
+        let (around, count_around) = self.found(&self.squares[self.square_of(part.start)]);
         if count_around == 0.0 {
             return None;
         }
-        let mean = |own: f64, around: f64| {
-            (own + OF_SQUARE * around / count_around) / (count + OF_SQUARE)
-        };
+        let mean =
+            |own: f64, around: f64| (own + OF_SQUARE * around / count_around) / (count + OF_SQUARE);
         Some(Difference {
             squared: mean(own.squared, around.squared),
             noise: mean(own.noise, around.noise),
@@ -278,7 +356,7 @@ impl Net {
     }
 
     /// Takes in what was gathered in a step: no value of it is expected from another.
-    pub(super) fn store(&mut self, chosen: &[usize], gathered: &[Option<IndirectReading>]) {
+    fn store(&mut self, chosen: &[usize], gathered: &[Option<IndirectReading>]) {
         let light: Vec<Light> = chosen
             .iter()
             .zip(gathered)
@@ -295,20 +373,23 @@ impl Net {
             .collect();
         for (&k, light) in chosen.iter().zip(light) {
             self.light[k] = light;
+            let square = self.square_of(k);
+            self.nodes[square].push(k);
         }
     }
 
     /// Texels that are left and cannot be continued: they are to be gathered, too.
-    pub(super) fn left(&self) -> Vec<usize> {
-        let is_told = |k: usize| self.continued(k).is_some_and(|c| c.beyond <= MOST_BEYOND);
+    fn left(&self) -> Vec<usize> {
+        let is_told =
+            |k: usize| self.continued(k).is_some_and(|c| c.beyond <= self.fineness.most_beyond());
         let is_left = |&k: &usize| self.light[k] == Light::Waiting && !is_told(k);
         (0..self.light.len()).filter(is_left).collect()
     }
 
     /// Continues light to the texels that are left.
-    pub(super) fn finish(&mut self) {
+    fn finish(&mut self) {
         let mut continued = Vec::new();
-        for part in self.parts(WIDEST / 2) {
+        for part in self.parts(self.fineness.widest / 2) {
             let found = self.found_about(&part);
             let found = found.map_or(0.0, |found| found.squared);
             for k in part.filter(|&k| self.light[k] == Light::Waiting) {
@@ -322,24 +403,53 @@ impl Net {
         for (k, reading) in continued {
             self.light[k] = Light::Continued(reading);
         }
+        let Some(count) = self.fineness.smoothed_over else { return };
+        let all = (0..self.light.len()).into_par_iter();
+        let smooth: Vec<_> = all.map(|k| self.smoothed(k, count)).collect();
+        for (light, smooth) in self.light.iter_mut().zip(smooth) {
+            let Some(smooth) = smooth else { continue };
+            match light {
+                Light::Gathered(reading, _) | Light::Continued(reading) => *reading = smooth,
+                Light::Waiting | Light::Unknown => {}
+            }
+        }
+    }
+
+    /// Light of a texel by a plane through so many of the nearest that were gathered.
+    fn smoothed(&self, k: usize, count: usize) -> Option<IndirectReading> {
+        let mut about: Vec<Node> = self.nodes_about(k).collect();
+        let last = about.len().checked_sub(1)?.min(count);
+        let squared = |node: &Node| node.off[0] * node.off[0] + node.off[1] * node.off[1];
+        about.select_nth_unstable_by(last, |a, b| squared(a).total_cmp(&squared(b)));
+        // The last one has no weight, so that who comes and goes at the rim is not to be seen.
+        let reach = squared(&about[last]) + 1.0;
+        about.truncate(last + 1);
+        for node in &mut about {
+            node.weight = (1.0 - squared(node) / reach).max(0.0).powi(2);
+        }
+        plane(&about).map(|continued| continued.reading)
     }
 
     /// Light of a texel by a plane through what was gathered about it; nothing if too little was.
     fn continued(&self, k: usize) -> Option<Continued> {
+        let about: Vec<Node> = self.nodes_about(k).filter(|node| node.weight > 0.0).collect();
+        plane(&about)
+    }
+
+    /// What was gathered about a texel.
+    fn nodes_about(&self, k: usize) -> impl Iterator<Item = Node> + '_ {
         let at = self.wanted[k].at;
-        let mut about: Vec<Node> = Vec::new();
-        for other in self.about(k) {
-            let Light::Gathered(reading, difference) = self.light[other] else { continue };
+        let (reach, soft) = (self.fineness.reach(), self.fineness.soft());
+        let about = self.squares_about(k).flat_map(|square| &self.nodes[square]);
+        about.filter_map(move |&other| {
+            let Light::Gathered(reading, difference) = self.light[other] else { return None };
             let off = [0, 1].map(|c| self.wanted[other].at[c] as f64 - at[c] as f64);
             let squared = off[0] * off[0] + off[1] * off[1];
-            let inside = (1.0 - squared / (REACH * REACH)).max(0.0);
-            if inside > 0.0 {
-                let weight = (inside / (squared + SOFT * SOFT)).powi(2);
-                let squared = difference.map_or(0.0, |difference| difference.squared);
-                about.push(Node { off, weight, reading, squared });
-            }
-        }
-        plane(&about)
+            let inside = (1.0 - squared / (reach * reach)).max(0.0);
+            let weight = (inside / (squared + soft * soft)).powi(2);
+            let squared = difference.map_or(0.0, |difference| difference.squared);
+            Some(Node { off, weight, reading, squared })
+        })
     }
 }
 
@@ -350,7 +460,7 @@ fn square(at: [usize; 2], size: usize) -> [usize; 2] {
 
 /// Order within the widest squares, such that every square within is in one piece.
 fn within([x, y]: [usize; 2]) -> usize {
-    (0..3).map(|bit| ((x >> bit & 1) << (2 * bit)) | ((y >> bit & 1) << (2 * bit + 1))).sum()
+    (0..8).map(|bit| ((x >> bit & 1) << (2 * bit)) | ((y >> bit & 1) << (2 * bit + 1))).sum()
 }
 
 fn difference(found: &IndirectReading, expected: &IndirectReading) -> Difference {
@@ -408,5 +518,9 @@ fn plane(about: &[Node]) -> Option<Continued> {
         shares += share.abs();
     }
     let reading = IndirectReading { lx: lx.map(|c| c.max(0.0)), error_lx, noise_lx: noise.sqrt() };
-    (shares <= MOST_SHARES).then_some(Continued { reading, squared, beyond: libm::hypot(mean[0], mean[1]) })
+    (shares <= MOST_SHARES).then_some(Continued {
+        reading,
+        squared,
+        beyond: libm::hypot(mean[0], mean[1]),
+    })
 }
