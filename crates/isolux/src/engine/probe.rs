@@ -247,16 +247,19 @@ impl<'a> MapReader<'a> {
 
     /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
     /// many places anyway: noisy, and the standard error leaves that noise out. `number` tells
-    /// readings of one place apart.
+    /// readings of one place apart. Indirect light is interpolated, unless it is known from elsewhere.
     pub fn glance(
         &self,
-        triangle: u32,
-        back: bool,
-        u: f64,
-        v: f64,
+        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
         number: u64,
+        known: Option<IndirectReading>,
     ) -> Option<Illuminance> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
+        let stored = known.map_or(stored, |known| Illuminance {
+            indirect_lx: known.lx,
+            indirect_standard_error_lx: known.noise_lx,
+            ..stored
+        });
         let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
         let sequence = Sequence::new(place_key(at.point).with(number));
         let direct = self.lighting.sampled(&at, GLANCE_SAMPLES, &mut Dice::new(sequence, 0));
