@@ -29,7 +29,7 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let solved = solving::solve(&scene, &run, None, &mut Reporter::new(None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;
     let camera = viewpoint::camera(&scene, None).map_err(Failure::bad_input)?;
-    let view = render::look(&scene, &solved.solution.map, &camera, PICTURE, false)?;
+    let (view, _) = render::look(&scene, &solved.solution.map, &camera, PICTURE)?;
     render::write(&files.picture, &render::shown(&view, &look(false))?)?;
     render::write(&files.false_colour, &render::shown(&view, &look(true))?)?;
     let results = Results {

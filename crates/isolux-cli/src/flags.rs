@@ -322,7 +322,7 @@ pub(crate) struct RenderFlags {
     /// Pixels across and down, without the legend of false colours
     #[arg(long, value_name = "WxH", value_parser = quantity::pixels, default_value = "1280x720")]
     pub size: (u32, u32),
-    /// Interpolate direct light, too: fast, and what a viewer of the bare map shows
+    /// Read the bare map, all light interpolated: fast, and what a viewer of it shows
     #[arg(long)]
     pub interpolated: bool,
     /// Take indirect light from this cache of samples, and add those that are missing

@@ -5,13 +5,13 @@ use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{LookFlags, RenderFlags, ToneName};
 use crate::output::OutputPath;
+use crate::quantity::show_share;
 use crate::{map_file, source, viewpoint};
-use isolux::engine::MapReader;
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_view::{
-    Contours, Development, FalseColour, LuminanceImage, Picture, Size, SurfacePoint, ToneCurve,
-    TraceSettings, develop, false_colour, trace,
+    Contours, Development, FalseColour, Gathered, LuminanceImage, Picture, Size, SurfacePoint,
+    ToneCurve, TraceSettings, develop, false_colour, trace, trace_map,
 };
 use serde::Serialize;
 use std::path::Path;
@@ -24,6 +24,7 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
         viewpoint::camera(scene, flags.camera.as_deref())
             .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))
     };
+    let mut gathered = None;
     let (view, camera, cache) = if let Some(path) = &flags.cache {
         let scene = scene_of(&flags.map)?;
         if scene.luminous_flux_lm() == 0.0 {
@@ -35,7 +36,14 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     } else {
         let (scene, map) = map_file::read(&flags.map)?;
         let camera = camera(&scene)?;
-        (look(&scene, &map, &camera, flags.size, flags.interpolated)?, camera, None)
+        let (view, found) = if flags.interpolated {
+            (bare(&scene, &map, &camera, flags.size)?, None)
+        } else {
+            let (view, found) = look(&scene, &map, &camera, flags.size)?;
+            (view, Some(found))
+        };
+        gathered = found;
+        (view, camera, None)
     };
     let picture = shown(&view, &flags.look)?;
     write(&output, &picture)?;
@@ -44,6 +52,7 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
         camera: camera.name,
         width: picture.width,
         height: picture.height,
+        indirect: gathered.map(Indirect::of),
         cache,
     };
     if json {
@@ -73,26 +82,30 @@ fn check_limits(look: &LookFlags) -> Result<(), Failure> {
     }
 }
 
-/// Traces a view over a map: direct light evaluated afresh, or interpolated with the rest.
+/// Walls of one side only are looked through from outside.
+const SETTINGS: TraceSettings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
+
+/// Traces a view over a map: direct light evaluated afresh, indirect light gathered where the map is not to be trusted.
 pub(crate) fn look(
     scene: &Scene,
     map: &IlluminationMap,
     camera: &Camera,
     (width, height): (u32, u32),
-    interpolated: bool,
+) -> Result<(LuminanceImage, Gathered), Failure> {
+    let size = Size::new(width, height).map_err(Failure::bad_input)?;
+    trace_map((scene, map), camera, size, &SETTINGS).map_err(Failure::bad_input)
+}
+
+/// The same of the bare map, all light interpolated.
+fn bare(
+    scene: &Scene,
+    map: &IlluminationMap,
+    camera: &Camera,
+    (width, height): (u32, u32),
 ) -> Result<LuminanceImage, Failure> {
     let size = Size::new(width, height).map_err(Failure::bad_input)?;
-    // Walls of one side only are looked through from outside.
-    let settings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
-    let reader = (!interpolated).then(|| MapReader::new(scene, map));
-    let read = |at: SurfacePoint| -> Option<Illuminance> {
-        let SurfacePoint { triangle, back, u, v, blurred } = at;
-        match &reader {
-            Some(reader) if !blurred => reader.glance(triangle, back, u, v, 0),
-            _ => map.interpolate(triangle, back, u, v),
-        }
-    };
-    trace(scene, camera, size, &settings, &read).map_err(Failure::bad_input)
+    let read = |at: SurfacePoint| map.interpolate(at.triangle, at.back, at.u, at.v);
+    trace(scene, camera, size, &SETTINGS, &read).map_err(Failure::bad_input)
 }
 
 /// Makes a view a picture.
@@ -141,7 +154,41 @@ struct Report {
     width: u32,
     height: u32,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    indirect: Option<Indirect>,
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
     cache: Option<CacheUse>,
+}
+
+/// Where the indirect light of a view from a map comes from, by places of surfaces.
+#[derive(Serialize)]
+struct Indirect {
+    places_interpolated: usize,
+    places_gathered: usize,
+    places_continued: usize,
+}
+
+impl Indirect {
+    fn of(found: Gathered) -> Self {
+        let Gathered { interpolated, gathered, continued } = found;
+        Self {
+            places_interpolated: interpolated,
+            places_gathered: gathered,
+            places_continued: continued,
+        }
+    }
+
+    /// For people.
+    fn fact(&self) -> (&'static str, String) {
+        let all = self.places_interpolated + self.places_gathered + self.places_continued;
+        let share = |part: usize| show_share(part as f64 / all.max(1) as f64);
+        let text = format!(
+            "interpolated in {} of what is seen, gathered in {}, continued from that in {}",
+            share(self.places_interpolated),
+            share(self.places_gathered),
+            share(self.places_continued)
+        );
+        ("indirect light", text)
+    }
 }
 
 impl Report {
@@ -151,6 +198,7 @@ impl Report {
             ("camera", self.camera.clone()),
             ("size", format!("{} x {}", self.width, self.height)),
         ];
+        lines.extend(self.indirect.iter().map(Indirect::fact));
         lines.extend(self.cache.iter().flat_map(CacheUse::facts));
         facts(&lines)
     }

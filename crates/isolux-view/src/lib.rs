@@ -1,7 +1,7 @@
 //! Values in, pixels out: views traced from an illumination map, exposure, tone mapping, false
 //! colour.
 //!
-//! [`trace()`] makes a [`LuminanceImage`] (cd/m2 and lx); [`develop()`] shows it as the eye or a camera
+//! [`trace_map()`], or [`trace()`] with a reader of one's own, makes a [`LuminanceImage`] (cd/m2 and lx); [`develop()`] shows it as the eye or a camera
 //! would, [`false_colour()`] as a chart of lux with a legend. Both end in a [`Picture`] of sRGB bytes.
 //! [`PolarDiagram`] draws an intensity distribution.
 //! Nothing here reads or writes a file.
@@ -11,6 +11,7 @@ mod develop;
 mod error;
 mod exposure;
 mod false_colour;
+mod gathered;
 mod image;
 mod picture;
 mod plan;
@@ -24,6 +25,7 @@ pub use develop::{Development, develop};
 pub use error::ViewError;
 pub use exposure::Exposure;
 pub use false_colour::{ColourMap, Contours, FalseColour, Quantity, Scale, false_colour};
+pub use gathered::{Gathered, trace_map};
 pub use image::{LuminanceImage, Reading, Seen, Sight, Size, Surface};
 pub use picture::{Picture, UNKNOWN};
 pub use plan::plan;

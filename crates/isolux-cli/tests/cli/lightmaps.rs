@@ -228,9 +228,11 @@ fn lightmaps_of_groups_lie_alike_and_add_up() {
         known += 1;
         let off = sum.photometric[texel] - left.photometric[texel] - right.photometric[texel];
         outside += usize::from(off.abs() > 1.96 * error);
+        // Of some thousand texels none by chance. Where rims were continued from beside them, six errors.
+        assert!(off.abs() < 4.0 * error, "{texel}: {off} {error}");
     }
     assert_eq!(known as u64, report["lightmap"]["texels_known"].as_u64().unwrap());
-    // Intervals of 95 %; a few texels at the rims of charts err by more than chance would have it.
+    // Intervals of 95 %.
     assert!(20 * outside < known, "{outside} of {known}");
     // However one comes to a lightmap of these surfaces, it lies as the others.
     let mixed = home.run(&["mix", "map.glb", "--dim", "left=50%", "-o", "dim.glb"]);

@@ -142,6 +142,10 @@ struct Progress<'a> {
     weight: Rgb,
     /// Whether a glossy surface lies on the way, or a faint mirror.
     blurred: bool,
+    /// The pixel that is looked through.
+    pixel: usize,
+    /// Mirrors and panes on the way.
+    path: u32,
     key: Key,
 }
 
@@ -167,8 +171,15 @@ impl Looker<'_> {
 
     /// The look at what a ray of the camera met, along `facets` of a glossy surface. What was seen
     /// near there spares a reading.
-    pub(super) fn look(&self, meeting: &Meeting, near: &[Look], facets: u32, key: Key) -> Look {
-        let start = Progress { depth: 0, facets, near, weight: Rgb::WHITE, blurred: false, key };
+    pub(super) fn look(
+        &self,
+        meeting: &Meeting,
+        near: &[Look],
+        facets: u32,
+        (pixel, key): (usize, Key),
+    ) -> Look {
+        let (weight, blurred, path) = (Rgb::WHITE, false, 0);
+        let start = Progress { depth: 0, facets, near, weight, blurred, pixel, path, key };
         match &meeting.hit {
             Some(hit) => self.at(hit, meeting.direction, start),
             None => Look::NOTHING,
@@ -229,7 +240,7 @@ impl Looker<'_> {
         }
         let bare = self.bare(hit, at);
         let known = bare.surface.and_then(|surface| lent(&surface, progress.near));
-        let read = known.or_else(|| self.reading(hit, progress.blurred));
+        let read = known.or_else(|| self.reading(hit, &progress));
         let (reading, light_lx) = read.map_or((None, Rgb::BLACK), |(r, lx)| (Some(r), lx));
         let sight = if finish.is_emitter() {
             Sight::Emitter
@@ -243,10 +254,11 @@ impl Looker<'_> {
     }
 
     /// What the map says of the place of a hit.
-    fn reading(&self, hit: &Hit, blurred: bool) -> Option<(Reading, Rgb)> {
+    fn reading(&self, hit: &Hit, progress: &Progress<'_>) -> Option<(Reading, Rgb)> {
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
-        let read =
-            (self.read)(SurfacePoint { triangle: hit.triangle, back: hit.back, u, v, blurred })?;
+        let Progress { blurred, pixel, path, .. } = *progress;
+        let Hit { triangle, back, .. } = *hit;
+        let read = (self.read)(SurfacePoint { triangle, back, u, v, blurred, pixel, path })?;
         let reading = Reading {
             illuminance_lx: read.illuminance_lx() as f32,
             standard_error_lx: read.standard_error_lx as f32,
@@ -304,6 +316,7 @@ impl Looker<'_> {
             facets: 1,
             near: &[],
             blurred: progress.blurred || lobe.blurred || progress.weight.max_channel() < FAINT,
+            path: progress.path.wrapping_mul(4).wrapping_add(index as u32 + 1),
             key: progress.key.with(1 + index as u64),
             ..progress
         };

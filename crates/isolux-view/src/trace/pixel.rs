@@ -96,7 +96,8 @@ impl Pixels<'_> {
     /// The look through a cell, one of `count` that share the facets of a pixel.
     fn look(&self, pixel: usize, cell: u32, near: &[Look], count: u32) -> Look {
         let facets = self.looker.settings.gloss_samples.div_ceil(count).max(1);
-        self.looker.look(&self.meet(pixel, cell), near, facets, self.key(pixel, cell).with(2))
+        let of_pixel = (pixel, self.key(pixel, cell).with(2));
+        self.looker.look(&self.meet(pixel, cell), near, facets, of_pixel)
     }
 
     /// What lies at a random place of a cell; in the middle of the middle one, where contour lines

@@ -14,6 +14,10 @@ pub struct SurfacePoint {
     /// Whether it is seen by gloss, which blurs it, or faintly in a pane: a cheap reading is then as
     /// good as a fine one.
     pub blurred: bool,
+    /// The pixel that it is seen in, counted in rows from the top left.
+    pub pixel: usize,
+    /// Mirrors and panes on the way, as a number that differs when they differ.
+    pub path: u32,
 }
 
 /// How finely a view is traced.

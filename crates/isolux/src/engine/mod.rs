@@ -19,6 +19,7 @@ mod hidden;
 mod hybrid;
 mod look;
 mod mix;
+pub mod net;
 mod particle;
 mod path;
 mod pilot;

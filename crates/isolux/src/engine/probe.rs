@@ -1,6 +1,8 @@
 //! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
 
+mod effort;
 mod parts;
+mod told;
 
 use super::accumulate::mean_and_variance;
 use super::direct::{Goal, Lighting, Measured};
@@ -14,8 +16,9 @@ use crate::map::{Accuracy, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
+use effort::{ANY_NOISE, FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, TRIAL_RAYS};
 use isolux_geometry::Ray;
-pub use parts::{IndirectReading, Told};
+pub use told::{IndirectReading, Told};
 
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
@@ -23,14 +26,6 @@ const DIRECT_REPLICATES: u64 = 8;
 /// Noise of what readers gather, in errors of the map: it adds half of the square of that, and only where the map
 /// is not trusted.
 const FRESH_NOISE: f64 = 0.7;
-
-/// Independent gatherings of a place where the map is not trusted, and rays of each, at least and at most.
-const FRESH_REPLICATES: u32 = 16;
-const FRESH_FEWEST_RAYS: f64 = 8.0;
-const FRESH_MOST_RAYS: f64 = 1024.0;
-
-/// Rays of each in the trial that tells how many it takes: half of the fewest, as they are thrown away.
-const TRIAL_RAYS: u32 = 4;
 
 /// Nets of n rays err like this power of 1/n from so few on, where something is close: with the 0.85 of
 /// places in the open, readings of SPHERE erred a quarter more than by a trial of twice the rays.
@@ -137,12 +132,13 @@ impl<'a> MapReader<'a> {
     }
 
     fn read(&self, surface: SurfacePoint) -> Option<Illuminance> {
-        let (indirect, at) = self.indirect(surface)?;
+        let (indirect, at) = self.indirect(surface, ANY_NOISE)?;
         Some(self.with_fresh_direct(indirect, &at))
     }
 
-    /// What is known of the indirect light at a place, and the place to evaluate direct light at.
-    fn indirect(&self, surface: SurfacePoint) -> Option<(Illuminance, SurfacePoint)> {
+    /// What is known of the indirect light at a place, and the place to evaluate direct light at. Where it is gathered, its
+    /// noise is to be no more than a share of it.
+    fn indirect(&self, surface: SurfacePoint, noise: f64) -> Option<(Illuminance, SurfacePoint)> {
         let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.places.pulled_in(surface);
@@ -155,7 +151,7 @@ impl<'a> MapReader<'a> {
         } else {
             let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
             let trial = Gatherer::on_surface(at, TRIAL_RAYS).in_gap(in_gap);
-            self.gathered(stored, trial, fresh.lookup_lx)
+            self.gathered(stored, (trial, noise), fresh.lookup_lx)
         };
         Some((indirect, at))
     }
@@ -177,23 +173,18 @@ impl<'a> MapReader<'a> {
     }
 
     /// Indirect light gathered over the map, by as many rays as bring its noise down to that
-    /// of the map. What is read close by all the same is wrong by `lookup_lx`.
-    fn gathered(&self, stored: Illuminance, trial: Gatherer, lookup_lx: f64) -> Illuminance {
-        // Other numbers for every seed of the map: readings of several maps have errors of their own.
-        let key = place_key(trial.surface.point).with(7).with(self.map.provenance.seed);
-        let goal = FRESH_NOISE * self.unseen.reached_lx;
-        let direct = match &self.direct_values {
-            Some(values) => DirectAtEnds::ReadFarOff { values },
-            None => DirectAtEnds::Evaluated,
-        };
-        let Gathered { variance, .. } = self.gather(trial, direct, (FRESH_REPLICATES, key.with(0)));
-        let rays = f64::from(TRIAL_RAYS)
-            * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / ORDER_CLOSE_BY);
-        let rays = libm::log2(rays.clamp(FRESH_FEWEST_RAYS, FRESH_MOST_RAYS));
+    /// of the map, and to a share of the light. What is read close by all the same is wrong by `lookup_lx`.
+    fn gathered(
+        &self,
+        stored: Illuminance,
+        (trial, noise): (Gatherer, f64),
+        lookup_lx: f64,
+    ) -> Illuminance {
+        let key = self.gathering_key(&trial);
         // With numbers of its own: who stopped at a small variance would report too small ones.
-        let gatherer = trial.with_rays(1 << libm::round(rays) as u32);
+        let gatherer = trial.with_rays(self.rays_needed((trial, noise), key).rays);
         let Gathered { lx, variance, close } =
-            self.gather(gatherer, direct, (FRESH_REPLICATES, key.with(1)));
+            self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
         Illuminance {
             indirect_lx: lx,
             indirect_standard_error_lx: variance.sqrt(),
@@ -201,6 +192,31 @@ impl<'a> MapReader<'a> {
             samples: u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays),
             ..stored
         }
+    }
+
+    /// Random numbers of a place; other ones for every seed of the map: readings of several maps have errors of their own.
+    fn gathering_key(&self, at: &Gatherer) -> Key {
+        place_key(at.surface.point).with(7).with(self.map.provenance.seed)
+    }
+
+    fn direct_at_ends(&self) -> DirectAtEnds<'_> {
+        match &self.direct_values {
+            Some(values) => DirectAtEnds::ReadFarOff { values },
+            None => DirectAtEnds::Evaluated,
+        }
+    }
+
+    /// The rays of a replicate that bring noise to what is asked, as a trial tells, which is then thrown away.
+    fn rays_needed(&self, (trial, noise): (Gatherer, f64), key: Key) -> Needed {
+        let of_trial = (FRESH_REPLICATES, key.with(0));
+        let Gathered { lx, variance, .. } = self.gather(trial, self.direct_at_ends(), of_trial);
+        let goal = (FRESH_NOISE * self.unseen.reached_lx).min(noise * lx.luminance());
+        let rays = f64::from(TRIAL_RAYS)
+            * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / ORDER_CLOSE_BY);
+        let rays = libm::log2(rays.clamp(FRESH_FEWEST_RAYS, FRESH_MOST_RAYS));
+        let rays: u32 = 1 << libm::round(rays) as u32;
+        let finer = f64::from(TRIAL_RAYS) / f64::from(rays);
+        Needed { rays, variance: variance * libm::pow(finer, 2.0 * ORDER_CLOSE_BY) }
     }
 
     fn gathering<'b>(&'b self, direct: DirectAtEnds<'b>) -> Gathering<'b> {
@@ -231,16 +247,19 @@ impl<'a> MapReader<'a> {
 
     /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
     /// many places anyway: noisy, and the standard error leaves that noise out. `number` tells
-    /// readings of one place apart.
+    /// readings of one place apart. Indirect light is interpolated, unless it is known from elsewhere.
     pub fn glance(
         &self,
-        triangle: u32,
-        back: bool,
-        u: f64,
-        v: f64,
+        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
         number: u64,
+        known: Option<IndirectReading>,
     ) -> Option<Illuminance> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
+        let stored = known.map_or(stored, |known| Illuminance {
+            indirect_lx: known.lx,
+            indirect_standard_error_lx: known.noise_lx,
+            ..stored
+        });
         let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
         let sequence = Sequence::new(place_key(at.point).with(number));
         let direct = self.lighting.sampled(&at, GLANCE_SAMPLES, &mut Dice::new(sequence, 0));
@@ -268,7 +287,7 @@ impl<'a> MapReader<'a> {
                 return None;
             }
             let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
-            let indirect = self.gathered(Illuminance::NOTHING, trial, lookup_lx);
+            let indirect = self.gathered(Illuminance::NOTHING, (trial, ANY_NOISE), lookup_lx);
             Some(self.with_fresh_direct(indirect, &trial.surface))
         })
     }

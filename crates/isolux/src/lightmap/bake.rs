@@ -3,7 +3,6 @@
 use super::cover::{self, Fragment};
 use super::ground::Ground;
 use super::layout::Layout;
-use super::net::{Light, Net, Step, Wanted};
 use super::places::{Places, Survey};
 use super::plan::LightmapError;
 use super::seam_report::SeamReport;
@@ -11,6 +10,7 @@ use super::shadow::{self, Direct};
 use super::texels::{Cover, Lightmap};
 use super::work::{After, Work};
 use super::{dilate, stitch};
+use crate::engine::net::{Fineness, Net, Wanted};
 use crate::engine::{IndirectReading, MapReader, Watch};
 use crate::map::IlluminationMap;
 use crate::scene::Scene;
@@ -21,11 +21,9 @@ const OF_INDIRECT: f64 = 0.5;
 const OF_VALUE: f64 = 0.002;
 /// Texels by which the time of direct light is foreseen.
 const TRIED: usize = 128;
-/// Of the texels that a net leaves out, those that it will be refined by, as far as can be foreseen: half of them.
-const REFINED: f64 = 0.5;
 
 /// Reads the map over the part of the surface that each texel covers: direct light at places spread evenly over it,
-/// indirect light in its middle, each as [`MapReader`] has it. Then fills the borders of charts and makes the two
+/// indirect light, too, where the map does not tell it, each as [`MapReader`] has it. Then fills the borders of charts and makes the two
 /// sides of seams agree. `watch` is told the share of the work that is done, as far as it can be foreseen.
 pub fn bake(
     scene: &Scene,
@@ -81,40 +79,21 @@ fn indirect(
         match survey {
             Survey::Unknown => {}
             Survey::Told(reading) => found[number] = Some(reading),
-            Survey::Wanted { place, in_gap } => {
-                let (at, kind) = (ground.place(number), (charts[number], in_gap));
-                wanted.push(Wanted { number, at, kind, place });
+            Survey::Wanted(setting) => {
+                let (at, chart) = (ground.place(number), u64::from(charts[number]));
+                wanted.push(Wanted { number, at, kind: chart << 2 | setting as u64 });
             }
         }
     }
     let direct_s = foresee_direct(places, (ground, &found), work)?;
-    let net = gather(places, Net::new(wanted), direct_s, work)?;
-    for (wanted, light) in net.wanted.iter().zip(&net.light) {
-        if let Light::Gathered(reading, _) | Light::Continued(reading) = light {
-            found[wanted.number] = Some(*reading);
-        }
-    }
+    let mut net = Net::new(wanted, Fineness::TEXELS);
+    net.fill(|numbers, more| {
+        work.readings += numbers.len() as u64;
+        let after = After { pieces: more, other_s: direct_s };
+        work.each(numbers, after, |&number| places.gathered(ground.texels[number]))
+    })?;
+    net.filled().for_each(|filled| found[filled.number] = filled.reading);
     Ok(found)
-}
-
-/// Gathers light on a net, step by step, and continues it to all of its texels.
-fn gather(
-    places: &Places<'_>,
-    mut net: Net,
-    direct_s: f64,
-    work: &mut Work<'_>,
-) -> Result<Net, LightmapError> {
-    let steps = Step::ALL.into_iter().map(Some).chain([None]);
-    for step in steps {
-        let chosen = step.map_or_else(|| net.left(), |step| net.chosen(step));
-        let pieces = step.map_or(0.0, |step| net.foreseen(step, REFINED)) - chosen.len() as f64;
-        let after = After { pieces: pieces.max(0.0), other_s: direct_s };
-        let gathered = work.each(&chosen, after, |&k| places.gathered(net.wanted[k].place))?;
-        work.readings += chosen.len() as u64;
-        net.store(&chosen, &gathered);
-    }
-    net.finish();
-    Ok(net)
 }
 
 /// The time that direct light will take, s, by a few texels; where indirect light is not known yet, it is taken to err

@@ -14,7 +14,6 @@ mod edge;
 mod ground;
 mod layout;
 mod lit;
-mod net;
 mod own_places;
 mod places;
 mod plan;

@@ -6,11 +6,11 @@ use crate::engine::{IndirectReading, MapReader, Told};
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 
-/// Indirect light is smooth: it is read in the middle of the largest parts of a texel, those of at least this share.
+/// Where the map is to be trusted indirect light is smooth: it is read in the middle of the largest parts of a texel, those of at least this share.
 const LARGE: f32 = 0.1;
 const MOST_MIDDLES: usize = 3;
-/// Where the map knows none of the middles, so many more places are asked.
-const TRIES: u32 = 4;
+/// Places that are asked beside the middles.
+const SPOTS: u32 = 4;
 
 /// A place on a side.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,13 +35,30 @@ pub(super) enum Survey {
     Unknown,
     /// The light.
     Told(IndirectReading),
-    /// Light is to be gathered at a place.
-    Wanted {
-        /// The place.
-        place: Place,
-        /// Whether that lies in a gap.
-        in_gap: bool,
-    },
+    /// Light is to be gathered.
+    Wanted(Setting),
+}
+
+/// What the places of a texel have before them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Setting {
+    /// Nothing so close that they would lie in a gap.
+    Open,
+    /// They lie in a gap.
+    Gap,
+    /// Some lie in a gap, or the map is to be trusted with some.
+    Mixed,
+}
+
+impl Setting {
+    /// Of places of which some are not to be trusted, those by whether they lie in a gap.
+    fn of(places: &[Option<bool>]) -> Self {
+        match places {
+            all if all.iter().all(|place| *place == Some(false)) => Self::Open,
+            all if all.iter().all(|place| *place == Some(true)) => Self::Gap,
+            _ => Self::Mixed,
+        }
+    }
 }
 
 impl Places<'_> {
@@ -50,41 +67,50 @@ impl Places<'_> {
         Key::new(self.seed).with(11).with(u64::from(texel))
     }
 
-    /// Asks the map in the middles of the largest parts, the largest first, or else somewhere.
+    /// Asks the map in the middles of the largest parts, and at a few places more: what stands near a texel, or a gap,
+    /// may reach over a part of it. It tells the light only if it is to be trusted at all of them.
     pub(super) fn survey(&self, fragments: &[Fragment]) -> (Survey, u64) {
         let whole: f32 = fragments.iter().map(|f| f.area_m2).sum();
         let mut largest: Vec<&Fragment> =
             fragments.iter().filter(|f| f.area_m2 >= LARGE * whole).collect();
         largest.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
         largest.truncate(MOST_MIDDLES);
-        let mut told: Vec<(f64, IndirectReading)> = Vec::with_capacity(MOST_MIDDLES);
-        for (asked, fragment) in (1..).zip(&largest) {
+        let middle = |fragment: &&Fragment| {
             let at = cover::polygon(self.layout, fragment).centroid();
-            let place = Place { side: fragment.side, at };
-            match self.told(place) {
-                Some(Told::Light(reading)) => told.push((f64::from(fragment.area_m2), reading)),
-                Some(Told::Little { in_gap }) => return (Survey::Wanted { place, in_gap }, asked),
-                None => {}
-            }
-        }
-        let asked = largest.len() as u64;
-        match mean(&told) {
-            Some(reading) => (Survey::Told(reading), asked),
-            None => (self.survey_elsewhere(fragments), asked + u64::from(TRIES)),
-        }
+            (f64::from(fragment.area_m2), Place { side: fragment.side, at })
+        };
+        let spots = self.spread(fragments, (SPOTS, 2)).map(|place| (1.0, place));
+        let asked: Vec<(f64, Place)> = largest.iter().map(middle).chain(spots).collect();
+        let told: Vec<Option<Told>> = asked.iter().map(|(_, place)| self.told(*place)).collect();
+        let in_gap = |told: &Told| match told {
+            Told::Light(_) => None,
+            Told::Little { in_gap } => Some(*in_gap),
+        };
+        let all: Vec<Option<bool>> = told.iter().flatten().map(in_gap).collect();
+        let survey = if all.iter().any(Option::is_some) {
+            Survey::Wanted(Setting::of(&all))
+        } else {
+            let light = |(&(weight, _), told): (&(f64, Place), &Option<Told>)| match told {
+                Some(Told::Light(reading)) => Some((weight, *reading)),
+                _ => None,
+            };
+            let light: Vec<_> = asked.iter().zip(&told).map(light).collect();
+            let (middles, spots) = light.split_at(largest.len());
+            let mean_of =
+                |all: &[Option<_>]| mean(&all.iter().flatten().copied().collect::<Vec<_>>());
+            mean_of(middles).or_else(|| mean_of(spots)).map_or(Survey::Unknown, Survey::Told)
+        };
+        (survey, asked.len() as u64)
     }
 
-    fn survey_elsewhere(&self, fragments: &[Fragment]) -> Survey {
-        let sequence = Sequence::new(self.key(fragments[0].texel).with(2));
-        let known = (0..TRIES).find_map(|index| {
-            let place = self.place(fragments, sequence.pair(index, 0));
-            Some((place, self.told(place)?))
-        });
-        match known {
-            None => Survey::Unknown,
-            Some((_, Told::Light(reading))) => Survey::Told(reading),
-            Some((place, Told::Little { in_gap })) => Survey::Wanted { place, in_gap },
-        }
+    /// So many places, evenly over the area on the surface, by random numbers of their own.
+    fn spread(
+        &self,
+        fragments: &[Fragment],
+        (count, key): (u32, u64),
+    ) -> impl Iterator<Item = Place> {
+        let sequence = Sequence::new(self.key(fragments[0].texel).with(key));
+        (0..count).map(move |index| self.place(fragments, sequence.pair(index, 0)))
     }
 
     /// The place for a point of the unit square, evenly over the area on the surface.
@@ -109,9 +135,10 @@ impl Places<'_> {
         self.reader.told_at(self.on_side(place))
     }
 
-    /// Gathers light at a place.
-    pub(super) fn gathered(&self, place: Place) -> Option<IndirectReading> {
-        self.reader.indirect_at(self.on_side(place))
+    /// The mean of what readings would be all over a texel.
+    pub(super) fn gathered(&self, fragments: &[Fragment]) -> Option<IndirectReading> {
+        let places = self.spread(fragments, (MapReader::PLACES, 4));
+        self.reader.indirect_over(places.map(|place| self.on_side(place)))
     }
 
     /// One estimate of direct light.

@@ -1,6 +1,10 @@
 //! The parts of a reading apart, for means over a surface.
 
 use super::MapReader;
+use super::effort::{ANY_NOISE, FRESH_REPLICATES, Needed, TRIAL_RAYS};
+use super::told::{IndirectReading, Told};
+use crate::engine::accumulate::mean_and_variance;
+use crate::engine::gather::Gatherer;
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::engine::trust;
@@ -8,28 +12,9 @@ use crate::map::Illuminance;
 use crate::sampling::Sequence;
 use crate::units::Rgb;
 
-/// Indirect light of a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IndirectReading {
-    /// The light, lx.
-    pub lx: Rgb,
-    /// Standard error of its photometric value and of the caustics, as [`MapReader::at`] counts it, lx.
-    pub error_lx: f64,
-    /// What of that is the noise of its own rays, which no other reading shares, lx.
-    pub noise_lx: f64,
-}
-
-/// What a map tells of the indirect light of a place without further rays.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Told {
-    /// The light.
-    Light(IndirectReading),
-    /// Nothing to be trusted: it is to be gathered ([`MapReader::indirect_at`]).
-    Little {
-        /// Whether something stands so close before the place that it lies in a gap.
-        in_gap: bool,
-    },
-}
+/// How light differs within a surface counts as if it had been read at so many places of it: for the mean over all of it that is
+/// more than enough, for its middle just so.
+const AS_OF_PLACES: f64 = 4.0;
 
 impl MapReader<'_> {
     /// One estimate of the direct light of a place, caustics of the map included, by about `rays` shadow rays: it
@@ -54,20 +39,102 @@ impl MapReader<'_> {
         if self.map.provenance.fresh.is_none() {
             return Some(Told::Light(self.reading(&stored, 0.0)));
         }
-        let edge_m = trust::edge_at_m(&self.map.elements, &at);
-        Some(match self.is_trusted(&stored, &at, edge_m) {
-            true => Told::Light(self.reading(&self.with_interpolation_error(stored), 0.0)),
-            false => Told::Little { in_gap: trust::is_closed_in(self.scene, &at, edge_m) },
+        Some(match self.trial(&stored, &at) {
+            None => Told::Light(self.reading(&self.with_interpolation_error(stored), 0.0)),
+            Some(trial) => Told::Little { in_gap: trial.in_gap },
         })
     }
 
-    /// Indirect light as [`MapReader::at`] reads it: gathered where the map is not trusted.
+    /// Indirect light as [`MapReader::at`] reads it: gathered where the map is not trusted, until noise is no more than a
+    /// share of it, if the map errs by more (best effort: rays are limited).
     pub fn indirect_at(
         &self,
         (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+        noise: f64,
     ) -> Option<IndirectReading> {
-        let (read, _) = self.indirect(SurfacePoint::new(self.scene, triangle, back, u, v))?;
-        Some(self.reading(&read, read.indirect_standard_error_lx))
+        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+        let (read, _) = self.indirect(surface, noise)?;
+        Some(self.gathered_reading(&read))
+    }
+
+    /// Places that tell the indirect light of a surface, of [`MapReader::indirect_over`]: as many as a reading has replicates.
+    pub const PLACES: u32 = FRESH_REPLICATES;
+
+    /// The mean indirect light of a surface, by places spread evenly over it: at each of them as the map tells it, or
+    /// gathered by as many rays as one replicate of a reading has. Its error counts how light differs between places as if it
+    /// had been read at four of them, at random: it is to hold for the middle of the surface, too. `None` where the map knows none of them.
+    pub fn indirect_over(
+        &self,
+        places: impl Iterator<Item = (u32, bool, [f64; 2])>,
+    ) -> Option<IndirectReading> {
+        let surfaces: Vec<SurfacePoint> = places
+            .map(|(triangle, back, [u, v])| SurfacePoint::new(self.scene, triangle, back, u, v))
+            .collect();
+        let (mut told, mut trials) = (Vec::new(), Vec::new());
+        for surface in &surfaces {
+            let SurfacePoint { triangle, back, u, v, .. } = *surface;
+            let Some(stored) = self.map.interpolate(triangle, back, u, v) else { continue };
+            match self.trial(&stored, &self.places.pulled_in(*surface)) {
+                None => told.push(self.with_interpolation_error(stored)),
+                Some(trial) => trials.push((*surface, trial)),
+            }
+        }
+        if let ([], [(surface, _)]) = (&told[..], &trials[..]) {
+            // One place alone tells nothing of its own noise.
+            return self
+                .indirect(*surface, ANY_NOISE)
+                .map(|(read, _)| self.gathered_reading(&read));
+        }
+        let trials: Vec<Gatherer> = trials.into_iter().map(|(_, trial)| trial).collect();
+        let (gathered, replicate_variance) = self.one_of_each(&trials);
+        let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
+        let n = (told.len() + gathered.len()) as f64;
+        let values: Vec<Rgb> =
+            told.iter().map(|t| t.indirect_lx).chain(gathered.iter().map(|g| g.0)).collect();
+        let common = |of: fn(&Illuminance) -> f64| told.iter().map(of).sum::<f64>() / n;
+        let close_lx = gathered.iter().map(|(_, close)| close * lookup_lx).sum::<f64>() / n;
+        let (lx, variance) = match &values[..] {
+            [] => return None,
+            [only] => (*only, 0.0),
+            all => mean_and_variance(all),
+        };
+        let of_map = Illuminance {
+            indirect_standard_error_lx: common(|t| t.indirect_standard_error_lx),
+            interpolation_error_lx: common(|t| t.interpolation_error_lx) + close_lx,
+            ..Illuminance::NOTHING
+        };
+        // What is not the noise of rays is how light differs within the surface.
+        let noise = (replicate_variance * gathered.len() as f64 / (n * n)).min(variance);
+        let spread = noise + (variance - noise) * n / AS_OF_PLACES.min(n);
+        let error_lx = libm::hypot(self.indirect_error_lx(&of_map), spread.sqrt());
+        Some(IndirectReading { lx, error_lx, noise_lx: variance.sqrt() })
+    }
+
+    /// What would gather at a place, unless the map is to be trusted there.
+    fn trial(&self, stored: &Illuminance, at: &SurfacePoint) -> Option<Gatherer> {
+        self.map.provenance.fresh?;
+        let edge_m = trust::edge_at_m(&self.map.elements, at);
+        (!self.is_trusted(stored, at, edge_m)).then(|| {
+            let in_gap = trust::is_closed_in(self.scene, at, edge_m);
+            Gatherer::on_surface(*at, TRIAL_RAYS).in_gap(in_gap)
+        })
+    }
+
+    /// What one replicate at each of many places gathers, and the share of a unit of light that it reads close by. How
+    /// many rays they take is told at the first of them, and the variance of one by noise that is expected then.
+    fn one_of_each(&self, trials: &[Gatherer]) -> (Vec<(Rgb, f64)>, f64) {
+        let Some(first) = trials.first() else { return (Vec::new(), 0.0) };
+        let key = self.gathering_key(first);
+        let Needed { rays, variance } = self.rays_needed((*first, ANY_NOISE), key);
+        let rows: Vec<Gatherer> = trials.iter().map(|trial| trial.with_rays(rays)).collect();
+        let operator =
+            self.gathering(self.direct_at_ends()).operator(&rows, |k| key.with(1).with(k as u64));
+        let gathered = operator.apply(&self.light).into_iter().zip(operator.close()).collect();
+        (gathered, f64::from(FRESH_REPLICATES) * variance)
+    }
+
+    fn gathered_reading(&self, read: &Illuminance) -> IndirectReading {
+        self.reading(read, read.indirect_standard_error_lx)
     }
 
     fn reading(&self, read: &Illuminance, noise_lx: f64) -> IndirectReading {

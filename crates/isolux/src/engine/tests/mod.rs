@@ -16,6 +16,7 @@ mod gloss;
 mod many;
 mod mirrors;
 mod mixing;
+mod net;
 mod sums;
 mod trusting;
 

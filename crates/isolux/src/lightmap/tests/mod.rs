@@ -3,7 +3,6 @@
 mod arrays;
 mod baking;
 mod layouts;
-mod net;
 mod stitching;
 
 use super::*;

@@ -1,0 +1,121 @@
+//! Views from a solved map beside readings of it.
+#![allow(clippy::unwrap_used, reason = "tests may stop at the first surprise")]
+
+use isolux::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest, Watch, solve};
+use isolux::geometry::{Direction, Point, Transform, Vector};
+use isolux::photometry::IntensityDistribution;
+use isolux::scene::{Camera, Finish, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape};
+use isolux::units::Rgb;
+use isolux_view::*;
+
+/// A rectangle from a corner along two edges; its front is towards their vector product.
+fn rectangle(corner: [f64; 3], along: [f64; 3], up: [f64; 3]) -> Shape {
+    let [p, a, b] = [corner, along, up].map(Vector::from);
+    Shape {
+        positions: [p, p + a, p + a + b, p + b].map(<[f64; 3]>::from).to_vec(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Shape::default()
+    }
+}
+
+/// The faces of a box, fronts inside, or outside.
+fn cuboid(low: [f64; 3], size: [f64; 3], inward: bool) -> Vec<Shape> {
+    let [x, y, z] = [0, 1, 2].map(|k| {
+        let mut edge = [0.0; 3];
+        edge[k] = size[k];
+        edge
+    });
+    let far = |k: usize| {
+        let mut corner = low;
+        corner[k] += size[k];
+        corner
+    };
+    let faces =
+        [(low, x, y), (low, y, z), (low, z, x), (far(0), z, y), (far(1), x, z), (far(2), y, x)];
+    let face =
+        |(corner, a, b)| if inward { rectangle(corner, a, b) } else { rectangle(corner, b, a) };
+    faces.map(face).into()
+}
+
+/// A room with a block that turns its back on the lamp, and a camera that looks at its foot.
+fn room() -> (Scene, Camera) {
+    let mut shapes = cuboid([0.0; 3], [4.0, 4.0, 3.0], true);
+    shapes.extend(cuboid([1.4, 1.4, 0.0], [1.2, 0.8, 1.6], false));
+    let parts = SceneParts {
+        shapes,
+        materials: vec![Material::one_sided("grey", Finish::diffuse(Rgb::grey(0.6)))],
+        luminaires: vec![Luminaire {
+            name: "lamp".into(),
+            group: 0,
+            colour: Rgb::WHITE,
+            kind: LuminaireKind::Point {
+                position: Point::new(2.0, 2.9, 2.8),
+                world_from_luminaire: Transform::IDENTITY,
+                intensity: IntensityDistribution::Isotropic { intensity_cd: 200.0 },
+            },
+        }],
+        ..SceneParts::default()
+    };
+    let direction = Vector::new(0.1, 1.0, -0.6).direction().unwrap();
+    let position = Point::new(1.9, 0.05, 1.3);
+    let camera = Camera {
+        name: "camera".into(),
+        position,
+        direction,
+        up: Direction::Z,
+        vertical_fov_rad: 1.2,
+    };
+    (Scene::assemble(parts).unwrap(), camera)
+}
+
+/// The light of the surfaces that pixels show, gathered there with many rays, lx.
+fn truth(image: &LuminanceImage, reader: &MapReader<'_>) -> Vec<(usize, f64)> {
+    let settings = ExactSettings { rays: 128, ..ExactSettings::default() };
+    let pixels = (0..image.size().pixels()).step_by(61);
+    pixels
+        .filter_map(|pixel| {
+            let surface = image.surface(pixel)?;
+            let at = ProbePoint { position: surface.position, normal: surface.normal };
+            Some((pixel, reader.estimate(at, &settings).illuminance_lx()))
+        })
+        .collect()
+}
+
+/// Root mean square of how far pixels are off, as a share of the light.
+fn off(image: &LuminanceImage, truth: &[(usize, f64)], of: impl Fn(usize, f64) -> bool) -> f64 {
+    let all = truth.iter().filter(|&&(pixel, lx)| of(pixel, lx));
+    let (sum, count) = all.fold((0.0, 0.0), |(sum, count), &(pixel, lx)| {
+        (sum + share_off(image, pixel, lx).powi(2), count + 1.0)
+    });
+    assert!(count >= 20.0, "{count} pixels");
+    f64::sqrt(sum / count)
+}
+
+fn share_off(image: &LuminanceImage, pixel: usize, lx: f64) -> f64 {
+    f64::from(image.reading(pixel).unwrap().illuminance_lx) / lx - 1.0
+}
+
+#[test]
+fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
+    let (scene, camera) = room();
+    let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let reader = MapReader::new(&scene, &map);
+    let (size, settings) = (Size::new(320, 240).unwrap(), TraceSettings::DRAFT);
+    let (view, gathered) = trace_map((&scene, &map), &camera, size, &settings).unwrap();
+    let read = |at: SurfacePoint| reader.glance((at.triangle, at.back, [at.u, at.v]), 0, None);
+    let interpolated = trace(&scene, &camera, size, &settings, &read).unwrap();
+    let truth = truth(&view, &reader);
+    // The foot of the block, and what else interpolation gets wrong: there gathered light errs by as much as all of the map.
+    let is_wrong = |pixel, lx| share_off(&interpolated, pixel, lx).abs() > 0.1;
+    assert!(off(&interpolated, &truth, is_wrong) > 0.15);
+    assert!(off(&view, &truth, is_wrong) < 0.07, "{}", off(&view, &truth, is_wrong));
+    let [of_view, of_interpolated] = [&view, &interpolated].map(|i| off(i, &truth, |_, _| true));
+    assert!(of_view < of_interpolated, "{of_view} and {of_interpolated}");
+    let Gathered { interpolated, gathered, continued } = gathered;
+    assert_eq!(interpolated + gathered + continued, size.pixels());
+    assert!(continued > 4 * gathered && gathered > 0, "{gathered} and {continued}");
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let again = || trace_map((&scene, &map), &camera, size, &settings).unwrap().0;
+    assert!(alone.install(again) == view, "the same on any number of threads");
+}
