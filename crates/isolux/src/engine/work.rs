@@ -224,8 +224,8 @@ impl<'p, 's> Work<'p, 's> {
 
     /// Whether finer elements will reach a target, but these will not, or much later.
     pub(super) fn is_too_coarse(&self, accuracy: Option<Accuracy>, target: f64) -> bool {
-        if let Some(left) = &self.left {
-            return accuracy.is_some_and(|a| a.reached > target) && left.is_shot;
+        if self.left.is_some() {
+            return self.is_hopeless(accuracy, Some(target));
         }
         let count = self.sums.increments;
         let Some(counted) = accuracy.filter(|_| self.may_end()) else {

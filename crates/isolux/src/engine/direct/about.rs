@@ -6,10 +6,10 @@
 //! (resampled importance sampling: Talbot, Cline, Egbert 2005). The estimate has no bias, whatever the
 //! distribution, as long as it leaves nothing out.
 
-use super::Lighting;
 use super::cut::Part;
 use super::lobe::turned;
-use super::tree::Node;
+use super::tree::{Lamp, Node};
+use super::{Lighting, drawn};
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::units::Rgb;
@@ -31,6 +31,14 @@ pub(in crate::engine) struct About {
     sums: Vec<f64>,
 }
 
+/// Where a cluster or a luminaire is, and how strong at most.
+#[derive(Clone, Copy)]
+struct Extent {
+    centre: Point,
+    radius_m: f64,
+    peak_cd: f64,
+}
+
 impl Lighting<'_> {
     /// What is seen from about a place, as far as `reach_m`; `None` where luminaires are too few to be drawn so.
     pub(in crate::engine) fn about(&self, place: Point, reach_m: f64) -> Option<About> {
@@ -45,22 +53,22 @@ impl Lighting<'_> {
             while let Some(number) = waiting.pop() {
                 let node = &self.tree.nodes[number as usize];
                 let distance_m = (node.centre - from).length().max(reach_m);
-                let weight = |part: Part, node: &Node| {
-                    (chain, part, reflectance * self.expected(node, from, reach_m))
-                };
+                let weight =
+                    |extent: Extent| reflectance * self.expected(node, extent, from, reach_m);
                 if node.radius_m <= TIGHTNESS * distance_m {
-                    about.push(weight(Part::Node(number), node));
+                    let Node { centre, radius_m, peak_cd, .. } = *node;
+                    about.push(
+                        chain,
+                        Part::Node(number),
+                        weight(Extent { centre, radius_m, peak_cd }),
+                    );
                 } else if let Some(second) = node.second {
                     waiting.extend([second, number + 1]);
                 } else {
                     for lamp in node.first..node.first + node.count {
-                        let alone = Node {
-                            centre: self.tree.lamps[lamp as usize].position,
-                            radius_m: 0.0,
-                            peak_cd: self.tree.lamps[lamp as usize].peak_cd,
-                            ..node.clone()
-                        };
-                        about.push(weight(Part::Lamp(lamp), &alone));
+                        let Lamp { position: centre, peak_cd, .. } = self.tree.lamps[lamp as usize];
+                        let extent = Extent { centre, radius_m: 0.0, peak_cd };
+                        about.push(chain, Part::Lamp(lamp), weight(extent));
                     }
                 }
             }
@@ -76,17 +84,17 @@ impl Lighting<'_> {
         })
     }
 
-    /// What a cluster may give about a place, any way it faces.
-    fn expected(&self, node: &Node, from: Point, reach_m: f64) -> f64 {
-        let to = node.centre - from;
-        let extent_m = (node.radius_m + reach_m).max(f64::MIN_POSITIVE);
+    /// What a cluster, or a part of it, may give about a place, any way it faces.
+    fn expected(&self, node: &Node, part: Extent, from: Point, reach_m: f64) -> f64 {
+        let to = part.centre - from;
+        let extent_m = (part.radius_m + reach_m).max(f64::MIN_POSITIVE);
         let distance_m = to.length().max(extent_m);
         let local = match node.kind {
             Some(kind) => turned(&self.tree.kinds[kind as usize].frame, -to),
             None => -to,
         };
         let shape = self.tree.lobes.towards(node.lobe, extent_m / distance_m, local);
-        node.peak_cd * shape.max(LEAST_SHAPE) / (distance_m * distance_m)
+        part.peak_cd * shape.max(LEAST_SHAPE) / (distance_m * distance_m)
     }
 
     /// An unbiased estimate of the direct illuminance at a place by one shadow ray, or two where some sources are not
@@ -107,12 +115,7 @@ impl Lighting<'_> {
         };
         let ratios = candidates.each_ref().map(ratio);
         let total: f64 = ratios.iter().sum();
-        let mut left = pick * total;
-        let chosen = ratios.iter().position(|&ratio| {
-            left -= ratio;
-            left < 0.0
-        });
-        let lit = chosen.and_then(|k| {
+        let lit = drawn(&ratios, pick * total).and_then(|k| {
             let (chain, lamp, chance) = candidates[k];
             let view = self.view(chain, at)?;
             let share = CANDIDATES as f64 * chance * ratios[k] / total;
@@ -142,7 +145,7 @@ impl Lighting<'_> {
 }
 
 impl About {
-    fn push(&mut self, (chain, part, weight): (usize, Part, f64)) {
+    fn push(&mut self, chain: usize, part: Part, weight: f64) {
         if weight > 0.0 {
             self.parts.push((chain, part));
             self.sums.push(self.total() + weight);

@@ -7,10 +7,10 @@
 //! Hurwitz 1943), so there is no bias whatever the widths are, and no noise where the widths are right and
 //! nothing is hidden.
 
-use super::Lighting;
 use super::cut::{Cut, Part, View};
 use super::source::{self, Target};
 use super::tree::Node;
+use super::{Lighting, drawn};
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::units::Rgb;
@@ -124,12 +124,7 @@ impl Lighting<'_> {
         };
         let shares = lamps.map(share);
         let total: f64 = shares.iter().sum();
-        let mut left = pick * total;
-        let chosen = shares.iter().position(|&share| {
-            left -= share;
-            left < 0.0
-        });
-        let Some(k) = chosen else { return Rgb::BLACK };
+        let Some(k) = drawn(&shares, pick * total) else { return Rgb::BLACK };
         let peak_cd = self.tree.lamps[lamps[k] as usize].peak_cd;
         let chance = CHOICE as f64 * (peak_cd / node.peak_cd) * (shares[k] / total);
         self.lit_by_lamp(view, lamps[k], at) / chance

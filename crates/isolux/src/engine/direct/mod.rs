@@ -244,14 +244,11 @@ impl<'s> Lighting<'s> {
     fn lit_by_drawn(
         &self,
         weights: &[f64],
-        (mut left, total): (f64, f64),
+        (place, total): (f64, f64),
         at: &SurfacePoint,
         dice: &mut Dice,
     ) -> Rgb {
-        let drawn = weights.iter().position(|&w| {
-            left -= w;
-            left < 0.0
-        });
+        let drawn = drawn(weights, place);
         // Rounding may leave a sliver past the last weight.
         let drawn = drawn.or_else(|| weights.iter().rposition(|&w| w > 0.0));
         drawn.zip(self.others().nth(drawn.unwrap_or(0))).map_or(Rgb::BLACK, |(k, source)| {
@@ -281,6 +278,15 @@ impl<'s> Lighting<'s> {
         let share = self.visibility_in_view(&source.chain, at, arriving.target, None);
         arriving.illuminance_lx * share
     }
+}
+
+/// Which of some weights a place in their sum falls to; none beyond it.
+fn drawn(weights: &[f64], place: f64) -> Option<usize> {
+    let mut left = place;
+    weights.iter().position(|&weight| {
+        left -= weight;
+        left < 0.0
+    })
 }
 
 /// The source that is the image of a luminaire by a chain of mirrors; emitting surfaces are counted
