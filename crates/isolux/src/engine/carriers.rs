@@ -133,6 +133,18 @@ impl Carriers {
         parents
     }
 
+    /// What belongs to those that do not carry light, shared among the carriers that they are interpolated from.
+    pub(super) fn hand_down(&self, of_vertices: &mut [f64]) {
+        for &vertex in self.order.iter().rev().filter(|&&v| !self.active[v as usize]) {
+            let Some(link) = &self.links[vertex as usize] else { continue };
+            let own = std::mem::take(&mut of_vertices[vertex as usize]);
+            let size: f64 = link.parents.iter().map(|(_, weight)| weight.abs()).sum();
+            for &(parent, weight) in &link.parents {
+                of_vertices[parent as usize] += own * weight.abs() / size;
+            }
+        }
+    }
+
     /// Puts the values of those that do not carry light where they belong.
     pub(super) fn fill(&self, values: &mut [Rgb]) {
         for &vertex in self.order.iter().filter(|&&v| !self.active[v as usize]) {

@@ -17,9 +17,9 @@ use crate::units::Rgb;
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// Sweeps of the fixed point end when they change less than this, relative to the light: far below
-/// the noise of an increment, which is above 1e-4 at the rays it has.
-const TOLERANCE: f64 = 1e-6;
+/// Sweeps of the fixed point end when they change less than this share of the accuracy asked for, relative to the light:
+/// all increments start from one guess, so that what is left of it does not average out.
+const TOLERANCE: f64 = 1e-3;
 
 /// One receiver in so many is tried to tell how long an increment takes.
 const TRIED: usize = 64;
@@ -30,23 +30,29 @@ pub(super) struct Hybrid<'p, 's> {
     check_direct: Vec<Rgb>,
     rows: Vec<Gatherer>,
     check_rows: Vec<Gatherer>,
+    /// Accuracy that the increments are for.
+    goal: f64,
     key: Key,
 }
 
 impl<'p, 's> Hybrid<'p, 's> {
-    /// With so many gathering rays in every increment for each vertex that is not hidden.
-    pub(super) fn new(plan: &'p Plan<'s>, checks: &[Check], rays: u32, seed: u64) -> Self {
+    /// With so many gathering rays in every increment for each vertex that is not hidden, or others that serve as well.
+    pub(super) fn new(
+        plan: &'p Plan<'s>,
+        checks: &[Check],
+        (rays, goal): (f64, f64),
+        seed: u64,
+    ) -> Self {
         let key = Key::new(seed).with(1);
+        let allotted = plan.allotted(rays);
         let row = |vertex: usize| {
-            let of = plan.standings[vertex];
-            let carries = of.is_some() && plan.carriers.is_active(vertex as u32);
-            let rays = if carries { rays } else { 0 };
-            plan.gatherers[vertex].with_rays(rays).in_gap(of != Some(Standing::Open))
+            let in_gap = plan.standings[vertex] != Some(Standing::Open);
+            plan.gatherers[vertex].with_rays(allotted[vertex]).in_gap(in_gap)
         };
         let rows = (0..plan.indirect_vertices).map(row).collect();
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
-        Self { plan, check_direct, rows, check_rows, key }
+        Self { plan, check_direct, rows, check_rows, goal, key }
     }
 
     /// Time that an increment takes, s, roughly: a part of its receivers is tried.
@@ -65,6 +71,11 @@ impl<'p, 's> Hybrid<'p, 's> {
             });
         }
         started.elapsed().as_secs_f64() * TRIED as f64
+    }
+
+    /// Rays of a vertex in an increment; none where it does not gather.
+    pub(super) fn rays_of(&self, vertex: usize) -> u32 {
+        self.rows.get(vertex).map_or(0, |row| row.rays)
     }
 
     /// Adds increment `index`; nothing, and `None`, if the deadline passes meanwhile.
@@ -88,7 +99,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             &plan.guess,
             &caustic,
             (&plan.carriers, Some(&plan.fit)),
-            TOLERANCE,
+            TOLERANCE * self.goal,
         );
         let gathered = plan.fit.apply(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();

@@ -2,6 +2,7 @@
 
 mod accumulate;
 mod accuracy;
+mod allot;
 mod cache;
 mod carriers;
 mod caustics;

@@ -1,5 +1,6 @@
 //! What the pilot has fixed: the elements, and all that increments over them share.
 
+use super::allot::{allot, areas_m2};
 use super::carriers::Carriers;
 use super::detail::LeafError;
 use super::direct::Lighting;
@@ -55,6 +56,14 @@ impl Plan<'_> {
     pub(super) fn size(&self) -> [usize; 3] {
         let all = self.elements.vertices().len();
         [self.indirect_vertices, all, self.carriers.count(all)]
+    }
+
+    /// Rays of the vertices for indirect light in an increment, that serve as well as so many of each.
+    pub(super) fn allotted(&self, mean: f64) -> Vec<u32> {
+        let mut areas_m2 = areas_m2(&self.subdivision, &self.indirect_errors, &self.carriers);
+        let hidden = areas_m2.iter_mut().zip(&self.standings).filter(|(_, of)| of.is_none());
+        hidden.for_each(|(m2, _)| *m2 = 0.0);
+        allot(&areas_m2, mean)
     }
 
     /// Area of all elements, m2.

@@ -23,7 +23,7 @@ pub(super) const OF_INTERPOLATED: f64 = 0.5;
 
 /// Nets of n rays err like this power of 1/n: measured between 0.8 and 1.1 on CUBE and SPHERE from 8
 /// to 128 rays (independent rays err like 0.5).
-const NET_ORDER: f64 = 0.85;
+pub(super) const NET_ORDER: f64 = 0.85;
 
 /// Rays of a receiver and increment, whatever is asked for.
 const FEWEST_WANTED: f64 = 8.0;
@@ -88,14 +88,19 @@ impl Trial {
         (Self { noise_lx: variance.sqrt(), rays }, traced)
     }
 
-    /// Gathering rays of a receiver with which so many increments leave the noise that is due to it.
+    /// Gathering rays of a receiver with which so many increments leave the noise that is due to it, a power of two.
     pub(super) fn rays_for(self, target: f64, rms_lx: f64, increments: u64) -> u32 {
+        libm::exp2(libm::round(libm::log2(self.wanted(target, rms_lx, increments)))) as u32
+    }
+
+    /// The same, any number: what receivers that share rays as best they can should have in the mean.
+    pub(super) fn wanted(self, target: f64, rms_lx: f64, increments: u64) -> f64 {
         let noise_lx = self.noise_lx * (OF_INTERPOLATED / increments as f64).sqrt();
         let allowed_lx = NOISE_SHARE * target * rms_lx;
         if !(noise_lx > 0.0 && allowed_lx > 0.0) {
-            return FEWEST_WANTED as u32;
+            return FEWEST_WANTED;
         }
         let wanted = f64::from(self.rays) * libm::pow(noise_lx / allowed_lx, 1.0 / NET_ORDER);
-        libm::exp2(libm::round(libm::log2(wanted.clamp(FEWEST_WANTED, MOST_WANTED)))) as u32
+        wanted.clamp(FEWEST_WANTED, MOST_WANTED)
     }
 }

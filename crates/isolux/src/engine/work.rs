@@ -86,12 +86,14 @@ impl<'p, 's> Work<'p, 's> {
         halvings: u32,
     ) -> Self {
         let reference = plan.rms_lx;
+        let goal = match request.method {
+            Method::Hybrid => request.accuracy.unwrap_or(target),
+            _ => target,
+        };
         let wanted = match request.method {
-            Method::Hybrid => {
-                let goal = request.accuracy.unwrap_or(target);
+            Method::Hybrid | Method::Cache => {
                 plan.trial.rays_for(goal, plan.rms_lx, FEWEST_INCREMENTS)
             }
-            Method::Cache => plan.trial.rays_for(target, plan.rms_lx, FEWEST_INCREMENTS),
             Method::Forward => 1,
             Method::Radiosity => request.radiosity.limits(target).check_rays,
         };
@@ -104,7 +106,11 @@ impl<'p, 's> Work<'p, 's> {
             Method::Forward => Vec::new(),
         };
         let engine = match request.method {
-            Method::Hybrid => Engine::Hybrid(Hybrid::new(plan, &points, rays, request.seed)),
+            Method::Hybrid => {
+                let wanted = plan.trial.wanted(goal, plan.rms_lx, FEWEST_INCREMENTS);
+                let mean = wanted.min(f64::from(most)) / f64::from(1_u32 << halvings);
+                Engine::Hybrid(Hybrid::new(plan, &points, (mean, goal), request.seed))
+            }
             Method::Cache => {
                 let cached =
                     Cached::new(plan, &points, (&request.cache, target), rays, request.seed);
@@ -399,6 +405,15 @@ impl<'p, 's> Work<'p, 's> {
         filtered.report
     }
 
+    /// Samples of a receiver in an increment; of one that is interpolated, those of a usual one.
+    fn samples_of(&self, vertex: usize) -> u32 {
+        let own = match &self.engine {
+            Engine::Hybrid(hybrid) => hybrid.rays_of(vertex),
+            _ => 0,
+        };
+        if own > 0 { own } else { self.samples }
+    }
+
     fn value(&self, vertex: usize, interpolation_error_lx: f64) -> Option<Illuminance> {
         let standing = self.plan.standings[vertex]?;
         let estimate = self.estimate(vertex);
@@ -416,7 +431,7 @@ impl<'p, 's> Work<'p, 's> {
             indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
             interpolation_error_lx,
             standing,
-            samples: self.sums.increments * u64::from(self.samples),
+            samples: self.sums.increments * u64::from(self.samples_of(vertex)),
         })
     }
 }

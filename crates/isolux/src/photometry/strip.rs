@@ -36,30 +36,22 @@ impl Strip {
     /// Newton's method on the closed form, inside a bracket that every step shrinks; where the step
     /// leaves the bracket (no intensity, the pole) it is halved instead. A Newton step squares the
     /// error, in widths of the strip, so that one below 1e-9 was the last; halving alone would
-    /// take 64.
+    /// take 64. Strips of tables are narrow: their sines and cosines are those of their middle and polynomials.
     pub(super) fn angle_below_which(&self, flux: f64) -> f64 {
-        let [mut low, mut high] = self.angles_rad;
-        let width = high - low;
-        let mut angle = self.first_guess(flux);
-        for _ in 0..64 {
-            let excess = self.below(angle).flux() - flux;
-            if excess > 0.0 {
-                high = angle;
-            } else {
-                low = angle;
+        let [low, high] = self.angles_rad;
+        match Narrow::of(self) {
+            Some(narrow) => {
+                let half = narrow.half_rad;
+                let from_middle = newton([-half, half], narrow.first_guess(flux), |t| {
+                    (narrow.flux_below(t) - flux, narrow.density(t))
+                });
+                (narrow.middle_rad + from_middle).clamp(low, high)
             }
-            let slope = self.intensity_at(angle) * libm::sin(angle);
-            let newton = angle - excess / slope;
-            let inside = newton > low && newton < high;
-            let next = if inside { newton } else { 0.5 * (low + high) };
-            let step = (next - angle).abs();
-            angle = next;
-            let enough = if inside { 1e-9 * width } else { 0.0 };
-            if step <= enough.max(f64::EPSILON * angle) {
-                break;
-            }
+            None => newton(self.angles_rad, self.first_guess(flux), |angle| {
+                let excess = self.below(angle).flux() - flux;
+                (excess, self.intensity_at(angle) * libm::sin(angle))
+            }),
         }
-        angle
     }
 
     /// The answer if intensity were linear in the cosine of the angle.
@@ -77,6 +69,116 @@ impl Strip {
     }
 }
 
+/// Where in a bracket an increasing function is zero, which is given with its slope.
+fn newton([mut low, mut high]: [f64; 2], guess: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
+    let width = high - low;
+    let mut at = guess;
+    for _ in 0..64 {
+        let (excess, slope) = f(at);
+        if excess > 0.0 {
+            high = at;
+        } else {
+            low = at;
+        }
+        let newton = at - excess / slope;
+        let inside = newton > low && newton < high;
+        let next = if inside { newton } else { 0.5 * (low + high) };
+        let step = (next - at).abs();
+        at = next;
+        let enough = if inside { 1e-9 * width } else { 0.0 };
+        if step <= enough.max(f64::EPSILON * at.abs()) {
+            break;
+        }
+    }
+    at
+}
+
+/// A strip about its middle, over which `sin(middle + t) = sin(middle) cos(t) + cos(middle) sin(t)`.
+struct Narrow {
+    middle_rad: f64,
+    half_rad: f64,
+    sin_middle: f64,
+    cos_middle: f64,
+    /// Intensity in the middle, cd, and its slope, cd/rad.
+    intensity_cd: f64,
+    slope: f64,
+    /// The integral from the middle to the lower bound.
+    at_low: f64,
+}
+
+impl Narrow {
+    /// `None` for a strip so wide that the polynomials do not hold.
+    fn of(strip: &Strip) -> Option<Self> {
+        let [low, high] = strip.angles_rad;
+        let (middle_rad, half_rad) = (0.5 * (low + high), 0.5 * (high - low));
+        if !(half_rad > 0.0 && half_rad < SERIES_UP_TO) {
+            return None;
+        }
+        let (sin_middle, cos_middle) = libm::sincos(middle_rad);
+        let [of_low, of_high] = strip.intensities_cd;
+        let (intensity_cd, slope) = (0.5 * (of_low + of_high), (of_high - of_low) / (high - low));
+        let narrow =
+            Self { middle_rad, half_rad, sin_middle, cos_middle, intensity_cd, slope, at_low: 0.0 };
+        Some(Self { at_low: narrow.integral(-half_rad), ..narrow })
+    }
+
+    /// Flux below an angle from the middle.
+    fn flux_below(&self, t: f64) -> f64 {
+        self.integral(t) - self.at_low
+    }
+
+    /// Flux between the middle and an angle from it.
+    fn integral(&self, t: f64) -> f64 {
+        let (sine, versine) = small_sine(t);
+        let even = self.sin_middle * sine + self.cos_middle * versine;
+        let odd =
+            self.sin_middle * (t * sine - versine) + self.cos_middle * t * first_moment(t.abs());
+        self.intensity_cd * even + self.slope * odd
+    }
+
+    /// Flux per angle.
+    fn density(&self, t: f64) -> f64 {
+        let (sine, versine) = small_sine(t);
+        let sine = self.sin_middle * (1.0 - versine) + self.cos_middle * sine;
+        (self.intensity_cd + self.slope * t) * sine
+    }
+
+    /// The answer if the density were linear.
+    fn first_guess(&self, flux: f64) -> f64 {
+        let half = self.half_rad;
+        let ends = [-half, half].map(|t| self.density(t).max(0.0));
+        (2.0 * share_below(ends, flux / self.flux_below(half)) - 1.0) * half
+    }
+}
+
+/// Largest angle for which the series are taken, rad.
+const SERIES_UP_TO: f64 = 0.5;
+
+/// Sine and one minus cosine of an angle no greater than that: terms left out are below 1e-16 of them.
+fn small_sine(t: f64) -> (f64, f64) {
+    const SINE: [f64; 7] = [
+        1.0,
+        -1.0 / 6.0,
+        1.0 / 120.0,
+        -1.0 / 5040.0,
+        1.0 / 362_880.0,
+        -1.0 / 39_916_800.0,
+        1.0 / 6_227_020_800.0,
+    ];
+    const VERSINE: [f64; 7] = [
+        0.5,
+        -1.0 / 24.0,
+        1.0 / 720.0,
+        -1.0 / 40_320.0,
+        1.0 / 3_628_800.0,
+        -1.0 / 479_001_600.0,
+        1.0 / 87_178_291_200.0,
+    ];
+    let x = t * t;
+    let series = |terms: &[f64; 7]| terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
+    (t * series(&SINE), x * series(&VERSINE))
+}
+
 /// What each end contributes to the integral of a linear function times the sine:
 /// `[w0, w1]` with `integral = w0 f(low) + w1 f(high)`. Neither is negative.
 ///
@@ -92,7 +194,7 @@ pub(super) fn weights([low, high]: [f64; 2]) -> [f64; 2] {
 /// `(sin h - h cos h) / h` for h >= 0.
 fn first_moment(h: f64) -> f64 {
     // The series' first term left out, h^12 / 2 / 11!! of the sum, is below one rounding there.
-    if h < 0.5 {
+    if h < SERIES_UP_TO {
         const TERMS: [f64; 6] = [
             1.0 / 3.0,
             -1.0 / 30.0,

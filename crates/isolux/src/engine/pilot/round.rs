@@ -2,6 +2,7 @@
 
 use super::Pilot;
 use crate::engine::accuracy::BELIEVED_INCREMENTS;
+use crate::engine::allot::{allot, areas_m2, mean_of};
 use crate::engine::caustics;
 use crate::engine::checks;
 use crate::engine::forecast::{Excess, GoOn, Outlook, Round};
@@ -45,12 +46,17 @@ impl Pilot<'_> {
             let then = vertices as f64 * excess.max(1.0).sqrt();
             (then.min(most) - vertices as f64).max(0.0)
         });
+        let wanted = trial.wanted(request.target, rms_lx, BELIEVED_INCREMENTS);
+        let rays = look.map_or(wanted, |look| {
+            let areas_m2 = areas_m2(&self.subdivision, &look.errors, &self.carriers);
+            mean_of(&allot(&areas_m2, wanted))
+        });
         let outlook = Outlook {
             carriers,
             gathered: gathered as f64,
             vertices: vertices as f64,
             pilot_rays: f64::from(self.rays),
-            rays: f64::from(trial.rays_for(request.target, rms_lx, BELIEVED_INCREMENTS)),
+            rays,
             checks: checks::count(vertices) as f64,
             particles: if self.lighting.leaves_caustics() {
                 f64::from(caustics::particles(vertices))
