@@ -341,7 +341,7 @@ impl<'a> Surfaces<'a> {
 }
 
 /// Of every vertex, the least that edges connect it to.
-fn least_connected(subdivision: &Subdivision) -> Vec<u32> {
+pub(super) fn least_connected(subdivision: &Subdivision) -> Vec<u32> {
     fn root(of: &mut [u32], mut v: u32) -> u32 {
         while of[v as usize] != v {
             of[v as usize] = of[of[v as usize] as usize];

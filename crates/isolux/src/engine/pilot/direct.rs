@@ -85,6 +85,7 @@ impl Pilot<'_> {
                 break;
             }
             look.elements = self.subdivision.elements();
+            self.complete_rays();
             let gatherers = self.gatherers();
             self.complete_direct(&gatherers);
             self.extend_known(&look.elements, &gatherers);

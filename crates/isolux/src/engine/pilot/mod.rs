@@ -8,7 +8,8 @@ mod direct;
 mod round;
 
 use super::accuracy::BELIEVED_INCREMENTS;
-use super::carriers::Carriers;
+use super::allot::allot;
+use super::carriers::{Carriers, least_connected};
 use super::detail::{Details, Refinement, bisect_twice, refine_worst};
 use super::direct::Lighting;
 use super::fit::Fit;
@@ -85,7 +86,8 @@ struct Pilot<'s> {
     middles: HashMap<u32, f64>,
     /// Nodes there were then.
     solved_nodes: u32,
-    rays: u32,
+    /// Rays that a vertex gathers with, alike all over a surface, so that their noise is.
+    rays: Vec<u32>,
     traced: u64,
     least_edge_m: f64,
     costs: Costs,
@@ -128,6 +130,7 @@ impl<'s> Pilot<'s> {
         let first = first + MORE_A_VERTEX * subdivision.vertex_count() as f64;
         let edge_m = (2.0 * area_m2 / first).sqrt();
         subdivision.bisect_to(edge_m, request.max_vertices);
+        let rays = allot_to_surfaces(&subdivision, pilot_rays(request.target));
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         Self {
@@ -147,7 +150,7 @@ impl<'s> Pilot<'s> {
             beset: Vec::new(),
             middles: HashMap::new(),
             solved_nodes: 0,
-            rays: pilot_rays(request.target),
+            rays,
             traced: 0,
             costs: Costs::default(),
             is_measured: false,
@@ -204,12 +207,23 @@ impl<'s> Pilot<'s> {
 
     fn gatherers(&self) -> Vec<Gatherer> {
         let receivers = self.subdivision.receivers(PULL_IN);
-        receivers.iter().map(|r| Gatherer::at_vertex(self.scene, r, self.rays)).collect()
+        let with = receivers.iter().zip(&self.rays);
+        with.map(|(receiver, &rays)| Gatherer::at_vertex(self.scene, receiver, rays)).collect()
+    }
+
+    /// New vertices gather as their parents do.
+    fn complete_rays(&mut self) {
+        for vertex in &self.subdivision.vertices()[self.rays.len()..] {
+            let [parent, _] =
+                vertex.parents.expect("vertices beyond the first are made by bisection");
+            self.rays.push(self.rays[parent as usize]);
+        }
     }
 
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
     fn look(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Look {
         let elements = self.subdivision.elements();
+        self.complete_rays();
         let gatherers = self.gatherers();
         self.complete_direct(&gatherers);
         self.complete_indirect(&elements, &gatherers, request, go_on);
@@ -290,7 +304,8 @@ impl<'s> Pilot<'s> {
         let beset = |node: u32| {
             let place = SurfacePoint::amid_node(self.scene, &self.subdivision, node);
             let edge_m = self.subdivision.longest_edge_m(node);
-            let gatherer = Gatherer::on_surface(place, self.rays);
+            let corner = self.subdivision.node(node).0.vertices[0];
+            let gatherer = Gatherer::on_surface(place, self.rays[corner as usize]);
             let asks =
                 self.beset[node as usize] && !trust::is_closed_in(self.scene, &place, edge_m);
             asks.then_some((node, gatherer))
@@ -382,7 +397,7 @@ impl<'s> Pilot<'s> {
         let row = |&vertex: &u32| {
             let gatherer = &gatherers[vertex as usize];
             let edge_m = edges_m[vertex as usize];
-            let rays = if self.carriers.is_active(vertex) { self.rays } else { 0 };
+            let rays = if self.carriers.is_active(vertex) { gatherer.rays } else { 0 };
             let in_gap = trust::is_closed_in(self.scene, &gatherer.surface, edge_m);
             gatherer.with_rays(rays).in_gap(in_gap)
         };
@@ -560,6 +575,28 @@ fn rms(elements: &Elements, standings: &[Option<Standing>], value: impl Fn(usize
         sum += vertex.area_m2 * value(k) * value(k);
     }
     if area > 0.0 { (sum / area).sqrt() } else { 0.0 }
+}
+
+/// Rays of the vertices in the pilot: so many where a surface has no more vertices than others for its area, fewer where it
+/// has (see [`allot`]), a quarter of them at least.
+fn allot_to_surfaces(subdivision: &Subdivision, usual: u32) -> Vec<u32> {
+    let surfaces = least_connected(subdivision);
+    let mut of_surface = vec![(0.0, 0.0); surfaces.len()];
+    for leaf in subdivision.leaves() {
+        let surface = surfaces[subdivision.node(leaf).0.vertices[0] as usize];
+        of_surface[surface as usize].0 += subdivision.triangle(leaf).area();
+    }
+    surfaces.iter().for_each(|&surface| of_surface[surface as usize].1 += 1.0);
+    let area_m2 = |&surface: &u32| {
+        let (area_m2, vertices) = of_surface[surface as usize];
+        area_m2 / vertices
+    };
+    let areas_m2: Vec<f64> = surfaces.iter().map(area_m2).collect();
+    let allotted = allot(&areas_m2, f64::from(usual));
+    allotted
+        .into_iter()
+        .map(|rays| if rays == 0 { usual } else { rays.clamp(usual / 4, usual) })
+        .collect()
 }
 
 /// Rays of a receiver in the pilot: more for finer accuracies, so that their noise stays below the

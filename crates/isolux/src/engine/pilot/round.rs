@@ -55,7 +55,7 @@ impl Pilot<'_> {
             carriers,
             gathered: gathered as f64,
             vertices: vertices as f64,
-            pilot_rays: f64::from(self.rays),
+            pilot_rays: mean_of(&self.rays),
             rays,
             checks: checks::count(vertices) as f64,
             particles: if self.lighting.leaves_caustics() {
