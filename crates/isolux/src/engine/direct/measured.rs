@@ -23,6 +23,9 @@ const COMB_ORDER: f64 = 0.7;
 /// right.
 const DOUBT: f64 = 0.5;
 
+/// Where light may be so many times as noisy, rough clusters will do.
+const ROUGH_FROM: f64 = 1.5;
+
 /// How well light is to be known.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::engine) struct Goal {
@@ -32,18 +35,27 @@ pub(in crate::engine) struct Goal {
     pub(in crate::engine) share: f64,
     /// Rays of a first look, which tells how many it takes; none for the fewest.
     pub(in crate::engine) first_look: usize,
+    /// Whether clusters may be rough.
+    pub(in crate::engine) is_rough: bool,
 }
 
 impl Goal {
     /// A look by the fewest rays.
-    pub(in crate::engine) const ANY: Self = Self { lx: 0.0, share: 0.0, first_look: 0 };
+    pub(in crate::engine) const ANY: Self =
+        Self { lx: 0.0, share: 0.0, first_look: 0, is_rough: true };
 
     /// What a reading of a map is worth.
-    pub(in crate::engine) const READING: Self = Self { lx: 0.0, share: 0.003, first_look: 64 };
+    pub(in crate::engine) const READING: Self =
+        Self { lx: 0.0, share: 0.003, first_look: 64, is_rough: false };
+
+    /// With so many times the noise; where that is much, by clusters as rough as those that one luminaire is drawn from.
+    pub(in crate::engine) fn relaxed(self, by: f64) -> Self {
+        Self { lx: self.lx * by, is_rough: by >= ROUGH_FROM, ..self }
+    }
 
     /// So many lux, after a short look.
     pub(in crate::engine) const fn lux(lx: f64) -> Self {
-        Self { lx, share: 0.0, first_look: 16 }
+        Self { lx, share: 0.0, first_look: 16, is_rough: false }
     }
 }
 
@@ -71,8 +83,7 @@ impl Lighting<'_> {
             let lx = self.illuminance(at, &mut Dice::new(sequence, 0));
             return Measured { lx, variance: 0.0 };
         }
-        let is_rough = goal.first_look == 0;
-        let cut = if is_rough { self.rough_cut(at) } else { self.fine_cut(at) };
+        let cut = if goal.is_rough { self.rough_cut(at) } else { self.fine_cut(at) };
         let teeth = self.teeth(&cut, at, goal, &mut Dice::new(sequence, REPLICATES));
         let of_each =
             (REPLICATES as usize * teeth >= self.count(&cut)).then(|| self.lit_by_each(&cut, at));

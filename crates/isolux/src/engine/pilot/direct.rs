@@ -20,6 +20,14 @@ const MOST_FOR_DIRECT_LIGHT: usize = 2;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 /// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
 const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
+/// The most of the noise of others that light may have at vertices of little area.
+const MOST_RELIEF: f64 = 4.0;
+
+/// How much noisier light may be at a vertex that stands for such a part of the mean area: combs of n teeth err like n^-0.7, so
+/// that what allots them best grows like the area to the power 1 / 2.4 (see [`super::super::allot`]).
+fn relief(area: f64) -> f64 {
+    libm::pow(area.max(f64::MIN_POSITIVE), -0.7 / 2.4).clamp(1.0, MOST_RELIEF)
+}
 
 impl Pilot<'_> {
     /// Direct light at the vertices that have none yet, by the fewest rays.
@@ -38,7 +46,7 @@ impl Pilot<'_> {
         &mut self,
         gatherers: &[Gatherer],
         request: &PilotRequest,
-        rms_lx: f64,
+        Look { elements, rms_lx, .. }: &Look,
     ) {
         self.direct.clear();
         self.direct_variance.clear();
@@ -48,9 +56,12 @@ impl Pilot<'_> {
             self.direct_variance.fill(0.0);
             return;
         }
-        let goal = Goal::lux(NOISE_OF_DIRECT_LIGHT * request.mesh_target * rms_lx);
         let key = self.key.with(5);
+        let vertices = elements.vertices();
+        let mean_m2 = vertices.iter().map(|v| v.area_m2).sum::<f64>() / vertices.len() as f64;
+        let goal_lx = NOISE_OF_DIRECT_LIGHT * request.mesh_target * rms_lx;
         let measured = |(k, g): (usize, &Gatherer)| {
+            let goal = Goal::lux(goal_lx).relaxed(relief(vertices[k].area_m2 / mean_m2));
             lighting.measured(&g.surface, goal, Sequence::new(key.with(k as u64)))
         };
         let all: Vec<Measured> = gatherers.par_iter().enumerate().map(measured).collect();

@@ -522,7 +522,7 @@ impl<'s> Pilot<'s> {
         // measurement has to do.
         let gatherers = self.gatherers();
         if self.has_time(&look, request, FINE, go_on) {
-            self.measure_direct(&gatherers, request, look.rms_lx);
+            self.measure_direct(&gatherers, request, &look);
         }
         self.is_measured = true;
         go_on(&self.round(request, Some(&look), FINE));
