@@ -495,8 +495,7 @@ impl Operator {
         self.solve_or_give_up(guess, given, (carriers, None), tolerance).0
     }
 
-    /// The same, and the root mean square of what the last sweep changed if the sweeps did not
-    /// settle, else zero. What does not carry light is interpolated; with a fit, the light that is
+    /// The same, and the root mean square of what the last sweep changed. What does not carry light is interpolated; with a fit, the light that is
     /// applied to is that of best fit.
     ///
     /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of
@@ -531,10 +530,10 @@ impl Operator {
                 size += value * value;
             }
             let settled = change <= tolerance * tolerance * size;
-            if settled {
-                return (next, 0.0);
-            }
             unsettled = (change / light.len().max(1) as f64).sqrt();
+            if settled {
+                return (next, unsettled);
+            }
             next.truncate(given.len());
             let changes: Vec<Rgb> = next.iter().zip(&light).map(|(&a, &b)| a - b).collect();
             light = next;

@@ -5,6 +5,7 @@
 //! error of their mean.
 
 use super::accumulate::{Accumulator, Effort, Sample};
+use super::accuracy::BELIEVED_INCREMENTS;
 use super::caustics;
 use super::checks::{self, Check};
 use super::deadline::Deadline;
@@ -30,6 +31,8 @@ pub(super) struct Hybrid<'p, 's> {
     check_direct: Vec<Rgb>,
     rows: Vec<Gatherer>,
     check_rows: Vec<Gatherer>,
+    /// For caustics.
+    particles: u32,
     /// Accuracy that the increments are for.
     goal: f64,
     key: Key,
@@ -50,9 +53,12 @@ impl<'p, 's> Hybrid<'p, 's> {
             plan.gatherers[vertex].with_rays(allotted[vertex]).in_gap(in_gap)
         };
         let rows = (0..plan.indirect_vertices).map(row).collect();
+        let of_goal = (goal, plan.rms_lx);
+        let particles =
+            plan.caustic_noise.particles(plan.indirect_vertices, of_goal, BELIEVED_INCREMENTS);
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
-        Self { plan, check_direct, rows, check_rows, goal, key }
+        Self { plan, check_direct, rows, check_rows, particles, goal, key }
     }
 
     /// Time that an increment takes, s, roughly: a part of its receivers is tried.
@@ -91,7 +97,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
             direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
-        let (caustic, particles) = caustics::deposit(plan, key.with(1));
+        let (caustic, particles) = caustics::deposit(plan, self.particles, key.with(1));
         let gathering = Gathering::of(plan, &direct);
         let operator =
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;

@@ -2,6 +2,7 @@
 
 use super::allot::{allot, areas_m2};
 use super::carriers::Carriers;
+use super::caustics::CausticNoise;
 use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
@@ -43,6 +44,8 @@ pub(super) struct Plan<'s> {
     pub(super) rms_lx: f64,
     /// How noisy gathered light is.
     pub(super) trial: Trial,
+    /// How noisy caustics are.
+    pub(super) caustic_noise: CausticNoise,
     /// From indirect light at the vertices to the function that fits best.
     pub(super) fit: Fit,
     /// Whether there was time for all of it.

@@ -127,7 +127,8 @@ impl<'p, 's> Cached<'p, 's> {
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
             hybrid::direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
-        let (caustic, particles) = caustics::deposit(plan, key.with(1));
+        let (caustic, particles) =
+            caustics::deposit(plan, caustics::particles(plan.indirect_vertices), key.with(1));
         let caustic_at = |at: &SurfacePoint| caustic_at(plan, &caustic, at);
         let making = |part: u64, rays: u32| Making {
             index,

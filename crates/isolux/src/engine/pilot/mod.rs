@@ -10,11 +10,12 @@ mod round;
 use super::accuracy::BELIEVED_INCREMENTS;
 use super::allot::allot;
 use super::carriers::{Carriers, least_connected};
+use super::caustics::CausticNoise;
 use super::detail::{Details, Refinement, bisect_twice, refine_worst};
 use super::direct::Lighting;
 use super::fit::Fit;
 use super::forecast::{Costs, FINE, GoOn};
-use super::gather::{DirectAtEnds, Gatherer, Gathering};
+use super::gather::{DirectAtEnds, Gatherer, Gathering, known_weights};
 use super::hidden::Sight;
 pub(super) use super::look::PilotRequest;
 use super::look::{Look, Read};
@@ -95,6 +96,7 @@ struct Pilot<'s> {
     is_measured: bool,
     /// What a few receivers tell of noise, once there is light.
     trial: Option<Trial>,
+    caustic_noise: CausticNoise,
     /// Whether there was time for all that it wanted to do.
     is_whole: bool,
 }
@@ -155,6 +157,7 @@ impl<'s> Pilot<'s> {
             costs: Costs::default(),
             is_measured: false,
             trial: None,
+            caustic_noise: CausticNoise::default(),
             is_whole: true,
             least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
         }
@@ -202,6 +205,16 @@ impl<'s> Pilot<'s> {
         let wanted = (target, look.rms_lx, BELIEVED_INCREMENTS, self.key.with(6));
         let (trial, rays) = Trial::of(&gathering, &some, &self.indirect, wanted);
         self.trial = Some(trial);
+        self.traced += rays;
+        let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();
+        let read = |at: &SurfacePoint| {
+            let corners = look.elements.locate(at.triangle, at.back, at.u, at.v)?;
+            let weights = known_weights(corners, &self.standings)?;
+            Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
+        };
+        let of = (self.scene, self.lighting);
+        let (noise, rays) = CausticNoise::tried(of, &areas_m2, read, self.key.with(7));
+        self.caustic_noise = noise;
         self.traced += rays;
     }
 
@@ -548,6 +561,7 @@ impl<'s> Pilot<'s> {
             standings,
             subdivision: coarse,
             trial: self.trial.unwrap_or(Trial::usual(look.rms_lx)),
+            caustic_noise: self.caustic_noise,
             is_whole: self.is_whole,
             rays: self.traced,
         }

@@ -3,7 +3,6 @@
 use super::Pilot;
 use crate::engine::accuracy::BELIEVED_INCREMENTS;
 use crate::engine::allot::{allot, areas_m2, mean_of};
-use crate::engine::caustics;
 use crate::engine::checks;
 use crate::engine::forecast::{Excess, GoOn, Outlook, Round};
 use crate::engine::look::{Look, PilotRequest};
@@ -51,6 +50,7 @@ impl Pilot<'_> {
             let areas_m2 = areas_m2(&self.subdivision, &look.errors, &self.carriers);
             mean_of(&allot(&areas_m2, wanted))
         });
+        let of_goal = (request.target, rms_lx);
         let outlook = Outlook {
             carriers,
             gathered: gathered as f64,
@@ -59,7 +59,7 @@ impl Pilot<'_> {
             rays,
             checks: checks::count(vertices) as f64,
             particles: if self.lighting.leaves_caustics() {
-                f64::from(caustics::particles(vertices))
+                f64::from(self.caustic_noise.particles(vertices, of_goal, BELIEVED_INCREMENTS))
             } else {
                 0.0
             },

@@ -534,7 +534,11 @@ fn caustic(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>, Effort) {
     let mut sum = Effort::default();
     let mut replicates = Vec::new();
     for replicate in 0..REPLICATES {
-        let (light, effort) = caustics::deposit(plan, key.with(replicate));
+        let (light, effort) = caustics::deposit(
+            plan,
+            caustics::particles(plan.indirect_vertices),
+            key.with(replicate),
+        );
         sum.rays += effort.rays;
         sum.given_up_lx += effort.given_up_lx / REPLICATES as f64;
         replicates.push(light);
