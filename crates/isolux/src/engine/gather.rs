@@ -5,6 +5,7 @@
 //! is left open: the ray becomes an entry of a sparse matrix, so that the light of all further
 //! reflections is the fixed point of `E = source + A E`, solved without tracing the rays again.
 
+use super::anderson::Anderson;
 use super::carriers::Carriers;
 use super::deadline::Deadline;
 use super::direct::{About, Lighting};
@@ -495,12 +496,11 @@ impl Operator {
         self.solve_or_give_up(guess, given, (carriers, None), tolerance).0
     }
 
-    /// The same, and the root mean square of what the last sweep changed. What does not carry light is interpolated; with a fit, the light that is
-    /// applied to is that of best fit.
+    /// The same, and the root mean square of what the last sweep changed. What does not carry light is
+    /// interpolated; with a fit, the light that is applied to is that of best fit.
     ///
     /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of
-    /// the operator: the light between walls fades as a whole. Every third sweep goes on at once to
-    /// where that series would end (Aitken 1926), channel by channel.
+    /// the operator; [`Anderson`] takes what the sweeps have told of it into account.
     pub(super) fn solve_or_give_up(
         &self,
         guess: &[Rgb],
@@ -520,8 +520,8 @@ impl Operator {
         };
         let mut light = guess.to_vec();
         let mut unsettled = 0.0;
-        let mut before: Option<Vec<Rgb>> = None;
-        for sweep in 0..MAX_SWEEPS {
+        let mut mixing = Anderson::default();
+        for _ in 0..MAX_SWEEPS {
             let mut next = apply(&with_given(&light));
             let (mut change, mut size) = (0.0, 0.0);
             for (a, b) in next.iter().zip(&light) {
@@ -535,31 +535,11 @@ impl Operator {
                 return (next, unsettled);
             }
             next.truncate(given.len());
-            let changes: Vec<Rgb> = next.iter().zip(&light).map(|(&a, &b)| a - b).collect();
-            light = next;
-            match before.take().filter(|_| sweep % 3 == 2) {
-                Some(before) => extrapolate(&mut light, &changes, &before),
-                None => before = Some(changes),
-            }
+            light = mixing.next(&light, next);
         }
         (apply(&with_given(&light)), unsettled)
     }
 }
-
-/// Adds to the light what further changes would, if each were that factor times the one before by
-/// which the last one differs from `before`.
-fn extrapolate(light: &mut [Rgb], changes: &[Rgb], before: &[Rgb]) {
-    let sum = |products: &dyn Fn(usize) -> Rgb| (0..changes.len()).map(products).sum::<Rgb>();
-    let (common, size) = (sum(&|k| changes[k] * before[k]), sum(&|k| before[k] * before[k]));
-    let further = Rgb([0, 1, 2].map(|channel| {
-        let factor = common.0[channel] / size.0[channel];
-        if factor > 0.0 { factor.min(MOST) / (1.0 - factor.min(MOST)) } else { 0.0 }
-    }));
-    light.iter_mut().zip(changes).for_each(|(light, &change)| *light += further * change);
-}
-
-/// Greatest factor from change to change that is believed.
-const MOST: f64 = 0.99;
 
 /// Sweeps of the fixed point before giving up: at mean reflectance 0.99 the light left is e^-20.
 const MAX_SWEEPS: usize = 2000;

@@ -3,6 +3,7 @@
 mod accumulate;
 mod accuracy;
 mod allot;
+mod anderson;
 mod cache;
 mod carriers;
 mod caustics;

@@ -1,0 +1,111 @@
+//! Fixed points in few sweeps (Anderson 1965, "Iterative procedures for nonlinear integral equations").
+//!
+//! The light between walls fades as a whole from sweep to sweep, and slower than anything else that is wrong with it. The last
+//! few sweeps tell how what is changed answers to changes of light; the next light is the one that would be changed
+//! least if it answered so again. On linear problems that is GMRES over as many directions (Walker and Ni 2011).
+
+use crate::units::Rgb;
+use rayon::prelude::*;
+use std::collections::VecDeque;
+
+/// Sweeps that are remembered.
+const DEPTH: usize = 3;
+
+/// A direction of which less than this is left by those before, in the square, says nothing new.
+const LEAST_PIVOT: f64 = 1e-10;
+
+/// Values of one part of the sums: always the same, so that they are.
+const CHUNK: usize = 4096;
+
+/// What the last sweeps have told.
+#[derive(Default)]
+pub(super) struct Anderson {
+    /// The last image of the light, and what was changed.
+    before: Option<(Vec<Rgb>, Vec<Rgb>)>,
+    /// From sweep to sweep, the change of the image, and that of what was changed.
+    steps: VecDeque<(Vec<Rgb>, Vec<Rgb>)>,
+}
+
+impl Anderson {
+    /// The light to go on with, after some light and its image.
+    pub(super) fn next(&mut self, light: &[Rgb], image: Vec<Rgb>) -> Vec<Rgb> {
+        let change = minus(&image, light);
+        if let Some((image_before, change_before)) = &self.before {
+            let now = dot(&change, &change);
+            let then = dot(change_before, change_before);
+            if now.luminance() > then.luminance() {
+                // It did not answer as before.
+                self.steps.clear();
+            } else {
+                let step = (minus(&image, image_before), minus(&change, change_before));
+                self.steps.push_back(step);
+                if self.steps.len() > DEPTH {
+                    self.steps.pop_front();
+                }
+            }
+        }
+        let shares = self.shares(&change);
+        let one = |k: usize| {
+            let undone = |((image, _), &share): (&(Vec<Rgb>, _), &Rgb)| image[k] * share;
+            image[k] - self.steps.iter().zip(&shares).map(undone).sum::<Rgb>()
+        };
+        let next = (0..image.len()).into_par_iter().with_min_len(CHUNK).map(one).collect();
+        self.before = Some((image, change));
+        next
+    }
+
+    /// How much of each step to take back, channel by channel, so that the least is changed: least squares by
+    /// the normal equations.
+    fn shares(&self, change: &[Rgb]) -> Vec<Rgb> {
+        let count = self.steps.len();
+        let of = |k: usize| &self.steps[k].1[..];
+        let mut products = [[Rgb::BLACK; DEPTH + 1]; DEPTH];
+        for row in 0..count {
+            for column in 0..row {
+                products[row][column] = products[column][row];
+            }
+            for column in row..count {
+                products[row][column] = dot(of(row), of(column));
+            }
+            products[row][count] = dot(of(row), change);
+        }
+        let mut shares = vec![Rgb::BLACK; count];
+        for channel in 0..3 {
+            let rows = products.map(|row| row.map(|p| p.0[channel]));
+            let solved = solved(rows, count);
+            shares.iter_mut().zip(solved).for_each(|(share, value)| share.0[channel] = value);
+        }
+        shares
+    }
+}
+
+/// The solution of `count` equations, whose right sides come last; zero for unknowns that the others leave open.
+fn solved(mut rows: [[f64; DEPTH + 1]; DEPTH], count: usize) -> [f64; DEPTH] {
+    let mut found = [false; DEPTH];
+    let diagonal: [f64; DEPTH] = std::array::from_fn(|k| rows[k][k]);
+    // The latest first: it says most.
+    for k in (0..count).rev() {
+        if rows[k][k] <= LEAST_PIVOT * diagonal[k] || rows[k][k] <= 0.0 {
+            continue;
+        }
+        found[k] = true;
+        for other in (0..count).filter(|&other| other != k) {
+            let factor = rows[other][k] / rows[k][k];
+            for column in 0..=count {
+                rows[other][column] -= factor * rows[k][column];
+            }
+        }
+    }
+    std::array::from_fn(|k| if found[k] { rows[k][count] / rows[k][k] } else { 0.0 })
+}
+
+fn minus(a: &[Rgb], b: &[Rgb]) -> Vec<Rgb> {
+    a.par_iter().zip(b).with_min_len(CHUNK).map(|(&a, &b)| a - b).collect()
+}
+
+/// The sum of products, part by part in their order, whoever adds them up.
+fn dot(a: &[Rgb], b: &[Rgb]) -> Rgb {
+    let part = |(a, b): (&[Rgb], &[Rgb])| a.iter().zip(b).map(|(&a, &b)| a * b).sum::<Rgb>();
+    let parts: Vec<Rgb> = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)).map(part).collect();
+    parts.into_iter().sum()
+}
