@@ -24,6 +24,9 @@ const SHARE: usize = 8;
 const FEWEST: usize = 256;
 const MOST: usize = 1024;
 
+/// Points of one task: some take a hundred times as long as others.
+const AT_ONCE: usize = 8;
+
 /// Rays that tell how much a reader reads close by.
 const CLOSE_RAYS: u32 = 64;
 
@@ -155,7 +158,7 @@ pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
     let one = |(k, check): (usize, &Check)| {
         plan.lighting.measured(&check.gatherer.surface, goal, sequence(k)).lx
     };
-    checks.par_iter().enumerate().map(one).collect()
+    checks.par_iter().with_max_len(AT_ONCE).enumerate().map(one).collect()
 }
 
 /// Adds one increment: `fresh` is what was gathered at the points, `direct` what luminaires give

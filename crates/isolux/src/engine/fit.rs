@@ -18,7 +18,6 @@ use crate::elements::{Element, Elements};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
-use std::collections::HashMap;
 
 /// Sums of weights without their signs beyond this are no second differences, but slivers.
 const MOST_WEIGHT: f64 = 4.0;
@@ -54,12 +53,17 @@ impl Fit {
             })
             .collect();
         let on_border = borders(&all, &neighbours, vertices);
-        let mut sums: Vec<(f64, HashMap<u32, f64>)> = vec![Default::default(); vertices];
-        for (k, element) in all.iter().enumerate().filter(|(_, e)| is_known(e)) {
+        let within = |vertex: u32| !on_border[vertex as usize];
+        let mean = |k: usize| mean_excess(&all, &inner, &neighbours[k], k, &place);
+        let is_moved = |e: &Element| is_known(e) && e.vertices.iter().any(|&v| within(v));
+        let means: Vec<Form> = (0..all.len())
+            .into_par_iter()
+            .map(|k| if is_moved(&all[k]) { mean(k) } else { Form::new() })
+            .collect();
+        let mut sums: Vec<(f64, Form)> = vec![Default::default(); vertices];
+        for (element, mean) in all.iter().zip(means).filter(|(e, _)| is_known(e)) {
             let corners = element.vertices.map(place);
             let area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
-            let mean = mean_excess(&all, &inner, &neighbours[k], k, &place);
-            let within = |vertex: u32| !on_border[vertex as usize];
             let moved = element.vertices.iter().filter(|&&v| within(v)).count();
             for vertex in element.vertices {
                 let (area, forms) = &mut sums[vertex as usize];
@@ -67,17 +71,24 @@ impl Fit {
                 if within(vertex) {
                     // Those that stay leave their part to the others.
                     let share_m2 = area_m2 * 3.0 / moved as f64;
-                    for &(v, weight) in &mean {
-                        *forms.entry(v).or_default() += weight * share_m2;
-                    }
+                    forms.extend(mean.iter().map(|&(v, weight)| (v, weight * share_m2)));
                 }
             }
         }
+        let form = |(area_m2, mut form): (f64, Form)| {
+            // In the order of the elements, for each vertex.
+            form.sort_by_key(|&(v, _)| v);
+            form.dedup_by(|next, sum| {
+                let same = next.0 == sum.0;
+                sum.1 += if same { next.1 } else { 0.0 };
+                same
+            });
+            form.iter_mut().for_each(|(_, weight)| *weight /= area_m2);
+            form
+        };
+        let forms: Vec<Form> = sums.into_par_iter().map(form).collect();
         let mut fit = Self::default();
-        for (area_m2, forms) in sums {
-            let mut form: Form =
-                forms.into_iter().map(|(v, weight)| (v, weight / area_m2)).collect();
-            form.sort_unstable_by_key(|&(v, _)| v);
+        for form in forms {
             let size: f64 = form.iter().map(|(_, weight)| weight.abs()).sum();
             if size <= MOST_WEIGHT {
                 fit.entries.extend(form);
@@ -111,19 +122,22 @@ impl Fit {
 /// Of every element, those on its edges: edge `k` is opposite vertex `k`. None where an edge is a
 /// border or a crease.
 fn neighbours(all: &[Element]) -> Vec<[Option<usize>; 3]> {
-    let mut on_edge: HashMap<[u32; 2], Vec<usize>> = HashMap::new();
-    let edge = |element: &Element, k: usize| {
-        let [a, b] = [element.vertices[(k + 1) % 3], element.vertices[(k + 2) % 3]];
-        [a.min(b), a.max(b)]
+    let of_element = |index: usize| {
+        [0, 1, 2].map(|k| {
+            let [a, b] = [all[index].vertices[(k + 1) % 3], all[index].vertices[(k + 2) % 3]];
+            ([a.min(b), a.max(b)], index, k)
+        })
     };
-    for (index, element) in all.iter().enumerate() {
-        (0..3).for_each(|k| on_edge.entry(edge(element, k)).or_default().push(index));
+    let mut edges: Vec<([u32; 2], usize, usize)> =
+        (0..all.len()).into_par_iter().flat_map_iter(of_element).collect();
+    edges.par_sort_unstable();
+    let mut beside = vec![[None; 3]; all.len()];
+    for alike in edges.chunk_by(|a, b| a.0 == b.0) {
+        if let [(_, a, on_a), (_, b, on_b)] = *alike {
+            (beside[a][on_a], beside[b][on_b]) = (Some(b), Some(a));
+        }
     }
-    let beside = |index: usize, k: usize| match *on_edge[&edge(&all[index], k)] {
-        [a, b] => Some(if a == index { b } else { a }),
-        _ => None,
-    };
-    (0..all.len()).map(|index| [0, 1, 2].map(|k| beside(index, k))).collect()
+    beside
 }
 
 /// Which vertices lie on borders and creases.

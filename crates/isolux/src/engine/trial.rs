@@ -15,7 +15,7 @@ const RAYS: u32 = 16;
 const NEARER: u32 = 4;
 
 /// The part of the accuracy asked for that noise may take.
-pub(super) const NOISE_SHARE: f64 = 0.5;
+pub(super) const NOISE_SHARE: f64 = 0.45;
 
 /// Variance of what is interpolated between three vertices, in the mean over an element, as a share of
 /// theirs: the integral of the sum of the squares of the hat functions over the area.

@@ -20,6 +20,8 @@ const MOST_FOR_DIRECT_LIGHT: usize = 2;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 /// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
 const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
+/// Vertices of one task: some take a hundred times as long as others.
+const AT_ONCE: usize = 32;
 /// The most of the noise of others that light may have at vertices of little area.
 const MOST_RELIEF: f64 = 4.0;
 
@@ -35,7 +37,8 @@ impl Pilot<'_> {
         let sequence = Sequence::new(self.key.with(1));
         let measured = |g: &Gatherer| self.lighting.measured(&g.surface, Goal::ANY, sequence);
         let started = Instant::now();
-        let new: Vec<Measured> = gatherers[self.direct.len()..].par_iter().map(measured).collect();
+        let new: Vec<Measured> =
+            gatherers[self.direct.len()..].par_iter().with_max_len(AT_ONCE).map(measured).collect();
         self.costs.direct.add(started.elapsed(), new.len() as f64);
         self.direct.extend(new.iter().map(|m| m.lx));
         self.direct_variance.extend(new.iter().map(|m| m.variance));
@@ -64,7 +67,8 @@ impl Pilot<'_> {
             let goal = Goal::lux(goal_lx).relaxed(relief(vertices[k].area_m2 / mean_m2));
             lighting.measured(&g.surface, goal, Sequence::new(key.with(k as u64)))
         };
-        let all: Vec<Measured> = gatherers.par_iter().enumerate().map(measured).collect();
+        let all: Vec<Measured> =
+            gatherers.par_iter().with_max_len(AT_ONCE).enumerate().map(measured).collect();
         self.direct.extend(all.iter().map(|m| m.lx));
         self.direct_variance.extend(all.iter().map(|m| m.variance));
     }
