@@ -9,12 +9,17 @@ use super::accuracy::BELIEVED_INCREMENTS;
 use std::time::Duration;
 
 /// Error of the elements against the number of vertices: a power between these is believed.
-const LEAST_ORDER: f64 = 0.4;
+const LEAST_ORDER: f64 = 0.7;
 const MOST_ORDER: f64 = 1.0;
 
 /// Before anything is seen, vertices grow so with the accuracy asked for, beyond this one.
 const USUAL_TARGET: f64 = 0.01;
 const USUAL_ORDER: f64 = 2.0;
+
+/// What an increment does for every vertex beside its rays, and what is done once before the first, in first looks
+/// at as many: measured in the hall.
+const EACH: f64 = 0.2;
+const ONCE: f64 = 1.0;
 
 /// Factors between what is said and what comes, in nine of ten runs: before the first look, while
 /// elements are refined, and when they are fixed.
@@ -49,6 +54,8 @@ pub(super) struct Costs {
     pub(super) direct: Cost,
     /// All else, by vertices that are looked at.
     pub(super) looks: Cost,
+    /// The same of the first mesh, where all of them are new.
+    pub(super) first: Cost,
 }
 
 /// What is known of the work to come.
@@ -115,14 +122,17 @@ impl Outlook {
             + costs.looks.of(if growth > 1.0 { vertices } else { 0.0 });
         let direct_s = costs.direct.of(self.measurements * vertices);
         let rays = (carriers + self.checks) * self.rays + self.particles * growth;
-        let each_s =
-            costs.rays.of(rays) + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
+        let first_s = costs.first.of(vertices);
+        let each_s = costs.rays.of(rays)
+            + EACH * first_s
+            + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
+        let once_s = if self.measurements > 0.0 { ONCE * first_s } else { 0.0 };
         let factor = match self.excess {
             None => BLIND,
             Some(excess) if excess > 1.0 => REFINING,
             Some(_) => FIXED,
         };
-        Left { time_s: pilot_s + direct_s + BELIEVED_INCREMENTS as f64 * each_s, factor }
+        Left { time_s: pilot_s + direct_s + once_s + BELIEVED_INCREMENTS as f64 * each_s, factor }
     }
 }
 

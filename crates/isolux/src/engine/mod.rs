@@ -14,6 +14,7 @@ mod direct;
 mod emission;
 mod filter;
 mod fit;
+mod flights;
 mod forecast;
 mod forward;
 mod gather;

@@ -2,10 +2,10 @@
 
 use super::allot::{allot, areas_m2};
 use super::carriers::Carriers;
-use super::caustics::CausticNoise;
 use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
+use super::flights::CausticNoise;
 use super::gather::{DirectAtEnds, Gatherer, Gathering, known_weights};
 use super::surface::SurfacePoint;
 use super::trial::Trial;

@@ -107,8 +107,7 @@ impl<'p, 's> Work<'p, 's> {
         };
         let engine = match request.method {
             Method::Hybrid => {
-                let wanted = plan.trial.wanted(goal, plan.rms_lx, FEWEST_INCREMENTS);
-                let mean = wanted.min(f64::from(most)) / f64::from(1_u32 << halvings);
+                let mean = mean_rays(plan, goal, most) / f64::from(1_u32 << halvings);
                 Engine::Hybrid(Hybrid::new(plan, &points, (mean, goal), request.seed))
             }
             Method::Cache => {
@@ -447,6 +446,11 @@ fn without_negative_light(value: &mut Illuminance) {
         value.caustic_lx.0[k] = caustic;
         value.direct_lx.0[k] = direct.0[k].max(-(indirect + caustic)) + caustic;
     }
+}
+
+/// Gathering rays of receivers in the mean, as they share them best.
+fn mean_rays(plan: &Plan, goal: f64, most: u32) -> f64 {
+    plan.trial.wanted(goal, plan.rms_lx, FEWEST_INCREMENTS).min(f64::from(most))
 }
 
 /// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,

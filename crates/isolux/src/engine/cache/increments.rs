@@ -9,12 +9,12 @@ use super::placing::Place;
 use super::record::{CacheSample, IrradianceCache};
 use super::store::{LEAST_RADIUS_AT_VERTICES, Making, Replicate, Store};
 use crate::engine::accumulate::{Accumulator, Effort, Sample};
-use crate::engine::caustics;
 use crate::engine::checks::{self, Check};
 use crate::engine::deadline::Deadline;
 use crate::engine::hybrid;
 use crate::engine::plan::Plan;
 use crate::engine::surface::SurfacePoint;
+use crate::engine::{caustics, flights};
 use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -128,7 +128,7 @@ impl<'p, 's> Cached<'p, 's> {
         let (direct, check_direct) =
             hybrid::direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
         let (caustic, particles) =
-            caustics::deposit(plan, caustics::particles(plan.indirect_vertices), key.with(1));
+            caustics::deposit(plan, flights::particles(plan.indirect_vertices), key.with(1));
         let caustic_at = |at: &SurfacePoint| caustic_at(plan, &caustic, at);
         let making = |part: u64, rays: u32| Making {
             index,

@@ -6,23 +6,22 @@
 
 mod direct;
 mod round;
+mod sharing;
 
-use super::accuracy::BELIEVED_INCREMENTS;
-use super::allot::allot;
-use super::carriers::{Carriers, least_connected};
-use super::caustics::CausticNoise;
+use super::carriers::Carriers;
 use super::detail::{Details, Refinement, bisect_twice, refine_worst};
 use super::direct::Lighting;
 use super::fit::Fit;
+use super::flights::CausticNoise;
 use super::forecast::{Costs, FINE, GoOn};
-use super::gather::{DirectAtEnds, Gatherer, Gathering, known_weights};
+use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 pub(super) use super::look::PilotRequest;
 use super::look::{Look, Read};
 use super::path::Dice;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
-use super::trial::{self, Trial};
+use super::trial::Trial;
 use super::trust;
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
@@ -132,7 +131,7 @@ impl<'s> Pilot<'s> {
         let first = first + MORE_A_VERTEX * subdivision.vertex_count() as f64;
         let edge_m = (2.0 * area_m2 / first).sqrt();
         subdivision.bisect_to(edge_m, request.max_vertices);
-        let rays = allot_to_surfaces(&subdivision, pilot_rays(request.target));
+        let rays = Self::shared_rays(&subdivision, request.target);
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         Self {
@@ -191,51 +190,16 @@ impl<'s> Pilot<'s> {
         look
     }
 
-    /// Tries how noisy gathered light is.
-    fn try_some(&mut self, look: &Look, target: f64) {
-        let vertices = look.elements.vertices();
-        let carries = |&v: &usize| self.standings[v].is_some() && self.carriers.is_active(v as u32);
-        let all: Vec<usize> = (0..vertices.len()).filter(carries).collect();
-        let every = (all.len() / trial::RECEIVERS).max(1);
-        let gatherers = self.gatherers();
-        let some = all.into_iter().step_by(every);
-        let some: Vec<(Gatherer, f64)> =
-            some.map(|v| (gatherers[v], vertices[v].area_m2)).collect();
-        let gathering = self.gathering(&look.elements, u32::MAX, &self.standings);
-        let wanted = (target, look.rms_lx, BELIEVED_INCREMENTS, self.key.with(6));
-        let (trial, rays) = Trial::of(&gathering, &some, &self.indirect, wanted);
-        self.trial = Some(trial);
-        self.traced += rays;
-        let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();
-        let read = |at: &SurfacePoint| {
-            let corners = look.elements.locate(at.triangle, at.back, at.u, at.v)?;
-            let weights = known_weights(corners, &self.standings)?;
-            Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
-        };
-        let of = (self.scene, self.lighting);
-        let (noise, rays) = CausticNoise::tried(of, &areas_m2, read, self.key.with(7));
-        self.caustic_noise = noise;
-        self.traced += rays;
-    }
-
     fn gatherers(&self) -> Vec<Gatherer> {
         let receivers = self.subdivision.receivers(PULL_IN);
         let with = receivers.iter().zip(&self.rays);
         with.map(|(receiver, &rays)| Gatherer::at_vertex(self.scene, receiver, rays)).collect()
     }
 
-    /// New vertices gather as their parents do.
-    fn complete_rays(&mut self) {
-        for vertex in &self.subdivision.vertices()[self.rays.len()..] {
-            let [parent, _] =
-                vertex.parents.expect("vertices beyond the first are made by bisection");
-            self.rays.push(self.rays[parent as usize]);
-        }
-    }
-
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
     fn look(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Look {
         let elements = self.subdivision.elements();
+        let is_first = self.indirect.is_empty();
         self.complete_rays();
         let gatherers = self.gatherers();
         self.complete_direct(&gatherers);
@@ -253,6 +217,9 @@ impl<'s> Pilot<'s> {
         let left_by_fit = details.left_by_fit(&errors);
         let carriers = self.carriers.count(gatherers.len());
         self.costs.looks.add(started.elapsed(), gatherers.len() as f64);
+        if is_first {
+            self.costs.first.add(started.elapsed(), 0.0);
+        }
         Look { carriers, elements, errors, left_by_fit, rms_lx }
     }
 
@@ -387,8 +354,10 @@ impl<'s> Pilot<'s> {
 
     /// Finds out what stands close before the vertices of the first mesh, and which of them carry light.
     fn set_out(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        let started = Instant::now();
         self.extend_known(elements, gatherers);
         self.complete_standings(gatherers);
+        self.costs.first.add(started.elapsed(), gatherers.len() as f64);
         if self.spacing_m > 0.0 {
             let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
             let open: Vec<bool> = self.standings.iter().map(is_open).collect();
@@ -589,34 +558,4 @@ fn rms(elements: &Elements, standings: &[Option<Standing>], value: impl Fn(usize
         sum += vertex.area_m2 * value(k) * value(k);
     }
     if area > 0.0 { (sum / area).sqrt() } else { 0.0 }
-}
-
-/// Rays of the vertices in the pilot: so many where a surface has no more vertices than others for its area, fewer where it
-/// has (see [`allot`]), a quarter of them at least.
-fn allot_to_surfaces(subdivision: &Subdivision, usual: u32) -> Vec<u32> {
-    let surfaces = least_connected(subdivision);
-    let mut of_surface = vec![(0.0, 0.0); surfaces.len()];
-    for leaf in subdivision.leaves() {
-        let surface = surfaces[subdivision.node(leaf).0.vertices[0] as usize];
-        of_surface[surface as usize].0 += subdivision.triangle(leaf).area();
-    }
-    surfaces.iter().for_each(|&surface| of_surface[surface as usize].1 += 1.0);
-    let area_m2 = |&surface: &u32| {
-        let (area_m2, vertices) = of_surface[surface as usize];
-        area_m2 / vertices
-    };
-    let areas_m2: Vec<f64> = surfaces.iter().map(area_m2).collect();
-    let allotted = allot(&areas_m2, f64::from(usual));
-    allotted
-        .into_iter()
-        .map(|rays| if rays == 0 { usual } else { rays.clamp(usual / 4, usual) })
-        .collect()
-}
-
-/// Rays of a receiver in the pilot: more for finer accuracies, so that their noise stays below the
-/// details looked for. The power of two nearest to what was measured on CUBE: with half as many, elements are made
-/// anew for 0.3 %.
-fn pilot_rays(target: f64) -> u32 {
-    let wanted = (0.64 / target.max(1e-6)).clamp(32.0, 1024.0);
-    libm::exp2(libm::round(libm::log2(wanted))) as u32
 }

@@ -8,9 +8,9 @@ use crate::engine::forecast::{Excess, GoOn, Outlook, Round};
 use crate::engine::look::{Look, PilotRequest};
 use crate::engine::trial::Trial;
 
-/// How much longer many luminaires take to be measured for all increments than by the fewest rays: 1.5
+/// How much longer many luminaires take to be measured for all increments than by the fewest rays: 1.6
 /// times in the hall.
-const AGAIN: f64 = 1.5;
+const AGAIN: f64 = 1.6;
 
 impl Pilot<'_> {
     /// Tells what is done and asks whether there is time for more, which there is to do.

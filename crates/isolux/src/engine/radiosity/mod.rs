@@ -26,6 +26,7 @@ use super::caustics;
 use super::checks::{self, Check, InterpolationErrors, Noise};
 use super::deadline::Deadline;
 use super::direct::Chain;
+use super::flights;
 use super::gather::{Gatherer, Gathering, Operator};
 use super::path::Dice;
 use super::plan::Plan;
@@ -536,7 +537,7 @@ fn caustic(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>, Effort) {
     for replicate in 0..REPLICATES {
         let (light, effort) = caustics::deposit(
             plan,
-            caustics::particles(plan.indirect_vertices),
+            flights::particles(plan.indirect_vertices),
             key.with(replicate),
         );
         sum.rays += effort.rays;

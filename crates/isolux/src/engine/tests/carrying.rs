@@ -57,6 +57,21 @@ fn greatest_error((found, truth): (Vec<f64>, Vec<f64>)) -> f64 {
 }
 
 #[test]
+fn what_belongs_to_others_is_handed_down_whole() {
+    let subdivision = Subdivision::new(&bent(30, 0.1));
+    let carriers = sparse(&subdivision, 0.3);
+    let elements = subdivision.elements();
+    let mut areas_m2: Vec<f64> = elements.vertices().iter().map(|v| v.area_m2).collect();
+    let whole_m2: f64 = areas_m2.iter().sum();
+    carriers.hand_down(&mut areas_m2);
+    // A thousand sums of doubles.
+    assert!((areas_m2.iter().sum::<f64>() - whole_m2).abs() < 1e-12 * whole_m2);
+    for (v, &m2) in areas_m2.iter().enumerate() {
+        assert_eq!(m2 > 0.0, carriers.is_active(v as u32), "vertex {v}: {m2}");
+    }
+}
+
+#[test]
 fn few_vertices_of_a_fine_mesh_carry_light() {
     let subdivision = Subdivision::new(&bent(60, 0.1));
     let carriers = sparse(&subdivision, 0.2);

@@ -1,5 +1,6 @@
 //! The parts of the engines, each against what can be computed by hand.
 
+mod anderson;
 mod carrying;
 mod coat;
 mod deposits;
@@ -17,6 +18,7 @@ mod many;
 mod mirrors;
 mod mixing;
 mod net;
+mod sharing;
 mod sums;
 mod trusting;
 

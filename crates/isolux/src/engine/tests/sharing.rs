@@ -1,0 +1,83 @@
+//! Who gets how many rays and particles.
+
+use super::errors::small_plan;
+use super::*;
+use crate::engine::allot::{allot, mean_of};
+use crate::engine::caustics::deposit;
+use crate::engine::direct::Lighting;
+use crate::engine::flights::{CausticNoise, particles};
+use crate::engine::gather::known_weights;
+use crate::engine::surface::SurfacePoint;
+use crate::scene::Gloss;
+
+/// Noise over all areas of nets of n rays, in the square.
+fn noise(areas_m2: &[f64], rays: impl Fn(usize) -> f64) -> f64 {
+    areas_m2.iter().enumerate().map(|(k, m2)| m2 * rays(k).powf(-1.7)).sum()
+}
+
+#[test]
+fn receivers_of_one_size_get_the_same() {
+    assert_eq!(allot(&[0.3; 50], 64.0), [64; 50]);
+    // The least power of two that is enough.
+    assert_eq!(allot(&[0.3; 50], 70.0), [128; 50]);
+    assert_eq!(allot(&[0.0, 2.0], 16.0), [0, 16], "none where there is no area");
+    assert!(allot(&[], 16.0).is_empty());
+}
+
+#[test]
+fn small_receivers_get_fewer_and_the_noise_is_no_more() {
+    // As in a furnished room: sizes over three orders of magnitude.
+    let areas_m2: Vec<f64> = (0..1000).map(|k| (f64::from(k) * -0.007).exp()).collect();
+    for mean in [16.0, 50.0, 64.0, 300.0] {
+        let rays = allot(&areas_m2, mean);
+        let given = noise(&areas_m2, |k| f64::from(rays[k]));
+        assert!(given <= noise(&areas_m2, |_| mean) * (1.0 + 1e-12), "{mean}");
+        assert!(rays.windows(2).all(|pair| pair[0] >= pair[1]), "{mean}");
+        assert!(rays.iter().all(|n| n.is_power_of_two() && *n >= 8), "{mean}");
+        assert!(mean_of(&rays) < 0.85 * mean, "{} of {mean}", mean_of(&rays));
+    }
+    assert_eq!(mean_of(&[4, 0, 8]), 6.0, "of those that have any");
+}
+
+#[test]
+fn caustics_are_as_noisy_as_a_trial_tells() {
+    // One wall is polished metal.
+    let polished = Finish {
+        gloss: Some(Gloss { f0: Rgb::grey(0.9), alpha: 0.2 }),
+        ..Finish::diffuse(Rgb::BLACK)
+    };
+    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
+    shapes[1].material = 1;
+    let materials = vec![painted(Rgb::grey(0.5)), Material::one_sided("polished", polished)];
+    let scene = scene(shapes, materials, vec![isotropic([1.0, 1.2, 1.5], 100.0)]);
+    let lighting = Lighting::new(&scene);
+    let plan = small_plan(&scene, &lighting);
+    let vertices = plan.elements.vertices();
+    let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();
+    let read = |at: &SurfacePoint| {
+        let corners = plan.elements.locate(at.triangle, at.back, at.u, at.v)?;
+        let weights = known_weights(corners, &plan.standings)?;
+        Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
+    };
+    let of = (&scene, &lighting);
+    let (told, rays) = CausticNoise::tried(of, &areas_m2, read, Key::new(3));
+    assert!(rays > 0);
+    // As many as a thousand times the vertices would need for as much error as there is light: in the middle of what may be.
+    let count = told.particles(areas_m2.len() * 1000, (1.0, plan.rms_lx), 1);
+    assert!(count > 1024 && count < particles(areas_m2.len() * 1000), "{count}");
+    let maps: Vec<Vec<Rgb>> = (0..16).map(|k| deposit(&plan, 4096, Key::new(k)).0).collect();
+    let (mut squares, mut area) = (0.0, 0.0);
+    for (v, m2) in areas_m2.iter().enumerate().take(plan.indirect_vertices) {
+        let (_, error) = mean_and_error(maps.iter().map(|map| map[v].luminance()));
+        squares += m2 * error * error * 16.0;
+        area += m2;
+    }
+    // Noise of so many particles falls with their number, and grows with the vertices.
+    let noise_lx2 = squares / area * 4096.0 * 1000.0;
+    let allowed_lx = 0.45 * plan.rms_lx;
+    let wanted = noise_lx2 / (0.1 * allowed_lx * allowed_lx);
+    // The correction of deposits doubles their noise in the square at most, particles of one sequence lie evenly, and
+    // their number is the next power of two.
+    let ratio = f64::from(count) / wanted;
+    assert!(ratio > 0.25 && ratio < 4.0, "{ratio}");
+}
