@@ -58,17 +58,18 @@ impl Anderson {
     /// the normal equations.
     fn shares(&self, change: &[Rgb]) -> Vec<Rgb> {
         let count = self.steps.len();
-        let of = |k: usize| &self.steps[k].1[..];
-        let mut products = [[Rgb::BLACK; DEPTH + 1]; DEPTH];
-        for row in 0..count {
-            for column in 0..row {
-                products[row][column] = products[column][row];
-            }
-            for column in row..count {
-                products[row][column] = dot(of(row), of(column));
-            }
-            products[row][count] = dot(of(row), change);
-        }
+        let product = |row: usize, column: usize| -> Rgb {
+            let of = |k: usize| self.steps.get(k).map_or(change, |step| &step.1);
+            if row < count { dot(of(row), of(column)) } else { Rgb::BLACK }
+        };
+        // Of the rows that there are, as many columns, and the right side next to them.
+        let products: [[Rgb; DEPTH + 1]; DEPTH] = std::array::from_fn(|row| {
+            std::array::from_fn(
+                |column| {
+                    if column <= count { product(row, column) } else { Rgb::BLACK }
+                },
+            )
+        });
         let mut shares = vec![Rgb::BLACK; count];
         for channel in 0..3 {
             let rows = products.map(|row| row.map(|p| p.0[channel]));
@@ -89,11 +90,10 @@ fn solved(mut rows: [[f64; DEPTH + 1]; DEPTH], count: usize) -> [f64; DEPTH] {
             continue;
         }
         found[k] = true;
-        for other in (0..count).filter(|&other| other != k) {
-            let factor = rows[other][k] / rows[k][k];
-            for column in 0..=count {
-                rows[other][column] -= factor * rows[k][column];
-            }
+        let pivot = rows[k];
+        for (_, row) in rows.iter_mut().enumerate().filter(|&(other, _)| other != k) {
+            let factor = row[k] / pivot[k];
+            row.iter_mut().zip(pivot).for_each(|(value, of_pivot)| *value -= factor * of_pivot);
         }
     }
     std::array::from_fn(|k| if found[k] { rows[k][count] / rows[k][k] } else { 0.0 })

@@ -81,7 +81,7 @@ impl CausticNoise {
         let growth = vertices as f64 / self.vertices.max(1) as f64;
         let allowed_lx2 = SHARE_OF_NOISE * allowed_lx * allowed_lx * increments as f64;
         let most = particles(vertices);
-        if !(allowed_lx2 > 0.0) {
+        if allowed_lx2 <= 0.0 {
             return most;
         }
         let wanted = (self.lx2 * growth / allowed_lx2).clamp(FEWEST, f64::from(most));
