@@ -84,7 +84,8 @@ impl CausticNoise {
         if allowed_lx2 <= 0.0 {
             return most;
         }
-        let wanted = (self.lx2 * growth / allowed_lx2).clamp(FEWEST, f64::from(most));
+        // On few vertices the most is less than the fewest.
+        let wanted = (self.lx2 * growth / allowed_lx2).max(FEWEST).min(f64::from(most));
         libm::exp2(libm::ceil(libm::log2(wanted))) as u32
     }
 }
