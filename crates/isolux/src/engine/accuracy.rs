@@ -4,7 +4,9 @@ use super::accumulate::{Accumulator, Estimate};
 use super::checks::InterpolationErrors;
 use super::plan::Plan;
 use super::trial::OF_INTERPOLATED;
+use crate::elements::Subdivision;
 use crate::map::Accuracy;
+use crate::scene::Scene;
 
 /// Replicates from which on their spread is believed. The scene figure pools thousands of
 /// receivers, so eight give it to a few per cent.
@@ -62,7 +64,7 @@ fn in_all(
     // is reflected of its own error.
     let is_read = plan.lighting.are_read_at_ends();
     let direct_lx = if is_read { interpolation.direct_mean_lx } else { 0.0 };
-    let mean_lx = interpolation.indirect_mean_lx + mean_reflectance(plan) * direct_lx;
+    let mean_lx = interpolation.indirect_mean_lx + mean_reflectance(plan.scene, &plan.subdivision) * direct_lx;
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign, and so may have
     // the mean of what is wrong where it is read, which is counted for itself already.
     let reflected = reflected_series(plan) * mean_lx / rms_lx;
@@ -120,7 +122,7 @@ const NO_ERROR: Accuracy =
 /// light what arrives is what was sent over what is absorbed. Without bound where all is reflected.
 fn given_up_share(plan: &Plan, given_up_lx: f64, rms_lx: f64) -> f64 {
     if given_up_lx > 0.0 {
-        given_up_lx / (1.0 - mean_reflectance(plan)).max(0.0) / rms_lx
+        given_up_lx / (1.0 - mean_reflectance(plan.scene, &plan.subdivision)).max(0.0) / rms_lx
     } else {
         0.0
     }
@@ -128,16 +130,17 @@ fn given_up_share(plan: &Plan, given_up_lx: f64, rms_lx: f64) -> f64 {
 
 /// `rho / (1 - rho)` of the mean reflectance of the surfaces.
 fn reflected_series(plan: &Plan) -> f64 {
-    let rho = mean_reflectance(plan).min(0.99);
+    let rho = mean_reflectance(plan.scene, &plan.subdivision).min(0.99);
     rho / (1.0 - rho)
 }
 
-fn mean_reflectance(plan: &Plan) -> f64 {
+/// Mean diffuse reflectance of the surfaces.
+pub(super) fn mean_reflectance(scene: &Scene, subdivision: &Subdivision) -> f64 {
     let (mut area, mut reflected) = (0.0, 0.0);
-    for leaf in plan.subdivision.leaves() {
-        let (_, origin) = plan.subdivision.node(leaf);
-        let finish = plan.scene.material(origin.triangle).finish(origin.back);
-        let m2 = plan.subdivision.triangle(leaf).area();
+    for leaf in subdivision.leaves() {
+        let (_, origin) = subdivision.node(leaf);
+        let finish = scene.material(origin.triangle).finish(origin.back);
+        let m2 = subdivision.triangle(leaf).area();
         area += m2;
         reflected += m2 * finish.map_or(0.0, |f| f.diffuse.colour.luminance());
     }

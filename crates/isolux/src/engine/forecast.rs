@@ -77,10 +77,10 @@ pub(super) struct Outlook {
     /// round ago; unknown before the first look.
     pub(super) excess: Option<f64>,
     pub(super) before: Option<(f64, f64)>,
-    /// Vertices more than there are now that direct light alone will take, measurements of it at all vertices still
-    /// to come, and in each increment.
+    /// Vertices more than there are now that direct light alone will take, the part of all where it will be measured again, and
+    /// whether it is in each increment.
     pub(super) more_for_direct: f64,
-    pub(super) measurements: f64,
+    pub(super) measured_again: f64,
     pub(super) measured_each: bool,
 }
 
@@ -120,13 +120,13 @@ impl Outlook {
         let pilot_s = costs.rays.of((carriers - self.gathered) * self.pilot_rays)
             + costs.direct.of(vertices - self.vertices)
             + costs.looks.of(if growth > 1.0 { vertices } else { 0.0 });
-        let direct_s = costs.direct.of(self.measurements * vertices);
+        let direct_s = costs.direct.of(self.measured_again * vertices);
         let rays = (carriers + self.checks) * self.rays + self.particles * growth;
         let first_s = costs.first.of(vertices);
         let each_s = costs.rays.of(rays)
             + EACH * first_s
             + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
-        let once_s = if self.measurements > 0.0 { ONCE * first_s } else { 0.0 };
+        let once_s = if self.measured_again > 0.0 { ONCE * first_s } else { 0.0 };
         let factor = match self.excess {
             None => BLIND,
             Some(excess) if excess > 1.0 => REFINING,

@@ -2,6 +2,7 @@
 
 use super::{MAX_ROUNDS, Pilot};
 use crate::elements::Elements;
+use crate::engine::accuracy::mean_reflectance;
 use crate::engine::carriers::Carriers;
 use crate::engine::detail::{Details, LeafError, Refinement, refine_worst};
 use crate::engine::direct::{Goal, Measured};
@@ -19,7 +20,10 @@ use std::time::Instant;
 const MOST_FOR_DIRECT_LIGHT: usize = 2;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 /// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
-const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
+pub(super) const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
+/// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
+const LOOKED_AT: usize = 512;
+const MOST_REFLECTANCE: f64 = 0.9;
 /// Vertices of one task: some take a hundred times as long as others.
 const AT_ONCE: usize = 32;
 /// The most of the noise of others that light may have at vertices of little area.
@@ -32,45 +36,76 @@ fn relief(area: f64) -> f64 {
 }
 
 impl Pilot<'_> {
-    /// Direct light at the vertices that have none yet, by the fewest rays.
-    pub(super) fn complete_direct(&mut self, gatherers: &[Gatherer]) {
-        let sequence = Sequence::new(self.key.with(1));
-        let measured = |g: &Gatherer| self.lighting.measured(&g.surface, Goal::ANY, sequence);
+    /// Direct light at the vertices that have none yet, as the increments will read it.
+    pub(super) fn complete_direct(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        if self.direct.is_empty() {
+            self.look_at_direct_light(elements, gatherers);
+        }
         let started = Instant::now();
-        let new: Vec<Measured> =
-            gatherers[self.direct.len()..].par_iter().with_max_len(AT_ONCE).map(measured).collect();
-        self.costs.direct.add(started.elapsed(), new.len() as f64);
-        self.direct.extend(new.iter().map(|m| m.lx));
-        self.direct_variance.extend(new.iter().map(|m| m.variance));
+        let new = self.direct.len()..gatherers.len();
+        let measured = self.measured(elements, gatherers, new.collect());
+        self.costs.direct.add(started.elapsed(), measured.len() as f64);
+        self.direct.extend(measured.iter().map(|m| m.lx));
+        self.direct_variance.extend(measured.iter().map(|m| m.variance));
+        self.measured_at.extend(gatherers[self.measured_at.len()..].iter().map(|g| g.origin));
     }
 
-    /// Direct light at all vertices for the increments: with noise of their own, where it has noise.
-    pub(super) fn measure_direct(
-        &mut self,
-        gatherers: &[Gatherer],
-        request: &PilotRequest,
-        Look { elements, rms_lx, .. }: &Look,
-    ) {
-        self.direct.clear();
-        self.direct_variance.clear();
-        let lighting = self.lighting;
-        if !(request.is_fitted && lighting.has_many() && lighting.is_measured_once()) {
-            self.complete_direct(gatherers);
-            self.direct_variance.fill(0.0);
-            return;
+    /// The same once more where receivers have moved, as those on borders do when elements are bisected.
+    pub(super) fn measure_moved(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        let has_moved = |&k: &usize| gatherers[k].origin != self.measured_at[k];
+        let moved: Vec<usize> = (0..gatherers.len()).filter(has_moved).collect();
+        let measured = self.measured(elements, gatherers, moved.clone());
+        for (k, measured) in moved.into_iter().zip(measured) {
+            self.direct[k] = measured.lx;
+            self.direct_variance[k] = measured.variance;
         }
-        let key = self.key.with(5);
+    }
+
+    /// Light at some vertices, where it has noise with noise of their own: as much as is allowed, more where they stand for
+    /// little area.
+    fn measured(
+        &self,
+        elements: &Elements,
+        gatherers: &[Gatherer],
+        some: Vec<usize>,
+    ) -> Vec<Measured> {
         let vertices = elements.vertices();
         let mean_m2 = vertices.iter().map(|v| v.area_m2).sum::<f64>() / vertices.len() as f64;
-        let goal_lx = NOISE_OF_DIRECT_LIGHT * request.mesh_target * rms_lx;
-        let measured = |(k, g): (usize, &Gatherer)| {
-            let goal = Goal::lux(goal_lx).relaxed(relief(vertices[k].area_m2 / mean_m2));
-            lighting.measured(&g.surface, goal, Sequence::new(key.with(k as u64)))
+        let alike = Sequence::new(self.key.with(1));
+        let measured = |k: usize| {
+            let (goal, sequence) = match self.direct_noise_lx {
+                Some(lx) => {
+                    let goal = Goal::lux(lx).relaxed(relief(vertices[k].area_m2 / mean_m2));
+                    (goal, Sequence::new(self.key.with(5).with(k as u64)))
+                }
+                None => (Goal::ANY, alike),
+            };
+            self.lighting.measured(&gatherers[k].surface, goal, sequence)
         };
-        let all: Vec<Measured> =
-            gatherers.par_iter().with_max_len(AT_ONCE).enumerate().map(measured).collect();
-        self.direct.extend(all.iter().map(|m| m.lx));
-        self.direct_variance.extend(all.iter().map(|m| m.variance));
+        some.into_par_iter().with_max_len(AT_ONCE).map(measured).collect()
+    }
+
+    /// How noisy direct light may be, from a look at a few vertices: all light is what luminaires give and, in the mean, what the
+    /// balance of light in a closed room adds to it. Where rooms are open that is more than there is.
+    fn look_at_direct_light(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        let Some(share) = self.direct_noise else { return };
+        let every = (gatherers.len() / LOOKED_AT).max(1);
+        let sequence = Sequence::new(self.key.with(8));
+        let look = |k: usize| {
+            let light = self.lighting.measured(&gatherers[k].surface, Goal::ANY, sequence);
+            (elements.vertices()[k].area_m2, light.lx.luminance())
+        };
+        let some: Vec<usize> = (0..gatherers.len()).step_by(every).collect();
+        let some: Vec<(f64, f64)> = some.into_par_iter().map(look).collect();
+        let area_m2: f64 = some.iter().map(|(m2, _)| m2).sum();
+        let mean = |power: i32| {
+            some.iter().map(|&(m2, lx)| m2 * lx.powi(power)).sum::<f64>() / area_m2
+        };
+        let (mean_lx, square) = (mean(1), mean(2));
+        let reflectance = mean_reflectance(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
+        let whole_lx = mean_lx / (1.0 - reflectance);
+        let varies = (square - mean_lx * mean_lx).max(0.0);
+        self.direct_noise_lx = Some(share * (varies + whole_lx * whole_lx).sqrt());
     }
 
     /// Photometric direct light at the known vertices, without details that may be noise.
@@ -102,7 +137,7 @@ impl Pilot<'_> {
             look.elements = self.subdivision.elements();
             self.complete_rays();
             let gatherers = self.gatherers();
-            self.complete_direct(&gatherers);
+            self.complete_direct(&look.elements, &gatherers);
             self.extend_known(&look.elements, &gatherers);
             self.complete_standings(&gatherers);
         }

@@ -28,6 +28,7 @@ use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
+use isolux_geometry::Point;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::time::Instant;
@@ -70,6 +71,11 @@ struct Pilot<'s> {
     /// At the vertices looked at so far: light, and whether they are open to it.
     direct: Vec<Rgb>,
     direct_variance: Vec<f64>,
+    /// Where it was measured.
+    measured_at: Vec<Point>,
+    /// How noisy it may be where it is measured once by part of the luminaires: of all light, and in lx.
+    direct_noise: Option<f64>,
+    direct_noise_lx: Option<f64>,
     indirect: Vec<Rgb>,
     known: Vec<bool>,
     /// What they stand for.
@@ -132,6 +138,8 @@ impl<'s> Pilot<'s> {
         let edge_m = (2.0 * area_m2 / first).sqrt();
         subdivision.bisect_to(edge_m, request.max_vertices);
         let rays = Self::shared_rays(&subdivision, request.target);
+        let has_noise =
+            request.is_fitted && lighting.has_many() && lighting.is_measured_once();
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         Self {
@@ -141,6 +149,9 @@ impl<'s> Pilot<'s> {
             subdivision,
             direct: Vec::new(),
             direct_variance: Vec::new(),
+            measured_at: Vec::new(),
+            direct_noise: has_noise.then_some(direct::NOISE_OF_DIRECT_LIGHT * request.mesh_target),
+            direct_noise_lx: None,
             indirect: Vec::new(),
             known: Vec::new(),
             standings: Vec::new(),
@@ -202,7 +213,7 @@ impl<'s> Pilot<'s> {
         let is_first = self.indirect.is_empty();
         self.complete_rays();
         let gatherers = self.gatherers();
-        self.complete_direct(&gatherers);
+        self.complete_direct(&elements, &gatherers);
         self.complete_indirect(&elements, &gatherers, request, go_on);
         let started = Instant::now();
         let luminances = self.in_the_open(&self.indirect);
@@ -500,11 +511,13 @@ impl<'s> Pilot<'s> {
         let trusted_up_to_lx = look.trusted_up_to_lx(request);
         let coarse = self.subdivision.clone();
         self.refine_for_direct_light(&mut look, request, go_on);
-        // Once more for all: refinement has moved the receivers on borders. Without time for it, the first
-        // measurement has to do.
+        // Without time for it, light from where receivers were before has to do.
         let gatherers = self.gatherers();
         if self.has_time(&look, request, FINE, go_on) {
-            self.measure_direct(&gatherers, request, &look);
+            self.measure_moved(&look.elements, &gatherers);
+        }
+        if self.direct_noise_lx.is_none() {
+            self.direct_variance.fill(0.0);
         }
         self.is_measured = true;
         go_on(&self.round(request, Some(&look), FINE));

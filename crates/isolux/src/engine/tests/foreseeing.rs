@@ -23,7 +23,7 @@ fn known() -> (Outlook, Costs) {
         excess: Some(1.0),
         before: None,
         more_for_direct: 0.0,
-        measurements: 0.0,
+        measured_again: 0.0,
         measured_each: false,
     };
     (outlook, costs)
