@@ -10,6 +10,7 @@ mod subdivide;
 mod tests;
 
 pub use arrays::{ElementArrays, ElementArraysError};
+pub(crate) use subdivide::first_vertex_count;
 pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
 
 use isolux_geometry::{Normal, Point};

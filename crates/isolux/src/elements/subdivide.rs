@@ -8,11 +8,16 @@
 use super::{Elements, Node, Split, Vertex};
 use crate::scene::{Finish, Scene};
 use isolux_geometry::{Normal, Point, Triangle};
+use smallvec::SmallVec;
 use std::collections::HashMap;
+use std::hash::{BuildHasher, Hasher, RandomState};
 
 /// Vertices at one place are one where their normals agree within one degree: coplanar or smoothly
 /// joined neighbours; anything else is a crease.
 const CREASE_COS: f64 = 0.999_847_7;
+
+/// Vertices at one place, elements on one edge: mostly one or two.
+type Few = SmallVec<[u32; 2]>;
 
 /// Elements that can still be bisected.
 #[derive(Clone, Debug)]
@@ -22,7 +27,7 @@ pub struct Subdivision {
     origins: Vec<Origin>,
     roots: Vec<[Option<u32>; 2]>,
     /// The elements on every edge, by its ends, the lower first.
-    edges: HashMap<[u32; 2], Vec<u32>>,
+    edges: HashMap<[u32; 2], Few, EdgeHash>,
 }
 
 /// Which side of which triangle a node is part of, and its depth in the tree.
@@ -39,44 +44,19 @@ pub struct Origin {
 impl Subdivision {
     /// The triangles of the scene that carry a map, as they are.
     pub fn new(scene: &Scene) -> Self {
+        let (vertices, roots) = welded(scene);
         let mut subdivision = Self {
-            vertices: Vec::new(),
-            nodes: Vec::new(),
-            origins: Vec::new(),
+            vertices,
+            nodes: Vec::with_capacity(roots.len()),
+            origins: Vec::with_capacity(roots.len()),
             roots: vec![[None; 2]; scene.triangle_count() as usize],
-            edges: HashMap::new(),
+            edges: HashMap::with_capacity_and_hasher(3 * roots.len() / 2, EdgeHash::default()),
         };
-        let mut welded: HashMap<[u64; 3], Vec<u32>> = HashMap::new();
-        for triangle in 0..scene.triangle_count() {
-            for back in [false, true] {
-                if carries_map(scene, triangle, back) {
-                    let corners = corners(scene, triangle, back)
-                        .map(|(point, normal)| subdivision.weld(&mut welded, point, normal));
-                    let root = subdivision.push(corners, Origin { triangle, back, depth: 0 });
-                    subdivision.roots[triangle as usize][usize::from(back)] = Some(root);
-                }
-            }
+        for (corners, origin) in roots {
+            let root = subdivision.push(corners, origin);
+            subdivision.roots[origin.triangle as usize][usize::from(origin.back)] = Some(root);
         }
         subdivision
-    }
-
-    fn weld(
-        &mut self,
-        welded: &mut HashMap<[u64; 3], Vec<u32>>,
-        position: Point,
-        normal: Normal,
-    ) -> u32 {
-        // Adding zero makes one zero of the two.
-        let key = [position.x, position.y, position.z].map(|c| (c + 0.0).to_bits());
-        let here = welded.entry(key).or_default();
-        let same = |&&v: &&u32| self.vertices[v as usize].normal.dot(normal) >= CREASE_COS;
-        if let Some(&vertex) = here.iter().find(same) {
-            return vertex;
-        }
-        let vertex = self.vertices.len() as u32;
-        here.push(vertex);
-        self.vertices.push(Vertex { position, normal, parents: None, area_m2: 0.0 });
-        vertex
     }
 
     fn push(&mut self, vertices: [u32; 3], origin: Origin) -> u32 {
@@ -183,7 +163,7 @@ impl Subdivision {
         let on = |k: usize| edge_key(vertices[k], vertices[(k + 1) % 3]);
         for k in 0..3 {
             if let Some(list) = self.edges.get_mut(&on(k)) {
-                list.retain(|&n| n != node);
+                list.retain(|n| *n != node);
             }
         }
         let k = (0..3).find(|&k| on(k) == edge).expect("an element is listed at its own edges");
@@ -274,13 +254,13 @@ impl Subdivision {
     /// Which vertices elements do not surround.
     pub(crate) fn border_vertices(&self) -> Vec<bool> {
         let mut border = vec![false; self.vertices.len()];
-        for (ends, elements) in &self.edges {
-            if elements.len() == 1 {
-                border[ends[0] as usize] = true;
-                border[ends[1] as usize] = true;
-            }
-        }
+        self.border_edges().flatten().for_each(|end| border[end as usize] = true);
         border
+    }
+
+    /// Edges with one element only, in any order.
+    pub(crate) fn border_edges(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+        self.edges.iter().filter(|(_, elements)| elements.len() == 1).map(|(&ends, _)| ends)
     }
 }
 
@@ -295,6 +275,75 @@ pub struct Receiver {
     pub triangle: u32,
     /// On its back.
     pub back: bool,
+}
+
+/// Hashes edges, which are two small numbers: the usual hash takes most of the time of a subdivision. It starts from
+/// a secret of its own, so that no file can make edges collide.
+#[derive(Clone)]
+struct EdgeHash(u64);
+
+impl Default for EdgeHash {
+    fn default() -> Self {
+        Self(RandomState::new().hash_one(0_u8))
+    }
+}
+
+impl BuildHasher for EdgeHash {
+    type Hasher = EdgeHasher;
+
+    fn build_hasher(&self) -> EdgeHasher {
+        EdgeHasher(self.0)
+    }
+}
+
+/// Folds products with a number that has no pattern.
+struct EdgeHasher(u64);
+
+impl Hasher for EdgeHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        for part in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..part.len()].copy_from_slice(part);
+            let product = u128::from(self.0 ^ u64::from_le_bytes(word)) * 0x9e37_79b9_7f4a_7c15;
+            self.0 = (product >> 64) as u64 ^ product as u64;
+        }
+    }
+
+    fn finish(&self) -> u64 {
+        self.0
+    }
+}
+
+/// Vertices of the triangles that carry a map, one for all that meet smoothly, and the sides of triangles between them.
+fn welded(scene: &Scene) -> (Vec<Vertex>, Vec<([u32; 3], Origin)>) {
+    let mut vertices: Vec<Vertex> = Vec::new();
+    let mut at: HashMap<[u64; 3], Few> = HashMap::new();
+    let mut weld = |position: Point, normal: Normal| {
+        // Adding zero makes one zero of the two.
+        let key = [position.x, position.y, position.z].map(|c| (c + 0.0).to_bits());
+        let here = at.entry(key).or_default();
+        let same = |&&v: &&u32| vertices[v as usize].normal.dot(normal) >= CREASE_COS;
+        if let Some(&vertex) = here.iter().find(same) {
+            return vertex;
+        }
+        let vertex = vertices.len() as u32;
+        here.push(vertex);
+        vertices.push(Vertex { position, normal, parents: None, area_m2: 0.0 });
+        vertex
+    };
+    let mut roots = Vec::new();
+    for triangle in 0..scene.triangle_count() {
+        for back in [false, true].into_iter().filter(|&back| carries_map(scene, triangle, back)) {
+            let corners = corners(scene, triangle, back).map(|(point, normal)| weld(point, normal));
+            roots.push((corners, Origin { triangle, back, depth: 0 }));
+        }
+    }
+    (vertices, roots)
+}
+
+/// How many vertices a subdivision has before anything is bisected.
+pub(crate) fn first_vertex_count(scene: &Scene) -> usize {
+    welded(scene).0.len()
 }
 
 const fn edge_key(a: u32, b: u32) -> [u32; 2] {

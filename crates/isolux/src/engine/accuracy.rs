@@ -64,7 +64,7 @@ fn in_all(
     // is reflected of its own error.
     let is_read = plan.lighting.are_read_at_ends();
     let direct_lx = if is_read { interpolation.direct_mean_lx } else { 0.0 };
-    let mean_lx = interpolation.indirect_mean_lx + mean_reflectance(plan.scene, &plan.subdivision) * direct_lx;
+    let mean_lx = interpolation.indirect_mean_lx + plan.mean_reflectance * direct_lx;
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign, and so may have
     // the mean of what is wrong where it is read, which is counted for itself already.
     let reflected = reflected_series(plan) * mean_lx / rms_lx;
@@ -122,7 +122,7 @@ const NO_ERROR: Accuracy =
 /// light what arrives is what was sent over what is absorbed. Without bound where all is reflected.
 fn given_up_share(plan: &Plan, given_up_lx: f64, rms_lx: f64) -> f64 {
     if given_up_lx > 0.0 {
-        given_up_lx / (1.0 - mean_reflectance(plan.scene, &plan.subdivision)).max(0.0) / rms_lx
+        given_up_lx / (1.0 - plan.mean_reflectance).max(0.0) / rms_lx
     } else {
         0.0
     }
@@ -130,7 +130,7 @@ fn given_up_share(plan: &Plan, given_up_lx: f64, rms_lx: f64) -> f64 {
 
 /// `rho / (1 - rho)` of the mean reflectance of the surfaces.
 fn reflected_series(plan: &Plan) -> f64 {
-    let rho = mean_reflectance(plan.scene, &plan.subdivision).min(0.99);
+    let rho = plan.mean_reflectance.min(0.99);
     rho / (1.0 - rho)
 }
 

@@ -7,6 +7,7 @@
 
 use super::carriers::{Carriers, ERROR_OF_DETAIL, Told};
 use crate::elements::{Elements, Subdivision};
+use rayon::prelude::*;
 
 /// As [`ERROR_OF_DETAIL`], for an element of the input, which has no detail, as a share of the spread of its
 /// vertices: what a detail of half the spread would give.
@@ -20,6 +21,9 @@ const ERROR_OF_MIDDLE: f64 = 0.9;
 
 /// A detail belongs to an element if the edge it was made on is at most so many times its own.
 const RECENT: f64 = 2.9;
+
+/// Elements of one task.
+const TOGETHER: usize = 1024;
 
 /// The error estimated for an element.
 #[derive(Clone, Copy, Debug)]
@@ -72,8 +76,8 @@ impl<'a> Details<'a> {
     /// known; `is_beset` says where readers gather anyway.
     pub(super) fn leaf_errors(
         &self,
-        in_the_middle: impl Fn(u32) -> Option<f64>,
-        is_beset: impl Fn(u32) -> bool,
+        in_the_middle: impl Fn(u32) -> Option<f64> + Sync,
+        is_beset: impl Fn(u32) -> bool + Sync,
     ) -> Vec<LeafError> {
         let leaf = |node: u32| {
             let area_m2 = self.subdivision.triangle(node).area();
@@ -86,7 +90,8 @@ impl<'a> Details<'a> {
                 && corners.iter().any(|&v| self.told_at(v).is_some_and(|told| told.is_beset));
             LeafError { node, area_m2, error, is_beset: beset || is_beset_afar, is_beset_afar }
         };
-        self.subdivision.leaves().map(leaf).collect()
+        let leaves: Vec<u32> = self.subdivision.leaves().collect();
+        leaves.into_par_iter().with_min_len(TOGETHER).map(leaf).collect()
     }
 
     /// The error of an element that details tell; `None` if it has none, or vertices that say nothing.

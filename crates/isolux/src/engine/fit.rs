@@ -14,6 +14,7 @@
 //! half of its light comes from the edge itself, and what is off there is off at once in both. Their
 //! part is left to the other vertices of their elements, so that the map is right in the mean.
 
+use super::carriers::Carriers;
 use crate::elements::{Element, Elements};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
@@ -38,10 +39,19 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// For the first `vertices` vertices of elements, of which the `known` ones have values.
-    pub(super) fn new(elements: &Elements, vertices: usize, known: &[bool]) -> Self {
+    /// For the first `vertices` vertices of elements, of which the `known` ones have values. Elements whose vertices all
+    /// are interpolated from others, in the mean square already, are left as they are.
+    pub(super) fn new(
+        elements: &Elements,
+        vertices: usize,
+        known: &[bool],
+        carriers: &Carriers,
+    ) -> Self {
         let all = elements.elements();
-        let is_known = |e: &Element| e.vertices.iter().all(|&v| known[v as usize]);
+        let is_known = |e: &Element| {
+            e.vertices.iter().all(|&v| known[v as usize])
+                && e.vertices.iter().any(|&v| carriers.is_active(v))
+        };
         let neighbours = neighbours(&all);
         let place = |v: u32| elements.vertices()[v as usize].position;
         let inner: Vec<Option<[Form; 3]>> = (0..all.len())

@@ -11,6 +11,7 @@ use super::direct::Lighting;
 use super::gather::Gatherer;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
+use super::trust;
 use crate::elements::Elements;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
@@ -91,7 +92,7 @@ impl Sight<'_> {
             }
     }
 
-    /// Looks for light, and for places that see a vertex known to be open, which asks no luminaires.
+    /// Looks for places that see a vertex known to be open, which asks no luminaires, and then for light.
     fn look(&self, from: &Gatherer, number: u64, known: &[bool]) -> Seen {
         let sequence = Sequence::new(self.key.with(number));
         let axis = from.normal.to_direction();
@@ -107,14 +108,22 @@ impl Sight<'_> {
                     places.push(*surface);
                 }
             });
-            let mut lit = |place: &SurfacePoint| {
-                self.sees_open(place, known) || !self.lighting.estimate(place, &mut dice).is_black()
-            };
-            if end == PathEnd::Left || places[before..].iter().any(&mut lit) {
+            if end == PathEnd::Left || self.any_open(&places[before..], known) {
                 return Seen::Light;
             }
         }
-        Seen::Places(places)
+        let reach_m = trust::edge_at_m(self.elements, &from.surface);
+        let about = self.lighting.about(from.surface.point, reach_m);
+        let sequence = Sequence::new(self.key.with(number).with(1));
+        let is_lit = |(k, place): (usize, &SurfacePoint)| {
+            let mut dice = Dice::new(sequence, k as u32);
+            let light = match &about {
+                Some(about) => self.lighting.estimate_by(about, place, &mut dice),
+                None => self.lighting.estimate(place, &mut dice),
+            };
+            !light.is_black()
+        };
+        if places.iter().enumerate().any(is_lit) { Seen::Light } else { Seen::Places(places) }
     }
 
     fn any_open(&self, places: &[SurfacePoint], known: &[bool]) -> bool {

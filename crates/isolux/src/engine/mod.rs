@@ -8,6 +8,7 @@ mod cache;
 mod carriers;
 mod caustics;
 mod checks;
+mod coarsening;
 mod deadline;
 mod detail;
 mod direct;

@@ -42,6 +42,8 @@ pub(super) struct Plan<'s> {
     pub(super) subdivision: Subdivision,
     /// Root mean square of the photometric illuminance over all known surfaces, lx.
     pub(super) rms_lx: f64,
+    /// Of the diffuse surfaces.
+    pub(super) mean_reflectance: f64,
     /// How noisy gathered light is.
     pub(super) trial: Trial,
     /// How noisy caustics are.

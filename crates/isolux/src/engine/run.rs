@@ -132,7 +132,7 @@ fn check(scene: &Scene, request: &SolveRequest) -> Result<(), SolveError> {
     if Emission::new(scene).is_none() {
         return Err(SolveError::NoLight);
     }
-    let vertices = crate::elements::Subdivision::new(scene).vertex_count() as u64;
+    let vertices = crate::elements::first_vertex_count(scene) as u64;
     if vertices == 0 {
         return Err(SolveError::NoReceiver);
     }

@@ -98,9 +98,8 @@ impl Pilot<'_> {
         let some: Vec<usize> = (0..gatherers.len()).step_by(every).collect();
         let some: Vec<(f64, f64)> = some.into_par_iter().map(look).collect();
         let area_m2: f64 = some.iter().map(|(m2, _)| m2).sum();
-        let mean = |power: i32| {
-            some.iter().map(|&(m2, lx)| m2 * lx.powi(power)).sum::<f64>() / area_m2
-        };
+        let mean =
+            |power: i32| some.iter().map(|&(m2, lx)| m2 * lx.powi(power)).sum::<f64>() / area_m2;
         let (mean_lx, square) = (mean(1), mean(2));
         let reflectance = mean_reflectance(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
         let whole_lx = mean_lx / (1.0 - reflectance);

@@ -8,6 +8,7 @@ mod direct;
 mod round;
 mod sharing;
 
+use super::accuracy::mean_reflectance;
 use super::carriers::Carriers;
 use super::detail::{Details, Refinement, bisect_twice, refine_worst};
 use super::direct::Lighting;
@@ -138,8 +139,7 @@ impl<'s> Pilot<'s> {
         let edge_m = (2.0 * area_m2 / first).sqrt();
         subdivision.bisect_to(edge_m, request.max_vertices);
         let rays = Self::shared_rays(&subdivision, request.target);
-        let has_noise =
-            request.is_fitted && lighting.has_many() && lighting.is_measured_once();
+        let has_noise = request.is_fitted && lighting.has_many() && lighting.is_measured_once();
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         Self {
@@ -538,7 +538,8 @@ impl<'s> Pilot<'s> {
             trusted_up_to_lx,
             indirect_errors: look.errors,
             rms_lx: look.rms_lx,
-            fit: Fit::new(&coarse.elements(), indirect_vertices, &open),
+            mean_reflectance: mean_reflectance(self.scene, &coarse),
+            fit: Fit::new(&coarse.elements(), indirect_vertices, &open, &self.carriers),
             carriers: self.carriers,
             standings,
             subdivision: coarse,

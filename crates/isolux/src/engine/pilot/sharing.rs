@@ -4,7 +4,7 @@ use super::Pilot;
 use crate::elements::Subdivision;
 use crate::engine::accuracy::BELIEVED_INCREMENTS;
 use crate::engine::allot::allot;
-use crate::engine::carriers::least_connected;
+use crate::engine::coarsening::least_connected;
 use crate::engine::flights::CausticNoise;
 use crate::engine::gather::{Gatherer, known_weights};
 use crate::engine::look::Look;

@@ -1,0 +1,360 @@
+//! Which vertices of finely tessellated surfaces are left when they are thinned out, and what the others are interpolated from.
+//!
+//! Surfaces have nothing to do with each other, so that each is thinned out for itself.
+
+use crate::elements::{Subdivision, Vertex};
+use isolux_geometry::{Point, Vector};
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// Levels at most: spacings a factor of two apart.
+const MOST_LEVELS: u8 = 12;
+
+/// Surfaces with fewer vertices are left as they are.
+const FEWEST_VERTICES: usize = 32;
+
+/// Neighbours face ways no farther apart than this, 45 degrees: over more, a tangent plane is none.
+const LEAST_COS: f64 = 0.7;
+
+/// Neighbours that a value is interpolated from, and how far from it they are at most, in spacings.
+const NEIGHBOURS: usize = 12;
+const REACH: f64 = 2.5;
+
+/// Weights whose magnitudes add up to more extrapolate.
+const MOST_WEIGHT: f64 = 1.6;
+
+/// Columns of least squares of which less than this is left by those before depend on them.
+const LEAST_PIVOT: f64 = 1e-3;
+
+/// How far samples may lie beside a line for a polynomial along it, root mean square, as a share of how far they reach: where light
+/// changes no faster across the line than along it, that is what it is wrong by.
+const MOST_OFF_LINE: f64 = 0.1;
+
+/// Where a border turns by more than some 25 degrees it has a corner.
+const STRAIGHT_COS: f64 = -0.9;
+
+/// What a vertex that need not carry light is interpolated from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Link {
+    pub(super) parents: Vec<(u32, f64)>,
+    /// How far carriers of the level before are from each other, m.
+    pub(super) spacing_m: f64,
+}
+
+/// Levels of vertices, and what they are interpolated from.
+pub(super) struct Coarsening {
+    /// Zero for the coarsest.
+    pub(super) levels: Vec<u8>,
+    /// None for those that are not interpolated.
+    pub(super) links: Vec<Option<Link>>,
+}
+
+impl Coarsening {
+    /// Vertices of level zero lie no farther apart than `spacing_m`, those of each next half as far. Vertices that are not
+    /// `open` are not interpolated, nor is anything from them.
+    pub(super) fn of(subdivision: &Subdivision, spacing_m: f64, open: &[bool]) -> Self {
+        let vertices = subdivision.vertices();
+        let found: Vec<Vec<(u32, u8, Option<Link>)>> = surfaces(subdivision, open)
+            .into_par_iter()
+            .map(|surface| surface.thinned_out(vertices, spacing_m))
+            .collect();
+        let mut levels = vec![0; vertices.len()];
+        let mut links = vec![None; vertices.len()];
+        for (vertex, level, link) in found.into_iter().flatten() {
+            levels[vertex as usize] = level;
+            links[vertex as usize] = link;
+        }
+        Self { levels, links }
+    }
+}
+
+/// A smooth surface: vertices that edges connect.
+struct Surface {
+    /// Those in the open, corners of borders first, then the rest of borders, as what lies between is interpolated best.
+    members: Vec<u32>,
+    /// Whether they may be interpolated.
+    can_wait: Vec<bool>,
+}
+
+/// The surfaces that have vertices enough.
+fn surfaces(subdivision: &Subdivision, open: &[bool]) -> Vec<Surface> {
+    let of = least_connected(subdivision);
+    let rank = ranks(subdivision);
+    let mut waits = vec![true; of.len()];
+    for (v, vertex) in subdivision.vertices().iter().enumerate() {
+        for end in vertex.parents.into_iter().flatten() {
+            (waits[v], waits[end as usize]) = (false, false);
+        }
+    }
+    let mut order: Vec<u32> = (0..of.len() as u32).collect();
+    order.par_sort_unstable_by_key(|&v| (of[v as usize], rank[v as usize], v));
+    let alike = order.chunk_by(|&a, &b| of[a as usize] == of[b as usize]);
+    let surface = |all: &[u32]| {
+        let members: Vec<u32> = all.iter().copied().filter(|&v| open[v as usize]).collect();
+        let can_wait = members.iter().map(|&v| waits[v as usize]).collect();
+        Surface { members, can_wait }
+    };
+    alike.filter(|all| all.len() >= FEWEST_VERTICES).map(surface).collect()
+}
+
+/// Of every vertex, whether it lies at a corner of a border (0), on one (1), or within (2).
+fn ranks(subdivision: &Subdivision) -> Vec<u8> {
+    let vertices = subdivision.vertices();
+    let mut beside: Vec<[u32; 2]> = vec![[NONE; 2]; vertices.len()];
+    let mut ranks = vec![2; vertices.len()];
+    for [a, b] in subdivision.border_edges() {
+        for (own, other) in [(a, b), (b, a)] {
+            match beside[own as usize].iter_mut().find(|of| **of == NONE) {
+                Some(free) => *free = other,
+                // Borders meet.
+                None => ranks[own as usize] = 0,
+            }
+        }
+    }
+    for (v, &[a, b]) in beside.iter().enumerate() {
+        if a == NONE || ranks[v] == 0 {
+            continue;
+        }
+        let to = |other: u32| {
+            let to = vertices[other as usize].position - vertices[v].position;
+            to * (1.0 / to.length())
+        };
+        ranks[v] = u8::from(b != NONE && to(a).dot(to(b)) < STRAIGHT_COS);
+    }
+    ranks
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Surface {
+    /// Levels of its vertices and what they are interpolated from.
+    fn thinned_out(&self, vertices: &[Vertex], spacing_m: f64) -> Vec<(u32, u8, Option<Link>)> {
+        let own: Vec<Vertex> = self.members.iter().map(|&v| vertices[v as usize]).collect();
+        let mut levels = self.levels(&own, spacing_m);
+        let links = self.links(&own, spacing_m, &mut levels);
+        let of = self.members.iter().zip(levels).zip(links);
+        of.map(|((&v, level), link)| (v, level, link)).collect()
+    }
+
+    /// The level of every vertex, zero for the coarsest: on every level, no vertex that is added is
+    /// nearer to another one that faces its way than the spacing.
+    fn levels(&self, own: &[Vertex], coarsest_m: f64) -> Vec<u8> {
+        let mut levels: Vec<u8> =
+            self.can_wait.iter().map(|&waits| if waits { MOST_LEVELS } else { 0 }).collect();
+        let mut left: Vec<usize> = (0..own.len()).filter(|&v| self.can_wait[v]).collect();
+        for level in 0..MOST_LEVELS {
+            let spacing_m = spacing_of(coarsest_m, level);
+            let mut grid = Grid::of(own, spacing_m, |v| levels[v] < MOST_LEVELS);
+            left.retain(|&v| {
+                let Vertex { position, normal, .. } = own[v];
+                let mut is_free = true;
+                grid.visit(position, |other| {
+                    let near = (own[other].position - position).length() < spacing_m;
+                    is_free = !(near && own[other].normal.dot(normal) >= LEAST_COS);
+                    is_free
+                });
+                if is_free {
+                    levels[v] = level;
+                    grid.insert(v, position);
+                }
+                !is_free
+            });
+            if left.is_empty() {
+                break;
+            }
+        }
+        levels
+    }
+
+    /// What vertices are interpolated from. A vertex that comes to have no link is as coarse as any.
+    fn links(&self, own: &[Vertex], coarsest_m: f64, levels: &mut [u8]) -> Vec<Option<Link>> {
+        let mut links: Vec<Option<Link>> = vec![None; levels.len()];
+        let finest = levels.iter().copied().max().unwrap_or(0);
+        for level in 1..=finest {
+            let spacing_m = spacing_of(coarsest_m, level - 1);
+            let grid = Grid::of(own, REACH * spacing_m, |v| levels[v] < level);
+            let added: Vec<usize> = (0..levels.len()).filter(|&v| levels[v] == level).collect();
+            let link = |&v: &usize| self.link(own, v, &grid, spacing_m);
+            let found: Vec<Option<Link>> = added.par_iter().map(link).collect();
+            for (v, link) in added.into_iter().zip(found) {
+                if link.is_none() {
+                    levels[v] = 0;
+                }
+                links[v] = link;
+            }
+        }
+        links
+    }
+
+    fn link(&self, own: &[Vertex], vertex: usize, grid: &Grid, spacing_m: f64) -> Option<Link> {
+        let Vertex { position, normal, .. } = own[vertex];
+        let mut near: Vec<(f64, usize)> = Vec::new();
+        grid.visit(position, |other| {
+            let distance_m = (own[other].position - position).length();
+            if distance_m < grid.reach_m && own[other].normal.dot(normal) >= LEAST_COS {
+                near.push((distance_m, other));
+            }
+            true
+        });
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.truncate(NEIGHBOURS);
+        let axis = normal.to_direction();
+        let [x, y] = [[1.0, 0.0], [0.0, 1.0]]
+            .map(|[x, y]| axis.from_local(Vector::new(x, y, 0.0)).to_vector());
+        let width_m = (1.0 + 1e-3) * near.last()?.0;
+        let sample = |&(distance_m, other): &(f64, usize)| {
+            let to = own[other].position - position;
+            let share = distance_m / width_m;
+            let bump = 1.0 - share * share;
+            Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump }
+        };
+        let samples: Vec<Sample> = near.iter().map(sample).collect();
+        let over_plane = [6, 3].into_iter().find_map(|terms| weights_at_origin(&samples, terms));
+        let weights = over_plane.or_else(|| weights_along_line(&samples))?;
+        let of = near.iter().zip(weights);
+        let parents = of.map(|(&(_, other), weight)| (self.members[other], weight)).collect();
+        Some(Link { parents, spacing_m })
+    }
+}
+
+/// Of every vertex, the least that edges connect it to.
+pub(super) fn least_connected(subdivision: &Subdivision) -> Vec<u32> {
+    fn root(of: &mut [u32], mut v: u32) -> u32 {
+        while of[v as usize] != v {
+            of[v as usize] = of[of[v as usize] as usize];
+            v = of[v as usize];
+        }
+        v
+    }
+    let mut of: Vec<u32> = (0..subdivision.vertex_count() as u32).collect();
+    for leaf in subdivision.leaves() {
+        let roots = subdivision.node(leaf).0.vertices.map(|v| root(&mut of, v));
+        let least = roots.into_iter().min().unwrap_or(0);
+        roots.iter().for_each(|&v| of[v as usize] = least);
+    }
+    (0..of.len() as u32).map(|v| root(&mut of, v)).collect()
+}
+
+fn spacing_of(coarsest_m: f64, level: u8) -> f64 {
+    coarsest_m / f64::from(1_u32 << level)
+}
+
+/// Vertices by the cells of a grid.
+struct Grid {
+    reach_m: f64,
+    cells: HashMap<[i64; 3], Vec<usize>>,
+}
+
+impl Grid {
+    /// A grid of some of the vertices, to be asked for those within reach of a place.
+    fn of(vertices: &[Vertex], reach_m: f64, some: impl Fn(usize) -> bool) -> Self {
+        let mut grid = Self { reach_m, cells: HashMap::new() };
+        for (v, vertex) in vertices.iter().enumerate().filter(|&(v, _)| some(v)) {
+            grid.insert(v, vertex.position);
+        }
+        grid
+    }
+
+    /// Cells are twice as long as the reach: what is within reach of a place lies in two of them each way.
+    fn cell(&self, c: f64) -> i64 {
+        libm::floor(0.5 * c / self.reach_m) as i64
+    }
+
+    fn insert(&mut self, vertex: usize, at: Point) {
+        let cell = [at.x, at.y, at.z].map(|c| self.cell(c));
+        self.cells.entry(cell).or_default().push(vertex);
+    }
+
+    /// Visits all within reach of a place and some beyond, until told to stop.
+    fn visit(&self, at: Point, mut go_on: impl FnMut(usize) -> bool) {
+        let [x, y, z] =
+            [at.x, at.y, at.z].map(|c| self.cell(c - self.reach_m)..=self.cell(c + self.reach_m));
+        for x in x {
+            for y in y.clone() {
+                for z in z.clone() {
+                    for &vertex in self.cells.get(&[x, y, z]).into_iter().flatten() {
+                        if !go_on(vertex) {
+                            return;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A place in the tangent plane, and how much it counts.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    at: [f64; 2],
+    weight: f64,
+}
+
+/// The same of a polynomial along the line that the samples lie on, as those on narrow strips and borders do: `None` if they do
+/// not, or the origin does not.
+fn weights_along_line(samples: &[Sample]) -> Option<Vec<f64>> {
+    let whole: f64 = samples.iter().map(|s| s.weight).sum();
+    let mean =
+        |f: &dyn Fn(&Sample) -> f64| samples.iter().map(|s| s.weight * f(s)).sum::<f64>() / whole;
+    let middle = [mean(&|s| s.at[0]), mean(&|s| s.at[1])];
+    let off = |s: &Sample| [s.at[0] - middle[0], s.at[1] - middle[1]];
+    let xx = mean(&|s| off(s)[0] * off(s)[0]);
+    let xy = mean(&|s| off(s)[0] * off(s)[1]);
+    let yy = mean(&|s| off(s)[1] * off(s)[1]);
+    // The axis about which they spread least, through the origin.
+    let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
+    let (sin, cos) = (libm::sin(angle), libm::cos(angle));
+    let off_line = mean(&|s| libm::pow(s.at[1] * cos - s.at[0] * sin, 2.0)).sqrt();
+    if off_line > MOST_OFF_LINE {
+        return None;
+    }
+    let along = |s: &Sample| Sample { at: [s.at[0] * cos + s.at[1] * sin, 0.0], ..*s };
+    let along: Vec<Sample> = samples.iter().map(along).collect();
+    [&[1, 3][..], &[1]].into_iter().find_map(|terms| weights_of_terms(&along, terms))
+}
+
+/// Weights of the values at some places that give the value at the origin of the polynomial of best
+/// fit with so many terms of `1, x, y, x2, xy, y2`; `None` where they do not tell it, or
+/// extrapolate. By orthogonal columns (modified Gram-Schmidt).
+fn weights_at_origin(samples: &[Sample], terms: usize) -> Option<Vec<f64>> {
+    let beside: Vec<usize> = (1..terms).collect();
+    weights_of_terms(samples, &beside)
+}
+
+/// The same with a constant and some of the others.
+fn weights_of_terms(samples: &[Sample], beside: &[usize]) -> Option<Vec<f64>> {
+    if samples.len() <= beside.len() {
+        return None;
+    }
+    let roots: Vec<f64> = samples.iter().map(|s| s.weight.sqrt()).collect();
+    let column = |term: usize| -> Vec<f64> {
+        let value = |s: &Sample| {
+            let [x, y] = s.at;
+            [1.0, x, y, x * x, x * y, y * y][term]
+        };
+        samples.iter().zip(&roots).map(|(s, root)| value(s) * root).collect()
+    };
+    // The constant column comes last: what the others leave of it is what tells the value.
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    for &term in beside.iter().chain(&[0]) {
+        let mut own = column(term);
+        let before = dot(&own, &own);
+        for other in &columns {
+            let share = dot(&own, other) / dot(other, other);
+            own.iter_mut().zip(other).for_each(|(a, b)| *a -= share * b);
+        }
+        if dot(&own, &own) <= LEAST_PIVOT * before {
+            return None;
+        }
+        columns.push(own);
+    }
+    let last = columns.pop()?;
+    let length = dot(&last, &last);
+    let weights: Vec<f64> = last.iter().zip(&roots).map(|(c, root)| c * root / length).collect();
+    let size: f64 = weights.iter().map(|w| w.abs()).sum();
+    (size <= MOST_WEIGHT).then_some(weights)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
