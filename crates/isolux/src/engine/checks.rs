@@ -19,7 +19,7 @@ use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// Check points: a part of the receivers, within limits.
+/// Check points: a part of the vertices that carry light, within limits.
 const SHARE: usize = 8;
 const FEWEST: usize = 256;
 const MOST: usize = 1024;
@@ -80,15 +80,15 @@ pub(super) const fn places(checks: usize, is_map_read_by_rays: bool) -> usize {
     if is_map_read_by_rays { 2 * checks } else { 3 * checks }
 }
 
-/// How many there are on so many vertices.
-pub(super) fn count(vertices: usize) -> usize {
-    (vertices / SHARE).clamp(FEWEST, MOST)
+/// How many there are for so many vertices that carry light.
+pub(super) fn count(carriers: usize) -> usize {
+    (carriers / SHARE).clamp(FEWEST, MOST)
 }
 
 /// Draws the check points of a plan.
 pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let errors = &plan.indirect_errors;
-    let count = count(plan.indirect_vertices);
+    let count = count(plan.carriers.count(plan.indirect_vertices));
     let area: f64 = errors.iter().map(|e| e.area_m2).sum();
     let squared: f64 = errors.iter().map(|e| e.squared()).sum();
     let whole: f64 = errors.iter().map(|e| e.error * e.area_m2).sum();

@@ -56,7 +56,7 @@ impl Pilot<'_> {
             vertices: vertices as f64,
             pilot_rays: mean_of(&self.rays),
             rays,
-            checks: checks::count(vertices) as f64,
+            checks: checks::count(self.carriers.count(vertices)) as f64,
             particles: if self.lighting.leaves_caustics() {
                 f64::from(self.caustic_noise.particles(vertices, of_goal, BELIEVED_INCREMENTS))
             } else {
