@@ -26,9 +26,10 @@ const MOST_WEIGHT: f64 = 1.6;
 /// Columns of least squares of which less than this is left by those before depend on them.
 const LEAST_PIVOT: f64 = 1e-3;
 
-/// How far samples may lie beside a line for a polynomial along it, root mean square, as a share of how far they reach: where light
-/// changes no faster across the line than along it, that is what it is wrong by.
-const MOST_OFF_LINE: f64 = 0.1;
+/// How far samples may lie beside a line to be on it, as a share of how far they reach: as coordinates are rounded. And
+/// how many of the nearest are tried to tell one.
+const OFF_LINE: f64 = 1e-4;
+const LINES: usize = 4;
 
 /// Where a border turns by more than some 25 degrees it has a corner.
 const STRAIGHT_COS: f64 = -0.9;
@@ -212,7 +213,8 @@ impl Surface {
         let over_plane = [6, 3].into_iter().find_map(|terms| weights_at_origin(&samples, terms));
         let weights = over_plane.or_else(|| weights_along_line(&samples))?;
         let of = near.iter().zip(weights);
-        let parents = of.map(|(&(_, other), weight)| (self.members[other], weight)).collect();
+        let parents = of.filter(|(_, weight)| *weight != 0.0);
+        let parents = parents.map(|(&(_, other), weight)| (self.members[other], weight)).collect();
         Some(Link { parents, spacing_m })
     }
 }
@@ -290,27 +292,23 @@ struct Sample {
     weight: f64,
 }
 
-/// The same of a polynomial along the line that the samples lie on, as those on narrow strips and borders do: `None` if they do
-/// not, or the origin does not.
+/// The same of a polynomial along a line through the origin that some of the samples lie on, as others on the same border do;
+/// the line is told by one of the nearest.
 fn weights_along_line(samples: &[Sample]) -> Option<Vec<f64>> {
-    let whole: f64 = samples.iter().map(|s| s.weight).sum();
-    let mean =
-        |f: &dyn Fn(&Sample) -> f64| samples.iter().map(|s| s.weight * f(s)).sum::<f64>() / whole;
-    let middle = [mean(&|s| s.at[0]), mean(&|s| s.at[1])];
-    let off = |s: &Sample| [s.at[0] - middle[0], s.at[1] - middle[1]];
-    let xx = mean(&|s| off(s)[0] * off(s)[0]);
-    let xy = mean(&|s| off(s)[0] * off(s)[1]);
-    let yy = mean(&|s| off(s)[1] * off(s)[1]);
-    // The axis about which they spread least, through the origin.
-    let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
-    let (sin, cos) = (libm::sin(angle), libm::cos(angle));
-    let off_line = mean(&|s| libm::pow(s.at[1] * cos - s.at[0] * sin, 2.0)).sqrt();
-    if off_line > MOST_OFF_LINE {
-        return None;
-    }
-    let along = |s: &Sample| Sample { at: [s.at[0] * cos + s.at[1] * sin, 0.0], ..*s };
-    let along: Vec<Sample> = samples.iter().map(along).collect();
-    [&[1, 3][..], &[1]].into_iter().find_map(|terms| weights_of_terms(&along, terms))
+    samples.iter().take(LINES).find_map(|towards| {
+        let [x, y] = towards.at;
+        let length = libm::hypot(x, y);
+        let (cos, sin) = (x / length, y / length);
+        let along = |s: &Sample| Sample { at: [s.at[0] * cos + s.at[1] * sin, 0.0], ..*s };
+        let is_on = |s: &Sample| (s.at[1] * cos - s.at[0] * sin).abs() < OFF_LINE;
+        let on: Vec<usize> = (0..samples.len()).filter(|&k| is_on(&samples[k])).collect();
+        let line: Vec<Sample> = on.iter().map(|&k| along(&samples[k])).collect();
+        let weights =
+            [&[1, 3][..], &[1]].into_iter().find_map(|terms| weights_of_terms(&line, terms))?;
+        let mut all = vec![0.0; samples.len()];
+        on.into_iter().zip(weights).for_each(|(k, weight)| all[k] = weight);
+        Some(all)
+    })
 }
 
 /// Weights of the values at some places that give the value at the origin of the polynomial of best

@@ -85,18 +85,7 @@ impl Fit {
                 }
             }
         }
-        let form = |(area_m2, mut form): (f64, Form)| {
-            // In the order of the elements, for each vertex.
-            form.sort_by_key(|&(v, _)| v);
-            form.dedup_by(|next, sum| {
-                let same = next.0 == sum.0;
-                sum.1 += if same { next.1 } else { 0.0 };
-                same
-            });
-            form.iter_mut().for_each(|(_, weight)| *weight /= area_m2);
-            form
-        };
-        let forms: Vec<Form> = sums.into_par_iter().map(form).collect();
+        let forms: Vec<Form> = sums.into_par_iter().map(summed).collect();
         let mut fit = Self::default();
         for form in forms {
             let size: f64 = form.iter().map(|(_, weight)| weight.abs()).sum();
@@ -127,6 +116,19 @@ impl Fit {
         };
         (0..self.ends.len()).into_par_iter().with_min_len(1024).map(one).collect()
     }
+}
+
+/// Shifts over an area in the mean, each vertex once.
+fn summed((area_m2, mut form): (f64, Form)) -> Form {
+    // In the order of the elements, for each vertex.
+    form.sort_by_key(|&(v, _)| v);
+    form.dedup_by(|next, sum| {
+        let same = next.0 == sum.0;
+        sum.1 += if same { next.1 } else { 0.0 };
+        same
+    });
+    form.iter_mut().for_each(|(_, weight)| *weight /= area_m2);
+    form
 }
 
 /// Of every element, those on its edges: edge `k` is opposite vertex `k`. None where an edge is a

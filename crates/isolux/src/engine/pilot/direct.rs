@@ -19,8 +19,6 @@ use std::time::Instant;
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 2;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
-/// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
-pub(super) const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
 /// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
 const LOOKED_AT: usize = 512;
 const MOST_REFLECTANCE: f64 = 0.9;

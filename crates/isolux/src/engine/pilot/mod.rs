@@ -61,6 +61,8 @@ const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
 /// comes there.
 const ROUNDS_FOR_HIDDEN: usize = 4;
 const PLACES_OF_HIDDEN: u32 = 4;
+/// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
+const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
 /// Sweeps of the pilot end when they change less than this.
 const PILOT_TOLERANCE: f64 = 1e-4;
 
@@ -150,7 +152,7 @@ impl<'s> Pilot<'s> {
             direct: Vec::new(),
             direct_variance: Vec::new(),
             measured_at: Vec::new(),
-            direct_noise: has_noise.then_some(direct::NOISE_OF_DIRECT_LIGHT * request.mesh_target),
+            direct_noise: has_noise.then_some(NOISE_OF_DIRECT_LIGHT * request.mesh_target),
             direct_noise_lx: None,
             indirect: Vec::new(),
             known: Vec::new(),
