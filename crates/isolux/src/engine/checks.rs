@@ -121,7 +121,7 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
         let surface =
             SurfacePoint::in_node(plan.scene, &plan.subdivision, errors[k].node, dice.pair());
         let area_m2 = errors[k].area_m2 / (count as f64 * density(k) / sum);
-        check(plan, Gatherer::on_surface(surface, rays), area_m2, errors[k].error)
+        check(plan, Gatherer::on_surface(surface, rays), area_m2, &errors[k])
     };
     let mut checks: Vec<Check> = (0..count).filter_map(one).collect();
     let untrusted = || checks.iter().filter(|check| !check.is_trusted);
@@ -133,7 +133,7 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     checks
 }
 
-fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Option<Check> {
+fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Option<Check> {
     let weights = |level: u32| {
         let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
         let corners = plan.elements.locate_above(level, triangle, back, u, v)?;
@@ -145,6 +145,8 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, expected_lx: f64) -> Opt
     let is_beset = trust::is_beset(plan.scene, &gatherer.surface, edge_m);
     let in_gap = is_beset && trust::is_closed_in(plan.scene, &gatherer.surface, edge_m);
     let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
+    let expected_lx = of.error;
+    let is_beset = is_beset || of.is_beset_afar;
     let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !is_beset;
     let gatherer = gatherer.in_gap(in_gap);
     Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted, close: 0.0 })

@@ -510,9 +510,13 @@ impl<'s> Pilot<'s> {
     /// Refines further for direct light as interpolated, and puts the plan together.
     fn finish(mut self, mut look: Look, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Plan<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
-        let trusted_up_to_lx = look.trusted_up_to_lx(request);
         let coarse = self.subdivision.clone();
         self.refine_for_direct_light(&mut look, request, go_on);
+        // Readers see elements for direct light alone.
+        for error in look.errors.iter_mut().filter(|e| e.is_beset) {
+            error.is_beset_afar |= self.subdivision.node(error.node).0.split.is_some();
+        }
+        let trusted_up_to_lx = look.trusted_up_to_lx(request);
         // Without time for it, light from where receivers were before has to do.
         let gatherers = self.gatherers();
         if self.has_time(&look, request, FINE, go_on) {
