@@ -3,6 +3,8 @@
 use super::*;
 use crate::elements::Subdivision;
 use crate::engine::detail::LeafError;
+use crate::engine::direct::Lighting;
+use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::surface::SurfacePoint;
 use crate::engine::trust;
 
@@ -69,6 +71,39 @@ fn errors_at_vertices_bound_those_of_elements() {
     assert!(compared > 4 * errors.len());
     for (vertex, &error) in elements.vertices().iter().zip(&at) {
         assert_eq!(error > 0.0, vertex.position.x <= 2.0, "{:?}", vertex.position);
+    }
+}
+
+/// What direct light asks for makes elements smaller, and nothing stands nearer than they are long any more; but
+/// indirect light is still carried by the vertices of those that were beset.
+#[test]
+fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
+    // A shelf before a wall throws a shadow that takes fine elements.
+    let shelf = rectangle([1.0, 0.2, 1.0], [1.0, 0.0, 0.0], [0.0, 0.2, 0.0], 0);
+    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
+    shapes.push(shelf);
+    let scene =
+        scene(shapes, vec![painted(Rgb::grey(0.5))], vec![isotropic([1.5, 1.5, 2.0], 100.0)]);
+    let lighting = Lighting::new(&scene);
+    let request = PilotRequest {
+        target: 0.1,
+        mesh_target: 0.02,
+        seed: 1,
+        is_fitted: true,
+        max_vertices: 20_000,
+        most_for_indirect_light: Some(200),
+        least_edge_m: None,
+    };
+    let plan = pilot(&scene, &lighting, &request, &mut |_| true);
+    let at = plan.expected_lx();
+    let split = |e: &&LeafError| e.is_beset && plan.elements.node(e.node).split.is_some();
+    let beset: Vec<&LeafError> = plan.indirect_errors.iter().filter(split).collect();
+    assert!(beset.len() > 10, "there is something to be seen: {}", beset.len());
+    for error in beset {
+        plan.elements.visit_below(error.node, &mut |corners| {
+            let least = corners.iter().map(|&v| at[v as usize]).fold(f64::INFINITY, f64::min);
+            assert!(least > plan.trusted_up_to_lx, "{least} {}", plan.trusted_up_to_lx);
+        });
     }
 }
 
