@@ -10,7 +10,7 @@
 use super::accumulate::{Accumulator, Sample};
 use super::detail::LeafError;
 use super::direct::Goal;
-use super::gather::{Gatherer, Gathering, known_weights};
+use super::gather::{Gatherer, Gathering, known_at};
 use super::path::Dice;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
@@ -134,12 +134,7 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
 }
 
 fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Option<Check> {
-    let weights = |level: u32| {
-        let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
-        let corners = plan.elements.locate_above(level, triangle, back, u, v)?;
-        let weights = known_weights(corners, &plan.standings)?;
-        Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
-    };
+    let weights = |level: u32| known_at(&plan.elements, level, &plan.standings, &gatherer.surface);
     let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
     let edge_m = trust::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
     let is_beset = trust::is_beset(plan.scene, &gatherer.surface, edge_m);

@@ -210,7 +210,8 @@ impl Surface {
             Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump }
         };
         let samples: Vec<Sample> = near.iter().map(sample).collect();
-        let over_plane = [6, 3].into_iter().find_map(|terms| weights_at_origin(&samples, terms));
+        let over_plane = [&[1, 2, 3, 4, 5][..], &[1, 2]];
+        let over_plane = over_plane.into_iter().find_map(|beside| weights(&samples, beside));
         let weights = over_plane.or_else(|| weights_along_line(&samples))?;
         let of = near.iter().zip(weights);
         let parents = of.filter(|(_, weight)| *weight != 0.0);
@@ -292,35 +293,10 @@ struct Sample {
     weight: f64,
 }
 
-/// The same of a polynomial along a line through the origin that some of the samples lie on, as others on the same border do;
-/// the line is told by one of the nearest.
-fn weights_along_line(samples: &[Sample]) -> Option<Vec<f64>> {
-    samples.iter().take(LINES).find_map(|towards| {
-        let [x, y] = towards.at;
-        let length = libm::hypot(x, y);
-        let (cos, sin) = (x / length, y / length);
-        let along = |s: &Sample| Sample { at: [s.at[0] * cos + s.at[1] * sin, 0.0], ..*s };
-        let is_on = |s: &Sample| (s.at[1] * cos - s.at[0] * sin).abs() < OFF_LINE;
-        let on: Vec<usize> = (0..samples.len()).filter(|&k| is_on(&samples[k])).collect();
-        let line: Vec<Sample> = on.iter().map(|&k| along(&samples[k])).collect();
-        let weights =
-            [&[1, 3][..], &[1]].into_iter().find_map(|terms| weights_of_terms(&line, terms))?;
-        let mut all = vec![0.0; samples.len()];
-        on.into_iter().zip(weights).for_each(|(k, weight)| all[k] = weight);
-        Some(all)
-    })
-}
-
 /// Weights of the values at some places that give the value at the origin of the polynomial of best
-/// fit with so many terms of `1, x, y, x2, xy, y2`; `None` where they do not tell it, or
+/// fit of a constant and some terms beside it of `1, x, y, x2, xy, y2`; `None` where they do not tell it, or
 /// extrapolate. By orthogonal columns (modified Gram-Schmidt).
-fn weights_at_origin(samples: &[Sample], terms: usize) -> Option<Vec<f64>> {
-    let beside: Vec<usize> = (1..terms).collect();
-    weights_of_terms(samples, &beside)
-}
-
-/// The same with a constant and some of the others.
-fn weights_of_terms(samples: &[Sample], beside: &[usize]) -> Option<Vec<f64>> {
+fn weights(samples: &[Sample], beside: &[usize]) -> Option<Vec<f64>> {
     if samples.len() <= beside.len() {
         return None;
     }
@@ -351,6 +327,24 @@ fn weights_of_terms(samples: &[Sample], beside: &[usize]) -> Option<Vec<f64>> {
     let weights: Vec<f64> = last.iter().zip(&roots).map(|(c, root)| c * root / length).collect();
     let size: f64 = weights.iter().map(|w| w.abs()).sum();
     (size <= MOST_WEIGHT).then_some(weights)
+}
+
+/// The same of a polynomial along a line through the origin that some of the samples lie on, as others on the same border do;
+/// the line is told by one of the nearest.
+fn weights_along_line(samples: &[Sample]) -> Option<Vec<f64>> {
+    samples.iter().take(LINES).find_map(|towards| {
+        let [x, y] = towards.at;
+        let length = libm::hypot(x, y);
+        let (cos, sin) = (x / length, y / length);
+        let along = |s: &Sample| Sample { at: [s.at[0] * cos + s.at[1] * sin, 0.0], ..*s };
+        let is_on = |s: &Sample| (s.at[1] * cos - s.at[0] * sin).abs() < OFF_LINE;
+        let on: Vec<usize> = (0..samples.len()).filter(|&k| is_on(&samples[k])).collect();
+        let line: Vec<Sample> = on.iter().map(|&k| along(&samples[k])).collect();
+        let found = [&[1, 3][..], &[1]].into_iter().find_map(|beside| weights(&line, beside))?;
+        let mut all = vec![0.0; samples.len()];
+        on.into_iter().zip(found).for_each(|(k, weight)| all[k] = weight);
+        Some(all)
+    })
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -48,10 +48,8 @@ impl Fit {
         carriers: &Carriers,
     ) -> Self {
         let all = elements.elements();
-        let is_known = |e: &Element| {
-            e.vertices.iter().all(|&v| known[v as usize])
-                && e.vertices.iter().any(|&v| carriers.is_active(v))
-        };
+        let is_known = |e: &Element| e.vertices.iter().all(|&v| known[v as usize]);
+        let carries = |e: &Element| e.vertices.iter().any(|&v| carriers.is_active(v));
         let neighbours = neighbours(&all);
         let place = |v: u32| elements.vertices()[v as usize].position;
         let inner: Vec<Option<[Form; 3]>> = (0..all.len())
@@ -59,13 +57,14 @@ impl Fit {
             .map(|k| {
                 let beside = [neighbours[k][0]?, neighbours[k][1]?, neighbours[k][2]?];
                 let around = beside.iter().chain([&k]).all(|&n| is_known(&all[n]));
-                around.then(|| hessian(&all, k, beside, &place)).flatten()
+                (carries(&all[k]) && around).then(|| hessian(&all, k, beside, &place)).flatten()
             })
             .collect();
         let on_border = borders(&all, &neighbours, vertices);
         let within = |vertex: u32| !on_border[vertex as usize];
         let mean = |k: usize| mean_excess(&all, &inner, &neighbours[k], k, &place);
-        let is_moved = |e: &Element| is_known(e) && e.vertices.iter().any(|&v| within(v));
+        let is_moved =
+            |e: &Element| is_known(e) && carries(e) && e.vertices.iter().any(|&v| within(v));
         let means: Vec<Form> = (0..all.len())
             .into_par_iter()
             .map(|k| if is_moved(&all[k]) { mean(k) } else { Form::new() })

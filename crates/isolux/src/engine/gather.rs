@@ -418,6 +418,18 @@ enum End {
     Closed,
 }
 
+/// Known vertices and their weights at a place, nodes from number `level` on left out.
+pub(super) fn known_at(
+    elements: &Elements,
+    level: u32,
+    standings: &[Option<Standing>],
+    at: &SurfacePoint,
+) -> Option<[(u32, f64); 3]> {
+    let corners = elements.locate_above(level, at.triangle, at.back, at.u, at.v)?;
+    let weights = known_weights(corners, standings)?;
+    Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
+}
+
 /// Interpolation weights over the known vertices of the highest standing alone.
 pub(super) fn known_weights(
     corners: [(u32, f64); 3],

@@ -6,7 +6,7 @@ use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
 use super::flights::CausticNoise;
-use super::gather::{DirectAtEnds, Gatherer, Gathering, known_weights};
+use super::gather::{DirectAtEnds, Gatherer, Gathering, known_at};
 use super::surface::SurfacePoint;
 use super::trial::Trial;
 use super::trust;
@@ -83,12 +83,10 @@ impl Plan<'_> {
 
     /// What a place reads of values at vertices, nodes from number `level` on left out.
     pub(super) fn read(&self, level: u32, values: &[Rgb], at: &SurfacePoint) -> Rgb {
-        let corners = self.elements.locate_above(level, at.triangle, at.back, at.u, at.v);
-        let weights = corners.and_then(|corners| known_weights(corners, &self.standings));
-        let read = |(corners, weights): ([(u32, f64); 3], [f64; 3])| {
-            (0..3).map(|k| values[corners[k].0 as usize] * weights[k]).sum()
-        };
-        corners.zip(weights).map_or(Rgb::BLACK, read)
+        let corners = known_at(&self.elements, level, &self.standings, at);
+        corners.map_or(Rgb::BLACK, |corners| {
+            corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
+        })
     }
 
     /// Whether a vertex lies in the open.

@@ -6,7 +6,7 @@ use crate::engine::accuracy::BELIEVED_INCREMENTS;
 use crate::engine::allot::allot;
 use crate::engine::coarsening::least_connected;
 use crate::engine::flights::CausticNoise;
-use crate::engine::gather::{Gatherer, known_weights};
+use crate::engine::gather::{Gatherer, known_at};
 use crate::engine::look::Look;
 use crate::engine::surface::SurfacePoint;
 use crate::engine::trial::{self, Trial};
@@ -51,11 +51,7 @@ impl Pilot<'_> {
         self.trial = Some(trial);
         self.traced += rays;
         let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();
-        let read = |at: &SurfacePoint| {
-            let corners = look.elements.locate(at.triangle, at.back, at.u, at.v)?;
-            let weights = known_weights(corners, &self.standings)?;
-            Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
-        };
+        let read = |at: &SurfacePoint| known_at(&look.elements, u32::MAX, &self.standings, at);
         let of = (self.scene, self.lighting);
         let (noise, rays) = CausticNoise::tried(of, &areas_m2, read, self.key.with(7));
         self.caustic_noise = noise;
