@@ -66,11 +66,17 @@ fn in_all(
     let direct_lx = if is_read { interpolation.direct_mean_lx } else { 0.0 };
     let mean_lx = interpolation.indirect_mean_lx + plan.mean_reflectance * direct_lx;
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign, and so may have
-    // the mean of what is wrong where it is read, which is counted for itself already.
-    let reflected = reflected_series(plan) * mean_lx / rms_lx;
+    // the mean of what is wrong where it is read, which is counted for itself already. Rays of vertices read all of it,
+    // those of readers what is seen from afar: the larger counts. What differs from place to place has either sign and
+    // is reflected as good as no more.
+    let rho = plan.mean_reflectance.min(0.99);
+    let of_each = [rho * mean_lx, interpolation.seen_mean_lx];
+    let larger = if of_each[0].abs() > of_each[1].abs() { of_each[0] } else { of_each[1] };
+    let reflected = larger / (1.0 - rho) / rms_lx;
+    let spread = interpolation.seen_spread_lx / rms_lx;
     let bias_beside = |read_lx: f64| {
         let alike = (2.0 * reflected * read_lx / rms_lx).max(0.0);
-        (reflected * reflected + alike).sqrt() + given_up
+        (reflected * reflected + alike + spread * spread).sqrt() + given_up
     };
     let bias = bias_beside(interpolation.trusted_mean_lx);
     let bias_of_bare_map = bias_beside(mean_lx);
@@ -126,12 +132,6 @@ fn given_up_share(plan: &Plan, given_up_lx: f64, rms_lx: f64) -> f64 {
     } else {
         0.0
     }
-}
-
-/// `rho / (1 - rho)` of the mean reflectance of the surfaces.
-fn reflected_series(plan: &Plan) -> f64 {
-    let rho = plan.mean_reflectance.min(0.99);
-    rho / (1.0 - rho)
 }
 
 /// Mean diffuse reflectance of the surfaces.

@@ -9,7 +9,7 @@
 //! linear one where they do not tell a quadratic one. A vertex that neither can be had for carries
 //! light itself. So do those that stand for gaps and rims, and all that bisection makes.
 
-use super::coarsening::{Coarsening, Link};
+use super::coarsening::{Coarsening, Link, weights_at};
 use crate::elements::Subdivision;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -69,6 +69,55 @@ impl Carriers {
         });
         let ends = ends.collect();
         Self { links, active, order, ends }
+    }
+
+    /// Makes vertices from `first` on, made by bisecting `elements`, wait: each is interpolated from the corners of the elements
+    /// about it that carry light, or lies between the ends of its edge where those do not tell it.
+    pub(super) fn smooth(
+        &mut self,
+        subdivision: &Subdivision,
+        first: usize,
+        elements: &[[u32; 3]],
+        open: &[bool],
+    ) {
+        let vertices = subdivision.vertices();
+        let mut rings: Vec<Vec<u32>> = vec![Vec::new(); first];
+        let tells = |v: &u32| open[*v as usize] && self.is_active(*v);
+        for corners in elements {
+            let telling = || corners.iter().copied().filter(tells);
+            corners.iter().for_each(|&v| rings[v as usize].extend(telling()));
+        }
+        let link = |vertex: usize| {
+            let ends = vertices[vertex].parents.expect("made by bisection");
+            let mut between = ends.map(|end| (end, 0.5)).to_vec();
+            while let Some(k) = between.iter().position(|&(end, _)| end as usize >= first) {
+                let (made, weight) = between.swap_remove(k);
+                let ends = vertices[made as usize].parents.expect("made by bisection");
+                between.extend(ends.map(|end| (end, 0.5 * weight)));
+            }
+            let mut about: Vec<u32> =
+                between.iter().flat_map(|&(end, _)| &rings[end as usize]).copied().collect();
+            about.sort_unstable();
+            about.dedup();
+            let at = &vertices[vertex];
+            let distance_m = |v: u32| (vertices[v as usize].position - at.position).length();
+            let near = about.into_iter().map(|v| (distance_m(v), v as usize)).collect();
+            let told = weights_at(at, near, |v| vertices[v].position);
+            let told = told.filter(|_| open[vertex]);
+            let told =
+                told.map(|of| of.into_iter().map(|(v, weight)| (v as u32, weight)).collect());
+            let parents = told.unwrap_or(between);
+            Some(Link { parents, spacing_m: distance_m(ends[0]) + distance_m(ends[1]) })
+        };
+        self.links.resize(first, None);
+        self.links.par_extend((first..vertices.len()).into_par_iter().map(link));
+        self.active.resize(first, true);
+        self.active.resize(vertices.len(), false);
+        // Those that lie between others, after these.
+        for vertex in first as u32..vertices.len() as u32 {
+            self.order.push(vertex);
+        }
+        self.ends.push(self.order.len());
     }
 
     /// Whether a vertex carries light.
@@ -147,7 +196,7 @@ impl Carriers {
         for &(parent, weight) in &link.parents {
             detail -= weight * values[parent as usize]?;
         }
-        Some((detail.abs(), link.spacing_m))
+        Some((detail, link.spacing_m))
     }
 
     /// What is told of the vertices of the first mesh that do not carry light; `is_beset` says of a
@@ -166,7 +215,7 @@ impl Carriers {
                 let of = told[parent as usize];
                 let error = match (&of, self.detail(values, parent)) {
                     (Some(told), _) => Some(told.error),
-                    (None, detail) => detail.map(|(detail, _)| ERROR_OF_DETAIL * detail),
+                    (None, detail) => detail.map(|(detail, _)| ERROR_OF_DETAIL * detail.abs()),
                 };
                 any |= error.is_some();
                 here.error = here.error.max(error.unwrap_or(0.0));

@@ -15,6 +15,7 @@ use super::path::Dice;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
 use super::trust;
+use super::views::{self, Read, View, views};
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -45,6 +46,12 @@ pub(super) struct Check {
     is_trusted: bool,
     /// The share of a unit of light that readers who gather there read close by all the same.
     close: f64,
+    /// The longest edge of the element there, m.
+    edge_m: f64,
+    /// Whether rays read direct light, too.
+    reads_direct: bool,
+    /// What it shows and sees of others.
+    view: View,
 }
 
 /// Errors beyond noise, lx: of interpolation over the surface, root mean squares and the signed
@@ -63,6 +70,10 @@ pub(super) struct InterpolationErrors {
     pub(super) indirect_mean_lx: f64,
     /// What of it lies where readers interpolate, likewise.
     pub(super) trusted_mean_lx: f64,
+    /// What arrives of errors that rays read from afar: its mean over the surface, with its sign.
+    pub(super) seen_mean_lx: f64,
+    /// By how much that differs from place to place, root mean square.
+    pub(super) seen_spread_lx: f64,
     /// Mean of the interpolation error of direct light, with its sign.
     pub(super) direct_mean_lx: f64,
     /// What paths given up would bring in the mean, before it is reflected.
@@ -130,6 +141,8 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let operator = gathering.operator(&rows, |k| key.with(1).with(k as u64));
     let untrusted = checks.iter_mut().filter(|check| !check.is_trusted);
     untrusted.zip(operator.close()).for_each(|(check, close)| check.close = close);
+    let places: Vec<Read> = checks.iter().map(Check::as_read).collect();
+    checks.iter_mut().zip(views(plan.scene, &places)).for_each(|(check, view)| check.view = view);
     checks
 }
 
@@ -144,7 +157,29 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let is_beset = is_beset || of.is_beset_afar;
     let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !is_beset;
     let gatherer = gatherer.in_gap(in_gap);
-    Some(Check { gatherer, coarse, fine, area_m2, expected_lx, is_trusted, close: 0.0 })
+    let reads_direct = plan.lighting.are_read_at_ends();
+    let (close, view) = (0.0, View::default());
+    let place = Check {
+        gatherer,
+        coarse,
+        fine,
+        area_m2,
+        expected_lx,
+        is_trusted,
+        close,
+        edge_m,
+        reads_direct,
+        view,
+    };
+    Some(place)
+}
+
+impl Check {
+    /// As rays read it.
+    const fn as_read(&self) -> Read {
+        let Self { gatherer, edge_m, area_m2, .. } = *self;
+        Read { surface: gatherer.surface, edge_m, area_m2 }
+    }
 }
 
 /// Direct light at the check points, as readings evaluate it; `key` only matters where it has noise.
@@ -234,10 +269,8 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> I
         let indirect = estimate.mean.indirect.luminance();
         let share = check.area_m2 / area;
         noise += share * sums.estimate(checks.len() + k).variance;
-        let both = [
-            (indirect, estimate.indirect_variance),
-            (indirect + estimate.mean.direct.luminance(), estimate.variance),
-        ];
+        let all = indirect + estimate.mean.direct.luminance();
+        let both = [(indirect, estimate.indirect_variance), (all, estimate.variance)];
         if check.is_trusted {
             expected += share * check.expected_lx * check.expected_lx;
             trusted_mean += share * indirect;
@@ -268,11 +301,14 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> I
         // All of it, whichever light is read there.
         mean = [checks.iter().enumerate().map(mean_lx).sum::<f64>(); 2];
     }
+    let [seen_mean_lx, seen_spread_lx] = seen(sums, checks, noise_is);
     InterpolationErrors {
         indirect_lx: root(0),
         total_lx: root(1),
         indirect_mean_lx: believed(mean[0]),
         trusted_mean_lx: believed(trusted_mean),
+        seen_mean_lx,
+        seen_spread_lx,
         direct_mean_lx: mean[1] - mean[0],
         untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
         close: close.sqrt(),
@@ -280,4 +316,38 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> I
         noise_lx: (!checks.is_empty()).then(|| noise.sqrt()),
         over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),
     }
+}
+
+/// What arrives of errors that rays read from afar: its mean, and by how much it differs from place to place.
+fn seen(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> [f64; 2] {
+    let area: f64 = checks.iter().map(|c| c.area_m2).sum();
+    let reads_other_light = sums.sums.len() > 2 * checks.len();
+    let (mut errors, mut shares) = (Vec::new(), Vec::new());
+    let (mut mean, mut of_mean) = (0.0, 0.0);
+    for (k, check) in checks.iter().enumerate() {
+        let place = if reads_other_light { 2 * checks.len() + k } else { k };
+        let estimate = sums.estimate(place);
+        let (indirect, direct) = (estimate.mean.indirect, estimate.mean.direct);
+        // Neither rays nor views come to what is closed in.
+        let (error, variance) = match (reads_other_light, check.gatherer.in_gap) {
+            (false, true) => (0.0, 0.0),
+            (false, false) if check.reads_direct => {
+                ((indirect + direct).luminance(), estimate.variance)
+            }
+            _ => (indirect.luminance(), estimate.indirect_variance),
+        };
+        let share = check.area_m2 / area;
+        mean += share * check.view.shown * error;
+        of_mean += (share * check.view.shown).powi(2) * variance;
+        shares.push(share);
+        errors.push(error);
+    }
+    let spread = match noise_is {
+        // A few hundred points tell its order and no more.
+        Noise::RuledOut => 0.0,
+        Noise::Counted | Noise::TakenOff => {
+            views::spread(shares.into_iter().zip(checks.iter().map(|c| &c.view)), &errors)
+        }
+    };
+    [noise_is.of_mean(mean, of_mean.sqrt()), spread]
 }

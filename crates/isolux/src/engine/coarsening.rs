@@ -197,27 +197,36 @@ impl Surface {
             }
             true
         });
-        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        near.truncate(NEIGHBOURS);
-        let axis = normal.to_direction();
-        let [x, y] = [[1.0, 0.0], [0.0, 1.0]]
-            .map(|[x, y]| axis.from_local(Vector::new(x, y, 0.0)).to_vector());
-        let width_m = (1.0 + 1e-3) * near.last()?.0;
-        let sample = |&(distance_m, other): &(f64, usize)| {
-            let to = own[other].position - position;
-            let share = distance_m / width_m;
-            let bump = 1.0 - share * share;
-            Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump }
-        };
-        let samples: Vec<Sample> = near.iter().map(sample).collect();
-        let over_plane = [&[1, 2, 3, 4, 5][..], &[1, 2]];
-        let over_plane = over_plane.into_iter().find_map(|beside| weights(&samples, beside));
-        let weights = over_plane.or_else(|| weights_along_line(&samples))?;
-        let of = near.iter().zip(weights);
-        let parents = of.filter(|(_, weight)| *weight != 0.0);
-        let parents = parents.map(|(&(_, other), weight)| (self.members[other], weight)).collect();
+        let of = weights_at(&own[vertex], near, |other| own[other].position)?;
+        let parents = of.into_iter().map(|(other, weight)| (self.members[other], weight)).collect();
         Some(Link { parents, spacing_m })
     }
+}
+
+/// Neighbours near a place, each with its distance, and the weights of their values that give the value there.
+pub(super) fn weights_at(
+    at: &Vertex,
+    mut near: Vec<(f64, usize)>,
+    position: impl Fn(usize) -> Point,
+) -> Option<Vec<(usize, f64)>> {
+    near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    near.truncate(NEIGHBOURS);
+    let axis = at.normal.to_direction();
+    let [x, y] =
+        [[1.0, 0.0], [0.0, 1.0]].map(|[x, y]| axis.from_local(Vector::new(x, y, 0.0)).to_vector());
+    let width_m = (1.0 + 1e-3) * near.last()?.0;
+    let sample = |&(distance_m, other): &(f64, usize)| {
+        let to = position(other) - at.position;
+        let share = distance_m / width_m;
+        let bump = 1.0 - share * share;
+        Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump }
+    };
+    let samples: Vec<Sample> = near.iter().map(sample).collect();
+    let over_plane = [&[1, 2, 3, 4, 5][..], &[1, 2]];
+    let over_plane = over_plane.into_iter().find_map(|beside| weights(&samples, beside));
+    let weights = over_plane.or_else(|| weights_along_line(&samples))?;
+    let of = near.iter().zip(weights);
+    Some(of.filter(|(_, weight)| *weight != 0.0).map(|(&(_, other), w)| (other, w)).collect())
 }
 
 /// Of every vertex, the least that edges connect it to.

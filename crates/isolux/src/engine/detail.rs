@@ -32,6 +32,8 @@ pub(super) struct LeafError {
     pub(super) area_m2: f64,
     /// Root mean square over the element, in the unit of the values.
     pub(super) error: f64,
+    /// By how much the values exceed their interpolation in the mean, roughly; zero where that is not told.
+    pub(super) excess: f64,
     /// Whether readers gather there anyway, as something stands close.
     pub(super) is_beset: bool,
     /// Whether that is so only because its light is carried by vertices farther apart than its own.
@@ -82,30 +84,39 @@ impl<'a> Details<'a> {
         let leaf = |node: u32| {
             let area_m2 = self.subdivision.triangle(node).area();
             let corners = self.subdivision.node(node).0.vertices;
-            let error = self.told_error(node).unwrap_or_else(|| {
+            let (error, excess) = self.told_error(node).unwrap_or_else(|| {
                 untold_error(corners.map(|v| self.values[v as usize]), in_the_middle(node))
             });
             let beset = is_beset(node);
             let is_beset_afar = !beset
                 && corners.iter().any(|&v| self.told_at(v).is_some_and(|told| told.is_beset));
-            LeafError { node, area_m2, error, is_beset: beset || is_beset_afar, is_beset_afar }
+            LeafError {
+                node,
+                area_m2,
+                error,
+                excess,
+                is_beset: beset || is_beset_afar,
+                is_beset_afar,
+            }
         };
         let leaves: Vec<u32> = self.subdivision.leaves().collect();
         leaves.into_par_iter().with_min_len(TOGETHER).map(leaf).collect()
     }
 
-    /// The error of an element that details tell; `None` if it has none, or vertices that say nothing.
-    pub(super) fn told_error(&self, node: u32) -> Option<f64> {
+    /// The error of an element that details tell, and by how much it is exceeded; `None` if it has none, or vertices
+    /// that say nothing.
+    pub(super) fn told_error(&self, node: u32) -> Option<(f64, f64)> {
         let corners = self.subdivision.node(node).0.vertices;
         if corners.iter().any(|&v| self.values[v as usize].is_none()) {
             return None;
         }
         let reach = RECENT * self.subdivision.longest_edge_m(node);
         let of_corner = |v: u32| match self.told_at(v) {
-            Some(told) => Some(told.error),
-            None => self.detail(v, reach).map(|detail| ERROR_OF_DETAIL * detail),
+            Some(told) => Some((told.error, 0.0)),
+            None => self.detail(v, reach).map(|detail| told(ERROR_OF_DETAIL * detail)),
         };
-        corners.into_iter().filter_map(of_corner).reduce(f64::max)
+        let greater = |a: (f64, f64), b: (f64, f64)| if b.0 > a.0 { b } else { a };
+        corners.into_iter().filter_map(of_corner).reduce(greater)
     }
 
     /// The detail of a vertex made on an edge no longer than `reach_m`, or between carriers no farther apart.
@@ -120,7 +131,7 @@ impl<'a> Details<'a> {
             return None;
         }
         let [a, b] = ends.map(|end| self.values[end as usize]);
-        Some((self.values[vertex as usize]? - 0.5 * (a? + b?)).abs())
+        Some(self.values[vertex as usize]? - 0.5 * (a? + b?))
     }
 
     /// The share of the error of all elements that a fit leaves: told by how details shrink from one level
@@ -133,9 +144,9 @@ impl<'a> Details<'a> {
             let corners = self.subdivision.node(leaf.node).0.vertices;
             let levels = corners.iter().filter_map(|&vertex| {
                 let ends = self.elements.vertices()[vertex as usize].parents?;
-                let own = self.detail(vertex, reach)?;
+                let own = self.detail(vertex, reach)?.abs();
                 let above = ends.iter().filter_map(|&end| self.detail(end, 2.0 * reach));
-                Some((own, above.reduce(f64::max)?))
+                Some((own, above.map(f64::abs).reduce(f64::max)?))
             });
             match levels.max_by(|a, b| a.0.total_cmp(&b.0)) {
                 Some((own, above)) => {
@@ -156,19 +167,24 @@ impl<'a> Details<'a> {
     }
 }
 
-/// The error of an element without details.
-fn untold_error(values: [Option<f64>; 3], in_the_middle: Option<f64>) -> f64 {
+/// An error, and by how much it is exceeded.
+const fn told(excess: f64) -> (f64, f64) {
+    (excess.abs(), excess)
+}
+
+/// The error of an element without details, and by how much it is exceeded.
+fn untold_error(values: [Option<f64>; 3], in_the_middle: Option<f64>) -> (f64, f64) {
     let known: Vec<f64> = values.into_iter().flatten().collect();
-    let Some(high) = known.iter().copied().reduce(f64::max) else { return 0.0 };
+    let Some(high) = known.iter().copied().reduce(f64::max) else { return (0.0, 0.0) };
     let low = known.iter().copied().fold(high, f64::min);
     match in_the_middle {
         Some(middle) => {
             let read = known.iter().sum::<f64>() / known.len() as f64;
-            ERROR_OF_MIDDLE * (middle - read).abs()
+            told(ERROR_OF_MIDDLE * (middle - read))
         }
-        None if known.len() == 3 => ERROR_OF_SPREAD * (high - low),
+        None if known.len() == 3 => (ERROR_OF_SPREAD * (high - low), 0.0),
         // Extrapolation over a vertex that says nothing: as uncertain as the value is large.
-        None => ERROR_OF_SPREAD * high,
+        None => (ERROR_OF_SPREAD * high, 0.0),
     }
 }
 

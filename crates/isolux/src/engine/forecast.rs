@@ -68,7 +68,7 @@ pub(super) struct Outlook {
     /// Rays of each in the pilot, and in an increment.
     pub(super) pilot_rays: f64,
     pub(super) rays: f64,
-    /// Check points, which take as many rays, and particles of an increment.
+    /// Check points and places where means are measured, which take as many rays, and particles of an increment.
     pub(super) checks: f64,
     pub(super) particles: f64,
     /// Accuracy asked for.
@@ -77,6 +77,8 @@ pub(super) struct Outlook {
     /// round ago; unknown before the first look.
     pub(super) excess: Option<f64>,
     pub(super) before: Option<(f64, f64)>,
+    /// Into how many vertices each is made, where light is smooth.
+    pub(super) smoothed: f64,
     /// Vertices more than there are now that direct light alone will take, the part of all where it will be measured again, and
     /// whether it is in each increment.
     pub(super) more_for_direct: f64,
@@ -109,7 +111,8 @@ impl Outlook {
 
     /// All vertices that there will be.
     pub(super) fn vertices_then(&self) -> f64 {
-        self.vertices + self.carriers * (self.growth() - 1.0) + self.more_for_direct
+        let vertices = self.vertices + self.carriers * (self.growth() - 1.0);
+        vertices * self.smoothed + self.more_for_direct
     }
 
     /// What all of it takes.

@@ -9,7 +9,6 @@ use super::anderson::Anderson;
 use super::carriers::Carriers;
 use super::deadline::Deadline;
 use super::direct::{About, Lighting};
-use super::fit::Fit;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
 use super::trust;
@@ -119,6 +118,9 @@ pub(super) enum DirectAtEnds<'a> {
         values: &'a [Rgb],
     },
 }
+
+/// From the light at receivers to what rays read at them.
+pub(super) type Fitting<'a> = dyn Fn(&[Rgb]) -> Vec<Rgb> + 'a;
 
 /// What a ray reads from the map: the light of three vertices.
 #[derive(Clone, Copy, Debug)]
@@ -505,7 +507,7 @@ impl Operator {
         carriers: &Carriers,
         tolerance: f64,
     ) -> Vec<Rgb> {
-        self.solve_or_give_up(guess, given, (carriers, None), tolerance).0
+        self.solve_or_give_up(guess, given, (carriers, &<[Rgb]>::to_vec), tolerance).0
     }
 
     /// The same, and the root mean square of what the last sweep changed. What does not carry light is
@@ -517,7 +519,7 @@ impl Operator {
         &self,
         guess: &[Rgb],
         given: &[Rgb],
-        (carriers, fit): (&Carriers, Option<&Fit>),
+        (carriers, fit): (&Carriers, &Fitting<'_>),
         tolerance: f64,
     ) -> (Vec<Rgb>, f64) {
         let apply = |light: &[Rgb]| {
@@ -526,9 +528,9 @@ impl Operator {
             gathered
         };
         let with_given = |light: &[Rgb]| -> Vec<Rgb> {
-            let fitted = fit.map(|fit| fit.apply(light));
-            let light = fitted.as_deref().unwrap_or(light);
-            light.iter().zip(given).map(|(&e, &g)| e + g).collect()
+            let mut light = fit(light);
+            light.iter_mut().zip(given).for_each(|(e, &g)| *e += g);
+            light
         };
         let mut light = guess.to_vec();
         let mut unsettled = 0.0;
@@ -546,7 +548,7 @@ impl Operator {
             if settled {
                 return (next, unsettled);
             }
-            next.truncate(given.len());
+            next.truncate(guess.len());
             light = mixing.next(&light, next);
         }
         (apply(&with_given(&light)), unsettled)

@@ -30,6 +30,8 @@ pub(super) struct Hybrid<'p, 's> {
     plan: &'p Plan<'s>,
     check_direct: Vec<Rgb>,
     rows: Vec<Gatherer>,
+    /// Of every place where the mean of an element is measured: as many as vertices have, or there would be more noise there.
+    rays_of_means: u32,
     check_rows: Vec<Gatherer>,
     /// For caustics.
     particles: u32,
@@ -52,13 +54,14 @@ impl<'p, 's> Hybrid<'p, 's> {
             let in_gap = plan.standings[vertex] != Some(Standing::Open);
             plan.gatherers[vertex].with_rays(allotted[vertex]).in_gap(in_gap)
         };
-        let rows = (0..plan.indirect_vertices).map(row).collect();
+        let rows: Vec<Gatherer> = (0..plan.indirect_vertices).map(row).collect();
         let of_goal = (goal, plan.rms_lx);
         let particles =
             plan.caustic_noise.particles(plan.indirect_vertices, of_goal, BELIEVED_INCREMENTS);
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
-        Self { plan, check_direct, rows, check_rows, particles, goal, key }
+        let rays_of_means = libm::exp2(libm::round(libm::log2(rays))) as u32;
+        Self { plan, check_direct, rays_of_means, rows, check_rows, particles, goal, key }
     }
 
     /// Time that an increment takes, s, roughly: a part of its receivers is tried.
@@ -99,15 +102,26 @@ impl<'p, 's> Hybrid<'p, 's> {
             direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
         let (caustic, particles) = caustics::deposit(plan, self.particles, key.with(1));
         let gathering = Gathering::of(plan, &direct);
-        let operator =
+        let mut operator =
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
+        let as_read = Gathering { regathers: true, ..Gathering::of(plan, &direct) };
+        let places = plan.places_of_means(self.rays_of_means, key.with(4));
+        let mut guess = plan.guess.clone();
+        operator.append(as_read.operator(&places.gatherers, |row| key.with(5).with(row as u64)));
+        guess.extend(places.interpolated(&plan.guess));
+        let fit = |light: &[Rgb]| {
+            let (at_vertices, at_places) = light.split_at(plan.guess.len());
+            let mut fitted = plan.fit.apply(at_vertices);
+            plan.means.apply(&mut fitted, &places, at_places);
+            fitted
+        };
         let (gathered, unsettled_lx) = operator.solve_or_give_up(
-            &plan.guess,
+            &guess,
             &caustic,
-            (&plan.carriers, Some(&plan.fit)),
+            (&plan.carriers, &fit),
             TOLERANCE * self.goal,
         );
-        let gathered = plan.fit.apply(&gathered);
+        let gathered = fit(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
         // As readers gather.
         let gathering = Gathering { regathers: true, ..gathering };

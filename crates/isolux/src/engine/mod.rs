@@ -22,6 +22,7 @@ mod gather;
 mod hidden;
 mod hybrid;
 mod look;
+mod means;
 mod mix;
 pub mod net;
 mod particle;
@@ -42,6 +43,7 @@ mod surface;
 mod tally;
 mod trial;
 mod trust;
+mod views;
 mod work;
 
 #[cfg(test)]

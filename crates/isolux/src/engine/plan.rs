@@ -7,11 +7,13 @@ use super::direct::Lighting;
 use super::fit::Fit;
 use super::flights::CausticNoise;
 use super::gather::{DirectAtEnds, Gatherer, Gathering, known_at};
+use super::means::{Means, Places};
 use super::surface::SurfacePoint;
 use super::trial::Trial;
 use super::trust;
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
+use crate::sampling::Key;
 use crate::scene::Scene;
 use crate::units::Rgb;
 
@@ -42,6 +44,8 @@ pub(super) struct Plan<'s> {
     pub(super) subdivision: Subdivision,
     /// Root mean square of the photometric illuminance over all known surfaces, lx.
     pub(super) rms_lx: f64,
+    /// What interpolating indirect light is expected to err by where readers trust it, of all light.
+    pub(super) interpolation: f64,
     /// Of the diffuse surfaces.
     pub(super) mean_reflectance: f64,
     /// How noisy gathered light is.
@@ -50,6 +54,8 @@ pub(super) struct Plan<'s> {
     pub(super) caustic_noise: CausticNoise,
     /// From indirect light at the vertices to the function that fits best.
     pub(super) fit: Fit,
+    /// Elements whose means increments measure.
+    pub(super) means: Means,
     /// Whether there was time for all of it.
     pub(super) is_whole: bool,
     pub(super) rays: u64,
@@ -87,6 +93,12 @@ impl Plan<'_> {
         corners.map_or(Rgb::BLACK, |corners| {
             corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
         })
+    }
+
+    /// Where an increment measures means of elements, with so many rays each.
+    pub(super) fn places_of_means(&self, rays: u32, key: Key) -> Places {
+        let known = |at: &SurfacePoint| known_at(&self.elements, self.level, &self.standings, at);
+        self.means.places((self.scene, &self.subdivision), known, rays, key)
     }
 
     /// Whether a vertex lies in the open.

@@ -16,7 +16,9 @@ use crate::map::{Accuracy, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use effort::{ANY_NOISE, FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, TRIAL_RAYS};
+use effort::{
+    ANY_NOISE, FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, OF_FEW, TRIAL_RAYS,
+};
 use isolux_geometry::Ray;
 pub use told::{IndirectReading, Told};
 
@@ -187,7 +189,7 @@ impl<'a> MapReader<'a> {
             self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
         Illuminance {
             indirect_lx: lx,
-            indirect_standard_error_lx: variance.sqrt(),
+            indirect_standard_error_lx: OF_FEW * variance.sqrt(),
             interpolation_error_lx: close * lookup_lx,
             samples: u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays),
             ..stored

@@ -200,6 +200,7 @@ impl<'s, 'r> Run<'s, 'r> {
             mesh_target: self.request.mesh_accuracy,
             seed: self.request.seed,
             is_fitted: self.request.method != Method::Forward,
+            has_means: self.request.method == Method::Hybrid,
             max_vertices: (self.request.max_memory_bytes / BYTES_A_VERTEX) as usize,
             most_for_indirect_light: by_hand.max_receivers.map(|most| most as usize),
             least_edge_m: by_hand.min_element_m,

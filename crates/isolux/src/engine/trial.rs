@@ -14,8 +14,13 @@ const RAYS: u32 = 16;
 /// no more than this.
 const NEARER: u32 = 4;
 
-/// The part of the accuracy asked for that noise may take.
+/// The part of the accuracy asked for that noise may take in any case, and at most, where interpolation leaves room.
 pub(super) const NOISE_SHARE: f64 = 0.45;
+const MOST_NOISE_SHARE: f64 = 0.6;
+/// What both may take together: the rest is for what noise may hide of other errors, and for what rays read wrongly in the mean,
+/// unless that is measured.
+const BOTH: f64 = 0.67;
+const BOTH_WITH_MEANS: f64 = 0.78;
 
 /// Variance of what is interpolated between three vertices, in the mean over an element, as a share of
 /// theirs: the integral of the sum of the squares of the hat functions over the area.
@@ -30,6 +35,14 @@ const FEWEST_WANTED: f64 = 8.0;
 
 /// And at most: a run can soon be stopped after that many.
 const MOST_WANTED: f64 = 1024.0;
+
+/// The noise that a map may have that is to reach a target and that interpolation is expected to add so much to, relative;
+/// where means of elements are measured, more of it.
+pub(super) fn noise_for(target: f64, interpolation: f64, has_means: bool) -> f64 {
+    let (others, both) = (interpolation / target, if has_means { BOTH_WITH_MEANS } else { BOTH });
+    let share = (both * both - others * others).max(0.0).sqrt();
+    target * share.clamp(NOISE_SHARE, MOST_NOISE_SHARE)
+}
 
 /// What a trial has found: the noise of one net of so many rays, root mean square over the surface, lx.
 #[derive(Clone, Copy, Debug)]
@@ -54,7 +67,7 @@ impl Trial {
     ) -> (Self, u64) {
         let with = |rays: u32| Self::with(rays, gathering, some, light, (rms_lx, key));
         let (first, traced) = with(RAYS);
-        let nearer = first.rays_for(target, rms_lx, increments) / NEARER;
+        let nearer = first.rays_for(NOISE_SHARE * target, rms_lx, increments) / NEARER;
         if nearer <= RAYS {
             return (first, traced);
         }
@@ -88,15 +101,15 @@ impl Trial {
         (Self { noise_lx: variance.sqrt(), rays }, traced)
     }
 
-    /// Gathering rays of a receiver with which so many increments leave the noise that is due to it, a power of two.
-    pub(super) fn rays_for(self, target: f64, rms_lx: f64, increments: u64) -> u32 {
-        libm::exp2(libm::round(libm::log2(self.wanted(target, rms_lx, increments)))) as u32
+    /// Gathering rays of a receiver with which so many increments leave no more than some noise, a power of two.
+    pub(super) fn rays_for(self, noise: f64, rms_lx: f64, increments: u64) -> u32 {
+        libm::exp2(libm::round(libm::log2(self.wanted(noise, rms_lx, increments)))) as u32
     }
 
     /// The same, any number: what receivers that share rays as best they can should have in the mean.
-    pub(super) fn wanted(self, target: f64, rms_lx: f64, increments: u64) -> f64 {
+    pub(super) fn wanted(self, noise: f64, rms_lx: f64, increments: u64) -> f64 {
         let noise_lx = self.noise_lx * (OF_INTERPOLATED / increments as f64).sqrt();
-        let allowed_lx = NOISE_SHARE * target * rms_lx;
+        let allowed_lx = noise * rms_lx;
         if !(noise_lx > 0.0 && allowed_lx > 0.0) {
             return FEWEST_WANTED;
         }

@@ -15,6 +15,7 @@ use super::radiosity::{Left, Radiosity};
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
 use super::tally;
+use super::trial::noise_for;
 use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method, Unshot};
 use crate::sampling::Key;
 use crate::units::Rgb;
@@ -92,7 +93,7 @@ impl<'p, 's> Work<'p, 's> {
         };
         let wanted = match request.method {
             Method::Hybrid | Method::Cache => {
-                plan.trial.rays_for(goal, plan.rms_lx, FEWEST_INCREMENTS)
+                plan.trial.rays_for(noise(plan, goal), plan.rms_lx, FEWEST_INCREMENTS)
             }
             Method::Forward => 1,
             Method::Radiosity => request.radiosity.limits(target).check_rays,
@@ -450,7 +451,12 @@ fn without_negative_light(value: &mut Illuminance) {
 
 /// Gathering rays of receivers in the mean, as they share them best.
 fn mean_rays(plan: &Plan, goal: f64, most: u32) -> f64 {
-    plan.trial.wanted(goal, plan.rms_lx, FEWEST_INCREMENTS).min(f64::from(most))
+    plan.trial.wanted(noise(plan, goal), plan.rms_lx, FEWEST_INCREMENTS).min(f64::from(most))
+}
+
+/// The noise that a map may have that is to reach a goal.
+fn noise(plan: &Plan, goal: f64) -> f64 {
+    noise_for(goal, plan.interpolation, !plan.means.is_empty())
 }
 
 /// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,

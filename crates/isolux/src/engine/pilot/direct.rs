@@ -17,7 +17,7 @@ use std::time::Instant;
 
 /// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
 /// many are cheap anyway.
-const MOST_FOR_DIRECT_LIGHT: usize = 2;
+const MOST_FOR_DIRECT_LIGHT: usize = 4;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 /// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
 const LOOKED_AT: usize = 512;

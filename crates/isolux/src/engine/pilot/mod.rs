@@ -5,16 +5,16 @@
 //! noise is smooth over surfaces and does not pass for detail.
 
 mod direct;
+mod finish;
 mod round;
 mod sharing;
+mod smoothing;
 
-use super::accuracy::mean_reflectance;
 use super::carriers::Carriers;
 use super::detail::{Details, Refinement, bisect_twice, refine_worst};
 use super::direct::Lighting;
-use super::fit::Fit;
 use super::flights::CausticNoise;
-use super::forecast::{Costs, FINE, GoOn};
+use super::forecast::{Costs, GoOn};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 pub(super) use super::look::PilotRequest;
@@ -39,6 +39,8 @@ const FIRST_VERTICES: f64 = 700.0;
 /// And for each that the scene has: among many things light varies on walls, too, in ways that a
 /// coarse look does not find.
 const MORE_A_VERTEX: f64 = 0.05;
+/// The part of them that tells whether light is so smooth that no more are needed to start with.
+const COARSE: f64 = 0.5;
 /// The first again where nothing is fitted: particles, whose hat functions blur what they are deposited in.
 const FIRST_UNFITTED: f64 = 1500.0;
 /// The part of the first gathering that tells how long all takes.
@@ -86,6 +88,8 @@ struct Pilot<'s> {
     /// Which of them carry indirect light; how far apart the coarsest may be, m; which have gathered it.
     carriers: Carriers,
     spacing_m: f64,
+    /// Edges of the usual first mesh, where it starts with a coarser one.
+    usual_edge_m: Option<f64>,
     gathered: Vec<bool>,
     /// By carrier, from which distance to others on something stands nearer before it than they.
     beset_from_m: HashMap<u32, f64>,
@@ -100,6 +104,8 @@ struct Pilot<'s> {
     traced: u64,
     least_edge_m: f64,
     costs: Costs,
+    /// Whether light has quadratic functions between carriers already.
+    is_smoothed: bool,
     /// Whether direct light is what it will be.
     is_measured: bool,
     /// What a few receivers tell of noise, once there is light.
@@ -139,7 +145,9 @@ impl<'s> Pilot<'s> {
         let first = if request.is_fitted { FIRST_VERTICES } else { FIRST_UNFITTED };
         let first = first + MORE_A_VERTEX * subdivision.vertex_count() as f64;
         let edge_m = (2.0 * area_m2 / first).sqrt();
-        subdivision.bisect_to(edge_m, request.max_vertices);
+        let is_coarse = request.has_means;
+        let start_m = if is_coarse { edge_m / COARSE.sqrt() } else { edge_m };
+        subdivision.bisect_to(start_m, request.max_vertices);
         let rays = Self::shared_rays(&subdivision, request.target);
         let has_noise = request.is_fitted && lighting.has_many() && lighting.is_measured_once();
         let bounds = scene.bvh().mesh().bounds();
@@ -158,6 +166,7 @@ impl<'s> Pilot<'s> {
             known: Vec::new(),
             standings: Vec::new(),
             carriers: Carriers::all(),
+            usual_edge_m: is_coarse.then_some(edge_m),
             spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
             gathered: Vec::new(),
             beset_from_m: HashMap::new(),
@@ -167,6 +176,7 @@ impl<'s> Pilot<'s> {
             rays,
             traced: 0,
             costs: Costs::default(),
+            is_smoothed: false,
             is_measured: false,
             trial: None,
             caustic_noise: CausticNoise::default(),
@@ -182,6 +192,10 @@ impl<'s> Pilot<'s> {
         go_on: &mut GoOn<'_>,
     ) -> Look {
         let mut look = self.look(request, go_on);
+        if let Some(edge_m) = self.usual_edge_m.filter(|_| !look.is_smooth(request)) {
+            self.subdivision.bisect_to(edge_m, request.max_vertices);
+            look = self.look(request, go_on);
+        }
         let most = request.most_for_indirect_light.unwrap_or(MOST_FOR_INDIRECT_LIGHT);
         let most = most.max(look.elements.vertices().len() / 2 * 3);
         let most = request.max_vertices.min(most);
@@ -505,66 +519,6 @@ impl<'s> Pilot<'s> {
         let corners = self.subdivision.node(node).0.vertices;
         self.subdivision.longest_edge_m(node) > 2.0 * self.least_edge_m
             && corners.iter().any(|&v| !self.known[v as usize])
-    }
-
-    /// Refines further for direct light as interpolated, and puts the plan together.
-    fn finish(mut self, mut look: Look, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Plan<'s> {
-        let indirect_vertices = self.subdivision.vertex_count();
-        let coarse = self.subdivision.clone();
-        self.refine_for_direct_light(&mut look, request, go_on);
-        // Readers see elements for direct light alone.
-        for error in look.errors.iter_mut().filter(|e| e.is_beset) {
-            error.is_beset_afar |= self.subdivision.node(error.node).0.split.is_some();
-        }
-        let trusted_up_to_lx = look.trusted_up_to_lx(request);
-        // Without time for it, light from where receivers were before has to do.
-        let gatherers = self.gatherers();
-        if self.has_time(&look, request, FINE, go_on) {
-            self.measure_moved(&look.elements, &gatherers);
-        }
-        if self.direct_noise_lx.is_none() {
-            self.direct_variance.fill(0.0);
-        }
-        self.is_measured = true;
-        go_on(&self.round(request, Some(&look), FINE));
-        self.complete_standings(&gatherers);
-        let mut standings = std::mem::take(&mut self.standings);
-        forget_orphans(&look.elements, indirect_vertices, &mut standings);
-        let open: Vec<bool> = standings.iter().map(|&of| of == Some(Standing::Open)).collect();
-        Plan {
-            scene: self.scene,
-            lighting: self.lighting,
-            elements: look.elements,
-            gatherers,
-            indirect_vertices,
-            level: coarse.node_count() as u32,
-            direct: self.direct,
-            direct_variance: self.direct_variance,
-            guess: self.indirect,
-            trusted_up_to_lx,
-            indirect_errors: look.errors,
-            rms_lx: look.rms_lx,
-            mean_reflectance: mean_reflectance(self.scene, &coarse),
-            fit: Fit::new(&coarse.elements(), indirect_vertices, &open, &self.carriers),
-            carriers: self.carriers,
-            standings,
-            subdivision: coarse,
-            trial: self.trial.unwrap_or(Trial::usual(look.rms_lx)),
-            caustic_noise: self.caustic_noise,
-            is_whole: self.is_whole,
-            rays: self.traced,
-        }
-    }
-}
-
-/// Of vertices added for direct light nothing is known where both ends of their edge are hidden:
-/// their indirect light is interpolated from there.
-fn forget_orphans(elements: &Elements, first: usize, standings: &mut [Option<Standing>]) {
-    for (k, vertex) in elements.vertices().iter().enumerate().skip(first) {
-        let ends = vertex.parents.unwrap_or([k as u32; 2]);
-        if ends.iter().all(|&end| standings[end as usize].is_none()) {
-            standings[k] = None;
-        }
     }
 }
 

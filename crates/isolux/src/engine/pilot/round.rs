@@ -6,7 +6,7 @@ use crate::engine::allot::{allot, areas_m2, mean_of};
 use crate::engine::checks;
 use crate::engine::forecast::{Excess, GoOn, Outlook, Round};
 use crate::engine::look::{Look, PilotRequest};
-use crate::engine::trial::Trial;
+use crate::engine::trial::{Trial, noise_for};
 
 /// The part of the vertices that bisection moves, as a guess.
 const MOVED: f64 = 0.1;
@@ -44,7 +44,10 @@ impl Pilot<'_> {
             let then = vertices as f64 * excess.max(1.0).sqrt();
             (then.min(most) - vertices as f64).max(0.0)
         });
-        let wanted = trial.wanted(request.target, rms_lx, BELIEVED_INCREMENTS);
+        let interpolation = look.map_or(request.target, |look| look.interpolation(request));
+        let measured = look.filter(|look| look.asks_for_means(request)).map_or(0.0, Look::beset);
+        let noise = noise_for(request.target, interpolation, measured > 0.0);
+        let wanted = trial.wanted(noise, rms_lx, BELIEVED_INCREMENTS);
         let rays = look.map_or(wanted, |look| {
             let areas_m2 = areas_m2(&self.subdivision, &look.errors, &self.carriers);
             mean_of(&allot(&areas_m2, wanted))
@@ -56,7 +59,7 @@ impl Pilot<'_> {
             vertices: vertices as f64,
             pilot_rays: mean_of(&self.rays),
             rays,
-            checks: checks::count(self.carriers.count(vertices)) as f64,
+            checks: checks::count(self.carriers.count(vertices)) as f64 + measured,
             particles: if self.lighting.leaves_caustics() {
                 f64::from(self.caustic_noise.particles(vertices, of_goal, BELIEVED_INCREMENTS))
             } else {
@@ -65,6 +68,9 @@ impl Pilot<'_> {
             target: request.target,
             excess,
             before,
+            smoothed: look
+                .filter(|look| !self.is_smoothed && look.is_smooth(request))
+                .map_or(1.0, Look::smoothed),
             more_for_direct: more,
             measured_again: if self.is_measured { 0.0 } else { MOVED },
             measured_each: !self.lighting.is_measured_once(),

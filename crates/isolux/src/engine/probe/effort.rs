@@ -5,6 +5,10 @@ pub(super) const FRESH_REPLICATES: u32 = 16;
 pub(super) const FRESH_FEWEST_RAYS: f64 = 8.0;
 pub(super) const FRESH_MOST_RAYS: f64 = 1024.0;
 
+/// The standard error by their spread, which is found too small as often as too large: 1.96 of it hold the truth in 93 % of
+/// cases, of so much more in 95 % (quantiles of Student's distribution with 15 degrees of freedom and of the normal one).
+pub(super) const OF_FEW: f64 = 2.131 / 1.96;
+
 /// Of readings: noise may be any share of the light.
 pub(super) const ANY_NOISE: f64 = f64::INFINITY;
 

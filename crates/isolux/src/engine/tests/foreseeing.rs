@@ -22,6 +22,7 @@ fn known() -> (Outlook, Costs) {
         target: 0.01,
         excess: Some(1.0),
         before: None,
+        smoothed: 1.0,
         more_for_direct: 0.0,
         measured_again: 0.0,
         measured_each: false,

@@ -15,6 +15,7 @@ mod foreseeing;
 mod glass;
 mod gloss;
 mod many;
+mod means;
 mod mirrors;
 mod mixing;
 mod net;

@@ -13,6 +13,7 @@ fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
         node: node as u32,
         area_m2,
         error,
+        excess: 0.0,
         is_beset: false,
         is_beset_afar: false,
     };
@@ -52,6 +53,7 @@ fn errors_at_vertices_bound_those_of_elements() {
         node,
         area_m2: coarse.triangle(node).area(),
         error: if left(node) { 1.0 + f64::from(node) } else { 0.0 },
+        excess: 0.0,
         is_beset: false,
         is_beset_afar: false,
     };
@@ -90,6 +92,7 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
         mesh_target: 0.02,
         seed: 1,
         is_fitted: true,
+        has_means: true,
         max_vertices: 20_000,
         most_for_indirect_light: Some(200),
         least_edge_m: None,

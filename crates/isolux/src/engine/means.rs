@@ -1,0 +1,140 @@
+//! Means of beset elements, measured, for the sake of the rays that read them.
+//!
+//! Along the edges of a room light bends more sharply than any vertices tell: close to the edge its slope has no
+//! bound. Readers gather there, but rays read the elements all the same, thousands of them in the mean, so that
+//! what counts is the mean over an element. An increment gathers at one random place of each, which exceeds what
+//! is interpolated there by as much as the element lacks in the mean, with noise that averages out. That is given to vertices
+//! which no reader reads: those all of whose elements are beset or not trusted, along edges.
+
+use super::detail::LeafError;
+use super::gather::Gatherer;
+use super::path::Dice;
+use super::surface::SurfacePoint;
+use super::trust;
+use crate::elements::Subdivision;
+use crate::sampling::{Key, Sequence};
+use crate::scene::Scene;
+use crate::units::Rgb;
+use rayon::prelude::*;
+
+/// The elements whose means are measured, and the vertices that have them.
+#[derive(Debug, Default)]
+pub(super) struct Means {
+    /// Nodes of the elements.
+    nodes: Vec<u32>,
+    /// For each vertex that is moved, in order, where its shares end.
+    ends: Vec<(u32, usize)>,
+    /// Elements, and the share of what they lack that moves the vertex.
+    shares: Vec<(u32, f64)>,
+    /// The first vertex that lies on the edge of an element, and between which others each of these does.
+    first_smoothed: usize,
+    between: Vec<[u32; 2]>,
+}
+
+/// Where an increment measures: places and what is interpolated there.
+pub(super) struct Places {
+    pub(super) gatherers: Vec<Gatherer>,
+    corners: Vec<Option<[(u32, f64); 3]>>,
+}
+
+impl Means {
+    /// Of elements that are beset, or not `trusted`, as far as they have vertices in the open that no others have.
+    pub(super) fn new(
+        (scene, subdivision): (&Scene, &Subdivision),
+        errors: &[LeafError],
+        trusted_up_to_lx: f64,
+        open: &[bool],
+        first_smoothed: usize,
+    ) -> Self {
+        let corners = |e: &LeafError| subdivision.node(e.node).0.vertices;
+        let is_read = |e: &&LeafError| !e.is_beset && e.error <= trusted_up_to_lx;
+        let mut is_free = open.to_vec();
+        for error in errors.iter().filter(is_read) {
+            corners(error).iter().for_each(|&v| is_free[v as usize] = false);
+        }
+        let can_be = |e: &&LeafError| {
+            let corners = corners(e);
+            let place = || SurfacePoint::amid_node(scene, subdivision, e.node);
+            e.is_beset
+                && corners.iter().all(|&v| open[v as usize])
+                && corners.iter().any(|&v| is_free[v as usize])
+                && !trust::is_closed_in(scene, &place(), subdivision.longest_edge_m(e.node))
+        };
+        let measured: Vec<&LeafError> = errors.iter().filter(can_be).collect();
+        let mut shares: Vec<(u32, u32, f64)> = Vec::new();
+        let mut areas_m2 = vec![0.0; open.len()];
+        for error in errors {
+            corners(error).iter().for_each(|&v| areas_m2[v as usize] += error.area_m2);
+        }
+        for (index, error) in measured.iter().enumerate() {
+            let free = corners(error).into_iter().filter(|&v| is_free[v as usize]);
+            let free: Vec<u32> = free.collect();
+            for &v in &free {
+                let share = 3.0 / free.len() as f64 * error.area_m2 / areas_m2[v as usize];
+                shares.push((v, index as u32, share));
+            }
+        }
+        let smoothed = &subdivision.vertices()[first_smoothed..];
+        let between = smoothed.iter().map(|v| v.parents.expect("made by bisection")).collect();
+        shares.sort_by_key(|&(v, index, _)| (v, index));
+        let nodes = measured.iter().map(|e| e.node).collect();
+        let mut means = Self { nodes, first_smoothed, between, ..Self::default() };
+        for of_vertex in shares.chunk_by(|a, b| a.0 == b.0) {
+            means.shares.extend(of_vertex.iter().map(|&(_, index, share)| (index, share)));
+            means.ends.push((of_vertex[0].0, means.shares.len()));
+        }
+        means
+    }
+
+    /// Whether there are none.
+    pub(super) const fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// Random places of the elements, one each, where so many rays are to be gathered, and what is interpolated there.
+    pub(super) fn places(
+        &self,
+        (scene, subdivision): (&Scene, &Subdivision),
+        known_at: impl Fn(&SurfacePoint) -> Option<[(u32, f64); 3]> + Sync,
+        rays: u32,
+        key: Key,
+    ) -> Places {
+        let one = |&node: &u32| {
+            let mut dice = Dice::new(Sequence::new(key.with(u64::from(node))), 0);
+            let at = SurfacePoint::in_node(scene, subdivision, node, dice.pair());
+            (Gatherer::on_surface(at, rays), known_at(&at))
+        };
+        let (gatherers, corners) = self.nodes.par_iter().map(one).unzip();
+        Places { gatherers, corners }
+    }
+
+    /// Moves vertices so that elements have the mean that was gathered.
+    pub(super) fn apply(&self, values: &mut [Rgb], places: &Places, gathered: &[Rgb]) {
+        let lacking = |(corners, &light): (&Option<[(u32, f64); 3]>, &Rgb)| {
+            corners.map_or(Rgb::BLACK, |corners| light - places.read(values, &corners))
+        };
+        let lacking: Vec<Rgb> = places.corners.iter().zip(gathered).map(lacking).collect();
+        let mut moves = vec![Rgb::BLACK; self.first_smoothed];
+        let mut first = 0;
+        for &(vertex, end) in &self.ends {
+            let shares = &self.shares[first..end];
+            moves[vertex as usize] = shares.iter().map(|&(k, w)| lacking[k as usize] * w).sum();
+            first = end;
+        }
+        for ends in &self.between {
+            moves.push((moves[ends[0] as usize] + moves[ends[1] as usize]) * 0.5);
+        }
+        values.iter_mut().zip(moves).for_each(|(value, by)| *value += by);
+    }
+}
+
+impl Places {
+    /// What is interpolated at the places.
+    pub(super) fn interpolated<'a>(&'a self, values: &'a [Rgb]) -> impl Iterator<Item = Rgb> + 'a {
+        self.corners.iter().map(|c| c.map_or(Rgb::BLACK, |corners| self.read(values, &corners)))
+    }
+
+    fn read(&self, values: &[Rgb], corners: &[(u32, f64); 3]) -> Rgb {
+        corners.iter().map(|&(v, weight)| values[v as usize] * weight).sum()
+    }
+}

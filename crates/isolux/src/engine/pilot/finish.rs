@@ -1,0 +1,118 @@
+//! The end of the pilot: what increments share is put together.
+
+use super::Pilot;
+use crate::elements::{Elements, Subdivision};
+use crate::engine::accuracy::mean_reflectance;
+use crate::engine::carriers::Carriers;
+use crate::engine::fit::Fit;
+use crate::engine::forecast::{FINE, GoOn};
+use crate::engine::look::{Look, PilotRequest};
+use crate::engine::means::Means;
+use crate::engine::plan::Plan;
+use crate::engine::trial::Trial;
+use crate::map::Standing;
+
+impl<'s> Pilot<'s> {
+    /// Refines further for direct light as interpolated, and puts the plan together.
+    pub(super) fn finish(
+        mut self,
+        mut look: Look,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) -> Plan<'s> {
+        let carrying = self.subdivision.vertex_count();
+        if look.is_smooth(request) {
+            self.smooth(&mut look);
+        }
+        let indirect_vertices = self.subdivision.vertex_count();
+        let coarse = self.subdivision.clone();
+        self.refine_for_direct_light(&mut look, request, go_on);
+        self.measure_direct_light(&mut look, request, go_on);
+        let gatherers = self.gatherers();
+        let mut standings = std::mem::take(&mut self.standings);
+        forget_orphans(&look.elements, indirect_vertices, &mut standings);
+        let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
+        let open: Vec<bool> = standings.iter().map(is_open).collect();
+        let trusted_up_to_lx = look.trusted_up_to_lx(request);
+        Plan {
+            scene: self.scene,
+            lighting: self.lighting,
+            gatherers,
+            indirect_vertices,
+            level: coarse.node_count() as u32,
+            trusted_up_to_lx,
+            rms_lx: look.rms_lx,
+            interpolation: look.interpolation(request),
+            mean_reflectance: mean_reflectance(self.scene, &coarse),
+            means: self.means(&coarse, (&look, request), &open[..indirect_vertices], carrying),
+            fit: self.fit(&coarse, &open),
+            direct: self.direct,
+            direct_variance: self.direct_variance,
+            guess: self.indirect,
+            elements: look.elements,
+            indirect_errors: look.errors,
+            carriers: self.carriers,
+            standings,
+            subdivision: coarse,
+            trial: self.trial.unwrap_or(Trial::usual(look.rms_lx)),
+            caustic_noise: self.caustic_noise,
+            is_whole: self.is_whole,
+            rays: self.traced,
+        }
+    }
+
+    /// Direct light on the final elements; without time for it, light from where receivers were before has to do.
+    fn measure_direct_light(
+        &mut self,
+        look: &mut Look,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) {
+        // Readers see elements for direct light alone.
+        for error in look.errors.iter_mut().filter(|e| e.is_beset) {
+            error.is_beset_afar |= self.subdivision.node(error.node).0.split.is_some();
+        }
+        let gatherers = self.gatherers();
+        if self.has_time(look, request, FINE, go_on) {
+            self.measure_moved(&look.elements, &gatherers);
+        }
+        if self.direct_noise_lx.is_none() {
+            self.direct_variance.fill(0.0);
+        }
+        self.is_measured = true;
+        go_on(&self.round(request, Some(look), FINE));
+        self.complete_standings(&gatherers);
+    }
+
+    fn fit(&self, coarse: &Subdivision, open: &[bool]) -> Fit {
+        let all = Carriers::all();
+        // Quadratic functions tell the values at vertices; elements between them alone are to be fitted, too.
+        let carriers = if self.is_smoothed { &all } else { &self.carriers };
+        Fit::new(&coarse.elements(), coarse.vertex_count(), open, carriers)
+    }
+
+    fn means(
+        &self,
+        coarse: &Subdivision,
+        (look, request): (&Look, &PilotRequest),
+        open: &[bool],
+        carrying: usize,
+    ) -> Means {
+        if !look.asks_for_means(request) {
+            return Means::default();
+        }
+        let trusted_up_to_lx = look.trusted_up_to_lx(request);
+        Means::new((self.scene, coarse), &look.errors, trusted_up_to_lx, open, carrying)
+    }
+}
+
+/// Of vertices added for direct light nothing is known where both ends of their edge are hidden:
+/// their indirect light is interpolated from there.
+fn forget_orphans(elements: &Elements, first: usize, standings: &mut [Option<Standing>]) {
+    for (k, vertex) in elements.vertices().iter().enumerate().skip(first) {
+        let ends = vertex.parents.unwrap_or([k as u32; 2]);
+        if ends.iter().all(|&end| standings[end as usize].is_none()) {
+            standings[k] = None;
+        }
+    }
+}

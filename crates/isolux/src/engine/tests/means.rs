@@ -1,0 +1,110 @@
+//! Means of beset elements, and quadratic functions between carriers.
+
+use super::errors::room;
+use super::*;
+use crate::elements::Subdivision;
+use crate::engine::carriers::Carriers;
+use crate::engine::detail::bisect_twice;
+use crate::engine::direct::Lighting;
+use crate::engine::pilot::{PilotRequest, pilot};
+use crate::engine::plan::Plan;
+use isolux_geometry::{Point, Triangle};
+
+/// For so small an error that the edges of an empty room have to be measured.
+fn measured_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Plan<'s> {
+    let request = PilotRequest {
+        target: 0.002,
+        mesh_target: 0.1,
+        seed: 1,
+        is_fitted: true,
+        has_means: true,
+        max_vertices: 1 << 20,
+        most_for_indirect_light: None,
+        least_edge_m: None,
+    };
+    pilot(scene, lighting, &request, &mut |_| true)
+}
+
+fn is_in(triangle: &Triangle, at: Point) -> bool {
+    let [u, v] = triangle.barycentric(at);
+    let off_m = (triangle.point(u, v) - at).length();
+    u >= -1e-9 && v >= -1e-9 && u + v <= 1.0 + 1e-9 && off_m < 1e-6
+}
+
+/// The integral of a piecewise linear function over the surfaces, and over those that readers trust alone.
+fn integrals(plan: &Plan, values: &[Rgb]) -> [f64; 2] {
+    let mut sums = [0.0; 2];
+    for error in &plan.indirect_errors {
+        let is_trusted = !error.is_beset && error.error <= plan.trusted_up_to_lx;
+        plan.elements.visit_below(error.node, &mut |corners| {
+            let [a, b, c] = corners.map(|v| plan.elements.vertices()[v as usize].position);
+            let third_m2 = (b - a).cross(c - a).length() / 6.0;
+            let own: f64 = corners.iter().map(|&v| values[v as usize].luminance()).sum();
+            sums[0] += third_m2 * own;
+            sums[1] += if is_trusted { third_m2 * own } else { 0.0 };
+        });
+    }
+    sums
+}
+
+/// Where all that is measured exceeds the map by one, the map rises by one in the mean over it, and nowhere that
+/// readers interpolate.
+#[test]
+fn what_is_measured_is_given_to_elements_that_nobody_trusts() {
+    let scene = room();
+    let lighting = Lighting::new(&scene);
+    let plan = measured_plan(&scene, &lighting);
+    let places = plan.places_of_means(1, Key::new(3));
+    assert!(places.gatherers.len() > 100, "{}", places.gatherers.len());
+    let zero = vec![Rgb::BLACK; plan.indirect_vertices];
+    let mut moved = zero.clone();
+    plan.means.apply(&mut moved, &places, &vec![Rgb::WHITE; places.gatherers.len()]);
+    let mut measured_m2 = 0.0;
+    for gatherer in &places.gatherers {
+        let at = gatherer.surface.point;
+        let of = |e: &&crate::engine::detail::LeafError| {
+            e.is_beset && is_in(&plan.subdivision.triangle(e.node), at)
+        };
+        let found = plan.indirect_errors.iter().find(of).expect("places lie in beset elements");
+        measured_m2 += found.area_m2;
+    }
+    // Elements for direct light are finer and read what indirect light is between its own vertices.
+    let [all, trusted] = integrals(&plan, &plan.prolongate(&moved));
+    assert!((all / measured_m2 - 1.0).abs() < 1e-6, "{all} {measured_m2}");
+    assert_eq!(trusted, 0.0);
+    // Right already: nothing moves.
+    let mut still = plan.guess.clone();
+    let read: Vec<Rgb> = places.interpolated(&plan.guess).collect();
+    plan.means.apply(&mut still, &places, &read);
+    assert_eq!(still, plan.guess);
+}
+
+/// Quadratic functions come out as they are inside a surface, linear ones everywhere.
+#[test]
+fn vertices_between_carriers_have_the_quadratic_function_of_those_about_them() {
+    let shapes = vec![rectangle([0.0; 3], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0], 0)];
+    let scene = scene(shapes, vec![painted(Rgb::WHITE)], vec![]);
+    let mut subdivision = Subdivision::new(&scene);
+    subdivision.bisect_to(0.5, 1 << 20);
+    let first = subdivision.vertex_count();
+    let leaves: Vec<u32> = subdivision.leaves().collect();
+    let corners: Vec<[u32; 3]> = leaves.iter().map(|&n| subdivision.node(n).0.vertices).collect();
+    leaves.into_iter().for_each(|node| bisect_twice(&mut subdivision, node));
+    let open = vec![true; subdivision.vertex_count()];
+    let mut carriers = Carriers::all();
+    carriers.smooth(&subdivision, first, &corners, &open);
+    assert_eq!(carriers.count(open.len()), first, "none of the new ones carries light");
+    let worst = |truth: &dyn Fn(Point) -> f64, margin_m: f64| {
+        let all = subdivision.vertices();
+        let value = |k: usize| if k < first { truth(all[k].position) } else { 0.0 };
+        let mut values: Vec<Rgb> = (0..all.len()).map(|k| Rgb::grey(value(k))).collect();
+        carriers.fill(&mut values);
+        let within = |p: Point| p.x.min(4.0 - p.x) >= margin_m && p.y.min(3.0 - p.y) >= margin_m;
+        let inside = (first..all.len()).filter(|&k| within(all[k].position));
+        let error = |k: usize| (values[k].luminance() - truth(all[k].position)).abs();
+        inside.map(error).fold(0.0, f64::max)
+    };
+    assert!(worst(&|p| 3.0 + p.x - 0.5 * p.y, 0.0) < 1e-9);
+    let parabola = |p: Point| 9.0 + 0.7 * p.x * p.x - 0.3 * p.x * p.y + 0.2 * p.y * p.y;
+    assert!(worst(&parabola, 0.6) < 1e-9, "{}", worst(&parabola, 0.6));
+}

@@ -1,0 +1,122 @@
+//! What rays read wrongly, as other places see it.
+//!
+//! Check points tell what a map is wrong by where they lie. Rays do not see all of that alike: what lies below and
+//! behind things is hidden from nearly everywhere, and those that end close by gather again. Where elements reach from
+//! the open to below a cupboard, they are too bright there and too dark in the open, right in the mean and wrong for
+//! everyone who looks. And what is seen from one place is not what is seen from another. So every check point knows
+//! which share of its surroundings sees it from afar, and some of them, which others they see: as discs of the area
+//! that those stand for.
+
+use super::path::Dice;
+use super::surface::SurfacePoint;
+use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::scene::Scene;
+use isolux_geometry::Ray;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Rays that tell from how much of its surroundings a place is seen.
+const FEELERS: u32 = 64;
+
+/// Places that look about.
+const LOOKING: usize = 256;
+
+/// A place that rays read at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Read {
+    pub(super) surface: SurfacePoint,
+    /// The longest edge of the element there: rays that have come less far gather again, m.
+    pub(super) edge_m: f64,
+    /// The surface that it stands for, m2.
+    pub(super) area_m2: f64,
+}
+
+/// What places see of each other.
+#[derive(Clone, Debug, Default)]
+pub(super) struct View {
+    /// Of a unit of light at the place, what arrives from afar elsewhere, in the mean over its surroundings.
+    pub(super) shown: f64,
+    /// If it looks about: other places, and what arrives from them of a unit of light there.
+    seen: Option<Vec<(u32, f64)>>,
+}
+
+/// What each of some places sees and shows.
+pub(super) fn views(scene: &Scene, places: &[Read]) -> Vec<View> {
+    let reflected: Vec<f64> =
+        places.iter().map(|place| reflectance(scene, &place.surface)).collect();
+    let every = places.len().div_ceil(LOOKING).max(1);
+    let seen = |from: usize| {
+        let sees = |(k, at): (usize, &Read)| {
+            let share = reflected[k] * share(scene, &places[from], at);
+            (share > 0.0).then_some((k as u32, share))
+        };
+        places.iter().enumerate().filter_map(sees).collect()
+    };
+    let view = |k: usize| View {
+        shown: reflected[k] * far(scene, &places[k]),
+        seen: k.is_multiple_of(every).then(|| seen(k)),
+    };
+    (0..places.len()).into_par_iter().map(view).collect()
+}
+
+/// By how much what places see of errors differs from place to place, root mean square; each view is that of a share
+/// of the surface. Errors at different places are independent draws: products of two of them tell the square without
+/// their noise.
+pub(super) fn spread<'a>(views: impl Iterator<Item = (f64, &'a View)>, errors: &[f64]) -> f64 {
+    let mut of_mean = vec![0.0; errors.len()];
+    let (mut squared, mut whole) = (0.0, 0.0);
+    for (share, seen) in views.filter_map(|(share, view)| Some((share, view.seen.as_ref()?))) {
+        let (mut sum, mut own) = (0.0, 0.0);
+        for &(k, weight) in seen {
+            let error = weight * errors[k as usize];
+            sum += error;
+            own += error * error;
+            of_mean[k as usize] += share * error;
+        }
+        squared += share * (sum * sum - own);
+        whole += share;
+    }
+    let mean: f64 = of_mean.iter().sum();
+    let own: f64 = of_mean.iter().map(|error| error * error).sum();
+    let squared = squared - (mean * mean - own) / whole;
+    if whole > 0.0 { (squared.max(0.0) / whole).sqrt() } else { 0.0 }
+}
+
+/// What a surface reflects diffusely.
+fn reflectance(scene: &Scene, at: &SurfacePoint) -> f64 {
+    let finish = scene.material(at.triangle).finish(at.back);
+    finish.map_or(0.0, |finish| {
+        scene.diffuse_reflectance(finish, at.triangle, at.u, at.v).luminance()
+    })
+}
+
+/// The share of its surroundings that sees a place from farther away than its element is long.
+fn far(scene: &Scene, place: &Read) -> f64 {
+    let at = &place.surface;
+    let sequence = Sequence::new(Key::new(0).with(9));
+    let axis = at.geometric.to_direction();
+    let is_free = |&index: &u32| {
+        let mut dice = Dice::new(sequence, index);
+        let mut ray = at.leave(axis.from_local(CosineHemisphere::sample(dice.pair())));
+        ray.t_max = place.edge_m as f32;
+        !scene.bvh().any_hit(&ray)
+    };
+    (0..FEELERS).filter(is_free).count() as f64 / f64::from(FEELERS)
+}
+
+/// The share of what one place sees that another is, as a disc, if it is seen from afar.
+fn share(scene: &Scene, from: &Read, at: &Read) -> f64 {
+    let between = at.surface.point - from.surface.point;
+    let distance_m = between.length();
+    let there = from.surface.geometric.to_vector().dot(between);
+    let back = -at.surface.geometric.to_vector().dot(between);
+    if distance_m <= at.edge_m || there <= 0.0 || back <= 0.0 {
+        return 0.0;
+    }
+    let ray = Ray::between(from.surface.start(), at.surface.start());
+    if scene.bvh().any_hit(&ray) {
+        return 0.0;
+    }
+    let cosines = there * back / (distance_m * distance_m);
+    at.area_m2 * cosines / (PI * distance_m * distance_m + at.area_m2)
+}
