@@ -19,7 +19,12 @@ const USUAL_ORDER: f64 = 2.0;
 /// What an increment does for every vertex beside its rays, and what is done once before the first, in first looks
 /// at as many: measured in the hall.
 const EACH: f64 = 0.2;
-const ONCE: f64 = 1.0;
+const ONCE: f64 = 1.5;
+
+/// Rounds in which elements are mostly refined for indirect light once they are to be, and those for direct light
+/// after them: each looks at all vertices.
+const ROUNDS: f64 = 5.0;
+const ROUNDS_FOR_DIRECT: f64 = 3.0;
 
 /// Factors between what is said and what comes, in nine of ten runs: before the first look, while
 /// elements are refined, and when they are fixed.
@@ -109,10 +114,20 @@ impl Outlook {
         libm::pow(excess, 1.0 / order)
     }
 
+    /// All that there will be as long as there are details to look at.
+    fn looked_at(&self) -> f64 {
+        self.vertices + self.carriers * (self.growth() - 1.0)
+    }
+
+    /// Rounds of refinement to come.
+    fn rounds(&self) -> f64 {
+        let indirect = if self.growth() > 1.0 { ROUNDS } else { 0.0 };
+        indirect + if self.more_for_direct > 0.0 { ROUNDS_FOR_DIRECT } else { 0.0 }
+    }
+
     /// All vertices that there will be.
     pub(super) fn vertices_then(&self) -> f64 {
-        let vertices = self.vertices + self.carriers * (self.growth() - 1.0);
-        vertices * self.smoothed + self.more_for_direct
+        self.looked_at() * self.smoothed + self.more_for_direct
     }
 
     /// What all of it takes.
@@ -122,7 +137,7 @@ impl Outlook {
         let vertices = self.vertices_then();
         let pilot_s = costs.rays.of((carriers - self.gathered) * self.pilot_rays)
             + costs.direct.of(vertices - self.vertices)
-            + costs.looks.of(if growth > 1.0 { vertices } else { 0.0 });
+            + self.rounds() * costs.looks.of(self.looked_at());
         let direct_s = costs.direct.of(self.measured_again * vertices);
         let rays = (carriers + self.checks) * self.rays + self.particles * growth;
         let first_s = costs.first.of(vertices);
