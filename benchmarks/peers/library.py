@@ -5,6 +5,9 @@ import glob
 import os
 import re
 
+# Older ones cannot compile some kernels for processors with AVX-512.
+OLDEST = 16
+
 
 def llvm():
     """Path of the newest libLLVM that is installed, or of the one named in DRJIT_LIBLLVM_PATH."""
@@ -15,14 +18,14 @@ def llvm():
     for folder in ("/usr/lib/*", "/usr/lib", "/usr/lib/llvm-*/lib", "/usr/local/lib"):
         for path in glob.glob(f"{folder}/libLLVM*.so*"):
             version = re.search(r"libLLVM(?:-|\.so\.)(\d+)", path)
-            if version:
+            if version and int(version[1]) >= OLDEST:
                 found[int(version[1])] = path
     if found:
         return found[max(found)]
     elsewhere = ctypes.util.find_library("LLVM")
-    if elsewhere:
+    if elsewhere and not re.search(r"\d", elsewhere):
         return elsewhere
     raise SystemExit(
-        "there is no libLLVM, which Mitsuba compiles its kernels with; install Debian's package "
-        "libllvm19 (or a newer libllvm), or name a library in DRJIT_LIBLLVM_PATH"
+        f"there is no libLLVM of version {OLDEST} or newer, which Mitsuba compiles its kernels with; install Debian's "
+        "package libllvm19 (or a newer libllvm), or name a library in DRJIT_LIBLLVM_PATH"
     )
