@@ -107,7 +107,8 @@ impl<'p, 's> Hybrid<'p, 's> {
         let as_read = Gathering { regathers: true, ..Gathering::of(plan, &direct) };
         let places = plan.places_of_means(self.rays_of_means, key.with(4));
         let mut guess = plan.guess.clone();
-        operator.append(as_read.operator(&places.gatherers, |row| key.with(5).with(row as u64)));
+        let measured = |row: usize| key.with(5).with(row as u64);
+        operator.append(as_read.operator_until(deadline, &places.gatherers, measured)?);
         guess.extend(places.interpolated(&plan.guess));
         let fit = |light: &[Rgb]| {
             let (at_vertices, at_places) = light.split_at(plan.guess.len());

@@ -33,7 +33,7 @@ pub(super) struct PilotRequest {
     pub(super) seed: u64,
     /// Whether the map will be fitted to the light over elements.
     pub(super) is_fitted: bool,
-    /// Whether means of elements can be measured.
+    /// Whether increments measure means of elements, and smooth walls are interpolated for them.
     pub(super) has_means: bool,
     pub(super) max_vertices: usize,
     /// Set by hand: vertices for indirect light at most, and the shortest edge, m.
@@ -107,7 +107,9 @@ impl Look {
 
     /// Whether light is so smooth that quadratic functions over its vertices are nearer than linear ones.
     pub(super) fn is_smooth(&self, request: &PilotRequest) -> bool {
-        request.has_means && self.left_by_fit < SMOOTH
+        // Twice as many elements as vertices, four of each.
+        let has_room = 2 * self.errors.len() <= request.max_vertices;
+        request.has_means && self.left_by_fit < SMOOTH && has_room
     }
 
     /// How many elements are beset.
