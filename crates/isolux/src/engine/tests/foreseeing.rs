@@ -56,7 +56,13 @@ fn elements_grow_as_errors_are_seen_to_fall() {
     let left = slow.left(&costs);
     // So many gather in the pilot, with 64 rays each, and with the thousand in increments.
     let rays_s = 1e-6 * (least * 64.0 + 8.0 * (1000.0 + least) * 16.0);
-    assert!(left.time_s > rays_s && left.time_s < rays_s + 0.02, "{} {rays_s}", left.time_s);
+    // And rounds to come look at all there are, 2 microseconds each, and measure direct light at the new ones.
+    let looks_s = 2e-6 * slow.vertices_then();
+    let beside_s = left.time_s - rays_s;
+    assert!(beside_s > 3.0 * looks_s && beside_s < 8.0 * looks_s, "{beside_s} {looks_s}");
+    // Where light is smooth, more vertices lie between those that carry it, at no rays.
+    let smooth = Outlook { smoothed: 3.0, ..first };
+    assert_eq!(smooth.vertices_then(), 9000.0);
     assert!(left.factor > outlook.left(&costs).factor, "less is known");
 }
 
