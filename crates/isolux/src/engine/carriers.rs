@@ -106,6 +106,13 @@ impl Carriers {
             let told = told.filter(|_| open[vertex]);
             let told =
                 told.map(|of| of.into_iter().map(|(v, weight)| (v as u32, weight)).collect());
+            // What is hidden has no light to tell.
+            let in_the_open: f64 =
+                between.iter().filter(|(end, _)| open[*end as usize]).map(|(_, w)| w).sum();
+            if in_the_open > 0.0 {
+                between.retain(|&(end, _)| open[end as usize]);
+                between.iter_mut().for_each(|(_, weight)| *weight /= in_the_open);
+            }
             let parents = told.unwrap_or(between);
             Some(Link { parents, spacing_m: distance_m(ends[0]) + distance_m(ends[1]) })
         };

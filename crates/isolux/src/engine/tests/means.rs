@@ -108,3 +108,31 @@ fn vertices_between_carriers_have_the_quadratic_function_of_those_about_them() {
     let parabola = |p: Point| 9.0 + 0.7 * p.x * p.x - 0.3 * p.x * p.y + 0.2 * p.y * p.y;
     assert!(worst(&parabola, 0.6) < 1e-9, "{}", worst(&parabola, 0.6));
 }
+
+/// A vertex beside one that is hidden has the light of the other end of its edge, not half of it.
+#[test]
+fn what_is_hidden_tells_nothing() {
+    let shapes = vec![rectangle([0.0; 3], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0], 0)];
+    let scene = scene(shapes, vec![painted(Rgb::WHITE)], vec![]);
+    let mut subdivision = Subdivision::new(&scene);
+    subdivision.bisect_to(0.5, 1 << 20);
+    let first = subdivision.vertex_count();
+    let leaves: Vec<u32> = subdivision.leaves().collect();
+    let corners: Vec<[u32; 3]> = leaves.iter().map(|&n| subdivision.node(n).0.vertices).collect();
+    leaves.into_iter().for_each(|node| bisect_twice(&mut subdivision, node));
+    let hidden = first - 1;
+    let mut open: Vec<bool> = (0..first).map(|v| v != hidden).collect();
+    for vertex in &subdivision.vertices()[first..] {
+        open.push(vertex.parents.unwrap().iter().all(|&end| open[end as usize]));
+    }
+    let mut carriers = Carriers::all();
+    carriers.smooth(&subdivision, first, &corners, &open);
+    let grey = |v: usize| Rgb::grey(if v < first && v != hidden { 7.0 } else { 0.0 });
+    let mut values: Vec<Rgb> = (0..open.len()).map(grey).collect();
+    carriers.fill(&mut values);
+    let beside = (first..open.len()).filter(|&v| !open[v]);
+    assert!(beside.clone().count() >= 4);
+    for v in beside.chain((first..open.len()).filter(|&v| open[v])) {
+        assert!((values[v].luminance() - 7.0).abs() < 1e-9, "{v}: {:?}", values[v]);
+    }
+}
