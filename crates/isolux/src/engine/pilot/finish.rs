@@ -6,6 +6,7 @@ use crate::engine::accuracy::mean_reflectance;
 use crate::engine::carriers::Carriers;
 use crate::engine::fit::Fit;
 use crate::engine::forecast::{FINE, GoOn};
+use crate::engine::gather::Gatherer;
 use crate::engine::look::{Look, PilotRequest};
 use crate::engine::means::Means;
 use crate::engine::plan::Plan;
@@ -27,13 +28,18 @@ impl<'s> Pilot<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
         let coarse = self.subdivision.clone();
         self.refine_for_direct_light(&mut look, request, go_on);
-        self.measure_direct_light(&mut look, request, go_on);
-        let gatherers = self.gatherers();
+        let gatherers = self.measure_direct_light(&mut look, request, go_on);
         let mut standings = std::mem::take(&mut self.standings);
         forget_orphans(&look.elements, indirect_vertices, &mut standings);
         let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
         let open: Vec<bool> = standings.iter().map(is_open).collect();
         let trusted_up_to_lx = look.trusted_up_to_lx(request);
+        let means = if look.asks_for_means(request) {
+            let (of, open) = ((self.scene, &coarse), &open[..indirect_vertices]);
+            Means::new(of, &look.errors, trusted_up_to_lx, open, carrying)
+        } else {
+            Means::default()
+        };
         Plan {
             scene: self.scene,
             lighting: self.lighting,
@@ -44,7 +50,7 @@ impl<'s> Pilot<'s> {
             rms_lx: look.rms_lx,
             interpolation: look.interpolation(request),
             mean_reflectance: mean_reflectance(self.scene, &coarse),
-            means: self.means(&coarse, (&look, request), &open[..indirect_vertices], carrying),
+            means,
             fit: self.fit(&coarse, &open),
             direct: self.direct,
             direct_variance: self.direct_variance,
@@ -61,13 +67,14 @@ impl<'s> Pilot<'s> {
         }
     }
 
-    /// Direct light on the final elements; without time for it, light from where receivers were before has to do.
+    /// Direct light on the final elements, and the receivers there; without time for it, light from where receivers were before
+    /// has to do.
     fn measure_direct_light(
         &mut self,
         look: &mut Look,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
-    ) {
+    ) -> Vec<Gatherer> {
         // Readers see elements for direct light alone.
         for error in look.errors.iter_mut().filter(|e| e.is_beset) {
             error.is_beset_afar |= self.subdivision.node(error.node).0.split.is_some();
@@ -82,6 +89,7 @@ impl<'s> Pilot<'s> {
         self.is_measured = true;
         go_on(&self.round(request, Some(look), FINE));
         self.complete_standings(&gatherers);
+        gatherers
     }
 
     fn fit(&self, coarse: &Subdivision, open: &[bool]) -> Fit {
@@ -89,20 +97,6 @@ impl<'s> Pilot<'s> {
         // Quadratic functions tell the values at vertices; elements between them alone are to be fitted, too.
         let carriers = if self.is_smoothed { &all } else { &self.carriers };
         Fit::new(&coarse.elements(), coarse.vertex_count(), open, carriers)
-    }
-
-    fn means(
-        &self,
-        coarse: &Subdivision,
-        (look, request): (&Look, &PilotRequest),
-        open: &[bool],
-        carrying: usize,
-    ) -> Means {
-        if !look.asks_for_means(request) {
-            return Means::default();
-        }
-        let trusted_up_to_lx = look.trusted_up_to_lx(request);
-        Means::new((self.scene, coarse), &look.errors, trusted_up_to_lx, open, carrying)
     }
 }
 

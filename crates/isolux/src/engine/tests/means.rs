@@ -79,9 +79,8 @@ fn what_is_measured_is_given_to_elements_that_nobody_trusts() {
     assert_eq!(still, plan.guess);
 }
 
-/// Quadratic functions come out as they are inside a surface, linear ones everywhere.
-#[test]
-fn vertices_between_carriers_have_the_quadratic_function_of_those_about_them() {
+/// A floor of 4 m by 3 m bisected twice more, its first vertex that makes, and the corners of the elements before.
+fn floor() -> (Subdivision, usize, Vec<[u32; 3]>) {
     let shapes = vec![rectangle([0.0; 3], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0], 0)];
     let scene = scene(shapes, vec![painted(Rgb::WHITE)], vec![]);
     let mut subdivision = Subdivision::new(&scene);
@@ -90,6 +89,13 @@ fn vertices_between_carriers_have_the_quadratic_function_of_those_about_them() {
     let leaves: Vec<u32> = subdivision.leaves().collect();
     let corners: Vec<[u32; 3]> = leaves.iter().map(|&n| subdivision.node(n).0.vertices).collect();
     leaves.into_iter().for_each(|node| bisect_twice(&mut subdivision, node));
+    (subdivision, first, corners)
+}
+
+/// Quadratic functions come out as they are inside a surface, linear ones everywhere.
+#[test]
+fn vertices_between_carriers_have_the_quadratic_function_of_those_about_them() {
+    let (subdivision, first, corners) = floor();
     let open = vec![true; subdivision.vertex_count()];
     let mut carriers = Carriers::all();
     carriers.smooth(&subdivision, first, &corners, &open);
@@ -112,14 +118,7 @@ fn vertices_between_carriers_have_the_quadratic_function_of_those_about_them() {
 /// A vertex beside one that is hidden has the light of the other end of its edge, not half of it.
 #[test]
 fn what_is_hidden_tells_nothing() {
-    let shapes = vec![rectangle([0.0; 3], [4.0, 0.0, 0.0], [0.0, 3.0, 0.0], 0)];
-    let scene = scene(shapes, vec![painted(Rgb::WHITE)], vec![]);
-    let mut subdivision = Subdivision::new(&scene);
-    subdivision.bisect_to(0.5, 1 << 20);
-    let first = subdivision.vertex_count();
-    let leaves: Vec<u32> = subdivision.leaves().collect();
-    let corners: Vec<[u32; 3]> = leaves.iter().map(|&n| subdivision.node(n).0.vertices).collect();
-    leaves.into_iter().for_each(|node| bisect_twice(&mut subdivision, node));
+    let (subdivision, first, corners) = floor();
     let hidden = first - 1;
     let mut open: Vec<bool> = (0..first).map(|v| v != hidden).collect();
     for vertex in &subdivision.vertices()[first..] {
