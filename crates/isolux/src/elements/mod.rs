@@ -4,12 +4,14 @@
 //! are shared between coplanar (or smoothly joined) neighbours of one side and split at creases.
 
 mod arrays;
+mod hash;
 mod subdivide;
 
 #[cfg(test)]
 mod tests;
 
 pub use arrays::{ElementArrays, ElementArraysError};
+pub(crate) use hash::FewNumbers;
 pub(crate) use subdivide::first_vertex_count;
 pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
 

@@ -5,12 +5,12 @@
 //! T-vertex appears, angles never fall below half the smallest of the input, and the tree over each
 //! triangle of the scene locates any point of it.
 
+use super::hash::FewNumbers;
 use super::{Elements, Node, Split, Vertex};
 use crate::scene::{Finish, Scene};
 use isolux_geometry::{Normal, Point, Triangle};
 use smallvec::SmallVec;
 use std::collections::HashMap;
-use std::hash::{BuildHasher, Hasher, RandomState};
 
 /// Vertices at one place are one where their normals agree within one degree: coplanar or smoothly
 /// joined neighbours; anything else is a crease.
@@ -27,7 +27,7 @@ pub struct Subdivision {
     origins: Vec<Origin>,
     roots: Vec<[Option<u32>; 2]>,
     /// The elements on every edge, by its ends, the lower first.
-    edges: HashMap<[u32; 2], Few, EdgeHash>,
+    edges: HashMap<[u32; 2], Few, FewNumbers>,
 }
 
 /// Which side of which triangle a node is part of, and its depth in the tree.
@@ -50,7 +50,7 @@ impl Subdivision {
             nodes: Vec::with_capacity(roots.len()),
             origins: Vec::with_capacity(roots.len()),
             roots: vec![[None; 2]; scene.triangle_count() as usize],
-            edges: HashMap::with_capacity_and_hasher(3 * roots.len() / 2, EdgeHash::default()),
+            edges: HashMap::with_capacity_and_hasher(3 * roots.len() / 2, FewNumbers::default()),
         };
         for (corners, origin) in roots {
             let root = subdivision.push(corners, origin);
@@ -277,47 +277,10 @@ pub struct Receiver {
     pub back: bool,
 }
 
-/// Hashes edges, which are two small numbers: the usual hash takes most of the time of a subdivision. It starts from
-/// a secret of its own, so that no file can make edges collide.
-#[derive(Clone)]
-struct EdgeHash(u64);
-
-impl Default for EdgeHash {
-    fn default() -> Self {
-        Self(RandomState::new().hash_one(0_u8))
-    }
-}
-
-impl BuildHasher for EdgeHash {
-    type Hasher = EdgeHasher;
-
-    fn build_hasher(&self) -> EdgeHasher {
-        EdgeHasher(self.0)
-    }
-}
-
-/// Folds products with a number that has no pattern.
-struct EdgeHasher(u64);
-
-impl Hasher for EdgeHasher {
-    fn write(&mut self, bytes: &[u8]) {
-        for part in bytes.chunks(8) {
-            let mut word = [0; 8];
-            word[..part.len()].copy_from_slice(part);
-            let product = u128::from(self.0 ^ u64::from_le_bytes(word)) * 0x9e37_79b9_7f4a_7c15;
-            self.0 = (product >> 64) as u64 ^ product as u64;
-        }
-    }
-
-    fn finish(&self) -> u64 {
-        self.0
-    }
-}
-
 /// Vertices of the triangles that carry a map, one for all that meet smoothly, and the sides of triangles between them.
 fn welded(scene: &Scene) -> (Vec<Vertex>, Vec<([u32; 3], Origin)>) {
     let mut vertices: Vec<Vertex> = Vec::new();
-    let mut at: HashMap<[u64; 3], Few> = HashMap::new();
+    let mut at: HashMap<[u64; 3], Few, FewNumbers> = HashMap::default();
     let mut weld = |position: Point, normal: Normal| {
         // Adding zero makes one zero of the two.
         let key = [position.x, position.y, position.z].map(|c| (c + 0.0).to_bits());

@@ -90,7 +90,7 @@ impl Accumulator {
     }
 
     /// Adds one increment: one sample a receiver.
-    pub(super) fn add(&mut self, samples: impl Iterator<Item = Sample>) {
+    pub(super) fn add(&mut self, samples: impl IntoIterator<Item = Sample>) {
         let scale = 1.0 / self.lux_per_unit;
         for (sums, sample) in self.sums.iter_mut().zip(samples) {
             let parts = [sample.direct, sample.caustic, sample.indirect];

@@ -12,6 +12,9 @@ use crate::scene::Scene;
 /// receivers, so eight give it to a few per cent.
 pub(super) const BELIEVED_INCREMENTS: u64 = 8;
 
+/// Increments after which elements may be seen to be too coarse: the spread of fewer tells little of check points.
+pub(super) const FEWEST_TO_MISS: u64 = 4;
+
 /// The error of the scene so far, however few replicates there are; `None` where nothing is
 /// known: what paths given up would have brought may be more than what is there.
 pub(super) fn accuracy(

@@ -193,16 +193,15 @@ pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
     checks.par_iter().with_max_len(AT_ONCE).enumerate().map(one).collect()
 }
 
-/// Adds one increment: `fresh` is what was gathered at the points, `direct` what luminaires give
+/// What one increment adds to the sums: `fresh` is what was gathered at the points, `direct` what luminaires give
 /// there, then the increment's map: direct light, caustics and indirect light. `lookups` is by what rays
 /// that end there would be wrong, where they read something else than the map.
-pub(super) fn add(
-    sums: &mut Accumulator,
+pub(super) fn samples(
     checks: &[Check],
     (fresh, fresh_direct): (&[Rgb], &[Rgb]),
     [direct, caustic, indirect]: [&[Rgb]; 3],
     lookups: &[Rgb],
-) {
+) -> Vec<Sample> {
     let read = |values: &[Rgb], at: &[(u32, f64); 3]| -> Rgb {
         at.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
     };
@@ -223,7 +222,7 @@ pub(super) fn add(
         }
     });
     let lookups = lookups.iter().map(|&indirect| Sample { indirect, ..Sample::default() });
-    sums.add(differences.chain(readings).chain(lookups));
+    differences.chain(readings).chain(lookups).collect()
 }
 
 /// What errors are said to be that noise may hide.

@@ -2,7 +2,7 @@
 //!
 //! Surfaces have nothing to do with each other, so that each is thinned out for itself.
 
-use crate::elements::{Subdivision, Vertex};
+use crate::elements::{FewNumbers, Subdivision, Vertex};
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -254,13 +254,13 @@ fn spacing_of(coarsest_m: f64, level: u8) -> f64 {
 /// Vertices by the cells of a grid.
 struct Grid {
     reach_m: f64,
-    cells: HashMap<[i64; 3], Vec<usize>>,
+    cells: HashMap<[i64; 3], Vec<usize>, FewNumbers>,
 }
 
 impl Grid {
     /// A grid of some of the vertices, to be asked for those within reach of a place.
     fn of(vertices: &[Vertex], reach_m: f64, some: impl Fn(usize) -> bool) -> Self {
-        let mut grid = Self { reach_m, cells: HashMap::new() };
+        let mut grid = Self { reach_m, cells: HashMap::default() };
         for (v, vertex) in vertices.iter().enumerate().filter(|&(v, _)| some(v)) {
             grid.insert(v, vertex.position);
         }

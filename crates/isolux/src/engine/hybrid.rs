@@ -4,8 +4,8 @@
 //! the elements that the pilot has fixed. Replicates share nothing random, so their spread tells the
 //! error of their mean.
 
-use super::accumulate::{Accumulator, Effort, Sample};
-use super::accuracy::BELIEVED_INCREMENTS;
+use super::accumulate::{Effort, Sample};
+use super::accuracy::{BELIEVED_INCREMENTS, FEWEST_TO_MISS};
 use super::caustics;
 use super::checks::{self, Check};
 use super::deadline::Deadline;
@@ -16,11 +16,15 @@ use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
+use std::collections::VecDeque;
 use std::time::Instant;
 
 /// Sweeps of the fixed point end when they change less than this share of the accuracy asked for, relative to the light:
 /// all increments start from one guess, so that what is left of it does not average out.
 const TOLERANCE: f64 = 1e-3;
+
+/// Increments are made ahead of being asked for as long as they have no more rays together.
+const RAYS_AHEAD: u64 = 1 << 19;
 
 /// One receiver in so many is tried to tell how long an increment takes.
 const TRIED: usize = 64;
@@ -38,6 +42,17 @@ pub(super) struct Hybrid<'p, 's> {
     /// Accuracy that the increments are for.
     goal: f64,
     key: Key,
+    /// Increments made ahead, in order.
+    ahead: VecDeque<Increment>,
+}
+
+/// What an increment has found.
+pub(super) struct Increment {
+    /// At the vertices.
+    pub(super) receivers: Vec<Sample>,
+    /// For the sums of the check points.
+    pub(super) checks: Vec<Sample>,
+    pub(super) effort: Effort,
 }
 
 impl<'p, 's> Hybrid<'p, 's> {
@@ -61,7 +76,8 @@ impl<'p, 's> Hybrid<'p, 's> {
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
         let rays_of_means = libm::exp2(libm::round(libm::log2(rays))) as u32;
-        Self { plan, check_direct, rays_of_means, rows, check_rows, particles, goal, key }
+        let ahead = VecDeque::new();
+        Self { plan, check_direct, rays_of_means, rows, check_rows, particles, goal, key, ahead }
     }
 
     /// Time that an increment takes, s, roughly: a part of its receivers is tried.
@@ -87,15 +103,32 @@ impl<'p, 's> Hybrid<'p, 's> {
         self.rows.get(vertex).map_or(0, |row| row.rays)
     }
 
-    /// Adds increment `index`; nothing, and `None`, if the deadline passes meanwhile.
+    /// Increment `index`; `None` if the deadline passes meanwhile. Where increments are small, those that will be asked for
+    /// in any case are made beside it: alone they would keep threads waiting for each other.
     pub(super) fn increment(
-        &self,
+        &mut self,
         index: u64,
-        receivers: &mut Accumulator,
         checks: &[Check],
-        check_sums: &mut Accumulator,
         deadline: Deadline,
-    ) -> Option<Effort> {
+    ) -> Option<Increment> {
+        if self.ahead.is_empty() {
+            let next = (index + 1).next_multiple_of(FEWEST_TO_MISS);
+            let until = if next <= BELIEVED_INCREMENTS { next } else { index + 1 };
+            let rays = self.rows.iter().map(|row| u64::from(row.rays)).sum::<u64>().max(1);
+            let count = (until - index).min((RAYS_AHEAD / rays).max(1)) as usize;
+            let one = |k: usize| self.made(index + k as u64, checks, deadline);
+            let made: Vec<_> = (0..count).into_par_iter().with_max_len(1).map(one).collect();
+            self.ahead.extend(made.into_iter().map_while(|increment| increment));
+        }
+        self.ahead.pop_front()
+    }
+
+    /// How many increments are made already that were not asked for.
+    pub(super) fn ahead(&self) -> u64 {
+        self.ahead.len() as u64
+    }
+
+    fn made(&self, index: u64, checks: &[Check], deadline: Deadline) -> Option<Increment> {
         let plan = self.plan;
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
@@ -131,18 +164,17 @@ impl<'p, 's> Hybrid<'p, 's> {
         let indirect = plan.prolongate(&gathered);
         let caustic = plan.prolongate(&caustic);
         let map = [direct.as_slice(), &caustic, &indirect];
-        checks::add(check_sums, checks, (&fresh_light, &check_direct), map, &[]);
-        receivers.add((0..direct.len()).map(|k| Sample {
-            direct: direct[k],
-            caustic: caustic[k],
-            indirect: indirect[k],
-        }));
+        let checks = checks::samples(checks, (&fresh_light, &check_direct), map, &[]);
+        let vertex =
+            |k: usize| Sample { direct: direct[k], caustic: caustic[k], indirect: indirect[k] };
+        let receivers = (0..direct.len()).map(vertex).collect();
         // Rays given up would have seen what others see.
         let unseen_lx = operator.given_up() * plan.rms_lx;
-        Some(Effort {
+        let effort = Effort {
             rays: operator.rays + fresh.rays + particles.rays,
             given_up_lx: particles.given_up_lx + unseen_lx + unsettled_lx,
-        })
+        };
+        Some(Increment { receivers, checks, effort })
     }
 }
 

@@ -358,9 +358,9 @@ impl<'s, 'r> Run<'s, 'r> {
         let goal = self.request.accuracy;
         let needed = goal.and_then(|goal| work.increments_needed(accuracy, goal));
         let prediction = needed.map(|needed| {
-            let each_s =
-                (progress.elapsed_s - pace.started_s) / (count - pace.before).max(1) as f64;
-            predict::finish(needed, count, each_s, progress.elapsed_s)
+            let made = count + work.ahead();
+            let each_s = (progress.elapsed_s - pace.started_s) / (made - pace.before).max(1) as f64;
+            predict::finish(needed, made, each_s, progress.elapsed_s)
         });
         let ends = end.is_some_and(|end| end != End::TooCoarse);
         let unshot = work.unshot().map(|unshot| unshot.share);

@@ -6,7 +6,7 @@ use crate::sampling::Key;
 use crate::units::Rgb;
 
 /// Receivers, increments and rays of a trial.
-pub(super) const RECEIVERS: usize = 256;
+pub(super) const RECEIVERS: usize = 128;
 const INCREMENTS: u64 = 4;
 const RAYS: u32 = 16;
 

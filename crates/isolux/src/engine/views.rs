@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 const FEELERS: u32 = 64;
 
 /// Places that look about.
-const LOOKING: usize = 256;
+const LOOKING: usize = 128;
 
 /// A place that rays read at.
 #[derive(Clone, Copy, Debug)]

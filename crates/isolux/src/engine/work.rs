@@ -1,7 +1,9 @@
 //! The increments on one mesh: an engine, what it has summed, and the map that makes.
 
 use super::accumulate::{Accumulator, Estimate, Sample, Sums};
-use super::accuracy::{BELIEVED_INCREMENTS, accuracy, accuracy_of_map, early_statistical};
+use super::accuracy::{
+    BELIEVED_INCREMENTS, FEWEST_TO_MISS, accuracy, accuracy_of_map, early_statistical,
+};
 use super::cache::{CacheSample, Cached};
 use super::checks::{self, Check, InterpolationErrors, Noise};
 use super::deadline::Deadline;
@@ -23,9 +25,6 @@ use crate::units::Rgb;
 /// Increments before a run may stop at its accuracy: as soon as it is believed. (Readings mix three
 /// vertices, whose spreads make one good enough: decision 12.)
 const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
-
-/// Increments after which elements may be seen to be too coarse: the spread of fewer tells little of check points.
-const FEWEST_TO_MISS: u64 = 4;
 
 /// Increments beyond which finer elements are faster, which take their pilot and as many increments as are believed.
 const MOST_INCREMENTS: f64 = 3.0 * BELIEVED_INCREMENTS as f64;
@@ -160,8 +159,10 @@ impl<'p, 's> Work<'p, 's> {
         let index = self.sums.increments;
         let effort = match &mut self.engine {
             Engine::Hybrid(hybrid) => {
-                let Checks { points, sums } = &mut self.checks;
-                hybrid.increment(index, &mut self.sums, points, sums, deadline)?
+                let made = hybrid.increment(index, &self.checks.points, deadline)?;
+                self.sums.add(made.receivers);
+                self.checks.sums.add(made.checks);
+                made.effort
             }
             Engine::Cache(cached) => {
                 let Checks { points, sums } = &mut self.checks;
@@ -177,6 +178,14 @@ impl<'p, 's> Work<'p, 's> {
         let direct = Rgb::grey(effort.given_up_lx);
         self.given_up.add(std::iter::once(Sample { direct, ..Sample::default() }));
         Some(effort.rays)
+    }
+
+    /// How many increments are made already that were not added.
+    pub(super) fn ahead(&self) -> u64 {
+        match &self.engine {
+            Engine::Hybrid(hybrid) => hybrid.ahead(),
+            _ => 0,
+        }
     }
 
     /// The samples of a cache that were made.

@@ -40,7 +40,7 @@ impl Pilot<'_> {
         let vertices = look.elements.vertices();
         let carries = |&v: &usize| self.standings[v].is_some() && self.carriers.is_active(v as u32);
         let all: Vec<usize> = (0..vertices.len()).filter(carries).collect();
-        let every = (all.len() / trial::RECEIVERS).max(1);
+        let every = all.len().div_ceil(trial::RECEIVERS).max(1);
         let gatherers = self.gatherers();
         let some = all.into_iter().step_by(every);
         let some: Vec<(Gatherer, f64)> =

@@ -454,7 +454,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         for operator in &self.checks.operators {
             let fresh = operator.apply(&light);
             let map = [self.direct.as_slice(), &self.caustic, &indirect];
-            checks::add(&mut found, points, (&fresh, &self.checks.direct), map, &[]);
+            found.add(checks::samples(points, (&fresh, &self.checks.direct), map, &[]));
         }
         InterpolationErrors { noise_lx: None, ..checks::errors(&found, points, Noise::Counted) }
     }

@@ -52,7 +52,7 @@ fn check_sums(
             .map(|(k, c)| Rgb::grey(5.0 - common(c) + sigma * noise(key.with(k as u64))))
             .collect();
         let direct = vec![Rgb::BLACK; checks.len()];
-        checks::add(&mut sums, checks, (&fresh, &direct), [&fine, &fine, &coarse], &[]);
+        sums.add(checks::samples(checks, (&fresh, &direct), [&fine, &fine, &coarse], &[]));
     }
     sums
 }
@@ -190,7 +190,7 @@ fn noise_is_that_of_readings_over_the_surface() {
             .map(|k| Rgb::grey(5.0 + noise(key.with(k as u64))))
             .collect();
         let fresh = &black[..checks.len()];
-        checks::add(&mut sums, &checks, (fresh, fresh), [&black, &black, &coarse], &[]);
+        sums.add(checks::samples(&checks, (fresh, fresh), [&black, &black, &coarse], &[]));
     }
     let noise_lx = checks::errors(&sums, &checks, Noise::Counted).noise_lx.unwrap();
     // Barycentric weights have a mean square of 1/6 each; 16 increments; some hundred vertices tell.
