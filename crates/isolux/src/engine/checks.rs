@@ -64,7 +64,7 @@ pub(super) struct InterpolationErrors {
     pub(super) untrusted_lx: f64,
     /// What is read close by there of a unit of light, root mean square over all the surface.
     pub(super) close: f64,
-    /// Of direct and indirect together, but in gaps.
+    /// Of direct and indirect together, in gaps and all: of the bare map.
     pub(super) total_lx: f64,
     /// Mean of the indirect error, with its sign and standard error.
     pub(super) indirect_mean_lx: f64,
@@ -278,18 +278,17 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> I
             untrusted += share * (indirect * indirect - estimate.indirect_variance);
             close += share * check.close * check.close;
         }
-        // Neither rays nor views come to what is closed in.
-        let seen = if check.gatherer.in_gap { 0..0 } else { 0..2 };
-        for part in seen {
-            let (value, variance) = both[part];
-            mean[part] += share * value;
-            of_mean += if part == 0 { share * share * variance } else { 0.0 };
-            if part == 0 && !check.is_trusted {
-                continue;
+        for (part, (value, variance)) in both.into_iter().enumerate() {
+            // Neither rays nor readers of interpolated light come to what is closed in.
+            if !check.gatherer.in_gap {
+                mean[part] += share * value;
+                of_mean += if part == 0 { share * share * variance } else { 0.0 };
             }
-            squared[part] += share * (value * value - variance);
-            // Variance of `value^2 - variance` for a normal value of mean zero.
-            spread[part] += share * share * 2.0 * variance * variance;
+            if part == 1 || check.is_trusted && !check.gatherer.in_gap {
+                squared[part] += share * (value * value - variance);
+                // Variance of `value^2 - variance` for a normal value of mean zero.
+                spread[part] += share * share * 2.0 * variance * variance;
+            }
         }
     }
     let root = |part: usize| noise_is.of_squared(squared[part], spread[part].sqrt()).sqrt();
