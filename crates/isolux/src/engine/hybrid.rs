@@ -103,20 +103,23 @@ impl<'p, 's> Hybrid<'p, 's> {
         self.rows.get(vertex).map_or(0, |row| row.rays)
     }
 
-    /// Increment `index`; `None` if the deadline passes meanwhile. Where increments are small, those that will be asked for
-    /// in any case are made beside it: alone they would keep threads waiting for each other.
+    /// Increment `index`; `None` if its deadline passes meanwhile. Where increments are small, those that will be asked for
+    /// in any case are made beside it, if they are whole by a deadline of their own: alone they would keep threads waiting for
+    /// each other.
     pub(super) fn increment(
         &mut self,
         index: u64,
         checks: &[Check],
-        deadline: Deadline,
+        [own, of_others]: [Deadline; 2],
     ) -> Option<Increment> {
         if self.ahead.is_empty() {
             let next = (index + 1).next_multiple_of(FEWEST_TO_MISS);
             let until = if next <= BELIEVED_INCREMENTS { next } else { index + 1 };
-            let rays = self.rows.iter().map(|row| u64::from(row.rays)).sum::<u64>().max(1);
-            let count = (until - index).min((RAYS_AHEAD / rays).max(1)) as usize;
-            let one = |k: usize| self.made(index + k as u64, checks, deadline);
+            let rows = self.rows.iter().chain(&self.check_rows);
+            let rays = rows.map(|row| u64::from(row.rays)).sum::<u64>() + u64::from(self.particles);
+            let count = (until - index).min((RAYS_AHEAD / rays.max(1)).max(1)) as usize;
+            let deadline = |k: usize| if k == 0 { own } else { of_others };
+            let one = |k: usize| self.made(index + k as u64, checks, deadline(k));
             let made: Vec<_> = (0..count).into_par_iter().with_max_len(1).map(one).collect();
             self.ahead.extend(made.into_iter().map_while(|increment| increment));
         }

@@ -339,8 +339,7 @@ impl<'s, 'r> Run<'s, 'r> {
             return false;
         }
         let end = self.request.time_limit.and_then(|limit| self.started.checked_add(limit));
-        let deadline = if work.sums.increments > 0 { Deadline(end) } else { Deadline::NEVER };
-        let rays = work.increment(deadline);
+        let rays = work.increment(Deadline(end));
         self.rays += rays.unwrap_or(0);
         rays.is_some()
     }

@@ -154,12 +154,13 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// Adds one increment; returns the rays traced, or nothing if the deadline passes before.
-    pub(super) fn increment(&mut self, deadline: Deadline) -> Option<u64> {
+    /// Adds one increment; returns the rays traced, or nothing if the end passes before. The first is made whole in any case.
+    pub(super) fn increment(&mut self, end: Deadline) -> Option<u64> {
         let index = self.sums.increments;
+        let deadline = if index > 0 { end } else { Deadline::NEVER };
         let effort = match &mut self.engine {
             Engine::Hybrid(hybrid) => {
-                let made = hybrid.increment(index, &self.checks.points, deadline)?;
+                let made = hybrid.increment(index, &self.checks.points, [deadline, end])?;
                 self.sums.add(made.receivers);
                 self.checks.sums.add(made.checks);
                 made.effort
