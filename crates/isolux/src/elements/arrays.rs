@@ -1,5 +1,6 @@
 //! Elements as plain arrays, for files.
 
+use super::walk::MOST_NODES;
 use super::{Elements, Node, Split, Vertex};
 use isolux_geometry::{Point, Vector};
 
@@ -35,6 +36,9 @@ pub enum ElementArraysError {
     /// Arrays over the same things have different lengths.
     #[error("arrays of {0} have different lengths")]
     Lengths(&'static str),
+    /// More nodes than can be counted.
+    #[error("{0} nodes are more than can be read")]
+    TooMany(usize),
     /// An index points nowhere, or a tree is not a tree.
     #[error("{0} refers to something that does not exist")]
     Index(&'static str),
@@ -71,11 +75,14 @@ impl Elements {
         if arrays.splits.len() != nodes {
             return Err(ElementArraysError::Lengths("nodes"));
         }
-        let elements = Self {
-            vertices: (0..vertices).map(|k| vertex(arrays, k)).collect::<Result<_, _>>()?,
-            nodes: (0..nodes).map(|k| node(arrays, k)).collect::<Result<_, _>>()?,
-            roots: arrays.roots.iter().map(|r| roots(*r, nodes)).collect::<Result<_, _>>()?,
-        };
+        if nodes >= MOST_NODES {
+            return Err(ElementArraysError::TooMany(nodes));
+        }
+        let elements = Self::new(
+            (0..vertices).map(|k| vertex(arrays, k)).collect::<Result<_, _>>()?,
+            (0..nodes).map(|k| node(arrays, k)).collect::<Result<_, _>>()?,
+            arrays.roots.iter().map(|r| roots(*r, nodes)).collect::<Result<_, _>>()?,
+        );
         if !are_trees(&elements) {
             return Err(ElementArraysError::Index("a tree of bisections"));
         }

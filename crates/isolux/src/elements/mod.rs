@@ -6,6 +6,7 @@
 mod arrays;
 mod hash;
 mod subdivide;
+mod walk;
 
 #[cfg(test)]
 mod tests;
@@ -15,7 +16,10 @@ pub(crate) use hash::FewNumbers;
 pub(crate) use subdivide::first_vertex_count;
 pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
 
+pub(crate) use walk::Place;
+
 use isolux_geometry::{Normal, Point};
+use walk::Walk;
 
 /// The subdivided surfaces.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +28,8 @@ pub struct Elements {
     nodes: Vec<Node>,
     /// Per triangle of the scene: the root of its front and of its back.
     roots: Vec<[Option<u32>; 2]>,
+    /// The splits of the nodes once more.
+    walk: Walk,
 }
 
 /// A vertex of the elements: a receiver of light.
@@ -69,6 +75,11 @@ pub struct Element {
 }
 
 impl Elements {
+    fn new(vertices: Vec<Vertex>, nodes: Vec<Node>, roots: Vec<[Option<u32>; 2]>) -> Self {
+        let walk = Walk::new(&nodes);
+        Self { vertices, nodes, roots, walk }
+    }
+
     /// The vertices.
     pub fn vertices(&self) -> &[Vertex] {
         &self.vertices
@@ -125,23 +136,29 @@ impl Elements {
         u: f64,
         v: f64,
     ) -> Option<[(u32, f64); 3]> {
+        self.place(level, triangle, back, [u, v]).map(|place| self.corners(place))
+    }
+
+    /// The place that it is.
+    pub(crate) fn place(
+        &self,
+        level: u32,
+        triangle: u32,
+        back: bool,
+        [u, v]: [f64; 2],
+    ) -> Option<Place> {
         let root = self.roots.get(triangle as usize)?[usize::from(back)]?;
-        let mut node = self.nodes[root as usize];
-        let mut weights = [1.0 - u - v, u, v];
-        while let Some(Split { edge, first_child }) = node.split.filter(|s| s.first_child < level) {
-            let (a, b) = (usize::from(edge), (usize::from(edge) + 1) % 3);
-            // On the edge from a to b the middle has twice the smaller weight.
-            if weights[a] >= weights[b] {
-                weights[a] -= weights[b];
-                weights[b] *= 2.0;
-                node = self.nodes[first_child as usize];
-            } else {
-                weights[b] -= weights[a];
-                weights[a] *= 2.0;
-                node = self.nodes[first_child as usize + 1];
-            }
-        }
-        let [a, b, c] = node.vertices;
-        Some([(a, weights[0]), (b, weights[1]), (c, weights[2])])
+        Some(self.walk.down(Place::in_root(root, u, v), level))
+    }
+
+    /// A place on a finer level.
+    pub(crate) fn below(&self, place: Place, level: u32) -> Place {
+        self.walk.down(place, level)
+    }
+
+    /// Vertices and their weights at a place.
+    pub(crate) fn corners(&self, place: Place) -> [(u32, f64); 3] {
+        let (vertices, weights) = (self.nodes[place.node() as usize].vertices, place.weights());
+        [0, 1, 2].map(|k| (vertices[k], weights[k]))
     }
 }

@@ -200,7 +200,7 @@ impl Subdivision {
                 vertices[v as usize].area_m2 += third;
             }
         }
-        Elements { vertices, nodes: self.nodes.clone(), roots: self.roots.clone() }
+        Elements::new(vertices, self.nodes.clone(), self.roots.clone())
     }
 
     /// Where to sample the light of every vertex: at the vertex, or, where elements do not surround

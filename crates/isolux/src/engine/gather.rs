@@ -12,7 +12,7 @@ use super::direct::{About, Lighting};
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
 use super::trust;
-use crate::elements::{Elements, Receiver};
+use crate::elements::{Elements, Place, Receiver};
 use crate::map::Standing;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
@@ -108,7 +108,7 @@ pub(super) enum DirectAtEnds<'a> {
     Read {
         /// A value a vertex, lx.
         values: &'a [Rgb],
-        /// As for indirect light, but direct light may live on a finer level.
+        /// As for indirect light, or finer.
         level: u32,
     },
     /// Read, but evaluated where a ray that regathers ends nearer than the element there is long: what stands that
@@ -195,11 +195,17 @@ pub(super) struct Operator {
     pub(super) rays: u64,
 }
 
+/// A place on the level gathered over, and the vertices and weights there.
+#[derive(Clone, Copy)]
+struct Located {
+    place: Place,
+    corners: [(u32, f64); 3],
+}
+
 /// A diffuse surface that a ray has come to.
 struct LegEnd {
     surface: SurfacePoint,
-    /// Vertices and weights there on the level gathered over.
-    corners: Option<[(u32, f64); 3]>,
+    located: Option<Located>,
     /// Whether the map tells little there, so close to where the ray starts.
     is_close: bool,
     /// How far the ray has come if it starts in a gap.
@@ -293,10 +299,13 @@ impl Gathering<'_> {
             let share = reflectance * leg.share;
             let distance_m = (surface.point - leg.origin).length();
             let out_of = leg.in_gap.then_some(distance_m);
-            // Once for all: it takes as long as to trace the ray.
-            let corners = self.located(self.level, &surface, None);
-            let is_close = self.regathers && self.is_close(&surface, corners, distance_m);
-            let end = LegEnd { surface, corners, is_close, out_of_gap_m: out_of };
+            // Once for all.
+            let located = self.located(&surface);
+            let is_close = self.regathers
+                && located.is_some_and(|located| {
+                    distance_m <= self.edge_m(self.corners(&located, u32::MAX))
+                });
+            let end = LegEnd { surface, located, is_close, out_of_gap_m: out_of };
             row.source += share * self.direct_at(&end, leg.receiver, &mut row.about, dice);
             if is_close && leg.number < REGATHERED {
                 rows.further_rays += 1;
@@ -310,7 +319,7 @@ impl Gathering<'_> {
                     receiver: leg.receiver,
                 };
                 self.leg(&further, dice, row, rows);
-            } else if let Some(entry) = corners.and_then(|c| self.entry(c, out_of)) {
+            } else if let Some(entry) = located.and_then(|l| self.entry(l.corners, out_of)) {
                 row.close += if is_close { share.luminance() } else { 0.0 };
                 rows.push(entry, share.0.map(|c| c as f32));
             }
@@ -318,22 +327,19 @@ impl Gathering<'_> {
         row.ends.truncate(first);
     }
 
-    /// Vertices and weights of a place on a level, unless those of its own are these.
-    fn located(
-        &self,
-        level: u32,
-        at: &SurfacePoint,
-        own: Option<[(u32, f64); 3]>,
-    ) -> Option<[(u32, f64); 3]> {
+    /// A place on the level gathered over.
+    fn located(&self, at: &SurfacePoint) -> Option<Located> {
         let SurfacePoint { triangle, back, u, v, .. } = *at;
-        own.filter(|_| level == self.level)
-            .or_else(|| self.elements.locate_above(level, triangle, back, u, v))
+        let place = self.elements.place(self.level, triangle, back, [u, v])?;
+        Some(Located { place, corners: self.elements.corners(place) })
     }
 
-    /// Whether a ray has come less far than the element is long where it ends.
-    fn is_close(&self, at: &SurfacePoint, own: Option<[(u32, f64); 3]>, distance_m: f64) -> bool {
-        let corners = self.located(u32::MAX, at, own);
-        distance_m <= corners.map_or(0.0, |corners| self.edge_m(corners))
+    /// Vertices and weights of a place on that level or a finer one.
+    fn corners(&self, of: &Located, level: u32) -> [(u32, f64); 3] {
+        if level == self.level {
+            return of.corners;
+        }
+        self.elements.corners(self.elements.below(of.place, level))
     }
 
     /// Whether a ray from within a gap may still be in it.
@@ -349,7 +355,7 @@ impl Gathering<'_> {
         dice: &mut Dice,
     ) -> Rgb {
         let read = |values: &[Rgb], level: u32| {
-            let corners = self.located(level, &end.surface, end.corners);
+            let corners = end.located.map(|located| self.corners(&located, level));
             let known = corners.and_then(|corners| self.known(corners, end.out_of_gap_m));
             known.map_or(Rgb::BLACK, |corners| {
                 corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()

@@ -21,7 +21,7 @@ use std::time::Instant;
 
 /// Sweeps of the fixed point end when they change less than this share of the accuracy asked for, relative to the light:
 /// all increments start from one guess, so that what is left of it does not average out.
-const TOLERANCE: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-2;
 
 /// Increments are made ahead of being asked for as long as they have no more rays together.
 const RAYS_AHEAD: u64 = 1 << 19;
