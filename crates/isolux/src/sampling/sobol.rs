@@ -12,22 +12,28 @@ use super::Key;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sequence {
     key: Key,
+    /// Seeds of the scrambles of the first pair, which most points are asked for.
+    first: [u32; 2],
 }
 
 impl Sequence {
     /// The sequence scrambled by a key. Sequences of different keys do not depend on each other.
     pub const fn new(key: Key) -> Self {
-        Self { key }
+        Self { key, first: seeds(key.with(0)) }
     }
 
     /// Dimensions `2 pair` and `2 pair + 1` of point `index`. Of pair 0, any aligned block of 2^k
     /// indices is a (0, k, 2)-net; of the others, the first 2^k indices are.
     #[inline]
     pub const fn pair(self, index: u32, pair: u32) -> [f64; 2] {
-        let key = self.key.with(pair as u64);
-        let index = if pair == 0 { index } else { scramble(index, key.with(2).bits32()) };
-        let x = scramble_reversed(index, key.with(0).bits32());
-        let y = scramble_reversed(sobol_second_reversed(index), key.with(1).bits32());
+        let (index, [first, second]) = if pair == 0 {
+            (index, self.first)
+        } else {
+            let key = self.key.with(pair as u64);
+            (scramble(index, key.with(2).bits32()), seeds(key))
+        };
+        let x = scramble_reversed(index, first);
+        let y = scramble_reversed(sobol_second_reversed(index), second);
         [fraction(x), fraction(y)]
     }
 
@@ -35,8 +41,13 @@ impl Sequence {
     /// not depend on this one.
     pub const fn fork(self, index: u32, pair: u32) -> Self {
         // Above all 32-bit numbers: no pair has this key.
-        Self { key: self.key.with(1 << 32 | pair as u64).with(index as u64) }
+        Self::new(self.key.with(1 << 32 | pair as u64).with(index as u64))
     }
+}
+
+/// Seeds of the scrambles of a pair.
+const fn seeds(key: Key) -> [u32; 2] {
+    [key.with(0).bits32(), key.with(1).bits32()]
 }
 
 const fn fraction(bits: u32) -> f64 {
