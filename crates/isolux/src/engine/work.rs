@@ -90,9 +90,10 @@ impl<'p, 's> Work<'p, 's> {
             Method::Hybrid => request.accuracy.unwrap_or(target),
             _ => target,
         };
+        let noise = noise(plan, goal, target);
         let wanted = match request.method {
             Method::Hybrid | Method::Cache => {
-                plan.trial.rays_for(noise(plan, goal), plan.rms_lx, FEWEST_INCREMENTS)
+                plan.trial.rays_for(noise, plan.rms_lx, FEWEST_INCREMENTS)
             }
             Method::Forward => 1,
             Method::Radiosity => request.radiosity.limits(target).check_rays,
@@ -107,7 +108,7 @@ impl<'p, 's> Work<'p, 's> {
         };
         let engine = match request.method {
             Method::Hybrid => {
-                let mean = mean_rays(plan, goal, most) / f64::from(1_u32 << halvings);
+                let mean = mean_rays(plan, noise, most) / f64::from(1_u32 << halvings);
                 Engine::Hybrid(Hybrid::new(plan, &points, (mean, goal), request.seed))
             }
             Method::Cache => {
@@ -460,13 +461,14 @@ fn without_negative_light(value: &mut Illuminance) {
 }
 
 /// Gathering rays of receivers in the mean, as they share them best.
-fn mean_rays(plan: &Plan, goal: f64, most: u32) -> f64 {
-    plan.trial.wanted(noise(plan, goal), plan.rms_lx, FEWEST_INCREMENTS).min(f64::from(most))
+fn mean_rays(plan: &Plan, noise: f64, most: u32) -> f64 {
+    plan.trial.wanted(noise, plan.rms_lx, FEWEST_INCREMENTS).min(f64::from(most))
 }
 
-/// The noise that a map may have that is to reach a goal.
-fn noise(plan: &Plan, goal: f64) -> f64 {
-    noise_for(goal, plan.interpolation, !plan.means.is_empty())
+/// The noise that a map may have that is to reach a goal. Elements made for a finer target, as those for the goal were seen to err by
+/// more than expected, will do so, too.
+fn noise(plan: &Plan, goal: f64, target: f64) -> f64 {
+    noise_for(goal, plan.interpolation * goal / target, !plan.means.is_empty())
 }
 
 /// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,
