@@ -19,9 +19,11 @@ use rayon::prelude::*;
 use std::collections::VecDeque;
 use std::time::Instant;
 
-/// Sweeps of the fixed point end when they change less than this share of the accuracy asked for, relative to the light:
+/// What the last sweep of the fixed point may change, once all surfaces have reflected that, as a share of the accuracy asked for:
 /// all increments start from one guess, so that what is left of it does not average out.
-const TOLERANCE: f64 = 1e-2;
+const UNSETTLED: f64 = 0.03;
+/// The least share of light that is taken to be absorbed.
+const LEAST_ABSORBED: f64 = 1e-3;
 
 /// Increments are made ahead of being asked for as long as they have no more rays together.
 const RAYS_AHEAD: u64 = 1 << 19;
@@ -156,7 +158,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             &guess,
             &caustic,
             (&plan.carriers, &fit),
-            TOLERANCE * self.goal,
+            UNSETTLED * self.goal * (1.0 - plan.mean_reflectance).max(LEAST_ABSORBED),
         );
         let gathered = fit(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
