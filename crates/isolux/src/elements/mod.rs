@@ -76,7 +76,8 @@ pub struct Element {
 
 impl Elements {
     fn new(vertices: Vec<Vertex>, nodes: Vec<Node>, roots: Vec<[Option<u32>; 2]>) -> Self {
-        let walk = Walk::new(&nodes);
+        let splits = nodes.iter().map(|node| node.split.map(|s| (s.edge, s.first_child)));
+        let walk = Walk::new(splits);
         Self { vertices, nodes, roots, walk }
     }
 

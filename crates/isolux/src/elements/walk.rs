@@ -1,7 +1,5 @@
 //! The way down the trees of bisections, as short as it can be: every ray that ends on a surface takes it.
 
-use super::Node;
-
 /// What stands for a node that is not split.
 const LEAF: u32 = u32::MAX;
 
@@ -19,12 +17,13 @@ pub(super) struct Walk {
 }
 
 impl Walk {
-    pub(super) fn new(nodes: &[Node]) -> Self {
-        assert!(nodes.len() < MOST_NODES, "more elements than can be counted");
-        let packed = |node: &Node| {
-            node.split.map_or(LEAF, |split| split.first_child << 2 | u32::from(split.edge))
+    /// Of every node the edge that is bisected and the first child, none of leaves.
+    pub(super) fn new(splits: impl ExactSizeIterator<Item = Option<(u8, u32)>>) -> Self {
+        assert!(splits.len() < MOST_NODES, "more elements than can be counted");
+        let packed = |split: Option<(u8, u32)>| {
+            split.map_or(LEAF, |(edge, first_child)| first_child << 2 | u32::from(edge))
         };
-        Self { splits: nodes.iter().map(packed).collect() }
+        Self { splits: splits.map(packed).collect() }
     }
 
     /// From a place further down the tree, as if nodes from number `level` on did not exist. Without branches but for the end:

@@ -93,7 +93,7 @@ impl<'p, 's> Work<'p, 's> {
         let noise = noise(plan, goal, target);
         let wanted = match request.method {
             Method::Hybrid | Method::Cache => {
-                plan.trial.rays_for(noise, plan.rms_lx, FEWEST_INCREMENTS)
+                plan.trial.rays_for(noise, reference, FEWEST_INCREMENTS)
             }
             Method::Forward => 1,
             Method::Radiosity => request.radiosity.limits(target).check_rays,
@@ -112,9 +112,8 @@ impl<'p, 's> Work<'p, 's> {
                 Engine::Hybrid(Hybrid::new(plan, &points, (mean, goal), request.seed))
             }
             Method::Cache => {
-                let cached =
-                    Cached::new(plan, &points, (&request.cache, target), rays, request.seed);
-                Engine::Cache(Box::new(cached))
+                let wanted = (&request.cache, target);
+                Engine::Cache(Box::new(Cached::new(plan, &points, wanted, rays, request.seed)))
             }
             Method::Forward => {
                 let emission = Emission::new(plan.scene).expect("a scene without light is refused");
@@ -132,9 +131,9 @@ impl<'p, 's> Work<'p, 's> {
         };
         let sums = Accumulator::new(plan.elements.vertices().len(), reference);
         let checks = Checks { points, sums: Accumulator::new(places, reference) };
+        let (samples, left) = (rays, None);
         let given_up = Accumulator::new(1, reference);
         let stops_at_unshot = request.radiosity.unshot.is_some();
-        let (samples, left) = (rays, None);
         let mut work =
             Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot };
         work.look_what_is_left();
