@@ -15,7 +15,6 @@ pub use arrays::{ElementArrays, ElementArraysError};
 pub(crate) use hash::FewNumbers;
 pub(crate) use subdivide::first_vertex_count;
 pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
-
 pub(crate) use walk::Place;
 
 use isolux_geometry::{Normal, Point};

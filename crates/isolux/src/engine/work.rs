@@ -131,9 +131,9 @@ impl<'p, 's> Work<'p, 's> {
         };
         let sums = Accumulator::new(plan.elements.vertices().len(), reference);
         let checks = Checks { points, sums: Accumulator::new(places, reference) };
-        let (samples, left) = (rays, None);
         let given_up = Accumulator::new(1, reference);
         let stops_at_unshot = request.radiosity.unshot.is_some();
+        let (samples, left) = (rays, None);
         let mut work =
             Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot };
         work.look_what_is_left();
