@@ -12,7 +12,8 @@ use rayon::prelude::*;
 /// Caustic illuminance at the vertices that indirect light lives on by so many particles, and what it took.
 pub(super) fn deposit(plan: &Plan, count: u32, key: Key) -> (Vec<Rgb>, Effort) {
     let nothing = || (vec![Rgb::BLACK; plan.indirect_vertices], Effort::default());
-    let Some(flights) = Flights::new((plan.scene, plan.lighting), count, key) else {
+    let Some(flights) = Flights::new((plan.scene, plan.lighting), plan.aim.as_ref(), count, key)
+    else {
         return nothing();
     };
     let flux_lm = flights.flux_lm();

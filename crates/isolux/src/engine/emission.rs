@@ -2,11 +2,16 @@
 
 use super::direct::LuminaireId;
 use super::path::Dice;
+use super::surface::SurfacePoint;
 use crate::sampling::CosineHemisphere;
-use crate::scene::{AreaLuminaire, LuminaireKind, Scene};
+use crate::scene::{AreaLuminaire, Luminaire, LuminaireKind, Scene};
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Point, Ray};
+use isolux_geometry::{Direction, Normal, Point, Ray};
 use std::f64::consts::PI;
+
+/// The least intensity that a luminaire is taken to have towards something as large as to reach into other directions, too, as a
+/// share of its mean.
+const LEAST_INTENSITY: f64 = 0.1;
 
 /// All luminaires of a scene as emitters of particles.
 pub(super) struct Emission<'s> {
@@ -25,6 +30,8 @@ pub(super) struct Emitted {
     pub(super) luminaire: LuminaireId,
     /// Flux it carries, of photometric value one.
     pub(super) colour: Rgb,
+    /// Of the surface that it leaves.
+    normal: Option<Normal>,
 }
 
 impl<'s> Emission<'s> {
@@ -63,14 +70,17 @@ impl<'s> Emission<'s> {
         let [pick, other] = dice.pair();
         let square = dice.pair();
         let place = dice.pair();
-        let index = self.sums_lm.partition_point(|&sum| sum <= pick * self.flux_lm());
-        let index = index.min(self.sums_lm.len() - 1);
-        let points = self.scene.luminaires().len();
-        if index >= points {
-            let area = &self.scene.area_luminaires()[index - points];
-            return self.leave_area(area, index - points, other, square, place);
-        }
-        let luminaire = &self.scene.luminaires()[index];
+        let number = self.sums_lm.partition_point(|&sum| sum <= pick * self.flux_lm());
+        let number = number.min(self.sums_lm.len() - 1);
+        let luminaire = match self.luminaire(number) {
+            Emitter::Surface(area) => {
+                let start = self.start(area, other, place);
+                let direction =
+                    start.normal.to_direction().from_local(CosineHemisphere::sample(square));
+                return Some(self.leave(number, area, &start, direction));
+            }
+            Emitter::Other(luminaire) => luminaire,
+        };
         let (origin, direction) = match &luminaire.kind {
             LuminaireKind::Point { position, world_from_luminaire, intensity } => {
                 let local = intensity.sample(square)?;
@@ -80,12 +90,146 @@ impl<'s> Emission<'s> {
                 (self.on_disc(*direction, place), *direction)
             }
         };
-        Some(Emitted {
+        Some(self.sent(number, luminaire, origin, direction))
+    }
+
+    /// How many luminaires there are; they have numbers, emitting surfaces the last.
+    pub(super) const fn count(&self) -> usize {
+        self.sums_lm.len()
+    }
+
+    /// The part of all flux that is a luminaire's.
+    pub(super) fn part(&self, number: usize) -> f64 {
+        let before = number.checked_sub(1).map_or(0.0, |before| self.sums_lm[before]);
+        (self.sums_lm[number] - before) / self.flux_lm()
+    }
+
+    /// One particle of a luminaire that flies towards a place; `None` where it emits no light that way.
+    pub(super) fn towards(
+        &self,
+        number: usize,
+        to: Point,
+        pick: f64,
+        place: [f64; 2],
+    ) -> Option<Emitted> {
+        match self.luminaire(number) {
+            Emitter::Surface(area) => {
+                let start = self.start(area, pick, place);
+                let direction = (to - start.origin).direction()?;
+                (direction.cos(start.normal) > 0.0)
+                    .then(|| self.leave(number, area, &start, direction))
+            }
+            Emitter::Other(luminaire) => {
+                let (origin, direction) = match &luminaire.kind {
+                    LuminaireKind::Point { position, .. } => {
+                        (*position, (to - *position).direction()?)
+                    }
+                    LuminaireKind::Directional { direction, .. } => {
+                        let beyond_m = (to - self.centre).dot(direction.to_vector());
+                        (to - *direction * (2.0 * self.radius_m + beyond_m), *direction)
+                    }
+                };
+                Some(self.sent(number, luminaire, origin, direction))
+            }
+        }
+    }
+
+    /// How many of all particles that [`Emission::emit`] sends out arrive at a place, of those that leave where this one did, per area
+    /// there, 1/m2.
+    pub(super) fn density(&self, emitted: &Emitted, at: &SurfacePoint) -> f64 {
+        let Emitted { direction, luminaire, normal, .. } = emitted;
+        let number = self.number(*luminaire);
+        let cos = direction.cos(at.geometric).abs();
+        let distance2 = (at.point - Point::from(emitted.ray.origin)).length_squared();
+        let one_m2 = match self.luminaire(number) {
+            Emitter::Surface(_) => {
+                let cos = normal.map_or(0.0, |normal| direction.cos(normal).max(0.0));
+                self.part(number) * cos / PI / distance2
+            }
+            Emitter::Other(luminaire) => self.on_one_m2(number, luminaire, *direction, distance2),
+        };
+        one_m2 * cos
+    }
+
+    /// The same of a luminaire and a surface of one square metre, roughly, at a place no nearer than this.
+    pub(super) fn reach(&self, number: usize, at: Point, least_m: f64) -> f64 {
+        let from = |origin: Point| {
+            let way = at - origin;
+            (way.direction(), way.length_squared().max(least_m * least_m))
+        };
+        let evenly = |distance2: f64| self.part(number) / (4.0 * PI) / distance2;
+        let one_m2 = match self.luminaire(number) {
+            Emitter::Surface(area) => {
+                let start = self.start(area, 0.5, [4.0 / 9.0, 0.5]);
+                let (direction, distance2) = from(start.origin);
+                let cos = direction.map_or(1.0, |direction| direction.cos(start.normal));
+                evenly(distance2) * (4.0 * cos).max(LEAST_INTENSITY)
+            }
+            Emitter::Other(luminaire) => {
+                let origin = match &luminaire.kind {
+                    LuminaireKind::Point { position, .. } => *position,
+                    LuminaireKind::Directional { direction, .. } => at - direction.to_vector(),
+                };
+                let (direction, distance2) = from(origin);
+                let told = direction.map(|d| self.on_one_m2(number, luminaire, d, distance2));
+                told.unwrap_or(0.0).max(LEAST_INTENSITY * evenly(distance2))
+            }
+        };
+        0.5 * one_m2
+    }
+
+    /// The share of all particles that fall from a luminaire without surface on a square metre that faces it, so far in the
+    /// square, m2.
+    fn on_one_m2(
+        &self,
+        number: usize,
+        luminaire: &Luminaire,
+        direction: Direction,
+        distance2: f64,
+    ) -> f64 {
+        match &luminaire.kind {
+            LuminaireKind::Directional { .. } => {
+                self.part(number) / (PI * self.radius_m * self.radius_m)
+            }
+            LuminaireKind::Point { world_from_luminaire, intensity, .. } => {
+                let local_from_world = world_from_luminaire.inverse();
+                let local =
+                    local_from_world.and_then(|of| of.vector(direction.to_vector()).direction());
+                let candela = local.map_or(0.0, |local| intensity.intensity_cd(local));
+                candela * luminaire.colour.luminance() / self.flux_lm() / distance2
+            }
+        }
+    }
+
+    pub(super) fn number(&self, luminaire: LuminaireId) -> usize {
+        match luminaire {
+            LuminaireId::Luminaire(k) => k as usize,
+            LuminaireId::Area(k) => self.scene.luminaires().len() + k as usize,
+        }
+    }
+
+    fn luminaire(&self, number: usize) -> Emitter<'s> {
+        let others = self.scene.luminaires();
+        match others.get(number) {
+            Some(luminaire) => Emitter::Other(luminaire),
+            None => Emitter::Surface(&self.scene.area_luminaires()[number - others.len()]),
+        }
+    }
+
+    fn sent(
+        &self,
+        number: usize,
+        luminaire: &Luminaire,
+        origin: Point,
+        direction: Direction,
+    ) -> Emitted {
+        Emitted {
             ray: Ray::new(origin, direction),
             direction,
-            luminaire: LuminaireId::Luminaire(index as u32),
+            luminaire: LuminaireId::Luminaire(number as u32),
             colour: luminaire.colour.chromaticity(),
-        })
+            normal: None,
+        }
     }
 
     /// A start of parallel light: uniform over a disc that covers the scene.
@@ -96,31 +240,47 @@ impl<'s> Emission<'s> {
         self.centre + u * (radius * c) + v * (radius * s) - direction * (2.0 * self.radius_m)
     }
 
-    fn leave_area(
-        &self,
-        area: &AreaLuminaire,
-        index: usize,
-        pick: f64,
-        square: [f64; 2],
-        [a, b]: [f64; 2],
-    ) -> Option<Emitted> {
+    /// A place of an emitting surface, evenly over its area.
+    fn start(&self, area: &AreaLuminaire, pick: f64, [a, b]: [f64; 2]) -> Start {
         let mut left_m2 = pick * area.area_m2;
         let drawn = area.triangles.iter().find(|&&t| {
             left_m2 -= self.scene.triangle(t).area();
             left_m2 < 0.0
         });
-        let triangle = *drawn.or(area.triangles.last())?;
+        let triangle = *drawn.or(area.triangles.last()).expect("an emitting surface has triangles");
         let root = a.sqrt();
         let point = self.scene.triangle(triangle).point(root * (1.0 - b), root * b);
         let front = self.scene.geometric_normal(triangle);
         let normal = if area.back { -front } else { front };
-        let direction = normal.to_direction().from_local(CosineHemisphere::sample(square));
-        Some(Emitted {
-            ray: Ray::new(self.scene.bvh().offset_origin(point, normal), direction)
-                .skipping(triangle),
-            direction,
-            luminaire: LuminaireId::Area(index as u32),
-            colour: area.luminance_cd_m2.chromaticity(),
-        })
+        Start { origin: self.scene.bvh().offset_origin(point, normal), triangle, normal }
     }
+
+    fn leave(
+        &self,
+        number: usize,
+        area: &AreaLuminaire,
+        start: &Start,
+        direction: Direction,
+    ) -> Emitted {
+        Emitted {
+            ray: Ray::new(start.origin, direction).skipping(start.triangle),
+            direction,
+            luminaire: LuminaireId::Area((number - self.scene.luminaires().len()) as u32),
+            colour: area.luminance_cd_m2.chromaticity(),
+            normal: Some(start.normal),
+        }
+    }
+}
+
+/// A luminaire of either kind.
+enum Emitter<'s> {
+    Other(&'s Luminaire),
+    Surface(&'s AreaLuminaire),
+}
+
+/// Where a particle leaves an emitting surface.
+struct Start {
+    origin: Point,
+    triangle: u32,
+    normal: Normal,
 }

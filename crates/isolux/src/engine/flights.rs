@@ -1,8 +1,10 @@
 //! Particles on their way over specular surfaces: how they fly, and how many it takes.
 
+use super::aim::{Aim, Aimed};
 use super::direct::Lighting;
 use super::emission::Emission;
 use super::particle::{Particle, scatterings};
+use super::path::Dice;
 use super::surface::SurfacePoint;
 use super::trial::NOISE_SHARE;
 use crate::sampling::{Key, Sequence};
@@ -14,9 +16,14 @@ use std::cell::Cell;
 /// Particles a vertex and increment at most.
 const PARTICLES_A_VERTEX: usize = 4;
 
-/// Particles of an increment at least, and of a trial at most.
+/// Particles of an increment at least, and of a trial at most: let go or aimed.
 const FEWEST: f64 = 1024.0;
 const TRIED: u32 = 1 << 15;
+const TRIED_AIMED: u32 = 1 << 13;
+
+/// Particles are aimed where no more than this share of those let go come to a specular surface first, as told by so many.
+const SELDOM: f64 = 0.25;
+const LET_GO: u32 = 1024;
 
 /// The part of the noise allowed, in the square, that caustics may take.
 const SHARE_OF_NOISE: f64 = 0.1;
@@ -36,38 +43,47 @@ pub(super) struct CausticNoise {
 }
 
 impl CausticNoise {
-    /// Tries some particles; also returns the rays they took. `read` gives the vertices and weights at a place, and
-    /// `areas_m2` what each stands for.
+    /// Tries some particles; also returns where they are best aimed, if they are, and the rays they took. `read` gives the vertices
+    /// and weights at a place, and `areas_m2` what each stands for.
     pub(super) fn tried(
         of: (&Scene, &Lighting),
         areas_m2: &[f64],
         read: impl Fn(&SurfacePoint) -> Option<[(u32, f64); 3]> + Sync,
         key: Key,
-    ) -> (Self, u64) {
-        let vertices = areas_m2.len();
-        let count = particles(vertices).min(TRIED);
-        let flights = Flights::new(of, count, key).filter(|of| of.lighting.leaves_caustics());
-        let Some(flights) = flights else { return (Self::default(), 0) };
+    ) -> (Self, Option<Aim>, u64) {
         // A deposit of flux f makes f w / area of illuminance at a vertex, by its weight there.
         let square = |at: &SurfacePoint, flux_lm: f64| -> f64 {
             let corners = read(at).into_iter().flatten();
             let known = corners.filter(|&(v, _)| areas_m2[v as usize] > 0.0);
             known.map(|(v, w)| flux_lm * flux_lm * w * w / areas_m2[v as usize]).sum()
         };
-        let of_one = |index: u32| {
-            let sum = Cell::new(0.0);
-            let (rays, _) = flights.fly(index, |at, flux_lm| {
-                sum.set(sum.get() + square(at, flux_lm.luminance()));
-            });
-            (sum.get(), rays)
+        let vertices = areas_m2.len();
+        let most = particles(vertices);
+        let Some(emission) = Emission::new(of.0).filter(|_| of.1.leaves_caustics()) else {
+            return Default::default();
+        };
+        let aim = Aim::new(of.0, &emission).filter(|aim| aim.is_seldom_met(of.0, &emission, key));
+        let (aim, first_rays) = match aim {
+            Some(aim) => {
+                let flights = Flights::new(of, Some(&aim), most.min(TRIED_AIMED), key.with(1));
+                let Some(flights) = flights else { return Default::default() };
+                let (brought, rays) = flights.brought(&aim, square);
+                (Some(aim.learned(&brought)), rays + u64::from(LET_GO))
+            }
+            None => (None, 0),
+        };
+        let count = most.min(if aim.is_some() { TRIED_AIMED } else { TRIED });
+        let Some(flights) = Flights::new(of, aim.as_ref(), count, key) else {
+            return Default::default();
         };
         // In the order of the particles, whoever flies them.
-        let all: Vec<(f64, u64)> = (0..count).into_par_iter().map(of_one).collect();
+        let all = flights.squares(square);
         let sum: f64 = all.iter().map(|(square, _)| square).sum();
         let area_m2: f64 = areas_m2.iter().sum();
         // Each carries one part of `count`.
         let lx2 = if area_m2 > 0.0 { sum * f64::from(count) / area_m2 } else { 0.0 };
-        (Self { lx2, vertices }, all.iter().map(|(_, rays)| rays).sum())
+        let rays = first_rays + all.iter().map(|(_, rays)| rays).sum::<u64>();
+        (Self { lx2, vertices }, aim, rays)
     }
 
     /// Particles of each of so many increments on so many vertices for a target.
@@ -95,7 +111,10 @@ pub(super) struct Flights<'a> {
     scene: &'a Scene,
     lighting: &'a Lighting<'a>,
     emission: Emission<'a>,
-    sequence: Sequence,
+    /// Where most are sent, if they are.
+    aim: Option<&'a Aim>,
+    /// Those let go, and those aimed.
+    sequences: [Sequence; 2],
     count: u32,
     /// Scatterings of each at most.
     most: u32,
@@ -105,12 +124,27 @@ impl<'a> Flights<'a> {
     /// None where there is no light.
     pub(super) fn new(
         (scene, lighting): (&'a Scene, &'a Lighting<'a>),
+        aim: Option<&'a Aim>,
         count: u32,
         key: Key,
     ) -> Option<Self> {
         let emission = Emission::new(scene)?;
-        let (sequence, most) = (Sequence::new(key), scatterings(scene));
-        Some(Self { scene, lighting, emission, sequence, count, most })
+        let sequences = [Sequence::new(key), Sequence::new(key.with(0))];
+        Some(Self { scene, lighting, emission, aim, sequences, count, most: scatterings(scene) })
+    }
+
+    /// How many of them are let go as luminaires send them.
+    fn unaimed(&self) -> u32 {
+        if self.aim.is_some() { Aim::unaimed(self.count) } else { self.count }
+    }
+
+    /// Numbers for a particle, and whether it is aimed.
+    fn dice(&self, index: u32) -> (Dice, Option<&'a Aim>) {
+        let unaimed = self.unaimed();
+        match index.checked_sub(unaimed) {
+            Some(aimed) => (Dice::new(self.sequences[1], aimed), self.aim),
+            None => (Dice::new(self.sequences[0], index), None),
+        }
     }
 
     /// Follows a particle until it is reflected diffusely; `deposit` is told where it comes on its way, and with which
@@ -120,12 +154,24 @@ impl<'a> Flights<'a> {
         index: u32,
         deposit: impl Fn(&SurfacePoint, Rgb),
     ) -> (u64, Option<Rgb>) {
-        let Self { scene, lighting, emission, sequence, count, most } = self;
-        let Some(mut particle) = Particle::emit(emission, *sequence, index, *count, *most) else {
-            return (0, None);
+        let Self { scene, lighting, emission, count, most, .. } = self;
+        let (mut dice, aim) = self.dice(index);
+        let aimed = match aim {
+            Some(aim) => aim.send(scene, emission, &mut dice),
+            None => Aimed::let_go(emission, &mut dice),
         };
+        let Some(aimed) = aimed else { return (0, None) };
+        let flux_lm = emission.flux_lm() / f64::from(*count);
+        let mut particle = Particle::sent(&aimed.emitted, flux_lm, dice, *most);
         let mut rays = 1;
         while let Some(at) = particle.advance(scene) {
+            if rays == 1
+                && let Some(aim) = self.aim
+            {
+                let unaimed = f64::from(self.unaimed()) / f64::from(*count);
+                let Some(weight) = aim.weight(emission, &aimed, &at, unaimed) else { break };
+                particle.flux_lm = particle.flux_lm * weight;
+            }
             let opaque = matches!(scene.material(at.triangle).body, Body::Opaque { .. });
             // What virtual luminaires bring is theirs.
             if opaque && !particle.is_covered(lighting) {
@@ -143,8 +189,54 @@ impl<'a> Flights<'a> {
         (rays, None)
     }
 
+    /// What every particle adds to a sum over its deposits, and its rays.
+    fn squares(&self, square: impl Fn(&SurfacePoint, f64) -> f64 + Sync) -> Vec<(f64, u64)> {
+        let of_one = |index: u32| {
+            let sum = Cell::new(0.0);
+            let (rays, _) = self.fly(index, |at, flux_lm| {
+                sum.set(sum.get() + square(at, flux_lm.luminance()));
+            });
+            (sum.get(), rays)
+        };
+        (0..self.count).into_par_iter().map(of_one).collect()
+    }
+
+    /// The root of the mean of that over the particles aimed at each group, and the rays they took.
+    fn brought(
+        &self,
+        aim: &Aim,
+        square: impl Fn(&SurfacePoint, f64) -> f64 + Sync,
+    ) -> (Vec<f64>, u64) {
+        let all = self.squares(square);
+        let mut sums = vec![(0.0, 0.0); aim.groups()];
+        for (index, (square, _)) in (0..).zip(&all) {
+            if let (mut dice, Some(aim)) = self.dice(index) {
+                let (sum, count) = &mut sums[aim.group(&mut dice)];
+                *sum += square;
+                *count += 1.0;
+            }
+        }
+        let brought =
+            sums.into_iter().map(|(sum, count): (f64, f64)| (sum / count.max(1.0)).sqrt());
+        (brought.collect(), all.iter().map(|(_, rays)| rays).sum())
+    }
+
     /// All light, lm.
     pub(super) fn flux_lm(&self) -> f64 {
         self.emission.flux_lm()
+    }
+}
+
+impl Aim {
+    /// Whether few of the particles that are let go come to a specular surface first.
+    fn is_seldom_met(&self, scene: &Scene, emission: &Emission, key: Key) -> bool {
+        let sequence = Sequence::new(key.with(2));
+        let meets = |index: &u32| {
+            let aimed = Aimed::let_go(emission, &mut Dice::new(sequence, *index));
+            let hit = aimed.and_then(|aimed| scene.bvh().closest_hit(&aimed.emitted.ray));
+            hit.is_some_and(|hit| self.is_specular(hit.triangle))
+        };
+        let met = (0..LET_GO).into_par_iter().filter(meets).count();
+        met as f64 <= SELDOM * f64::from(LET_GO)
     }
 }

@@ -2,6 +2,7 @@
 
 mod accumulate;
 mod accuracy;
+mod aim;
 mod allot;
 mod anderson;
 mod cache;

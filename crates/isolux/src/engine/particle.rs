@@ -1,7 +1,7 @@
 //! A particle of light on its way through the scene.
 
 use super::direct::{Lighting, LuminaireId};
-use super::emission::Emission;
+use super::emission::{Emission, Emitted};
 use super::path::{Dice, specular_step};
 use super::scatter::Scattered;
 use super::surface::SurfacePoint;
@@ -60,17 +60,23 @@ impl Particle {
     ) -> Option<Self> {
         let mut dice = Dice::new(sequence, index);
         let emitted = emission.emit(&mut dice)?;
-        Some(Self {
+        let flux_lm = emission.flux_lm() / f64::from(count);
+        Some(Self::sent(&emitted, flux_lm, dice, scatterings))
+    }
+
+    /// A particle with that much flux, as it was emitted.
+    pub(super) fn sent(emitted: &Emitted, flux_lm: f64, dice: Dice, scatterings: u32) -> Self {
+        Self {
             ray: emitted.ray,
             direction: emitted.direction,
-            flux_lm: emitted.colour * (emission.flux_lm() / f64::from(count)),
+            flux_lm: emitted.colour * flux_lm,
             luminaire: emitted.luminaire,
             chain: Some(Vec::new()),
             dice,
             at: None,
             scatterings_left: scatterings,
             diffused: false,
-        })
+        }
     }
 
     /// Flies to the next surface; `None` when it leaves the scene.

@@ -1,5 +1,6 @@
 //! What the pilot has fixed: the elements, and all that increments over them share.
 
+use super::aim::Aim;
 use super::allot::{allot, areas_m2};
 use super::carriers::Carriers;
 use super::detail::LeafError;
@@ -52,6 +53,8 @@ pub(super) struct Plan<'s> {
     pub(super) trial: Trial,
     /// How noisy caustics are.
     pub(super) caustic_noise: CausticNoise,
+    /// Where particles for them are sent, if not anywhere.
+    pub(super) aim: Option<Aim>,
     /// From indirect light at the vertices to the function that fits best.
     pub(super) fit: Fit,
     /// Elements whose means increments measure.

@@ -62,6 +62,7 @@ impl<'s> Pilot<'s> {
             subdivision: coarse,
             trial: self.trial.unwrap_or(Trial::usual(look.rms_lx)),
             caustic_noise: self.caustic_noise,
+            aim: self.aim,
             is_whole: self.is_whole,
             rays: self.traced,
         }

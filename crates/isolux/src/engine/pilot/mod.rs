@@ -10,6 +10,7 @@ mod round;
 mod sharing;
 mod smoothing;
 
+use super::aim::Aim;
 use super::carriers::Carriers;
 use super::detail::{Details, Refinement, bisect_twice, refine_worst};
 use super::direct::Lighting;
@@ -111,6 +112,7 @@ struct Pilot<'s> {
     /// What a few receivers tell of noise, once there is light.
     trial: Option<Trial>,
     caustic_noise: CausticNoise,
+    aim: Option<Aim>,
     /// Whether there was time for all that it wanted to do.
     is_whole: bool,
 }
@@ -180,6 +182,7 @@ impl<'s> Pilot<'s> {
             is_measured: false,
             trial: None,
             caustic_noise: CausticNoise::default(),
+            aim: None,
             is_whole: true,
             least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
         }

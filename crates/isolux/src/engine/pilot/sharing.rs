@@ -53,8 +53,9 @@ impl Pilot<'_> {
         let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();
         let read = |at: &SurfacePoint| known_at(&look.elements, u32::MAX, &self.standings, at);
         let of = (self.scene, self.lighting);
-        let (noise, rays) = CausticNoise::tried(of, &areas_m2, read, self.key.with(7));
+        let (noise, aim, rays) = CausticNoise::tried(of, &areas_m2, read, self.key.with(7));
         self.caustic_noise = noise;
+        self.aim = aim;
         self.traced += rays;
     }
 

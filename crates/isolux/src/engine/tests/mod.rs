@@ -1,5 +1,6 @@
 //! The parts of the engines, each against what can be computed by hand.
 
+mod aiming;
 mod anderson;
 mod carrying;
 mod coat;

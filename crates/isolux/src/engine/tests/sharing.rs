@@ -60,7 +60,7 @@ fn caustics_are_as_noisy_as_a_trial_tells() {
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     };
     let of = (&scene, &lighting);
-    let (told, rays) = CausticNoise::tried(of, &areas_m2, read, Key::new(3));
+    let (told, _, rays) = CausticNoise::tried(of, &areas_m2, read, Key::new(3));
     assert!(rays > 0);
     // On few vertices no more than there may be, whatever is asked; without light to compare with, as many.
     assert_eq!(told.particles(20, (1e9, plan.rms_lx), 1), particles(20));
