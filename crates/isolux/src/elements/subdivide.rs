@@ -25,6 +25,8 @@ pub struct Subdivision {
     vertices: Vec<Vertex>,
     nodes: Vec<Node>,
     origins: Vec<Origin>,
+    /// Of every node the longest edge: its squared length, m2, and which it is.
+    longest: Vec<(f64, u8)>,
     roots: Vec<[Option<u32>; 2]>,
     /// The elements on every edge, by its ends, the lower first.
     edges: HashMap<[u32; 2], Few, FewNumbers>,
@@ -49,6 +51,7 @@ impl Subdivision {
             vertices,
             nodes: Vec::with_capacity(roots.len()),
             origins: Vec::with_capacity(roots.len()),
+            longest: Vec::with_capacity(roots.len()),
             roots: vec![[None; 2]; scene.triangle_count() as usize],
             edges: HashMap::with_capacity_and_hasher(3 * roots.len() / 2, FewNumbers::default()),
         };
@@ -63,6 +66,7 @@ impl Subdivision {
         let node = self.nodes.len() as u32;
         self.nodes.push(Node { vertices, split: None });
         self.origins.push(origin);
+        self.longest.push(self.longest_of(vertices));
         for k in 0..3 {
             let edge = edge_key(vertices[k], vertices[(k + 1) % 3]);
             self.edges.entry(edge).or_default().push(node);
@@ -103,7 +107,7 @@ impl Subdivision {
 
     /// Length of the longest edge of a node, m.
     pub fn longest_edge_m(&self, node: u32) -> f64 {
-        self.longest_edge(node).0.sqrt()
+        self.longest[node as usize].0.sqrt()
     }
 
     /// Bisects until no edge is longer than `edge_m` or there are `max_vertices`.
@@ -127,11 +131,11 @@ impl Subdivision {
     }
 
     /// From element to element over longest edges, until an edge is the longest of all elements on
-    /// it. The edges grow strictly in [`Self::longest_edge`]'s order, so the path ends.
+    /// it. The edges grow strictly in [`Self::longest_of`]'s order, so the path ends.
     fn end_of_longest_edge_path(&self, node: u32) -> [u32; 2] {
-        let mut edge = self.longest_edge(node).1;
+        let mut edge = self.longest_edge(node);
         loop {
-            let longer = self.edges[&edge].iter().map(|&n| self.longest_edge(n).1);
+            let longer = self.edges[&edge].iter().map(|&n| self.longest_edge(n));
             match longer.into_iter().find(|&other| other != edge) {
                 Some(other) => edge = other,
                 None => return edge,
@@ -176,19 +180,26 @@ impl Subdivision {
         self.nodes[node as usize].split = Some(Split { edge: k as u8, first_child });
     }
 
-    /// The longest edge: its squared length and its ends; of equal ones the one whose ends come
-    /// last, so that every element on an edge agrees.
-    fn longest_edge(&self, node: u32) -> (f64, [u32; 2]) {
+    /// The ends of the longest edge.
+    fn longest_edge(&self, node: u32) -> [u32; 2] {
         let vertices = self.nodes[node as usize].vertices;
+        let k = usize::from(self.longest[node as usize].1);
+        edge_key(vertices[k], vertices[(k + 1) % 3])
+    }
+
+    /// The longest edge: its squared length and its number; of equal ones the one whose ends come
+    /// last, so that every element on an edge agrees.
+    fn longest_of(&self, vertices: [u32; 3]) -> (f64, u8) {
         let edge = |k: usize| {
             let key = edge_key(vertices[k], vertices[(k + 1) % 3]);
             let [a, b] = key.map(|v| self.vertices[v as usize].position);
-            ((b - a).length_squared(), key)
+            ((b - a).length_squared(), key, k as u8)
         };
-        let longer = |a: (f64, [u32; 2]), b: (f64, [u32; 2])| {
+        let longer = |a: (f64, [u32; 2], u8), b: (f64, [u32; 2], u8)| {
             if a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).is_ge() { a } else { b }
         };
-        longer(longer(edge(0), edge(1)), edge(2))
+        let (square, _, k) = longer(longer(edge(0), edge(1)), edge(2));
+        (square, k)
     }
 
     /// The elements as they are now.

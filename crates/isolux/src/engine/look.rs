@@ -1,7 +1,7 @@
 //! What a round of the pilot sees, and whether that is good enough.
 
 use super::detail::LeafError;
-use super::trust;
+use super::trust::{self, Worst};
 use crate::elements::Elements;
 
 /// The part of the accuracy asked for that interpolating indirect light may take.
@@ -47,6 +47,8 @@ pub(super) struct Look {
     /// That carry indirect light.
     pub(super) carriers: usize,
     pub(super) errors: Vec<LeafError>,
+    /// Those that are not beset, worst first.
+    pub(super) worst: Worst,
     /// Share of them that a fit leaves.
     pub(super) left_by_fit: f64,
     pub(super) rms_lx: f64,
@@ -62,38 +64,44 @@ pub(super) enum Read {
 }
 
 impl Look {
-    /// The elements that are read so, and how many times their error is what it should be, if it is more.
+    /// The elements that are read so, if their error is more than it should be, and how many times it is.
     pub(super) fn excess(
         &self,
         what: Read,
         request: &PilotRequest,
     ) -> Option<(Vec<LeafError>, f64)> {
-        let goal_lx = self.goal_lx(request.target, request);
-        let limit = trust::limit(&self.errors, goal_lx, FRESH_SHARE);
-        let is_read = |e: &LeafError| what == Read::All || !e.is_beset && e.error <= limit;
+        let excess = self.excess_of(what, request)?;
+        let is_read = self.is_read(what, request);
+        Some((self.errors.iter().copied().filter(is_read).collect(), excess))
+    }
+
+    /// The most by which errors exceed what they should be, if they do, for whatever elements are read.
+    pub(super) fn greatest_excess(&self, request: &PilotRequest) -> f64 {
+        let reads = [Read::Trusted, Read::All];
+        reads.into_iter().filter_map(|what| self.excess_of(what, request)).fold(1.0, f64::max)
+    }
+
+    fn excess_of(&self, what: Read, request: &PilotRequest) -> Option<f64> {
         let goal_lx = match what {
             // Fits do little for what is steep at edges.
             Read::All if request.is_fitted => {
                 let bare = if self.asks_for_means(request) { BARE_WITH_MEANS } else { BARE };
                 request.mesh_target.min(bare * request.target) * self.rms_lx
             }
-            _ => goal_lx,
+            _ => self.goal_lx(request.target, request),
         };
-        let excess = trust::error_of(&self.errors, is_read) / goal_lx;
-        let read = || self.errors.iter().copied().filter(is_read).collect();
-        (excess > 1.0 && self.rms_lx > 0.0).then(|| (read(), excess))
+        let excess = trust::error_of(&self.errors, self.is_read(what, request)) / goal_lx;
+        (excess > 1.0 && self.rms_lx > 0.0).then_some(excess)
     }
 
-    /// The most by which errors exceed what they should be, if they do, for whatever elements are read.
-    pub(super) fn greatest_excess(&self, request: &PilotRequest) -> f64 {
-        let reads = [Read::Trusted, Read::All];
-        let excess = |what| self.excess(what, request).map_or(1.0, |(_, excess)| excess);
-        reads.into_iter().map(excess).fold(1.0, f64::max)
+    fn is_read(&self, what: Read, request: &PilotRequest) -> impl Fn(&LeafError) -> bool + use<> {
+        let limit = self.worst.limit(self.goal_lx(request.target, request), FRESH_SHARE);
+        move |e| what == Read::All || !e.is_beset && e.error <= limit
     }
 
     /// The error of elements up to which readers trust the map.
     pub(super) fn trusted_up_to_lx(&self, request: &PilotRequest) -> f64 {
-        let limit = trust::limit(&self.errors, self.goal_lx(request.target, request), MOST_FRESH);
+        let limit = self.worst.limit(self.goal_lx(request.target, request), MOST_FRESH);
         limit.min(trust::above_all(&self.errors))
     }
 

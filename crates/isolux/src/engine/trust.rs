@@ -12,7 +12,7 @@ use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
-use isolux_geometry::Ray;
+use isolux_geometry::{Point, Ray};
 use rayon::prelude::*;
 
 /// Rays that look for something before a place.
@@ -29,26 +29,46 @@ pub(super) const NEAR: f64 = 0.25;
 /// comes between them.
 const BESET: u32 = 3;
 
-/// The error above which elements are left out, so that what the others err by in the mean square
-/// over the surface is at most `goal`, or so that they make up no more than `most_share` of the area.
-/// Infinite if none need be left out. Those that are beset are not counted: no reader trusts them.
-pub(super) fn limit(errors: &[LeafError], goal: f64, most_share: f64) -> f64 {
-    let area_m2: f64 = errors.iter().map(|e| e.area_m2).sum();
-    let mut worst: Vec<&LeafError> = errors.iter().filter(|e| !e.is_beset).collect();
-    worst.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.node.cmp(&b.node)));
-    let mut left: f64 = worst.iter().map(|e| e.squared()).sum();
-    let (mut out_m2, mut worst_left_out) = (0.0, None);
-    for error in worst {
-        let is_enough = left <= goal * goal * area_m2;
-        if is_enough || out_m2 + error.area_m2 > most_share * area_m2 {
-            // Between the two, so that rounding does not take one for the other.
-            return worst_left_out.map_or(f64::INFINITY, |out: f64| 0.5 * (out + error.error));
+/// The elements that readers may trust, worst first: those that are not beset.
+#[derive(Debug)]
+pub(super) struct Worst {
+    of_leaves: Vec<(f64, f64)>,
+    /// Sum of their squared errors, lx2 m2.
+    squared: f64,
+    /// Area of all elements, m2.
+    area_m2: f64,
+}
+
+impl Worst {
+    pub(super) fn of(errors: &[LeafError]) -> Self {
+        let mut worst: Vec<&LeafError> = errors.iter().filter(|e| !e.is_beset).collect();
+        worst.par_sort_unstable_by(|a, b| b.error.total_cmp(&a.error).then(a.node.cmp(&b.node)));
+        Self {
+            squared: worst.iter().map(|e| e.squared()).sum(),
+            of_leaves: worst.iter().map(|e| (e.error, e.area_m2)).collect(),
+            area_m2: errors.iter().map(|e| e.area_m2).sum(),
         }
-        out_m2 += error.area_m2;
-        left -= error.squared();
-        worst_left_out = Some(error.error);
     }
-    f64::INFINITY
+
+    /// The error above which elements are left out, so that what the others err by in the mean square
+    /// over the surface is at most `goal`, or so that they make up no more than `most_share` of the area.
+    /// Infinite if none need be left out. Those that are beset are not counted: no reader trusts them.
+    pub(super) fn limit(&self, goal: f64, most_share: f64) -> f64 {
+        let Self { of_leaves, squared, area_m2 } = self;
+        let mut left = *squared;
+        let (mut out_m2, mut worst_left_out) = (0.0, None);
+        for &(error, own_m2) in of_leaves {
+            let is_enough = left <= goal * goal * area_m2;
+            if is_enough || out_m2 + own_m2 > most_share * area_m2 {
+                // Between the two, so that rounding does not take one for the other.
+                return worst_left_out.map_or(f64::INFINITY, |out: f64| 0.5 * (out + error));
+            }
+            out_m2 += own_m2;
+            left -= own_m2 * error * error;
+            worst_left_out = Some(error);
+        }
+        f64::INFINITY
+    }
 }
 
 /// Root mean square over all the surface of the errors of some elements.
@@ -152,23 +172,49 @@ pub(super) fn longest_edge_m(elements: &Elements, corners: [u32; 3]) -> f64 {
     (b - a).length().max((c - b).length()).max((a - c).length())
 }
 
-/// What vertices stand for on elements as they are now, those that were in the open among longer ones
-/// still are.
-pub(super) fn standings(
-    scene: &Scene,
-    subdivision: &Subdivision,
-    before: Vec<Option<Standing>>,
-    surface: impl Fn(usize) -> SurfacePoint + Sync,
-) -> Vec<Option<Standing>> {
-    let edges_m = subdivision.longest_edges_m();
-    let on_border = subdivision.border_vertices();
-    let one = |(k, of): (usize, Option<Standing>)| {
-        let is_open = of == Some(Standing::Open) || !is_closed_in(scene, &surface(k), edges_m[k]);
-        Some(match (is_open, on_border[k]) {
-            (true, _) => Standing::Open,
-            (false, true) => Standing::Rim,
-            (false, false) => Standing::Gap,
-        })
-    };
-    before.into_par_iter().enumerate().map(one).collect()
+/// Whether vertices are closed in, as it was felt last.
+#[derive(Debug, Default)]
+pub(super) struct Felt(Vec<Option<Feeling>>);
+
+/// Where it was felt, and what.
+#[derive(Debug)]
+struct Feeling {
+    place: (u32, Point),
+    edge_m: f64,
+    is_closed_in: bool,
+}
+
+impl Felt {
+    /// What vertices stand for on elements as they are now, those that were in the open among longer ones
+    /// still are. Rays feel about only where that was not felt before.
+    pub(super) fn standings(
+        &mut self,
+        scene: &Scene,
+        subdivision: &Subdivision,
+        before: &[Option<Standing>],
+        surface: impl Fn(usize) -> SurfacePoint + Sync,
+    ) -> Vec<Option<Standing>> {
+        let edges_m = subdivision.longest_edges_m();
+        let on_border = subdivision.border_vertices();
+        self.0.resize_with(before.len(), || None);
+        let one = |(k, felt): (usize, &mut Option<Feeling>)| {
+            if before[k] == Some(Standing::Open) {
+                return Some(Standing::Open);
+            }
+            let (at, edge_m) = (surface(k), edges_m[k]);
+            let place = (at.triangle, at.point);
+            let known = felt.as_ref().filter(|felt| felt.place == place && felt.edge_m == edge_m);
+            let is_closed_in = match known {
+                Some(felt) => felt.is_closed_in,
+                None => is_closed_in(scene, &at, edge_m),
+            };
+            *felt = Some(Feeling { place, edge_m, is_closed_in });
+            Some(match (is_closed_in, on_border[k]) {
+                (false, _) => Standing::Open,
+                (true, true) => Standing::Rim,
+                (true, false) => Standing::Gap,
+            })
+        };
+        self.0.par_iter_mut().enumerate().map(one).collect()
+    }
 }

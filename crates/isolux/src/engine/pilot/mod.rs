@@ -24,7 +24,7 @@ use super::path::Dice;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
 use super::trial::Trial;
-use super::trust;
+use super::trust::{self, Felt, Worst};
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
@@ -86,6 +86,7 @@ struct Pilot<'s> {
     known: Vec<bool>,
     /// What they stand for.
     standings: Vec<Option<Standing>>,
+    felt: Felt,
     /// Which of them carry indirect light; how far apart the coarsest may be, m; which have gathered it.
     carriers: Carriers,
     spacing_m: f64,
@@ -96,8 +97,8 @@ struct Pilot<'s> {
     beset_from_m: HashMap<u32, f64>,
     /// By node, whether something stands close before its middle.
     beset: Vec<bool>,
-    /// In the middle of elements that no details tell of, by node.
-    middles: HashMap<u32, f64>,
+    /// In the middle of elements that no details tell of, by node; nothing where that is not asked for.
+    middles: HashMap<u32, Option<f64>>,
     /// Nodes there were then.
     solved_nodes: u32,
     /// Rays that a vertex gathers with, alike all over a surface, so that their noise is.
@@ -167,6 +168,7 @@ impl<'s> Pilot<'s> {
             indirect: Vec::new(),
             known: Vec::new(),
             standings: Vec::new(),
+            felt: Felt::default(),
             carriers: Carriers::all(),
             usual_edge_m: is_coarse.then_some(edge_m),
             spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
@@ -239,7 +241,7 @@ impl<'s> Pilot<'s> {
         self.complete_beset();
         self.complete_middles(&elements, &luminances);
         let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
-        let middle = |node: u32| self.middles.get(&node).copied();
+        let middle = |node: u32| self.middles.get(&node).copied().flatten();
         let beset = |node: u32| self.beset[node as usize];
         let details = self.details(&elements, &luminances);
         let errors = details.leaf_errors(middle, beset);
@@ -250,7 +252,8 @@ impl<'s> Pilot<'s> {
         if is_first {
             self.costs.first.add(started.elapsed(), 0.0);
         }
-        Look { carriers, elements, errors, left_by_fit, rms_lx }
+        let worst = Worst::of(&errors);
+        Look { carriers, elements, errors, worst, left_by_fit, rms_lx }
     }
 
     fn details<'a>(&'a self, elements: &'a Elements, values: &'a [Option<f64>]) -> Details<'a> {
@@ -320,14 +323,15 @@ impl<'s> Pilot<'s> {
                 self.beset[node as usize] && !trust::is_closed_in(self.scene, &place, edge_m);
             asks.then_some((node, gatherer))
         };
-        let beset: Vec<(u32, Gatherer)> = new.into_par_iter().filter_map(beset).collect();
-        let (nodes, rows): (Vec<u32>, Vec<Gatherer>) = beset.into_iter().unzip();
+        let asked: Vec<Option<(u32, Gatherer)>> = new.par_iter().map(|&n| beset(n)).collect();
+        self.middles.extend(new.into_iter().map(|node| (node, None)));
+        let (nodes, rows): (Vec<u32>, Vec<Gatherer>) = asked.into_iter().flatten().unzip();
         let key = self.key.with(2);
         let gathering = self.gathering(elements, self.solved_nodes, &self.standings);
         let operator = gathering.operator(&rows, |_| key);
         let light = operator.apply(&self.indirect);
         self.traced += operator.rays;
-        self.middles.extend(nodes.into_iter().zip(light.iter().map(|e| e.luminance())));
+        self.middles.extend(nodes.into_iter().zip(light.iter().map(|e| Some(e.luminance()))));
     }
 
     fn complete_indirect(
@@ -422,18 +426,11 @@ impl<'s> Pilot<'s> {
         (0..self.standings.len()).map(|k| is_open(k).then(|| values[k].luminance())).collect()
     }
 
-    fn standings_after(
-        &self,
-        before: Vec<Option<Standing>>,
-        gatherers: &[Gatherer],
-    ) -> Vec<Option<Standing>> {
-        trust::standings(self.scene, &self.subdivision, before, |k| gatherers[k].surface)
-    }
-
     fn complete_standings(&mut self, gatherers: &[Gatherer]) {
         let mut before = std::mem::take(&mut self.standings);
         before.resize(gatherers.len(), None);
-        self.standings = self.standings_after(before, gatherers);
+        let surface = |k: usize| gatherers[k].surface;
+        self.standings = self.felt.standings(self.scene, &self.subdivision, &before, surface);
         for (standing, known) in self.standings.iter_mut().zip(&self.known) {
             *standing = standing.filter(|_| *known);
         }

@@ -6,7 +6,7 @@ use crate::engine::detail::LeafError;
 use crate::engine::direct::Lighting;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::surface::SurfacePoint;
-use crate::engine::trust;
+use crate::engine::trust::{self, Worst};
 
 fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
     let error = |(node, &(area_m2, error)): (usize, &(f64, f64))| LeafError {
@@ -31,13 +31,13 @@ fn the_worst_are_left_out_until_the_rest_is_good() {
         ("no more than a part of the area", 0.8, 0.15, 0.5 * (8.0 + 4.0)),
         ("none of it", 0.8, 0.05, f64::INFINITY),
     ] {
-        assert_eq!(trust::limit(&all, goal, most_share), expected, "{name}");
+        assert_eq!(Worst::of(&all).limit(goal, most_share), expected, "{name}");
     }
     let rest = trust::error_of(&all, |e| e.error < 2.5);
     assert!((rest - 0.6_f64.sqrt()).abs() < 1e-15, "the good ones over the whole area: {rest}");
-    assert_eq!(trust::limit(&[], 1.0, 1.0), f64::INFINITY);
+    assert_eq!(Worst::of(&[]).limit(1.0, 1.0), f64::INFINITY);
     let beset: Vec<LeafError> = all.iter().map(|&e| LeafError { is_beset: true, ..e }).collect();
-    assert_eq!(trust::limit(&beset, 0.8, 1.0), f64::INFINITY, "nobody trusts them anyway");
+    assert_eq!(Worst::of(&beset).limit(0.8, 1.0), f64::INFINITY, "nobody trusts them anyway");
 }
 
 /// Files keep errors at vertices; the least over an element's vertices is never less than its own,
