@@ -26,6 +26,15 @@ const ONCE: f64 = 1.5;
 const ROUNDS: f64 = 5.0;
 const ROUNDS_FOR_DIRECT: f64 = 3.0;
 
+/// Among many things, before the first look: the accuracy that the usual first mesh is good enough for; vertices that direct light
+/// adds to it, as a share of it; and all that a vertex of it costs once, as a multiple of what it has until then. Measured in the hall.
+const GOOD_ENOUGH: f64 = 0.02;
+const MORE_FOR_DIRECT: f64 = 0.25;
+const FIRST_IN_ALL: f64 = 2.5;
+/// And before that: what a gathering ray and a vertex cost, as multiples of a ray that is only traced.
+const GATHERING: f64 = 1.9;
+const FIRST: f64 = 10.0;
+
 /// Factors between what is said and what comes, in nine of ten runs: before the first look, while
 /// elements are refined, and when they are fixed.
 const BLIND: f64 = 2.5;
@@ -45,6 +54,10 @@ impl Cost {
         self.things += things;
     }
 
+    fn times(self, factor: f64) -> Self {
+        Self { time_s: factor * self.time_s, ..self }
+    }
+
     fn of(self, things: f64) -> f64 {
         if self.things > 0.0 { self.time_s * things / self.things } else { 0.0 }
     }
@@ -61,6 +74,22 @@ pub(super) struct Costs {
     pub(super) looks: Cost,
     /// The same of the first mesh, where all of them are new.
     pub(super) first: Cost,
+    /// Rays that are only traced.
+    pub(super) traced: Cost,
+}
+
+impl Costs {
+    /// What some rays that gather take.
+    fn of_rays(&self, rays: f64) -> f64 {
+        let known = if self.rays.things > 0.0 { self.rays } else { self.traced.times(GATHERING) };
+        known.of(rays)
+    }
+
+    /// What vertices take once.
+    fn of_first(&self, vertices: f64) -> f64 {
+        let known = if self.first.things > 0.0 { self.first } else { self.traced.times(FIRST) };
+        known.of(vertices)
+    }
 }
 
 /// What is known of the work to come.
@@ -70,6 +99,8 @@ pub(super) struct Outlook {
     pub(super) carriers: f64,
     pub(super) gathered: f64,
     pub(super) vertices: f64,
+    /// Those whose direct light is measured.
+    pub(super) measured: f64,
     /// Rays of each in the pilot, and in an increment.
     pub(super) pilot_rays: f64,
     pub(super) rays: f64,
@@ -82,6 +113,8 @@ pub(super) struct Outlook {
     /// round ago; unknown before the first look.
     pub(super) excess: Option<f64>,
     pub(super) before: Option<(f64, f64)>,
+    /// Among many things, before the first look: the usual first mesh as a multiple of that there is.
+    pub(super) usual: Option<f64>,
     /// Into how many vertices each is made, where light is smooth.
     pub(super) smoothed: f64,
     /// Vertices more than there are now that direct light alone will take, the part of all where it will be measured again, and
@@ -102,7 +135,9 @@ impl Outlook {
     /// Vertices that will carry light, as a multiple of those that do.
     fn growth(&self) -> f64 {
         let Some(excess) = self.excess else {
-            return libm::pow(USUAL_TARGET / self.target, 1.0 / USUAL_ORDER).max(1.0);
+            let (usual, target) =
+                self.usual.map_or((1.0, USUAL_TARGET), |usual| (usual, GOOD_ENOUGH));
+            return usual * libm::pow(target / self.target, 1.0 / USUAL_ORDER).max(1.0);
         };
         if excess <= 1.0 {
             return 1.0;
@@ -121,13 +156,20 @@ impl Outlook {
 
     /// Rounds of refinement to come.
     fn rounds(&self) -> f64 {
+        if self.usual.is_some() {
+            return ROUNDS + ROUNDS_FOR_DIRECT;
+        }
         let indirect = if self.growth() > 1.0 { ROUNDS } else { 0.0 };
         indirect + if self.more_for_direct > 0.0 { ROUNDS_FOR_DIRECT } else { 0.0 }
     }
 
     /// All vertices that there will be.
     pub(super) fn vertices_then(&self) -> f64 {
-        self.looked_at() * self.smoothed + self.more_for_direct
+        let more_for_direct = match self.usual {
+            Some(usual) => MORE_FOR_DIRECT * usual * self.vertices,
+            None => self.more_for_direct,
+        };
+        self.looked_at() * self.smoothed + more_for_direct
     }
 
     /// What all of it takes.
@@ -135,13 +177,17 @@ impl Outlook {
         let growth = self.growth();
         let carriers = self.carriers * growth;
         let vertices = self.vertices_then();
-        let pilot_s = costs.rays.of((carriers - self.gathered) * self.pilot_rays)
-            + costs.direct.of(vertices - self.vertices)
-            + self.rounds() * costs.looks.of(self.looked_at());
+        // Before anything was looked at.
+        let is_blind = self.usual.is_some();
+        let looked_at = self.looked_at();
+        let look_s = if is_blind { costs.of_first(looked_at) } else { costs.looks.of(looked_at) };
+        let pilot_s = costs.of_rays((carriers - self.gathered) * self.pilot_rays)
+            + costs.direct.of(vertices - self.measured)
+            + self.rounds() * look_s;
         let direct_s = costs.direct.of(self.measured_again * vertices);
         let rays = (carriers + self.checks) * self.rays + self.particles * growth;
-        let first_s = costs.first.of(vertices);
-        let each_s = costs.rays.of(rays)
+        let first_s = if is_blind { FIRST_IN_ALL } else { 1.0 } * costs.of_first(vertices);
+        let each_s = costs.of_rays(rays)
             + EACH * first_s
             + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
         let once_s = if self.measured_again > 0.0 { ONCE * first_s } else { 0.0 };

@@ -26,6 +26,9 @@ use crate::units::Rgb;
 /// vertices, whose spreads make one good enough: decision 12.)
 const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
 
+/// Increments that tell how many it will take; those of fewer were off by a factor of two.
+const FEWEST_TO_TELL: u64 = 6;
+
 /// Increments beyond which finer elements are faster, which take their pilot and as many increments as are believed.
 const MOST_INCREMENTS: f64 = 3.0 * BELIEVED_INCREMENTS as f64;
 
@@ -336,18 +339,25 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     /// The increments that a target will take in all; `None` if it cannot be reached. Until the error is
-    /// believed, by noise alone; from one increment, what elements and rays are made for.
+    /// believed, by what is seen of it, as soon as that tells something; before, by noise alone; from one increment,
+    /// what elements and rays are made for.
     pub(super) fn increments_needed(&self, accuracy: Option<Accuracy>, target: f64) -> Option<f64> {
         let count = self.sums.increments;
         if let (Engine::Radiosity(radiosity), Some(left)) = (&self.engine, &self.left) {
             return radiosity.shots_needed(count, left);
         }
-        let needed = if count < BELIEVED_INCREMENTS {
+        let seen = || self.accuracy_if(Noise::TakenOff).filter(|_| count >= FEWEST_TO_TELL);
+        let by_all = |a: Accuracy| predict::increments_needed(&a, count, target);
+        let by_noise = || {
             let statistical = early_statistical(self.plan, &self.sums).unwrap_or(0.0);
             let share = statistical / target;
-            Some(count as f64 * share * share)
+            count as f64 * share * share
+        };
+        let needed = if count < BELIEVED_INCREMENTS {
+            let seen = if self.has_nets() { seen().and_then(by_all) } else { None };
+            Some(seen.unwrap_or_else(by_noise))
         } else {
-            accuracy.and_then(|a| predict::increments_needed(&a, count, target))
+            accuracy.and_then(by_all)
         };
         needed.map(|needed| needed.max(FEWEST_INCREMENTS as f64))
     }

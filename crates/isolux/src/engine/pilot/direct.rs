@@ -36,9 +36,6 @@ fn relief(area: f64) -> f64 {
 impl Pilot<'_> {
     /// Direct light at the vertices that have none yet, as the increments will read it.
     pub(super) fn complete_direct(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
-        if self.direct.is_empty() {
-            self.look_at_direct_light(elements, gatherers);
-        }
         let started = Instant::now();
         let new = self.direct.len()..gatherers.len();
         let measured = self.measured(elements, gatherers, new.collect());
@@ -85,7 +82,7 @@ impl Pilot<'_> {
 
     /// How noisy direct light may be, from a look at a few vertices: all light is what luminaires give and, in the mean, what the
     /// balance of light in a closed room adds to it. Where rooms are open that is more than there is.
-    fn look_at_direct_light(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+    pub(super) fn look_at_direct_light(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let Some(share) = self.direct_noise else { return };
         let every = (gatherers.len() / LOOKED_AT).max(1);
         let sequence = Sequence::new(self.key.with(8));

@@ -44,7 +44,7 @@ const MORE_A_VERTEX: f64 = 0.05;
 const COARSE: f64 = 0.5;
 /// The first again where nothing is fitted: particles, whose hat functions blur what they are deposited in.
 const FIRST_UNFITTED: f64 = 1500.0;
-/// The part of the first gathering that tells how long all takes.
+/// The part of the first gathering, and before it of the first direct light, that tells how long all takes.
 const FIRST_PART: usize = 16;
 /// How far apart the coarsest vertices that carry light may be, in edges of the first mesh: four of them, to
 /// start with two, as the details of those in between tell more than vertices twice as dense alone.
@@ -92,6 +92,7 @@ struct Pilot<'s> {
     spacing_m: f64,
     /// Edges of the usual first mesh, where it starts with a coarser one.
     usual_edge_m: Option<f64>,
+    has_many_things: bool,
     gathered: Vec<bool>,
     /// By carrier, from which distance to others on something stands nearer before it than they.
     beset_from_m: HashMap<u32, f64>,
@@ -146,7 +147,9 @@ impl<'s> Pilot<'s> {
         let area_m2: f64 = subdivision.leaves().map(|n| subdivision.triangle(n).area()).sum();
         // Half squares of hypotenuse h have area h^2 / 4, and there are two a vertex.
         let first = if request.is_fitted { FIRST_VERTICES } else { FIRST_UNFITTED };
-        let first = first + MORE_A_VERTEX * subdivision.vertex_count() as f64;
+        let more = MORE_A_VERTEX * subdivision.vertex_count() as f64;
+        let has_many_things = more > first;
+        let first = first + more;
         let edge_m = (2.0 * area_m2 / first).sqrt();
         let is_coarse = request.has_means;
         let start_m = if is_coarse { edge_m / COARSE.sqrt() } else { edge_m };
@@ -171,6 +174,7 @@ impl<'s> Pilot<'s> {
             felt: Felt::default(),
             carriers: Carriers::all(),
             usual_edge_m: is_coarse.then_some(edge_m),
+            has_many_things,
             spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
             gathered: Vec::new(),
             beset_from_m: HashMap::new(),
@@ -234,6 +238,9 @@ impl<'s> Pilot<'s> {
         let is_first = self.indirect.is_empty();
         self.complete_rays();
         let gatherers = self.gatherers();
+        if is_first {
+            self.begin(&elements, &gatherers, request, go_on);
+        }
         self.complete_direct(&elements, &gatherers);
         self.complete_indirect(&elements, &gatherers, request, go_on);
         let started = Instant::now();

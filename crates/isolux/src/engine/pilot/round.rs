@@ -1,12 +1,22 @@
 //! What the pilot tells of itself.
 
-use super::Pilot;
+use super::{FIRST_PART, Pilot};
+use crate::elements::Elements;
 use crate::engine::accuracy::BELIEVED_INCREMENTS;
 use crate::engine::allot::{allot, areas_m2, mean_of};
 use crate::engine::checks;
 use crate::engine::forecast::{Excess, GoOn, Outlook, Round};
+use crate::engine::gather::Gatherer;
 use crate::engine::look::{Look, PilotRequest};
+use crate::engine::path::Dice;
 use crate::engine::trial::{Trial, noise_for};
+use crate::sampling::{CosineHemisphere, Sequence};
+use isolux_geometry::Ray;
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// Rays of each of the vertices that tell how long one takes.
+const TRACED: u32 = 16;
 
 /// The part of the vertices that bisection moves, as a guess.
 const MOVED: f64 = 0.1;
@@ -23,6 +33,34 @@ impl Pilot<'_> {
         let has_time = go_on(&self.round(request, Some(look), excess));
         self.is_whole &= has_time;
         has_time
+    }
+
+    /// Among many things, what direct light takes tells how long all will, as do rays: they are tried before all else.
+    pub(super) fn begin(
+        &mut self,
+        elements: &Elements,
+        gatherers: &[Gatherer],
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) {
+        self.look_at_direct_light(elements, gatherers);
+        if !self.has_many_things {
+            return;
+        }
+        self.complete_direct(elements, &gatherers[..gatherers.len() / FIRST_PART]);
+        let (started, sequence) = (Instant::now(), Sequence::new(self.key));
+        let some: Vec<&Gatherer> = gatherers.iter().step_by(FIRST_PART).collect();
+        let trace = |gatherer: &&Gatherer| {
+            let axis = gatherer.normal.to_direction();
+            for index in 0..TRACED {
+                let local = CosineHemisphere::sample(Dice::new(sequence, index).pair());
+                let ray = Ray::new(gatherer.origin, axis.from_local(local));
+                std::hint::black_box(self.scene.bvh().closest_hit(&ray));
+            }
+        };
+        some.par_iter().for_each(trace);
+        self.costs.traced.add(started.elapsed(), (some.len() * TRACED as usize) as f64);
+        go_on(&self.round(request, None, (None, None)));
     }
 
     /// What is done and what will come, from the last look, if there was one.
@@ -57,6 +95,7 @@ impl Pilot<'_> {
             carriers,
             gathered: gathered as f64,
             vertices: vertices as f64,
+            measured: self.direct.len() as f64,
             pilot_rays: mean_of(&self.rays),
             rays,
             checks: checks::count(self.carriers.count(vertices)) as f64 + measured,
@@ -68,6 +107,7 @@ impl Pilot<'_> {
             target: request.target,
             excess,
             before,
+            usual: if look.is_none() && !self.is_measured { self.usual() } else { None },
             smoothed: look
                 .filter(|look| !self.is_smoothed && look.is_smooth(request))
                 .map_or(1.0, Look::smoothed),
@@ -81,5 +121,17 @@ impl Pilot<'_> {
             receivers_then: outlook.vertices_then(),
             left: outlook.left(&self.costs),
         }
+    }
+
+    /// Among many things light is not smooth: the usual first mesh, as a multiple of that there is.
+    fn usual(&self) -> Option<f64> {
+        let edge_m = self.usual_edge_m.filter(|_| self.has_many_things)?;
+        let leaves = || self.subdivision.leaves();
+        // Two bisections halve the longest edge.
+        let parts = |node: u32| {
+            let halvings = libm::log2(self.subdivision.longest_edge_m(node) / edge_m);
+            libm::exp2((2.0 * halvings).ceil().max(0.0))
+        };
+        Some(leaves().map(parts).sum::<f64>() / leaves().count().max(1) as f64)
     }
 }

@@ -15,6 +15,7 @@ fn known() -> (Outlook, Costs) {
         carriers: 1000.0,
         gathered: 1000.0,
         vertices: 2000.0,
+        measured: 2000.0,
         pilot_rays: 64.0,
         rays: 16.0,
         checks: 0.0,
@@ -22,6 +23,7 @@ fn known() -> (Outlook, Costs) {
         target: 0.01,
         excess: Some(1.0),
         before: None,
+        usual: None,
         smoothed: 1.0,
         more_for_direct: 0.0,
         measured_again: 0.0,
@@ -64,6 +66,35 @@ fn elements_grow_as_errors_are_seen_to_fall() {
     let smooth = Outlook { smoothed: 3.0, ..first };
     assert_eq!(smooth.vertices_then(), 9000.0);
     assert!(left.factor > outlook.left(&costs).factor, "less is known");
+}
+
+#[test]
+fn among_many_things_the_usual_mesh_is_foreseen() {
+    let (outlook, costs) = known();
+    let blind =
+        Outlook { excess: None, gathered: 0.0, measured: 125.0, usual: Some(1.5), ..outlook };
+    // The mesh for 1 % has the root of two times the vertices of that for 2 %, and direct light adds a quarter to the latter.
+    let carriers = 1500.0 * 2.0_f64.sqrt();
+    let vertices = 1000.0 + carriers + 0.25 * 1.5 * 2000.0;
+    assert!((blind.vertices_then() - vertices).abs() < 1e-6, "{}", blind.vertices_then());
+    // By rays that were only traced, half a microsecond each, before any has gathered.
+    let mut early = Costs::default();
+    early.traced.add(Duration::from_millis(1), 2000.0);
+    early.direct.add(Duration::from_millis(2), 2000.0);
+    let left_s = blind.left(&early).time_s;
+    let rays_s = 0.5e-6 * 1.9 * (carriers * 64.0 + 8.0 * carriers * 16.0);
+    let direct_s = 1e-6 * (vertices - 125.0);
+    // Eight looks at all there is to look at, and what is once, two and a half times as dear.
+    let first_s = 0.5e-6 * 10.0;
+    let looks_s = first_s * (8.0 * (1000.0 + carriers) + 8.0 * 0.2 * 2.5 * vertices);
+    let expected = rays_s + direct_s + looks_s;
+    assert!((left_s / expected - 1.0).abs() < 1e-9, "{left_s} {expected}");
+    // As soon as rays have gathered and vertices were looked at, that tells.
+    assert!(blind.left(&Costs { rays: costs.rays, ..early }).time_s != left_s);
+    assert_eq!(
+        Outlook { usual: Some(1.5), ..outlook }.left(&costs).factor,
+        outlook.left(&costs).factor
+    );
 }
 
 #[test]
