@@ -55,7 +55,7 @@ pub(super) struct Aimed {
 impl Aim {
     /// `None` where nothing is specular.
     pub(super) fn new(scene: &Scene, emission: &Emission) -> Option<Self> {
-        let is_specular: Vec<bool> = scene.materials().iter().map(|m| sends_on(&m.body)).collect();
+        let is_specular = specular(scene);
         let specular = |t: &u32| {
             is_specular[scene.material_index(*t) as usize] && scene.triangle(*t).area() > 0.0
         };
@@ -105,10 +105,6 @@ impl Aim {
     /// How many of so many particles are sent as luminaires send them; one at least.
     pub(super) fn unaimed(count: u32) -> u32 {
         count.div_ceil(UNAIMED)
-    }
-
-    pub(super) fn is_specular(&self, triangle: u32) -> bool {
-        self.group_of[triangle as usize].is_some()
     }
 
     /// The group that a particle is sent to.
@@ -208,8 +204,9 @@ impl Group {
     /// Two halves along its longest side.
     fn halves(self, scene: &Scene) -> [Self; 2] {
         let Vector { x, y, z } = self.high - self.low;
-        let middle = |t: &u32| {
-            let Point { x: px, y: py, z: pz } = scene.triangle(*t).point(1.0 / 3.0, 1.0 / 3.0);
+        let middle = |triangle: u32| {
+            let Point { x: px, y: py, z: pz } =
+                scene.triangle(triangle).point(1.0 / 3.0, 1.0 / 3.0);
             if x >= y && x >= z {
                 px
             } else if y >= z {
@@ -218,11 +215,23 @@ impl Group {
                 pz
             }
         };
-        let mut triangles = self.triangles;
-        triangles.sort_by(|a, b| middle(a).total_cmp(&middle(b)).then(a.cmp(b)));
-        let second = triangles.split_off(triangles.len() / 2);
-        [Self::new(scene, triangles), Self::new(scene, second)]
+        let mut keyed: Vec<(f64, u32)> =
+            self.triangles.into_iter().map(|t| (middle(t), t)).collect();
+        let half = keyed.len() / 2;
+        keyed.select_nth_unstable_by(half, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // Which they are is told by that order, theirs among each other by their numbers.
+        let sorted = |some: &[(f64, u32)]| {
+            let mut triangles: Vec<u32> = some.iter().map(|&(_, t)| t).collect();
+            triangles.sort_unstable();
+            Self::new(scene, triangles)
+        };
+        [sorted(&keyed[..half]), sorted(&keyed[half..])]
     }
+}
+
+/// Which materials are specular.
+pub(super) fn specular(scene: &Scene) -> Vec<bool> {
+    scene.materials().iter().map(|material| sends_on(&material.body)).collect()
 }
 
 /// Whether light goes on from something without being reflected diffusely.

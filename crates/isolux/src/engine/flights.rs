@@ -1,6 +1,6 @@
 //! Particles on their way over specular surfaces: how they fly, and how many it takes.
 
-use super::aim::{Aim, Aimed};
+use super::aim::{Aim, Aimed, specular};
 use super::direct::Lighting;
 use super::emission::Emission;
 use super::particle::{Particle, scatterings};
@@ -62,7 +62,8 @@ impl CausticNoise {
         let Some(emission) = Emission::new(of.0).filter(|_| of.1.leaves_caustics()) else {
             return Default::default();
         };
-        let aim = Aim::new(of.0, &emission).filter(|aim| aim.is_seldom_met(of.0, &emission, key));
+        let is_seldom = specular_is_seldom_met(of.0, &emission, key);
+        let aim = if is_seldom { Aim::new(of.0, &emission) } else { None };
         let (aim, first_rays) = match aim {
             Some(aim) => {
                 let flights = Flights::new(of, Some(&aim), most.min(TRIED_AIMED), key.with(1));
@@ -227,16 +228,15 @@ impl<'a> Flights<'a> {
     }
 }
 
-impl Aim {
-    /// Whether few of the particles that are let go come to a specular surface first.
-    fn is_seldom_met(&self, scene: &Scene, emission: &Emission, key: Key) -> bool {
-        let sequence = Sequence::new(key.with(2));
-        let meets = |index: &u32| {
-            let aimed = Aimed::let_go(emission, &mut Dice::new(sequence, *index));
-            let hit = aimed.and_then(|aimed| scene.bvh().closest_hit(&aimed.emitted.ray));
-            hit.is_some_and(|hit| self.is_specular(hit.triangle))
-        };
-        let met = (0..LET_GO).into_par_iter().filter(meets).count();
-        met as f64 <= SELDOM * f64::from(LET_GO)
-    }
+/// Whether few of the particles that are let go come to a specular surface first.
+fn specular_is_seldom_met(scene: &Scene, emission: &Emission, key: Key) -> bool {
+    let sequence = Sequence::new(key.with(2));
+    let is_specular = specular(scene);
+    let meets = |index: &u32| {
+        let aimed = Aimed::let_go(emission, &mut Dice::new(sequence, *index));
+        let hit = aimed.and_then(|aimed| scene.bvh().closest_hit(&aimed.emitted.ray));
+        hit.is_some_and(|hit| is_specular[scene.material_index(hit.triangle) as usize])
+    };
+    let met = (0..LET_GO).into_par_iter().filter(meets).count();
+    met as f64 <= SELDOM * f64::from(LET_GO)
 }
