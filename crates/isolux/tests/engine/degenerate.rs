@@ -151,7 +151,7 @@ fn size_changes_light_by_the_inverse_square_alone() {
     }
 }
 
-/// Maps by both methods of a scene that must be solved in time.
+/// Maps by every method of a scene that must be solved in time.
 fn solved_in_time(make: fn() -> Scene) -> Vec<IlluminationMap> {
     let one = |method: Method| {
         // On threads of their own, which a run that does not end keeps to itself.

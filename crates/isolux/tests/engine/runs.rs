@@ -6,7 +6,8 @@ use isolux::scene::Scene;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-pub(crate) const METHODS: [Method; 3] = [Method::Hybrid, Method::Forward, Method::Radiosity];
+pub(crate) const METHODS: [Method; 4] =
+    [Method::Hybrid, Method::Forward, Method::Radiosity, Method::Cache];
 
 /// What an engine counts for a vertex, bytes: memory is how its meshes are kept small here.
 const BYTES_A_VERTEX: u64 = 2400;

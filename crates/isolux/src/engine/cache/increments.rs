@@ -140,9 +140,9 @@ impl<'p, 's> Cached<'p, 's> {
         };
         let (for_far, for_near) = (making(1, self.far_rays()), making(2, self.rays));
         let for_checks = making(3, self.rays);
-        let Replicate { lights: far, rays: far_rays, lost: far_lost } =
+        let Replicate { lights: far, rays: far_rays, lost: far_lost, unsettled_lx } =
             self.store.far_replicate(&for_far)?;
-        let Replicate { lights: near, rays: near_rays, lost } =
+        let Replicate { lights: near, rays: near_rays, lost, .. } =
             self.store.near_replicate(&for_near, &far)?;
         let (fresh, check_rays) = self.store.fresh(&self.checks, &for_checks, &far);
         let mut gathered: Vec<Rgb> = self.ties.par_iter().map(|ties| tied(ties, &near)).collect();
@@ -168,7 +168,7 @@ impl<'p, 's> Cached<'p, 's> {
         }));
         Some(Effort {
             rays: far_rays + near_rays + check_rays + particles.rays,
-            given_up_lx: particles.given_up_lx + (lost + far_lost) * plan.rms_lx,
+            given_up_lx: particles.given_up_lx + (lost + far_lost) * plan.rms_lx + unsettled_lx,
         })
     }
 

@@ -25,7 +25,7 @@ const LEAST_RADIUS_FAR: f64 = 0.2;
 const MOST_RADIUS: f64 = 0.5;
 
 /// Sweeps over the light between samples end when they change less than this, relative; and at most.
-const TOLERANCE: f64 = 3e-4;
+const TOLERANCE: f64 = 1e-4;
 const MAX_SWEEPS: usize = 2000;
 
 /// Greatest factor from change to change that is believed.
@@ -55,6 +55,8 @@ pub(super) struct Replicate {
     pub(super) rays: u64,
     /// Share of the rays whose light is lost, mean over those traced.
     pub(super) lost: f64,
+    /// What the last sweep over the light between samples has changed, root mean square, lx.
+    pub(super) unsettled_lx: f64,
 }
 
 /// How a replicate is made.
@@ -138,15 +140,15 @@ impl<'s> Store<'s> {
         let guess = self.guess.get(first..).unwrap_or(&[]);
         lights.extend_from_slice(guess);
         lights.resize(first + seen.len(), Light::default());
-        settle(&seen, &mut lights, first);
+        let unsettled_lx = settle(&seen, &mut lights, first);
         self.far.add(making.index, &lights);
-        Some(Replicate::of(&seen, lights))
+        Some(Replicate { unsettled_lx, ..Replicate::of(&seen, lights) })
     }
 
     /// One replicate of the light that is read, over one of what rays read.
     pub(super) fn near_replicate(&mut self, making: &Making, far: &[Light]) -> Option<Replicate> {
         let (mut lights, first) = self.near.start(making.index);
-        let mut whole = Replicate { lights: Vec::new(), rays: 0, lost: 0.0 };
+        let mut whole = Replicate { lights: Vec::new(), rays: 0, lost: 0.0, unsettled_lx: 0.0 };
         let sites = &self.near.layer.sites[first..];
         let mut lost = 0.0;
         for part in sites.chunks(SITES_AT_ONCE) {
@@ -253,14 +255,15 @@ impl Replicate {
     fn of(seen: &[Hemisphere], lights: Vec<Light>) -> Self {
         let rays = seen.iter().map(Hemisphere::ray_count).sum();
         let lost = seen.iter().map(|s| s.lost).sum::<f64>() / seen.len().max(1) as f64;
-        Self { lights, rays, lost }
+        Self { lights, rays, lost, unsettled_lx: 0.0 }
     }
 }
 
 /// Light of samples from `first` on, given that of those before: the fixed point of what they see, from a
 /// first guess. Every third sweep goes on at once to where the changes would end if they shrank by one
-/// factor, channel by channel (Aitken 1926).
-fn settle(seen: &[Hemisphere], lights: &mut [Light], first: usize) {
+/// factor, channel by channel (Aitken 1926). Returns what the last sweep has changed, root mean square, lx.
+fn settle(seen: &[Hemisphere], lights: &mut [Light], first: usize) -> f64 {
+    let mut unsettled_lx = 0.0;
     let mut before: Option<Vec<Light>> = None;
     for sweep in 0..MAX_SWEEPS {
         let next: Vec<Light> = seen.par_iter().map(|s| s.light(lights)).collect();
@@ -271,14 +274,17 @@ fn settle(seen: &[Hemisphere], lights: &mut [Light], first: usize) {
             let squares = lights.iter().map(|l| l.value().luminance()).map(|lx| lx * lx);
             squares.sum::<f64>()
         };
-        if square(&changes) <= TOLERANCE * TOLERANCE * square(now) {
-            return;
+        let changed = square(&changes);
+        unsettled_lx = (changed / changes.len().max(1) as f64).sqrt();
+        if changed <= TOLERANCE * TOLERANCE * square(now) {
+            break;
         }
         match before.take().filter(|_| sweep % 3 == 2) {
             Some(before) => extrapolate(now, &changes, &before),
             None => before = Some(changes),
         }
     }
+    unsettled_lx
 }
 
 fn minus(a: &Light, b: &Light) -> Light {
