@@ -27,9 +27,9 @@ const ROUNDS: f64 = 5.0;
 const ROUNDS_FOR_DIRECT: f64 = 3.0;
 
 /// Among many things, before the first look: the accuracy that the usual first mesh is good enough for; vertices that direct light
-/// adds to it, as a share of it; and all that a vertex of it costs once, as a multiple of what it has until then. Measured in the hall.
+/// adds to it, as a share of what it has more than the first (one that is fine already needs no more); and all that a vertex of it costs once, as a multiple of what it has until then. Measured in the hall.
 const GOOD_ENOUGH: f64 = 0.02;
-const MORE_FOR_DIRECT: f64 = 0.25;
+const MORE_FOR_DIRECT: f64 = 0.75;
 const FIRST_IN_ALL: f64 = 2.5;
 /// And before that: what a gathering ray and a vertex cost, as multiples of a ray that is only traced.
 const GATHERING: f64 = 1.9;
@@ -156,8 +156,8 @@ impl Outlook {
 
     /// Rounds of refinement to come.
     fn rounds(&self) -> f64 {
-        if self.usual.is_some() {
-            return ROUNDS + ROUNDS_FOR_DIRECT;
+        if let Some(usual) = self.usual {
+            return (ROUNDS + ROUNDS_FOR_DIRECT) * (2.0 * (usual - 1.0)).min(1.0);
         }
         let indirect = if self.growth() > 1.0 { ROUNDS } else { 0.0 };
         indirect + if self.more_for_direct > 0.0 { ROUNDS_FOR_DIRECT } else { 0.0 }
@@ -166,7 +166,7 @@ impl Outlook {
     /// All vertices that there will be.
     pub(super) fn vertices_then(&self) -> f64 {
         let more_for_direct = match self.usual {
-            Some(usual) => MORE_FOR_DIRECT * usual * self.vertices,
+            Some(usual) => MORE_FOR_DIRECT * (usual - 1.0) * self.vertices,
             None => self.more_for_direct,
         };
         self.looked_at() * self.smoothed + more_for_direct

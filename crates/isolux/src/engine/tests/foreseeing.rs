@@ -73,9 +73,10 @@ fn among_many_things_the_usual_mesh_is_foreseen() {
     let (outlook, costs) = known();
     let blind =
         Outlook { excess: None, gathered: 0.0, measured: 125.0, usual: Some(1.5), ..outlook };
-    // The mesh for 1 % has the root of two times the vertices of that for 2 %, and direct light adds a quarter to the latter.
+    // The mesh for 1 % has the root of two times the vertices of that for 2 %, and direct light adds three
+    // quarters of what the latter has more than the first.
     let carriers = 1500.0 * 2.0_f64.sqrt();
-    let vertices = 1000.0 + carriers + 0.25 * 1.5 * 2000.0;
+    let vertices = 1000.0 + carriers + 0.75 * 0.5 * 2000.0;
     assert!((blind.vertices_then() - vertices).abs() < 1e-6, "{}", blind.vertices_then());
     // By rays that were only traced, half a microsecond each, before any has gathered.
     let mut early = Costs::default();
