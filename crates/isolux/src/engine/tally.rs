@@ -147,6 +147,18 @@ pub(super) fn errors(plan: &Plan, sums: &Accumulator) -> InterpolationErrors {
     InterpolationErrors { indirect_lx, total_lx, ..InterpolationErrors::default() }
 }
 
+/// What caustics that particles deposit at vertices err by where they are read, root mean square, lx: by blur and details, beyond
+/// the noise of all that is not direct. Check points do not see it, as nothing else tells them what caustics they have.
+pub(super) fn caustic_error_lx(plan: &Plan, sums: &Accumulator) -> f64 {
+    if !plan.lighting.leaves_caustics() {
+        return 0.0;
+    }
+    let estimates: Vec<Estimate> = (0..plan.indirect_vertices).map(|k| sums.estimate(k)).collect();
+    let values: Vec<f64> = estimates.iter().map(|e| e.mean.caustic.luminance()).collect();
+    let variances: Vec<f64> = estimates.iter().map(|e| e.indirect_variance).collect();
+    (blur_squared(plan, &values, &variances) + detail_squared(plan, &values, &variances)).sqrt()
+}
+
 /// Mean square of what one more step of the correction would change: what is left of the blur.
 fn blur_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let tally = Tally::new(plan, 1.0, 0);

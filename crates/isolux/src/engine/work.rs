@@ -207,7 +207,11 @@ impl<'p, 's> Work<'p, 's> {
     fn interpolation_if(&self, noise_is: Noise) -> InterpolationErrors {
         match &self.engine {
             Engine::Hybrid(_) | Engine::Cache(_) => {
-                checks::errors(&self.checks.sums, &self.checks.points, noise_is)
+                let caustic_lx = tally::caustic_error_lx(self.plan, &self.sums);
+                let errors = checks::errors(&self.checks.sums, &self.checks.points, noise_is);
+                let [indirect_lx, total_lx] =
+                    [errors.indirect_lx, errors.total_lx].map(|lx| libm::hypot(lx, caustic_lx));
+                InterpolationErrors { indirect_lx, total_lx, ..errors }
             }
             Engine::Forward(_) => tally::errors(self.plan, &self.sums),
             Engine::Radiosity(radiosity) => {

@@ -2,14 +2,14 @@
 
 use super::errors::{room, small_plan};
 use super::*;
-use crate::engine::accumulate::Accumulator;
+use crate::engine::accumulate::{Accumulator, Sample};
 use crate::engine::direct::Lighting;
 use crate::engine::emission::Emission;
 use crate::engine::forward::Forward;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::surface::SurfacePoint;
-use crate::engine::tally::Tally;
+use crate::engine::tally::{Tally, caustic_error_lx};
 
 /// Deposits an illuminance over all elements, on a fine lattice of each.
 fn light_up(plan: &Plan, tally: &Tally, lux: impl Fn(Point) -> f64) -> f64 {
@@ -135,4 +135,33 @@ fn particles_light_all_vertices() {
     let (lx, _) = forward(&room(), &request);
     let dark = lx.iter().filter(|&&e| e == 0.0).count();
     assert_eq!(dark, 0, "of {} vertices", lx.len());
+}
+
+#[test]
+fn caustics_between_vertices_are_counted() {
+    // One wall is a mirror that is not plane enough for images: any gloss leaves caustics.
+    let polished = Finish {
+        gloss: Some(crate::scene::Gloss { f0: Rgb::grey(0.9), alpha: 0.2 }),
+        ..Finish::diffuse(Rgb::grey(0.1))
+    };
+    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
+    shapes[1].material = 1;
+    let materials = vec![painted(Rgb::grey(0.5)), Material::one_sided("polished", polished)];
+    let scene = scene(shapes, materials, vec![isotropic([1.0, 1.2, 1.5], 100.0)]);
+    let lighting = Lighting::new(&scene);
+    let plan = small_plan(&scene, &lighting);
+    let error_lx = |caustic_lx: &dyn Fn(usize) -> f64| {
+        let mut sums = Accumulator::new(plan.elements.vertices().len(), 100.0);
+        for _ in 0..2 {
+            let sample =
+                |k: usize| Sample { caustic: Rgb::grey(caustic_lx(k)), ..Sample::default() };
+            sums.add((0..plan.elements.vertices().len()).map(sample));
+        }
+        caustic_error_lx(&plan, &sums)
+    };
+    // A hat blurs what is even by nothing; what one vertex alone has by much of it.
+    let even_lx = error_lx(&|_| 50.0);
+    let peak = plan.indirect_vertices / 2;
+    let peaked_lx = error_lx(&|k| if k == peak { 50.0 } else { 0.0 });
+    assert!(even_lx < 1e-3 && peaked_lx > 0.5, "{even_lx} {peaked_lx}");
 }
