@@ -1,6 +1,7 @@
 //! Particles on vertices: flux kept, even and linear light given back.
 
 use super::errors::{room, small_plan};
+use super::sharing::polished_room;
 use super::*;
 use crate::engine::accumulate::{Accumulator, Sample};
 use crate::engine::direct::Lighting;
@@ -139,15 +140,7 @@ fn particles_light_all_vertices() {
 
 #[test]
 fn caustics_between_vertices_are_counted() {
-    // One wall is a mirror that is not plane enough for images: any gloss leaves caustics.
-    let polished = Finish {
-        gloss: Some(crate::scene::Gloss { f0: Rgb::grey(0.9), alpha: 0.2 }),
-        ..Finish::diffuse(Rgb::grey(0.1))
-    };
-    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
-    shapes[1].material = 1;
-    let materials = vec![painted(Rgb::grey(0.5)), Material::one_sided("polished", polished)];
-    let scene = scene(shapes, materials, vec![isotropic([1.0, 1.2, 1.5], 100.0)]);
+    let scene = polished_room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
     let error_lx = |caustic_lx: &dyn Fn(usize) -> f64| {

@@ -39,9 +39,8 @@ fn small_receivers_get_fewer_and_the_noise_is_no_more() {
     assert_eq!(mean_of(&[4, 0, 8]), 6.0, "of those that have any");
 }
 
-#[test]
-fn caustics_are_as_noisy_as_a_trial_tells() {
-    // One wall is polished metal.
+/// A room of which one wall is polished metal.
+pub(super) fn polished_room() -> Scene {
     let polished = Finish {
         gloss: Some(Gloss { f0: Rgb::grey(0.9), alpha: 0.2 }),
         ..Finish::diffuse(Rgb::BLACK)
@@ -49,7 +48,12 @@ fn caustics_are_as_noisy_as_a_trial_tells() {
     let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
     shapes[1].material = 1;
     let materials = vec![painted(Rgb::grey(0.5)), Material::one_sided("polished", polished)];
-    let scene = scene(shapes, materials, vec![isotropic([1.0, 1.2, 1.5], 100.0)]);
+    scene(shapes, materials, vec![isotropic([1.0, 1.2, 1.5], 100.0)])
+}
+
+#[test]
+fn caustics_are_as_noisy_as_a_trial_tells() {
+    let scene = polished_room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
     let vertices = plan.elements.vertices();
