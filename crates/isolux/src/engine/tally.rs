@@ -137,13 +137,8 @@ pub(super) fn errors(plan: &Plan, sums: &Accumulator) -> InterpolationErrors {
     let estimates: Vec<Estimate> = (0..plan.indirect_vertices).map(|k| sums.estimate(k)).collect();
     let indirect = |e: &Estimate| (e.mean.indirect + e.mean.caustic).luminance();
     let total = |e: &Estimate| indirect(e) + e.mean.direct.luminance();
-    let part = |value: &dyn Fn(&Estimate) -> f64, variance: &dyn Fn(&Estimate) -> f64| {
-        let values: Vec<f64> = estimates.iter().map(value).collect();
-        let variances: Vec<f64> = estimates.iter().map(variance).collect();
-        (blur_squared(plan, &values, &variances) + detail_squared(plan, &values, &variances)).sqrt()
-    };
-    let indirect_lx = part(&indirect, &|e| e.indirect_variance);
-    let total_lx = part(&total, &|e| e.variance);
+    let indirect_lx = error_lx(plan, &estimates, indirect, |e| e.indirect_variance);
+    let total_lx = error_lx(plan, &estimates, total, |e| e.variance);
     InterpolationErrors { indirect_lx, total_lx, ..InterpolationErrors::default() }
 }
 
@@ -154,8 +149,18 @@ pub(super) fn caustic_error_lx(plan: &Plan, sums: &Accumulator) -> f64 {
         return 0.0;
     }
     let estimates: Vec<Estimate> = (0..plan.indirect_vertices).map(|k| sums.estimate(k)).collect();
-    let values: Vec<f64> = estimates.iter().map(|e| e.mean.caustic.luminance()).collect();
-    let variances: Vec<f64> = estimates.iter().map(|e| e.indirect_variance).collect();
+    error_lx(plan, &estimates, |e| e.mean.caustic.luminance(), |e| e.indirect_variance)
+}
+
+/// What a quantity at vertices errs by in the root mean square, beyond its noise: by blur and by details.
+fn error_lx(
+    plan: &Plan,
+    estimates: &[Estimate],
+    value: impl Fn(&Estimate) -> f64,
+    variance: impl Fn(&Estimate) -> f64,
+) -> f64 {
+    let values: Vec<f64> = estimates.iter().map(value).collect();
+    let variances: Vec<f64> = estimates.iter().map(variance).collect();
     (blur_squared(plan, &values, &variances) + detail_squared(plan, &values, &variances)).sqrt()
 }
 
