@@ -78,7 +78,7 @@ impl Place {
     }
 
     /// The node.
-    pub(super) const fn node(self) -> u32 {
+    pub(crate) const fn node(self) -> u32 {
         self.node
     }
 

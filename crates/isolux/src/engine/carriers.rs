@@ -127,6 +127,31 @@ impl Carriers {
         self.ends.push(self.order.len());
     }
 
+    /// Makes vertices from `first` on, made by bisection, wait: each lies between those ends of its edge that are open, if any.
+    pub(super) fn between(&mut self, subdivision: &Subdivision, first: usize, open: &[bool]) {
+        let vertices = subdivision.vertices();
+        let mut depths = vec![0_u32; vertices.len() - first];
+        self.links.resize(first, None);
+        for (k, vertex) in vertices[first..].iter().enumerate() {
+            let ends = vertex.parents.expect("made by bisection");
+            let depth =
+                |end: u32| (end as usize).checked_sub(first).map_or(0, |made| depths[made] + 1);
+            depths[k] = ends.map(depth).into_iter().fold(0, u32::max);
+            let tells = |end: &u32| open[*end as usize] || ends.iter().all(|&e| !open[e as usize]);
+            let told: Vec<u32> = ends.into_iter().filter(tells).collect();
+            let parents = told.iter().map(|&end| (end, 1.0 / told.len() as f64)).collect();
+            let [a, b] = ends.map(|end| vertices[end as usize].position);
+            self.links.push(Some(Link { parents, spacing_m: (b - a).length() }));
+        }
+        self.active.resize(first, true);
+        self.active.resize(vertices.len(), false);
+        for depth in 0..=depths.iter().copied().max().unwrap_or(0) {
+            let alike = (0..depths.len()).filter(|&k| depths[k] == depth);
+            self.order.extend(alike.map(|k| (first + k) as u32));
+            self.ends.push(self.order.len());
+        }
+    }
+
     /// Whether a vertex carries light.
     pub(super) fn is_active(&self, vertex: u32) -> bool {
         self.active.get(vertex as usize).is_none_or(|&active| active)

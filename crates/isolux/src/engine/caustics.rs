@@ -8,26 +8,53 @@ use super::tally::Tally;
 use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicI64, Ordering};
 
-/// Caustic illuminance at the vertices that indirect light lives on by so many particles, and what it took.
-pub(super) fn deposit(plan: &Plan, count: u32, key: Key) -> (Vec<Rgb>, Effort) {
-    let nothing = || (vec![Rgb::BLACK; plan.indirect_vertices], Effort::default());
+/// What particles have brought.
+pub(super) struct Caustics {
+    /// Illuminance at the vertices that indirect light lives on.
+    pub(super) light: Vec<Rgb>,
+    /// What it lacks in the parts of elements that are checked, lx.
+    pub(super) lacking: Vec<f64>,
+    pub(super) effort: Effort,
+}
+
+/// Caustics by so many particles.
+pub(super) fn deposit(plan: &Plan, count: u32, key: Key) -> Caustics {
+    let nothing = |effort: Effort| Caustics {
+        light: vec![Rgb::BLACK; plan.indirect_vertices],
+        lacking: vec![0.0; plan.parts.count()],
+        effort,
+    };
     let Some(flights) = Flights::new((plan.scene, plan.lighting), plan.aim.as_ref(), count, key)
     else {
-        return nothing();
+        return nothing(Effort::default());
     };
     let flux_lm = flights.flux_lm();
     if !plan.lighting.leaves_caustics() {
-        let (black, _) = nothing();
         let given_up_lx = plan.lighting.left_out() * flux_lm / plan.area_m2();
-        return (black, Effort { rays: 0, given_up_lx });
+        return nothing(Effort { rays: 0, given_up_lx });
     }
     let tally = Tally::new(plan, flux_lm, 1);
+    let came: Vec<AtomicI64> = (0..plan.parts.count()).map(|_| AtomicI64::new(0)).collect();
+    let units_per_lm = tally.units_per_lm();
     let one = |index: u32| {
-        let (rays, given_up) = flights.fly(index, |at, flux_lm| tally.add(0, at, flux_lm));
+        let (rays, given_up) = flights.fly(index, |at, flux_lm| {
+            let part = tally.add(0, at, flux_lm).and_then(|(node, w)| plan.parts.at(node, w));
+            if let Some(part) = part {
+                let units = (flux_lm.luminance() * units_per_lm).round_ties_even() as i64;
+                came[part].fetch_add(units, Ordering::Relaxed);
+            }
+        });
         given_up.into_iter().for_each(|flux_lm| tally.give_up(flux_lm));
         rays
     };
     let rays = (0..count).into_par_iter().map(one).sum();
-    (tally.illuminance(0), Effort { rays, given_up_lx: tally.given_up_lx() })
+    let light = tally.illuminance(0);
+    let lacking = plan.parts.lacking(
+        |part| came[part].load(Ordering::Relaxed) as f64 / units_per_lm,
+        |vertex| light[vertex as usize].luminance(),
+        &plan.standings,
+    );
+    Caustics { light, lacking, effort: Effort { rays, given_up_lx: tally.given_up_lx() } }
 }

@@ -7,10 +7,11 @@
 //! large among elements that readers trust, and in proportion to details for the sake of the mean error, a
 //! fourth each, and weighted accordingly.
 
-use super::accumulate::{Accumulator, Sample};
+use super::accumulate::{Accumulator, Sample, Sums};
 use super::detail::LeafError;
 use super::direct::Goal;
 use super::gather::{Gatherer, Gathering, known_at};
+use super::noise::Noise;
 use super::path::Dice;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
@@ -50,8 +51,18 @@ pub(super) struct Check {
     edge_m: f64,
     /// Whether rays read direct light, too.
     reads_direct: bool,
+    /// Whether parts of its element are checked for caustics, whose noise they tell, too.
+    has_parts: bool,
     /// What it shows and sees of others.
     view: View,
+}
+
+/// All places where a map is checked, and what is summed there.
+pub(super) struct Checks {
+    pub(super) points: Vec<Check>,
+    pub(super) sums: Accumulator,
+    /// What caustics lack in parts of elements.
+    pub(super) lacking: Accumulator,
 }
 
 /// Errors beyond noise, lx: of interpolation over the surface, root mean squares and the signed
@@ -83,6 +94,13 @@ pub(super) struct InterpolationErrors {
     pub(super) noise_lx: Option<f64>,
     /// By how much more elements err than expected; `None` where nobody looked.
     pub(super) over_expected: Option<f64>,
+}
+
+impl Checks {
+    /// All sums.
+    pub(super) fn all(&self) -> Vec<Sums> {
+        [&self.sums, &self.lacking].iter().flat_map(|of| &of.sums).copied().collect()
+    }
 }
 
 /// Places in the sums: of differences first, then of what the map reads, then of what rays read where
@@ -158,6 +176,9 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !is_beset;
     let gatherer = gatherer.in_gap(in_gap);
     let reads_direct = plan.lighting.are_read_at_ends();
+    let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
+    let node = plan.elements.place(plan.level, triangle, back, [u, v]).map(|place| place.node());
+    let has_parts = node.is_some_and(|node| plan.parts.has(node));
     let (close, view) = (0.0, View::default());
     let place = Check {
         gatherer,
@@ -169,6 +190,7 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
         close,
         edge_m,
         reads_direct,
+        has_parts,
         view,
     };
     Some(place)
@@ -225,49 +247,20 @@ pub(super) fn samples(
     differences.chain(readings).chain(lookups).collect()
 }
 
-/// What errors are said to be that noise may hide.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Noise {
-    /// One standard error more, to be on the safe side.
-    Counted,
-    /// What is seen with noise taken off.
-    TakenOff,
-    /// One standard error less: what is left is hardly noise.
-    RuledOut,
-}
-
-impl Noise {
-    /// A squared error, given the standard error of its estimate.
-    fn of_squared(self, squared: f64, standard_error: f64) -> f64 {
-        match self {
-            Self::Counted => squared.max(0.0) + standard_error,
-            Self::TakenOff => squared.max(0.0),
-            Self::RuledOut => (squared - standard_error).max(0.0),
-        }
-    }
-
-    /// A mean, given its standard error.
-    fn of_mean(self, mean: f64, standard_error: f64) -> f64 {
-        match self {
-            Self::Counted | Self::TakenOff => mean,
-            Self::RuledOut => (mean.abs() - standard_error).max(0.0).copysign(mean),
-        }
-    }
-}
-
 /// The errors seen so far.
 pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> InterpolationErrors {
     let area: f64 = checks.iter().map(|c| c.area_m2).sum();
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-    let (mut noise, mut expected) = (0.0, 0.0);
-    // Of the mean: all of it, and what lies where the map is trusted, with the variance of the former.
-    let (mut trusted_mean, mut of_mean) = (0.0, 0.0);
+    // Of the mean: what lies where the map is trusted, and the variance of all of it.
+    let (mut noise, mut expected, mut trusted_mean, mut of_mean) = (0.0, 0.0, 0.0, 0.0);
     let (mut untrusted, mut close, mut share_untrusted) = (0.0, 0.0, 0.0);
     for (k, check) in checks.iter().enumerate() {
         let estimate = sums.estimate(k);
         let indirect = estimate.mean.indirect.luminance();
         let share = check.area_m2 / area;
-        noise += share * sums.estimate(checks.len() + k).variance;
+        let of_reading =
+            if check.has_parts { 0.0 } else { sums.estimate(checks.len() + k).variance };
+        noise += share * of_reading;
         let all = indirect + estimate.mean.direct.luminance();
         let both = [(indirect, estimate.indirect_variance), (all, estimate.variance)];
         if check.is_trusted {

@@ -21,12 +21,20 @@ const FEWEST: f64 = 1024.0;
 const TRIED: u32 = 1 << 15;
 const TRIED_AIMED: u32 = 1 << 13;
 
+/// Particles of an increment at most.
+const MOST: u32 = 1 << 20;
+
 /// Particles are aimed where no more than this share of those let go come to a specular surface first, as told by so many.
 const SELDOM: f64 = 0.25;
 const LET_GO: u32 = 1024;
 
 /// The part of the noise allowed, in the square, that caustics may take.
-const SHARE_OF_NOISE: f64 = 0.1;
+pub(super) const LEAST_SHARE: f64 = 0.1;
+const MOST_SHARE: f64 = 0.75;
+/// What a particle costs, in rays that gather.
+const RAYS_OF_ONE: f64 = 4.0;
+/// How much may be in doubt of the error of interpolation, in the square, as a part of the accuracy asked for.
+pub(super) const DOUBT: f64 = 0.15;
 
 /// The most particles of an increment for so many vertices.
 pub(super) fn particles(vertices: usize) -> u32 {
@@ -40,6 +48,8 @@ pub(super) struct CausticNoise {
     lx2: f64,
     /// On so many vertices, with which it grows.
     vertices: usize,
+    /// The standard error of the mean square of what interpolation errs by if there were one particle, lx2: it falls likewise.
+    doubt_lx2: f64,
 }
 
 impl CausticNoise {
@@ -84,26 +94,56 @@ impl CausticNoise {
         // Each carries one part of `count`.
         let lx2 = if area_m2 > 0.0 { sum * f64::from(count) / area_m2 } else { 0.0 };
         let rays = first_rays + all.iter().map(|(_, rays)| rays).sum::<u64>();
-        (Self { lx2, vertices }, aim, rays)
+        (Self { lx2, vertices, doubt_lx2: 0.0 }, aim, rays)
     }
 
-    /// Particles of each of so many increments on so many vertices for a target.
+    /// As seen of particles that shared all light: the mean square over the surface for one, lx2, on so many vertices, and the
+    /// standard error of the squared error of interpolation.
+    pub(super) const fn seen(lx2: f64, vertices: usize, doubt_lx2: f64) -> Self {
+        Self { lx2, vertices, doubt_lx2 }
+    }
+
+    /// Particles of each of so many increments on so many vertices for a target, if they are to make such a part of its noise.
     pub(super) fn particles(
+        self,
+        vertices: usize,
+        goal: (f64, f64),
+        increments: u64,
+        share: f64,
+    ) -> u32 {
+        let least = particles(vertices);
+        // Without light to compare with, as few as there may be.
+        let Some(wanted) = self.wanted(vertices, goal, increments, share) else { return least };
+        // On few vertices the most is less than the fewest.
+        let fewest = FEWEST.min(f64::from(least));
+        let wanted = wanted.clamp(fewest, f64::from(least.max(MOST)));
+        libm::exp2(libm::ceil(libm::log2(wanted))) as u32
+    }
+
+    fn wanted(
         self,
         vertices: usize,
         (target, rms_lx): (f64, f64),
         increments: u64,
-    ) -> u32 {
-        let allowed_lx = NOISE_SHARE * target * rms_lx;
+        share: f64,
+    ) -> Option<f64> {
+        let goal_lx2 = target * target * rms_lx * rms_lx * increments as f64;
         let growth = vertices as f64 / self.vertices.max(1) as f64;
-        let allowed_lx2 = SHARE_OF_NOISE * allowed_lx * allowed_lx * increments as f64;
-        let most = particles(vertices);
-        if allowed_lx2 <= 0.0 {
-            return most;
-        }
-        // On few vertices the most is less than the fewest.
-        let wanted = (self.lx2 * growth / allowed_lx2).max(FEWEST).min(f64::from(most));
-        libm::exp2(libm::ceil(libm::log2(wanted))) as u32
+        let by_noise = self.lx2 * growth / (share * NOISE_SHARE * NOISE_SHARE * goal_lx2);
+        (goal_lx2 > 0.0).then(|| by_noise.max(self.doubt_lx2 / (DOUBT * goal_lx2)))
+    }
+
+    /// The part of all noise that caustics best have, beside so many rays of an increment that gather.
+    pub(super) fn share(
+        self,
+        vertices: usize,
+        goal: (f64, f64),
+        increments: u64,
+        rays: f64,
+    ) -> f64 {
+        let alone = RAYS_OF_ONE * self.wanted(vertices, goal, increments, 1.0).unwrap_or(0.0);
+        let share = alone.sqrt() / (alone.sqrt() + rays.sqrt()).max(f64::MIN_POSITIVE);
+        share.clamp(LEAST_SHARE, MOST_SHARE)
     }
 }
 

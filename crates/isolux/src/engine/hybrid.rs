@@ -6,7 +6,7 @@
 
 use super::accumulate::{Effort, Sample};
 use super::accuracy::{BELIEVED_INCREMENTS, FEWEST_TO_MISS};
-use super::caustics;
+use super::caustics::{self, Caustics};
 use super::checks::{self, Check};
 use super::deadline::Deadline;
 use super::gather::{Gatherer, Gathering};
@@ -54,15 +54,18 @@ pub(super) struct Increment {
     pub(super) receivers: Vec<Sample>,
     /// For the sums of the check points.
     pub(super) checks: Vec<Sample>,
+    /// What caustics lack in parts of elements, lx.
+    pub(super) lacking: Vec<f64>,
     pub(super) effort: Effort,
 }
 
 impl<'p, 's> Hybrid<'p, 's> {
-    /// With so many gathering rays in every increment for each vertex that is not hidden, or others that serve as well.
+    /// With so many gathering rays in every increment for each vertex that is not hidden, or others that serve as well, and so
+    /// many particles.
     pub(super) fn new(
         plan: &'p Plan<'s>,
         checks: &[Check],
-        (rays, goal): (f64, f64),
+        (rays, particles, goal): (f64, u32, f64),
         seed: u64,
     ) -> Self {
         let key = Key::new(seed).with(1);
@@ -72,9 +75,6 @@ impl<'p, 's> Hybrid<'p, 's> {
             plan.gatherers[vertex].with_rays(allotted[vertex]).in_gap(in_gap)
         };
         let rows: Vec<Gatherer> = (0..plan.indirect_vertices).map(row).collect();
-        let of_goal = (goal, plan.rms_lx);
-        let particles =
-            plan.caustic_noise.particles(plan.indirect_vertices, of_goal, BELIEVED_INCREMENTS);
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
         let rays_of_means = libm::exp2(libm::round(libm::log2(rays))) as u32;
@@ -138,7 +138,8 @@ impl<'p, 's> Hybrid<'p, 's> {
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
             direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
-        let (caustic, particles) = caustics::deposit(plan, self.particles, key.with(1));
+        let Caustics { light: caustic, lacking, effort: particles } =
+            caustics::deposit(plan, self.particles, key.with(1));
         let gathering = Gathering::of(plan, &direct);
         let mut operator =
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
@@ -179,7 +180,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             rays: operator.rays + fresh.rays + particles.rays,
             given_up_lx: particles.given_up_lx + unseen_lx + unsettled_lx,
         };
-        Some(Increment { receivers, checks, effort })
+        Some(Increment { receivers, checks, lacking, effort })
     }
 }
 

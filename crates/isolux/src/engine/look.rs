@@ -29,12 +29,16 @@ const LEFT_BY_SMOOTHING: f64 = 0.5;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PilotRequest {
     pub(super) target: f64,
+    /// Accuracy asked for, however much finer elements have to become.
+    pub(super) goal: f64,
     pub(super) mesh_target: f64,
     pub(super) seed: u64,
     /// Whether the map will be fitted to the light over elements.
     pub(super) is_fitted: bool,
     /// Whether increments measure means of elements, and smooth walls are interpolated for them.
     pub(super) has_means: bool,
+    /// Whether elements become finer for caustics: radiosity would shoot all of them.
+    pub(super) refines_caustics: bool,
     pub(super) max_vertices: usize,
     /// Set by hand: vertices for indirect light at most, and the shortest edge, m.
     pub(super) most_for_indirect_light: Option<usize>,

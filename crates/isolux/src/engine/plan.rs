@@ -6,9 +6,10 @@ use super::carriers::Carriers;
 use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
-use super::flights::CausticNoise;
+use super::flights::{self, CausticNoise, LEAST_SHARE};
 use super::gather::{DirectAtEnds, Gatherer, Gathering, known_at};
 use super::means::{Means, Places};
+use super::parts::Parts;
 use super::surface::SurfacePoint;
 use super::trial::Trial;
 use super::trust;
@@ -53,6 +54,11 @@ pub(super) struct Plan<'s> {
     pub(super) trial: Trial,
     /// How noisy caustics are.
     pub(super) caustic_noise: CausticNoise,
+    /// What interpolating them errs by, root mean square over the surface, as the pilot sees it, lx.
+    pub(super) caustic_error_lx: f64,
+    /// Elements that increments check for that, and the rest of the squared error, lx2.
+    pub(super) parts: Parts,
+    pub(super) caustics_beside_lx2: f64,
     /// Where particles for them are sent, if not anywhere.
     pub(super) aim: Option<Aim>,
     /// From indirect light at the vertices to the function that fits best.
@@ -78,6 +84,13 @@ impl Plan<'_> {
         let hidden = areas_m2.iter_mut().zip(&self.standings).filter(|(_, of)| of.is_none());
         hidden.for_each(|(m2, _)| *m2 = 0.0);
         allot(&areas_m2, mean)
+    }
+
+    /// Particles of each of so many increments for a target, where they are not weighed against rays.
+    pub(super) fn particles(&self, target: f64, increments: u64) -> u32 {
+        let (vertices, goal) = (self.indirect_vertices, (target, self.rms_lx));
+        let wanted = self.caustic_noise.particles(vertices, goal, increments, LEAST_SHARE);
+        wanted.max(flights::particles(vertices))
     }
 
     /// Area of all elements, m2.

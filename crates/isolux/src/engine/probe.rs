@@ -189,7 +189,7 @@ impl<'a> MapReader<'a> {
             self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
         Illuminance {
             indirect_lx: lx,
-            indirect_standard_error_lx: OF_FEW * variance.sqrt(),
+            indirect_standard_error_lx: libm::hypot(OF_FEW * variance.sqrt(), of_caustics(&stored)),
             interpolation_error_lx: close * lookup_lx,
             samples: u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays),
             ..stored
@@ -354,10 +354,10 @@ impl<'a> MapReader<'a> {
         let Gathered { lx: indirect_lx, variance, .. } =
             self.gather(gatherer, DirectAtEnds::Evaluated, (replicates, key));
         let looked_up = self.lookup_error() * indirect_lx.luminance();
-        let indirect_variance = variance + looked_up * looked_up;
-        let caustic_lx = on_surface
-            .and_then(|s| self.map.interpolate(s.triangle, s.back, s.u, s.v))
-            .map_or(Rgb::BLACK, |stored| stored.caustic_lx);
+        let stored = on_surface.and_then(|s| self.map.interpolate(s.triangle, s.back, s.u, s.v));
+        let caustic_lx = stored.map_or(Rgb::BLACK, |stored| stored.caustic_lx);
+        let of_caustics = stored.map_or(0.0, |stored| of_caustics(&stored));
+        let indirect_variance = variance + looked_up * looked_up + of_caustics * of_caustics;
         let (direct, direct_variance) = self.direct(&gatherer.surface);
         Illuminance {
             direct_lx: direct + caustic_lx,
@@ -432,6 +432,12 @@ impl Unseen {
             reached_lx: share(|a| a.reached),
         }
     }
+}
+
+/// What caustics err by where only they are read from the map: no more than the map tells of them and indirect light together, and
+/// no more than they are.
+fn of_caustics(stored: &Illuminance) -> f64 {
+    stored.indirect_standard_error_lx.min(stored.caustic_lx.luminance().abs())
 }
 
 /// Root mean square of the illuminance over the known surface.

@@ -197,10 +197,12 @@ impl<'s, 'r> Run<'s, 'r> {
         let by_hand = self.request.radiosity;
         PilotRequest {
             target: self.mesh_for(),
+            goal: self.request.accuracy.unwrap_or(DEFAULT_ACCURACY),
             mesh_target: self.request.mesh_accuracy,
             seed: self.request.seed,
             is_fitted: self.request.method != Method::Forward,
             has_means: self.request.method == Method::Hybrid,
+            refines_caustics: self.request.method != Method::Radiosity,
             max_vertices: (self.request.max_memory_bytes / BYTES_A_VERTEX) as usize,
             most_for_indirect_light: by_hand.max_receivers.map(|most| most as usize),
             least_edge_m: by_hand.min_element_m,
@@ -379,7 +381,7 @@ impl<'s, 'r> Run<'s, 'r> {
             rays: self.rays,
             increments: if whole_mesh { work.sums.increments } else { 0 },
             receivers: if whole_mesh { work.sums.sums.clone() } else { Vec::new() },
-            checks: if whole_mesh { work.checks.sums.sums.clone() } else { Vec::new() },
+            checks: if whole_mesh { work.checks.all() } else { Vec::new() },
             given_up: if whole_mesh { work.given_up.sums.clone() } else { Vec::new() },
         };
         let time_s = self.elapsed_s();

@@ -7,12 +7,13 @@
 //! order of it and tells its size.
 
 use super::accumulate::{Accumulator, Estimate};
+use super::carriers::Carriers;
 use super::checks::InterpolationErrors;
 use super::detail::Details;
 use super::gather::known_weights;
+use super::hats::Hats;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
-use crate::map::Standing;
 use crate::units::Rgb;
 use std::sync::atomic::{AtomicI64, Ordering};
 
@@ -23,7 +24,7 @@ const UNITS_OF_FLUX: f64 = (1u64 << 48) as f64;
 /// Deposits of one increment: integers, so the order of the particles does not matter.
 pub(super) struct Tally<'p, 's> {
     plan: &'p Plan<'s>,
-    areas_m2: Vec<f64>,
+    hats: Hats,
     parts: usize,
     units_per_lm: f64,
     flux: Vec<AtomicI64>,
@@ -35,14 +36,12 @@ impl<'p, 's> Tally<'p, 's> {
     pub(super) fn new(plan: &'p Plan<'s>, flux_lm: f64, parts: usize) -> Self {
         let flux = (0..plan.indirect_vertices * parts * 3).map(|_| AtomicI64::new(0)).collect();
         let units_per_lm = UNITS_OF_FLUX / flux_lm;
-        Self {
-            plan,
-            areas_m2: hat_areas_m2(plan),
-            parts,
-            units_per_lm,
-            flux,
-            given_up: AtomicI64::new(0),
-        }
+        Self { plan, hats: hats(plan), parts, units_per_lm, flux, given_up: AtomicI64::new(0) }
+    }
+
+    /// Units of its fixed point.
+    pub(super) const fn units_per_lm(&self) -> f64 {
+        self.units_per_lm
     }
 
     /// Counts the flux of a particle that is not followed any longer.
@@ -56,12 +55,17 @@ impl<'p, 's> Tally<'p, 's> {
         self.given_up.load(Ordering::Relaxed) as f64 / self.units_per_lm / self.plan.area_m2()
     }
 
-    /// Deposits flux at a place.
-    pub(super) fn add(&self, part: usize, at: &SurfacePoint, flux_lm: Rgb) {
+    /// Deposits flux at a place; returns the node that it is on, and the weights of its vertices.
+    pub(super) fn add(
+        &self,
+        part: usize,
+        at: &SurfacePoint,
+        flux_lm: Rgb,
+    ) -> Option<(u32, [f64; 3])> {
         let plan = self.plan;
-        let place = plan.elements.locate_above(plan.level, at.triangle, at.back, at.u, at.v);
-        let Some(corners) = place else { return };
-        let Some(weights) = known_weights(corners, &plan.standings) else { return };
+        let place = plan.elements.place(plan.level, at.triangle, at.back, [at.u, at.v])?;
+        let corners = plan.elements.corners(place);
+        let weights = known_weights(corners, &plan.standings)?;
         for ((vertex, _), weight) in corners.into_iter().zip(weights) {
             let first = (vertex as usize * self.parts + part) * 3;
             for (channel, value) in flux_lm.0.into_iter().enumerate() {
@@ -69,66 +73,28 @@ impl<'p, 's> Tally<'p, 's> {
                 self.flux[first + channel].fetch_add(units, Ordering::Relaxed);
             }
         }
+        Some((place.node(), corners.map(|(_, weight)| weight)))
     }
 
     /// Mean illuminance about every vertex, lx.
     pub(super) fn means(&self, part: usize) -> Vec<Rgb> {
-        let value = |vertex: usize| {
+        let flux = |vertex: usize| {
             let first = (vertex * self.parts + part) * 3;
             let channel = |k: usize| self.flux[first + k].load(Ordering::Relaxed) as f64;
-            let lumen = Rgb([0, 1, 2].map(|k| channel(k) / self.units_per_lm));
-            let area = self.areas_m2[vertex];
-            if area > 0.0 { lumen / area } else { Rgb::BLACK }
+            Rgb([0, 1, 2].map(|k| channel(k) / self.units_per_lm))
         };
-        (0..self.areas_m2.len()).map(value).collect()
+        self.hats.means((0..self.plan.indirect_vertices).map(flux))
     }
 
     /// Illuminance at the vertices, lx: the means, corrected.
     pub(super) fn illuminance(&self, part: usize) -> Vec<Rgb> {
-        let means = self.means(part);
-        let blurred = self.blur(&means);
-        means.iter().zip(&blurred).map(|(&mean, &again)| mean * 2.0 - again).collect()
-    }
-
-    /// What the means would be if the illuminance were the given values, interpolated.
-    fn blur(&self, values: &[Rgb]) -> Vec<Rgb> {
-        let mut sums = vec![Rgb::BLACK; values.len()];
-        for (corners, area_m2) in known_elements(self.plan) {
-            // Exact integrals of products of hats: a sixth of the area, a twelfth for two of them.
-            let all: Rgb = corners.iter().map(|&v| values[v as usize]).sum();
-            for &v in &corners {
-                sums[v as usize] += (values[v as usize] + all) * (area_m2 / 12.0);
-            }
-        }
-        let mean = |(sum, &area): (Rgb, &f64)| if area > 0.0 { sum / area } else { Rgb::BLACK };
-        sums.into_iter().zip(&self.areas_m2).map(mean).collect()
+        self.hats.corrected(&self.means(part))
     }
 }
 
-/// Elements all of whose vertices are known and of one standing, and their areas.
-fn known_elements<'a>(plan: &'a Plan<'_>) -> impl Iterator<Item = ([u32; 3], f64)> + 'a {
-    plan.subdivision.leaves().filter_map(|leaf| {
-        let corners = plan.subdivision.node(leaf).0.vertices;
-        let of = corners.map(|v| plan.standings[v as usize]);
-        let known = of[0].is_some() && of == [of[0]; 3];
-        known.then(|| (corners, plan.subdivision.triangle(leaf).area()))
-    })
-}
-
-/// Integrals of the hat functions, shared among the vertices of each element that are read.
-fn hat_areas_m2(plan: &Plan) -> Vec<f64> {
-    let mut areas = vec![0.0; plan.indirect_vertices];
-    for leaf in plan.subdivision.leaves() {
-        let corners = plan.subdivision.node(leaf).0.vertices;
-        let standing = Standing::highest(corners.map(|v| plan.standings[v as usize]));
-        let read = |v: &u32| standing.is_some() && plan.standings[*v as usize] == standing;
-        let known: Vec<u32> = corners.into_iter().filter(read).collect();
-        let share = plan.subdivision.triangle(leaf).area() / known.len().max(1) as f64;
-        for v in known {
-            areas[v as usize] += share;
-        }
-    }
-    areas
+/// Of the elements that indirect light lives on.
+fn hats(plan: &Plan) -> Hats {
+    Hats::new(&plan.subdivision, &plan.standings)
 }
 
 /// Errors of a map of particles beyond its noise: what the hats still blur, and what interpolation
@@ -140,16 +106,6 @@ pub(super) fn errors(plan: &Plan, sums: &Accumulator) -> InterpolationErrors {
     let indirect_lx = error_lx(plan, &estimates, indirect, |e| e.indirect_variance);
     let total_lx = error_lx(plan, &estimates, total, |e| e.variance);
     InterpolationErrors { indirect_lx, total_lx, ..InterpolationErrors::default() }
-}
-
-/// What caustics that particles deposit at vertices err by where they are read, root mean square, lx: by blur and details, beyond
-/// the noise of all that is not direct. Check points do not see it, as nothing else tells them what caustics they have.
-pub(super) fn caustic_error_lx(plan: &Plan, sums: &Accumulator) -> f64 {
-    if !plan.lighting.leaves_caustics() {
-        return 0.0;
-    }
-    let estimates: Vec<Estimate> = (0..plan.indirect_vertices).map(|k| sums.estimate(k)).collect();
-    error_lx(plan, &estimates, |e| e.mean.caustic.luminance(), |e| e.indirect_variance)
 }
 
 /// What a quantity at vertices errs by in the root mean square, beyond its noise: by blur and by details.
@@ -166,13 +122,12 @@ fn error_lx(
 
 /// Mean square of what one more step of the correction would change: what is left of the blur.
 fn blur_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
-    let tally = Tally::new(plan, 1.0, 0);
-    let grey: Vec<Rgb> = values.iter().map(|&v| Rgb::grey(v)).collect();
-    let blurred = tally.blur(&grey);
+    let hats = hats(plan);
+    let blurred = hats.blur(values);
     let (mut area, mut sum) = (0.0, 0.0);
-    for (k, &m2) in tally.areas_m2.iter().enumerate().filter(|&(k, _)| plan.standings[k].is_some())
+    for (k, &m2) in hats.areas_m2().iter().enumerate().filter(|&(k, _)| plan.standings[k].is_some())
     {
-        let change = values[k] - blurred[k].0[0];
+        let change = values[k] - blurred[k];
         area += m2;
         // A vertex has half its weight in its own mean, its neighbours share the rest: noise of
         // independent vertices makes a quarter of the variance, and a little more.
@@ -186,8 +141,9 @@ fn detail_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let known: Vec<Option<f64>> =
         (0..values.len()).map(|k| plan.is_open(k as u32).then_some(values[k])).collect();
     let (mut area, mut sum) = (0.0, 0.0);
-    let no = |_, _| false;
-    let details = Details::of(&plan.subdivision, &plan.elements, &known, &plan.carriers, no);
+    // Particles come to all vertices.
+    let (carriers, no) = (Carriers::all(), |_, _| false);
+    let details = Details::of(&plan.subdivision, &plan.elements, &known, &carriers, no);
     for error in details.leaf_errors(|_| None, |_| false) {
         let corners = plan.subdivision.node(error.node).0.vertices;
         let noise: f64 = corners.iter().map(|&v| variances[v as usize]).sum::<f64>() / 3.0;

@@ -5,19 +5,22 @@ use super::accuracy::{
     BELIEVED_INCREMENTS, FEWEST_TO_MISS, accuracy, accuracy_of_map, early_statistical,
 };
 use super::cache::{CacheSample, Cached};
-use super::checks::{self, Check, InterpolationErrors, Noise};
+use super::checks::{self, Checks, InterpolationErrors};
 use super::deadline::Deadline;
 use super::emission::Emission;
 use super::filter::filter;
+use super::flights;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
+use super::noise::Noise;
+use super::parts;
 use super::plan::Plan;
 use super::predict;
 use super::radiosity::{Left, Radiosity};
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
 use super::tally;
-use super::trial::noise_for;
+use super::trial::{OF_INTERPOLATED, noise_for};
 use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method, Unshot};
 use crate::sampling::Key;
 use crate::units::Rgb;
@@ -45,6 +48,7 @@ pub(super) struct Work<'p, 's> {
     pub(super) plan: &'p Plan<'s>,
     engine: Engine<'p, 's>,
     pub(super) sums: Accumulator,
+    /// Radiosity, which has no replicates, keeps the shots of its patches in their sums.
     pub(super) checks: Checks,
     /// What paths given up would bring in the mean.
     pub(super) given_up: Accumulator,
@@ -61,13 +65,6 @@ enum Engine<'p, 's> {
     Forward(Forward<'p, 's>),
     Cache(Box<Cached<'p, 's>>),
     Radiosity(Box<Radiosity<'p, 's>>),
-}
-
-/// The points that the hybrid engine and radiosity check themselves at. Radiosity, which has no
-/// replicates, keeps the shots of its patches in the sums.
-pub(super) struct Checks {
-    points: Vec<Check>,
-    pub(super) sums: Accumulator,
 }
 
 impl<'p, 's> Work<'p, 's> {
@@ -89,18 +86,15 @@ impl<'p, 's> Work<'p, 's> {
         halvings: u32,
     ) -> Self {
         let reference = plan.rms_lx;
-        let goal = match request.method {
-            Method::Hybrid => request.accuracy.unwrap_or(target),
-            _ => target,
+        let (goal, wanted) = match request.method {
+            Method::Hybrid => (request.accuracy.unwrap_or(target), None),
+            Method::Cache => (target, None),
+            Method::Forward => (target, Some(1)),
+            Method::Radiosity => (target, Some(request.radiosity.limits(target).check_rays)),
         };
         let noise = noise(plan, goal, target);
-        let wanted = match request.method {
-            Method::Hybrid | Method::Cache => {
-                plan.trial.rays_for(noise, reference, FEWEST_INCREMENTS)
-            }
-            Method::Forward => 1,
-            Method::Radiosity => request.radiosity.limits(target).check_rays,
-        };
+        let by_noise = || plan.trial.rays_for(noise, reference, FEWEST_INCREMENTS);
+        let wanted = wanted.unwrap_or_else(by_noise);
         let most = most_rays(plan.indirect_vertices, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
         let points = match request.method {
@@ -111,8 +105,9 @@ impl<'p, 's> Work<'p, 's> {
         };
         let engine = match request.method {
             Method::Hybrid => {
-                let mean = mean_rays(plan, noise, most) / f64::from(1_u32 << halvings);
-                Engine::Hybrid(Hybrid::new(plan, &points, (mean, goal), request.seed))
+                let (mean, particles) = rays_and_particles(plan, noise, goal, most);
+                let mean = mean / f64::from(1_u32 << halvings);
+                Engine::Hybrid(Hybrid::new(plan, &points, (mean, particles, goal), request.seed))
             }
             Method::Cache => {
                 let wanted = (&request.cache, target);
@@ -127,28 +122,38 @@ impl<'p, 's> Work<'p, 's> {
                 Engine::Radiosity(Box::new(Radiosity::new(plan, &points, settings, target, seed)))
             }
         };
-        let (places, reference) = match &engine {
-            Engine::Radiosity(radiosity) => (radiosity.patches(), radiosity.reference_lx()),
-            Engine::Cache(_) => (checks::places(points.len(), false), reference),
-            _ => (checks::places(points.len(), true), reference),
+        let parts = plan.parts.count();
+        let (places, parts, reference) = match &engine {
+            Engine::Radiosity(radiosity) => (radiosity.patches(), 0, radiosity.reference_lx()),
+            Engine::Cache(_) => (checks::places(points.len(), false), parts, reference),
+            Engine::Hybrid(_) => (checks::places(points.len(), true), parts, reference),
+            Engine::Forward(_) => (0, 0, reference),
         };
-        let sums = Accumulator::new(plan.elements.vertices().len(), reference);
-        let checks = Checks { points, sums: Accumulator::new(places, reference) };
-        let given_up = Accumulator::new(1, reference);
+        let sums_of = |places: usize| Accumulator::new(places, reference);
+        let sums = sums_of(plan.elements.vertices().len());
+        let checks = Checks { points, sums: sums_of(places), lacking: sums_of(parts) };
+        let given_up = sums_of(1);
         let stops_at_unshot = request.radiosity.unshot.is_some();
         let (samples, left) = (rays, None);
-        let mut work =
-            Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot };
-        work.look_what_is_left();
-        work
+        Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot }.looked_at()
     }
 
     pub(super) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
         restore(&mut self.sums, &saved.receivers, saved.increments)?;
-        restore(&mut self.checks.sums, &saved.checks, saved.increments)?;
+        let (checks, lacking) = saved
+            .checks
+            .split_at_checked(self.checks.sums.sums.len())
+            .ok_or(SolveError::OtherRun("the number of check points"))?;
+        restore(&mut self.checks.sums, checks, saved.increments)?;
+        restore(&mut self.checks.lacking, lacking, saved.increments)?;
         restore(&mut self.given_up, &saved.given_up, saved.increments)?;
         self.look_what_is_left();
         Ok(())
+    }
+
+    fn looked_at(mut self) -> Self {
+        self.look_what_is_left();
+        self
     }
 
     fn look_what_is_left(&mut self) {
@@ -166,11 +171,11 @@ impl<'p, 's> Work<'p, 's> {
                 let made = hybrid.increment(index, &self.checks.points, [deadline, end])?;
                 self.sums.add(made.receivers);
                 self.checks.sums.add(made.checks);
+                self.checks.lacking.add(parts::samples(&made.lacking));
                 made.effort
             }
             Engine::Cache(cached) => {
-                let Checks { points, sums } = &mut self.checks;
-                cached.increment(index, &mut self.sums, points, sums, deadline)?
+                cached.increment(index, &mut self.sums, &mut self.checks, deadline)?
             }
             Engine::Forward(forward) => forward.increment(index, &mut self.sums),
             Engine::Radiosity(radiosity) => {
@@ -207,17 +212,43 @@ impl<'p, 's> Work<'p, 's> {
     fn interpolation_if(&self, noise_is: Noise) -> InterpolationErrors {
         match &self.engine {
             Engine::Hybrid(_) | Engine::Cache(_) => {
-                let caustic_lx = tally::caustic_error_lx(self.plan, &self.sums);
                 let errors = checks::errors(&self.checks.sums, &self.checks.points, noise_is);
-                let [indirect_lx, total_lx] =
-                    [errors.indirect_lx, errors.total_lx].map(|lx| libm::hypot(lx, caustic_lx));
-                InterpolationErrors { indirect_lx, total_lx, ..errors }
+                self.with_caustics(errors, noise_is)
             }
             Engine::Forward(_) => tally::errors(self.plan, &self.sums),
             Engine::Radiosity(radiosity) => {
-                radiosity.errors(&self.sums, &self.checks.points, self.ambient_lx())
+                let errors = radiosity.errors(&self.sums, &self.checks.points, self.ambient_lx());
+                let squared = self.plan.caustic_error_lx.powi(2);
+                let [indirect_lx, total_lx] =
+                    [errors.indirect_lx, errors.total_lx].map(|lx| (lx * lx + squared).sqrt());
+                InterpolationErrors { indirect_lx, total_lx, ..errors }
             }
         }
+    }
+
+    /// The same with what parts of elements tell of caustics, that check points do not see.
+    fn with_caustics(&self, errors: InterpolationErrors, noise_is: Noise) -> InterpolationErrors {
+        let (parts, area_m2) = (&self.plan.parts, self.plan.area_m2());
+        if parts.count() == 0 {
+            return errors;
+        }
+        let squared = self.caustic_error_lx(noise_is).powi(2);
+        let [indirect_lx, total_lx] =
+            [errors.indirect_lx, errors.total_lx].map(|lx| (lx * lx + squared).sqrt());
+        let variance = |vertex: u32| self.sums.estimate(vertex as usize).variance;
+        let noise = parts.noise(variance, OF_INTERPOLATED) / area_m2;
+        let noise_lx = errors.noise_lx.map(|lx| (lx * lx + noise).sqrt());
+        InterpolationErrors { indirect_lx, total_lx, noise_lx, ..errors }
+    }
+
+    /// What interpolating caustics errs by, root mean square, as increments tell.
+    fn caustic_error_lx(&self, noise_is: Noise) -> f64 {
+        let parts = &self.plan.parts;
+        if self.checks.lacking.sums.is_empty() {
+            return 0.0;
+        }
+        let (seen, _) = parts.errors(&self.checks.lacking);
+        (seen.with(noise_is) / self.plan.area_m2() + self.plan.caustics_beside_lx2).sqrt()
     }
 
     /// What radiosity has not shot.
@@ -249,6 +280,10 @@ impl<'p, 's> Work<'p, 's> {
     pub(super) fn is_too_coarse(&self, accuracy: Option<Accuracy>, target: f64) -> bool {
         if self.left.is_some() {
             return self.is_hopeless(accuracy, Some(target));
+        }
+        // Elements are as fine as particles tell them to be for caustics, whatever they are made for.
+        if self.caustic_error_lx(Noise::TakenOff) > target * self.plan.rms_lx {
+            return false;
         }
         let count = self.sums.increments;
         let Some(counted) = accuracy.filter(|_| self.may_end()) else {
@@ -393,7 +428,10 @@ impl<'p, 's> Work<'p, 's> {
     ) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
         let expected = self.plan.expected_lx();
         let over = self.over_expected();
-        let value = |(k, expected_lx): (usize, f64)| self.value(k, over * expected_lx);
+        let of_caustics = self.caustic_variances();
+        let value = |(k, expected_lx): (usize, f64)| {
+            self.value(k, over * expected_lx, of_caustics.get(k).map_or(0.0, |lx2| lx2.0[0]))
+        };
         let mut values: Vec<Option<Illuminance>> =
             expected.into_iter().enumerate().map(value).collect();
         let by_particles = matches!(self.engine, Engine::Forward(_));
@@ -438,7 +476,24 @@ impl<'p, 's> Work<'p, 's> {
         if own > 0 { own } else { self.samples }
     }
 
-    fn value(&self, vertex: usize, interpolation_error_lx: f64) -> Option<Illuminance> {
+    /// What interpolating caustics errs by at every vertex, squared, lx2: counted as if it were noise; none where there are none.
+    fn caustic_variances(&self) -> Vec<Rgb> {
+        if self.checks.lacking.sums.is_empty() || !self.is_believed() {
+            return Vec::new();
+        }
+        let mut variances = vec![Rgb::BLACK; self.plan.indirect_vertices];
+        for (vertex, lx2) in self.plan.parts.errors(&self.checks.lacking).1 {
+            variances[vertex as usize] = Rgb::grey(lx2);
+        }
+        self.plan.prolongate(&variances)
+    }
+
+    fn value(
+        &self,
+        vertex: usize,
+        interpolation_error_lx: f64,
+        caustic_variance: f64,
+    ) -> Option<Illuminance> {
         let standing = self.plan.standings[vertex]?;
         let estimate = self.estimate(vertex);
         let mean = estimate.mean;
@@ -451,8 +506,8 @@ impl<'p, 's> Work<'p, 's> {
             direct_lx: mean.direct + mean.caustic,
             caustic_lx: mean.caustic,
             indirect_lx: mean.indirect,
-            standard_error_lx: (estimate.variance + direct_variance).sqrt(),
-            indirect_standard_error_lx: estimate.indirect_variance.sqrt(),
+            standard_error_lx: (estimate.variance + direct_variance + caustic_variance).sqrt(),
+            indirect_standard_error_lx: (estimate.indirect_variance + caustic_variance).sqrt(),
             interpolation_error_lx,
             standing,
             samples: self.sums.increments * u64::from(self.samples_of(vertex)),
@@ -473,9 +528,16 @@ fn without_negative_light(value: &mut Illuminance) {
     }
 }
 
-/// Gathering rays of receivers in the mean, as they share them best.
-fn mean_rays(plan: &Plan, noise: f64, most: u32) -> f64 {
-    plan.trial.wanted(noise, plan.rms_lx, FEWEST_INCREMENTS).min(f64::from(most))
+/// Gathering rays of receivers in the mean, as they share them best, and particles of an increment.
+fn rays_and_particles(plan: &Plan, noise: f64, goal: f64, most: u32) -> (f64, u32) {
+    let rays =
+        |noise: f64| plan.trial.wanted(noise, plan.rms_lx, FEWEST_INCREMENTS).min(f64::from(most));
+    let (vertices, of_goal) = (plan.indirect_vertices, (goal, plan.rms_lx));
+    let all = rays(noise) * plan.carriers.count(vertices) as f64;
+    let share = plan.caustic_noise.share(vertices, of_goal, FEWEST_INCREMENTS, all);
+    let particles = plan.caustic_noise.particles(vertices, of_goal, FEWEST_INCREMENTS, share);
+    let left = (1.0 - share) / (1.0 - flights::LEAST_SHARE);
+    (rays(noise * left.sqrt()), particles)
 }
 
 /// The noise that a map may have that is to reach a goal. Elements made for a finer target, as those for the goal were seen to err by

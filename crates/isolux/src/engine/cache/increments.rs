@@ -6,15 +6,16 @@
 use super::hemisphere::tied;
 use super::layer::Tie;
 use super::placing::Place;
-use super::record::{CacheSample, IrradianceCache};
+use super::record::{CACHE_REPLICATES, CacheSample, IrradianceCache};
 use super::store::{LEAST_RADIUS_AT_VERTICES, Making, Replicate, Store};
 use crate::engine::accumulate::{Accumulator, Effort, Sample};
-use crate::engine::checks::{self, Check};
+use crate::engine::caustics::{self, Caustics};
+use crate::engine::checks::{self, Check, Checks};
 use crate::engine::deadline::Deadline;
 use crate::engine::hybrid;
+use crate::engine::parts;
 use crate::engine::plan::Plan;
 use crate::engine::surface::SurfacePoint;
-use crate::engine::{caustics, flights};
 use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -42,6 +43,8 @@ pub(in crate::engine) struct Cached<'p, 's> {
     far_ties: Vec<Vec<Tie>>,
     check_direct: Vec<Rgb>,
     rays: u32,
+    /// For caustics.
+    particles: u32,
     key: Key,
 }
 
@@ -82,7 +85,8 @@ impl<'p, 's> Cached<'p, 's> {
         let far_ties = checked.par_iter().map(|place| store.far_ties(place)).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
         let rays = wanted.max(FEWEST_RAYS).next_power_of_two();
-        Self { plan, store, ties, checks: checked, far_ties, check_direct, rays, key }
+        let particles = plan.particles(target, CACHE_REPLICATES as u64);
+        Self { plan, store, ties, checks: checked, far_ties, check_direct, rays, particles, key }
     }
 
     /// Time that an increment takes, s, roughly: the light between samples is tried.
@@ -119,16 +123,16 @@ impl<'p, 's> Cached<'p, 's> {
         &mut self,
         index: u64,
         receivers: &mut Accumulator,
-        checks: &[Check],
-        check_sums: &mut Accumulator,
+        checks: &mut Checks,
         deadline: Deadline,
     ) -> Option<Effort> {
         let plan = self.plan;
+        let Checks { points: checks, sums: check_sums, lacking: lacking_sums } = checks;
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
             hybrid::direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
-        let (caustic, particles) =
-            caustics::deposit(plan, flights::particles(plan.indirect_vertices), key.with(1));
+        let Caustics { light: caustic, lacking, effort: particles } =
+            caustics::deposit(plan, self.particles, key.with(1));
         let caustic_at = |at: &SurfacePoint| caustic_at(plan, &caustic, at);
         let making = |part: u64, rays: u32| Making {
             index,
@@ -161,6 +165,7 @@ impl<'p, 's> Cached<'p, 's> {
         let (indirect, caustic) = (plan.prolongate(&gathered), plan.prolongate(&caustic));
         let map = [direct.as_slice(), &caustic, &indirect];
         check_sums.add(checks::samples(checks, (&fresh, &check_direct), map, &lookups));
+        lacking_sums.add(parts::samples(&lacking));
         receivers.add((0..direct.len()).map(|k| Sample {
             direct: direct[k],
             caustic: caustic[k],

@@ -25,6 +25,7 @@ impl<'s> Pilot<'s> {
         if look.is_smooth(request) {
             self.smooth(&mut look);
         }
+        let caustics = self.refine_for_caustics(&mut look, request, go_on);
         let indirect_vertices = self.subdivision.vertex_count();
         let coarse = self.subdivision.clone();
         self.refine_for_direct_light(&mut look, request, go_on);
@@ -40,6 +41,7 @@ impl<'s> Pilot<'s> {
         } else {
             Means::default()
         };
+        let parts = caustics.parts(&coarse);
         Plan {
             scene: self.scene,
             lighting: self.lighting,
@@ -48,7 +50,10 @@ impl<'s> Pilot<'s> {
             level: coarse.node_count() as u32,
             trusted_up_to_lx,
             rms_lx: look.rms_lx,
-            interpolation: look.interpolation(request),
+            interpolation: libm::hypot(
+                look.interpolation(request),
+                caustics.lx / look.rms_lx.max(f64::MIN_POSITIVE),
+            ),
             mean_reflectance: mean_reflectance(self.scene, &coarse),
             means,
             fit: self.fit(&coarse, &open),
@@ -62,6 +67,9 @@ impl<'s> Pilot<'s> {
             subdivision: coarse,
             trial: self.trial.unwrap_or(Trial::usual(look.rms_lx)),
             caustic_noise: self.caustic_noise,
+            caustic_error_lx: caustics.lx,
+            parts,
+            caustics_beside_lx2: caustics.beside_lx2,
             aim: self.aim,
             is_whole: self.is_whole,
             rays: self.traced,

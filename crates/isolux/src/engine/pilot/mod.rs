@@ -4,6 +4,7 @@
 //! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
 //! noise is smooth over surfaces and does not pass for detail.
 
+mod caustics;
 mod direct;
 mod finish;
 mod round;

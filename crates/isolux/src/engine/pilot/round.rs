@@ -100,7 +100,9 @@ impl Pilot<'_> {
             rays,
             checks: checks::count(self.carriers.count(vertices)) as f64 + measured,
             particles: if self.lighting.leaves_caustics() {
-                f64::from(self.caustic_noise.particles(vertices, of_goal, BELIEVED_INCREMENTS))
+                let of = (vertices, of_goal, BELIEVED_INCREMENTS);
+                let share = self.caustic_noise.share(of.0, of.1, of.2, carriers * rays);
+                f64::from(self.caustic_noise.particles(of.0, of.1, of.2, share))
             } else {
                 0.0
             },

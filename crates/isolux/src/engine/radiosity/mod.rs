@@ -22,12 +22,12 @@ mod specular;
 pub use settings::{RadiosityLimits, RadiositySettings};
 
 use super::accumulate::{Accumulator, Effort, Estimate, Sample, mean_and_variance};
-use super::caustics;
-use super::checks::{self, Check, InterpolationErrors, Noise};
+use super::caustics::{self, Caustics};
+use super::checks::{self, Check, InterpolationErrors};
 use super::deadline::Deadline;
 use super::direct::Chain;
-use super::flights;
 use super::gather::{Gatherer, Gathering, Operator};
+use super::noise::Noise;
 use super::path::Dice;
 use super::plan::Plan;
 use crate::sampling::{Key, Sequence};
@@ -120,7 +120,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         let rays = (rays.clamp(16.0, 512.0) as u32).next_power_of_two();
         let specular = is_specular.then(|| Specular::new(plan, level, &chains, rays, key.with(1)));
         let (direct, direct_variance) = direct(plan, key.with(2));
-        let (caustic, caustic_variance, effort) = caustic(plan, key.with(3));
+        let (caustic, caustic_variance, effort) = caustic(plan, accuracy, key.with(3));
         let checks = Checks::new(plan, points, asked.check_rays, &direct, key.with(4));
         let rms_lx = plan.rms_lx.max(root_mean_square(plan, &direct, &caustic));
         let given_up = checks.operators.iter().map(Operator::given_up).sum::<f64>()
@@ -531,15 +531,13 @@ fn direct(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>) {
 }
 
 /// Caustics at the vertices, by particles, their variance, and what it took.
-fn caustic(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>, Effort) {
+fn caustic(plan: &Plan, accuracy: f64, key: Key) -> (Vec<Rgb>, Vec<f64>, Effort) {
+    let particles = plan.particles(accuracy, REPLICATES);
     let mut sum = Effort::default();
     let mut replicates = Vec::new();
     for replicate in 0..REPLICATES {
-        let (light, effort) = caustics::deposit(
-            plan,
-            flights::particles(plan.indirect_vertices),
-            key.with(replicate),
-        );
+        let Caustics { light, effort, .. } =
+            caustics::deposit(plan, particles, key.with(replicate));
         sum.rays += effort.rays;
         sum.given_up_lx += effort.given_up_lx / REPLICATES as f64;
         replicates.push(light);

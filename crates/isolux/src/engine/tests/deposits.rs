@@ -1,16 +1,15 @@
 //! Particles on vertices: flux kept, even and linear light given back.
 
 use super::errors::{room, small_plan};
-use super::sharing::polished_room;
 use super::*;
-use crate::engine::accumulate::{Accumulator, Sample};
+use crate::engine::accumulate::Accumulator;
 use crate::engine::direct::Lighting;
 use crate::engine::emission::Emission;
 use crate::engine::forward::Forward;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::surface::SurfacePoint;
-use crate::engine::tally::{Tally, caustic_error_lx};
+use crate::engine::tally::Tally;
 
 /// Deposits an illuminance over all elements, on a fine lattice of each.
 fn light_up(plan: &Plan, tally: &Tally, lux: impl Fn(Point) -> f64) -> f64 {
@@ -102,10 +101,12 @@ fn particles_carry_the_flux_and_what_is_reflected() {
     // All walls reflect one half: as much again arrives as leaves the luminaire.
     let request = PilotRequest {
         target: 1.0,
+        goal: 1.0,
         mesh_target: 1.0,
         seed: 1,
         is_fitted: false,
         has_means: false,
+        refines_caustics: true,
         max_vertices: 150,
         most_for_indirect_light: None,
         least_edge_m: None,
@@ -121,14 +122,15 @@ fn particles_carry_the_flux_and_what_is_reflected() {
 }
 
 #[test]
-
 fn particles_light_all_vertices() {
     let request = PilotRequest {
         target: 0.2,
+        goal: 0.2,
         mesh_target: 0.005,
         seed: 1,
         is_fitted: false,
         has_means: false,
+        refines_caustics: true,
         max_vertices: 3000,
         most_for_indirect_light: None,
         least_edge_m: None,
@@ -136,25 +138,4 @@ fn particles_light_all_vertices() {
     let (lx, _) = forward(&room(), &request);
     let dark = lx.iter().filter(|&&e| e == 0.0).count();
     assert_eq!(dark, 0, "of {} vertices", lx.len());
-}
-
-#[test]
-fn caustics_between_vertices_are_counted() {
-    let scene = polished_room();
-    let lighting = Lighting::new(&scene);
-    let plan = small_plan(&scene, &lighting);
-    let error_lx = |caustic_lx: &dyn Fn(usize) -> f64| {
-        let mut sums = Accumulator::new(plan.elements.vertices().len(), 100.0);
-        for _ in 0..2 {
-            let sample =
-                |k: usize| Sample { caustic: Rgb::grey(caustic_lx(k)), ..Sample::default() };
-            sums.add((0..plan.elements.vertices().len()).map(sample));
-        }
-        caustic_error_lx(&plan, &sums)
-    };
-    // A hat blurs what is even by nothing; what one vertex alone has by much of it.
-    let even_lx = error_lx(&|_| 50.0);
-    let peak = plan.indirect_vertices / 2;
-    let peaked_lx = error_lx(&|k| if k == peak { 50.0 } else { 0.0 });
-    assert!(even_lx < 1e-3 && peaked_lx > 0.5, "{even_lx} {peaked_lx}");
 }

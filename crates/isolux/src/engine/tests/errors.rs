@@ -3,8 +3,9 @@
 use super::*;
 use crate::engine::accumulate::{Accumulator, Sample};
 use crate::engine::accuracy::accuracy;
-use crate::engine::checks::{self, Check, InterpolationErrors, Noise};
+use crate::engine::checks::{self, Check, InterpolationErrors};
 use crate::engine::direct::Lighting;
+use crate::engine::noise::Noise;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::predict;
@@ -18,10 +19,12 @@ pub(super) fn room() -> Scene {
 pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Plan<'s> {
     let request = PilotRequest {
         target: 1.0,
+        goal: 1.0,
         mesh_target: 1.0,
         seed: 1,
         is_fitted: true,
         has_means: true,
+        refines_caustics: true,
         max_vertices: 150,
         most_for_indirect_light: None,
         least_edge_m: None,

@@ -14,10 +14,12 @@ use isolux_geometry::{Point, Triangle};
 fn measured_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Plan<'s> {
     let request = PilotRequest {
         target: 0.002,
+        goal: 0.002,
         mesh_target: 0.1,
         seed: 1,
         is_fitted: true,
         has_means: true,
+        refines_caustics: true,
         max_vertices: 1 << 20,
         most_for_indirect_light: None,
         least_edge_m: None,

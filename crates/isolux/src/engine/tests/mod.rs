@@ -20,6 +20,7 @@ mod means;
 mod mirrors;
 mod mixing;
 mod net;
+mod parts;
 mod sharing;
 mod sums;
 mod trusting;

@@ -66,14 +66,14 @@ fn caustics_are_as_noisy_as_a_trial_tells() {
     let of = (&scene, &lighting);
     let (told, _, rays) = CausticNoise::tried(of, &areas_m2, read, Key::new(3));
     assert!(rays > 0);
-    // On few vertices no more than there may be, whatever is asked; without light to compare with, as many.
-    assert_eq!(told.particles(20, (1e9, plan.rms_lx), 1), particles(20));
-    assert_eq!(told.particles(20, (1e-9, plan.rms_lx), 1), particles(20));
-    assert_eq!(told.particles(20, (1.0, 0.0), 1), particles(20));
+    // On few vertices a few, a million at most, whatever is asked; without light to compare with, a few.
+    assert_eq!(told.particles(20, (1e9, plan.rms_lx), 1, 0.1), particles(20));
+    assert_eq!(told.particles(20, (1e-9, plan.rms_lx), 1, 0.1), 1 << 20);
+    assert_eq!(told.particles(20, (1.0, 0.0), 1, 0.1), particles(20));
     // As many as a thousand times the vertices would need for as much error as there is light: in the middle of what may be.
-    let count = told.particles(areas_m2.len() * 1000, (1.0, plan.rms_lx), 1);
+    let count = told.particles(areas_m2.len() * 1000, (1.0, plan.rms_lx), 1, 0.1);
     assert!(count > 1024 && count < particles(areas_m2.len() * 1000), "{count}");
-    let maps: Vec<Vec<Rgb>> = (0..16).map(|k| deposit(&plan, 4096, Key::new(k)).0).collect();
+    let maps: Vec<Vec<Rgb>> = (0..16).map(|k| deposit(&plan, 4096, Key::new(k)).light).collect();
     let (mut squares, mut area) = (0.0, 0.0);
     for (v, m2) in areas_m2.iter().enumerate().take(plan.indirect_vertices) {
         let (_, error) = mean_and_error(maps.iter().map(|map| map[v].luminance()));

@@ -89,10 +89,12 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
     let lighting = Lighting::new(&scene);
     let request = PilotRequest {
         target: 0.1,
+        goal: 0.1,
         mesh_target: 0.02,
         seed: 1,
         is_fitted: true,
         has_means: true,
+        refines_caustics: true,
         max_vertices: 20_000,
         most_for_indirect_light: Some(200),
         least_edge_m: None,

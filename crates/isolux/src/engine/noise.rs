@@ -1,0 +1,31 @@
+//! What noise may hide, and what it is said to.
+
+/// What errors are said to be that noise may hide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Noise {
+    /// One standard error more, to be on the safe side.
+    Counted,
+    /// What is seen with noise taken off.
+    TakenOff,
+    /// One standard error less: what is left is hardly noise.
+    RuledOut,
+}
+
+impl Noise {
+    /// A squared error, given the standard error of its estimate.
+    pub(super) fn of_squared(self, squared: f64, standard_error: f64) -> f64 {
+        match self {
+            Self::Counted => squared.max(0.0) + standard_error,
+            Self::TakenOff => squared.max(0.0),
+            Self::RuledOut => (squared - standard_error).max(0.0),
+        }
+    }
+
+    /// A mean, given its standard error.
+    pub(super) fn of_mean(self, mean: f64, standard_error: f64) -> f64 {
+        match self {
+            Self::Counted | Self::TakenOff => mean,
+            Self::RuledOut => (mean.abs() - standard_error).max(0.0).copysign(mean),
+        }
+    }
+}
