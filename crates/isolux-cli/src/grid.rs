@@ -70,7 +70,7 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
 /// The grids asked for, as they are asked for.
 fn grids(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failure> {
     let mut grids = match (flags.height, flags.corner.zip(flags.u.zip(flags.v))) {
-        (Some(height_m), _) => vec![working_plane(scene, height_m)],
+        (Some(height_m), _) => vec![working_plane(flags, scene, height_m)?],
         (None, Some((corner, (u, v)))) => vec![CalculationGrid {
             name: "grid".into(),
             corner: Point::from(corner),
@@ -115,7 +115,11 @@ fn named(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failu
 }
 
 /// A horizontal grid over all of the floor plan, facing up.
-fn working_plane(scene: &Scene, height_m: f64) -> CalculationGrid {
+fn working_plane(
+    flags: &GridFlags,
+    scene: &Scene,
+    height_m: f64,
+) -> Result<CalculationGrid, Failure> {
     let mut low = Vector::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
     let mut high = -low;
     for corner in (0..scene.triangle_count()).flat_map(|t| scene.triangle(t).corners) {
@@ -123,6 +127,18 @@ fn working_plane(scene: &Scene, height_m: f64) -> CalculationGrid {
         high = Vector::new(high.x.max(corner.x), high.y.max(corner.y), high.z.max(corner.z));
     }
     let size = high - low;
+    let (lowest_m, highest_m) = match scene.up() {
+        UpAxis::Z => (low.z, high.z),
+        UpAxis::Y => (low.y, high.y),
+    };
+    if !(lowest_m..=highest_m).contains(&height_m) {
+        return Err(Failure::bad_input(format!(
+            "{}: --height {height_m} lies outside of the scene, which goes from {} to {} m; give one between",
+            flags.source.display(),
+            significant(lowest_m, 3),
+            significant(highest_m, 3)
+        )));
+    }
     let (corner, u, v) = match scene.up() {
         UpAxis::Z => (
             Point::new(low.x, low.y, height_m),
@@ -135,7 +151,7 @@ fn working_plane(scene: &Scene, height_m: f64) -> CalculationGrid {
             Vector::new(0.0, 0.0, -size.z),
         ),
     };
-    CalculationGrid {
+    Ok(CalculationGrid {
         name: format!("working plane at {} m", significant(height_m, 3)),
         corner,
         u,
@@ -143,7 +159,7 @@ fn working_plane(scene: &Scene, height_m: f64) -> CalculationGrid {
         spacing_m: None,
         border_m: CalculationGrid::usual_border_m([u.length(), v.length()]),
         maintenance_factor: 1.0,
-    }
+    })
 }
 
 /// The map of a scene, as accurate as asked.
@@ -181,6 +197,13 @@ impl GridResult {
                 "grid `{}`: {unknown} of {} points lie within something and are left out",
                 self.grid.name,
                 self.points.len()
+            );
+            note(Note::Warning, text);
+        }
+        if self.values.iter().flatten().all(|value| value.illuminance_lx() == 0.0) && unknown == 0 {
+            let text = format!(
+                "grid `{}`: no light comes to any of its points; check its place, and that its sides `u x v` turn up",
+                self.grid.name
             );
             note(Note::Warning, text);
         }

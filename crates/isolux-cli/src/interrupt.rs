@@ -25,7 +25,10 @@ impl Interrupt {
             if flag.swap(true, Ordering::Relaxed) {
                 std::process::exit(130);
             }
-            note(Note::Info, "stopping after this increment; once more to stop at once");
+            note(
+                Note::Info,
+                "stopping as soon as what is done can be kept; once more to stop at once",
+            );
         };
         ctrlc::set_handler(handler)
             .map_err(|e| Failure::Refused(format!("cannot listen to Ctrl-C: {e}")))?;

@@ -1,6 +1,7 @@
 //! `--resume`: the state of a run beside its map.
 
 use crate::failure::Failure;
+use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::source::bad_file;
 use isolux::engine::{RunIdentity, RunState, Sums};
@@ -41,6 +42,8 @@ pub(crate) fn keep(output: &OutputPath, state: &RunState, finished: bool) -> Res
 pub(crate) fn read(output: &OutputPath, max_bytes: u64) -> Result<Option<RunState>, Failure> {
     let path = path_beside(output.path());
     if !path.exists() {
+        let text = format!("{}: no such run to resume; solving from the beginning", path.display());
+        note(Note::Info, text);
         return Ok(None);
     }
     let checkpoint = checkpoint::read(&path, max_bytes).map_err(|p| bad_file(Problems::from(p)))?;

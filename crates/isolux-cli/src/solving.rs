@@ -9,7 +9,7 @@ use crate::progress::Reporter;
 use crate::quantity::{show_bytes, show_seconds, show_share};
 use crate::{saved_run, source};
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
-use isolux::map::IlluminationMap;
+use isolux::map::{IlluminationMap, Method};
 use isolux::scene::Scene;
 use std::path::Path;
 use std::time::Duration;
@@ -54,7 +54,37 @@ pub(crate) fn solve(
     let solved = follow(scene, run.request, saved, reporter, |error| failure(error, run))?;
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
     tell_of_time(&solved.solution, run.request.time_limit);
+    tell_of_end(&solved, run.request);
     Ok(solved)
+}
+
+/// Why a run has ended before its accuracy, unless somebody or the clock has stopped it; or reached it on a map without light.
+fn tell_of_end(solved: &Solved, request: &SolveRequest) {
+    let map = &solved.solution.map;
+    let limit_s = request.time_limit.map_or(f64::INFINITY, |limit| limit.as_secs_f64());
+    let is_dark = || map.values.iter().flatten().all(|value| value.illuminance_lx() == 0.0);
+    let ends_itself = matches!(solved.outcome, Outcome::StoppedEarly)
+        && request.radiosity.unshot.is_none()
+        && solved.solution.time_s < limit_s;
+    let what = match (map.provenance.accuracy, request.accuracy) {
+        (Some(_), _) if map.provenance.complete && is_dark() => {
+            "no light comes to any surface; `isolux check` names luminaires that light nothing".to_owned()
+        }
+        (None, _) if ends_itself => {
+            "how good the map is cannot be told: light on paths that were given up, from mirror to mirror, may be more \
+             than all that came to a surface; `isolux check` names luminaires that light nothing"
+                .to_owned()
+        }
+        (Some(accuracy), Some(asked)) if ends_itself && accuracy.of_elements() > asked => format!(
+            "ended as more of the same would not help: with {} receivers interpolation and lookups alone err by {}, \
+             and no finer elements were made, as they may be no more or came to nothing; ask for less accuracy{}",
+            map.values.len(),
+            show_share(accuracy.of_elements()),
+            if request.method == Method::Hybrid { "" } else { ", or use --method hybrid" }
+        ),
+        _ => return,
+    };
+    note(Note::Info, what);
 }
 
 /// The least that makes a map may take longer than allowed.

@@ -10,18 +10,24 @@ const MAX_SHOWN: usize = 10;
 /// A luminaire that sees nothing beyond this share of the scene is shut in.
 const SHUT_IN_SHARE: f64 = 0.02;
 
+/// Reflections from mirror to mirror that are followed.
+const REFLECTIONS: usize = 64;
+
 /// What is the matter with a luminaire.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Trouble {
     NoFlux,
     LightsNothing,
     LightsBlackBacks,
+    LightsMirrorsAlone,
     ShutIn,
 }
 
 /// What a luminaire sees in one direction.
 struct Seen {
     black_back: bool,
+    /// It comes to no other surface, as far as it was followed.
+    mirrors_alone: bool,
     clear: bool,
     distance_m: f64,
 }
@@ -61,6 +67,8 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
         Some(Trouble::LightsNothing)
     } else if seen().all(|s| s.black_back) {
         Some(Trouble::LightsBlackBacks)
+    } else if looks.iter().all(|l| l.as_ref().is_some_and(|s| s.mirrors_alone)) {
+        Some(Trouble::LightsMirrorsAlone)
     } else if looks.iter().all(|l| l.as_ref().is_some_and(|s| !s.clear && s.distance_m < shut_in_m))
     {
         Some(Trouble::ShutIn)
@@ -72,13 +80,35 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
 /// The first surface in a direction.
 fn look(scene: &Scene, from: Point, direction: Direction) -> Option<Seen> {
     let hit = scene.bvh().closest_hit(&Ray::new(from, direction))?;
+    let mirrors_alone = ends_among_mirrors(scene, from, direction);
     let material = scene.material(hit.triangle);
     let is_black = material.finish(true).is_some_and(|back| *back == Finish::BLACK);
     Some(Seen {
         black_back: hit.back && is_black,
+        mirrors_alone,
         clear: matches!(material.body, Body::Dielectric(_)),
         distance_m: f64::from(hit.t),
     })
+}
+
+/// Whether light that goes that way comes to mirrors again and again.
+fn ends_among_mirrors(scene: &Scene, mut from: Point, mut direction: Direction) -> bool {
+    for _ in 0..REFLECTIONS {
+        let Some(hit) = scene.bvh().closest_hit(&Ray::new(from, direction)) else { return false };
+        let finish = scene.material(hit.triangle).finish(hit.back);
+        if !finish.is_some_and(Finish::is_pure_mirror) {
+            return false;
+        }
+        let (way, normal) =
+            (direction.to_vector(), scene.geometric_normal(hit.triangle).to_vector());
+        let Some(reflected) = (way - normal * (2.0 * way.dot(normal))).direction() else {
+            return false;
+        };
+        // A little before the surface.
+        from = from + way * (f64::from(hit.t) * (1.0 - 1e-5));
+        direction = reflected;
+    }
+    true
 }
 
 fn extent_m(scene: &Scene) -> f64 {
@@ -106,6 +136,11 @@ fn finding(luminaire: &Luminaire, trouble: Trouble) -> Finding {
         Trouble::ShutIn => (
             "is shut in on all sides close to it",
             "it is inside a solid: move it out, or open its housing",
+        ),
+        Trouble::LightsMirrorsAlone => (
+            "lights mirrors alone",
+            "what reflects light again and again lights nothing else: open the box of mirrors, or give a side of it a \
+             diffuse reflectance",
         ),
         Trouble::LightsBlackBacks => (
             "lights only backs of one-sided surfaces",
@@ -147,6 +182,10 @@ mod tests {
         } else {
             Material::one_sided("wall", finish)
         };
+        trouble_among(shapes, material, intensity_cd)
+    }
+
+    fn trouble_among(shapes: Vec<Shape>, material: Material, intensity_cd: f64) -> Option<Trouble> {
         let luminaire = Luminaire {
             name: "lamp".into(),
             group: 0,
@@ -162,6 +201,17 @@ mod tests {
             SceneParts { shapes, materials: vec![material], luminaires, ..SceneParts::default() };
         let scene = Scene::assemble(parts).unwrap();
         trouble(&scene, &scene.luminaires()[0])
+    }
+
+    #[test]
+    fn a_box_of_mirrors_lets_no_light_out() {
+        let mirror =
+            || Material::two_sided("mirror", Finish { mirror: Rgb::grey(0.9), ..Finish::BLACK });
+        let found = trouble_among(vec![cube(5.0, true)], mirror(), 1.0);
+        assert_eq!(found, Some(Trouble::LightsMirrorsAlone));
+        let mut open = cube(5.0, true);
+        open.triangles.truncate(10);
+        assert_eq!(trouble_among(vec![open], mirror(), 1.0), None);
     }
 
     #[test]

@@ -75,3 +75,15 @@ fn bad_grids_are_refused_before_anything_is_computed() {
         assert!(ran.err.contains(told), "{arguments:?}: {}", ran.err);
     }
 }
+
+#[test]
+fn a_height_outside_of_the_scene_is_refused_and_a_grid_without_light_is_told() {
+    let home = solved();
+    let ran = home.run(&["grid", "map.glb", "--height", "99"]);
+    assert_eq!(ran.code, 2, "{ran:?}");
+    assert!(ran.err.contains("--height 99") && ran.err.contains("from 0 to 3.00 m"), "{}", ran.err);
+    let far = ["grid", "map.glb", "--corner", "10,10,5", "--u", "1,0,0", "--v", "0,1,0"];
+    let ran = home.run(&far);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    assert!(ran.err.contains("no light comes to any of its points"), "{}", ran.err);
+}

@@ -331,3 +331,25 @@ fn a_mesh_without_light_is_solved_from_a_scene_that_gives_it_some() {
     // 400 cd two metres above, and nothing to reflect it back; the map keeps single precision.
     assert!((lux - 100.0).abs() < 1e-3, "{lux}");
 }
+
+#[test]
+fn sides_without_light_are_left_out_of_what_a_map_tells() {
+    let home = Home::new();
+    // Walls of a material for both sides, in a room that no light leaves.
+    let room = "name = \"room\"\n[materials.paint]\ndiffuse = 0.5\n\
+        [[geometry]]\nbox = { min = [0, 0, 0], max = [4, 4, 3], inward = true }\nmaterial = \"paint\"\n\
+        [[luminaire]]\nposition = [2, 2, 2.75]\nisotropic = { intensity_cd = 1000 }\n";
+    home.file("room.toml", room);
+    let ran = home.run(&["solve", "room.toml", "-o", "map.glb", "--quality", "draft", "--resume"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    assert!(ran.err.contains("solving from the beginning"), "{}", ran.err);
+    let json = home.run(&["info", "map.glb", "--json"]).json();
+    let surfaces = json["surfaces"].as_array().unwrap();
+    for surface in surfaces {
+        assert_eq!(surface["unlit_side_m2"], surface["area_m2"], "{surface}");
+        assert!(surface["min_lx"].as_f64().unwrap() > 0.0, "{surface}");
+    }
+    let area_m2: f64 = surfaces.iter().map(|surface| surface["area_m2"].as_f64().unwrap()).sum();
+    assert!((area_m2 - 80.0).abs() < 1e-6, "{area_m2}");
+    assert!(home.run(&["info", "map.glb"]).out.contains("no light comes to"));
+}
