@@ -17,6 +17,20 @@ pub(super) fn increments_needed(accuracy: &Accuracy, increments: u64, target: f6
     (left > 0.0).then(|| increments as f64 * statistical / left)
 }
 
+/// The same where a part of what elements are said to err by is in doubt, which falls as fast as noise, in the square: `seen` is
+/// without it. `None` where what is seen alone exceeds the target.
+pub(super) fn increments_needed_beyond_doubt(
+    accuracy: &Accuracy,
+    seen: &Accuracy,
+    increments: u64,
+    target: f64,
+) -> Option<f64> {
+    let [said, seen] = [accuracy, seen].map(|a| a.of_elements() * a.of_elements());
+    let falls = accuracy.statistical * accuracy.statistical + (said - seen).max(0.0);
+    let left = target * target - seen.min(said);
+    (left > 0.0).then(|| increments as f64 * falls / left)
+}
+
 /// The finishing time after `increments` of those needed, if each takes `each_s`.
 pub(super) fn finish(needed: f64, increments: u64, each_s: f64, now_s: f64) -> Prediction {
     let left = (needed - increments as f64).max(0.0);

@@ -35,6 +35,9 @@ const FEWEST_TO_TELL: u64 = 6;
 /// Increments beyond which finer elements are faster, which take their pilot and as many increments as are believed.
 const MOST_INCREMENTS: f64 = 3.0 * BELIEVED_INCREMENTS as f64;
 
+/// Increments that a run makes at most only to be less in doubt.
+const MOST_HOPED_FOR: f64 = 32.0 * BELIEVED_INCREMENTS as f64;
+
 /// Greatest factor between the interpolation error seen and that expected that is believed, either
 /// way: details tell the order at least.
 const MOST_OVER: f64 = 10.0;
@@ -322,9 +325,16 @@ impl<'p, 's> Work<'p, 's> {
             let misses = |a: Accuracy| target.is_none_or(|target| a.reached > target);
             return accuracy.is_some_and(misses) && left.is_shot;
         }
-        let count = self.sums.increments;
         let wanted = accuracy.zip(target).filter(|_| self.may_end());
-        wanted.is_some_and(|(a, goal)| predict::increments_needed(&a, count, goal).is_none())
+        wanted.is_some_and(|(a, goal)| {
+            self.needed_beyond_doubt(a, goal).is_none_or(|needed| needed > MOST_HOPED_FOR)
+        })
+    }
+
+    fn needed_beyond_doubt(&self, accuracy: Accuracy, target: f64) -> Option<f64> {
+        let seen = self.accuracy_if(Noise::TakenOff).unwrap_or(accuracy);
+        let count = self.sums.increments;
+        predict::increments_needed_beyond_doubt(&accuracy, &seen, count, target)
     }
 
     /// The factor by which elements err more than the pilot has expected.
@@ -396,7 +406,7 @@ impl<'p, 's> Work<'p, 's> {
             let seen = if self.has_nets() { seen().and_then(by_all) } else { None };
             Some(seen.unwrap_or_else(by_noise))
         } else {
-            accuracy.and_then(by_all)
+            accuracy.and_then(|a| self.needed_beyond_doubt(a, target))
         };
         needed.map(|needed| needed.max(FEWEST_INCREMENTS as f64))
     }

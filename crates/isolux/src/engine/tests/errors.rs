@@ -278,6 +278,19 @@ fn increments_needed_follow_the_inverse_square() {
 }
 
 #[test]
+fn what_is_in_doubt_falls_with_the_noise() {
+    let needed =
+        |a: Accuracy, seen: Accuracy| predict::increments_needed_beyond_doubt(&a, &seen, 20, 0.01);
+    // Of 1.2 % that elements are said to err by, 0.6 % are seen: 4e-4 and 1.08e-4 have to fall to 6.4e-5.
+    let found = needed(parts(0.02, 0.012, 0.0), parts(0.02, 0.006, 0.0)).unwrap();
+    assert!((found / (20.0 * (4e-4 + 1.08e-4) / 6.4e-5) - 1.0).abs() < 1e-12, "{found}");
+    // Without doubt, as ever; where what is seen is too much, none are enough.
+    let certain = parts(0.02, 0.006, 0.0);
+    assert_eq!(needed(certain, certain), predict::increments_needed(&certain, 20, 0.01));
+    assert_eq!(needed(parts(0.001, 0.012, 0.0), parts(0.001, 0.01, 0.0)), None);
+}
+
+#[test]
 fn predictions_lie_in_their_interval_and_sharpen() {
     let at = |increments| predict::finish(100.0, increments, 0.5, 3.0 + 0.5 * increments as f64);
     for increments in [1, 8, 50, 99] {
