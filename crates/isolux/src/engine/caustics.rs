@@ -8,7 +8,6 @@ use super::tally::Tally;
 use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicI64, Ordering};
 
 /// What particles have brought.
 pub(super) struct Caustics {
@@ -36,25 +35,13 @@ pub(super) fn deposit(plan: &Plan, count: u32, key: Key) -> Caustics {
         return nothing(Effort { rays: 0, given_up_lx });
     }
     let tally = Tally::new(plan, flux_lm, 1);
-    let came: Vec<AtomicI64> = (0..plan.parts.count()).map(|_| AtomicI64::new(0)).collect();
-    let units_per_lm = tally.units_per_lm();
     let one = |index: u32| {
-        let (rays, given_up) = flights.fly(index, |at, flux_lm| {
-            let part = tally.add(0, at, flux_lm).and_then(|(node, w)| plan.parts.at(node, w));
-            if let Some(part) = part {
-                let units = (flux_lm.luminance() * units_per_lm).round_ties_even() as i64;
-                came[part].fetch_add(units, Ordering::Relaxed);
-            }
-        });
+        let (rays, given_up) = flights.fly(index, |at, flux_lm| tally.add(0, at, flux_lm));
         given_up.into_iter().for_each(|flux_lm| tally.give_up(flux_lm));
         rays
     };
     let rays = (0..count).into_par_iter().map(one).sum();
     let light = tally.illuminance(0);
-    let lacking = plan.parts.lacking(
-        |part| came[part].load(Ordering::Relaxed) as f64 / units_per_lm,
-        |vertex| light[vertex as usize].luminance(),
-        &plan.standings,
-    );
+    let lacking = tally.lacking(|vertex| light[vertex]);
     Caustics { light, lacking, effort: Effort { rays, given_up_lx: tally.given_up_lx() } }
 }

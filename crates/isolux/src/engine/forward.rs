@@ -1,12 +1,16 @@
 //! `forward`: particles from the luminaires, reflected until absorbed, counted where they arrive.
 //!
 //! The way of Inspirer (Kopylov, Khodulev, Volevich 1998). An increment is a range of particles with
-//! its own randomization; increments share nothing random.
+//! its own randomization; increments share nothing random. Caustics, which few of them find, are left to particles of their own,
+//! sent where they are made.
 
 use super::accumulate::{Accumulator, Effort, Sample};
+use super::accuracy::BELIEVED_INCREMENTS;
+use super::caustics;
 use super::direct::Lighting;
 use super::emission::Emission;
 use super::particle::{Particle, scatterings};
+use super::parts;
 use super::plan::Plan;
 use super::tally::Tally;
 use crate::sampling::{Key, Sequence};
@@ -19,43 +23,55 @@ const FEWEST: usize = 1 << 14;
 const MOST: usize = 1 << 20;
 
 const DIRECT: usize = 0;
-const CAUSTIC: usize = 1;
-const INDIRECT: usize = 2;
+const INDIRECT: usize = 1;
 
 /// The engine, ready for increments.
 pub(super) struct Forward<'p, 's> {
     plan: &'p Plan<'s>,
     emission: Emission<'s>,
     particles: u32,
+    /// For caustics.
+    of_caustics: u32,
     scatterings: u32,
     key: Key,
 }
 
 impl<'p, 's> Forward<'p, 's> {
     /// With particles in proportion to the vertices.
-    pub(super) fn new(plan: &'p Plan<'s>, emission: Emission<'s>, seed: u64) -> Self {
+    pub(super) fn new(plan: &'p Plan<'s>, emission: Emission<'s>, target: f64, seed: u64) -> Self {
         let particles = (PARTICLES_A_VERTEX * plan.indirect_vertices).clamp(FEWEST, MOST);
         let particles = particles.next_power_of_two() as u32;
         let (scatterings, key) = (scatterings(plan.scene), Key::new(seed).with(2));
-        Self { plan, emission, particles, scatterings, key }
+        let of_caustics = plan.particles(target, BELIEVED_INCREMENTS);
+        Self { plan, emission, particles, of_caustics, scatterings, key }
     }
 
-    /// Adds increment `index`.
-    pub(super) fn increment(&self, index: u64, receivers: &mut Accumulator) -> Effort {
-        let tally = Tally::new(self.plan, self.emission.flux_lm(), 3);
-        let sequence = Sequence::new(self.key.with(index));
-        let rays = (0..self.particles)
+    /// Adds increment `index`, and what the map of it lacks in parts of elements.
+    pub(super) fn increment(
+        &self,
+        index: u64,
+        receivers: &mut Accumulator,
+        lacking: &mut Accumulator,
+    ) -> Effort {
+        let tally = Tally::new(self.plan, self.emission.flux_lm(), 2);
+        let key = self.key.with(index);
+        let sequence = Sequence::new(key);
+        let of_caustics = caustics::deposit(self.plan, self.of_caustics, key.with(0));
+        lacking.add(parts::samples(&of_caustics.lacking));
+        let rays: u64 = (0..self.particles)
             .into_par_iter()
             .map(|particle| self.fly(&tally, sequence, particle))
             .sum();
-        let parts =
-            [DIRECT, CAUSTIC, INDIRECT].map(|part| self.plan.prolongate(&tally.illuminance(part)));
+        let [direct, indirect] =
+            [DIRECT, INDIRECT].map(|part| self.plan.prolongate(&tally.illuminance(part)));
+        let caustic = self.plan.prolongate(&of_caustics.light);
         receivers.add((0..self.plan.standings.len()).map(|k| Sample {
-            direct: parts[DIRECT][k],
-            caustic: parts[CAUSTIC][k],
-            indirect: parts[INDIRECT][k],
+            direct: direct[k],
+            caustic: caustic[k],
+            indirect: indirect[k],
         }));
-        Effort { rays, given_up_lx: tally.given_up_lx() }
+        // What is given up on the way of a caustic is so among these particles, too.
+        Effort { rays: rays + of_caustics.effort.rays, given_up_lx: tally.given_up_lx() }
     }
 
     fn fly(&self, tally: &Tally, sequence: Sequence, index: u32) -> u64 {
@@ -67,8 +83,10 @@ impl<'p, 's> Forward<'p, 's> {
         loop {
             rays += 1;
             let Some(at) = particle.advance(scene) else { return rays };
-            if let Body::Opaque { .. } = scene.material(at.triangle).body {
-                tally.add(part(&particle, lighting), &at, particle.flux_lm);
+            if let Body::Opaque { .. } = scene.material(at.triangle).body
+                && let Some(part) = part(&particle, lighting)
+            {
+                tally.add(part, &at, particle.flux_lm);
             }
             if !particle.scatter(scene, lighting) {
                 return rays;
@@ -81,12 +99,11 @@ impl<'p, 's> Forward<'p, 's> {
     }
 }
 
-fn part(particle: &Particle, lighting: &Lighting) -> usize {
+/// Which light it is; none of its own where it is a caustic. What little luminaires and their images leave out where nothing makes
+/// caustics comes along.
+fn part(particle: &Particle, lighting: &Lighting) -> Option<usize> {
     if particle.diffused {
-        INDIRECT
-    } else if particle.is_covered(lighting) {
-        DIRECT
-    } else {
-        CAUSTIC
+        return Some(INDIRECT);
     }
+    (particle.is_covered(lighting) || !lighting.leaves_caustics()).then_some(DIRECT)
 }

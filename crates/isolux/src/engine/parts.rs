@@ -65,6 +65,13 @@ impl Parts {
         self.of_node.get(node as usize).is_some_and(|&k| k != NONE)
     }
 
+    /// Which of so many vertices are corners of such elements.
+    pub(super) fn vertices(&self, count: usize) -> Vec<bool> {
+        let mut of = vec![false; count];
+        self.elements.iter().flat_map(|e| e.corners).for_each(|v| of[v as usize] = true);
+        of
+    }
+
     /// The part that weights of its vertices tell.
     pub(super) fn at(&self, node: u32, weights: [f64; 3]) -> Option<usize> {
         let element = *self.of_node.get(node as usize)?;

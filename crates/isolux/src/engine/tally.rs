@@ -28,20 +28,24 @@ pub(super) struct Tally<'p, 's> {
     parts: usize,
     units_per_lm: f64,
     flux: Vec<AtomicI64>,
+    /// What came to the parts of elements that are checked, all quantities together.
+    came: Vec<AtomicI64>,
     given_up: AtomicI64,
 }
 
 impl<'p, 's> Tally<'p, 's> {
     /// For `parts` separate quantities over the vertices that indirect light lives on.
     pub(super) fn new(plan: &'p Plan<'s>, flux_lm: f64, parts: usize) -> Self {
-        let flux = (0..plan.indirect_vertices * parts * 3).map(|_| AtomicI64::new(0)).collect();
-        let units_per_lm = UNITS_OF_FLUX / flux_lm;
-        Self { plan, hats: hats(plan), parts, units_per_lm, flux, given_up: AtomicI64::new(0) }
-    }
-
-    /// Units of its fixed point.
-    pub(super) const fn units_per_lm(&self) -> f64 {
-        self.units_per_lm
+        let zeros = |count: usize| (0..count).map(|_| AtomicI64::new(0)).collect();
+        Self {
+            plan,
+            hats: hats(plan),
+            parts,
+            units_per_lm: UNITS_OF_FLUX / flux_lm,
+            flux: zeros(plan.indirect_vertices * parts * 3),
+            came: zeros(plan.parts.count()),
+            given_up: AtomicI64::new(0),
+        }
     }
 
     /// Counts the flux of a particle that is not followed any longer.
@@ -55,17 +59,13 @@ impl<'p, 's> Tally<'p, 's> {
         self.given_up.load(Ordering::Relaxed) as f64 / self.units_per_lm / self.plan.area_m2()
     }
 
-    /// Deposits flux at a place; returns the node that it is on, and the weights of its vertices.
-    pub(super) fn add(
-        &self,
-        part: usize,
-        at: &SurfacePoint,
-        flux_lm: Rgb,
-    ) -> Option<(u32, [f64; 3])> {
+    /// Deposits flux at a place.
+    pub(super) fn add(&self, part: usize, at: &SurfacePoint, flux_lm: Rgb) {
         let plan = self.plan;
-        let place = plan.elements.place(plan.level, at.triangle, at.back, [at.u, at.v])?;
+        let place = plan.elements.place(plan.level, at.triangle, at.back, [at.u, at.v]);
+        let Some(place) = place else { return };
         let corners = plan.elements.corners(place);
-        let weights = known_weights(corners, &plan.standings)?;
+        let Some(weights) = known_weights(corners, &plan.standings) else { return };
         for ((vertex, _), weight) in corners.into_iter().zip(weights) {
             let first = (vertex as usize * self.parts + part) * 3;
             for (channel, value) in flux_lm.0.into_iter().enumerate() {
@@ -73,7 +73,10 @@ impl<'p, 's> Tally<'p, 's> {
                 self.flux[first + channel].fetch_add(units, Ordering::Relaxed);
             }
         }
-        Some((place.node(), corners.map(|(_, weight)| weight)))
+        if let Some(part) = plan.parts.at(place.node(), corners.map(|(_, weight)| weight)) {
+            let units = (flux_lm.luminance() * self.units_per_lm).round_ties_even() as i64;
+            self.came[part].fetch_add(units, Ordering::Relaxed);
+        }
     }
 
     /// Mean illuminance about every vertex, lx.
@@ -84,6 +87,15 @@ impl<'p, 's> Tally<'p, 's> {
             Rgb([0, 1, 2].map(|k| channel(k) / self.units_per_lm))
         };
         self.hats.means((0..self.plan.indirect_vertices).map(flux))
+    }
+
+    /// What light at the vertices, of all quantities together, lacks in the parts of elements that are checked, lx.
+    pub(super) fn lacking(&self, light: impl Fn(usize) -> Rgb) -> Vec<f64> {
+        self.plan.parts.lacking(
+            |part| self.came[part].load(Ordering::Relaxed) as f64 / self.units_per_lm,
+            |vertex| light(vertex as usize).luminance(),
+            &self.plan.standings,
+        )
     }
 
     /// Illuminance at the vertices, lx: the means, corrected.
@@ -98,7 +110,7 @@ fn hats(plan: &Plan) -> Hats {
 }
 
 /// Errors of a map of particles beyond its noise: what the hats still blur, and what interpolation
-/// loses, both with the part that noise explains taken off.
+/// loses, both with the part that noise explains taken off. What parts of elements tell is left to them.
 pub(super) fn errors(plan: &Plan, sums: &Accumulator) -> InterpolationErrors {
     let estimates: Vec<Estimate> = (0..plan.indirect_vertices).map(|k| sums.estimate(k)).collect();
     let indirect = |e: &Estimate| (e.mean.indirect + e.mean.caustic).luminance();
@@ -124,11 +136,15 @@ fn error_lx(
 fn blur_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let hats = hats(plan);
     let blurred = hats.blur(values);
+    let is_checked = plan.parts.vertices(values.len());
     let (mut area, mut sum) = (0.0, 0.0);
     for (k, &m2) in hats.areas_m2().iter().enumerate().filter(|&(k, _)| plan.standings[k].is_some())
     {
         let change = values[k] - blurred[k];
         area += m2;
+        if is_checked[k] {
+            continue;
+        }
         // A vertex has half its weight in its own mean, its neighbours share the rest: noise of
         // independent vertices makes a quarter of the variance, and a little more.
         sum += m2 * (change * change - 0.3 * variances[k]);
@@ -148,6 +164,9 @@ fn detail_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
         let corners = plan.subdivision.node(error.node).0.vertices;
         let noise: f64 = corners.iter().map(|&v| variances[v as usize]).sum::<f64>() / 3.0;
         area += error.area_m2;
+        if plan.parts.has(error.node) {
+            continue;
+        }
         // A detail of three independent values has one and a half times their variance, of which
         // the estimate takes the square of 0.3; the largest of three details is twice that.
         sum += error.squared() - error.area_m2 * 0.27 * noise;

@@ -118,7 +118,7 @@ impl<'p, 's> Work<'p, 's> {
             }
             Method::Forward => {
                 let emission = Emission::new(plan.scene).expect("a scene without light is refused");
-                Engine::Forward(Forward::new(plan, emission, request.seed))
+                Engine::Forward(Forward::new(plan, emission, target, request.seed))
             }
             Method::Radiosity => {
                 let (settings, seed) = (&request.radiosity, request.seed);
@@ -130,7 +130,7 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Radiosity(radiosity) => (radiosity.patches(), 0, radiosity.reference_lx()),
             Engine::Cache(_) => (checks::places(points.len(), false), parts, reference),
             Engine::Hybrid(_) => (checks::places(points.len(), true), parts, reference),
-            Engine::Forward(_) => (0, 0, reference),
+            Engine::Forward(_) => (0, parts, reference),
         };
         let sums_of = |places: usize| Accumulator::new(places, reference);
         let sums = sums_of(plan.elements.vertices().len());
@@ -180,7 +180,9 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Cache(cached) => {
                 cached.increment(index, &mut self.sums, &mut self.checks, deadline)?
             }
-            Engine::Forward(forward) => forward.increment(index, &mut self.sums),
+            Engine::Forward(forward) => {
+                forward.increment(index, &mut self.sums, &mut self.checks.lacking)
+            }
             Engine::Radiosity(radiosity) => {
                 let left = self.left.as_ref().expect("radiosity always knows what is left");
                 radiosity.shoot(&mut self.sums, &mut self.checks.sums, left, deadline)?
@@ -218,7 +220,9 @@ impl<'p, 's> Work<'p, 's> {
                 let errors = checks::errors(&self.checks.sums, &self.checks.points, noise_is);
                 self.with_caustics(errors, noise_is)
             }
-            Engine::Forward(_) => tally::errors(self.plan, &self.sums),
+            Engine::Forward(_) => {
+                self.with_caustics(tally::errors(self.plan, &self.sums), noise_is)
+            }
             Engine::Radiosity(radiosity) => {
                 let errors = radiosity.errors(&self.sums, &self.checks.points, self.ambient_lx());
                 let squared = self.plan.caustic_error_lx.powi(2);
