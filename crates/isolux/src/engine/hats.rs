@@ -2,6 +2,7 @@
 
 use crate::elements::Subdivision;
 use crate::map::Standing;
+use crate::units::Rgb;
 use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
 /// Integrals of the hat functions of elements, over those vertices of each that are read.
@@ -23,16 +24,9 @@ pub(super) trait Quantity:
 {
 }
 
-impl<T> Quantity for T where
-    T: Copy
-        + Default
-        + Add<Output = T>
-        + Sub<Output = T>
-        + AddAssign
-        + Mul<f64, Output = T>
-        + Div<f64, Output = T>
-{
-}
+impl Quantity for f64 {}
+
+impl Quantity for Rgb {}
 
 impl Hats {
     /// Of the leaves, with what vertices stand for.

@@ -18,7 +18,6 @@ use crate::engine::noise::Noise;
 use crate::engine::parts::{PARTS, Parts, Squared, part_of, read_in_parts, squared_error};
 use crate::map::Standing;
 use crate::sampling::Key;
-use crate::units::Rgb;
 use rayon::prelude::*;
 use std::cell::RefCell;
 
@@ -285,7 +284,7 @@ impl Pilot<'_> {
     }
 
     /// Direct light at new vertices, and indirect light from the ends of their edges.
-    fn settle_between(&mut self, look: &mut Look, waits: bool) {
+    fn settle_between(&mut self, look: &Look, waits: bool) {
         let first = self.direct.len();
         if first == self.subdivision.vertex_count() {
             return;
@@ -295,15 +294,10 @@ impl Pilot<'_> {
         if waits {
             self.carriers.between(&self.subdivision, first, &open);
         }
-        self.gathered.resize(open.len(), false);
-        self.complete_rays();
-        let gatherers = self.gatherers();
-        self.complete_direct(&look.elements, &gatherers);
-        self.complete_standings(&gatherers);
-        self.indirect.resize(open.len(), Rgb::BLACK);
-        self.carriers.fill(&mut self.indirect);
+        self.settle(&look.elements);
     }
 
+    /// How noisy caustics are on elements, and how much is in doubt of their error.
     fn noise_of(
         &self,
         on: &[OnElements],

@@ -1,9 +1,11 @@
 //! Quadratic functions between the vertices that carry light, where it is smooth.
 
 use super::Pilot;
+use crate::elements::Elements;
 use crate::engine::detail::bisect_twice;
 use crate::engine::look::Look;
 use crate::map::Standing;
+use crate::units::Rgb;
 
 impl Pilot<'_> {
     /// Bisects elements that readers interpolate twice once more; the light of the new vertices is that of the quadratic function
@@ -25,14 +27,20 @@ impl Pilot<'_> {
             self.known.push(ends.iter().any(|&end| self.known[end as usize]));
         }
         self.carriers.smooth(&self.subdivision, first, &corners, &open);
-        self.gathered.resize(open.len(), false);
         look.elements = self.subdivision.elements();
+        self.settle(&look.elements);
+        self.is_smoothed = true;
+    }
+
+    /// What new vertices that do not gather have: direct light, and indirect light from those that they wait for.
+    pub(super) fn settle(&mut self, elements: &Elements) {
+        let vertices = self.subdivision.vertex_count();
+        self.gathered.resize(vertices, false);
         self.complete_rays();
         let gatherers = self.gatherers();
-        self.complete_direct(&look.elements, &gatherers);
+        self.complete_direct(elements, &gatherers);
         self.complete_standings(&gatherers);
-        self.indirect.resize(open.len(), crate::units::Rgb::BLACK);
+        self.indirect.resize(vertices, Rgb::BLACK);
         self.carriers.fill(&mut self.indirect);
-        self.is_smoothed = true;
     }
 }
