@@ -103,11 +103,8 @@ impl Parts {
         let mut all = Squared::default();
         let mut at_vertices: Vec<(u32, f64, f64)> = Vec::new();
         for (element, checked) in self.elements.iter().enumerate() {
-            let estimates = [0; PARTS];
-            let mut k = element * PARTS;
-            let estimates = estimates.map(|_| {
-                let estimate = lacking.estimate(k);
-                k += 1;
+            let estimates = std::array::from_fn(|part| {
+                let estimate = lacking.estimate(element * PARTS + part);
                 (estimate.mean.caustic.luminance(), estimate.indirect_variance)
             });
             let seen = squared_error(&estimates, checked.area_m2);
@@ -171,12 +168,10 @@ pub(super) fn read_in_parts(
     values: [f64; 3],
     standings: &[Option<Standing>],
 ) -> [f64; PARTS] {
-    let mut part = 0;
-    [0.0; PARTS].map(|nothing| {
+    std::array::from_fn(|part| {
         let middle = middle_of(part);
-        part += 1;
         let weights = known_weights([0, 1, 2].map(|k| (corners[k], middle[k])), standings);
-        weights.map_or(nothing, |weights| (0..3).map(|k| values[k] * weights[k]).sum())
+        weights.map_or(0.0, |weights| (0..3).map(|k| values[k] * weights[k]).sum())
     })
 }
 

@@ -158,7 +158,6 @@ impl Pilot<'_> {
             self.fly(&mut batches, next);
             next *= 2;
         }
-        self.settle_between(look, request.is_fitted);
         errors
     }
 
