@@ -2,11 +2,12 @@
 
 use crate::cache_samples;
 use crate::failure::Failure;
+use crate::meter::Meter;
 use crate::notes::{Note, note};
 use crate::quantity::{show_count, show_seconds};
 use isolux::engine::{CacheReader, CacheSettings, CachedPlace, IrradianceCache, SampleKind};
 use isolux::scene::{Camera, Scene};
-use isolux_view::{LuminanceImage, Size, SurfacePoint, TraceSettings, trace};
+use isolux_view::{LuminanceImage, Size, SurfacePoint, TraceSettings, trace, trace_watched};
 use serde::Serialize;
 use std::path::Path;
 use std::sync::Mutex;
@@ -75,7 +76,10 @@ pub(crate) fn look(
     let served = reader.serve(&asked);
     cache_samples::keep(&mut file, &served.made);
     let samples_time_s = started.elapsed().as_secs_f64();
-    let view = trace(scene, camera, size, &settings, &|at| reader.glance(&place(at), 0));
+    let mut meter = Meter::new("view");
+    let read = |at: SurfacePoint| reader.glance(&place(at), 0);
+    let watch = &mut |share| meter.tell(share);
+    let view = trace_watched(scene, camera, size, &settings, (&read, watch));
     let view = view.map_err(Failure::bad_input)?;
     let count = |cache: &IrradianceCache| cache.samples.len();
     let found = CacheUse {

@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::flags::{LayoutFlags, LayoutName};
 use crate::interrupt::Interrupt;
 use crate::lightmap_files;
+use crate::meter::Meter;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::quantity::{show_bytes, show_count, show_seconds, show_share, significant};
@@ -18,9 +19,6 @@ use isolux::scene::Scene;
 use isolux_formats::lightmap::{Convention, Target};
 use serde::Serialize;
 use std::time::Instant;
-
-/// Progress is told once in so many seconds.
-const LINE_EVERY_S: f64 = 10.0;
 
 /// A lightmap that fits into memory and whose files can be written.
 pub(crate) struct Planned {
@@ -124,16 +122,9 @@ impl Planned {
     ) -> Result<Option<Baked>, Failure> {
         let interrupt = Interrupt::install()?;
         let started = Instant::now();
-        let mut last_s = 0.0;
+        let mut meter = Meter::new("lightmap");
         let baked = bake(scene, map, &self.layout, &mut |share| {
-            let now_s = started.elapsed().as_secs_f64();
-            if share > 0.0 && now_s > last_s + LINE_EVERY_S {
-                last_s = now_s;
-                let left_s = now_s / share - now_s;
-                let text =
-                    format!("lightmap: {} done, {} left", show_share(share), show_seconds(left_s));
-                note(Note::Info, text);
-            }
+            meter.tell(share);
             if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
         });
         match baked {

@@ -22,6 +22,7 @@ mod lightmap_export;
 mod lightmap_files;
 mod lint;
 mod map_file;
+mod meter;
 mod mix;
 mod notes;
 mod output;

@@ -11,6 +11,11 @@ pub(crate) fn note_as_json() {
     NOTES_ARE_JSON.store(true, Ordering::Relaxed);
 }
 
+/// Whether they are.
+pub(crate) fn are_json() -> bool {
+    NOTES_ARE_JSON.load(Ordering::Relaxed)
+}
+
 /// What a line on standard error is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Note {
@@ -46,7 +51,7 @@ impl Note {
 
 /// Prints a line for the user to standard error.
 pub(crate) fn note(kind: Note, text: impl std::fmt::Display) {
-    line(kind.line(&text.to_string(), NOTES_ARE_JSON.load(Ordering::Relaxed)));
+    line(kind.line(&text.to_string(), are_json()));
 }
 
 /// Prints a line to standard error as it is. Nobody may be there to read it.

@@ -1,9 +1,10 @@
 //! Progress on standard error: a bar, lines, or JSON lines.
 
 use crate::flags::ProgressStyle;
+use crate::meter::bar;
 use crate::notes::{self, Note, note};
 use crate::quantity::{show_count, show_seconds, show_share};
-use indicatif::{ProgressBar, ProgressStyle as BarStyle};
+use indicatif::ProgressBar;
 use isolux::engine::{Progress, Stage};
 use serde::Serialize;
 use std::io::IsTerminal;
@@ -34,8 +35,8 @@ impl Reporter {
         let shape = match asked {
             Some(ProgressStyle::Json) => Shape::Json,
             Some(ProgressStyle::None) => Shape::Silent,
-            Some(ProgressStyle::Bar) => Shape::Bar(bar()),
-            None if std::io::stderr().is_terminal() => Shape::Bar(bar()),
+            Some(ProgressStyle::Bar) => Shape::Bar(bar(BAR_STEPS)),
+            None if std::io::stderr().is_terminal() => Shape::Bar(bar(BAR_STEPS)),
             None => Shape::Lines,
         };
         Self { shape, last_s: None }
@@ -74,12 +75,6 @@ impl Reporter {
     }
 }
 
-fn bar() -> ProgressBar {
-    let style =
-        BarStyle::with_template("{bar:24} {msg}").unwrap_or_else(|_| BarStyle::default_bar());
-    ProgressBar::new(BAR_STEPS).with_style(style)
-}
-
 /// Time spent over the time predicted.
 fn share_done(progress: &Progress) -> f64 {
     let predicted = progress.prediction.map(|p| p.finish_s).filter(|finish| *finish > 0.0);
@@ -107,7 +102,12 @@ fn line(progress: &Progress) -> String {
     if let Some(p) = progress.prediction {
         let left = |finish_s: f64| show_seconds((finish_s - progress.elapsed_s).max(0.0));
         let (likely, early, late) = (left(p.finish_s), left(p.earliest_s), left(p.latest_s));
-        parts.push(format!("{likely} left ({early} to {late})"));
+        parts.push(match () {
+            () if p.latest_s <= progress.elapsed_s => "about to end".to_owned(),
+            () if p.finish_s <= progress.elapsed_s => format!("up to {late} left"),
+            () if p.earliest_s <= progress.elapsed_s => format!("{likely} left (up to {late})"),
+            () => format!("{likely} left ({early} to {late})"),
+        });
     }
     if progress.elapsed_s > 0.0 {
         parts.push(format!("{} rays/s", show_count(progress.rays as f64 / progress.elapsed_s)));
@@ -182,6 +182,10 @@ mod tests {
             "12 increments, error not known yet, target 1.0 %, 3.0 s left (2.0 s to 6.0 s), \
              1.50 M rays/s, 3458 receivers"
         );
+        let at = |elapsed_s| line(&Progress { elapsed_s, ..progress.clone() });
+        assert!(at(4.5).contains(", 0.50 s left (up to 3.5 s), "), "{}", at(4.5));
+        assert!(at(5.5).contains(", up to 2.5 s left, "), "{}", at(5.5));
+        assert!(at(8.5).contains(", about to end, "), "{}", at(8.5));
         assert_eq!(share_done(&progress), 0.4);
         assert_eq!(share_done(&Progress { prediction: None, ..progress }), 0.0);
     }

@@ -4,6 +4,7 @@ use crate::cached_view::{self, CacheUse};
 use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{LookFlags, RenderFlags, ToneName};
+use crate::meter::Meter;
 use crate::output::OutputPath;
 use crate::quantity::show_share;
 use crate::{map_file, source, viewpoint};
@@ -11,7 +12,7 @@ use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_view::{
     Contours, Development, FalseColour, Gathered, LuminanceImage, Picture, Size, SurfacePoint,
-    ToneCurve, TraceSettings, develop, false_colour, trace, trace_map,
+    ToneCurve, TraceSettings, ViewProgress, develop, false_colour, trace, trace_map,
 };
 use serde::Serialize;
 use std::path::Path;
@@ -93,7 +94,13 @@ pub(crate) fn look(
     (width, height): (u32, u32),
 ) -> Result<(LuminanceImage, Gathered), Failure> {
     let size = Size::new(width, height).map_err(Failure::bad_input)?;
-    trace_map((scene, map), camera, size, &SETTINGS).map_err(Failure::bad_input)
+    let mut gathering = Meter::new("indirect light of the view");
+    let mut looking = Meter::new("view");
+    let watch = &mut |progress| match progress {
+        ViewProgress::Gathering(share) => gathering.tell(share),
+        ViewProgress::Looking(share) => looking.tell(share),
+    };
+    trace_map((scene, map), camera, size, (&SETTINGS, watch)).map_err(Failure::bad_input)
 }
 
 /// The same of the bare map, all light interpolated.

@@ -204,7 +204,7 @@ fn missing_things_become_grey_or_untextured_with_a_warning() {
 
 #[test]
 fn problems_name_the_line_and_come_together() {
-    let text = "v 0 0 0\nv 1 0 nan\nv 0 1\nvt x\nf 1 2 9\nf 1 2\nf 0 1 2\nf 1/1 a 1\nf 1 -2 1\n";
+    let text = "v 0 0 0\nv 1 0 nan\nv 0 1\nvt x\nf 1 2 9\nf 1 2\nf 0 1 2\nf 1/1 a 1\nf 1 -4 1\n";
     let Problems(list) = read_text(text, "").unwrap_err();
     let places: Vec<_> = list.iter().map(|p| p.place.as_str()).collect();
     let lines = [2, 3, 4, 5, 6, 7, 8, 9].map(|line| format!("line {line}"));
@@ -237,6 +237,12 @@ fn degenerate_and_hostile_files() {
     let crossing = "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 3 0\nf 1 2 3 4\n";
     let loaded = read_text(crossing, "").unwrap();
     assert!(loaded.warnings.iter().any(|w| w.what.contains("crosses itself")));
+    let flat = format!("{TRIANGLE}v 2 0 0\nf 1 2 4\nf 2 2 2\n");
+    let loaded = read_text(&flat, "").unwrap();
+    let found = loaded.warnings.iter().find(|w| w.what.contains("no area")).unwrap();
+    assert!(found.what.contains("(and 1 more)"), "{found}");
+    let Problems(list) = read_text("v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n", "").unwrap_err();
+    assert_eq!(list.len(), 1, "the vertex is wrong, not the face: {list:?}");
 }
 
 #[test]

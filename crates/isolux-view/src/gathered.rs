@@ -3,7 +3,7 @@
 
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
-use crate::trace::{SurfacePoint, TraceSettings, trace};
+use crate::trace::{SurfacePoint, TraceSettings, trace, trace_watched};
 use isolux::engine::net::{Fineness, Net, Wanted};
 use isolux::engine::{IndirectReading, MapReader, Told};
 use isolux::map::{Illuminance, IlluminationMap};
@@ -15,6 +15,8 @@ use std::sync::{Mutex, PoisonError};
 
 /// Numbers of pixels at a time whose light is gathered.
 const BLOCK: usize = 64;
+/// Pixels that are gathered between two words to whoever watches.
+const WATCHED: usize = 1024;
 /// Noise of what is gathered, as a share of it, before it is smoothed.
 const NOISE: f64 = 0.05;
 /// Pixels over which the difference that gathering made fades out.
@@ -35,20 +37,29 @@ pub struct Gathered {
     pub continued: usize,
 }
 
+/// What is being done for a view, and the share of it that is done, as far as that can be foreseen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ViewProgress {
+    /// Indirect light is gathered.
+    Gathering(f64),
+    /// Pixels are looked at.
+    Looking(f64),
+}
+
 /// Looks at a scene with the light of its map: direct light evaluated afresh, indirect light as [`MapReader::at`] reads it,
 /// gathered where the map is not to be trusted and interpolated elsewhere, and in what gloss and faint panes show. Where it is
 /// wanted, light is gathered in the middles of few pixels and continued to those about on the same piece of surface, within
 /// half of the error of a reading or 2 % of the light (best effort: pieces that no middle of a pixel nearby shows are
-/// interpolated).
+/// interpolated). `watch` is told how far that is.
 pub fn trace_map(
     (scene, map): (&Scene, &IlluminationMap),
     camera: &Camera,
     size: Size,
-    settings: &TraceSettings,
+    (settings, watch): (&TraceSettings, &mut dyn FnMut(ViewProgress)),
 ) -> Result<(LuminanceImage, Gathered), ViewError> {
     let reader = MapReader::new(scene, map);
     let places = asked(scene, camera, size, settings)?;
-    let (light, report) = PixelLight::new((scene, map), &reader, size, places);
+    let (light, report) = PixelLight::new((scene, map), &reader, (size, places), watch);
     let read = |at: SurfacePoint| -> Option<Illuminance> {
         let SurfacePoint { triangle, back, u, v, blurred, .. } = at;
         let of_map = || map.interpolate(triangle, back, u, v);
@@ -66,7 +77,9 @@ pub fn trace_map(
         };
         reader.glance((triangle, back, [u, v]), 0, known)
     };
-    trace(scene, camera, size, settings, &read).map(|image| (image, report))
+    let watch = &mut |share| watch(ViewProgress::Looking(share));
+    let image = trace_watched(scene, camera, size, settings, (&read, watch))?;
+    Ok((image, report))
 }
 
 /// A look in the dark: what is to be seen sharply in the middles of pixels, in their order.
@@ -129,8 +142,8 @@ impl PixelLight {
     fn new(
         (scene, map): (&Scene, &IlluminationMap),
         reader: &MapReader<'_>,
-        size: Size,
-        asked: Vec<SurfacePoint>,
+        (size, asked): (Size, Vec<SurfacePoint>),
+        watch: &mut dyn FnMut(ViewProgress),
     ) -> (Self, Gathered) {
         let entries = asked.into_par_iter().map(|at| Entry::new(scene, reader, at)).collect();
         let mut pixels = Self { size, entries, firsts: Vec::new() };
@@ -139,12 +152,20 @@ impl PixelLight {
             .collect();
         let mut report = Gathered::default();
         let mut net = Net::new(pixels.wanted(), Fineness::PIXELS);
-        let gather = |numbers: &[usize], _| -> Result<Vec<_>, Infallible> {
+        let mut done = 0.0;
+        let gather = |numbers: &[usize], more: f64| -> Result<Vec<_>, Infallible> {
             let one = |&number: &usize| {
                 let SurfacePoint { triangle, back, u, v, .. } = pixels.entries[number].at;
                 reader.indirect_at((triangle, back, [u, v]), NOISE)
             };
-            Ok(numbers.par_iter().with_max_len(BLOCK).map(one).collect())
+            let mut found = Vec::with_capacity(numbers.len());
+            for some in numbers.chunks(WATCHED) {
+                let left = (numbers.len() - found.len()) as f64 + more;
+                watch(ViewProgress::Gathering(done / (done + left)));
+                found.par_extend(some.par_iter().with_max_len(BLOCK).map(one));
+                done += some.len() as f64;
+            }
+            Ok(found)
         };
         let Ok(()) = net.fill(gather);
         for filled in net.filled() {

@@ -102,7 +102,8 @@ fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
     let reader = MapReader::new(&scene, &map);
     let (size, settings) = (Size::new(320, 240).unwrap(), TraceSettings::DRAFT);
-    let (view, gathered) = trace_map((&scene, &map), &camera, size, &settings).unwrap();
+    let (view, gathered) =
+        trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap();
     let read = |at: SurfacePoint| reader.glance((at.triangle, at.back, [at.u, at.v]), 0, None);
     let interpolated = trace(&scene, &camera, size, &settings, &read).unwrap();
     let truth = truth(&view, &reader);
@@ -118,6 +119,6 @@ fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     assert_eq!(interpolated + gathered + continued, size.pixels());
     assert!(continued > 4 * gathered && gathered > 0, "{gathered} and {continued}");
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let again = || trace_map((&scene, &map), &camera, size, &settings).unwrap().0;
+    let again = || trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap().0;
     assert!(alone.install(again) == view, "the same on any number of threads");
 }

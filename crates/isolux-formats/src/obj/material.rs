@@ -270,6 +270,11 @@ fn finish(record: &MtlMaterial, findings: &mut Findings) -> Finish {
                 "lower Ks or Kd",
             );
         }
+        let [r, g, b] = finish.mirror.0;
+        say(
+            format!("read as a mirror that reflects {r} {g} {b}, beside its Kd"),
+            "assign a material of scene.toml where this is not meant",
+        );
     }
     finish.luminance_cd_m2 = record.ke.unwrap_or(Rgb::BLACK);
     if finish.is_emitter() {

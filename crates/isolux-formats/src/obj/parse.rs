@@ -50,9 +50,9 @@ impl Parser {
     fn take(&mut self, statement: &Statement) -> Result<(), Wrong> {
         let (keyword, rest) = statement.split();
         match keyword {
-            "v" => self.file.positions.push(fixed(rest)?),
-            "vn" => self.file.normals.push(fixed(rest)?),
-            "vt" => self.file.uvs.push(texture_coordinates(rest)?),
+            "v" => keep(&mut self.file.positions, fixed(rest))?,
+            "vn" => keep(&mut self.file.normals, fixed(rest))?,
+            "vt" => keep(&mut self.file.uvs, texture_coordinates(rest))?,
             "f" => self.face(rest, statement.line)?,
             "o" => self.rename(rest.to_owned(), String::new()),
             "g" => self.rename(self.object.clone(), rest.to_owned()),
@@ -141,6 +141,16 @@ fn resolve_index(word: &str, count: usize, what: &str) -> Result<u32, Wrong> {
             let what = format!("index {index} where {count} {what} have been read");
             wrong(what, "count from 1, or from -1 backwards; export the file again")
         })
+}
+
+/// Keeps the place of what cannot be read, so that it is not found missing, too.
+fn keep<T: Default>(list: &mut Vec<T>, read: Result<T, Wrong>) -> Result<(), Wrong> {
+    let (value, read) = match read {
+        Ok(value) => (value, Ok(())),
+        Err(wrong) => (T::default(), Err(wrong)),
+    };
+    list.push(value);
+    read
 }
 
 fn fixed(rest: &str) -> Result<[f64; 3], Wrong> {

@@ -7,7 +7,7 @@ use super::record::{Corner, ObjFile, Part};
 use crate::extent::IMPLAUSIBLE_EXTENT_M;
 use crate::findings::Findings;
 use crate::polygon;
-use isolux::geometry::Point;
+use isolux::geometry::{Point, Triangle};
 use isolux::scene::{SceneParts, Shape, UpAxis};
 use std::collections::HashMap;
 
@@ -56,6 +56,13 @@ pub(super) fn warn_of_units(file: &ObjFile, findings: &mut Findings) {
     }
 }
 
+/// What is odd about a face.
+struct Added {
+    crosses_itself: bool,
+    /// Nothing is left of it: it has no area.
+    is_flat: bool,
+}
+
 /// One part while its corners become vertices.
 struct Builder<'a> {
     file: &'a ObjFile,
@@ -79,14 +86,16 @@ impl<'a> Builder<'a> {
     }
 
     fn shape(mut self, material: u32, findings: &mut Findings) -> Shape {
-        let (mut crossed, mut copied) = (Vec::new(), Vec::new());
+        let (mut crossed, mut copied, mut flat) = (Vec::new(), Vec::new(), Vec::new());
         for face in 0..self.part.faces.len() {
             let line = self.part.faces[face].line;
             if self.copies.is_copy(self.part.corners_of(face)) {
                 copied.push(line);
-            } else if self.add_face(face) {
-                crossed.push(line);
+                continue;
             }
+            let added = self.add_face(face);
+            crossed.extend(added.crosses_itself.then_some(line));
+            flat.extend(added.is_flat.then_some(line));
         }
         warn_of_faces(
             &crossed,
@@ -96,6 +105,8 @@ impl<'a> Builder<'a> {
         );
         let what = "the face lies exactly on another of the same material and is left out";
         warn_of_faces(&copied, what, "remove it; every face has both sides", findings);
+        let what = "the face has no area and is left out";
+        warn_of_faces(&flat, what, "remove it; its corners lie on one line", findings);
         Shape {
             name: self.part.name.clone(),
             positions: self
@@ -111,17 +122,21 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Whether the face crosses itself.
-    fn add_face(&mut self, face: usize) -> bool {
-        let corners = self.part.corners_of(face);
-        let outline: Vec<Point> =
-            corners.iter().map(|c| Point::from(self.file.positions[c.position as usize])).collect();
+    fn add_face(&mut self, face: usize) -> Added {
+        let face_corners = self.part.corners_of(face);
+        let outline: Vec<Point> = face_corners
+            .iter()
+            .map(|c| Point::from(self.file.positions[c.position as usize]))
+            .collect();
         let cut = polygon::triangulate(&outline);
+        let mut is_flat = true;
         for triangle in &cut.triangles {
-            let triangle = triangle.map(|k| self.vertex(corners[k]));
+            let corners = triangle.map(|k| outline[k]);
+            is_flat &= Triangle { corners }.normal().is_none();
+            let triangle = triangle.map(|k| self.vertex(face_corners[k]));
             self.triangles.push(triangle);
         }
-        cut.crosses_itself
+        Added { crosses_itself: cut.crosses_itself, is_flat }
     }
 
     fn vertex(&mut self, corner: Corner) -> u32 {

@@ -18,7 +18,10 @@ use pixel::Pixels;
 use rayon::prelude::*;
 
 /// Rows of pixels that are glimpsed before they are looked at.
-const BAND_ROWS: usize = 64;
+const BAND_ROWS: usize = 32;
+
+/// The illuminance of a place of a surface, `None` where it is not known.
+pub type Read<'a> = dyn Fn(SurfacePoint) -> Option<Illuminance> + Sync + 'a;
 
 /// Looks at a scene. `read` gives the illuminance of a place of a surface, `None` where it is not
 /// known: the bare map, or direct light evaluated afresh with the indirect part interpolated.
@@ -31,7 +34,18 @@ pub fn trace(
     camera: &Camera,
     size: Size,
     settings: &TraceSettings,
-    read: &(dyn Fn(SurfacePoint) -> Option<Illuminance> + Sync),
+    read: &Read<'_>,
+) -> Result<LuminanceImage, ViewError> {
+    trace_watched(scene, camera, size, settings, (read, &mut |_| {}))
+}
+
+/// The same; `watch` is told the share of the rows that are done.
+pub fn trace_watched(
+    scene: &Scene,
+    camera: &Camera,
+    size: Size,
+    settings: &TraceSettings,
+    (read, watch): (&Read<'_>, &mut dyn FnMut(f64)),
 ) -> Result<LuminanceImage, ViewError> {
     let per_side = settings.samples_per_side.max(1);
     size.check_samples(per_side.saturating_mul(per_side))?;
@@ -42,7 +56,9 @@ pub fn trace(
     let mut middles = vec![None; size.pixels()];
     let band = size.width() as usize * BAND_ROWS;
     let bands = samples.chunks_mut(band * count).zip(middles.chunks_mut(band));
+    let band_count = size.pixels().div_ceil(band) as f64;
     for (index, (samples, middles)) in bands.enumerate() {
+        watch(index as f64 / band_count);
         let glimpses = pixels.glimpses(index * BAND_ROWS, BAND_ROWS);
         let all = samples.par_chunks_mut(count).zip(middles.par_iter_mut());
         all.enumerate().for_each(|(pixel, (samples, centre))| {

@@ -205,7 +205,8 @@ impl Net {
         let waiting = self.light.iter().filter(|light| **light == Light::Waiting).count() as f64;
         let parts = self.parts(self.fineness.widest / 2);
         let squares = parts.into_iter().filter(|square| !self.has_gathered(square)).count() as f64;
-        squares + REFINED * (waiting - squares)
+        let finest = (self.fineness.finest * self.fineness.finest) as f64;
+        squares + REFINED * (waiting - squares) / finest
     }
 
     /// The texels to gather at in a step.

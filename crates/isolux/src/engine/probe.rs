@@ -5,7 +5,7 @@ mod parts;
 mod told;
 
 use super::accumulate::mean_and_variance;
-use super::direct::{Goal, Lighting, Measured};
+use super::direct::{Goal, Lighting, Measured, Patches};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::BEYOND;
 use super::path::{Dice, PathEnd, follow};
@@ -67,6 +67,7 @@ pub struct MapReader<'a> {
     /// Direct light at the vertices, where sources are many: there rays read it.
     direct_values: Option<Vec<Rgb>>,
     places: Places<'a>,
+    patches: Patches,
     unseen: Unseen,
 }
 
@@ -107,6 +108,7 @@ impl<'a> MapReader<'a> {
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             light: map.values.iter().map(reflected).collect(),
             places: Places::of(scene),
+            patches: Patches::new(),
             unseen: Unseen::of(map),
         }
     }
@@ -264,7 +266,8 @@ impl<'a> MapReader<'a> {
         });
         let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
         let sequence = Sequence::new(place_key(at.point).with(number));
-        let direct = self.lighting.sampled(&at, GLANCE_SAMPLES, &mut Dice::new(sequence, 0));
+        let dice = &mut Dice::new(sequence, 0);
+        let direct = self.lighting.sampled_on(&self.patches, &at, GLANCE_SAMPLES, dice);
         Some(Illuminance {
             direct_lx: direct + stored.caustic_lx,
             standard_error_lx: stored.indirect_standard_error_lx,

@@ -70,7 +70,7 @@ fn indirect(
     work: &mut Work<'_>,
 ) -> Result<Vec<Option<IndirectReading>>, LightmapError> {
     let all = &ground.texels;
-    let surveys = work.each(all, After::default(), |fragments| places.survey(fragments))?;
+    let surveys = work.each(all, After::UNFORESEEN, |fragments| places.survey(fragments))?;
     let charts = ground.charts();
     let mut found = vec![None; all.len()];
     let mut wanted = Vec::new();

@@ -25,6 +25,11 @@ pub(super) struct After {
     pub(super) other_s: f64,
 }
 
+impl After {
+    /// More than can be told yet: no share of the work is done.
+    pub(super) const UNFORESEEN: Self = Self { pieces: 0.0, other_s: f64::INFINITY };
+}
+
 impl<'a> Work<'a> {
     /// Nothing done yet.
     pub(super) fn new(watch: &'a mut dyn FnMut(f64) -> Watch) -> Self {
@@ -64,7 +69,7 @@ impl<'a> Work<'a> {
         let apart = all.len().div_ceil(few).max(1);
         let some: Vec<&T> = all.iter().step_by(apart).collect();
         let started = Instant::now();
-        self.each(&some, After::default(), |piece| one(piece))?;
+        self.each(&some, After::UNFORESEEN, |piece| one(piece))?;
         let share = all.len() as f64 / some.len().max(1) as f64;
         Ok(started.elapsed().as_secs_f64() * share)
     }

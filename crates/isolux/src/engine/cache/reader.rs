@@ -7,7 +7,7 @@ use super::record::{CACHE_REPLICATES, CacheError, CacheSample, IrradianceCache};
 use super::store::{LEAST_RADIUS_IN_VIEWS, Making, Store};
 use crate::elements::carries_map;
 use crate::engine::deadline::Deadline;
-use crate::engine::direct::Lighting;
+use crate::engine::direct::{Lighting, Patches};
 use crate::engine::path::Dice;
 use crate::engine::place::{Places, place_key};
 use crate::engine::probe::GLANCE_SAMPLES;
@@ -71,6 +71,7 @@ pub struct CachedPlace {
 pub struct CacheReader<'s> {
     scene: &'s Scene,
     lighting: Lighting<'s>,
+    patches: Patches,
     places: Places<'s>,
     store: Store<'s>,
     settings: CacheSettings,
@@ -90,6 +91,7 @@ impl<'s> CacheReader<'s> {
         let mut reader = Self {
             scene,
             lighting: Lighting::new(scene),
+            patches: Patches::new(),
             places: Places::of(scene),
             store: Store::new(scene, cache, (settings.allowed, LEAST_RADIUS_IN_VIEWS)),
             settings,
@@ -160,7 +162,8 @@ impl<'s> CacheReader<'s> {
         }
         let indirect = super::hemisphere::tied(&ties, &self.lights).map(|channel| channel.max(0.0));
         let sequence = Sequence::new(place_key(at.point).with(number));
-        let direct_lx = self.lighting.sampled(&at, GLANCE_SAMPLES, &mut Dice::new(sequence, 0));
+        let dice = &mut Dice::new(sequence, 0);
+        let direct_lx = self.lighting.sampled_on(&self.patches, &at, GLANCE_SAMPLES, dice);
         Some(Illuminance {
             direct_lx,
             caustic_lx: Rgb::BLACK,

@@ -110,14 +110,14 @@ impl Lighting<'_> {
             std::array::from_fn(|k| self.candidate(about, (k as f64 + shift) / CANDIDATES as f64));
         let ratio = |&(chain, lamp, chance): &(usize, u32, f64)| {
             let is_there = self.chains[chain].is_empty() || self.images.has(lamp, chain);
-            let view = self.view(chain, at).filter(|_| is_there);
+            let view = self.view(chain, at, 0.0).filter(|_| is_there);
             view.map_or(0.0, |v| v.lamp_weight(&self.tree.lamps[lamp as usize])) / chance
         };
         let ratios = candidates.each_ref().map(ratio);
         let total: f64 = ratios.iter().sum();
         let lit = drawn(&ratios, pick * total).and_then(|k| {
             let (chain, lamp, chance) = candidates[k];
-            let view = self.view(chain, at)?;
+            let view = self.view(chain, at, 0.0)?;
             let share = CANDIDATES as f64 * chance * ratios[k] / total;
             Some(self.lit_by_lamp(&view, lamp, at) / share)
         });

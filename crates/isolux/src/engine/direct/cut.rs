@@ -6,6 +6,7 @@ use super::mirrors::Plane;
 use super::tree::{Lamp, Node, Tree};
 use crate::engine::surface::SurfacePoint;
 use isolux_geometry::{Direction, Point, Vector};
+use std::sync::Arc;
 
 /// Clusters are taken as one if their radius is at most this share of their distance.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,8 @@ pub(super) struct View<'a> {
     reflectance: f64,
     /// The mirror that light meets first: nothing is seen but through it.
     window: Option<Window<'a>>,
+    /// What is seen from anywhere as near to the point as this counts as seen.
+    reach_m: f64,
 }
 
 /// A mirror seen from behind.
@@ -59,16 +62,22 @@ pub(super) enum Part {
 /// obstacles, lx; zero only if that is zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
-    pub(super) view: usize,
+    pub(super) chain: usize,
     pub(super) part: Part,
     pub(super) weight: f64,
 }
 
-/// The views of a receiver and a partition of all that it sees in them.
-pub(super) struct Cut<'a> {
-    pub(super) views: Vec<View<'a>>,
+/// A partition of all that is seen from a receiver, or from a patch of a surface.
+#[derive(Debug, Default)]
+pub(super) struct Parts {
     pub(super) seen: Vec<Seen>,
     pub(super) total: f64,
+}
+
+/// The views of a receiver along all chains, none from behind a mirror, and a partition of what it sees in them.
+pub(super) struct Cut<'a> {
+    pub(super) views: Vec<Option<View<'a>>>,
+    pub(super) parts: Arc<Parts>,
 }
 
 impl Lighting<'_> {
@@ -82,24 +91,29 @@ impl Lighting<'_> {
         self.cut(at, Tightness::ROUGH)
     }
 
-    fn cut(&self, at: &SurfacePoint, tight: Tightness) -> Cut<'_> {
-        let views: Vec<View> =
-            (0..self.chains.len()).filter_map(|chain| self.view(chain, at)).collect();
-        let mut seen = Vec::with_capacity(256);
-        for (index, view) in views.iter().enumerate() {
-            view.cut(index, tight, &mut seen);
-        }
-        let total = seen.iter().map(|s| s.weight).sum();
-        Cut { views, seen, total }
+    /// What is seen from as far about a place as `reach_m`.
+    pub(super) fn parts_about(&self, middle: &SurfacePoint, reach_m: f64) -> Parts {
+        parts(&self.views(middle, reach_m), Tightness::FINE)
     }
 
-    /// The view along a chain; `None` from behind its last mirror.
-    pub(super) fn view(&self, chain: usize, at: &SurfacePoint) -> Option<View<'_>> {
+    fn cut(&self, at: &SurfacePoint, tight: Tightness) -> Cut<'_> {
+        let views = self.views(at, 0.0);
+        let parts = Arc::new(parts(&views, tight));
+        Cut { views, parts }
+    }
+
+    /// The views along all chains, and from as far about as `reach_m`.
+    pub(super) fn views(&self, at: &SurfacePoint, reach_m: f64) -> Vec<Option<View<'_>>> {
+        (0..self.chains.len()).map(|chain| self.view(chain, at, reach_m)).collect()
+    }
+
+    /// The view along a chain, and from as far about as `reach_m`; `None` from behind its last mirror.
+    pub(super) fn view(&self, chain: usize, at: &SurfacePoint, reach_m: f64) -> Option<View<'_>> {
         let (mut point, mut reflectance) = (at.point, 1.0);
         let mut normals = [at.shading.to_vector(), at.geometric.to_vector()];
         let planes = self.chains[chain].iter().map(|&p| &self.mirrors.planes[p as usize]);
         for (rank, plane) in planes.rev().enumerate() {
-            if rank == 0 && plane.height(point) < -self.mirrors.tolerance_m {
+            if rank == 0 && plane.height(point) + reach_m < -self.mirrors.tolerance_m {
                 return None;
             }
             point = plane.image(point);
@@ -112,16 +126,24 @@ impl Lighting<'_> {
             Window { plane, depth_m: (-plane.height(point)).max(0.0), tolerance_m }
         });
         let [shading, geometric] = normals;
-        Some(View { tree: &self.tree, chain, point, shading, geometric, reflectance, window })
+        let tree = &self.tree;
+        Some(View { tree, chain, point, shading, geometric, reflectance, window, reach_m })
     }
+}
+
+fn parts(views: &[Option<View>], tight: Tightness) -> Parts {
+    let mut seen = Vec::with_capacity(256);
+    views.iter().flatten().for_each(|view| view.cut(tight, &mut seen));
+    let total = seen.iter().map(|s| s.weight).sum();
+    Parts { seen, total }
 }
 
 impl View<'_> {
     /// Appends the tight clusters, and the lamps of leaves that are near.
-    fn cut(&self, index: usize, tight: Tightness, seen: &mut Vec<Seen>) {
+    fn cut(&self, tight: Tightness, seen: &mut Vec<Seen>) {
         let mut take = |part: Part, weight: f64| {
             if weight > 0.0 {
-                seen.push(Seen { view: index, part, weight });
+                seen.push(Seen { chain: self.chain, part, weight });
             }
         };
         let mut waiting = Vec::with_capacity(64);
@@ -149,10 +171,10 @@ impl View<'_> {
 
     /// Whether nothing of a sphere is above the horizon and seen by way of the mirror.
     fn is_out_of_view(&self, to: Vector, node: &Node) -> bool {
-        let radius_m = node.radius_m;
+        let radius_m = node.radius_m + self.reach_m;
         self.shading.dot(to) + radius_m <= 0.0
             || self.geometric.dot(to) + radius_m <= 0.0
-            || self.window.as_ref().is_some_and(|w| !w.shows(self.point, node.centre, radius_m))
+            || self.window.as_ref().is_some_and(|w| !w.shows(self, node.centre, node.radius_m))
     }
 
     /// What a cluster is expected to give: as its members do in the mean, unless these differ so much
@@ -176,18 +198,11 @@ impl View<'_> {
 
     /// What a cluster that may be in view may give, by its own table.
     fn weight_by_table(&self, to: Vector, node: &Node) -> f64 {
-        let radius_m = node.radius_m;
+        let radius_m = node.radius_m + self.reach_m;
         // A cluster around the receiver: as if it were at the distance of its rim.
         let distance2 = to.length_squared().max(radius_m * radius_m).max(f64::MIN_POSITIVE);
         let distance = distance2.sqrt();
-        let height = self.shading.dot(to);
-        let cos = if height >= radius_m {
-            height / distance
-        } else {
-            // Mean over heights between the rims, of which those below the horizon give nothing.
-            let above = height + radius_m;
-            above * above / (4.0 * radius_m * distance)
-        };
+        let cos = height_above(self.shading.dot(to), radius_m) / distance;
         let local = match node.kind {
             Some(kind) => turned(&self.tree.kinds[kind as usize].frame, -to),
             None => -to,
@@ -211,18 +226,33 @@ impl View<'_> {
     /// What a lamp is expected to give.
     pub(super) fn lamp_weight(&self, lamp: &Lamp) -> f64 {
         let to = lamp.position - self.point;
-        let height = self.shading.dot(to);
-        if height <= 0.0
-            || self.geometric.dot(to) <= 0.0
-            || self.window.as_ref().is_some_and(|w| !w.shows(self.point, lamp.position, 0.0))
+        let (height, reach_m) = (self.shading.dot(to), self.reach_m);
+        if height + reach_m <= 0.0
+            || self.geometric.dot(to) + reach_m <= 0.0
+            || self.window.as_ref().is_some_and(|w| !w.shows(self, lamp.position, 0.0))
         {
             return 0.0;
         }
         let distance2 = to.length_squared();
         let kind = &self.tree.kinds[lamp.kind as usize];
-        let shape = self.tree.lobes.plain(kind.lobe, turned(&kind.frame, -to));
+        let (lobes, local) = (&self.tree.lobes, turned(&kind.frame, -to));
+        let shape = lobes.plain(kind.lobe, local);
+        let shape = match shape > 0.0 || reach_m == 0.0 {
+            true => shape,
+            false => lobes.towards(kind.lobe, reach_m / distance2.sqrt(), local),
+        };
+        let height = height_above(height, reach_m);
         self.reflectance * lamp.peak_cd * shape * height / (distance2 * distance2.sqrt())
     }
+}
+
+/// The mean over heights between the rims of a sphere, of which those below the horizon count nothing.
+fn height_above(height_m: f64, radius_m: f64) -> f64 {
+    if height_m >= radius_m {
+        return height_m;
+    }
+    let above_m = height_m + radius_m;
+    above_m * above_m / (4.0 * radius_m)
 }
 
 /// Light of a lamp on its way to a receiver.
@@ -234,15 +264,16 @@ pub(super) struct Reaching {
 }
 
 impl Window<'_> {
-    /// Whether something of a sphere may be seen through the box around the mirror from a point
+    /// Whether something of a sphere may be seen through the box around the mirror from a place
     /// behind it.
-    fn shows(&self, from: Point, centre: Point, radius_m: f64) -> bool {
+    fn shows(&self, view: &View, centre: Point, radius_m: f64) -> bool {
+        let (from, reach_m) = (view.point, view.reach_m);
         let (depth, height) = (self.depth_m, self.plane.height(centre));
         if height + radius_m <= -self.tolerance_m {
             return false;
         }
         let nearest = height - radius_m;
-        if nearest <= self.tolerance_m || depth <= self.tolerance_m {
+        if nearest <= self.tolerance_m || depth <= self.tolerance_m + reach_m {
             return true;
         }
         // The crossing moves by the sphere's radius, foreshortened, and by the change of its height.
@@ -250,6 +281,12 @@ impl Window<'_> {
         let crossing = from + to * (depth / (depth + height));
         let margin_m = depth / (depth + nearest) * radius_m
             + to.length() * depth * radius_m / ((depth + height) * (depth + nearest));
+        // The same the other way about: the place moves, and its depth changes.
+        let away = depth + nearest;
+        let margin_m = margin_m
+            + reach_m * nearest / away
+            + (to.length() + reach_m) * reach_m * (nearest + 2.0 * radius_m)
+                / (away * (away - reach_m));
         self.plane.is_near(crossing, margin_m + self.tolerance_m * (2.0 + to.length() / nearest))
     }
 }

@@ -7,13 +7,17 @@
 //! Hurwitz 1943), so there is no bias whatever the widths are, and no noise where the widths are right and
 //! nothing is hidden.
 
-use super::cut::{Cut, Part, View};
+use super::cut::{Cut, Part, Parts, View};
+use super::patches::Patches;
 use super::source::{self, Target};
 use super::tree::Node;
-use super::{Lighting, drawn};
+use super::{Lighting, RAYS_TO_MANY, drawn};
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::units::Rgb;
+
+/// So many times as many points as rays are looked at one by one, without noise.
+const MORE_POINTS: usize = 4;
 
 /// Luminaires of a cluster among which one is chosen.
 const CHOICE: usize = 8;
@@ -32,6 +36,36 @@ impl Comb {
 }
 
 impl Lighting<'_> {
+    /// [`Lighting::sampled`] where many readings of a surface lie close by.
+    pub(in crate::engine) fn sampled_on(
+        &self,
+        patches: &Patches,
+        at: &SurfacePoint,
+        samples: usize,
+        dice: &mut Dice,
+    ) -> Rgb {
+        if !self.has_many() {
+            return self.by_all(at, samples, dice);
+        }
+        self.lit_by_cut(&self.cut_on(patches, at), at, (RAYS_TO_MANY, samples), dice)
+    }
+
+    /// An unbiased estimate by about `rays` shadow rays, where many readings of a surface lie close by; where points are
+    /// not many more, by one to each of them.
+    pub(in crate::engine) fn by_rays_on(
+        &self,
+        patches: &Patches,
+        at: &SurfacePoint,
+        rays: usize,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let samples = (rays / self.area_sources.max(1)).max(1);
+        if self.tree.lamps.is_empty() || self.points <= MORE_POINTS * rays {
+            return self.by_all(at, samples, dice);
+        }
+        self.lit_by_cut(&self.cut_on(patches, at), at, (rays, samples), dice)
+    }
+
     /// Direct illuminance from luminaires without surface and their images, by `rays` shadow rays;
     /// `cut` is that of the place.
     pub(super) fn lit_by_many(
@@ -46,6 +80,18 @@ impl Lighting<'_> {
         sum / rays as f64
     }
 
+    /// Direct illuminance by so many shadow rays to the luminaires of a cut, and so many to every emitting surface.
+    pub(super) fn lit_by_cut(
+        &self,
+        cut: &Cut,
+        at: &SurfacePoint,
+        (rays, samples): (usize, usize),
+        dice: &mut Dice,
+    ) -> Rgb {
+        let points = self.lit_by_many(cut, at, rays, dice);
+        self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
+    }
+
     /// Looks along a comb of `rays` teeth, one more or less: each tells what all would give if they gave
     /// as it does.
     pub(super) fn look(
@@ -58,18 +104,19 @@ impl Lighting<'_> {
     ) {
         let comb = Comb(dice.pair()[0]);
         let choices = dice.fork();
-        let scale = rays as f64 / cut.total;
+        let Parts { seen, total } = &*cut.parts;
+        let scale = rays as f64 / total;
         let mut place = 0.0;
         let mut next = comb.tooth_from(0.0);
-        for seen in &cut.seen {
+        for seen in seen {
             place += seen.weight * scale;
             let teeth = next..comb.tooth_from(place);
             if teeth.is_empty() {
                 continue;
             }
             next = teeth.end;
-            let view = &cut.views[seen.view];
-            let of_all = cut.total / seen.weight;
+            let Some(view) = &cut.views[seen.chain] else { continue };
+            let of_all = total / seen.weight;
             match seen.part {
                 Part::Lamp(lamp) => {
                     let lit = self.lit_by_lamp(view, lamp, at) * of_all;
@@ -84,14 +131,15 @@ impl Lighting<'_> {
 
     /// The same with a look at each of them.
     pub(super) fn lit_by_each(&self, cut: &Cut, at: &SurfacePoint) -> Rgb {
-        let lit = |view: usize, lamps: std::ops::Range<u32>| -> Rgb {
-            lamps.map(|lamp| self.lit_by_lamp(&cut.views[view], lamp, at)).sum()
+        let lit = |chain: usize, lamps: std::ops::Range<u32>| -> Rgb {
+            let view = cut.views[chain].as_ref();
+            view.map_or(Rgb::BLACK, |view| lamps.map(|k| self.lit_by_lamp(view, k, at)).sum())
         };
-        let parts = cut.seen.iter().map(|seen| match seen.part {
-            Part::Lamp(lamp) => lit(seen.view, lamp..lamp + 1),
+        let parts = cut.parts.seen.iter().map(|seen| match seen.part {
+            Part::Lamp(lamp) => lit(seen.chain, lamp..lamp + 1),
             Part::Node(number) => {
                 let node = &self.tree.nodes[number as usize];
-                lit(seen.view, node.first..node.first + node.count)
+                lit(seen.chain, node.first..node.first + node.count)
             }
         });
         parts.sum()
@@ -103,7 +151,7 @@ impl Lighting<'_> {
             Part::Lamp(_) => 1,
             Part::Node(number) => self.tree.nodes[number as usize].count as usize,
         };
-        cut.seen.iter().map(|seen| count(seen.part)).sum()
+        cut.parts.seen.iter().map(|seen| count(seen.part)).sum()
     }
 
     /// An unbiased estimate of what a cluster gives, by one of its lamps: chosen in proportion to what it

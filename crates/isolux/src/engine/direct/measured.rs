@@ -102,10 +102,10 @@ impl Lighting<'_> {
 
     /// Teeth of a replicate: as many as it takes by the spread of what a first look finds.
     fn teeth(&self, cut: &Cut, at: &SurfacePoint, goal: Goal, dice: &mut Dice) -> usize {
-        if goal.first_look == 0 || cut.total <= 0.0 {
+        if goal.first_look == 0 || cut.parts.total <= 0.0 {
             return FEWEST_TEETH as usize;
         }
-        let total = cut.total;
+        let total = cut.parts.total;
         // Half of the doubt is dark, half as lit as it can be.
         let (mut sum, mut squares) = (0.5 * DOUBT * total, 0.5 * DOUBT * total * total);
         self.look(cut, at, goal.first_look, dice, |found| {

@@ -16,6 +16,7 @@ mod many;
 mod measured;
 mod mirrors;
 mod panes;
+mod patches;
 mod source;
 mod tree;
 mod visibility;
@@ -29,6 +30,7 @@ pub(super) use chains::Chain;
 pub(super) use measured::{Goal, Measured};
 use mirrors::Mirrors;
 use panes::Panes;
+pub(super) use patches::Patches;
 pub(super) use source::LuminaireId;
 use source::{Source, SourceKind, Sources};
 use std::collections::BTreeSet;
@@ -47,9 +49,6 @@ const DRAWN_AT_RECEIVERS: usize = 512;
 
 /// Shadow rays to points in one replicate at a receiver, where they are many.
 const RAYS_TO_MANY: usize = 16;
-
-/// So many times as many points as rays are looked at one by one, without noise.
-const MORE_POINTS: usize = 4;
 
 /// Samples that all emitting surfaces together get at a receiver in one replicate, and the fewest
 /// for one of them.
@@ -181,18 +180,7 @@ impl<'s> Lighting<'s> {
         if !self.has_many() {
             return self.by_all(at, samples, dice);
         }
-        let points = self.lit_by_many(&self.fine_cut(at), at, RAYS_TO_MANY, dice);
-        self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
-    }
-
-    /// An unbiased estimate by about `rays` shadow rays; where points are not many more, by one to each of them.
-    pub(super) fn by_rays(&self, at: &SurfacePoint, rays: usize, dice: &mut Dice) -> Rgb {
-        let samples = (rays / self.area_sources.max(1)).max(1);
-        if self.tree.lamps.is_empty() || self.points <= MORE_POINTS * rays {
-            return self.by_all(at, samples, dice);
-        }
-        let points = self.lit_by_many(&self.fine_cut(at), at, rays, dice);
-        self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
+        self.lit_by_cut(&self.fine_cut(at), at, (RAYS_TO_MANY, samples), dice)
     }
 
     /// [`Lighting::sampled`] with a look at every source.
@@ -207,7 +195,7 @@ impl<'s> Lighting<'s> {
             return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
         }
         let cut = (!self.tree.lamps.is_empty()).then(|| self.rough_cut(at));
-        let of_tree = cut.as_ref().map_or(0.0, |cut| cut.total);
+        let of_tree = cut.as_ref().map_or(0.0, |cut| cut.parts.total);
         let weights = self.weights_of_others(at);
         let total: f64 = of_tree + weights.iter().sum::<f64>();
         if total <= 0.0 {

@@ -28,7 +28,8 @@ impl MapReader<'_> {
     ) -> Option<Rgb> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
-        let direct = self.lighting.by_rays(&at, rays, &mut Dice::new(sequence, index));
+        let dice = &mut Dice::new(sequence, index);
+        let direct = self.lighting.by_rays_on(&self.patches, &at, rays, dice);
         Some(direct + stored.caustic_lx)
     }
 

@@ -1,14 +1,14 @@
 //! Many luminaires by few shadow rays, against all of them one by one.
 
 use super::*;
-use crate::engine::direct::{Goal, Lighting, Measured};
+use crate::engine::direct::{Goal, Lighting, Measured, Patches};
 use crate::engine::gather::Gatherer;
 use crate::engine::surface::SurfacePoint;
 use crate::photometry::PhotometricWeb;
 use std::sync::Arc;
 
 /// Uniform numbers of [-1, 1).
-fn number(k: u64, n: u64) -> f64 {
+pub(in crate::engine) fn number(k: u64, n: u64) -> f64 {
     2.0 * Key::new(9).with(k).with(n).uniform() - 1.0
 }
 
@@ -53,7 +53,7 @@ fn lamps(count: u64) -> Vec<Luminaire> {
 }
 
 /// A floor with screens that hide a good part of the luminaires, and two mirrors that see each other.
-fn hall(count: u64) -> Scene {
+pub(in crate::engine) fn hall(count: u64) -> Scene {
     let mirror = Material::one_sided("mirror", Finish::mirror(Rgb::new(0.8, 0.7, 0.6)));
     let mut shapes = vec![
         rectangle([-9.0, -9.0, 0.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0),
@@ -143,6 +143,35 @@ fn one_luminaire_drawn_from_afar_is_unbiased() {
     let (largest, _) = deviation(&scene, estimate, receivers(20));
     assert!(largest < SIGMAS, "{largest} standard errors");
     assert!(Lighting::new(&hall(1)).about(from, 0.5).is_none());
+}
+
+#[test]
+fn many_luminaires_as_seen_from_patches_are_unbiased() {
+    let scene = hall(600);
+    let patches = Patches::new();
+    let estimate = |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| {
+        lighting.sampled_on(&patches, at, 1, dice)
+    };
+    // Close to each other, on all triangles: of the many that share a patch none is its middle.
+    let places = || {
+        (0..60).map(|k| {
+            let triangle = (k / 2 % scene.triangle_count() as u64) as u32;
+            let [u, v] = [40, 41].map(|n| 0.3 + 0.1 * number(k / 2, n) + 1e-3 * number(k, n + 2));
+            SurfacePoint::new(&scene, triangle, k % 4 > 1, u, v)
+        })
+    };
+    let (largest, spread) = deviation(&scene, estimate, places());
+    assert!(largest < SIGMAS, "{largest} standard errors");
+    let of_own =
+        |lighting: &Lighting, at: &SurfacePoint, dice: &mut Dice| lighting.sampled(at, 1, dice);
+    let (_, with_own_cuts) = deviation(&scene, of_own, places());
+    // Patches reach as far as a tenth of the distance of the nearest luminaire.
+    assert!(spread < 1.2 * with_own_cuts, "{spread}, with cuts of their own {with_own_cuts}");
+    // Whoever was there before, the same bits.
+    let lighting = Lighting::new(&scene);
+    let fresh = |at: &SurfacePoint| lighting.sampled_on(&Patches::new(), at, 1, &mut dice(1));
+    let again = |at: &SurfacePoint| lighting.sampled_on(&patches, at, 1, &mut dice(1));
+    assert!(places().all(|at| fresh(&at) == again(&at)));
 }
 
 /// Root mean square errors, relative: of measurements, as they say, and of their means at a place.

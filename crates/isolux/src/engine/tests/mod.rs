@@ -15,7 +15,7 @@ mod fixed_point;
 mod foreseeing;
 mod glass;
 mod gloss;
-mod many;
+pub(super) mod many;
 mod means;
 mod mirrors;
 mod mixing;
