@@ -46,11 +46,6 @@ impl Borders {
         }
     }
 
-    /// Whether no edge is open.
-    pub(super) fn is_closed(&self) -> bool {
-        self.open == 0
-    }
-
     pub(super) fn findings(&self) -> Vec<Finding> {
         let mut found = Vec::new();
         if let Some((shape, count)) = &self.worst {
@@ -122,7 +117,6 @@ mod tests {
         ] {
             let found = borders(triangles);
             assert_eq!((found.open, found.forked, found.doubled), (open, forked, doubled));
-            assert_eq!(found.is_closed(), open == 0);
         }
     }
 }

@@ -20,8 +20,6 @@ pub(super) struct Energy {
     pub flux_lm: f64,
     /// Share of the light that is not absorbed, mean over all sides that are not black.
     pub mean_reflectance: f64,
-    /// Area of the sides that are not black.
-    inside_m2: f64,
     /// Sources of parallel light.
     pub parallel: usize,
     materials_above_bright: Vec<String>,
@@ -46,7 +44,6 @@ impl Energy {
             // A sum of nothing is -0.
             flux_lm: scene.luminous_flux_lm() + 0.0,
             mean_reflectance: if inside_m2 > 0.0 { reflected_m2 / inside_m2 } else { 0.0 },
-            inside_m2,
             parallel: scene
                 .luminaires()
                 .iter()
@@ -54,14 +51,6 @@ impl Energy {
                 .count(),
             materials_above_bright: bright_materials(scene, &reflectances),
         }
-    }
-
-    /// What the balance of a closed room gives: flux over absorbing area. `None` for others.
-    pub(super) fn mean_illuminance_lx(&self, is_closed: bool) -> Option<f64> {
-        let absorbing_m2 = self.inside_m2 * (1.0 - self.mean_reflectance);
-        let is_lit = self.flux_lm > 0.0 && self.parallel == 0;
-        let applies = is_closed && is_lit && absorbing_m2 > 0.0;
-        applies.then(|| self.flux_lm / absorbing_m2)
     }
 
     pub(super) fn findings(&self) -> Vec<Finding> {
@@ -139,18 +128,8 @@ mod tests {
     }
 
     #[test]
-    fn the_balance_of_the_cube_is_that_of_its_closed_form() {
-        let energy = energy(|_| {});
-        // 4 pi I over the absorbing third of 600 m2.
-        let expected = 4.0 * std::f64::consts::PI * 50_000.0 / 200.0;
-        let found = energy.mean_illuminance_lx(true).unwrap();
-        assert!((found / expected - 1.0).abs() < 1e-9, "{found} lx");
-        assert_eq!(energy.mean_illuminance_lx(false), None);
-        assert!(energy.findings().is_empty());
-    }
-
-    #[test]
     fn scenes_without_light_and_with_watts_for_lumens_are_found() {
+        assert!(energy(|_| {}).findings().is_empty());
         assert_eq!(energy(|parts| parts.luminaires.clear()).findings().len(), 1);
         for factor in [1e-6, 1e6] {
             let scaled = energy(|parts| {

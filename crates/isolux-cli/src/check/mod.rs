@@ -5,6 +5,7 @@ mod energy;
 mod extent;
 mod finding;
 mod lamps;
+mod light;
 
 use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
@@ -44,7 +45,9 @@ struct Audit {
     emitting_surfaces: usize,
     luminous_flux_lm: f64,
     mean_reflectance: f64,
+    /// Of the places that light comes to, about.
     mean_illuminance_lx: Option<f64>,
+    lit_m2: f64,
     open_edges: u64,
     /// None where the scene cannot be solved.
     estimate: Option<Estimate>,
@@ -56,6 +59,7 @@ impl Audit {
         let extent = extent::Extent::of(scene);
         let borders = borders::Borders::of(scene);
         let energy = energy::Energy::of(scene);
+        let light = light::Light::of(scene);
         findings.extend(extent.findings());
         findings.extend(borders.findings());
         findings.extend(energy.findings());
@@ -71,7 +75,8 @@ impl Audit {
             emitting_surfaces: scene.area_luminaires().len(),
             luminous_flux_lm: energy.flux_lm,
             mean_reflectance: energy.mean_reflectance,
-            mean_illuminance_lx: energy.mean_illuminance_lx(borders.is_closed()),
+            mean_illuminance_lx: light.map(|light| light.mean_lx),
+            lit_m2: light.map_or(0.0, |light| light.lit_m2),
             open_edges: borders.open,
             estimate: Estimate::of(scene, &SolveRequest::default()).ok(),
             findings,
@@ -84,11 +89,10 @@ impl Audit {
             UpAxis::Y => "y",
             UpAxis::Z => "z",
         };
-        let mean = self
-            .mean_illuminance_lx
-            .map_or("not known: no closed room, or no light".to_owned(), |lx| {
-                format!("about {} lx, if all light stays inside", significant(lx, 2))
-            });
+        let mean = self.mean_illuminance_lx.map_or("no place is lit".to_owned(), |lx| {
+            let lit = significant(self.lit_m2, 3);
+            format!("about {} lx on {lit} m2 that light comes to", significant(lx, 2))
+        });
         let unknown = || ["none", "none", "cannot be solved"].map(str::to_owned);
         let [receivers, memory, time] = self.estimate.map_or_else(unknown, |e| e.shown());
         let mut text = facts(&[
@@ -114,4 +118,10 @@ impl Audit {
         }
         text
     }
+}
+
+/// To two digits: more are not known.
+fn rounded(value: f64) -> String {
+    let tens = 10.0_f64.powf(value.log10().floor() - 1.0);
+    significant((value / tens).round() * tens, 2)
 }
