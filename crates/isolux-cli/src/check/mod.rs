@@ -90,8 +90,8 @@ impl Audit {
             UpAxis::Z => "z",
         };
         let mean = self.mean_illuminance_lx.map_or("no place is lit".to_owned(), |lx| {
-            let lit = significant(self.lit_m2, 3);
-            format!("about {} lx on {lit} m2 that light comes to", significant(lx, 2))
+            let (lit, lx) = (significant(self.lit_m2, 3), rounded(lx));
+            format!("about {lx} lx on {lit} m2 that light comes to")
         });
         let unknown = || ["none", "none", "cannot be solved"].map(str::to_owned);
         let [receivers, memory, time] = self.estimate.map_or_else(unknown, |e| e.shown());
