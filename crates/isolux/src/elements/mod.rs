@@ -90,6 +90,11 @@ impl Elements {
         self.nodes[node as usize]
     }
 
+    /// How many nodes there are.
+    pub(crate) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
     /// The roots of front and back of every triangle of the scene.
     pub(crate) fn roots(&self) -> &[[Option<u32>; 2]] {
         &self.roots

@@ -6,10 +6,11 @@
 //! reflections is the fixed point of `E = source + A E`, solved without tracing the rays again.
 
 use super::anderson::Anderson;
+use super::bright::{self, Bright};
 use super::carriers::Carriers;
 use super::deadline::Deadline;
 use super::direct::{About, Lighting};
-use super::path::{Dice, PathEnd, follow};
+use super::path::{Dice, PathEnd, follow_counted};
 use super::surface::SurfacePoint;
 use super::trust;
 use crate::elements::{Elements, Place, Receiver};
@@ -93,7 +94,12 @@ pub(super) struct Gathering<'a> {
     /// Whether a ray that ends nearer than the element there is long gathers again from there, instead of
     /// reading a map that tells little of places so close to something: up to [`REGATHERED`] times.
     pub(super) regathers: bool,
+    /// What is so bright that rays are sent there.
+    pub(super) bright: Option<&'a Bright>,
 }
+
+/// Random numbers of rays that are sent to what is bright.
+const SENT: u64 = 0x62_7269_6768_74;
 
 /// How often a ray goes on from surfaces that are close by. In a corner half of the rays meet the other wall close
 /// by, and half of those the first again: with usual reflectances a hundredth of the light is left.
@@ -165,9 +171,18 @@ struct Row {
     close: f64,
     /// Surfaces that rays have come to and what they reflect, the latest last: kept, as to ask for memory at
     /// every ray takes its time.
-    ends: Vec<(SurfacePoint, Rgb)>,
+    ends: Vec<Met>,
     /// What is seen from about the receiver, once it was asked for.
     about: Option<Option<About>>,
+}
+
+/// A surface that a ray has come to, and what it reflects along it.
+#[derive(Clone, Copy)]
+struct Met {
+    surface: SurfacePoint,
+    reflectance: Rgb,
+    /// Whether nothing specular was between.
+    straight: bool,
 }
 
 /// A ray of a row.
@@ -185,6 +200,8 @@ struct Leg<'a> {
     number: u32,
     /// The place that gathers.
     receiver: &'a SurfacePoint,
+    /// What is bright, as seen from there, if rays are sent to it, too.
+    bright: Option<&'a bright::Seen<'a>>,
 }
 
 /// The operator of all receivers: one noisy sample of light transport.
@@ -257,18 +274,27 @@ impl Gathering<'_> {
 
     fn row(&self, gatherer: &Gatherer, key: Key, row: &mut Row, rows: &mut Rows) {
         let sequence = Sequence::new(key);
-        for index in 0..gatherer.rays {
-            let mut dice = Dice::new(sequence, index);
-            let first = Leg {
-                origin: gatherer.origin,
-                triangle: gatherer.surface.triangle,
-                normal: gatherer.normal,
-                share: Rgb::WHITE / f64::from(gatherer.rays),
-                in_gap: gatherer.in_gap,
-                number: 0,
-                receiver: &gatherer.surface,
-            };
-            self.leg(&first, &mut dice, row, rows);
+        let Gatherer { origin, normal, rays, .. } = *gatherer;
+        let bright = self.bright.and_then(|bright| bright.seen_from(origin, normal, rays));
+        let first = Leg {
+            origin,
+            triangle: gatherer.surface.triangle,
+            normal,
+            share: Rgb::WHITE / f64::from(rays.max(1)),
+            in_gap: gatherer.in_gap,
+            number: 0,
+            receiver: &gatherer.surface,
+            bright: bright.as_ref(),
+        };
+        for index in 0..rays {
+            self.leg(&first, &mut Dice::new(sequence, index), row, rows);
+        }
+        if let Some(bright) = &bright {
+            let sequence = Sequence::new(key.with(SENT));
+            for index in 0..bright.sent {
+                self.send(&first, bright, &mut Dice::new(sequence, index), row);
+            }
+            rows.further_rays += u64::from(bright.sent);
         }
         rows.ends.push(rows.runs.len());
         rows.sources.push(row.source);
@@ -281,32 +307,33 @@ impl Gathering<'_> {
         let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
         let ray = Ray::new(leg.origin, direction).skipping(leg.triangle);
         let first = row.ends.len();
-        let end =
-            follow(self.scene, ray, direction, dice, |surface, finish, throughput| {
-                match self.end(surface, finish, throughput) {
-                    End::Lit(reflectance) => row.ends.push((*surface, reflectance)),
-                    End::Black => row.open = true,
-                    End::Closed => {}
-                }
-            });
+        let met = |number: u32, surface: &SurfacePoint, finish: &Finish, throughput: Rgb| match self
+            .end(surface, finish, throughput)
+        {
+            End::Lit(reflectance) => {
+                let straight = number == 0;
+                row.ends.push(Met { surface: *surface, reflectance, straight });
+            }
+            End::Black => row.open = true,
+            End::Closed => {}
+        };
+        let end = follow_counted(self.scene, (ray, direction), dice, met);
         match end {
             PathEnd::Left => row.open = true,
             PathEnd::Absorbed => {}
             PathEnd::GivenUp(share) => rows.given_up += share * leg.share.luminance(),
         }
         for k in first..row.ends.len() {
-            let (surface, reflectance) = row.ends[k];
+            let Met { surface, reflectance, straight } = row.ends[k];
             let share = reflectance * leg.share;
             let distance_m = (surface.point - leg.origin).length();
-            let out_of = leg.in_gap.then_some(distance_m);
-            // Once for all.
-            let located = self.located(&surface);
-            let is_close = self.regathers
-                && located.is_some_and(|located| {
-                    distance_m <= self.edge_m(self.corners(&located, u32::MAX))
-                });
-            let end = LegEnd { surface, located, is_close, out_of_gap_m: out_of };
-            row.source += share * self.direct_at(&end, leg.receiver, &mut row.about, dice);
+            let end = self.leg_end(leg, surface, distance_m);
+            let LegEnd { located, is_close, out_of_gap_m: out_of, .. } = end;
+            let of_direct = match leg.bright.filter(|_| straight) {
+                Some(bright) => reflectance * bright.share(self.elements, &surface),
+                None => share,
+            };
+            row.source += of_direct * self.direct_at(&end, leg.receiver, &mut row.about, dice);
             if is_close && leg.number < REGATHERED {
                 rows.further_rays += 1;
                 let further = Leg {
@@ -317,6 +344,7 @@ impl Gathering<'_> {
                     in_gap: leg.in_gap && self.is_in_gap(&surface, distance_m),
                     number: leg.number + 1,
                     receiver: leg.receiver,
+                    bright: None,
                 };
                 self.leg(&further, dice, row, rows);
             } else if let Some(entry) = located.and_then(|l| self.entry(l.corners, out_of)) {
@@ -325,6 +353,33 @@ impl Gathering<'_> {
             }
         }
         row.ends.truncate(first);
+    }
+
+    /// A ray to what is bright: of the light there, what comes straight from luminaires alone.
+    fn send(&self, leg: &Leg<'_>, bright: &bright::Seen<'_>, dice: &mut Dice, row: &mut Row) {
+        let [pick, within] = [dice.pair(), dice.pair()];
+        let Some((to, direction)) = bright.draw(self.scene, pick, within) else { return };
+        let ray = Ray::new(leg.origin, direction).skipping(leg.triangle);
+        let hit = self.scene.bvh().closest_hit(&ray);
+        if hit.is_none_or(|hit| hit.triangle != to.triangle || hit.back != to.back) {
+            return;
+        }
+        let Some(finish) = self.scene.material(to.triangle).finish(to.back) else { return };
+        if let End::Lit(reflectance) = self.end(&to, finish, Rgb::WHITE) {
+            let share = reflectance * bright.share(self.elements, &to);
+            let end = self.leg_end(leg, to, (to.point - leg.origin).length());
+            row.source += share * self.direct_at(&end, leg.receiver, &mut row.about, dice);
+        }
+    }
+
+    /// Where a ray has ended.
+    fn leg_end(&self, leg: &Leg<'_>, surface: SurfacePoint, distance_m: f64) -> LegEnd {
+        // Once for all.
+        let located = self.located(&surface);
+        let is_near =
+            |located: Located| distance_m <= self.edge_m(self.corners(&located, u32::MAX));
+        let is_close = self.regathers && located.is_some_and(is_near);
+        LegEnd { surface, located, is_close, out_of_gap_m: leg.in_gap.then_some(distance_m) }
     }
 
     /// A place on the level gathered over.

@@ -53,21 +53,34 @@ pub(super) enum PathEnd {
 /// its specular part is followed.
 pub(super) fn follow(
     scene: &Scene,
-    mut ray: Ray,
-    mut direction: Direction,
+    ray: Ray,
+    direction: Direction,
     dice: &mut Dice,
     mut met: impl FnMut(&SurfacePoint, &Finish, Rgb),
+) -> PathEnd {
+    follow_counted(scene, (ray, direction), dice, |_, surface, finish, throughput| {
+        met(surface, finish, throughput);
+    })
+}
+
+/// The same; `met` is told, too, how many surfaces came before.
+pub(super) fn follow_counted(
+    scene: &Scene,
+    (mut ray, mut direction): (Ray, Direction),
+    dice: &mut Dice,
+    mut met: impl FnMut(u32, &SurfacePoint, &Finish, Rgb),
 ) -> PathEnd {
     // Without the square of the index where the path is over that where it began: roulette must not
     // end paths for being in a dense medium, which they may leave again.
     let mut throughput = Rgb::WHITE;
     let mut luminance_of_start = 1.0;
-    for _ in 0..MAX_SPECULAR {
+    for number in 0..MAX_SPECULAR {
         let Some(hit) = scene.bvh().closest_hit(&ray) else { return PathEnd::Left };
         let surface = SurfacePoint::from_hit(scene, &hit);
         let body = &scene.material(hit.triangle).body;
         if let Body::Opaque { front, back } = body {
-            met(&surface, if surface.back { back } else { front }, throughput * luminance_of_start);
+            let finish = if surface.back { back } else { front };
+            met(number, &surface, finish, throughput * luminance_of_start);
         }
         let Some(next) = specular_step(body, &surface, direction, throughput, dice) else {
             return PathEnd::Absorbed;

@@ -2,6 +2,7 @@
 
 use super::aim::Aim;
 use super::allot::{allot, areas_m2};
+use super::bright::Bright;
 use super::carriers::Carriers;
 use super::detail::LeafError;
 use super::direct::Lighting;
@@ -36,6 +37,8 @@ pub(super) struct Plan<'s> {
     pub(super) direct: Vec<Rgb>,
     /// The variance of its noise, where it is measured once for all increments, lx2; else zero.
     pub(super) direct_variance: Vec<f64>,
+    /// What is far brighter than all else.
+    pub(super) bright: Option<Bright>,
     /// First guess of the indirect light.
     pub(super) guess: Vec<Rgb>,
     /// Errors of the elements that indirect light lives on.
@@ -154,6 +157,7 @@ impl<'a> Gathering<'a> {
                 DirectAtEnds::Evaluated
             },
             regathers: false,
+            bright: plan.bright.as_ref(),
         }
     }
 }

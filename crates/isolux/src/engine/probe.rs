@@ -5,6 +5,7 @@ mod parts;
 mod told;
 
 use super::accumulate::mean_and_variance;
+use super::bright::Bright;
 use super::direct::{Goal, Lighting, Measured, Patches};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::BEYOND;
@@ -66,6 +67,7 @@ pub struct MapReader<'a> {
     light: Vec<Rgb>,
     /// Direct light at the vertices, where sources are many: there rays read it.
     direct_values: Option<Vec<Rgb>>,
+    bright: Option<Bright>,
     places: Places<'a>,
     patches: Patches,
     unseen: Unseen,
@@ -104,6 +106,7 @@ impl<'a> MapReader<'a> {
             scene,
             map,
             lighting,
+            bright: Bright::of(scene, &map.elements, |k| direct(&map.values[k as usize])),
             direct_values: are_read.then(|| map.values.iter().map(direct).collect()),
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             light: map.values.iter().map(reflected).collect(),
@@ -232,6 +235,7 @@ impl<'a> MapReader<'a> {
             standings: &self.standings,
             direct,
             regathers: true,
+            bright: self.bright.as_ref(),
         }
     }
 

@@ -3,6 +3,7 @@
 use super::Pilot;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::accuracy::mean_reflectance;
+use crate::engine::bright::Bright;
 use crate::engine::carriers::Carriers;
 use crate::engine::fit::Fit;
 use crate::engine::forecast::{FINE, GoOn};
@@ -57,6 +58,7 @@ impl<'s> Pilot<'s> {
             mean_reflectance: mean_reflectance(self.scene, &coarse),
             means,
             fit: self.fit(&coarse, &open),
+            bright: Bright::of(self.scene, &look.elements, |k| self.direct[k as usize]),
             direct: self.direct,
             direct_variance: self.direct_variance,
             guess: self.indirect,

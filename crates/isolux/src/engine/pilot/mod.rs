@@ -12,6 +12,7 @@ mod sharing;
 mod smoothing;
 
 use super::aim::Aim;
+use super::bright::Bright;
 use super::carriers::Carriers;
 use super::detail::{Details, Refinement, bisect_twice, refine_worst};
 use super::direct::Lighting;
@@ -77,6 +78,8 @@ struct Pilot<'s> {
     subdivision: Subdivision,
     /// At the vertices looked at so far: light, and whether they are open to it.
     direct: Vec<Rgb>,
+    /// What is bright by it.
+    bright: Option<Bright>,
     direct_variance: Vec<f64>,
     /// Where it was measured.
     measured_at: Vec<Point>,
@@ -165,6 +168,7 @@ impl<'s> Pilot<'s> {
             key: Key::new(request.seed).with(0),
             subdivision,
             direct: Vec::new(),
+            bright: None,
             direct_variance: Vec::new(),
             measured_at: Vec::new(),
             direct_noise: has_noise.then_some(NOISE_OF_DIRECT_LIGHT * request.mesh_target),
@@ -243,6 +247,7 @@ impl<'s> Pilot<'s> {
             self.begin(&elements, &gatherers, request, go_on);
         }
         self.complete_direct(&elements, &gatherers);
+        self.bright = Bright::of(self.scene, &elements, |k| self.direct[k as usize]);
         self.complete_indirect(&elements, &gatherers, request, go_on);
         let started = Instant::now();
         let luminances = self.in_the_open(&self.indirect);
@@ -289,6 +294,7 @@ impl<'s> Pilot<'s> {
             standings,
             direct,
             regathers: false,
+            bright: self.bright.as_ref(),
         }
     }
 

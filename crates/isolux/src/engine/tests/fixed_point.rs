@@ -29,6 +29,7 @@ fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer]) -> Opera
         standings: &standings,
         direct: DirectAtEnds::Read { values: &black, level: u32::MAX },
         regathers: false,
+        bright: None,
     };
     gathering.operator(gatherers, |k| Key::new(1).with(k as u64))
 }
@@ -182,6 +183,7 @@ fn rays_that_end_close_by_gather_again() {
         standings: &standings,
         direct: DirectAtEnds::Read { values: &half, level: u32::MAX },
         regathers,
+        bright: None,
     };
     let [once, again] = [false, true]
         .map(|again| gathering(again).operator(&gatherers, |k| Key::new(1).with(k as u64)));
