@@ -34,6 +34,8 @@ pub(super) struct Sight<'a> {
     pub(super) elements: &'a Elements,
     /// Those of all vertices of the elements.
     pub(super) gatherers: &'a [Gatherer],
+    /// Places that light comes to over specular surfaces.
+    pub(super) reached: &'a [SurfacePoint],
     pub(super) key: Key,
 }
 
@@ -52,12 +54,10 @@ impl Sight<'_> {
         let first = known.len();
         let mut lit = known.clone();
         lit.extend(direct[first..].iter().map(|lx| !lx.is_black()));
-        let look = |(k, gatherer): (usize, &Gatherer)| {
-            if direct[first + k].is_black() {
-                self.look(gatherer, (first + k) as u64, &lit)
-            } else {
-                Seen::Light
-            }
+        self.open_reached(first, &mut lit);
+        let look = |(k, gatherer): (usize, &Gatherer)| match lit[first + k] {
+            true => Seen::Light,
+            false => self.look(gatherer, (first + k) as u64, &lit),
         };
         let seen: Vec<Seen> = self.gatherers[first..].par_iter().enumerate().map(look).collect();
         known.extend(seen.iter().map(|s| matches!(s, Seen::Light)));
@@ -79,6 +79,17 @@ impl Sight<'_> {
                 known[vertex] = open.next().unwrap_or(false);
                 !known[vertex]
             });
+        }
+    }
+
+    /// Opens the vertices from number `first` on that are seen from places of their elements that light reaches.
+    fn open_reached(&self, first: usize, open: &mut [bool]) {
+        for place in self.reached {
+            let SurfacePoint { triangle, back, u, v, .. } = *place;
+            for (vertex, _) in self.elements.locate(triangle, back, u, v).into_iter().flatten() {
+                let vertex = vertex as usize;
+                open[vertex] = open[vertex] || vertex >= first && self.sees(place, vertex);
+            }
         }
     }
 

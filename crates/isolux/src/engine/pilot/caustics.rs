@@ -8,6 +8,7 @@
 
 use super::Pilot;
 use crate::elements::{Elements, Subdivision};
+use crate::engine::accuracy::mean_reflectance;
 use crate::engine::detail::bisect_twice;
 use crate::engine::flights::{CausticNoise, DOUBT, Flights};
 use crate::engine::forecast::{FINE, GoOn};
@@ -16,10 +17,20 @@ use crate::engine::hats::Hats;
 use crate::engine::look::{Look, PilotRequest};
 use crate::engine::noise::Noise;
 use crate::engine::parts::{PARTS, Parts, Squared, part_of, read_in_parts, squared_error};
+use crate::engine::surface::SurfacePoint;
 use crate::map::Standing;
 use crate::sampling::Key;
 use rayon::prelude::*;
 use std::cell::RefCell;
+
+/// Particles that tell where light comes to at all.
+const LET_GO: u32 = 1 << 13;
+
+/// Caustics are counted where all light is so many times as much with them, root mean square.
+const MUCH: f64 = 1.25;
+
+/// Of light in rooms that absorb nothing there would be no end.
+const MOST_REFLECTANCE: f64 = 0.9;
 
 /// Batches of particles.
 const BATCHES: usize = 8;
@@ -121,7 +132,11 @@ impl Pilot<'_> {
     ) -> CausticErrors {
         let mut batches: Vec<Batch> = (0..BATCHES).map(|_| Batch::default()).collect();
         let mut next = FIRST_PARTICLES;
-        if !(self.lighting.leaves_caustics() && look.rms_lx > 0.0 && self.fly(&mut batches, next)) {
+        if !(self.lighting.leaves_caustics() && self.fly(&mut batches, next)) {
+            return CausticErrors::default();
+        }
+        self.count_caustics(look, &batches);
+        if look.rms_lx <= 0.0 {
             return CausticErrors::default();
         }
         let area_m2: f64 = look.errors.iter().map(|e| e.area_m2).sum();
@@ -159,6 +174,50 @@ impl Pilot<'_> {
             next *= 2;
         }
         errors
+    }
+
+    /// Counts caustics as light, and what is reflected of them, where they are much of it: all that is small is small against that.
+    fn count_caustics(&mut self, look: &mut Look, batches: &[Batch]) {
+        let hats = Hats::new(&self.subdivision, &self.standings);
+        let on: Vec<OnElements> =
+            batches.iter().map(|batch| self.on_elements(batch, &look.elements, &hats)).collect();
+        let n = on.len() as f64;
+        let (mut area_m2, mut squares, mut lm, mut caustic_lm) = (0.0, 0.0, 0.0, 0.0);
+        for (vertex, m2) in hats.areas_m2().iter().enumerate().filter(|(_, m2)| **m2 > 0.0) {
+            let values = || on.iter().map(|batch| batch.light[vertex]);
+            let (sum, own) = (values().sum::<f64>(), values().map(|lx| lx * lx).sum::<f64>());
+            let other_lx = (self.direct[vertex] + self.indirect[vertex]).luminance();
+            // Of batches that share nothing random, products are free of bias.
+            let squared = (sum * sum - own) / (n * (n - 1.0));
+            area_m2 += m2;
+            squares += m2 * (other_lx * other_lx + 2.0 * other_lx * sum / n + squared);
+            lm += m2 * (other_lx + sum / n);
+            caustic_lm += m2 * sum / n;
+        }
+        let reflectance = mean_reflectance(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
+        let reflected_lx = caustic_lm / area_m2 * reflectance / (1.0 - reflectance);
+        let squared = (squares + 2.0 * reflected_lx * lm) / area_m2 + reflected_lx * reflected_lx;
+        let rms_lx = squared.max(0.0).sqrt();
+        if rms_lx > MUCH * look.rms_lx {
+            look.rms_lx = rms_lx;
+            // What was tried without them tells nothing.
+            self.trial = None;
+        }
+    }
+
+    /// Places that some particles come to over specular surfaces.
+    pub(super) fn reached_by_caustics(&self) -> Vec<SurfacePoint> {
+        let of = (self.scene, self.lighting);
+        let flights = Flights::new(of, None, LET_GO, self.key.with(10));
+        let Some(flights) = flights.filter(|_| self.lighting.leaves_caustics()) else {
+            return Vec::new();
+        };
+        let places_of = |index: u32| {
+            let places = RefCell::new(Vec::new());
+            flights.fly(index, |at, _| places.borrow_mut().push(*at));
+            places.into_inner()
+        };
+        (0..LET_GO).into_par_iter().flat_map_iter(places_of).collect()
     }
 
     /// Adds so many particles to every batch; returns whether any of all came to a place that counts.

@@ -88,6 +88,8 @@ struct Pilot<'s> {
     direct_noise_lx: Option<f64>,
     indirect: Vec<Rgb>,
     known: Vec<bool>,
+    /// Where some particles came over specular surfaces.
+    reached: Vec<SurfacePoint>,
     /// What they stand for.
     standings: Vec<Option<Standing>>,
     felt: Felt,
@@ -175,6 +177,7 @@ impl<'s> Pilot<'s> {
             direct_noise_lx: None,
             indirect: Vec::new(),
             known: Vec::new(),
+            reached: Vec::new(),
             standings: Vec::new(),
             felt: Felt::default(),
             carriers: Carriers::all(),
@@ -403,6 +406,7 @@ impl<'s> Pilot<'s> {
     /// Finds out what stands close before the vertices of the first mesh, and which of them carry light.
     fn set_out(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let started = Instant::now();
+        self.reached = self.reached_by_caustics();
         self.extend_known(elements, gatherers);
         self.complete_standings(gatherers);
         self.costs.first.add(started.elapsed(), gatherers.len() as f64);
@@ -452,7 +456,7 @@ impl<'s> Pilot<'s> {
 
     fn sight<'a>(&'a self, elements: &'a Elements, gatherers: &'a [Gatherer]) -> Sight<'a> {
         let (scene, lighting, key) = (self.scene, self.lighting, self.key.with(3));
-        Sight { scene, lighting, elements, gatherers, key }
+        Sight { scene, lighting, elements, gatherers, reached: &self.reached, key }
     }
 
     fn extend_known(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
