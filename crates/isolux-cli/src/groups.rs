@@ -30,7 +30,7 @@ pub(crate) struct Group {
 pub(crate) fn of(scene: &Scene, source: &Path) -> Result<Vec<Group>, Failure> {
     let mut groups = Vec::new();
     for (number, name) in scene.groups().iter().enumerate() {
-        match scene.lit_by(number as u32) {
+        match scene.lit_by(number as u32).filter(Scene::gives_light) {
             Some(lit) => groups.push(Group { name: name.clone(), scene: lit }),
             None => note(Note::Info, format!("group {name:?} has no light and gets no map")),
         }

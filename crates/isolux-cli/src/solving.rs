@@ -77,9 +77,14 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
         }
         (Some(accuracy), Some(asked)) if ends_itself && accuracy.of_elements() > asked => format!(
             "ended as more of the same would not help: with {} receivers interpolation and lookups alone err by {}, \
-             and no finer elements were made, as they may be no more or came to nothing; ask for less accuracy{}",
+             and no finer elements were made, as they {}; ask for less accuracy{}",
             map.values.len(),
             show_share(accuracy.of_elements()),
+            if 2 * map.values.len() > request.most_receivers() {
+                "would take more than --max-memory: raise it"
+            } else {
+                "may be no more or came to nothing"
+            },
             if request.method == Method::Hybrid { "" } else { ", or use --method hybrid" }
         ),
         _ => return,

@@ -45,6 +45,8 @@ pub(super) struct Bright {
 struct Part {
     centre: Point,
     radius_m: f64,
+    /// Half of the box around them.
+    half: Vector,
     /// The way they face in the mean: the shorter, the less it says.
     facing: Vector,
     /// Direct light that they reflect, lm.
@@ -91,8 +93,7 @@ impl Bright {
         let mean_lx = flux_lm / area_m2;
         let is_bright = |leaf: &Leaf| leaf.reflected_lx > BRIGHT * mean_lx;
         let [_, of_bright_lm] = total(&mut leaves.iter().filter(|leaf| is_bright(leaf)));
-        // What is not a number, where nothing is lit, does not matter either.
-        if !(of_bright_lm > MATTERS * flux_lm) {
+        if of_bright_lm <= MATTERS * flux_lm {
             return None;
         }
         let bright: Vec<Leaf> = leaves.into_iter().filter(is_bright).collect();
@@ -149,9 +150,13 @@ impl Part {
         let corners = || leaves.iter().flat_map(|leaf| leaf.corners);
         let bounds = |k: usize| {
             let all = corners().map(move |p| p.to_vector().component(k));
-            0.5 * (all.clone().fold(f64::MAX, f64::min) + all.fold(f64::MIN, f64::max))
+            [all.clone().fold(f64::MAX, f64::min), all.fold(f64::MIN, f64::max)]
         };
-        let centre = Point::new(bounds(0), bounds(1), bounds(2));
+        let [x, y, z] = [0, 1, 2].map(bounds);
+        let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
+        let half = |[low, high]: [f64; 2]| 0.5 * (high - low);
+        let centre = Point::new(middle(x), middle(y), middle(z));
+        let half = Vector::new(half(x), half(y), half(z));
         let radius_m = corners().map(|p| (p - centre).length()).fold(0.0, f64::max);
         let (mut flux_lm, mut facing) = (0.0, Vector::ZERO);
         let mut sums_lm = Vec::with_capacity(leaves.len());
@@ -163,14 +168,17 @@ impl Part {
             let front = (b - a).cross(c - a).direction().map_or(Vector::ZERO, Direction::to_vector);
             facing += front * if leaf.back { -own_lm } else { own_lm };
         }
-        Self { centre, radius_m, facing: facing * (1.0 / flux_lm), flux_lm, leaves, sums_lm }
+        let facing = facing * (1.0 / flux_lm);
+        Self { centre, radius_m, half, facing, flux_lm, leaves, sums_lm }
     }
 
     /// The illuminance that it is expected to give at a place, without obstacles, lx.
     fn expected_lx(&self, from: Point, axis: Normal) -> f64 {
         let to = self.centre - from;
         let distance_m = to.length() + self.radius_m;
-        let at_receiver = (to.dot(axis.to_vector()) + self.radius_m) / distance_m;
+        let axis = axis.to_vector();
+        let reach_m: f64 = (0..3).map(|k| axis.component(k).abs() * self.half.component(k)).sum();
+        let at_receiver = (to.dot(axis) + reach_m) / distance_m;
         let even = 1.0 - self.facing.length();
         let at_part = (-to.dot(self.facing) + self.radius_m) / distance_m + even;
         let cosines = at_receiver.clamp(0.0, 1.0) * at_part.clamp(0.0, 1.0);

@@ -99,7 +99,7 @@ pub(super) struct Gathering<'a> {
 }
 
 /// Random numbers of rays that are sent to what is bright.
-const SENT: u64 = 0x62_7269_6768_74;
+const SENT: u64 = 0x6272_6967_6874;
 
 /// How often a ray goes on from surfaces that are close by. In a corner half of the rays meet the other wall close
 /// by, and half of those the first again: with usual reflectances a hundredth of the light is left.

@@ -9,8 +9,8 @@
 use super::probe::{MapReader, rms_lx};
 use crate::elements::{Elements, Split, Subdivision};
 use crate::map::{
-    Accuracy, FilterReport, Fresh, Illuminance, IlluminationMap, MixedPart, Provenance, Standing,
-    Unshot,
+    Accuracy, FilterReport, Fresh, Illuminance, IlluminationMap, Method, MixedPart, Provenance,
+    Standing, Unshot,
 };
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -67,9 +67,9 @@ pub fn mix(parts: &[MixPart<'_>]) -> Result<(Scene, IlluminationMap), MixError> 
     let is_independent = have_seeds_of_their_own(&lit);
     let values = (0..elements.vertices().len())
         .map(|vertex| {
-            let row: Option<Vec<Illuminance>> =
+            let row: Vec<Option<Illuminance>> =
                 columns.iter().map(|column| column[vertex]).collect();
-            row.map(|row| sum(&lit, &row, is_independent))
+            known(&lit, &row).map(|row| sum(&lit, &row, is_independent))
         })
         .collect();
     let provenance = first_provenance(&scene, &lit);
@@ -232,6 +232,17 @@ fn add_noise(parts: impl Iterator<Item = f64>, is_independent: bool) -> f64 {
         true => parts.map(|lx| lx * lx).sum::<f64>().sqrt(),
         false => parts.sum(),
     }
+}
+
+/// What all parts have at a vertex; `None` where it is unknown. A place that one part knows is none inside of something: parts that do
+/// not know it bring no light there, but for those made by particles alone, which may have met it too seldom.
+fn known(parts: &[Part<'_>], row: &[Option<Illuminance>]) -> Option<Vec<Illuminance>> {
+    let is_known = row.iter().any(Option::is_some);
+    let of_part = |(part, own): (&Part<'_>, &Option<Illuminance>)| {
+        let is_dark = is_known && part.map.provenance.method != Method::Forward;
+        own.or(is_dark.then_some(Illuminance::NOTHING))
+    };
+    parts.iter().zip(row).map(of_part).collect()
 }
 
 fn sum(parts: &[Part<'_>], row: &[Illuminance], is_independent: bool) -> Illuminance {

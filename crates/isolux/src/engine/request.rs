@@ -29,6 +29,17 @@ pub struct SolveRequest {
     pub radiosity: RadiositySettings,
 }
 
+/// Memory of a vertex, bytes: the subdivision with its edges, the operator's entries at the fewest
+/// rays, sums and values. Measured on rooms; rounded up.
+pub(super) const BYTES_A_VERTEX: u64 = 2400;
+
+impl SolveRequest {
+    /// Receivers that fit into the memory allowed, about.
+    pub const fn most_receivers(&self) -> usize {
+        (self.max_memory_bytes / BYTES_A_VERTEX) as usize
+    }
+}
+
 impl Default for SolveRequest {
     /// One per cent, within what a small machine has.
     fn default() -> Self {

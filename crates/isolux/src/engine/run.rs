@@ -10,7 +10,9 @@ use super::forecast::Round;
 use super::pilot::{self, PilotRequest, pilot};
 use super::plan::Plan;
 use super::predict;
-use super::request::{Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
+use super::request::{
+    BYTES_A_VERTEX, Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch,
+};
 use super::state::{RunIdentity, RunState};
 use super::work::Work;
 use crate::map::{Accuracy, IlluminationMap, Method, Provenance};
@@ -29,9 +31,6 @@ const MOST_STAGES: u32 = 7;
 const LEFT_TO_ELEMENTS: f64 = 0.8;
 /// Accuracy that elements are made for where none is asked.
 const DEFAULT_ACCURACY: f64 = 0.01;
-/// Memory of a vertex, bytes: the subdivision with its edges, the operator's entries at the fewest
-/// rays, sums and values. Measured on rooms; rounded up.
-const BYTES_A_VERTEX: u64 = 2400;
 
 /// A map, and what it takes to go on with it.
 #[derive(Clone, Debug, PartialEq)]
@@ -203,7 +202,7 @@ impl<'s, 'r> Run<'s, 'r> {
             is_fitted: self.request.method != Method::Forward,
             has_means: self.request.method == Method::Hybrid,
             refines_caustics: self.request.method != Method::Radiosity,
-            max_vertices: (self.request.max_memory_bytes / BYTES_A_VERTEX) as usize,
+            max_vertices: self.request.most_receivers(),
             most_for_indirect_light: by_hand.max_receivers.map(|most| most as usize),
             least_edge_m: by_hand.min_element_m,
         }

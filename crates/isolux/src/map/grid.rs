@@ -87,11 +87,13 @@ impl GridFigures {
 
 /// One over the other; at most one, as both are of the same points.
 fn ratio(of: Figure, to: Figure) -> Figure {
-    let share = |a: f64, b: f64| if b > 0.0 { (a / b).min(1.0) } else { 0.0 };
+    let share = |a: f64, b: f64, of_none: f64| if b > 0.0 { (a / b).min(1.0) } else { of_none };
+    // What may be nought may be any part of what may be nought, too.
+    let most = if of.high > 0.0 { 1.0 } else { 0.0 };
     Figure {
-        value: share(of.value, to.value),
-        low: share(of.low, to.high),
-        high: share(of.high, to.low),
+        value: share(of.value, to.value, 0.0),
+        low: share(of.low, to.high, 0.0),
+        high: share(of.high, to.low, most),
     }
 }
 
@@ -151,5 +153,7 @@ mod tests {
     fn darkness_has_no_uniformity() {
         let found = GridFigures::of(&grid(1.0), &[value(0.0, 0.0)]).unwrap();
         assert_eq!(found.uniformity, Figure { value: 0.0, low: 0.0, high: 0.0 });
+        let unsure = GridFigures::of(&grid(1.0), &[value(400.0, f64::INFINITY)]).unwrap();
+        assert_eq!(unsure.uniformity, Figure { value: 1.0, low: 0.0, high: 1.0 });
     }
 }

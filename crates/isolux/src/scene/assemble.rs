@@ -279,6 +279,12 @@ impl Scene {
         finish.diffuse.colour * self.textures[texture as usize].value(mix(0), mix(1))
     }
 
+    /// Whether some luminaire gives light: none that is dimmed to nothing does.
+    pub fn gives_light(&self) -> bool {
+        let is_parallel = |l: &Luminaire| matches!(l.kind, LuminaireKind::Directional { .. });
+        self.luminous_flux_lm() > 0.0 || self.luminaires.iter().any(is_parallel)
+    }
+
     /// Flux of all luminaires with finite flux, lm (directional light has none of its own).
     pub fn luminous_flux_lm(&self) -> f64 {
         let points: f64 = self

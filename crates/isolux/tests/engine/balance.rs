@@ -71,6 +71,14 @@ fn of_glass() {
     check_both("a block of glass", &with(block, clear_glass(1.5, false)));
 }
 
+/// All light comes through glass: no luminaire is seen from anywhere.
+#[test]
+fn of_a_lamp_in_a_box_of_glass() {
+    let mut shade = outward_box([0.8, 1.0, 1.3], [0.4, 0.4, 0.4], 1);
+    shade.extend(inward_box([0.81, 1.01, 1.31], [0.38, 0.38, 0.38], 1));
+    check_both("a lamp in a box of glass", &with(shade, clear_glass(1.5, false)));
+}
+
 #[test]
 fn of_glowing_surfaces() {
     let panel = rectangle([1.0, 0.8, 2.4], [0.0, 0.4, 0.0], [0.6, 0.0, 0.0], 1);

@@ -153,3 +153,35 @@ fn what_cannot_be_added_is_refused() {
         assert_eq!(mix(&parts).err(), Some(expected));
     }
 }
+
+#[test]
+fn a_room_that_a_group_does_not_light_is_known_by_another() {
+    let mut shapes = inward_box([4.0, 3.0, 2.5], 0);
+    for mut shape in inward_box([3.0, 3.0, 2.5], 0) {
+        shape.positions.iter_mut().for_each(|p| p[0] += 5.0);
+        shapes.push(shape);
+    }
+    let lamp = |x: f64, cd: f64, group: u32| Luminaire { group, ..isotropic([x, 1.5, 2.0], cd) };
+    let parts = SceneParts {
+        shapes,
+        materials: vec![painted(Rgb::grey(0.5))],
+        luminaires: vec![lamp(2.0, 100.0, 0), lamp(6.5, 60.0, 1)],
+        groups: ["a", "b"].map(str::to_owned).into(),
+        ..SceneParts::default()
+    };
+    let whole = Scene::assemble(parts).unwrap();
+    let groups: Vec<Scene> = (0..2).map(|group| whole.lit_by(group).unwrap()).collect();
+    let maps: Vec<IlluminationMap> = (1..).zip(&groups).map(|(k, g)| solved(g, k)).collect();
+    let unknown = maps[0].values.iter().filter(|v| v.is_none()).count();
+    assert!(unknown > 0, "the first group knows nothing of the second room");
+    let all: Vec<MixPart<'_>> =
+        groups.iter().zip(&maps).map(|(scene, map)| part(scene, map, 1.0)).collect();
+    let (_, map) = mix(&all).unwrap();
+    assert!(map.values.iter().all(Option::is_some));
+    assert!(map.provenance.accuracy.is_some_and(|a| a.reached < 0.08), "no less than the worse");
+    let mean_lx = |map: &IlluminationMap| {
+        let vertices = map.elements.vertices().iter().zip(&map.values);
+        vertices.filter_map(|(v, e)| Some(v.area_m2 * e.as_ref()?.illuminance_lx())).sum::<f64>()
+    };
+    near(mean_lx(&map), mean_lx(&maps[0]) + mean_lx(&maps[1]), "flux that arrives");
+}

@@ -2,6 +2,7 @@
 
 mod aiming;
 mod anderson;
+mod bright;
 mod carrying;
 mod coat;
 mod deposits;
