@@ -58,7 +58,7 @@ impl<'s> Pilot<'s> {
             mean_reflectance: mean_reflectance(self.scene, &coarse),
             means,
             fit: self.fit(&coarse, &open),
-            bright: Bright::of(self.scene, &look.elements, |k| self.direct[k as usize]),
+            bright: self.bright,
             direct: self.direct,
             direct_variance: self.direct_variance,
             guess: self.indirect,
@@ -98,6 +98,7 @@ impl<'s> Pilot<'s> {
             self.direct_variance.fill(0.0);
         }
         self.is_measured = true;
+        self.bright = Bright::of(self.scene, &look.elements, |k| self.direct[k as usize]);
         go_on(&self.round(request, Some(look), FINE));
         self.complete_standings(&gatherers);
         gatherers
