@@ -42,7 +42,6 @@ impl<'s> Pilot<'s> {
         } else {
             Means::default()
         };
-        let parts = caustics.parts(&coarse);
         Plan {
             scene: self.scene,
             lighting: self.lighting,
@@ -59,6 +58,7 @@ impl<'s> Pilot<'s> {
             means,
             fit: self.fit(&coarse, &open),
             bright: self.bright,
+            parts: caustics.parts(&coarse),
             direct: self.direct,
             direct_variance: self.direct_variance,
             guess: self.indirect,
@@ -70,7 +70,6 @@ impl<'s> Pilot<'s> {
             trial: self.trial.unwrap_or(Trial::usual(look.rms_lx)),
             caustic_noise: self.caustic_noise,
             caustic_error_lx: caustics.lx,
-            parts,
             caustics_beside_lx2: caustics.beside_lx2,
             aim: self.aim,
             is_whole: self.is_whole,
