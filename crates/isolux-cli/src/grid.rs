@@ -5,7 +5,7 @@ use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
-use crate::quantity::significant;
+use crate::quantity::{show_share, significant};
 use crate::{map_file, render, solving, source};
 use isolux::engine::{MapReader, ProbePoint, SolveRequest};
 use isolux::geometry::{Point, Vector};
@@ -51,7 +51,7 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     let reader = MapReader::new(&scene, &map);
     let results: Vec<GridResult> =
         grids.into_iter().map(|grid| GridResult::of(grid, &reader)).collect();
-    results.iter().for_each(GridResult::warn);
+    results.iter().for_each(|result| result.warn(&map));
     if let Some(csv) = csv {
         csv.write(rows(&results).as_bytes())?;
     }
@@ -171,10 +171,15 @@ fn solved(flags: &GridFlags, scene: &Scene) -> Result<(IlluminationMap, Outcome)
     Ok((solved.solution.map, solved.outcome))
 }
 
+/// Caustics of less than this share of all light are not worth a word.
+const TOLD_FROM: f64 = 1e-3;
+
 /// A grid with its values.
 struct GridResult {
     grid: CalculationGrid,
     points: Vec<Point>,
+    /// Whether some lie in free space, where caustics are unknown.
+    in_space: bool,
     /// Initial illuminance.
     values: Vec<Option<Illuminance>>,
     figures: Option<GridFigures>,
@@ -185,12 +190,24 @@ impl GridResult {
         let normal = grid.normal().expect("a grid without problems has a normal");
         let points = grid.points();
         let read = |&position: &Point| reader.measure(ProbePoint { position, normal });
+        let in_space =
+            points.iter().any(|&position| !reader.is_on_surface(ProbePoint { position, normal }));
         let values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
         let figures = GridFigures::of(&grid, &values);
-        Self { grid, points, values, figures }
+        Self { grid, points, in_space, values, figures }
     }
 
-    fn warn(&self) {
+    fn warn(&self, map: &IlluminationMap) {
+        let caustics = map.caustic_share();
+        if self.in_space && caustics > TOLD_FROM {
+            let text = format!(
+                "grid `{}`: light that glass, gloss and curved mirrors throw is left out, and of the intervals, too, as it is \
+                 known on surfaces alone; there it is {} of all light",
+                self.grid.name,
+                show_share(caustics)
+            );
+            note(Note::Warning, text);
+        }
         let unknown = self.values.iter().filter(|value| value.is_none()).count();
         if unknown > 0 {
             let text = format!(

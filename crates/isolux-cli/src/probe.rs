@@ -95,6 +95,13 @@ fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Values, Fail
         return Err(source::no_light(&flags.source));
     }
     let tracer = PathTracer::new(&scene);
+    if tracer.leaves_caustics() {
+        note(
+            Note::Warning,
+            "light that glass, gloss and curved mirrors throw on surfaces is left out of paths, and of their standard \
+             errors; solve for a map to have it",
+        );
+    }
     let settings = settings(flags);
     Ok(points.par_iter().map(|at| Some(tracer.estimate(*at, &settings))).collect())
 }

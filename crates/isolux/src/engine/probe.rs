@@ -301,6 +301,11 @@ impl<'a> MapReader<'a> {
         })
     }
 
+    /// Whether a point lies on a surface that carries the map, where caustics are known.
+    pub fn is_on_surface(&self, at: ProbePoint) -> bool {
+        self.find_surface(at).is_some()
+    }
+
     /// Whether some ray leaves the scene or meets a place that sees a vertex of its element of which the map
     /// knows something: elements may reach below what stands on them.
     fn sees_light(&self, from: &Gatherer) -> bool {

@@ -39,6 +39,11 @@ impl<'a> PathTracer<'a> {
         Self { scene, lighting: Lighting::new(scene), places: Places::of(scene) }
     }
 
+    /// Whether there is light that paths leave out: caustics.
+    pub fn leaves_caustics(&self) -> bool {
+        self.lighting.leaves_caustics()
+    }
+
     /// The illuminance at any point that faces any way, on a surface or not, with its standard error
     /// from independent replicates, each of low-discrepancy points of its own. Caustics are left
     /// out. Every place has random numbers of its own: errors of neighbours are independent.

@@ -45,6 +45,17 @@ impl IlluminationMap {
         Some(Illuminance { indirect_lx: stored.indirect_lx + self.ambient_lx(), ..stored })
     }
 
+    /// The share of all light on the known surface that comes by specular ways without virtual luminaires.
+    pub fn caustic_share(&self) -> f64 {
+        let (mut caustic, mut all) = (0.0, 0.0);
+        for (vertex, value) in self.elements.vertices().iter().zip(&self.values) {
+            let Some(value) = value else { continue };
+            caustic += vertex.area_m2 * value.caustic_lx.luminance();
+            all += vertex.area_m2 * value.illuminance_lx();
+        }
+        if all > 0.0 { caustic / all } else { 0.0 }
+    }
+
     /// What stands in place of indirect light that was not computed, the same everywhere; readers add
     /// it to the values of vertices, lx.
     pub fn ambient_lx(&self) -> Rgb {
