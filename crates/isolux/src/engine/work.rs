@@ -529,17 +529,14 @@ impl<'p, 's> Work<'p, 's> {
     }
 }
 
-/// Takes back what noise and overshooting deposits of particles have put below zero, so that the
-/// total is not negative, with direct light afresh or without: it can only come nearer to the truth.
+/// Takes back what noise and overshooting deposits of particles have put below zero, each part of the light for itself, as readers
+/// put others in place of some: it can only come nearer to the truth.
 fn without_negative_light(value: &mut Illuminance) {
-    let direct = value.direct_lx - value.caustic_lx;
-    for k in 0..3 {
-        let indirect = value.indirect_lx.0[k].max(0.0);
-        let caustic = value.caustic_lx.0[k].max(-indirect);
-        value.indirect_lx.0[k] = indirect;
-        value.caustic_lx.0[k] = caustic;
-        value.direct_lx.0[k] = direct.0[k].max(-(indirect + caustic)) + caustic;
-    }
+    let no_less = |light: Rgb| light.map(|c| c.max(0.0));
+    let direct = no_less(value.direct_lx - value.caustic_lx);
+    value.indirect_lx = no_less(value.indirect_lx);
+    value.caustic_lx = no_less(value.caustic_lx);
+    value.direct_lx = direct + value.caustic_lx;
 }
 
 /// Gathering rays of receivers in the mean, as they share them best, and particles of an increment.
