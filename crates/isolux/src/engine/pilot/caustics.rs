@@ -7,6 +7,7 @@
 //! hides it.
 
 use super::Pilot;
+use super::direct::MOST_REFLECTANCE;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::accuracy::mean_reflectance;
 use crate::engine::detail::bisect_twice;
@@ -28,9 +29,6 @@ const LET_GO: u32 = 1 << 13;
 
 /// Caustics are counted where all light is so many times as much with them, root mean square.
 const MUCH: f64 = 1.25;
-
-/// Of light in rooms that absorb nothing there would be no end.
-const MOST_REFLECTANCE: f64 = 0.9;
 
 /// Batches of particles.
 const BATCHES: usize = 8;

@@ -21,7 +21,7 @@ const MOST_FOR_DIRECT_LIGHT: usize = 4;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 /// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
 const LOOKED_AT: usize = 512;
-const MOST_REFLECTANCE: f64 = 0.9;
+pub(super) const MOST_REFLECTANCE: f64 = 0.9;
 /// Vertices of one task: some take a hundred times as long as others.
 const AT_ONCE: usize = 32;
 /// The most of the noise of others that light may have at vertices of little area.
