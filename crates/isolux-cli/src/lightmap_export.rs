@@ -6,6 +6,7 @@ use crate::flags::ExportFlags;
 use crate::lightmap::{Baked, Planned};
 use crate::lightmap_files::{self, Kind};
 use crate::map_file;
+use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use isolux_formats::lightmap::Target;
 use isolux_formats::map_glb::MapFile;
@@ -46,7 +47,10 @@ pub(crate) fn run(
         Some(held) => held,
         None => {
             let planned = Planned::new(&flags.layout, &scene, flags.max_memory)?;
-            let Some(baked) = planned.bake(&scene, &map)? else { return Ok(Outcome::Interrupted) };
+            let Some(baked) = planned.bake(&scene, &map)? else {
+                note(Note::Warning, format!("{}: not written", output.path().display()));
+                return Ok(Outcome::Interrupted);
+            };
             baked
         }
     };

@@ -85,17 +85,23 @@ fn bake(
     scene: &Scene,
     (solved, planned): (&Solved, Option<Planned>),
 ) -> Result<(Outcome, Option<lightmap::Report>), Failure> {
-    let Some(planned) = planned.filter(|_| !matches!(solved.outcome, Outcome::Interrupted)) else {
-        return Ok((solved.outcome, None));
-    };
+    let Some(planned) = planned else { return Ok((solved.outcome, None)) };
     let map = &solved.solution.map;
-    match planned.bake(scene, map)? {
-        Some(baked) => {
-            let report = baked.write(scene, map, (output, Target::Viewer, true))?;
-            Ok((solved.outcome, Some(report)))
-        }
-        None => Ok((Outcome::Interrupted, None)),
-    }
+    let baked = match solved.outcome {
+        Outcome::Interrupted => None,
+        _ => planned.bake(scene, map)?,
+    };
+    let Some(baked) = baked else {
+        let map = output.path().display();
+        let text = format!(
+            "{map}: its light is at vertices alone, the texels are not baked; `isolux export {map} --layout texels \
+             -o FILE.glb` bakes them of what there is"
+        );
+        note(Note::Warning, text);
+        return Ok((Outcome::Interrupted, None));
+    };
+    let report = baked.write(scene, map, (output, Target::Viewer, true))?;
+    Ok((solved.outcome, Some(report)))
 }
 
 /// What a run would need.

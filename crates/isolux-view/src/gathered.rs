@@ -89,7 +89,8 @@ fn asked(
     size: Size,
     settings: &TraceSettings,
 ) -> Result<Vec<SurfacePoint>, ViewError> {
-    let middles = TraceSettings { samples_per_side: 1, gloss_samples: 1, ..*settings };
+    let middles =
+        TraceSettings { samples_per_side: 1, gloss_samples: 1, highlights: false, ..*settings };
     let all = Mutex::new(Vec::new());
     let ask = |at: SurfacePoint| {
         if !at.blurred {

@@ -1,10 +1,12 @@
 //! Whole pictures of rooms whose luminance is known.
 
 use isolux::elements::{ElementArrays, Elements};
-use isolux::geometry::{Direction, Point, Vector};
+use isolux::geometry::{Direction, Point, Transform, Vector};
 use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
+use isolux::photometry::IntensityDistribution;
 use isolux::scene::{
-    Body, Camera, Coat, Dielectric, Finish, Gloss, Material, Scene, SceneParts, Shape,
+    Body, Camera, Coat, Dielectric, Finish, Gloss, Luminaire, LuminaireKind, Material, Scene,
+    SceneParts, Shape,
 };
 use isolux::units::Rgb;
 use isolux_view::*;
@@ -327,4 +329,77 @@ fn bad_requests_are_refused() {
     let settings = TraceSettings { samples_per_side: u32::MAX, ..TraceSettings::DRAFT };
     let refused = trace(&scene, &towards_y(Point::ORIGIN), size, &settings, &|_| None);
     assert!(matches!(refused, Err(ViewError::Samples { .. })));
+}
+
+/// The room with a glossy wall +y and a small panel near the camera that shines on it, otherwise black.
+fn room_with_a_panel(alpha: f64) -> Scene {
+    let gloss = Gloss { f0: Rgb::grey(0.2), alpha };
+    let glossy = Finish { gloss: Some(gloss), ..Finish::BLACK };
+    let panel = Finish { luminance_cd_m2: Rgb::grey(1000.0), ..Finish::BLACK };
+    let mut shapes = room([0, 0, 0, 1, 0, 0]);
+    shapes.push(rectangle(2, [0.3, -0.5, 0.4], [0.0, 0.0, 0.2], [0.2, 0.0, 0.0]));
+    let materials = [Finish::BLACK, glossy, panel].map(|finish| Material::one_sided("m", finish));
+    scene(shapes, materials.to_vec())
+}
+
+/// Mean and standard deviation of the luminance about the mirror image of the panel.
+fn shown(scene: &Scene, settings: &TraceSettings) -> [f64; 2] {
+    let size = Size::new(32, 32).unwrap();
+    let towards = Vector::new(0.16, 1.0, 0.2).direction().unwrap();
+    let camera = Camera { direction: towards, vertical_fov_rad: 0.05, ..towards_y(Point::ORIGIN) };
+    let image = trace(scene, &camera, size, settings, &|_| lux(0.0)).unwrap();
+    let all: Vec<f64> =
+        (0..size.pixels()).map(|pixel| image.luminance_cd_m2(pixel).luminance()).collect();
+    let mean = all.iter().sum::<f64>() / all.len() as f64;
+    let squares = all.iter().map(|cd| (cd - mean).powi(2)).sum::<f64>();
+    [mean, (squares / all.len() as f64).sqrt()]
+}
+
+#[test]
+fn looks_at_luminaires_add_no_light_and_leave_little_noise() {
+    for alpha in [0.02, 0.1, 0.5] {
+        let scene = room_with_a_panel(alpha);
+        let by_facets = TraceSettings { highlights: false, ..TraceSettings::DRAFT };
+        let [_, noise] = shown(&scene, &by_facets);
+        let many = TraceSettings { gloss_samples: 4096, ..by_facets };
+        let [expected, left] = shown(&scene, &many);
+        let [mean, even] = shown(&scene, &TraceSettings::DRAFT);
+        // The noise of 32 x 32 pixels of either.
+        let error = (left * left + even * even).sqrt() / 32.0;
+        assert!((mean - expected).abs() < 4.0 * error, "{alpha}: {mean} for {expected}");
+        // What narrow gloss shows differs from pixel to pixel itself.
+        let is_wide = alpha > 0.05;
+        assert!(!is_wide || even < 0.5 * noise, "{alpha}: {even}, {noise} by facets alone");
+    }
+}
+
+#[test]
+fn a_luminaire_without_surface_shows_on_a_rough_one() {
+    let gloss = Gloss { f0: Rgb::grey(0.2), alpha: 0.3 };
+    let finish = Finish { gloss: Some(gloss), ..Finish::BLACK };
+    let lamp = Luminaire {
+        name: "lamp".into(),
+        group: 0,
+        colour: Rgb::WHITE,
+        kind: LuminaireKind::Point {
+            position: Point::ORIGIN,
+            world_from_luminaire: Transform::IDENTITY,
+            intensity: IntensityDistribution::Isotropic { intensity_cd: 100.0 },
+        },
+    };
+    let materials = vec![diffuse(0.5), Material::one_sided("glossy", finish)];
+    let parts = SceneParts {
+        shapes: room([0, 0, 0, 1, 0, 0]),
+        materials,
+        luminaires: vec![lamp],
+        ..SceneParts::default()
+    };
+    let scene = Scene::assemble(parts).unwrap();
+    let camera = Camera { vertical_fov_rad: 0.001, ..towards_y(Point::ORIGIN) };
+    let size = Size::new(1, 1).unwrap();
+    let image = trace(&scene, &camera, size, &TraceSettings::DRAFT, &|_| lux(0.0)).unwrap();
+    // Seen and lit along the normal from 1 m: reflectance times density of facets over four, times 100 lx.
+    let expected = 0.2 / (PI * 0.3 * 0.3) / 4.0 * 100.0;
+    let got = image.luminance_cd_m2(0).luminance();
+    assert!((got / expected - 1.0).abs() < 1e-5, "{got} for {expected}");
 }

@@ -80,6 +80,7 @@ mod tests {
             reached,
             statistical: reached,
             discretization: 0.0,
+            caustics: 0.0,
             bias: 0.0,
             interpolated: reached,
         };

@@ -150,7 +150,7 @@ pub(super) fn record(
 fn storable(provenance: &Provenance) -> Provenance {
     let finite = |v: &f64| v.is_finite();
     let accuracy = provenance.accuracy.filter(|a| {
-        let all = [a.reached, a.statistical, a.discretization, a.bias, a.interpolated];
+        let all = [a.reached, a.statistical, a.discretization, a.caustics, a.bias, a.interpolated];
         all.iter().all(finite)
     });
     let accuracy_target = provenance.accuracy_target.filter(finite);

@@ -178,6 +178,7 @@ fn provenance() -> Provenance {
             reached: 0.009_3,
             statistical: 0.006,
             discretization: 0.005,
+            caustics: 0.0005,
             bias: 0.005,
             interpolated: 0.04,
         }),

@@ -11,18 +11,26 @@ const COAT: u64 = 2;
 /// Facets narrower than this are mirrors: their lobe is thinner than a pixel.
 const MIRROR_ALPHA: f64 = 1e-3;
 
+/// Facets narrower than this show no luminaire without surface: it is seen as wide as real ones are, and less than a pixel.
+const POINT_ALPHA: f64 = 0.03;
+
 /// A direction in which a surface shows what lies there, times a weight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lobe {
     pub(super) weight: Rgb,
     pub(super) direction: Direction,
-    /// Whether it is one of many about the direction.
-    pub(super) blurred: bool,
+    /// If it is one of many about the direction: the density of all of them there, 1/sr.
+    pub(super) density: Option<f64>,
 }
 
 impl Lobe {
     const fn sharp(weight: Rgb, direction: Direction) -> Self {
-        Self { weight, direction, blurred: false }
+        Self { weight, direction, density: None }
+    }
+
+    /// Whether it is one of many about the direction.
+    pub(super) const fn is_blurred(&self) -> bool {
+        self.density.is_some()
     }
 }
 
@@ -38,11 +46,32 @@ pub(super) struct Arrival {
 }
 
 impl Arrival {
+    /// The way back, in the frame of the normal.
+    fn view(&self) -> Vector {
+        let axis = self.normal.to_direction();
+        let (u, v) = axis.frame();
+        let towards = -self.direction;
+        Vector::new(towards.dot(u), towards.dot(v), towards.dot(axis).max(1e-6))
+    }
+
     /// The mirror direction; about the flat normal where a smoothed one would lead into the surface.
     fn mirror(&self) -> Direction {
         let smooth = self.direction.reflect(self.normal);
         if smooth.cos(self.flat) > 0.0 { smooth } else { self.direction.reflect(self.flat) }
     }
+}
+
+/// Facets of one width, of gloss or of a coat.
+pub(super) struct Rough<'a> {
+    finish: &'a Finish,
+    layer: Layer<'a>,
+    alpha: f64,
+}
+
+#[derive(Clone, Copy)]
+enum Layer<'a> {
+    Gloss(&'a Gloss),
+    Coat,
 }
 
 /// The lobes of an opaque finish.
@@ -51,39 +80,87 @@ pub(super) fn opaque(at: &Arrival, finish: &Finish, facets: u32, key: Key) -> Ve
     if !finish.mirror.is_black() {
         lobes.push(Lobe::sharp(finish.mirror, at.mirror()));
     }
-    let cos = -at.direction.cos(at.normal);
-    if let Some(gloss) = &finish.gloss {
-        let below = |facet: f64, out: f64| {
-            fresnel(gloss, finish.gloss_limit([cos, out]), facet, finish.through_coat([cos, out]))
-        };
-        lobes.extend(glossy(at, gloss.alpha, (facets, key), below));
-    }
-    if let Some(coat) = &finish.coat {
-        let coated = |facet: f64, _| finish.coat_reflectance(facet);
-        lobes.extend(glossy(at, coat.alpha, (facets, key.with(COAT)), coated));
-    }
+    layers(finish).for_each(|layer| layer.add_lobes(at, (facets, key), &mut lobes));
     lobes
 }
 
-/// The lobes of facets of one width, with their reflectance by the cosines of light on a facet and of its way out.
-fn glossy(
-    at: &Arrival,
-    alpha: f64,
-    (facets, key): (u32, Key),
-    reflectance: impl Fn(f64, f64) -> Rgb,
-) -> Vec<Lobe> {
-    if alpha < MIRROR_ALPHA {
-        let cos = -at.direction.cos(at.normal);
-        return vec![Lobe::sharp(reflectance(cos, cos), at.mirror())];
+/// What shows luminaires blurred.
+pub(super) fn rough(finish: &Finish) -> impl Iterator<Item = Rough<'_>> {
+    layers(finish).filter(|layer| layer.alpha >= MIRROR_ALPHA)
+}
+
+fn layers(finish: &Finish) -> impl Iterator<Item = Rough<'_>> {
+    let gloss = finish.gloss.as_ref().map(|gloss| (Layer::Gloss(gloss), gloss.alpha));
+    let coat = finish.coat.as_ref().map(|coat| (Layer::Coat, coat.alpha));
+    gloss.into_iter().chain(coat).map(move |(layer, alpha)| Rough { finish, layer, alpha })
+}
+
+impl Rough<'_> {
+    /// The lobes of so many visible facets (Heitz 2018, "Sampling the GGX distribution of visible normals").
+    fn add_lobes(&self, at: &Arrival, (facets, key): (u32, Key), lobes: &mut Vec<Lobe>) {
+        if self.alpha < MIRROR_ALPHA {
+            let cos = -at.direction.cos(at.normal);
+            lobes.push(Lobe::sharp(self.reflectance(cos, [cos, cos]), at.mirror()));
+            return;
+        }
+        let key = match self.layer {
+            Layer::Gloss(_) => key,
+            Layer::Coat => key.with(COAT),
+        };
+        let ggx = Ggx { alpha: self.alpha };
+        let view = at.view();
+        let all = f64::from(facets);
+        let lobe = |place| {
+            let half = ggx.sample(view, place);
+            let out = half * (2.0 * view.dot(half)) - view;
+            let direction = at.normal.to_direction().from_local(out.direction()?.to_vector());
+            let (weight, density) = self.shown(at, view, out, direction)?;
+            Some(Lobe { weight: weight / all, direction, density: Some(density * all) })
+        };
+        lobes.extend(spread(facets, key).filter_map(lobe));
     }
-    let lobe = |place| {
-        facet(at, alpha, place).map(|facet| Lobe {
-            weight: reflectance(facet.cos, facet.out) * (facet.unmasked / f64::from(facets)),
-            direction: facet.direction,
-            blurred: true,
-        })
-    };
-    spread(facets, key).filter_map(lobe).collect()
+
+    /// Whether it is wide enough to show luminaires without surface.
+    pub(super) fn shows_points(&self) -> bool {
+        self.alpha >= POINT_ALPHA
+    }
+
+    /// What one cd/m2 in a direction adds, of which facets are drawn with the density that goes with it, 1/sr.
+    pub(super) fn towards(&self, at: &Arrival, direction: Direction) -> Option<(Rgb, f64)> {
+        let axis = at.normal.to_direction();
+        let (u, v) = axis.frame();
+        let out = Vector::new(direction.dot(u), direction.dot(v), direction.dot(axis));
+        self.shown(at, at.view(), out, direction)
+    }
+
+    fn shown(
+        &self,
+        at: &Arrival,
+        view: Vector,
+        out: Vector,
+        direction: Direction,
+    ) -> Option<(Rgb, f64)> {
+        if out.z <= 0.0 || direction.cos(at.flat) <= 0.0 {
+            return None;
+        }
+        let half = (view + out).direction()?.to_vector();
+        let ggx = Ggx { alpha: self.alpha };
+        let cos = view.dot(half);
+        let density = ggx.density(view, half) / (4.0 * cos);
+        let entering = -at.direction.cos(at.normal);
+        Some((self.reflectance(cos, [entering, out.z]) * ggx.masking(out), density))
+    }
+
+    /// By the cosine of light on a facet and those of its ways in and out.
+    fn reflectance(&self, facet: f64, cosines: [f64; 2]) -> Rgb {
+        match self.layer {
+            Layer::Gloss(gloss) => {
+                let spare = self.finish.gloss_limit(cosines);
+                fresnel(gloss, spare, facet, self.finish.through_coat(cosines))
+            }
+            Layer::Coat => self.finish.coat_reflectance(facet),
+        }
+    }
 }
 
 /// The lobes of a dielectric.
@@ -114,29 +191,4 @@ fn spread(n: u32, key: Key) -> impl Iterator<Item = [f64; 2]> {
         let mirrored = f64::from(k.reverse_bits()) / 2f64.powi(32);
         [(mirrored + x).fract(), ((f64::from(k) + y) / f64::from(n))]
     })
-}
-
-/// A visible facet (Heitz 2018, "Sampling the GGX distribution of visible normals").
-struct Facet {
-    direction: Direction,
-    /// Of the angle of light on it, and on its way out.
-    cos: f64,
-    out: f64,
-    /// The share that leaves unmasked.
-    unmasked: f64,
-}
-
-fn facet(at: &Arrival, alpha: f64, place: [f64; 2]) -> Option<Facet> {
-    let axis = at.normal.to_direction();
-    let (u, v) = axis.frame();
-    let towards = -at.direction;
-    let view = Vector::new(towards.dot(u), towards.dot(v), towards.dot(axis).max(1e-6));
-    let ggx = Ggx { alpha };
-    let half = ggx.sample(view, place);
-    let out = half * (2.0 * view.dot(half)) - view;
-    let direction = axis.from_local(out.direction()?.to_vector());
-    if out.z <= 0.0 || direction.cos(at.flat) <= 0.0 {
-        return None;
-    }
-    Some(Facet { direction, cos: view.dot(half), out: out.z, unmasked: ggx.masking(out) })
 }

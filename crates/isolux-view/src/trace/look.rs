@@ -1,8 +1,9 @@
 //! One look along a ray.
 
-use super::lobes::{self, Arrival, Lobe};
+use super::lobes::{self, Arrival, Lobe, Rough};
 use super::settings::{SurfacePoint, TraceSettings};
 use crate::image::{Reading, Seen, Sight, Surface};
+use isolux::engine::{Highlighted, Highlights, Shining};
 use isolux::geometry::{Direction, Hit, Normal, Ray};
 use isolux::map::Illuminance;
 use isolux::sampling::Key;
@@ -18,6 +19,8 @@ const INVISIBLE: f64 = 1.0 / 512.0;
 const FAINT: f64 = 0.1;
 /// Luminances that differ by less than this share look alike.
 const ALIKE: f64 = 0.03;
+/// Tells the random numbers of looks at luminaires from those of lobes.
+const HIGHLIGHTS: u64 = 1 << 32;
 /// Black backs in a row that a camera looks through.
 const MAX_BACKS: u32 = 64;
 
@@ -25,6 +28,7 @@ const MAX_BACKS: u32 = 64;
 pub(super) struct Looker<'a> {
     pub(super) scene: &'a Scene,
     pub(super) settings: &'a TraceSettings,
+    pub(super) highlights: Option<&'a Highlights<'a>>,
     pub(super) read: &'a (dyn Fn(SurfacePoint) -> Option<Illuminance> + Sync),
 }
 
@@ -140,6 +144,8 @@ struct Progress<'a> {
     facets: u32,
     /// What one cd/m2 from here adds to the picture.
     weight: Rgb,
+    /// The share of what the surface emits that this look is to tell: the rest is told by looks at luminaires.
+    of_emitter: f64,
     /// Whether a glossy surface lies on the way, or a faint mirror.
     blurred: bool,
     /// The pixel that is looked through.
@@ -179,7 +185,9 @@ impl Looker<'_> {
         (pixel, key): (usize, Key),
     ) -> Look {
         let (weight, blurred, path) = (Rgb::WHITE, false, 0);
-        let start = Progress { depth: 0, facets, near, weight, blurred, pixel, path, key };
+        let of_emitter = 1.0;
+        let start =
+            Progress { depth: 0, facets, near, weight, of_emitter, blurred, pixel, path, key };
         match &meeting.hit {
             Some(hit) => self.at(hit, meeting.direction, start),
             None => Look::NOTHING,
@@ -233,10 +241,15 @@ impl Looker<'_> {
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
         let diffuse = self.scene.diffuse_reflectance(finish, hit.triangle, u, v);
         let lobes = lobes::opaque(at, finish, progress.facets, progress.key.with(0));
-        let specular = self.follow(hit, lobes, progress);
+        let highlighted = self.highlighted(hit, finish, &progress);
+        let mut specular = self.follow(hit, lobes, highlighted.as_ref(), progress);
+        if let Some(highlighted) = &highlighted {
+            specular.luminance_cd_m2 += highlights(at, finish, highlighted, &progress);
+        }
+        let emitted_cd_m2 = finish.luminance_cd_m2 * progress.of_emitter;
         if finish.is_pure_mirror() {
             let behind = specular.strongest.unwrap_or(self.bare(hit, at));
-            return behind.shining(finish.luminance_cd_m2, &specular);
+            return behind.shining(emitted_cd_m2, &specular);
         }
         let bare = self.bare(hit, at);
         let known = bare.surface.and_then(|surface| lent(&surface, progress.near));
@@ -249,8 +262,15 @@ impl Looker<'_> {
         } else {
             Sight::Surface
         };
-        let own_cd_m2 = finish.luminance_cd_m2 + diffuse * light_lx / PI;
+        let own_cd_m2 = emitted_cd_m2 + diffuse * light_lx / PI;
         Look { reading, light_lx, sight, ..bare }.shining(own_cd_m2, &specular)
+    }
+
+    /// What is to be seen of luminaires from a place that shows them blurred, unless nobody would notice.
+    fn highlighted(&self, hit: &Hit, finish: &Finish, p: &Progress<'_>) -> Option<Highlighted<'_>> {
+        let is_followed = p.depth < self.settings.depth && p.weight.max_channel() >= INVISIBLE;
+        let highlights = self.highlights.filter(|_| is_followed)?;
+        lobes::rough(finish).next().map(|_| highlights.at(hit, p.facets))
     }
 
     /// What the map says of the place of a hit.
@@ -268,7 +288,7 @@ impl Looker<'_> {
 
     fn at_dielectric(&self, hit: &Hit, at: &Arrival, glass: &Dielectric, p: Progress) -> Look {
         let lobes = lobes::dielectric(at, glass, hit.back);
-        let specular = self.follow(hit, lobes, p);
+        let specular = self.follow(hit, lobes, None, p);
         specular.strongest.unwrap_or(self.bare(hit, at)).shining(Rgb::BLACK, &specular)
     }
 
@@ -284,7 +304,13 @@ impl Looker<'_> {
         Look { sight: Sight::Surface, surface: Some(surface), ..Look::NOTHING }
     }
 
-    fn follow(&self, hit: &Hit, lobes: Vec<Lobe>, progress: Progress) -> Specular {
+    fn follow(
+        &self,
+        hit: &Hit,
+        lobes: Vec<Lobe>,
+        highlighted: Option<&Highlighted<'_>>,
+        progress: Progress,
+    ) -> Specular {
         let mut sum = Specular::default();
         let mut strongest = 0.0;
         if progress.depth >= self.settings.depth {
@@ -295,9 +321,10 @@ impl Looker<'_> {
             if weight.max_channel() < INVISIBLE / f64::from(progress.facets) {
                 continue;
             }
-            let look = self.along(hit, index, &lobe, Progress { weight, ..progress });
+            let next = Progress { weight, ..progress };
+            let look = self.along(hit, (index, &lobe), highlighted, next);
             sum.luminance_cd_m2 += lobe.weight * look.luminance_cd_m2;
-            if !lobe.blurred {
+            if !lobe.is_blurred() {
                 sum.sharp_cd_m2 += lobe.weight * look.sharp_cd_m2;
             }
             let strength = lobe.weight.luminance();
@@ -310,18 +337,30 @@ impl Looker<'_> {
     }
 
     /// The look from a surface along one of its lobes.
-    fn along(&self, hit: &Hit, index: usize, lobe: &Lobe, progress: Progress) -> Look {
+    fn along(
+        &self,
+        hit: &Hit,
+        (index, lobe): (usize, &Lobe),
+        highlighted: Option<&Highlighted<'_>>,
+        progress: Progress,
+    ) -> Look {
+        let found = self.scene.bvh().closest_hit(&self.onwards(hit, lobe.direction));
+        let Some(found) = found else { return Look::NOTHING };
+        let of_emitter = lobe.density.zip(highlighted).map_or(1.0, |(density, highlighted)| {
+            density / (density + highlighted.density(&found, lobe.direction))
+        });
+        let is_faint = progress.weight.max_channel() < FAINT;
         let next = Progress {
             depth: progress.depth + 1,
             facets: 1,
             near: &[],
-            blurred: progress.blurred || lobe.blurred || progress.weight.max_channel() < FAINT,
+            of_emitter,
+            blurred: progress.blurred || lobe.is_blurred() || is_faint,
             path: progress.path.wrapping_mul(4).wrapping_add(index as u32 + 1),
             key: progress.key.with(1 + index as u64),
             ..progress
         };
-        let found = self.scene.bvh().closest_hit(&self.onwards(hit, lobe.direction));
-        found.map_or(Look::NOTHING, |hit| self.at(&hit, lobe.direction, next))
+        self.at(&found, lobe.direction, next)
     }
 
     /// All lobes, or deep down one of them at random, its weight over its probability.
@@ -341,6 +380,35 @@ impl Looker<'_> {
         let (index, lobe) = lobes[picked.unwrap_or(lobes.len() - 1)];
         vec![(index, Lobe { weight: lobe.weight * (all / share(&lobe)), ..lobe })]
     }
+}
+
+/// What looks at luminaires tell of a surface that shows them blurred. Those without surface are left out where the surface itself is
+/// seen blurred: hardly a look would meet their images, and all of those would be far too bright.
+fn highlights(
+    at: &Arrival,
+    finish: &Finish,
+    highlighted: &Highlighted<'_>,
+    progress: &Progress<'_>,
+) -> Rgb {
+    let facets = f64::from(progress.facets);
+    let shown_by = |layer: &Rough<'_>, direction, shining| {
+        let (weight, density) = layer.towards(at, direction)?;
+        match shining {
+            Shining::Point(lx) => {
+                let is_shown = layer.shows_points() && !progress.blurred;
+                is_shown.then(|| weight * lx * density)
+            }
+            Shining::Surface { luminance_cd_m2, density: of_looks } => {
+                Some(weight * luminance_cd_m2 * (density / (of_looks + facets * density)))
+            }
+        }
+    };
+    let mut sum_cd_m2 = Rgb::BLACK;
+    highlighted.look(progress.key.with(HIGHLIGHTS), |direction, shining| {
+        let shown = lobes::rough(finish).filter_map(|layer| shown_by(&layer, direction, shining));
+        sum_cd_m2 += shown.sum();
+    });
+    sum_cd_m2
 }
 
 /// The normal on one side of a surface.

@@ -11,6 +11,7 @@ pub use settings::{SurfacePoint, TraceSettings};
 use crate::camera::ViewRays;
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Middle, Reading, Size};
+use isolux::engine::Highlights;
 use isolux::map::Illuminance;
 use isolux::scene::{Camera, Scene};
 use look::{Look, Looker};
@@ -27,8 +28,8 @@ pub type Read<'a> = dyn Fn(SurfacePoint) -> Option<Illuminance> + Sync + 'a;
 /// known: the bare map, or direct light evaluated afresh with the indirect part interpolated.
 ///
 /// Diffuse surfaces show L = Le + rho E / pi. Mirrors and smooth glass are followed; gloss is
-/// averaged over a few GGX facets, so it shows surfaces and emitters but not the highlights of
-/// luminaires without surface. The same arguments give the same bits on any number of threads.
+/// averaged over a few GGX facets and looks at luminaires: those without surface show only on rough surfaces, and where they are
+/// many not at all. The same arguments give the same bits on any number of threads.
 pub fn trace(
     scene: &Scene,
     camera: &Camera,
@@ -49,7 +50,8 @@ pub fn trace_watched(
 ) -> Result<LuminanceImage, ViewError> {
     let per_side = settings.samples_per_side.max(1);
     size.check_samples(per_side.saturating_mul(per_side))?;
-    let looker = Looker { scene, settings, read };
+    let highlights = if settings.highlights { Highlights::new(scene) } else { None };
+    let looker = Looker { scene, settings, highlights: highlights.as_ref(), read };
     let pixels = Pixels { looker, rays: ViewRays::new(camera, size), size, per_side };
     let count = (per_side * per_side) as usize;
     let mut samples = vec![Look::NOTHING.seen(); size.pixels() * count];

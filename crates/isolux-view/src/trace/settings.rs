@@ -30,6 +30,8 @@ pub struct TraceSettings {
     /// Facets looked along in a pixel at a glossy surface that is seen directly, shared out among its
     /// samples; one a sample behind a mirror.
     pub gloss_samples: u32,
+    /// Whether glossy surfaces look at luminaires, too.
+    pub highlights: bool,
     /// Whether the camera looks through the black backs of one-sided materials, into a room from
     /// outside. Reflections never do.
     pub through_black_backs: bool,
@@ -45,6 +47,7 @@ impl TraceSettings {
         samples_per_side: 3,
         depth: 8,
         gloss_samples: 9,
+        highlights: true,
         through_black_backs: false,
         seed: 1,
     };

@@ -88,6 +88,7 @@ fn in_all(
         reached: root(&[statistical, discretization, bias]),
         statistical,
         discretization,
+        caustics: interpolation.caustics_lx / rms_lx,
         bias,
         interpolated: root(&[statistical, interpolation.total_lx / rms_lx, bias_of_bare_map]),
     })
@@ -124,8 +125,14 @@ impl Pooled {
 }
 
 /// The error of a map without light.
-const NO_ERROR: Accuracy =
-    Accuracy { reached: 0.0, statistical: 0.0, discretization: 0.0, bias: 0.0, interpolated: 0.0 };
+const NO_ERROR: Accuracy = Accuracy {
+    reached: 0.0,
+    statistical: 0.0,
+    discretization: 0.0,
+    caustics: 0.0,
+    bias: 0.0,
+    interpolated: 0.0,
+};
 
 /// The light of paths given up, relative, once all surfaces have reflected it: by the balance of
 /// light what arrives is what was sent over what is absorbed. Without bound where all is reflected.

@@ -71,6 +71,8 @@ pub(super) struct Checks {
 pub(super) struct InterpolationErrors {
     /// Of the indirect part, where readers interpolate it.
     pub(super) indirect_lx: f64,
+    /// What of it lies in caustics and is told at the vertices there.
+    pub(super) caustics_lx: f64,
     /// The same where they do not.
     pub(super) untrusted_lx: f64,
     /// What is read close by there of a unit of light, root mean square over all the surface.
@@ -303,9 +305,9 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> I
         direct_mean_lx: mean[1] - mean[0],
         untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
         close: close.sqrt(),
-        given_up_lx: 0.0,
         noise_lx: (!checks.is_empty()).then(|| noise.sqrt()),
         over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),
+        ..InterpolationErrors::default()
     }
 }
 

@@ -357,19 +357,21 @@ fn accuracy(
     let lx = |of_part: fn(&Accuracy) -> f64| {
         parts.iter().zip(&of).map(move |(part, a)| part.dimmed_lx(of_part(a)))
     };
-    let statistical = add_noise(lx(|a| a.statistical), is_independent) / rms_lx;
-    let discretization = {
-        let shape = |v: &Illuminance| v.interpolation_error_lx;
-        spread(map, columns, lx(|a| a.discretization), shape) / rms_lx
-    };
-    let bias = spread(map, columns, lx(|a| a.bias), Illuminance::illuminance_lx) / rms_lx;
     let squares = |terms: &[f64]| terms.iter().map(|t| t * t).sum::<f64>();
+    let statistical = add_noise(lx(|a| a.statistical), is_independent) / rms_lx;
+    let beside_caustics = {
+        let shape = |v: &Illuminance| v.interpolation_error_lx;
+        spread(map, columns, lx(Accuracy::discretization_beside_caustics), shape) / rms_lx
+    };
+    let caustics = add_noise(lx(|a| a.caustics), true) / rms_lx;
+    let discretization = squares(&[beside_caustics, caustics]).sqrt();
+    let bias = spread(map, columns, lx(|a| a.bias), Illuminance::illuminance_lx) / rms_lx;
     let reached = squares(&[statistical, discretization, bias]).sqrt();
     let beyond =
         |a: &Accuracy| (squares(&[a.interpolated]) - squares(&[a.reached])).max(0.0).sqrt();
     let direct: f64 = parts.iter().zip(&of).map(|(p, a)| p.dimmed_lx(beyond(a))).sum();
     let interpolated = squares(&[reached, direct / rms_lx]).sqrt();
-    Some(Accuracy { reached, statistical, discretization, bias, interpolated })
+    Some(Accuracy { reached, statistical, discretization, caustics, bias, interpolated })
 }
 
 /// Root mean square of the sum of errors, lx, each spread over the surface like `shape`, with the root

@@ -23,6 +23,7 @@ mod forward;
 mod gather;
 mod hats;
 mod hidden;
+mod highlights;
 mod hybrid;
 mod look;
 mod means;
@@ -59,6 +60,7 @@ pub use cache::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
     IrradianceCache, SampleKind, Served,
 };
+pub use highlights::{Highlighted, Highlights, Shining};
 pub use mix::{MixError, MixPart, mix};
 pub use place::ProbePoint;
 pub use probe::{ExactSettings, IndirectReading, MapReader, Told};

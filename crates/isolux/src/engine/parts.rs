@@ -97,26 +97,35 @@ impl Parts {
         lacking
     }
 
-    /// What elements err by, given what increments lacked in the parts: all of it, and of every vertex in the mean of the
-    /// elements at it, lx2.
-    pub(super) fn errors(&self, lacking: &Accumulator) -> (Squared, Vec<(u32, f64)>) {
-        let mut all = Squared::default();
-        let mut at_vertices: Vec<(u32, f64, f64)> = Vec::new();
-        for (element, checked) in self.elements.iter().enumerate() {
+    /// What elements err by, given what increments lacked in the parts.
+    pub(super) fn errors(&self, lacking: &Accumulator) -> Vec<Squared> {
+        let of_one = |(element, checked): (usize, &Checked)| {
             let estimates = std::array::from_fn(|part| {
                 let estimate = lacking.estimate(element * PARTS + part);
                 (estimate.mean.caustic.luminance(), estimate.indirect_variance)
             });
-            let seen = squared_error(&estimates, checked.area_m2);
-            all += seen;
-            at_vertices.extend(checked.corners.map(|v| (v, seen.sum, checked.area_m2)));
+            squared_error(&estimates, checked.area_m2)
+        };
+        self.elements.iter().enumerate().map(of_one).collect()
+    }
+
+    /// What is said of these errors in the mean of the elements at every vertex, lx2: all of it together, what noise may hide shared
+    /// out as it is expected.
+    pub(super) fn at_vertices(&self, errors: &[Squared]) -> Vec<(u32, f64)> {
+        let all: Squared = errors.iter().copied().sum();
+        let hidden = all.variance.max(0.0).sqrt();
+        let mut at_vertices: Vec<(u32, f64, f64)> = Vec::new();
+        for (checked, error) in self.elements.iter().zip(errors) {
+            let share = error.variance.max(0.0) / all.variance.max(f64::MIN_POSITIVE);
+            let squared = error.sum + hidden * share;
+            at_vertices.extend(checked.corners.map(|v| (v, squared, checked.area_m2)));
         }
         at_vertices.sort_by_key(|&(v, ..)| v);
         let of_one = |of: &[(u32, f64, f64)]| {
             let (squared, m2) = of.iter().fold((0.0, 0.0), |sum, of| (sum.0 + of.1, sum.1 + of.2));
             (of[0].0, squared.max(0.0) / m2)
         };
-        (all, at_vertices.chunk_by(|a, b| a.0 == b.0).map(of_one).collect())
+        at_vertices.chunk_by(|a, b| a.0 == b.0).map(of_one).collect()
     }
 
     /// The integral of the variance of what is interpolated, from that at the vertices, lx2 m2.
@@ -132,6 +141,15 @@ impl std::ops::AddAssign for Squared {
     fn add_assign(&mut self, other: Self) {
         self.sum += other.sum;
         self.variance += other.variance;
+    }
+}
+
+impl std::iter::Sum for Squared {
+    fn sum<I: Iterator<Item = Self>>(all: I) -> Self {
+        all.fold(Self::default(), |mut sum, one| {
+            sum += one;
+            sum
+        })
     }
 }
 

@@ -439,7 +439,7 @@ impl Unseen {
             map.provenance.accuracy.as_ref().map_or(0.0, |accuracy| part(accuracy) * rms_lx)
         };
         Self {
-            discretization_lx: share(|a| a.discretization),
+            discretization_lx: share(Accuracy::discretization_beside_caustics),
             bias_lx: share(|a| a.bias),
             reached_lx: share(|a| a.reached),
         }

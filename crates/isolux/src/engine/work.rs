@@ -13,7 +13,7 @@ use super::flights;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
 use super::noise::Noise;
-use super::parts;
+use super::parts::{self, Squared};
 use super::plan::Plan;
 use super::predict;
 use super::radiosity::{Left, Radiosity};
@@ -239,23 +239,25 @@ impl<'p, 's> Work<'p, 's> {
         if parts.count() == 0 {
             return errors;
         }
-        let squared = self.caustic_error_lx(noise_is).powi(2);
+        let told = self.caustics_told_lx2(noise_is);
+        let squared = told + self.plan.caustics_beside_lx2;
         let [indirect_lx, total_lx] =
             [errors.indirect_lx, errors.total_lx].map(|lx| (lx * lx + squared).sqrt());
         let variance = |vertex: u32| self.sums.estimate(vertex as usize).variance;
         let noise = parts.noise(variance, OF_INTERPOLATED) / area_m2;
         let noise_lx = errors.noise_lx.map(|lx| (lx * lx + noise).sqrt());
-        InterpolationErrors { indirect_lx, total_lx, noise_lx, ..errors }
+        // Vertices tell it as soon as it is believed.
+        let caustics_lx = if self.is_believed() { told.sqrt() } else { 0.0 };
+        InterpolationErrors { indirect_lx, total_lx, caustics_lx, noise_lx, ..errors }
     }
 
-    /// What interpolating caustics errs by, root mean square, as increments tell.
-    fn caustic_error_lx(&self, noise_is: Noise) -> f64 {
-        let parts = &self.plan.parts;
+    /// What interpolating caustics errs by in the mean square, as increments tell, where they look; zero where they do not.
+    fn caustics_told_lx2(&self, noise_is: Noise) -> f64 {
         if self.checks.lacking.sums.is_empty() {
             return 0.0;
         }
-        let (seen, _) = parts.errors(&self.checks.lacking);
-        (seen.with(noise_is) / self.plan.area_m2() + self.plan.caustics_beside_lx2).sqrt()
+        let seen: Squared = self.plan.parts.errors(&self.checks.lacking).into_iter().sum();
+        seen.with(noise_is) / self.plan.area_m2()
     }
 
     /// What radiosity has not shot.
@@ -289,7 +291,8 @@ impl<'p, 's> Work<'p, 's> {
             return self.is_hopeless(accuracy, Some(target));
         }
         // Elements are as fine as particles tell them to be for caustics, whatever they are made for.
-        if self.caustic_error_lx(Noise::TakenOff) > target * self.plan.rms_lx {
+        let of_caustics = self.caustics_told_lx2(Noise::TakenOff) + self.plan.caustics_beside_lx2;
+        if of_caustics.sqrt() > target * self.plan.rms_lx {
             return false;
         }
         let count = self.sums.increments;
@@ -496,7 +499,8 @@ impl<'p, 's> Work<'p, 's> {
             return Vec::new();
         }
         let mut variances = vec![Rgb::BLACK; self.plan.indirect_vertices];
-        for (vertex, lx2) in self.plan.parts.errors(&self.checks.lacking).1 {
+        let parts = &self.plan.parts;
+        for (vertex, lx2) in parts.at_vertices(&parts.errors(&self.checks.lacking)) {
             variances[vertex as usize] = Rgb::grey(lx2);
         }
         self.plan.prolongate(&variances)

@@ -101,6 +101,9 @@ pub struct Accuracy {
     pub statistical: f64,
     /// From interpolating the indirect part between vertices, where readers do so.
     pub discretization: f64,
+    /// The part of that which lies where caustics are, and is told by the standard errors of the vertices there.
+    #[serde(default)]
+    pub caustics: f64,
     /// Bound of the error common to all replicates: interpolated light at the ends of rays.
     pub bias: f64,
     /// The whole error of the bare interpolated map, direct light included.
@@ -108,6 +111,12 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
+    /// The part of [`Accuracy::discretization`] that may be anywhere.
+    pub fn discretization_beside_caustics(&self) -> f64 {
+        let Self { discretization, caustics, .. } = self;
+        (discretization * discretization - caustics * caustics).max(0.0).sqrt()
+    }
+
     /// What more increments on the same elements leave: discretization and bias.
     pub fn of_elements(&self) -> f64 {
         libm::hypot(self.discretization, self.bias)

@@ -1,12 +1,12 @@
 //! Light from emitting surfaces.
 
 use super::Lighting;
-use super::source::{Emitter, Source, Target, facing_cos};
+use super::source::{Emitter, Source, SourceKind, Target, facing_cos};
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::sampling::SphericalTriangle;
 use crate::units::Rgb;
-use isolux_geometry::{Point, Vector};
+use isolux_geometry::{Direction, Point, Vector};
 use std::cell::OnceCell;
 
 /// Emitters of at most so many triangles a sample are sampled by solid angle, with the exact
@@ -40,7 +40,80 @@ impl Piece {
     }
 }
 
+/// What a place sees of an emitting surface, obstacles left out, as directions are drawn to it: one by one.
+pub(in crate::engine) struct Shape<'a> {
+    at: SurfacePoint,
+    triangles: &'a [[Point; 3]],
+    emitter: &'a Emitter,
+    pieces: Vec<Piece>,
+    /// Projected solid angle of the pieces, sr.
+    whole: f64,
+}
+
+impl<'a> Shape<'a> {
+    /// `None` where nothing of it is above the horizon.
+    pub(super) fn new(
+        at: &SurfacePoint,
+        emitter: &'a Emitter,
+        triangles: &'a [[Point; 3]],
+    ) -> Option<Self> {
+        let shape = Self { at: *at, triangles, emitter, pieces: Vec::new(), whole: 0.0 };
+        if shape.is_drawn_by_area() {
+            return Some(shape);
+        }
+        let pieces = pieces(at, triangles);
+        let whole = pieces.iter().map(|p| p.steradians).sum();
+        (whole > 0.0).then_some(Self { pieces, whole, ..shape })
+    }
+
+    fn is_drawn_by_area(&self) -> bool {
+        self.triangles.len() > TRIANGLES_A_SAMPLE
+    }
+
+    /// A direction to some place of it, and its density, 1/sr.
+    pub(in crate::engine) fn draw(&self, dice: &mut Dice) -> Option<(Direction, f64)> {
+        let [pick, accept] = dice.pair();
+        let (index, target) = if self.is_drawn_by_area() {
+            place_by_area(self.emitter, self.triangles, pick, dice.pair())
+        } else {
+            let piece = drawn(&self.pieces, pick * self.whole)?;
+            let corners = self.triangles[piece.triangle];
+            (piece.triangle, target(piece, corners, &self.at, accept, dice))
+        };
+        let to_target = target - self.at.point;
+        let direction = to_target.direction()?;
+        let density = self.density(index, direction, to_target.length())?;
+        Some((direction, density))
+    }
+
+    /// The density of a direction that meets one of its triangles so far away, 1/sr.
+    pub(in crate::engine) fn density(
+        &self,
+        index: usize,
+        direction: Direction,
+        distance_m: f64,
+    ) -> Option<f64> {
+        let cos = facing_cos(direction, self.at.shading, self.at.geometric)?;
+        if !self.is_drawn_by_area() {
+            return Some(cos / self.whole);
+        }
+        let [p, q, r] = self.triangles[index];
+        let cos_there = -direction.cos((q - p).cross(r - p).normal()?);
+        let total_m2 = self.emitter.area_sums_m2.last()?;
+        (cos_there > 0.0).then(|| distance_m * distance_m / (cos_there * total_m2))
+    }
+}
+
 impl Lighting<'_> {
+    /// How directions are drawn to an emitting surface, itself and no image of it, that a place sees.
+    pub(in crate::engine) fn shape(&self, number: usize, at: &SurfacePoint) -> Option<Shape<'_>> {
+        let source = &self.sources[self.starts[self.scene.luminaires().len() + number]];
+        match &source.kind {
+            SourceKind::Area { emitter, triangles } => Shape::new(at, emitter, triangles),
+            _ => None,
+        }
+    }
+
     /// Illuminance from one emitting surface, by `samples` shadow rays.
     ///
     /// Directions are drawn in proportion to the cosine at the receiver, so the share of them that is
@@ -90,13 +163,9 @@ impl Lighting<'_> {
         dice: &mut Dice,
     ) -> Rgb {
         let [pick, _] = dice.pair();
-        let [a, b] = dice.pair();
-        let total_m2 = emitter.area_sums_m2.last().copied().unwrap_or(0.0);
-        let k = emitter.area_sums_m2.partition_point(|&sum| sum <= pick * total_m2);
-        let k = k.min(triangles.len() - 1);
+        let (k, target) = place_by_area(emitter, triangles, pick, dice.pair());
         let [p, q, r] = triangles[k];
-        let root = a.sqrt();
-        let target = p + (q - p) * (root * (1.0 - b)) + (r - p) * (root * b);
+        let total_m2 = emitter.area_sums_m2.last().copied().unwrap_or(0.0);
         let to_target = target - at.point;
         let (Some(direction), Some(normal)) =
             (to_target.direction(), (q - p).cross(r - p).normal())
@@ -112,6 +181,21 @@ impl Lighting<'_> {
         self.visibility(&source.chain, at, Target::Point(target), Some(emitter.indices[k]))
             * steradians
     }
+}
+
+/// A triangle of an emitter and a place on it, evenly over its area.
+fn place_by_area(
+    emitter: &Emitter,
+    triangles: &[[Point; 3]],
+    pick: f64,
+    [a, b]: [f64; 2],
+) -> (usize, Point) {
+    let total_m2 = emitter.area_sums_m2.last().copied().unwrap_or(0.0);
+    let k = emitter.area_sums_m2.partition_point(|&sum| sum <= pick * total_m2);
+    let k = k.min(triangles.len() - 1);
+    let [p, q, r] = triangles[k];
+    let root = a.sqrt();
+    (k, p + (q - p) * (root * (1.0 - b)) + (r - p) * (root * b))
 }
 
 /// Mean of samples that are spread evenly.

@@ -26,13 +26,15 @@ use super::surface::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
 pub(super) use about::About;
+pub(super) use area::Shape;
 pub(super) use chains::Chain;
+use isolux_geometry::Direction;
 pub(super) use measured::{Goal, Measured};
 use mirrors::Mirrors;
 use panes::Panes;
 pub(super) use patches::Patches;
 pub(super) use source::LuminaireId;
-use source::{Source, SourceKind, Sources};
+use source::{Source, SourceKind, Sources, Target};
 use std::collections::BTreeSet;
 use tree::{Images, Tree};
 
@@ -46,6 +48,9 @@ const MOST_EVALUATED_AT_ENDS: usize = 8;
 /// and at receivers.
 const DRAWN_AT_ENDS: usize = 32;
 const DRAWN_AT_RECEIVERS: usize = 512;
+
+/// Points among the sources up to which all of them show on glossy surfaces.
+const MOST_SHOWN: usize = 64;
 
 /// Shadow rays to points in one replicate at a receiver, where they are many.
 const RAYS_TO_MANY: usize = 16;
@@ -242,6 +247,31 @@ impl<'s> Lighting<'s> {
         drawn.zip(self.others().nth(drawn.unwrap_or(0))).map_or(Rgb::BLACK, |(k, source)| {
             self.lit_by(source, at, 1, dice) * (total / weights[k])
         })
+    }
+
+    /// Whether there are luminaires without surface, and so few, images counted, that glossy surfaces show them.
+    pub(super) fn shows_points(&self) -> bool {
+        let count = self.sources.len() - self.area_sources;
+        count > 0 && self.points <= MOST_SHOWN
+    }
+
+    /// What comes to a place from luminaires without surface and their images: where from, and the illuminance of what faces them.
+    pub(super) fn points_at(&self, at: &SurfacePoint, mut found: impl FnMut(Direction, Rgb)) {
+        let is_point = |s: &&Source| !matches!(s.kind, SourceKind::Area { .. });
+        for source in self.sources.iter().filter(is_point) {
+            let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
+            let arriving = source::unoccluded_if(self.scene, source, at, in_view);
+            let Some(arriving) = arriving else { continue };
+            let towards = match arriving.target {
+                Target::Point(place) => (place - at.point).direction(),
+                Target::Infinity(direction) => Some(direction),
+            };
+            let Some(towards) = towards else { continue };
+            let share = self.visibility_in_view(&source.chain, at, arriving.target, None);
+            if !share.is_black() {
+                found(towards, arriving.illuminance_lx * share / towards.cos(at.shading));
+            }
+        }
     }
 
     /// The sources that are not in the tree.

@@ -207,6 +207,7 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
     let errors = InterpolationErrors {
+        caustics_lx: 0.0,
         indirect_lx: 3.0,
         total_lx: 4.0,
         indirect_mean_lx: -2.0,
@@ -260,7 +261,7 @@ fn too_few_increments_and_darkness_have_no_accuracy() {
 }
 
 fn parts(statistical: f64, discretization: f64, bias: f64) -> Accuracy {
-    Accuracy { reached: 0.0, statistical, discretization, bias, interpolated: 0.0 }
+    Accuracy { reached: 0.0, statistical, discretization, caustics: 0.0, bias, interpolated: 0.0 }
 }
 
 #[test]

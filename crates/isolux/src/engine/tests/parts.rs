@@ -7,7 +7,7 @@ use crate::engine::accumulate::Accumulator;
 use crate::engine::caustics::deposit;
 use crate::engine::direct::Lighting;
 use crate::engine::noise::Noise;
-use crate::engine::parts::{PARTS, Parts, part_of, read_in_parts, samples};
+use crate::engine::parts::{PARTS, Parts, Squared, part_of, read_in_parts, samples};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use crate::map::Standing;
@@ -59,7 +59,7 @@ fn some_parts() -> (Parts, f64) {
 fn errors_are_seen_beyond_noise() {
     let (parts, area_m2) = some_parts();
     let root = |lacking: f64, sigma: f64, noise_is: Noise| {
-        let (seen, _) = parts.errors(&sums(&parts, |_| lacking, sigma, 8));
+        let seen: Squared = parts.errors(&sums(&parts, |_| lacking, sigma, 8)).into_iter().sum();
         (seen.with(noise_is) / area_m2).sqrt()
     };
     // A fourth of the squared error is taken to differ within parts.
@@ -76,8 +76,8 @@ fn errors_are_seen_beyond_noise() {
 #[test]
 fn errors_lie_at_their_vertices() {
     let (parts, _) = some_parts();
-    let (_, at_vertices) =
-        parts.errors(&sums(&parts, |k| if k < PARTS { 8.0 } else { 0.0 }, 0.0, 2));
+    let errors = parts.errors(&sums(&parts, |k| if k < PARTS { 8.0 } else { 0.0 }, 0.0, 2));
+    let at_vertices = parts.at_vertices(&errors);
     let with: Vec<f64> =
         at_vertices.iter().map(|&(_, lx2)| lx2).filter(|&lx2| lx2 > 1e-6).collect();
     assert_eq!(with.len(), 3);
@@ -150,7 +150,7 @@ fn caustic_error(plan: &Plan, particles: u32) -> f64 {
             &deposit(plan, particles / increments, Key::new(99).with(u64::from(k))).lacking,
         ));
     }
-    let (seen, _) = plan.parts.errors(&sums);
+    let seen: Squared = plan.parts.errors(&sums).into_iter().sum();
     (seen.with(Noise::TakenOff) / plan.area_m2()).sqrt() / plan.rms_lx
 }
 
