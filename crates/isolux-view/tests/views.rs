@@ -344,10 +344,10 @@ fn room_with_a_panel(alpha: f64) -> Scene {
 
 /// Mean and standard deviation of the luminance about the mirror image of the panel.
 fn shown(scene: &Scene, settings: &TraceSettings) -> [f64; 2] {
-    let size = Size::new(32, 32).unwrap();
-    let towards = Vector::new(0.16, 1.0, 0.2).direction().unwrap();
+    let size = Size::new(32, 32).expect("a size");
+    let towards = Vector::new(0.16, 1.0, 0.2).direction().expect("a direction");
     let camera = Camera { direction: towards, vertical_fov_rad: 0.05, ..towards_y(Point::ORIGIN) };
-    let image = trace(scene, &camera, size, settings, &|_| lux(0.0)).unwrap();
+    let image = trace(scene, &camera, size, settings, &|_| lux(0.0)).expect("a view");
     let all: Vec<f64> =
         (0..size.pixels()).map(|pixel| image.luminance_cd_m2(pixel).luminance()).collect();
     let mean = all.iter().sum::<f64>() / all.len() as f64;

@@ -22,9 +22,9 @@ pub(super) fn accuracy(
     sums: &Accumulator,
     interpolation: &InterpolationErrors,
 ) -> Option<Accuracy> {
-    let Pooled { area_m2: area, squared, variance } = Pooled::of(plan, |k| sums.estimate(k));
-    let noise_lx = interpolation.noise_lx.unwrap_or((variance / area).sqrt());
-    in_all(plan, (area, squared, noise_lx), interpolation)
+    let pooled = Pooled::of(plan, |k| sums.estimate(k));
+    let noise_lx = interpolation.noise_lx.unwrap_or((pooled.variance / pooled.area_m2).sqrt());
+    in_all(plan, (&pooled, noise_lx), interpolation)
 }
 
 /// The error of a map without replicates, of which check points tell all but what they do not see: the
@@ -34,29 +34,32 @@ pub(super) fn accuracy_of_map(
     estimate: impl Fn(usize) -> Estimate,
     seen: &InterpolationErrors,
 ) -> Option<Accuracy> {
-    let Pooled { area_m2: area, squared, variance } = Pooled::of(plan, estimate);
-    let noise_lx = (OF_INTERPOLATED * variance / area).sqrt();
+    let pooled = Pooled::of(plan, estimate);
+    let noise_lx = (OF_INTERPOLATED * pooled.variance / pooled.area_m2).sqrt();
     let beyond = |lx: f64| (lx * lx - noise_lx * noise_lx).max(0.0).sqrt();
     let rest = InterpolationErrors {
         indirect_lx: beyond(seen.indirect_lx),
         total_lx: beyond(seen.total_lx),
         ..*seen
     };
-    in_all(plan, (area, squared, noise_lx), &rest)
+    in_all(plan, (&pooled, noise_lx), &rest)
 }
 
 fn in_all(
     plan: &Plan,
-    (area, squared, noise_lx): (f64, f64, f64),
+    (pooled, noise_lx): (&Pooled, f64),
     interpolation: &InterpolationErrors,
 ) -> Option<Accuracy> {
+    let Pooled { area_m2: area, lit_m2, squared, .. } = *pooled;
     if !(squared > 0.0 && area > 0.0) {
         // No light at all is known exactly, if none was lost on the way and the pilot saw none.
         let dark = area > 0.0 && plan.rms_lx == 0.0 && interpolation.given_up_lx == 0.0;
         return dark.then_some(NO_ERROR);
     }
     let rms_lx = (squared / area).sqrt();
-    let given_up = given_up_share(plan, interpolation.given_up_lx, rms_lx);
+    // What has one sign lies where light is: means over all of the surface are larger there.
+    let lit = (lit_m2 / area).sqrt();
+    let given_up = given_up_share(plan, interpolation.given_up_lx, rms_lx) / lit;
     if given_up > 1.0 {
         return None;
     }
@@ -75,10 +78,10 @@ fn in_all(
     let rho = plan.mean_reflectance.min(0.99);
     let of_each = [rho * mean_lx, interpolation.seen_mean_lx];
     let larger = if of_each[0].abs() > of_each[1].abs() { of_each[0] } else { of_each[1] };
-    let reflected = larger / (1.0 - rho) / rms_lx;
+    let reflected = larger / (1.0 - rho) / rms_lx / lit;
     let spread = interpolation.seen_spread_lx / rms_lx;
     let bias_beside = |read_lx: f64| {
-        let alike = (2.0 * reflected * read_lx / rms_lx).max(0.0);
+        let alike = (2.0 * reflected / lit * read_lx / rms_lx).max(0.0);
         (reflected * reflected + alike + spread * spread).sqrt() + given_up
     };
     let bias = bias_beside(interpolation.trusted_mean_lx);
@@ -104,19 +107,22 @@ pub(super) fn early_statistical(plan: &Plan, sums: &Accumulator) -> Option<f64> 
 /// Over the known vertices, weighted by area: squares of the light and variances of its mean.
 struct Pooled {
     area_m2: f64,
+    /// Where there is light.
+    lit_m2: f64,
     squared: f64,
     variance: f64,
 }
 
 impl Pooled {
     fn of(plan: &Plan, estimate: impl Fn(usize) -> Estimate) -> Self {
-        let mut pooled = Self { area_m2: 0.0, squared: 0.0, variance: 0.0 };
+        let mut pooled = Self { area_m2: 0.0, lit_m2: 0.0, squared: 0.0, variance: 0.0 };
         let vertices = plan.elements.vertices().iter().enumerate();
         for (k, vertex) in vertices.filter(|&(k, _)| plan.standings[k].is_some()) {
             let estimate = estimate(k);
             let mean = &estimate.mean;
             let lx = (mean.direct + mean.caustic + mean.indirect).luminance();
             pooled.area_m2 += vertex.area_m2;
+            pooled.lit_m2 += if lx == 0.0 { 0.0 } else { vertex.area_m2 };
             pooled.squared += vertex.area_m2 * lx * lx;
             pooled.variance += vertex.area_m2 * estimate.variance;
         }

@@ -5,8 +5,9 @@
 //! neighbours, the excess is signal. Of each detail the share of signal is kept. So noise falls where
 //! light is smooth, edges stay, and as replicates accumulate every detail becomes signal: the filter
 //! switches itself off, as that of Inspirer did (Kopylov, Khodulev, Volevich 1998). It never reaches
-//! over creases, borders or hidden vertices, since elements do not. Standard errors stay those of the
-//! unfiltered values.
+//! over creases, borders or hidden vertices, since elements do not. Where light bends one way everywhere, as it does in rooms, all
+//! details that are taken off have one sign: each piece of surface gets back what it has lost in the mean, over its smoothed parts
+//! evenly. Standard errors stay those of the unfiltered values.
 
 use super::plan::Plan;
 use crate::map::FilterReport;
@@ -36,7 +37,7 @@ pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: 
     let means = Means::of(plan);
     let mut values = parts.to_vec();
     let mut variance = variance.to_vec();
-    let (mut smoothed_m2, mut bias) = (0.0, 0.0);
+    let (mut smoothed_m2, mut bias, mut first) = (0.0, 0.0, Vec::new());
     for pass in 0..PASSES {
         let total: Vec<f64> = (0..variance.len())
             .map(|k| values.iter().map(|part| part[k].luminance()).sum())
@@ -44,11 +45,16 @@ pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: 
         let kept = means.shares_of_signal(&total, &variance);
         if pass == 0 {
             (smoothed_m2, bias) = smoothing(plan, &kept);
+            first = kept.iter().map(|k| 1.0 - k.share).collect();
         }
         for part in &mut values {
             *part = means.shrink(part, &kept);
         }
         variance = means.noise_left(&variance, &kept);
+    }
+    let pieces = means.pieces();
+    for (filtered, part) in values.iter_mut().zip(parts) {
+        give_back(plan, (&pieces, &first), filtered, part);
     }
     let bias = if rms_lx > 0.0 { bias / rms_lx } else { 0.0 };
     Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
@@ -90,6 +96,23 @@ impl Means {
             }
         }
         Self { rows }
+    }
+
+    /// Of every vertex, the first of those that are connected with it.
+    fn pieces(&self) -> Vec<u32> {
+        let mut pieces = vec![u32::MAX; self.rows.len()];
+        let mut waiting = Vec::new();
+        for first in 0..self.rows.len() {
+            waiting.push(first as u32);
+            while let Some(vertex) = waiting.pop() {
+                let piece = &mut pieces[vertex as usize];
+                if *piece == u32::MAX {
+                    *piece = first as u32;
+                    waiting.extend(self.rows[vertex as usize].iter().map(|(next, _)| next));
+                }
+            }
+        }
+        pieces
     }
 
     fn mean(&self, vertex: usize, value: impl Fn(usize) -> f64) -> f64 {
@@ -139,6 +162,27 @@ impl Means {
             self.rows[i].iter().map(part).sum()
         };
         (0..variance.len()).map(one).collect()
+    }
+}
+
+/// Gives every piece of surface the light that filtering took from it, where details were smoothed.
+fn give_back(
+    plan: &Plan,
+    (pieces, smoothed): (&[u32], &[f64]),
+    filtered: &mut [Rgb],
+    unfiltered: &[Rgb],
+) {
+    let mut lost = vec![(Rgb::BLACK, 0.0); filtered.len()];
+    for (k, vertex) in plan.elements.vertices()[..filtered.len()].iter().enumerate() {
+        let of_piece = &mut lost[pieces[k] as usize];
+        of_piece.0 += (unfiltered[k] - filtered[k]) * vertex.area_m2;
+        of_piece.1 += smoothed[k] * vertex.area_m2;
+    }
+    for (k, value) in filtered.iter_mut().enumerate() {
+        let (flux_lm, smoothed_m2) = lost[pieces[k] as usize];
+        if smoothed_m2 > 0.0 {
+            *value += flux_lm * (smoothed[k] / smoothed_m2);
+        }
     }
 }
 

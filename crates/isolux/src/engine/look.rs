@@ -16,8 +16,9 @@ const BARE: f64 = 2.0;
 /// The same where their means are measured.
 const BARE_WITH_MEANS: f64 = 6.0;
 /// Means are measured where what beset elements lack in the mean over the surface is more than this, in accuracies
-/// asked for: in empty rooms, not among furniture, whose shadows and hollows balance.
+/// asked for: soon in empty rooms, late among furniture, whose shadows and hollows balance.
 const MEANS_FROM: f64 = 0.5;
+const MEANS_FROM_IF_SMOOTH: f64 = 0.15;
 
 /// Light of which a fit leaves less than this is smooth: empty rooms leave 0.4 to 0.55 of the error of interpolation, furnished
 /// ones 0.8 and more.
@@ -114,7 +115,8 @@ impl Look {
         let area_m2: f64 = self.errors.iter().map(|e| e.area_m2).sum();
         let beset = self.errors.iter().filter(|e| e.is_beset);
         let lacking: f64 = beset.map(|e| e.area_m2 * e.excess).sum();
-        request.has_means && lacking.abs() > MEANS_FROM * request.target * area_m2 * self.rms_lx
+        let from = if self.left_by_fit < SMOOTH { MEANS_FROM_IF_SMOOTH } else { MEANS_FROM };
+        request.has_means && lacking.abs() > from * request.target * area_m2 * self.rms_lx
     }
 
     /// Whether light is so smooth that quadratic functions over its vertices are nearer than linear ones.

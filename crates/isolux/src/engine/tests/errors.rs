@@ -5,6 +5,7 @@ use crate::engine::accumulate::{Accumulator, Sample};
 use crate::engine::accuracy::accuracy;
 use crate::engine::checks::{self, Check, InterpolationErrors};
 use crate::engine::direct::Lighting;
+use crate::engine::filter::filter;
 use crate::engine::noise::Noise;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
@@ -304,4 +305,58 @@ fn predictions_lie_in_their_interval_and_sharpen() {
     // Done already: now.
     let done = predict::finish(5.0, 20, 0.5, 10.0);
     assert_eq!((done.earliest_s, done.finish_s, done.latest_s), (10.0, 10.0, 10.0));
+}
+
+/// Backs of walls that no light comes to halve every mean over the surface, and nothing else that a user sees.
+#[test]
+fn what_has_one_sign_is_told_as_it_is_where_light_is() {
+    let scene = room();
+    let lighting = Lighting::new(&scene);
+    let plan = small_plan(&scene, &lighting);
+    let vertices = plan.elements.vertices();
+    let of_surfaces = |is_lit: &dyn Fn(usize) -> bool, mean_lx: f64| {
+        let mut sums = Accumulator::new(vertices.len(), 100.0);
+        for _ in 0..16 {
+            let lx = |k| if is_lit(k) { 100.0 } else { 0.0 };
+            let indirect = |k| Rgb::grey(lx(k));
+            let sample = |k| Sample { indirect: indirect(k), ..Sample::default() };
+            sums.add((0..vertices.len()).map(sample));
+        }
+        let lit: f64 =
+            (0..vertices.len()).filter(|&k| is_lit(k)).map(|k| vertices[k].area_m2).sum();
+        let lit = lit / vertices.iter().map(|v| v.area_m2).sum::<f64>();
+        let [all_lx, given_up_lx] = [mean_lx * lit, 0.5 * lit];
+        let errors = InterpolationErrors {
+            indirect_mean_lx: all_lx,
+            trusted_mean_lx: all_lx,
+            given_up_lx,
+            ..InterpolationErrors::default()
+        };
+        accuracy(&plan, &sums, &errors).unwrap().bias
+    };
+    let whole = of_surfaces(&|_| true, 2.0);
+    let half = of_surfaces(&|k| k % 2 == 0, 2.0);
+    assert!(whole > 0.03 && (half - whole).abs() < 1e-6, "{half} for {whole}");
+}
+
+/// Light that bends one way all over a wall, in noise: what is smoothed comes to as much light as before.
+#[test]
+fn a_filter_takes_no_light() {
+    let scene = room();
+    let lighting = Lighting::new(&scene);
+    let plan = small_plan(&scene, &lighting);
+    let vertices = &plan.elements.vertices()[..plan.indirect_vertices];
+    let key = Key::new(3);
+    let bent = |(k, vertex): (usize, &crate::elements::Vertex)| {
+        let from_middle = vertex.position - Point::new(1.5, 1.0, 1.25);
+        Rgb::grey(100.0 - 10.0 * from_middle.length_squared() + 5.0 * noise(key.with(k as u64)))
+    };
+    let values: Vec<Rgb> = vertices.iter().enumerate().map(bent).collect();
+    let filtered = filter(&plan, std::slice::from_ref(&values), &vec![25.0; values.len()], 100.0);
+    assert!(filtered.report.share > 0.2, "{:?}", filtered.report);
+    let flux = |values: &[Rgb]| -> f64 {
+        values.iter().zip(vertices).map(|(e, v)| e.luminance() * v.area_m2).sum()
+    };
+    let (before, after) = (flux(&values), flux(&filtered.values[0]));
+    assert!((after / before - 1.0).abs() < 1e-12, "{after} for {before}");
 }
