@@ -17,7 +17,11 @@ const MAX_PROBLEMS: usize = 20;
 pub(crate) fn read(path: &Path) -> Result<Vec<ProbePoint>, Failure> {
     let name =
         if path == Path::new("-") { "standard input".into() } else { path.to_string_lossy() };
-    let fail = |e| Failure::bad_input(format!("{name}: cannot be read ({e}); check the path"));
+    let fail = |e| {
+        Failure::bad_input(format!(
+            "{name}: cannot be read ({e}); check the name, and that you may read the file"
+        ))
+    };
     let source: Box<dyn Read> = if path == Path::new("-") {
         Box::new(std::io::stdin().lock())
     } else {

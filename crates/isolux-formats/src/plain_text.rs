@@ -41,7 +41,12 @@ pub(crate) fn read_bounded(path: &Path, most: u64) -> Result<Vec<u8>, Problem> {
 
 /// A file that the system does not give.
 pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Problem {
-    Problem::new(path, "", format!("cannot be read: {error}"), "check the path and its permissions")
+    Problem::new(
+        path,
+        "",
+        format!("cannot be read ({error})"),
+        "check the name, and that you may read the file",
+    )
 }
 
 /// The text of a file: UTF-8 with or without a byte order mark, or else Windows-1252, of which

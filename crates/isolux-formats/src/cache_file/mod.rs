@@ -120,8 +120,8 @@ impl CacheFile {
     /// Reads what was appended since the last time.
     fn read_on(&mut self, open: &mut File) -> Result<Found, Problem> {
         let unreadable = |error: io::Error| {
-            let remedy = "check that the file exists and may be read";
-            Problem::new(&self.path, "", format!("cannot be read: {error}"), remedy)
+            let remedy = "check the name, and that you may read the file";
+            Problem::new(&self.path, "", format!("cannot be read ({error})"), remedy)
         };
         let length = open.metadata().map_err(unreadable)?.len();
         if length > self.max_bytes {
@@ -190,7 +190,7 @@ pub fn read(path: &Path, max_bytes: u64) -> Result<(CacheHead, Found), Problem> 
     let mut start = Vec::new();
     let open = regular_file(path, OpenOptions::new().read(true))?;
     let unreadable =
-        |error: io::Error| Problem::new(path, "", format!("cannot be read: {error}"), REMOVE);
+        |error: io::Error| Problem::new(path, "", format!("cannot be read ({error})"), REMOVE);
     open.take(head::MOST_BYTES as u64).read_to_end(&mut start).map_err(unreadable)?;
     let (head, _) = Head::unpack(&start).map_err(|what| Problem::new(path, "", what, REMOVE))?;
     let (_, found) = CacheFile::open(path, (&head.scene, &head.scene_hash), max_bytes)?;

@@ -62,8 +62,8 @@ pub fn read(path: &Path, max_bytes: u64) -> Result<Checkpoint, Problem> {
 
 fn whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, Problem> {
     let unreadable = |error: std::io::Error| {
-        let remedy = "check that the file exists and may be read";
-        Problem::new(path, "", format!("cannot be read: {error}"), remedy)
+        let remedy = "check the name, and that you may read the file";
+        Problem::new(path, "", format!("cannot be read ({error})"), remedy)
     };
     let known = fs::metadata(path).map_err(unreadable)?;
     if !known.is_file() {

@@ -46,8 +46,8 @@ pub fn read_with_texels(path: &Path) -> Result<Loaded<MapFile>, Problems> {
 fn file(path: &Path, with_texels: bool) -> Result<MapFile, Problems> {
     let problem = |fault: Fault| Problem::new(path, fault.place, fault.what, REMEDY);
     let bytes = contents(path).map_err(|error| {
-        let remedy = "check that the file exists and may be read";
-        Problem::new(path, "", format!("cannot be read: {error}"), remedy)
+        let remedy = "check the name, and that you may read the file";
+        Problem::new(path, "", format!("cannot be read ({error})"), remedy)
     })?;
     if !bytes.starts_with(container::MAGIC) {
         let what = "is no illumination map: it is not a binary glTF file";

@@ -94,7 +94,13 @@ fn list<T: DeserializeOwned>(key: &str, value: At<DeValue>, context: &mut Contex
     let mut read = Vec::new();
     for item in items {
         let span = item.span();
-        read.extend(entry(item, context).map(|record| At::new(span, record)));
+        if is_table(
+            &item,
+            || format!("write `[[{key}]]` in double brackets, once for each"),
+            context,
+        ) {
+            read.extend(entry(item, context).map(|record| At::new(span, record)));
+        }
     }
     read
 }
@@ -117,9 +123,20 @@ fn table<T: DeserializeOwned>(
     for (key, item) in items {
         let name = At::new(key.span(), key.into_inner().into_owned());
         let span = item.span();
-        read.push((name, entry(item, context).map(|record| At::new(span, record))));
+        let remedy = || format!("write `[{key}.{}]` and its keys below", name.get_ref());
+        let record = is_table(&item, remedy, context).then(|| entry(item, context)).flatten();
+        read.push((name, record.map(|record| At::new(span, record))));
     }
     read
+}
+
+/// Whether an entry is a table; what else it is goes to the findings.
+fn is_table(item: &At<DeValue>, remedy: impl Fn() -> String, context: &mut Context) -> bool {
+    let is_table = matches!(item.get_ref(), DeValue::Table(_));
+    if !is_table {
+        context.problem(&item.span(), "is not a table", remedy());
+    }
+    is_table
 }
 
 /// One entry. After a problem the key that caused it is put aside and the rest is tried, so that

@@ -54,7 +54,8 @@ fn tables_where_lists_are_wanted() {
     for (text, expected) in [
         ("[luminaire]\nposition = [0,0,0]", "write `[[luminaire]]` in double brackets"),
         ("geometry = 3", "`[[geometry]]`"),
-        ("camera = [1, 2]", "expected struct"),
+        ("camera = [1, 2]", "write `[[camera]]` in double brackets"),
+        ("materials = { paint = 3 }", "write `[materials.paint]` and its keys below"),
         ("materials = 3", "`[materials.NAME]`"),
         ("[[materials]]\nname = 'x'", "`[materials.NAME]`"),
         ("up = 'x'", "`y` or `z`"),
