@@ -120,8 +120,8 @@ fn table<T: DeserializeOwned>(
     let mut items: Vec<_> = items.into_iter().collect();
     items.sort_by_key(|(key, _)| key.span().start);
     let mut read = Vec::new();
-    for (key, item) in items {
-        let name = At::new(key.span(), key.into_inner().into_owned());
+    for (name, item) in items {
+        let name = At::new(name.span(), name.into_inner().into_owned());
         let span = item.span();
         let remedy = || format!("write `[{key}.{}]` and its keys below", name.get_ref());
         let record = is_table(&item, remedy, context).then(|| entry(item, context)).flatten();
