@@ -9,7 +9,12 @@ const SOLVE: [&str; 6] = ["solve", "builtin:cube", "-o", "m.glb", "--accuracy", 
 
 /// Starts a run and interrupts it after its first increments; its exit code.
 fn interrupt(home: &Home) -> i32 {
-    let mut child = home.start(&[&SOLVE[..], &["--progress", "json"]].concat());
+    interrupt_with(home, &[]).0
+}
+
+/// The same with more flags, and what it says afterwards.
+fn interrupt_with(home: &Home, flags: &[&str]) -> (i32, String) {
+    let mut child = home.start(&[&SOLVE[..], &["--progress", "json"], flags].concat());
     let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
     let report: serde_json::Value = lines
         .by_ref()
@@ -19,8 +24,8 @@ fn interrupt(home: &Home) -> i32 {
     assert!(report["rays"].as_u64().unwrap() > 0, "{report}");
     let id = child.id().to_string();
     assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
-    lines.for_each(drop);
-    child.wait().unwrap().code().unwrap()
+    let said = lines.collect();
+    (child.wait().unwrap().code().unwrap(), said)
 }
 
 #[test]
@@ -29,6 +34,14 @@ fn an_interrupted_run_saves_its_map_and_its_state() {
     assert_eq!(interrupt(&home), 130);
     assert_eq!(home.names(), ["m.checkpoint", "m.glb"]);
     assert_eq!(home.run(&["info", "m.glb"]).code, 0);
+}
+
+#[test]
+fn an_interrupted_run_says_that_texels_are_missing() {
+    let home = Home::new();
+    let (code, said) = interrupt_with(&home, &["--layout", "texels"]);
+    assert!(code == 130 && said.contains("the texels are not baked"), "{code}: {said}");
+    assert_eq!(home.names(), ["m.checkpoint", "m.glb"]);
 }
 
 #[test]
