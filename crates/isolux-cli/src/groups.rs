@@ -170,9 +170,12 @@ fn bake(
     lit: &[((&Scene, &IlluminationMap), &OutputPath)],
 ) -> Result<Option<Vec<lightmap::Report>>, Failure> {
     let mut reports = Vec::new();
-    for &((scene, map), output) in lit {
+    for (index, &((scene, map), output)) in lit.iter().enumerate() {
         note(Note::Info, format!("lightmap of {}", output.path().display()));
-        let Some(baked) = planned.bake(scene, map)? else { return Ok(None) };
+        let Some(baked) = planned.bake(scene, map)? else {
+            lit[index..].iter().for_each(|(_, output)| lightmap::tell_of_missing(output));
+            return Ok(None);
+        };
         reports.push(baked.write(scene, map, (output, Target::Viewer, true))?);
     }
     Ok(Some(reports))

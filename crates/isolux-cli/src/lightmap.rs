@@ -190,6 +190,16 @@ impl Baked {
     }
 }
 
+/// Says that a map was interrupted before its texels.
+pub(crate) fn tell_of_missing(output: &OutputPath) {
+    let map = output.path().display();
+    let text = format!(
+        "{map}: its light is at vertices alone, the texels are not baked; `isolux export {map} --layout texels \
+         -o FILE.glb` bakes them of what there is"
+    );
+    note(Note::Warning, text);
+}
+
 /// Sorted by who can mend it.
 fn failure(error: LightmapError) -> Failure {
     match error {

@@ -92,12 +92,7 @@ fn bake(
         _ => planned.bake(scene, map)?,
     };
     let Some(baked) = baked else {
-        let map = output.path().display();
-        let text = format!(
-            "{map}: its light is at vertices alone, the texels are not baked; `isolux export {map} --layout texels \
-             -o FILE.glb` bakes them of what there is"
-        );
-        note(Note::Warning, text);
+        lightmap::tell_of_missing(output);
         return Ok((Outcome::Interrupted, None));
     };
     let report = baked.write(scene, map, (output, Target::Viewer, true))?;

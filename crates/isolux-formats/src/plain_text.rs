@@ -25,28 +25,18 @@ pub(crate) struct Line<'a> {
 /// The bytes of a file of at most so many.
 pub(crate) fn read_bounded(path: &Path, most: u64) -> Result<Vec<u8>, Problem> {
     // A pipe or a device may have no end, or never begin.
-    if !path.metadata().map_err(|error| unreadable(path, &error))?.is_file() {
+    if !path.metadata().map_err(|error| Problem::unreadable(path, &error))?.is_file() {
         return Err(Problem::new(path, "", "is not a regular file", "give a photometric file"));
     }
     let mut bytes = Vec::new();
     File::open(path)
         .and_then(|file| file.take(most + 1).read_to_end(&mut bytes))
-        .map_err(|error| unreadable(path, &error))?;
+        .map_err(|error| Problem::unreadable(path, &error))?;
     if bytes.len() as u64 > most {
         let what = format!("is larger than {} MiB", most >> 20);
         return Err(Problem::new(path, "", what, "give a photometric file"));
     }
     Ok(bytes)
-}
-
-/// A file that the system does not give.
-pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Problem {
-    Problem::new(
-        path,
-        "",
-        format!("cannot be read ({error})"),
-        "check the name, and that you may read the file",
-    )
 }
 
 /// The text of a file: UTF-8 with or without a byte order mark, or else Windows-1252, of which

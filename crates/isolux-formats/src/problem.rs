@@ -31,6 +31,12 @@ impl Problem {
             remedy: remedy.into(),
         }
     }
+
+    /// A file that the system does not give.
+    pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Self {
+        let remedy = "check the name, and that you may read the file";
+        Self::new(path, "", format!("cannot be read ({error})"), remedy)
+    }
 }
 
 impl fmt::Display for Problem {

@@ -8,12 +8,7 @@ use std::path::{Component, Path, PathBuf};
 /// The bytes of a regular file of at most `limit` bytes.
 pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Problem> {
     let refused = |what: String, remedy: &str| Problem::new(path, "", what, remedy);
-    let unreadable = |error: std::io::Error| {
-        refused(
-            format!("cannot be read ({error})"),
-            "check the name, and that you may read the file",
-        )
-    };
+    let unreadable = |error: std::io::Error| Problem::unreadable(path, &error);
     let about = std::fs::metadata(path).map_err(unreadable)?;
     if !about.is_file() {
         return Err(refused("is not a regular file".into(), "name a file"));

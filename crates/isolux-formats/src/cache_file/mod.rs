@@ -119,10 +119,8 @@ impl CacheFile {
 
     /// Reads what was appended since the last time.
     fn read_on(&mut self, open: &mut File) -> Result<Found, Problem> {
-        let unreadable = |error: io::Error| {
-            let remedy = "check the name, and that you may read the file";
-            Problem::new(&self.path, "", format!("cannot be read ({error})"), remedy)
-        };
+        let path = self.path.clone();
+        let unreadable = |error: io::Error| Problem::unreadable(&path, &error);
         let length = open.metadata().map_err(unreadable)?.len();
         if length > self.max_bytes {
             let what = format!("takes {length} bytes, more than the {} allowed", self.max_bytes);

@@ -61,10 +61,7 @@ pub fn read(path: &Path, max_bytes: u64) -> Result<Checkpoint, Problem> {
 }
 
 fn whole(path: &Path, max_bytes: u64) -> Result<Vec<u8>, Problem> {
-    let unreadable = |error: std::io::Error| {
-        let remedy = "check the name, and that you may read the file";
-        Problem::new(path, "", format!("cannot be read ({error})"), remedy)
-    };
+    let unreadable = |error: std::io::Error| Problem::unreadable(path, &error);
     let known = fs::metadata(path).map_err(unreadable)?;
     if !known.is_file() {
         return Err(Problem::new(path, "", "is not a regular file", START_ANEW));

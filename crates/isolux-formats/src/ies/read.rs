@@ -1,7 +1,7 @@
 //! Photometric files from disk.
 
 use super::{IesFile, parse};
-use crate::plain_text::{read_bounded, unreadable};
+use crate::plain_text::read_bounded;
 use crate::{Loaded, Problem, Problems};
 use std::path::Path;
 
@@ -26,7 +26,7 @@ fn beside(path: &Path, name: &str) -> Result<Vec<u8>, Problem> {
     };
     let (real, home) = match (tilt_file.canonicalize(), directory.canonicalize()) {
         (Ok(real), Ok(home)) => (real, home),
-        (Err(error), _) | (_, Err(error)) => return Err(unreadable(&tilt_file, &error)),
+        (Err(error), _) | (_, Err(error)) => return Err(Problem::unreadable(&tilt_file, &error)),
     };
     if real.parent() != Some(&home) {
         return Err(Problem::new(

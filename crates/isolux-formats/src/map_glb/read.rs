@@ -45,10 +45,7 @@ pub fn read_with_texels(path: &Path) -> Result<Loaded<MapFile>, Problems> {
 
 fn file(path: &Path, with_texels: bool) -> Result<MapFile, Problems> {
     let problem = |fault: Fault| Problem::new(path, fault.place, fault.what, REMEDY);
-    let bytes = contents(path).map_err(|error| {
-        let remedy = "check the name, and that you may read the file";
-        Problem::new(path, "", format!("cannot be read ({error})"), remedy)
-    })?;
+    let bytes = contents(path).map_err(|error| Problem::unreadable(path, &error))?;
     if !bytes.starts_with(container::MAGIC) {
         let what = "is no illumination map: it is not a binary glTF file";
         return Err(Problem::new(path, "", what, NOT_A_MAP_REMEDY).into());

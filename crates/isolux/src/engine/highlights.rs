@@ -9,7 +9,7 @@ use super::direct::{Lighting, Shape};
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::sampling::{Key, Sequence};
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Hit};
 use std::collections::HashMap;
@@ -51,11 +51,7 @@ pub enum Shining {
 impl<'s> Highlights<'s> {
     /// `None` where nothing shows any.
     pub fn new(scene: &'s Scene) -> Option<Self> {
-        let is_rough = |material: &crate::scene::Material| {
-            let finish = |back| material.finish(back);
-            [false, true].into_iter().filter_map(finish).any(|finish| finish.is_glossy())
-        };
-        if !scene.materials().iter().any(is_rough) {
+        if !scene.materials().iter().any(Material::is_glossy) {
             return None;
         }
         let emitters = scene.area_luminaires().iter().zip(0..).flat_map(|(area, number)| {

@@ -144,4 +144,9 @@ impl Material {
             Body::Dielectric(_) => None,
         }
     }
+
+    /// Whether a side of it has a glossy part.
+    pub fn is_glossy(&self) -> bool {
+        [false, true].iter().any(|&back| self.finish(back).is_some_and(Finish::is_glossy))
+    }
 }

@@ -23,7 +23,7 @@ mod visibility;
 
 use super::path::Dice;
 use super::surface::SurfacePoint;
-use crate::scene::Scene;
+use crate::scene::{Material, Scene};
 use crate::units::Rgb;
 pub(super) use about::About;
 pub(super) use area::Shape;
@@ -142,7 +142,7 @@ impl<'s> Lighting<'s> {
         self.panes.exist()
             || self.mirrors.leaves_some_out
             || self.leaves_chains
-            || self.scene.materials().iter().any(has_gloss)
+            || self.scene.materials().iter().any(Material::is_glossy)
     }
 
     /// Bound of the share of all light that neither sources nor, without caustics, particles bring.
@@ -312,8 +312,4 @@ fn drawn(weights: &[f64], place: f64) -> Option<usize> {
 fn image(sources: &[Source], starts: &[usize], luminaire: usize, chain: &[u32]) -> Option<usize> {
     let (first, end) = (starts[luminaire], starts[luminaire + 1]);
     sources[first..end].iter().position(|s| s.chain == chain).map(|k| first + k)
-}
-
-fn has_gloss(material: &crate::scene::Material) -> bool {
-    [false, true].iter().any(|&back| material.finish(back).is_some_and(|f| f.is_glossy()))
 }
