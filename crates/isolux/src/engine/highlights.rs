@@ -109,7 +109,7 @@ impl Highlighted<'_> {
         let met = self.emitter(hit);
         let density = met.and_then(|(number, index)| {
             let shape = self.shapes[number].as_ref()?;
-            shape.density(index, direction, f64::from(hit.t))
+            shape.density(index, direction * f64::from(hit.t))
         });
         density.unwrap_or(0.0) * self.samples as f64
     }

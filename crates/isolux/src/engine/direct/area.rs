@@ -45,62 +45,63 @@ pub(in crate::engine) struct Shape<'a> {
     at: SurfacePoint,
     triangles: &'a [[Point; 3]],
     emitter: &'a Emitter,
-    pieces: Vec<Piece>,
-    /// Projected solid angle of the pieces, sr.
+    /// None where places of it are drawn by area.
+    pieces: Option<Vec<Piece>>,
+    /// Projected solid angle of the pieces, sr; one where there are none.
     whole: f64,
 }
 
 impl<'a> Shape<'a> {
-    /// `None` where nothing of it is above the horizon.
-    pub(super) fn new(
+    /// For so many looks at it; `None` where nothing of it is above the horizon.
+    fn new(
         at: &SurfacePoint,
-        emitter: &'a Emitter,
-        triangles: &'a [[Point; 3]],
+        (emitter, triangles): (&'a Emitter, &'a [[Point; 3]]),
+        samples: usize,
     ) -> Option<Self> {
-        let shape = Self { at: *at, triangles, emitter, pieces: Vec::new(), whole: 0.0 };
-        if shape.is_drawn_by_area() {
-            return Some(shape);
+        let by_area = Self { at: *at, triangles, emitter, pieces: None, whole: 1.0 };
+        if triangles.len() > TRIANGLES_A_SAMPLE * samples {
+            return Some(by_area);
         }
         let pieces = pieces(at, triangles);
         let whole = pieces.iter().map(|p| p.steradians).sum();
-        (whole > 0.0).then_some(Self { pieces, whole, ..shape })
+        (whole > 0.0).then_some(Self { pieces: Some(pieces), whole, ..by_area })
     }
 
-    fn is_drawn_by_area(&self) -> bool {
-        self.triangles.len() > TRIANGLES_A_SAMPLE
+    /// One of its triangles and a place on it.
+    fn place(&self, dice: &mut Dice) -> Option<(usize, Point)> {
+        let [pick, accept] = dice.pair();
+        let Some(pieces) = &self.pieces else {
+            return Some(place_by_area(self.emitter, self.triangles, pick, dice.pair()));
+        };
+        let piece = drawn(pieces, pick * self.whole)?;
+        let corners = self.triangles[piece.triangle];
+        Some((piece.triangle, target(piece, corners, &self.at, accept, dice)))
+    }
+
+    /// The projected solid angle that a place stands for, over that of the pieces; `None` where it is not seen.
+    fn share(&self, index: usize, to_place: Vector) -> Option<f64> {
+        if self.pieces.is_some() {
+            return (to_place.dot(self.at.geometric.to_vector()) > 0.0).then_some(1.0);
+        }
+        let direction = to_place.direction()?;
+        let [p, q, r] = self.triangles[index];
+        let cos_there = -direction.cos((q - p).cross(r - p).normal()?);
+        let cos = facing_cos(direction, self.at.shading, self.at.geometric)?;
+        let total_m2 = *self.emitter.area_sums_m2.last()?;
+        (cos_there > 0.0).then(|| cos * cos_there * total_m2 / to_place.length_squared())
     }
 
     /// A direction to some place of it, and its density, 1/sr.
     pub(in crate::engine) fn draw(&self, dice: &mut Dice) -> Option<(Direction, f64)> {
-        let [pick, accept] = dice.pair();
-        let (index, target) = if self.is_drawn_by_area() {
-            place_by_area(self.emitter, self.triangles, pick, dice.pair())
-        } else {
-            let piece = drawn(&self.pieces, pick * self.whole)?;
-            let corners = self.triangles[piece.triangle];
-            (piece.triangle, target(piece, corners, &self.at, accept, dice))
-        };
-        let to_target = target - self.at.point;
-        let direction = to_target.direction()?;
-        let density = self.density(index, direction, to_target.length())?;
-        Some((direction, density))
+        let (index, place) = self.place(dice)?;
+        let to_place = place - self.at.point;
+        Some((to_place.direction()?, self.density(index, to_place)?))
     }
 
-    /// The density of a direction that meets one of its triangles so far away, 1/sr.
-    pub(in crate::engine) fn density(
-        &self,
-        index: usize,
-        direction: Direction,
-        distance_m: f64,
-    ) -> Option<f64> {
-        let cos = facing_cos(direction, self.at.shading, self.at.geometric)?;
-        if !self.is_drawn_by_area() {
-            return Some(cos / self.whole);
-        }
-        let [p, q, r] = self.triangles[index];
-        let cos_there = -direction.cos((q - p).cross(r - p).normal()?);
-        let total_m2 = self.emitter.area_sums_m2.last()?;
-        (cos_there > 0.0).then(|| distance_m * distance_m / (cos_there * total_m2))
+    /// The density of directions to a place on one of its triangles, 1/sr.
+    pub(in crate::engine) fn density(&self, index: usize, to_place: Vector) -> Option<f64> {
+        let cos = facing_cos(to_place.direction()?, self.at.shading, self.at.geometric)?;
+        Some(cos / (self.share(index, to_place)? * self.whole))
     }
 }
 
@@ -109,7 +110,7 @@ impl Lighting<'_> {
     pub(in crate::engine) fn shape(&self, number: usize, at: &SurfacePoint) -> Option<Shape<'_>> {
         let source = &self.sources[self.starts[self.scene.luminaires().len() + number]];
         match &source.kind {
-            SourceKind::Area { emitter, triangles } => Shape::new(at, emitter, triangles),
+            SourceKind::Area { emitter, triangles } => Shape::new(at, (emitter, triangles), 1),
             _ => None,
         }
     }
@@ -128,58 +129,16 @@ impl Lighting<'_> {
         samples: usize,
         dice: &mut Dice,
     ) -> Rgb {
-        if triangles.len() > TRIANGLES_A_SAMPLE * samples {
-            let one = |dice: &mut Dice| self.by_area(source, emitter, triangles, at, dice);
-            return source.colour * mean(samples, dice, one);
-        }
-        let pieces = pieces(at, triangles);
-        let whole: f64 = pieces.iter().map(|p| p.steradians).sum();
-        if whole <= 0.0 {
+        let Some(shape) = Shape::new(at, (emitter, triangles), samples) else {
             return Rgb::BLACK;
-        }
+        };
         let one = |dice: &mut Dice| {
-            let [pick, accept] = dice.pair();
-            let Some(piece) = drawn(&pieces, pick * whole) else { return Rgb::BLACK };
-            let corners = triangles[piece.triangle];
-            let target = target(piece, corners, at, accept, dice);
-            let is_above = (target - at.point).dot(at.geometric.to_vector()) > 0.0;
-            let index = emitter.indices[piece.triangle];
-            if is_above {
-                self.visibility(&source.chain, at, Target::Point(target), Some(index))
-            } else {
-                Rgb::BLACK
-            }
+            let Some((index, place)) = shape.place(dice) else { return Rgb::BLACK };
+            let Some(share) = shape.share(index, place - at.point) else { return Rgb::BLACK };
+            let index = emitter.indices[index];
+            self.visibility(&source.chain, at, Target::Point(place), Some(index)) * share
         };
-        source.colour * mean(samples, dice, one) * whole
-    }
-
-    /// One point of the emitter, uniform by area: projected solid angle times visible share.
-    fn by_area(
-        &self,
-        source: &Source,
-        emitter: &Emitter,
-        triangles: &[[Point; 3]],
-        at: &SurfacePoint,
-        dice: &mut Dice,
-    ) -> Rgb {
-        let [pick, _] = dice.pair();
-        let (k, target) = place_by_area(emitter, triangles, pick, dice.pair());
-        let [p, q, r] = triangles[k];
-        let total_m2 = emitter.area_sums_m2.last().copied().unwrap_or(0.0);
-        let to_target = target - at.point;
-        let (Some(direction), Some(normal)) =
-            (to_target.direction(), (q - p).cross(r - p).normal())
-        else {
-            return Rgb::BLACK;
-        };
-        let cos_there = -direction.cos(normal);
-        let Some(cos) = facing_cos(direction, at.shading, at.geometric) else { return Rgb::BLACK };
-        if cos_there <= 0.0 {
-            return Rgb::BLACK;
-        }
-        let steradians = cos * cos_there * total_m2 / to_target.length_squared();
-        self.visibility(&source.chain, at, Target::Point(target), Some(emitter.indices[k]))
-            * steradians
+        source.colour * mean(samples, dice, one) * shape.whole
     }
 }
 
