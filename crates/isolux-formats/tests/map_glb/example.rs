@@ -168,7 +168,7 @@ fn provenance() -> Provenance {
         increments: 24,
         rays: 1_000_000,
         accuracy_target: Some(0.01),
-        fresh: Some(Fresh { above_lx: Some(0.7), lookup_lx: 0.3 }),
+        fresh: Some(Fresh { above_lx: Some(0.7), in_gaps_alone: true, lookup_lx: 0.3 }),
         filter: None,
         unshot: None,
         diffuse_only: false,

@@ -19,12 +19,11 @@ pub(super) const FEWEST_TO_MISS: u64 = 4;
 /// known: what paths given up would have brought may be more than what is there.
 pub(super) fn accuracy(
     plan: &Plan,
-    sums: &Accumulator,
+    pooled: &Pooled,
     interpolation: &InterpolationErrors,
 ) -> Option<Accuracy> {
-    let pooled = Pooled::of(plan, |k| sums.estimate(k));
     let noise_lx = interpolation.noise_lx.unwrap_or((pooled.variance / pooled.area_m2).sqrt());
-    in_all(plan, (&pooled, noise_lx), interpolation)
+    in_all(plan, (pooled, noise_lx), interpolation)
 }
 
 /// The error of a map without replicates, of which check points tell all but what they do not see: the
@@ -105,7 +104,7 @@ pub(super) fn early_statistical(plan: &Plan, sums: &Accumulator) -> Option<f64> 
 }
 
 /// Over the known vertices, weighted by area: squares of the light and variances of its mean.
-struct Pooled {
+pub(super) struct Pooled {
     area_m2: f64,
     /// Where there is light.
     lit_m2: f64,
@@ -114,7 +113,7 @@ struct Pooled {
 }
 
 impl Pooled {
-    fn of(plan: &Plan, estimate: impl Fn(usize) -> Estimate) -> Self {
+    pub(super) fn of(plan: &Plan, estimate: impl Fn(usize) -> Estimate) -> Self {
         let mut pooled = Self { area_m2: 0.0, lit_m2: 0.0, squared: 0.0, variance: 0.0 };
         let vertices = plan.elements.vertices().iter().enumerate();
         for (k, vertex) in vertices.filter(|&(k, _)| plan.standings[k].is_some()) {

@@ -15,7 +15,7 @@ use super::noise::Noise;
 use super::path::Dice;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
-use super::trust;
+use super::trust::{self, Trust};
 use super::views::{self, Read, View, views};
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
@@ -28,6 +28,10 @@ const MOST: usize = 1024;
 
 /// Points of one task: some take a hundred times as long as others.
 const AT_ONCE: usize = 8;
+
+/// Squared errors of the map that interpolation may have where readers would else gather: in rooms with little indirect light it
+/// has no more than that everywhere, among furniture eight times as much and more.
+const NOT_WORTH: f64 = 1.5;
 
 /// Rays that tell how much a reader reads close by.
 const CLOSE_RAYS: u32 = 64;
@@ -43,8 +47,10 @@ pub(super) struct Check {
     area_m2: f64,
     /// Error expected of the element, lx.
     expected_lx: f64,
-    /// Whether readers interpolate there.
-    is_trusted: bool,
+    /// Whether readers interpolate there if they trust its element: it has vertices in the open, and is no gap.
+    may_be_trusted: bool,
+    /// Whether something stands close before it.
+    is_beset: bool,
     /// The share of a unit of light that readers who gather there read close by all the same.
     close: f64,
     /// The longest edge of the element there, m.
@@ -155,12 +161,13 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
         check(plan, Gatherer::on_surface(surface, rays), area_m2, &errors[k])
     };
     let mut checks: Vec<Check> = (0..count).filter_map(one).collect();
-    let untrusted = || checks.iter().filter(|check| !check.is_trusted);
-    let rows: Vec<Gatherer> = untrusted().map(|c| c.gatherer.with_rays(CLOSE_RAYS)).collect();
+    let is_gathered = |check: &Check| !check.is_trusted(plan.trust().least());
+    let rows = checks.iter().filter(|check| is_gathered(check));
+    let rows: Vec<Gatherer> = rows.map(|c| c.gatherer.with_rays(CLOSE_RAYS)).collect();
     let gathering = Gathering { regathers: true, ..Gathering::of(plan, &plan.direct) };
     let operator = gathering.operator(&rows, |k| key.with(1).with(k as u64));
-    let untrusted = checks.iter_mut().filter(|check| !check.is_trusted);
-    untrusted.zip(operator.close()).for_each(|(check, close)| check.close = close);
+    let gathered = checks.iter_mut().filter(|check| is_gathered(check));
+    gathered.zip(operator.close()).for_each(|(check, close)| check.close = close);
     let places: Vec<Read> = checks.iter().map(Check::as_read).collect();
     checks.iter_mut().zip(views(plan.scene, &places)).for_each(|(check, view)| check.view = view);
     checks
@@ -175,7 +182,7 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
     let expected_lx = of.error;
     let is_beset = is_beset || of.is_beset_afar;
-    let is_trusted = expected_lx <= plan.trusted_up_to_lx && reads_open && !is_beset;
+    let may_be_trusted = reads_open && !in_gap;
     let gatherer = gatherer.in_gap(in_gap);
     let reads_direct = plan.lighting.are_read_at_ends();
     let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
@@ -188,7 +195,8 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
         fine,
         area_m2,
         expected_lx,
-        is_trusted,
+        may_be_trusted,
+        is_beset,
         close,
         edge_m,
         reads_direct,
@@ -199,6 +207,11 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
 }
 
 impl Check {
+    /// Whether readers with such trust interpolate there.
+    fn is_trusted(&self, trust: Trust) -> bool {
+        self.may_be_trusted && trust.includes(self.expected_lx, self.is_beset)
+    }
+
     /// As rays read it.
     const fn as_read(&self) -> Read {
         let Self { gatherer, edge_m, area_m2, .. } = *self;
@@ -249,23 +262,21 @@ pub(super) fn samples(
     differences.chain(readings).chain(lookups).collect()
 }
 
-/// The errors seen so far.
-pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> InterpolationErrors {
-    let area: f64 = checks.iter().map(|c| c.area_m2).sum();
+/// The errors seen so far, of readers with such trust.
+pub(super) fn errors(
+    sums: &Accumulator,
+    checks: &[Check],
+    (trust, noise_is): (Trust, Noise),
+) -> InterpolationErrors {
+    let area = area_m2(checks);
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     // Of the mean: what lies where the map is trusted, and the variance of all of it.
-    let (mut noise, mut expected, mut trusted_mean, mut of_mean) = (0.0, 0.0, 0.0, 0.0);
+    let (mut expected, mut trusted_mean, mut of_mean) = (0.0, 0.0, 0.0);
     let (mut untrusted, mut close, mut share_untrusted) = (0.0, 0.0, 0.0);
     for (k, check) in checks.iter().enumerate() {
         let estimate = sums.estimate(k);
-        let indirect = estimate.mean.indirect.luminance();
-        let share = check.area_m2 / area;
-        let of_reading =
-            if check.has_parts { 0.0 } else { sums.estimate(checks.len() + k).variance };
-        noise += share * of_reading;
-        let all = indirect + estimate.mean.direct.luminance();
-        let both = [(indirect, estimate.indirect_variance), (all, estimate.variance)];
-        if check.is_trusted {
+        let (indirect, share) = (estimate.mean.indirect.luminance(), check.area_m2 / area);
+        if check.is_trusted(trust) {
             expected += share * check.expected_lx * check.expected_lx;
             trusted_mean += share * indirect;
         } else {
@@ -273,13 +284,15 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> I
             untrusted += share * (indirect * indirect - estimate.indirect_variance);
             close += share * check.close * check.close;
         }
+        let all = indirect + estimate.mean.direct.luminance();
+        let both = [(indirect, estimate.indirect_variance), (all, estimate.variance)];
         for (part, (value, variance)) in both.into_iter().enumerate() {
             // Neither rays nor readers of interpolated light come to what is closed in.
             if !check.gatherer.in_gap {
                 mean[part] += share * value;
                 of_mean += if part == 0 { share * share * variance } else { 0.0 };
             }
-            if part == 1 || check.is_trusted && !check.gatherer.in_gap {
+            if part == 1 || check.is_trusted(trust) {
                 squared[part] += share * (value * value - variance);
                 // Variance of `value^2 - variance` for a normal value of mean zero.
                 spread[part] += share * share * 2.0 * variance * variance;
@@ -305,15 +318,49 @@ pub(super) fn errors(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> I
         direct_mean_lx: mean[1] - mean[0],
         untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
         close: close.sqrt(),
-        noise_lx: (!checks.is_empty()).then(|| noise.sqrt()),
+        noise_lx: (!checks.is_empty()).then(|| (noise_of_readings(sums, checks) / area).sqrt()),
         over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),
         ..InterpolationErrors::default()
     }
 }
 
+/// The surface that all points stand for.
+fn area_m2(checks: &[Check]) -> f64 {
+    checks.iter().map(|c| c.area_m2).sum()
+}
+
+/// Variance of what the map reads, summed over the surface, lx2 m2.
+fn noise_of_readings(sums: &Accumulator, checks: &[Check]) -> f64 {
+    (0..checks.len()).map(|k| checks[k].area_m2 * noise_of_reading(sums, checks, k)).sum()
+}
+
+/// The same at one of the points, but for caustics, of which parts tell.
+fn noise_of_reading(sums: &Accumulator, checks: &[Check], k: usize) -> f64 {
+    if checks[k].has_parts { 0.0 } else { sums.estimate(checks.len() + k).variance }
+}
+
+/// Whether to gather is worth while anywhere but in gaps: whether places that readers with such trust gather at would have, by noise
+/// and interpolation, more than [`NOT_WORTH`] times the squared error `error_lx` of the map.
+pub(super) fn is_gathering_worth_while(
+    sums: &Accumulator,
+    checks: &[Check],
+    (trust, error_lx): (Trust, f64),
+) -> bool {
+    let is_asked = |k: &usize| checks[*k].may_be_trusted && !checks[*k].is_trusted(trust);
+    let (mut area_m2, mut squared, mut spread) = (0.0, 0.0, 0.0);
+    for k in (0..checks.len()).filter(is_asked) {
+        let (own_m2, estimate) = (checks[k].area_m2, sums.estimate(k));
+        let (error, variance) = (estimate.mean.indirect.luminance(), estimate.indirect_variance);
+        area_m2 += own_m2;
+        squared += own_m2 * (error * error - variance + noise_of_reading(sums, checks, k));
+        spread += own_m2 * own_m2 * 2.0 * variance * variance;
+    }
+    Noise::Counted.of_squared(squared, spread.sqrt()) > NOT_WORTH * error_lx * error_lx * area_m2
+}
+
 /// What arrives of errors that rays read from afar: its mean, and by how much it differs from place to place.
 fn seen(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> [f64; 2] {
-    let area: f64 = checks.iter().map(|c| c.area_m2).sum();
+    let area = area_m2(checks);
     let reads_other_light = sums.sums.len() > 2 * checks.len();
     let (mut errors, mut shares) = (Vec::new(), Vec::new());
     let (mut mean, mut of_mean) = (0.0, 0.0);

@@ -337,6 +337,7 @@ fn fresh(parts: &[Part<'_>]) -> Option<Fresh> {
     let limit = |(fresh, by, worst): &(Fresh, f64, f64)| fresh.above_lx.unwrap_or(*worst) * by;
     Some(Fresh {
         above_lx: is_limited.then(|| all.iter().map(limit).sum()),
+        in_gaps_alone: all.iter().all(|(fresh, ..)| fresh.in_gaps_alone),
         lookup_lx: all.iter().map(|(fresh, by, _)| fresh.lookup_lx * by).sum(),
     })
 }

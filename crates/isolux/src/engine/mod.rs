@@ -25,6 +25,7 @@ mod hats;
 mod hidden;
 mod highlights;
 mod hybrid;
+mod judged;
 mod look;
 mod means;
 mod mix;

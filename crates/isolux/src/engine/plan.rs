@@ -13,7 +13,7 @@ use super::means::{Means, Places};
 use super::parts::Parts;
 use super::surface::SurfacePoint;
 use super::trial::Trial;
-use super::trust;
+use super::trust::{self, Trust};
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
 use crate::sampling::Key;
@@ -101,9 +101,14 @@ impl Plan<'_> {
         self.indirect_errors.iter().map(|e| e.area_m2).sum()
     }
 
-    /// What interpolation errs by in the elements at the vertices, lx.
-    pub(super) fn expected_lx(&self) -> Vec<f64> {
-        trust::at_vertices(&self.elements, &self.indirect_errors, self.trusted_up_to_lx)
+    /// What readers trust, unless check points tell otherwise.
+    pub(super) const fn trust(&self) -> Trust {
+        Trust::UpTo(self.trusted_up_to_lx)
+    }
+
+    /// What interpolation errs by in the elements at the vertices, lx, told to readers who trust them so far.
+    pub(super) fn expected_lx(&self, trust: Trust) -> Vec<f64> {
+        trust::at_vertices(&self.elements, &self.indirect_errors, trust)
     }
 
     /// What a place reads of values at vertices, nodes from number `level` on left out.

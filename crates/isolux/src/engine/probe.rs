@@ -165,9 +165,14 @@ impl<'a> MapReader<'a> {
 
     /// Whether what the map tells of a place on an element of such edges is to be trusted.
     fn is_trusted(&self, stored: &Illuminance, at: &SurfacePoint, edge_m: f64) -> bool {
-        let limit_lx = self.map.provenance.fresh.and_then(|fresh| fresh.above_lx);
-        stored.standing == Standing::Open
-            && stored.interpolation_error_lx <= limit_lx.unwrap_or(f64::INFINITY)
+        let Some(fresh) = self.map.provenance.fresh else { return true };
+        if stored.standing != Standing::Open {
+            return false;
+        }
+        if fresh.in_gaps_alone {
+            return !trust::is_closed_in(self.scene, at, edge_m);
+        }
+        stored.interpolation_error_lx <= fresh.above_lx.unwrap_or(f64::INFINITY)
             && !trust::is_beset(self.scene, at, edge_m)
     }
 

@@ -29,6 +29,33 @@ pub(super) const NEAR: f64 = 0.25;
 /// comes between them.
 const BESET: u32 = 3;
 
+/// Where readers interpolate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Trust {
+    /// In elements of which no more error is expected than so much, lx, and that nothing stands close before.
+    UpTo(f64),
+    /// Everywhere but in gaps.
+    AllButGaps,
+}
+
+impl Trust {
+    /// Whether it goes as far as an element of so much error.
+    pub(super) fn includes(self, expected_lx: f64, is_beset: bool) -> bool {
+        match self {
+            Self::UpTo(lx) => !is_beset && expected_lx <= lx,
+            Self::AllButGaps => true,
+        }
+    }
+
+    /// Up to which error elements are trusted, lx.
+    pub(super) const fn up_to_lx(self) -> f64 {
+        match self {
+            Self::UpTo(lx) => lx,
+            Self::AllButGaps => f64::INFINITY,
+        }
+    }
+}
+
 /// The elements that readers may trust, worst first: those that are not beset.
 #[derive(Debug)]
 pub(super) struct Worst {
@@ -81,14 +108,13 @@ pub(super) fn error_of(errors: &[LeafError], some: impl Fn(&LeafError) -> bool) 
 /// Errors at the vertices: of the worst element at each, so that the least over an element's
 /// vertices is its own error or more. Elements have that of the coarser one they are part of; one
 /// that readers cannot see to be beset, more than is to be trusted.
-pub(super) fn at_vertices(
-    elements: &Elements,
-    errors: &[LeafError],
-    trusted_up_to_lx: f64,
-) -> Vec<f64> {
+pub(super) fn at_vertices(elements: &Elements, errors: &[LeafError], trust: Trust) -> Vec<f64> {
     let mut worst = vec![0.0_f64; elements.vertices().len()];
     for error in errors {
-        let told = if error.is_beset_afar { 2.0 * trusted_up_to_lx } else { 0.0 };
+        let told = match trust {
+            Trust::UpTo(lx) if error.is_beset_afar => 2.0 * lx,
+            Trust::UpTo(_) | Trust::AllButGaps => 0.0,
+        };
         elements.visit_below(error.node, &mut |corners| {
             for vertex in corners {
                 let worst = &mut worst[vertex as usize];

@@ -2,7 +2,7 @@
 
 use super::accumulate::{Accumulator, Estimate, Sample, Sums};
 use super::accuracy::{
-    BELIEVED_INCREMENTS, FEWEST_TO_MISS, accuracy, accuracy_of_map, early_statistical,
+    BELIEVED_INCREMENTS, FEWEST_TO_MISS, Pooled, accuracy, accuracy_of_map, early_statistical,
 };
 use super::cache::{CacheSample, Cached};
 use super::checks::{self, Checks, InterpolationErrors};
@@ -12,6 +12,7 @@ use super::filter::filter;
 use super::flights;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
+use super::judged::Judged;
 use super::noise::Noise;
 use super::parts::{self, Squared};
 use super::plan::Plan;
@@ -21,6 +22,7 @@ use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
 use super::tally;
 use super::trial::{OF_INTERPOLATED, noise_for};
+use super::trust::Trust;
 use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method, Unshot};
 use crate::sampling::Key;
 use crate::units::Rgb;
@@ -61,6 +63,8 @@ pub(super) struct Work<'p, 's> {
     left: Option<Left>,
     /// Whether it ends there, however good the map is.
     stops_at_unshot: bool,
+    /// The accuracy asked for.
+    goal: Option<f64>,
 }
 
 enum Engine<'p, 's> {
@@ -138,7 +142,9 @@ impl<'p, 's> Work<'p, 's> {
         let given_up = sums_of(1);
         let stops_at_unshot = request.radiosity.unshot.is_some();
         let (samples, left) = (rays, None);
-        Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot }.looked_at()
+        let goal = request.accuracy;
+        Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal }
+            .looked_at()
     }
 
     pub(super) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
@@ -210,14 +216,11 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    fn interpolation(&self) -> InterpolationErrors {
-        self.interpolation_if(Noise::Counted)
-    }
-
-    fn interpolation_if(&self, noise_is: Noise) -> InterpolationErrors {
+    fn interpolation(&self, trust: Trust, noise_is: Noise) -> InterpolationErrors {
         match &self.engine {
             Engine::Hybrid(_) | Engine::Cache(_) => {
-                let errors = checks::errors(&self.checks.sums, &self.checks.points, noise_is);
+                let Checks { points, sums, .. } = &self.checks;
+                let errors = checks::errors(sums, points, (trust, noise_is));
                 self.with_caustics(errors, noise_is)
             }
             Engine::Forward(_) => {
@@ -344,12 +347,6 @@ impl<'p, 's> Work<'p, 's> {
         predict::increments_needed_beyond_doubt(&accuracy, &seen, count, target)
     }
 
-    /// The factor by which elements err more than the pilot has expected.
-    fn over_expected(&self) -> f64 {
-        let seen = if self.is_believed() { self.interpolation().over_expected } else { None };
-        seen.map_or(1.0, |factor| factor.clamp(1.0 / MOST_OVER, MOST_OVER))
-    }
-
     pub(super) fn is_believed(&self) -> bool {
         let fewest = match self.engine {
             Engine::Radiosity(_) => 1,
@@ -363,9 +360,14 @@ impl<'p, 's> Work<'p, 's> {
         if !self.is_believed() || matches!(self.engine, Engine::Forward(_)) {
             return None;
         }
-        let limit_lx = self.plan.trusted_up_to_lx * self.over_expected();
-        let lookup_lx = self.interpolation().untrusted_lx;
-        Some(Fresh { above_lx: limit_lx.is_finite().then_some(limit_lx), lookup_lx })
+        let judged = self.judged(Noise::Counted);
+        let over = over_expected(&judged);
+        let limit_lx = judged.trust.up_to_lx() * over;
+        Some(Fresh {
+            above_lx: limit_lx.is_finite().then_some(limit_lx),
+            in_gaps_alone: judged.trust == Trust::AllButGaps,
+            lookup_lx: judged.errors.untrusted_lx,
+        })
     }
 
     pub(super) fn accuracy(&self) -> Option<Accuracy> {
@@ -373,7 +375,36 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     fn accuracy_if(&self, noise_is: Noise) -> Option<Accuracy> {
-        let interpolation = self.interpolation_if(noise_is);
+        self.judged(noise_is).accuracy
+    }
+
+    /// What check points say of the map, read with the trust that they leave.
+    fn judged(&self, noise_is: Noise) -> Judged {
+        let pooled = self.left.is_none().then(|| Pooled::of(self.plan, |k| self.sums.estimate(k)));
+        let by = |trust: Trust| {
+            let errors = self.interpolation(trust, noise_is);
+            Judged { trust, errors, accuracy: self.accuracy_by(pooled.as_ref(), &errors) }
+        };
+        let foreseen = self.plan.trust();
+        let Some(goal) = self.goal.filter(|_| self.has_nets()) else { return by(foreseen) };
+        let judged = Judged::for_goal(goal, foreseen, by);
+        // Until it is believed nobody reads it.
+        if noise_is != Noise::Counted || !self.is_believed() {
+            return judged;
+        }
+        let is_enough = |accuracy: &Accuracy| {
+            let error = libm::hypot(accuracy.statistical, accuracy.discretization);
+            let than = (judged.trust, error * self.plan.rms_lx);
+            !checks::is_gathering_worth_while(&self.checks.sums, &self.checks.points, than)
+        };
+        judged.or_all_but_gaps(goal, is_enough, by)
+    }
+
+    fn accuracy_by(
+        &self,
+        pooled: Option<&Pooled>,
+        interpolation: &InterpolationErrors,
+    ) -> Option<Accuracy> {
         if self.left.as_ref().is_some_and(|left| !left.is_bounded) {
             return None;
         }
@@ -381,8 +412,8 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Radiosity(radiosity) => radiosity.given_up_lx(),
             _ => self.given_up.estimate(0).mean.direct.luminance(),
         };
-        let errors = InterpolationErrors { given_up_lx, ..interpolation };
-        if self.left.is_some() {
+        let errors = InterpolationErrors { given_up_lx, ..*interpolation };
+        let Some(pooled) = pooled else {
             let ambient_lx = self.ambient_lx();
             let estimate = |vertex: usize| {
                 let mut estimate = self.estimate(vertex);
@@ -390,8 +421,8 @@ impl<'p, 's> Work<'p, 's> {
                 estimate
             };
             return accuracy_of_map(self.plan, estimate, &errors);
-        }
-        accuracy(self.plan, &self.sums, &errors)
+        };
+        accuracy(self.plan, pooled, &errors)
     }
 
     /// The increments that a target will take in all; `None` if it cannot be reached. Until the error is
@@ -443,8 +474,10 @@ impl<'p, 's> Work<'p, 's> {
         &self,
         filtered: bool,
     ) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
-        let expected = self.plan.expected_lx();
-        let over = self.over_expected();
+        let judged = self.is_believed().then(|| self.judged(Noise::Counted));
+        let trust = judged.map_or(self.plan.trust(), |judged| judged.trust);
+        let expected = self.plan.expected_lx(trust);
+        let over = judged.as_ref().map_or(1.0, over_expected);
         let of_caustics = self.caustic_variances();
         let value = |(k, expected_lx): (usize, f64)| {
             self.value(k, over * expected_lx, of_caustics.get(k).map_or(0.0, |lx2| lx2.0[0]))
@@ -531,6 +564,11 @@ impl<'p, 's> Work<'p, 's> {
             samples: self.sums.increments * u64::from(self.samples_of(vertex)),
         })
     }
+}
+
+/// The factor by which elements err more than the pilot has expected, within reason.
+fn over_expected(judged: &Judged) -> f64 {
+    judged.errors.over_expected.map_or(1.0, |factor| factor.clamp(1.0 / MOST_OVER, MOST_OVER))
 }
 
 /// Takes back what noise and overshooting deposits of particles have put below zero, each part of the light for itself, as readers

@@ -67,6 +67,9 @@ pub struct Fresh {
     /// Where the interpolation error of an element is larger, lx; `None` if it is small enough
     /// everywhere. (And everywhere that something stands nearer than the element is long.)
     pub above_lx: Option<f64>,
+    /// Whether it is in gaps alone, as to gather elsewhere would change no more than what the map errs by.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub in_gaps_alone: bool,
     /// What light is wrong by that is read close by, where the map is not trusted either, lx.
     pub lookup_lx: f64,
 }

@@ -9,3 +9,4 @@ mod refusals;
 mod repeat;
 mod rooms;
 mod runs;
+mod trusting;

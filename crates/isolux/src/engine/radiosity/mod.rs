@@ -456,7 +456,8 @@ impl<'p, 's> Radiosity<'p, 's> {
             let map = [self.direct.as_slice(), &self.caustic, &indirect];
             found.add(checks::samples(points, (&fresh, &self.checks.direct), map, &[]));
         }
-        InterpolationErrors { noise_lx: None, ..checks::errors(&found, points, Noise::Counted) }
+        let seen = checks::errors(&found, points, (self.plan.trust(), Noise::Counted));
+        InterpolationErrors { noise_lx: None, ..seen }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::engine::accumulate::{Accumulator, Sample};
-use crate::engine::accuracy::accuracy;
+use crate::engine::accuracy::{Pooled, accuracy};
 use crate::engine::checks::{self, Check, InterpolationErrors};
 use crate::engine::direct::Lighting;
 use crate::engine::filter::filter;
@@ -39,7 +39,7 @@ fn noise(key: Key) -> f64 {
 }
 
 /// Sums of increments at every check point: an error common to all of them, and noise.
-fn check_sums(
+pub(super) fn check_sums(
     checks: &[Check],
     plan: &Plan,
     common: impl Fn(&Check) -> f64,
@@ -63,7 +63,7 @@ fn check_sums(
 
 /// The share of the surface where readers interpolate: what an error of one everywhere comes to there.
 fn trusted_share(checks: &[Check], plan: &Plan) -> f64 {
-    checks::errors(&check_sums(checks, plan, |_| 1.0, 0.0), checks, Noise::Counted)
+    checks::errors(&check_sums(checks, plan, |_| 1.0, 0.0), checks, (plan.trust(), Noise::Counted))
         .indirect_lx
         .powi(2)
 }
@@ -82,7 +82,11 @@ fn check_points_stand_for_the_whole_surface() {
     assert!(checks.len() > 100);
     // Floor against all, by the same weights: their common error is one on the floor, zero elsewhere.
     let on_floor = |c: &Check| if c.gatherer.surface.point.z < 1e-3 { 1.0 } else { 0.0 };
-    let found = checks::errors(&check_sums(&checks, &plan, on_floor, 0.0), &checks, Noise::Counted);
+    let found = checks::errors(
+        &check_sums(&checks, &plan, on_floor, 0.0),
+        &checks,
+        (plan.trust(), Noise::Counted),
+    );
     let share: f64 = 6.0 / (2.0 * (6.0 + 7.5 + 5.0));
     // Half the points are drawn where errors are large; weights differ by a factor of a few, so a
     // share of a sixth of some 256 points is known to 0.04 or better.
@@ -102,7 +106,11 @@ fn what_is_seen_of_errors_is_what_comes_from_afar() {
     let plan = small_plan(&scene, &lighting);
     let checks = checks::draw(&plan, 0, Key::new(2));
     let found = |error: &dyn Fn(&Check) -> f64| {
-        checks::errors(&check_sums(&checks, &plan, error, 0.0), &checks, Noise::Counted)
+        checks::errors(
+            &check_sums(&checks, &plan, error, 0.0),
+            &checks,
+            (plan.trust(), Noise::Counted),
+        )
     };
     // One half is reflected, most of it seen from farther away than elements are long.
     let even = found(&|_| 1.0);
@@ -127,9 +135,12 @@ fn common_errors_are_seen_through_noise() {
     let near = |found: f64, expected: f64, allowed: f64| {
         assert!((found - expected).abs() < allowed, "{found} {expected}");
     };
+    let found_if = |error: &dyn Fn(&Check) -> f64, sigma: f64, noise_is: Noise| {
+        checks::errors(&check_sums(&checks, &plan, error, sigma), &checks, (plan.trust(), noise_is))
+    };
     // Without noise the error is what it is.
     let trusted = trusted_share(&checks, &plan);
-    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.3, 0.0), &checks, Noise::Counted);
+    let found = found_if(&|_| 0.3, 0.0, Noise::Counted);
     near(found.indirect_lx, 0.3 * trusted.sqrt(), 1e-3);
     near(found.untrusted_lx, 0.3, 1e-3);
     near(found.indirect_mean_lx, 0.3, 1e-3);
@@ -137,15 +148,13 @@ fn common_errors_are_seen_through_noise() {
     near(found.total_lx, 0.3, 1e-3);
     // Noise of 0.4 an increment, 0.1 of the mean of sixteen: its square is taken off, its standard
     // error left on, sqrt(2 / 256) of 0.01 and a few times that for uneven weights.
-    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.3, 0.4), &checks, Noise::Counted);
+    let found = found_if(&|_| 0.3, 0.4, Noise::Counted);
     near(squared(&found, trusted), 0.09, 0.006);
     near(found.indirect_mean_lx, 0.3, 0.04);
     // Noise alone is no error beyond what it may hide.
-    let found = checks::errors(&check_sums(&checks, &plan, |_| 0.0, 0.4), &checks, Noise::Counted);
+    let found = found_if(&|_| 0.0, 0.4, Noise::Counted);
     assert!(found.indirect_lx < 0.06, "{found:?}");
-    let noisy = |error: f64, noise_is: Noise| {
-        checks::errors(&check_sums(&checks, &plan, |_| error, 0.4), &checks, noise_is)
-    };
+    let noisy = |error: f64, noise_is: Noise| found_if(&|_| error, 0.4, noise_is);
     // It is ruled out, but for what one standard error does not cover, and an error that is there is not.
     assert!(noisy(0.0, Noise::RuledOut).indirect_lx < 0.03);
     let [ruled, taken_off, counted] =
@@ -158,7 +167,7 @@ fn common_errors_are_seen_through_noise() {
     // As much one way as the other: an error, but no bias.
     let sign =
         |c: &Check| if (c.gatherer.surface.point.x * 997.0) as i64 % 2 == 0 { 1.0 } else { -1.0 };
-    let found = checks::errors(&check_sums(&checks, &plan, sign, 0.0), &checks, Noise::Counted);
+    let found = found_if(&sign, 0.0, Noise::Counted);
     near(squared(&found, trusted), 1.0, 2e-3);
     assert!(found.indirect_mean_lx.abs() < 0.3, "{found:?}");
 }
@@ -176,6 +185,11 @@ fn sums(plan: &Plan, increments: u64, sigma: f64) -> Accumulator {
         }));
     }
     sums
+}
+
+/// The error of a map of such sums.
+fn of_map(plan: &Plan, sums: &Accumulator, seen: &InterpolationErrors) -> Option<Accuracy> {
+    accuracy(plan, &Pooled::of(plan, |k| sums.estimate(k)), seen)
 }
 
 /// What maps of increments read scatters by less than their vertices: at the middle of an element by
@@ -196,7 +210,7 @@ fn noise_is_that_of_readings_over_the_surface() {
         let fresh = &black[..checks.len()];
         sums.add(checks::samples(&checks, (fresh, fresh), [&black, &black, &coarse], &[]));
     }
-    let noise_lx = checks::errors(&sums, &checks, Noise::Counted).noise_lx.unwrap();
+    let noise_lx = checks::errors(&sums, &checks, (plan.trust(), Noise::Counted)).noise_lx.unwrap();
     // Barycentric weights have a mean square of 1/6 each; 16 increments; some hundred vertices tell.
     let expected = (3.0 / 6.0_f64).sqrt() / 4.0;
     assert!((noise_lx / expected - 1.0).abs() < 0.2, "{noise_lx} {expected}");
@@ -222,7 +236,7 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
         noise_lx: None,
         over_expected: None,
     };
-    let found = accuracy(&plan, &sums(&plan, 25, 0.1), &errors).unwrap();
+    let found = of_map(&plan, &sums(&plan, 25, 0.1), &errors).unwrap();
     // Some 150 vertices of 25 increments: the variance is known to sqrt(2 / 3600) = 2.4 %.
     assert!((found.statistical / 0.02 - 1.0).abs() < 5.0 * 0.012, "{found:?}");
     // The root mean square of 100 lx with noise of 2 lx.
@@ -237,16 +251,16 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
     assert!((found.interpolated - root(0.04)).abs() < 1e-4);
     // Where it is wrong nobody interpolates: they read what is reflected alone, but the bare map is as it was.
     let untrusted = InterpolationErrors { trusted_mean_lx: 0.0, ..errors };
-    let gathered = accuracy(&plan, &sums(&plan, 25, 0.1), &untrusted).unwrap();
+    let gathered = of_map(&plan, &sums(&plan, 25, 0.1), &untrusted).unwrap();
     assert!((gathered.bias - 0.02).abs() < 2e-4, "{gathered:?}");
     assert!((gathered.interpolated - found.interpolated).abs() < 1e-12);
     // What is seen from afar may be more than the mean.
     let seen = InterpolationErrors { seen_mean_lx: 1.5, ..untrusted };
-    let seen = accuracy(&plan, &sums(&plan, 25, 0.1), &seen).unwrap();
+    let seen = of_map(&plan, &sums(&plan, 25, 0.1), &seen).unwrap();
     assert!((seen.bias - 0.03).abs() < 2e-4, "{seen:?}");
     // What differs from place to place has either sign.
     let uneven = InterpolationErrors { seen_spread_lx: 1.5, ..untrusted };
-    let uneven = accuracy(&plan, &sums(&plan, 25, 0.1), &uneven).unwrap();
+    let uneven = of_map(&plan, &sums(&plan, 25, 0.1), &uneven).unwrap();
     assert!((uneven.bias - 0.02_f64.hypot(0.015)).abs() < 2e-4, "{uneven:?}");
 }
 
@@ -258,7 +272,7 @@ fn too_few_increments_and_darkness_have_no_accuracy() {
     let none = InterpolationErrors::default();
     let mut dark = Accumulator::new(plan.elements.vertices().len(), 1.0);
     (0..16).for_each(|_| dark.add(plan.elements.vertices().iter().map(|_| Sample::default())));
-    assert!(accuracy(&plan, &dark, &none).is_none());
+    assert!(of_map(&plan, &dark, &none).is_none());
 }
 
 fn parts(statistical: f64, discretization: f64, bias: f64) -> Accuracy {
@@ -332,7 +346,7 @@ fn what_has_one_sign_is_told_as_it_is_where_light_is() {
             given_up_lx,
             ..InterpolationErrors::default()
         };
-        accuracy(&plan, &sums, &errors).unwrap().bias
+        of_map(&plan, &sums, &errors).unwrap().bias
     };
     let whole = of_surfaces(&|_| true, 2.0);
     let half = of_surfaces(&|k| k % 2 == 0, 2.0);

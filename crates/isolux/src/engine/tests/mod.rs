@@ -16,6 +16,7 @@ mod fixed_point;
 mod foreseeing;
 mod glass;
 mod gloss;
+mod judging;
 pub(super) mod many;
 mod means;
 mod mirrors;

@@ -6,7 +6,7 @@ use crate::engine::detail::LeafError;
 use crate::engine::direct::Lighting;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::surface::SurfacePoint;
-use crate::engine::trust::{self, Worst};
+use crate::engine::trust::{self, Trust, Worst};
 
 fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
     let error = |(node, &(area_m2, error)): (usize, &(f64, f64))| LeafError {
@@ -61,7 +61,7 @@ fn errors_at_vertices_bound_those_of_elements() {
     let mut fine = coarse.clone();
     fine.bisect_to(0.3, 1 << 20);
     let elements = fine.elements();
-    let at = trust::at_vertices(&elements, &errors, f64::INFINITY);
+    let at = trust::at_vertices(&elements, &errors, Trust::UpTo(f64::INFINITY));
     let mut compared = 0;
     for error in &errors {
         elements.visit_below(error.node, &mut |corners| {
@@ -100,7 +100,7 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
         least_edge_m: None,
     };
     let plan = pilot(&scene, &lighting, &request, &mut |_| true);
-    let at = plan.expected_lx();
+    let at = plan.expected_lx(plan.trust());
     let split = |e: &&LeafError| e.is_beset && plan.elements.node(e.node).split.is_some();
     let beset: Vec<&LeafError> = plan.indirect_errors.iter().filter(split).collect();
     assert!(beset.len() > 10, "there is something to be seen: {}", beset.len());

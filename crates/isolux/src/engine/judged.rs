@@ -1,0 +1,68 @@
+//! What a map is found to be, and how far readers are to trust it.
+//!
+//! How good a map is depends on who reads it: what readers gather afresh does not err by interpolation. Details tell the
+//! pilot roughly in which elements they need not gather; check points tell what that comes to. Where it is too much for the
+//! accuracy asked for, readers trust fewer elements, as far as that helps, before finer ones are made; where it is less than
+//! foreseen, they trust more.
+
+use super::checks::InterpolationErrors;
+use super::trust::Trust;
+use crate::map::Accuracy;
+
+/// Shares of the error up to which elements were to be trusted, one after the other: with the least, readers of the hall gather
+/// on four fifths of its surface, with all of it on three.
+const SHARES: [f64; 3] = [0.7, 0.5, LEAST_SHARE];
+const LEAST_SHARE: f64 = 0.35;
+
+/// A map as it is to be read.
+#[derive(Clone, Copy)]
+pub(super) struct Judged {
+    pub(super) trust: Trust,
+    pub(super) errors: InterpolationErrors,
+    pub(super) accuracy: Option<Accuracy>,
+}
+
+impl Judged {
+    /// As found by `by`, with as much trust as reaches a goal, no more than foreseen; with the least if none does.
+    pub(super) fn for_goal(goal: f64, foreseen: Trust, by: impl Fn(Trust) -> Self) -> Self {
+        let mut judged = by(foreseen);
+        for share in SHARES.into_iter().filter(|_| foreseen.up_to_lx().is_finite()) {
+            if judged.reaches(goal) {
+                break;
+            }
+            judged = by(foreseen.part(share));
+        }
+        judged
+    }
+
+    /// The same, or trusting all but gaps where that is enough and a goal is still reached.
+    pub(super) fn or_all_but_gaps(
+        self,
+        goal: f64,
+        is_enough: impl Fn(&Accuracy) -> bool,
+        by: impl Fn(Trust) -> Self,
+    ) -> Self {
+        let reached = self.accuracy.filter(|accuracy| accuracy.reached <= goal);
+        let all = reached.filter(is_enough).map(|_| by(Trust::AllButGaps));
+        all.filter(|all| all.reaches(goal)).unwrap_or(self)
+    }
+
+    fn reaches(&self, goal: f64) -> bool {
+        self.accuracy.is_some_and(|accuracy| accuracy.reached <= goal)
+    }
+}
+
+impl Trust {
+    /// Up to a share of the error.
+    const fn part(self, share: f64) -> Self {
+        match self {
+            Self::UpTo(lx) => Self::UpTo(share * lx),
+            Self::AllButGaps => self,
+        }
+    }
+
+    /// As little as readers may be left with.
+    pub(super) const fn least(self) -> Self {
+        self.part(LEAST_SHARE)
+    }
+}
