@@ -167,7 +167,7 @@ pub(crate) fn flux(lm: f64, has_parallel: bool) -> String {
 
 /// Bytes for reading: `1.5 GiB`.
 pub(crate) fn show_bytes(bytes: u64) -> String {
-    let units = [("TiB", 40), ("GiB", 30), ("MiB", 20), ("KiB", 10)];
+    let units = [("EiB", 60), ("PiB", 50), ("TiB", 40), ("GiB", 30), ("MiB", 20), ("KiB", 10)];
     match units.iter().find(|(_, power)| bytes >> power > 0) {
         Some((unit, power)) => format!("{:.1} {unit}", bytes as f64 / (1_u64 << power) as f64),
         None => format!("{bytes} B"),
@@ -200,6 +200,9 @@ pub(crate) fn show_count(count: f64) -> String {
     }
 }
 
+/// Digits behind the point that are still read: what takes more is written with its power of ten.
+const MOST_DECIMALS: i32 = 12;
+
 /// A number with so many significant digits, and no fewer than its whole part has.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
@@ -207,8 +210,11 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
         return format!("{}", value + 0.0);
     }
     let magnitude = value.abs().log10().floor() as i32;
-    let decimals = (digits as i32 - 1 - magnitude).clamp(0, 12) as usize;
-    format!("{value:.decimals$}")
+    let decimals = (digits as i32 - 1 - magnitude).max(0);
+    if decimals > MOST_DECIMALS {
+        return format!("{value:.*e}", digits.max(1) - 1);
+    }
+    format!("{value:.*}", decimals as usize)
 }
 
 #[cfg(test)]
@@ -316,6 +322,7 @@ mod tests {
     #[test]
     fn quantities_are_shown_as_people_read_them() {
         assert_eq!(show_bytes(3 << 29), "1.5 GiB");
+        assert_eq!(show_bytes(u64::MAX), "16.0 EiB");
         assert_eq!(show_bytes(12), "12 B");
         for (seconds, text) in
             [(0.123, "0.12 s"), (12.3, "12 s"), (320.0, "5 min 20 s"), (11_100.0, "3 h 5 min")]
@@ -327,5 +334,9 @@ mod tests {
         assert_eq!(significant(1234.5, 3), "1234");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(significant(-0.0, 3), "0");
+        assert_eq!(significant(1.23e-10, 3), "0.000000000123");
+        // What would have no digit left.
+        assert_eq!(significant(1e-13, 3), "1.00e-13");
+        assert_eq!(significant(-3.21e-14, 2), "-3.2e-14");
     }
 }

@@ -100,7 +100,11 @@ fn spot_distribution(
         return Err(Flaw::new(what, remedy).at("spot"));
     }
     if inner_rad >= outer_rad {
-        let what = "a spot without a soft edge is given one of a thousandth of its angle";
+        let what = if inner_rad > outer_rad {
+            "the inner cone angle is above the outer one: the spot is given a soft edge of a thousandth of that"
+        } else {
+            "a spot without a soft edge is given one of a thousandth of its angle"
+        };
         notes.warn(Flaw::new(what, "make innerConeAngle smaller").at(format!("{place}.spot")));
     }
     inner_rad = inner_rad.min(SHARPEST_SPOT * outer_rad);

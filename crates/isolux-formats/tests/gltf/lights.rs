@@ -113,6 +113,13 @@ fn hard_spot_and_range() {
 }
 
 #[test]
+fn a_cone_within_a_narrower_one() {
+    let light = json!({"type": "spot", "spot": {"innerConeAngle": 0.6, "outerConeAngle": 0.5}});
+    let loaded = with_light(light, json!({})).load();
+    assert_warns(&loaded, "extensions.KHR_lights_punctual.lights[0].spot", "above the outer one");
+}
+
+#[test]
 fn directional() {
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let light = json!({"type": "directional", "intensity": 1000, "color": [1, 1, 1]});
