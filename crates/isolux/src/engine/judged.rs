@@ -2,15 +2,15 @@
 //!
 //! How good a map is depends on who reads it: what readers gather afresh does not err by interpolation. Details tell the
 //! pilot roughly in which elements they need not gather; check points tell what that comes to. Where it is too much for the
-//! accuracy asked for, readers trust fewer elements, as far as that helps, before finer ones are made; where it is less than
-//! foreseen, they trust more.
+//! accuracy asked for, readers trust fewer elements, as far as that helps, before finer ones are made; where to gather would
+//! change no more than the map errs by, they gather in gaps alone.
 
 use super::checks::InterpolationErrors;
 use super::trust::Trust;
 use crate::map::Accuracy;
 
 /// Shares of the error up to which elements were to be trusted, one after the other: with the least, readers of the hall gather
-/// on four fifths of its surface, with all of it on three.
+/// on four fifths of its surface, with all of it on three fifths.
 const SHARES: [f64; 3] = [0.7, 0.5, LEAST_SHARE];
 const LEAST_SHARE: f64 = 0.35;
 
@@ -44,7 +44,10 @@ impl Judged {
     ) -> Self {
         let reached = self.accuracy.filter(|accuracy| accuracy.reached <= goal);
         let all = reached.filter(is_enough).map(|_| by(Trust::AllButGaps));
-        all.filter(|all| all.reaches(goal)).unwrap_or(self)
+        let Some(mut all) = all.filter(|all| all.reaches(goal)) else { return self };
+        // Who gathers in space reads what stands close by all the same.
+        all.errors.untrusted_lx = all.errors.untrusted_lx.max(self.errors.untrusted_lx);
+        all
     }
 
     fn reaches(&self, goal: f64) -> bool {
