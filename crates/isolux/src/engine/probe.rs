@@ -13,7 +13,7 @@ use super::path::{Dice, PathEnd, follow};
 use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
 use super::trust;
-use crate::map::{Accuracy, Illuminance, IlluminationMap, Standing};
+use crate::map::{Accuracy, Fresh, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -153,7 +153,7 @@ impl<'a> MapReader<'a> {
             return Some((stored, at));
         };
         let edge_m = trust::edge_at_m(&self.map.elements, &at);
-        let indirect = if self.is_trusted(&stored, &at, edge_m) {
+        let indirect = if self.is_trusted(fresh, &stored, (&at, edge_m)) {
             self.with_interpolation_error(stored)
         } else {
             let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
@@ -164,8 +164,12 @@ impl<'a> MapReader<'a> {
     }
 
     /// Whether what the map tells of a place on an element of such edges is to be trusted.
-    fn is_trusted(&self, stored: &Illuminance, at: &SurfacePoint, edge_m: f64) -> bool {
-        let Some(fresh) = self.map.provenance.fresh else { return true };
+    fn is_trusted(
+        &self,
+        fresh: Fresh,
+        stored: &Illuminance,
+        (at, edge_m): (&SurfacePoint, f64),
+    ) -> bool {
         if stored.standing != Standing::Open {
             return false;
         }

@@ -113,9 +113,9 @@ impl MapReader<'_> {
 
     /// What would gather at a place, unless the map is to be trusted there.
     fn trial(&self, stored: &Illuminance, at: &SurfacePoint) -> Option<Gatherer> {
-        self.map.provenance.fresh?;
+        let fresh = self.map.provenance.fresh?;
         let edge_m = trust::edge_at_m(&self.map.elements, at);
-        (!self.is_trusted(stored, at, edge_m)).then(|| {
+        (!self.is_trusted(fresh, stored, (at, edge_m))).then(|| {
             let in_gap = trust::is_closed_in(self.scene, at, edge_m);
             Gatherer::on_surface(*at, TRIAL_RAYS).in_gap(in_gap)
         })
