@@ -5,7 +5,6 @@
 //! allocation of Neyman (1934), for nets. Where objects are small and many, as in furnished rooms, half of the rays are left.
 
 use super::carriers::Carriers;
-use super::detail::LeafError;
 use super::trial::NET_ORDER;
 use crate::elements::Subdivision;
 
@@ -23,15 +22,12 @@ const MOST_STEPS: i32 = 8 * STEPS;
 
 /// Surface that the light of every vertex is for, m2: a third of its elements, and its part of that of the vertices that
 /// are interpolated from it. Vertices that do not carry light have none.
-pub(super) fn areas_m2(
-    subdivision: &Subdivision,
-    elements: &[LeafError],
-    carriers: &Carriers,
-) -> Vec<f64> {
+pub(super) fn areas_m2(subdivision: &Subdivision, carriers: &Carriers) -> Vec<f64> {
     let mut areas_m2 = vec![0.0; subdivision.vertex_count()];
-    for element in elements {
-        for vertex in subdivision.node(element.node).0.vertices {
-            areas_m2[vertex as usize] += element.area_m2 / 3.0;
+    for leaf in subdivision.leaves() {
+        let third_m2 = subdivision.triangle(leaf).area() / 3.0;
+        for vertex in subdivision.node(leaf).0.vertices {
+            areas_m2[vertex as usize] += third_m2;
         }
     }
     carriers.hand_down(&mut areas_m2);

@@ -10,6 +10,7 @@
 //! light itself. So do those that stand for gaps and rims, and all that bisection makes.
 
 use super::coarsening::{Coarsening, Link, weights_at};
+use super::walls::{Beside, Walls};
 use crate::elements::Subdivision;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -72,13 +73,15 @@ impl Carriers {
     }
 
     /// Makes vertices from `first` on, made by bisecting `elements`, wait: each is interpolated from the corners of the elements
-    /// about it that carry light, or lies between the ends of its edge where those do not tell it.
+    /// about it that carry light, or lies between the ends of its edge where those do not tell it. Before walls some
+    /// carry light beside those.
     pub(super) fn smooth(
         &mut self,
         subdivision: &Subdivision,
         first: usize,
         elements: &[[u32; 3]],
         open: &[bool],
+        (walls, rows): (&Walls, &[Beside]),
     ) {
         let vertices = subdivision.vertices();
         let mut rings: Vec<Vec<u32>> = vec![Vec::new(); first];
@@ -87,6 +90,21 @@ impl Carriers {
             let telling = || corners.iter().copied().filter(tells);
             corners.iter().for_each(|&v| rings[v as usize].extend(telling()));
         }
+        for row in rows {
+            // Whoever sees the vertex on the wall sees it, too.
+            let mut about = rings[row.of as usize].clone();
+            about.sort_unstable();
+            about.dedup();
+            let before = about.into_iter().filter(|&v| (v as usize) < first);
+            before.for_each(|v| rings[v as usize].push(row.vertex));
+        }
+        let rings_of = |some: &[u32]| {
+            let rings = some.iter().filter_map(|&v| rings.get(v as usize)).flatten();
+            let mut about: Vec<u32> = rings.copied().collect();
+            about.sort_unstable();
+            about.dedup();
+            about
+        };
         let link = |vertex: usize| {
             let ends = vertices[vertex].parents.expect("made by bisection");
             let mut between = ends.map(|end| (end, 0.5)).to_vec();
@@ -95,14 +113,16 @@ impl Carriers {
                 let ends = vertices[made as usize].parents.expect("made by bisection");
                 between.extend(ends.map(|end| (end, 0.5 * weight)));
             }
-            let mut about: Vec<u32> =
-                between.iter().flat_map(|&(end, _)| &rings[end as usize]).copied().collect();
-            about.sort_unstable();
-            about.dedup();
+            let ends_of: Vec<u32> = between.iter().map(|&(end, _)| end).collect();
             let at = &vertices[vertex];
+            let mut about = rings_of(&ends_of);
+            let near_walls = walls.near(&about, at.position);
+            if !near_walls.is_empty() {
+                about = rings_of(&about);
+            }
             let distance_m = |v: u32| (vertices[v as usize].position - at.position).length();
             let near = about.into_iter().map(|v| (distance_m(v), v as usize)).collect();
-            let told = weights_at(at, near, |v| vertices[v].position);
+            let told = weights_at(at, near, |v| vertices[v].position, &near_walls);
             let told = told.filter(|_| open[vertex]);
             let told =
                 told.map(|of| of.into_iter().map(|(v, weight)| (v as u32, weight)).collect());
@@ -120,10 +140,13 @@ impl Carriers {
         self.links.par_extend((first..vertices.len()).into_par_iter().map(link));
         self.active.resize(first, true);
         self.active.resize(vertices.len(), false);
-        // Those that lie between others, after these.
-        for vertex in first as u32..vertices.len() as u32 {
-            self.order.push(vertex);
+        for row in rows {
+            self.links[row.vertex as usize] = None;
+            self.active[row.vertex as usize] = true;
         }
+        // Those that lie between others, after these.
+        let all = first as u32..vertices.len() as u32;
+        self.order.extend(all.filter(|&v| self.links[v as usize].is_some()));
         self.ends.push(self.order.len());
     }
 
@@ -217,6 +240,15 @@ impl Carriers {
             let found: Vec<(u32, Rgb)> = waiting.filter_map(read).collect();
             found.into_iter().for_each(|(v, value)| values[v as usize] = value);
             start = end;
+        }
+    }
+
+    /// Changes of those that do not carry light, by changes of the others.
+    pub(super) fn spread(&self, changes: &mut [Rgb]) {
+        for &vertex in self.order.iter().filter(|&&v| !self.active[v as usize]) {
+            let Some(link) = &self.links[vertex as usize] else { continue };
+            let parts = link.parents.iter().map(|&(parent, w)| changes[parent as usize] * w);
+            changes[vertex as usize] = parts.sum();
         }
     }
 

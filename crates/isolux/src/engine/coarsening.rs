@@ -2,6 +2,7 @@
 //!
 //! Surfaces have nothing to do with each other, so that each is thinned out for itself.
 
+use super::walls::{MOST_NEAR, Wall};
 use crate::elements::{FewNumbers, Subdivision, Vertex};
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
@@ -18,10 +19,14 @@ const LEAST_COS: f64 = 0.7;
 
 /// Neighbours that a value is interpolated from, and how far from it they are at most, in spacings.
 const NEIGHBOURS: usize = 12;
+/// The same where light falls off towards walls, which takes two functions more.
+const NEIGHBOURS_AT_WALLS: usize = 16;
 const REACH: f64 = 2.5;
 
 /// Weights whose magnitudes add up to more extrapolate.
 const MOST_WEIGHT: f64 = 1.6;
+/// The same before walls, where functions that fall off without bound reach beyond the nearest row.
+const MOST_WEIGHT_AT_WALLS: f64 = 2.2;
 
 /// Columns of least squares of which less than this is left by those before depend on them.
 const LEAST_PIVOT: f64 = 1e-3;
@@ -197,32 +202,42 @@ impl Surface {
             }
             true
         });
-        let of = weights_at(&own[vertex], near, |other| own[other].position)?;
+        let of = weights_at(&own[vertex], near, |other| own[other].position, &[])?;
         let parents = of.into_iter().map(|(other, weight)| (self.members[other], weight)).collect();
         Some(Link { parents, spacing_m })
     }
 }
 
-/// Neighbours near a place, each with its distance, and the weights of their values that give the value there.
+/// Neighbours near a place, each with its distance, and the weights of their values that give the value there, where light falls
+/// off towards these walls.
 pub(super) fn weights_at(
     at: &Vertex,
     mut near: Vec<(f64, usize)>,
     position: impl Fn(usize) -> Point,
+    walls: &[Wall],
 ) -> Option<Vec<(usize, f64)>> {
     near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    near.truncate(NEIGHBOURS);
+    near.truncate(if walls.is_empty() { NEIGHBOURS } else { NEIGHBOURS_AT_WALLS });
     let axis = at.normal.to_direction();
     let [x, y] =
         [[1.0, 0.0], [0.0, 1.0]].map(|[x, y]| axis.from_local(Vector::new(x, y, 0.0)).to_vector());
     let width_m = (1.0 + 1e-3) * near.last()?.0;
+    let fall = |wall: &Wall, place: Point| {
+        let d = wall.distance_m(place) / width_m;
+        if d > 0.0 { d * libm::log(d) } else { 0.0 }
+    };
     let sample = |&(distance_m, other): &(f64, usize)| {
         let to = position(other) - at.position;
         let share = distance_m / width_m;
         let bump = 1.0 - share * share;
-        Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump }
+        let mut falls = [0.0; MOST_NEAR];
+        for (own, wall) in falls.iter_mut().zip(walls) {
+            *own = fall(wall, position(other)) - fall(wall, at.position);
+        }
+        Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump, falls }
     };
     let samples: Vec<Sample> = near.iter().map(sample).collect();
-    let over_plane = [&[1, 2, 3, 4, 5][..], &[1, 2]];
+    let over_plane = (0..=walls.len()).rev().flat_map(|walls| &OVER_PLANE[walls]);
     let over_plane = over_plane.into_iter().find_map(|beside| weights(&samples, beside));
     let weights = over_plane.or_else(|| weights_along_line(&samples))?;
     let of = near.iter().zip(weights);
@@ -300,10 +315,19 @@ impl Grid {
 struct Sample {
     at: [f64; 2],
     weight: f64,
+    /// How light that falls off towards walls differs from that at the origin.
+    falls: [f64; MOST_NEAR],
 }
 
+/// Terms over a plane before so many walls, those to be tried first.
+const OVER_PLANE: [[&[usize]; 2]; 1 + MOST_NEAR] = [
+    [&[1, 2, 3, 4, 5], &[1, 2]],
+    [&[1, 2, 3, 4, 5, 6], &[1, 2, 6]],
+    [&[1, 2, 3, 4, 5, 6, 7], &[1, 2, 6, 7]],
+];
+
 /// Weights of the values at some places that give the value at the origin of the polynomial of best
-/// fit of a constant and some terms beside it of `1, x, y, x2, xy, y2`; `None` where they do not tell it, or
+/// fit of a constant and some terms beside it of `1, x, y, x2, xy, y2` and what falls off towards walls; `None` where they do not tell it, or
 /// extrapolate. By orthogonal columns (modified Gram-Schmidt).
 fn weights(samples: &[Sample], beside: &[usize]) -> Option<Vec<f64>> {
     if samples.len() <= beside.len() {
@@ -313,7 +337,8 @@ fn weights(samples: &[Sample], beside: &[usize]) -> Option<Vec<f64>> {
     let column = |term: usize| -> Vec<f64> {
         let value = |s: &Sample| {
             let [x, y] = s.at;
-            [1.0, x, y, x * x, x * y, y * y][term]
+            let [first, second] = s.falls;
+            [1.0, x, y, x * x, x * y, y * y, first, second][term]
         };
         samples.iter().zip(&roots).map(|(s, root)| value(s) * root).collect()
     };
@@ -335,7 +360,8 @@ fn weights(samples: &[Sample], beside: &[usize]) -> Option<Vec<f64>> {
     let length = dot(&last, &last);
     let weights: Vec<f64> = last.iter().zip(&roots).map(|(c, root)| c * root / length).collect();
     let size: f64 = weights.iter().map(|w| w.abs()).sum();
-    (size <= MOST_WEIGHT).then_some(weights)
+    let most = if beside.iter().any(|&term| term > 5) { MOST_WEIGHT_AT_WALLS } else { MOST_WEIGHT };
+    (size <= most).then_some(weights)
 }
 
 /// The same of a polynomial along a line through the origin that some of the samples lie on, as others on the same border do;

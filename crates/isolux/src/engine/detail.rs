@@ -38,6 +38,8 @@ pub(super) struct LeafError {
     pub(super) is_beset: bool,
     /// Whether that is so only because its light is carried by vertices farther apart than its own.
     pub(super) is_beset_afar: bool,
+    /// Whether what stands close is a wall, which light is resolved towards.
+    pub(super) is_at_wall: bool,
 }
 
 impl LeafError {
@@ -97,6 +99,7 @@ impl<'a> Details<'a> {
                 excess,
                 is_beset: beset || is_beset_afar,
                 is_beset_afar,
+                is_at_wall: false,
             }
         };
         let leaves: Vec<u32> = self.subdivision.leaves().collect();

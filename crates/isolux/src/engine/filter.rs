@@ -9,6 +9,7 @@
 //! details that are taken off have one sign: each piece of surface gets back what it has lost in the mean, over its smoothed parts
 //! evenly. Standard errors stay those of the unfiltered values.
 
+use super::allot::areas_m2;
 use super::plan::Plan;
 use crate::map::FilterReport;
 use crate::units::Rgb;
@@ -35,6 +36,11 @@ pub(super) struct Filtered {
 /// photometric sum of them all and its variance.
 pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: f64) -> Filtered {
     let means = Means::of(plan);
+    let areas_m2 = if plan.resolves_walls {
+        areas_m2(&plan.subdivision, &plan.carriers)
+    } else {
+        plan.elements.vertices()[..variance.len()].iter().map(|v| v.area_m2).collect()
+    };
     let mut values = parts.to_vec();
     let mut variance = variance.to_vec();
     let (mut smoothed_m2, mut bias, mut first) = (0.0, 0.0, Vec::new());
@@ -44,7 +50,7 @@ pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: 
             .collect();
         let kept = means.shares_of_signal(&total, &variance);
         if pass == 0 {
-            (smoothed_m2, bias) = smoothing(plan, &kept);
+            (smoothed_m2, bias) = smoothing(&areas_m2, &kept);
             first = kept.iter().map(|k| 1.0 - k.share).collect();
         }
         for part in &mut values {
@@ -54,7 +60,13 @@ pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: 
     }
     let pieces = means.pieces();
     for (filtered, part) in values.iter_mut().zip(parts) {
-        give_back(plan, (&pieces, &first), filtered, part);
+        give_back(&areas_m2, (&pieces, &first), filtered, part);
+        if plan.resolves_walls {
+            let changed = filtered.iter().zip(part).map(|(&after, &before)| after - before);
+            let mut changes: Vec<Rgb> = changed.collect();
+            plan.carriers.spread(&mut changes);
+            *filtered = part.iter().zip(changes).map(|(&before, by)| before + by).collect();
+        }
     }
     let bias = if rms_lx > 0.0 { bias / rms_lx } else { 0.0 };
     Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
@@ -71,7 +83,13 @@ impl Means {
     /// Hat functions weighted by their overlap.
     fn of(plan: &Plan) -> Self {
         let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); plan.indirect_vertices];
-        for leaf in plan.subdivision.leaves() {
+        // Vertices that quadratic functions tell show no noise of their own.
+        let nodes: Vec<u32> = if plan.resolves_walls {
+            plan.indirect_errors.iter().map(|e| e.node).collect()
+        } else {
+            plan.subdivision.leaves().collect()
+        };
+        for leaf in nodes {
             let corners = plan.subdivision.node(leaf).0.vertices;
             if !corners.iter().all(|&v| plan.is_open(v)) {
                 continue;
@@ -167,16 +185,16 @@ impl Means {
 
 /// Gives every piece of surface the light that filtering took from it, where details were smoothed.
 fn give_back(
-    plan: &Plan,
+    areas_m2: &[f64],
     (pieces, smoothed): (&[u32], &[f64]),
     filtered: &mut [Rgb],
     unfiltered: &[Rgb],
 ) {
     let mut lost = vec![(Rgb::BLACK, 0.0); filtered.len()];
-    for (k, vertex) in plan.elements.vertices()[..filtered.len()].iter().enumerate() {
+    for (k, &own_m2) in areas_m2.iter().enumerate() {
         let of_piece = &mut lost[pieces[k] as usize];
-        of_piece.0 += (unfiltered[k] - filtered[k]) * vertex.area_m2;
-        of_piece.1 += smoothed[k] * vertex.area_m2;
+        of_piece.0 += (unfiltered[k] - filtered[k]) * own_m2;
+        of_piece.1 += smoothed[k] * own_m2;
     }
     for (k, value) in filtered.iter_mut().enumerate() {
         let (flux_lm, smoothed_m2) = lost[pieces[k] as usize];
@@ -188,14 +206,14 @@ fn give_back(
 
 /// Share of the surface where less than half of the detail is kept, and the signal that may be lost,
 /// root mean square in lx.
-fn smoothing(plan: &Plan, kept: &[Kept]) -> (f64, f64) {
+fn smoothing(areas_m2: &[f64], kept: &[Kept]) -> (f64, f64) {
     let (mut area, mut smoothed, mut lost) = (0.0, 0.0, 0.0);
-    for (vertex, k) in plan.elements.vertices().iter().zip(kept) {
-        area += vertex.area_m2;
+    for (&own_m2, k) in areas_m2.iter().zip(kept) {
+        area += own_m2;
         if k.share < 0.5 {
-            smoothed += vertex.area_m2;
+            smoothed += own_m2;
         }
-        lost += vertex.area_m2 * (1.0 - k.share) * (1.0 - k.share) * k.signal;
+        lost += own_m2 * (1.0 - k.share) * (1.0 - k.share) * k.signal;
     }
     if area > 0.0 { (smoothed / area, (lost / area).sqrt()) } else { (0.0, 0.0) }
 }

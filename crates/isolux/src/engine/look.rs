@@ -2,6 +2,7 @@
 
 use super::detail::LeafError;
 use super::trust::{self, Worst};
+use super::walls::Walls;
 use crate::elements::Elements;
 
 /// The part of the accuracy asked for that interpolating indirect light may take.
@@ -13,7 +14,7 @@ const MOST_FRESH: f64 = 0.5;
 /// What all elements may err by, in accuracies asked for: rays read them all, but in the mean over many. Measured
 /// on CUBE: at 3 the bias at its edges takes half of the accuracy, at 1 a third more elements bring nothing.
 const BARE: f64 = 2.0;
-/// The same where their means are measured.
+/// The same where their means are measured, or light is resolved towards walls.
 const BARE_WITH_MEANS: f64 = 6.0;
 /// Means are measured where what beset elements lack in the mean over the surface is more than this, in accuracies
 /// asked for: soon in empty rooms, late among furniture, whose shadows and hollows balance.
@@ -52,6 +53,8 @@ pub(super) struct Look {
     /// That carry indirect light.
     pub(super) carriers: usize,
     pub(super) errors: Vec<LeafError>,
+    /// Where surfaces end before walls, if light is smooth.
+    pub(super) walls: Walls,
     /// Those that are not beset, worst first.
     pub(super) worst: Worst,
     /// Share of them that a fit leaves.
@@ -90,7 +93,9 @@ impl Look {
         let goal_lx = match what {
             // Fits do little for what is steep at edges.
             Read::All if request.is_fitted => {
-                let bare = if self.asks_for_means(request) { BARE_WITH_MEANS } else { BARE };
+                let is_right_in_the_mean =
+                    self.asks_for_means(request) || self.walls.are_resolved();
+                let bare = if is_right_in_the_mean { BARE_WITH_MEANS } else { BARE };
                 request.mesh_target.min(bare * request.target) * self.rms_lx
             }
             _ => self.goal_lx(request.target, request),
@@ -101,7 +106,7 @@ impl Look {
 
     fn is_read(&self, what: Read, request: &PilotRequest) -> impl Fn(&LeafError) -> bool + use<> {
         let limit = self.worst.limit(self.goal_lx(request.target, request), FRESH_SHARE);
-        move |e| what == Read::All || !e.is_beset && e.error <= limit
+        move |e| what == Read::All || e.is_at_wall || !e.is_beset && e.error <= limit
     }
 
     /// The error of elements up to which readers trust the map.
@@ -113,7 +118,7 @@ impl Look {
     /// Whether rays read too much wrongly in the mean of beset elements, unless that is measured.
     pub(super) fn asks_for_means(&self, request: &PilotRequest) -> bool {
         let area_m2: f64 = self.errors.iter().map(|e| e.area_m2).sum();
-        let beset = self.errors.iter().filter(|e| e.is_beset);
+        let beset = self.errors.iter().filter(|e| e.is_beset && !e.is_at_wall);
         let lacking: f64 = beset.map(|e| e.area_m2 * e.excess).sum();
         let from = if self.left_by_fit < SMOOTH { MEANS_FROM_IF_SMOOTH } else { MEANS_FROM };
         request.has_means && lacking.abs() > from * request.target * area_m2 * self.rms_lx
@@ -128,7 +133,7 @@ impl Look {
 
     /// How many elements are beset.
     pub(super) fn beset(&self) -> f64 {
-        self.errors.iter().filter(|e| e.is_beset).count() as f64
+        self.errors.iter().filter(|e| e.is_beset && !e.is_at_wall).count() as f64
     }
 
     /// Into how many vertices each is made by bisecting the others twice.
@@ -152,7 +157,7 @@ impl Look {
     /// What interpolation is expected to err by where readers trust it, of all light.
     pub(super) fn interpolation(&self, request: &PilotRequest) -> f64 {
         let limit = self.trusted_up_to_lx(request);
-        let is_trusted = |e: &LeafError| !e.is_beset && e.error <= limit;
+        let is_trusted = |e: &LeafError| e.is_at_wall || !e.is_beset && e.error <= limit;
         let error_lx = trust::error_of(&self.errors, is_trusted) * self.left(request);
         if self.rms_lx > 0.0 { error_lx / self.rms_lx } else { 0.0 }
     }

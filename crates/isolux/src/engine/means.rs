@@ -56,6 +56,7 @@ impl Means {
             let corners = corners(e);
             let place = || SurfacePoint::amid_node(scene, subdivision, e.node);
             e.is_beset
+                && !e.is_at_wall
                 && corners.iter().all(|&v| open[v as usize])
                 && corners.iter().any(|&v| is_free[v as usize])
                 && !trust::is_closed_in(scene, &place(), subdivision.longest_edge_m(e.node))

@@ -51,6 +51,7 @@ mod tally;
 mod trial;
 mod trust;
 mod views;
+mod walls;
 mod work;
 
 #[cfg(test)]

@@ -68,6 +68,8 @@ pub(super) struct Plan<'s> {
     pub(super) fit: Fit,
     /// Elements whose means increments measure.
     pub(super) means: Means,
+    /// Whether light is resolved towards walls.
+    pub(super) resolves_walls: bool,
     /// Whether there was time for all of it.
     pub(super) is_whole: bool,
     pub(super) rays: u64,
@@ -83,7 +85,7 @@ impl Plan<'_> {
 
     /// Rays of the vertices for indirect light in an increment, that serve as well as so many of each.
     pub(super) fn allotted(&self, mean: f64) -> Vec<u32> {
-        let mut areas_m2 = areas_m2(&self.subdivision, &self.indirect_errors, &self.carriers);
+        let mut areas_m2 = areas_m2(&self.subdivision, &self.carriers);
         let hidden = areas_m2.iter_mut().zip(&self.standings).filter(|(_, of)| of.is_none());
         hidden.for_each(|(m2, _)| *m2 = 0.0);
         allot(&areas_m2, mean)

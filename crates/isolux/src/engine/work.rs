@@ -392,9 +392,8 @@ impl<'p, 's> Work<'p, 's> {
         if noise_is != Noise::Counted || !self.is_believed() {
             return judged;
         }
-        let is_enough = |accuracy: &Accuracy| {
-            let error = libm::hypot(accuracy.statistical, accuracy.discretization);
-            let than = (judged.trust, error * self.plan.rms_lx);
+        let is_enough = || {
+            let than = (judged.trust, goal * self.plan.rms_lx);
             !checks::is_gathering_worth_while(&self.checks.sums, &self.checks.points, than)
         };
         judged.or_all_but_gaps(goal, is_enough, by)
@@ -596,7 +595,8 @@ fn rays_and_particles(plan: &Plan, noise: f64, goal: f64, most: u32) -> (f64, u3
 /// The noise that a map may have that is to reach a goal. Elements made for a finer target, as those for the goal were seen to err by
 /// more than expected, will do so, too.
 fn noise(plan: &Plan, goal: f64, target: f64) -> f64 {
-    noise_for(goal, plan.interpolation * goal / target, !plan.means.is_empty())
+    let right_in_the_mean = !plan.means.is_empty() || plan.resolves_walls;
+    noise_for(goal, plan.interpolation * goal / target, right_in_the_mean)
 }
 
 /// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,

@@ -19,6 +19,8 @@ use std::time::Instant;
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: usize = 4;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
+/// What direct light as interpolated may err by where it is smooth, of the accuracy asked for: a sixth of the squared error.
+const OF_ACCURACY: f64 = 0.4;
 /// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
 const LOOKED_AT: usize = 512;
 pub(super) const MOST_REFLECTANCE: f64 = 0.9;
@@ -157,7 +159,11 @@ impl Pilot<'_> {
         let (carriers, no) = (Carriers::all(), |_, _| false);
         let details = Details::of(&self.subdivision, elements, &signal, &carriers, no);
         let errors = details.leaf_errors(|_| None, |_| false);
-        let excess = trust::error_of(&errors, |_| true) / (request.mesh_target * rms_lx);
+        // Where light is smooth and exact, it costs little not to stay behind what is gathered.
+        let is_cheap = self.is_smoothed && self.direct_noise.is_none();
+        let own = if is_cheap { OF_ACCURACY * request.target } else { f64::INFINITY };
+        let target = request.mesh_target.min(own);
+        let excess = trust::error_of(&errors, |_| true) / (target * rms_lx);
         (errors, excess)
     }
 }

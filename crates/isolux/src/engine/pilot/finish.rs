@@ -24,7 +24,7 @@ impl<'s> Pilot<'s> {
     ) -> Plan<'s> {
         let carrying = self.subdivision.vertex_count();
         if look.is_smooth(request) {
-            self.smooth(&mut look);
+            self.smooth(&mut look, request.max_vertices);
         }
         let caustics = self.refine_for_caustics(&mut look, request, go_on);
         let indirect_vertices = self.subdivision.vertex_count();
@@ -56,6 +56,7 @@ impl<'s> Pilot<'s> {
             ),
             mean_reflectance: mean_reflectance(self.scene, &coarse),
             means,
+            resolves_walls: look.walls.are_resolved(),
             fit: self.fit(&coarse, &open),
             bright: self.bright,
             parts: caustics.parts(&coarse),

@@ -27,6 +27,7 @@ use super::plan::Plan;
 use super::surface::SurfacePoint;
 use super::trial::Trial;
 use super::trust::{self, Felt, Worst};
+use super::walls::Walls;
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
@@ -269,7 +270,21 @@ impl<'s> Pilot<'s> {
             self.costs.first.add(started.elapsed(), 0.0);
         }
         let worst = Worst::of(&errors);
-        Look { carriers, elements, errors, worst, left_by_fit, rms_lx }
+        let walls = Walls::default();
+        let mut look = Look { carriers, elements, errors, walls, worst, left_by_fit, rms_lx };
+        if look.is_smooth(request) {
+            self.look_for_walls(&mut look, request);
+        }
+        look
+    }
+
+    /// Finds the walls that surfaces end at, and what elements err by once light is resolved towards them.
+    fn look_for_walls(&self, look: &mut Look, request: &PilotRequest) {
+        let luminances = self.in_the_open(&self.indirect);
+        let open: Vec<bool> = luminances.iter().map(Option::is_some).collect();
+        look.walls = Walls::of(self.scene, &self.subdivision, &open);
+        let accuracy_lx = request.target * look.rms_lx;
+        look.walls.resolve(&self.subdivision, &luminances, &mut look.errors, accuracy_lx);
     }
 
     fn details<'a>(&'a self, elements: &'a Elements, values: &'a [Option<f64>]) -> Details<'a> {

@@ -10,15 +10,16 @@ use crate::units::Rgb;
 impl Pilot<'_> {
     /// Bisects elements that readers interpolate twice once more; the light of the new vertices is that of the quadratic function
     /// that fits the vertices about them best. Costs no rays, and leaves half of the error of interpolation or less.
-    pub(super) fn smooth(&mut self, look: &mut Look) {
+    pub(super) fn smooth(&mut self, look: &mut Look, max_vertices: usize) {
         let first = self.subdivision.vertex_count();
         let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
         let mut open: Vec<bool> = self.standings.iter().map(is_open).collect();
         let leaves = self.subdivision.leaves();
         let corners: Vec<[u32; 3]> = leaves.map(|n| self.subdivision.node(n).0.vertices).collect();
-        for error in look.errors.iter().filter(|e| !e.is_beset) {
+        for error in look.errors.iter().filter(|e| !e.is_beset || e.is_at_wall) {
             bisect_twice(&mut self.subdivision, error.node);
         }
+        let mut rows = look.walls.refine(&mut self.subdivision, max_vertices);
         for vertex in &self.subdivision.vertices()[first..] {
             let ends = vertex.parents.expect("made by bisection");
             let within = ends.iter().all(|&end| open[end as usize]);
@@ -26,8 +27,14 @@ impl Pilot<'_> {
             self.standings.push(within.then_some(Standing::Open));
             self.known.push(ends.iter().any(|&end| self.known[end as usize]));
         }
-        self.carriers.smooth(&self.subdivision, first, &corners, &open);
+        rows.retain(|row| open[row.vertex as usize]);
+        self.carriers.smooth(&self.subdivision, first, &corners, &open, (&look.walls, &rows));
         look.elements = self.subdivision.elements();
+        self.indirect.resize(self.subdivision.vertex_count(), Rgb::BLACK);
+        for row in &rows {
+            // A guess.
+            self.indirect[row.vertex as usize] = self.indirect[row.of as usize];
+        }
         self.settle(&look.elements);
         self.is_smoothed = true;
     }

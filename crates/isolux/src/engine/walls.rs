@@ -1,0 +1,306 @@
+//! Edges at which surfaces end before walls, and how light falls off towards them.
+//!
+//! Two walls that meet light each other across their edge. What a place at a distance `d` from the edge gets from the
+//! other wall, whose light is `a + b s` at a distance `s` from it, is a smooth function of `d` and a multiple of `d ln d`,
+//! whose slope has no bound. No polynomial comes near it, nor do any few elements; a polynomial with that function beside it does.
+
+use super::coarsening::least_connected;
+use super::detail::{LeafError, bisect_twice};
+use crate::elements::{FewNumbers, Subdivision, carries_map};
+use crate::scene::Scene;
+use isolux_geometry::{Point, Ray, Vector};
+use std::collections::{HashMap, HashSet};
+
+/// How far from an edge, in lengths of it, a wall is looked for, along a ray that rises by so much of what it goes.
+const ASIDE: f64 = 0.05;
+const RISE: f64 = 0.5;
+/// How far that ray may go, in the same: an upright wall is met at 1.1, one that leans outwards by 45 degrees at 2.2.
+const REACH: f64 = 3.0;
+
+/// How far ends of edges of one line may lie beside it, as a share of their lengths: as coordinates are rounded.
+const BESIDE: f64 = 1e-4;
+
+/// Surfaces with more lines are curved.
+const MOST_LINES: usize = 64;
+
+/// Elements whose middle is no farther from a wall than so many of their edges have it stand close.
+const FROM_WALL: f64 = 1.5;
+
+/// What functions that fall off towards walls leave of the error of linear ones, along the edges of CUBE, beside what is left elsewhere.
+const LEFT_AT_WALLS: f64 = 0.5;
+
+/// Root mean square of the error of linear interpolation in the elements that touch a wall, as a share of how much light falls off
+/// over them: `d ln d` errs by 0.27 of the width of a strip, and falls by 1.3 to 2 of it.
+const OF_DROP: f64 = 0.18;
+/// What of the accuracy asked for that error may take; halving elements leaves the root of an eighth of it.
+const SHARE: f64 = 0.2;
+/// Halvings at most; and at least, as the first may take what lies in the second row.
+const MOST_HALVINGS: u32 = 6;
+const FEWEST_HALVINGS: u32 = 2;
+
+/// Rows of vertices beside walls lie at this share of the width of their elements.
+const ROW: f64 = 0.25;
+
+/// At a place of a surface at most so many of its walls matter.
+pub(super) const MOST_NEAR: usize = 2;
+
+/// A straight line that a surface ends at before a wall.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wall {
+    from: Point,
+    /// Of length one, as is the next.
+    along: Vector,
+    /// Into the surface.
+    inward: Vector,
+}
+
+/// All lines at which surfaces end before walls.
+#[derive(Debug, Default)]
+pub(super) struct Walls {
+    lines: Vec<Wall>,
+    /// Of every piece of surface, its lines; of every vertex its piece.
+    of_piece: HashMap<u32, Vec<u32>, FewNumbers>,
+    pieces: Vec<u32>,
+    /// Of every vertex, the lines that it lies on.
+    at: Vec<Vec<u32>>,
+    /// The edges of elements on them, by their ends, the lower first.
+    edges: HashSet<[u32; 2], FewNumbers>,
+    /// How often elements are to be halved there.
+    halvings: u32,
+}
+
+/// A vertex that carries light beside a wall, and that on the wall which it stands beside.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    pub(super) vertex: u32,
+    pub(super) of: u32,
+}
+
+impl Wall {
+    /// How far a place of the surface is from it, m.
+    pub(super) fn distance_m(&self, at: Point) -> f64 {
+        (at - self.from).cross(self.along).length()
+    }
+}
+
+impl Walls {
+    /// Of surfaces as far as their vertices are `open`.
+    pub(super) fn of(scene: &Scene, subdivision: &Subdivision, open: &[bool]) -> Self {
+        let pieces = least_connected(subdivision);
+        let mut walls =
+            Self { at: vec![Vec::new(); subdivision.vertex_count()], pieces, ..Self::default() };
+        let borders: HashSet<[u32; 2], FewNumbers> = subdivision.border_edges().collect();
+        for leaf in subdivision.leaves() {
+            let corners = subdivision.node(leaf).0.vertices;
+            for k in 0..3 {
+                let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
+                let ends = sorted(a, b);
+                if borders.contains(&ends) && open[a as usize] && open[b as usize] {
+                    walls.look(scene, (subdivision, leaf), [a, b, c]);
+                }
+            }
+        }
+        walls.of_piece.retain(|_, lines| lines.len() <= MOST_LINES);
+        let of_piece = &walls.of_piece;
+        for (at, piece) in walls.at.iter_mut().zip(&walls.pieces) {
+            if !of_piece.contains_key(piece) {
+                at.clear();
+            }
+        }
+        walls
+    }
+
+    /// Looks for a wall at the edge from the first of an element's corners to the second.
+    fn look(&mut self, scene: &Scene, (subdivision, leaf): (&Subdivision, u32), corners: [u32; 3]) {
+        let vertices = subdivision.vertices();
+        let [from, to, far] = corners.map(|v| vertices[v as usize].position);
+        let length = (to - from).length();
+        let (Some(along), Some(up)) =
+            ((to - from).direction(), Some(vertices[corners[0] as usize].normal.to_vector()))
+        else {
+            return;
+        };
+        let along = along.to_vector();
+        let beside = (far - from) - along * (far - from).dot(along);
+        let Some(inward) = beside.direction() else { return };
+        let inward = inward.to_vector();
+        let Some(direction) = (up * RISE - inward).direction() else { return };
+        let aside_m = ASIDE * length;
+        let start = from.lerp(to, 0.5) + inward * aside_m;
+        let mut ray = Ray::new(start, direction).skipping(subdivision.node(leaf).1.triangle);
+        ray.t_max = (REACH * aside_m) as f32;
+        let hit = scene.bvh().closest_hit(&ray);
+        // Mirrors do not end a room.
+        if !hit.is_some_and(|hit| carries_map(scene, hit.triangle, hit.back)) {
+            return;
+        }
+        let lines = self.of_piece.entry(self.pieces[corners[0] as usize]).or_default();
+        let is_on = |line: &u32| {
+            let line = &self.lines[*line as usize];
+            [from, to].into_iter().all(|end| line.distance_m(end) < BESIDE * length)
+        };
+        let known = lines.iter().copied().find(is_on);
+        let line = known.unwrap_or(self.lines.len() as u32);
+        if known.is_none() && lines.len() <= MOST_LINES {
+            self.lines.push(Wall { from, along, inward });
+            lines.push(line);
+        }
+        self.edges.insert(sorted(corners[0], corners[1]));
+        for end in &corners[..2] {
+            let at = &mut self.at[*end as usize];
+            if (line as usize) < self.lines.len() && !at.contains(&line) {
+                at.push(line);
+            }
+        }
+    }
+
+    /// How often elements are to be halved towards walls, so that light is interpolated to a share of the accuracy asked for, in lx;
+    /// takes it down, and what that leaves of the errors of the elements there.
+    pub(super) fn resolve(
+        &mut self,
+        subdivision: &Subdivision,
+        values: &[Option<f64>],
+        errors: &mut [LeafError],
+        accuracy_lx: f64,
+    ) {
+        let (mut area_m2, mut squared) = (0.0, 0.0);
+        for error in &*errors {
+            area_m2 += error.area_m2;
+            let drop_lx = self.drop_lx(subdivision.node(error.node).0.vertices, values);
+            squared += error.area_m2 * drop_lx * drop_lx;
+        }
+        let allowed = SHARE * accuracy_lx;
+        let excess = OF_DROP * OF_DROP * squared / (area_m2 * allowed * allowed);
+        self.halvings = match (libm::log2(excess) / 3.0).ceil() {
+            halvings if halvings > 0.0 => (halvings as u32).clamp(FEWEST_HALVINGS, MOST_HALVINGS),
+            _ => 0,
+        };
+        if self.halvings == 0 {
+            return;
+        }
+        for error in errors {
+            let corners = subdivision.node(error.node).0.vertices;
+            let is_known = corners.iter().all(|&v| values[v as usize].is_some());
+            let middle = subdivision.triangle(error.node).centroid();
+            let far_m = FROM_WALL * subdivision.longest_edge_m(error.node);
+            let lines = self.of_piece.get(&self.pieces[corners[0] as usize]);
+            let mut lines = lines.into_iter().flatten().map(|&line| &self.lines[line as usize]);
+            if is_known && lines.any(|line| line.distance_m(middle) < far_m) {
+                error.is_at_wall = error.is_beset;
+                error.error *= LEFT_AT_WALLS;
+                error.excess *= LEFT_AT_WALLS;
+            }
+        }
+    }
+
+    /// By how much light falls off over an element that touches a wall, lx.
+    fn drop_lx(&self, corners: [u32; 3], values: &[Option<f64>]) -> f64 {
+        let [mut on, mut off] = [(0.0, 0.0); 2];
+        for v in corners {
+            let Some(value) = values[v as usize] else { return 0.0 };
+            let side = if self.is_on(v) { &mut on } else { &mut off };
+            *side = (side.0 + value, side.1 + 1.0);
+        }
+        if on.1 > 0.0 && off.1 > 0.0 { off.0 / off.1 - on.0 / on.1 } else { 0.0 }
+    }
+
+    /// Whether elements are to be finer at walls.
+    pub(super) const fn are_resolved(&self) -> bool {
+        self.halvings > 0
+    }
+
+    fn is_on(&self, vertex: u32) -> bool {
+        !self.at[vertex as usize].is_empty()
+    }
+
+    /// Halves elements towards walls, once they have been halved there, as often as was found to do, unless there are too many
+    /// vertices; returns those vertices that are to carry light, too: one beside each that lies on a wall.
+    pub(super) fn refine(
+        &mut self,
+        subdivision: &mut Subdivision,
+        max_vertices: usize,
+    ) -> Vec<Beside> {
+        let mut rows = Vec::new();
+        if !self.are_resolved() {
+            return rows;
+        }
+        let first = self.at.len() as u32;
+        let edges_m = subdivision.longest_edges_m();
+        self.extend(subdivision);
+        for halving in 1..self.halvings {
+            if subdivision.vertex_count() > max_vertices {
+                break;
+            }
+            let touches =
+                |&node: &u32| subdivision.node(node).0.vertices.iter().any(|&v| self.is_on(v));
+            let touching: Vec<u32> = subdivision.leaves().filter(touches).collect();
+            touching.into_iter().for_each(|node| bisect_twice(subdivision, node));
+            self.extend(subdivision);
+            if halving == 1 {
+                rows = self.rows(subdivision, first, &edges_m);
+            }
+        }
+        rows
+    }
+
+    /// Takes in the vertices that bisection has made since.
+    fn extend(&mut self, subdivision: &Subdivision) {
+        for v in self.at.len() as u32..subdivision.vertex_count() as u32 {
+            let [a, b] = subdivision.vertices()[v as usize].parents.expect("made by bisection");
+            self.pieces.push(self.pieces[a as usize]);
+            let mut on_both = Vec::new();
+            if self.edges.contains(&sorted(a, b)) {
+                on_both.clone_from(&self.at[a as usize]);
+                on_both.retain(|line| self.at[b as usize].contains(line));
+                self.edges.extend([a, b].map(|end| sorted(end, v)));
+            }
+            self.at.push(on_both);
+        }
+    }
+
+    /// Of the neighbours of every vertex on a wall before the `first` new one, that nearest to where its row should be.
+    fn rows(&self, subdivision: &Subdivision, first: u32, edges_m: &[f64]) -> Vec<Beside> {
+        let vertices = subdivision.vertices();
+        let mut nearest: Vec<Option<(f64, u32)>> = vec![None; first as usize];
+        for leaf in subdivision.leaves() {
+            let corners = subdivision.node(leaf).0.vertices;
+            for of in corners.into_iter().filter(|&v| v < first && self.is_on(v)) {
+                let inward = self.at[of as usize].iter().map(|&l| self.lines[l as usize].inward);
+                let width_m = edges_m[of as usize] / std::f64::consts::SQRT_2;
+                let place = inward.fold(vertices[of as usize].position, |at, inward| {
+                    at + inward * (ROW * width_m)
+                });
+                for vertex in corners.into_iter().filter(|&v| v >= first && !self.is_on(v)) {
+                    let here = ((vertices[vertex as usize].position - place).length(), vertex);
+                    let best = &mut nearest[of as usize];
+                    if best.is_none_or(|best| here < best) {
+                        *best = Some(here);
+                    }
+                }
+            }
+        }
+        let mut rows: Vec<Beside> = (0..first)
+            .filter_map(|of| nearest[of as usize].map(|(_, vertex)| Beside { vertex, of }))
+            .collect();
+        rows.sort_by_key(|row| (row.vertex, row.of));
+        rows.dedup_by_key(|row| row.vertex);
+        rows
+    }
+
+    /// The lines that at least two of these vertices lie on, the nearest to a place first.
+    pub(super) fn near(&self, about: &[u32], at: Point) -> Vec<Wall> {
+        let on = |&v: &u32| self.at.get(v as usize);
+        let mut found: Vec<u32> = about.iter().filter_map(on).flatten().copied().collect();
+        found.sort_unstable();
+        let twice = found.chunk_by(|a, b| a == b).filter(|alike| alike.len() > 1);
+        let line = |alike: &[u32]| (self.lines[alike[0] as usize].distance_m(at), alike[0]);
+        let mut near: Vec<(f64, u32)> = twice.map(line).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.truncate(MOST_NEAR);
+        near.into_iter().map(|(_, line)| self.lines[line as usize]).collect()
+    }
+}
+
+const fn sorted(a: u32, b: u32) -> [u32; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
