@@ -30,7 +30,7 @@ const MOST: usize = 1024;
 const AT_ONCE: usize = 8;
 
 /// Squared errors of the map that interpolation may have where readers would else gather: in rooms with little indirect light it
-/// has no more than that everywhere, among furniture eight times as much and more.
+/// has no more than that everywhere, among furniture eight times as much and more. Where light is resolved, so many of what was asked for.
 const NOT_WORTH: f64 = 1.5;
 
 /// Rays that tell how much a reader reads close by.
@@ -51,6 +51,8 @@ pub(super) struct Check {
     may_be_trusted: bool,
     /// Whether something stands close before it.
     is_beset: bool,
+    /// Whether light is resolved there: in rooms where it is towards walls, and nothing else stands close.
+    is_resolved: bool,
     /// The share of a unit of light that readers who gather there read close by all the same.
     close: f64,
     /// The longest edge of the element there, m.
@@ -197,6 +199,7 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
         expected_lx,
         may_be_trusted,
         is_beset,
+        is_resolved: plan.resolves_walls && (of.is_at_wall || !is_beset),
         close,
         edge_m,
         reads_direct,
@@ -340,13 +343,28 @@ fn noise_of_reading(sums: &Accumulator, checks: &[Check], k: usize) -> f64 {
 }
 
 /// Whether to gather is worth while anywhere but in gaps: whether places that readers with such trust gather at would have, by noise
-/// and interpolation, more than [`NOT_WORTH`] times the squared error `error_lx` of the map.
+/// and interpolation, more than [`NOT_WORTH`] times the squared error `goal_lx` where light is resolved, or `error_lx`, that of
+/// the map, elsewhere.
 pub(super) fn is_gathering_worth_while(
     sums: &Accumulator,
     checks: &[Check],
-    (trust, error_lx): (Trust, f64),
+    trust: Trust,
+    [goal_lx, error_lx]: [f64; 2],
 ) -> bool {
-    let is_asked = |k: &usize| checks[*k].may_be_trusted && !checks[*k].is_trusted(trust);
+    let errs = |resolved: bool, lx: f64| errs_where_gathered(sums, checks, (trust, resolved), lx);
+    errs(true, goal_lx) || errs(false, error_lx)
+}
+
+fn errs_where_gathered(
+    sums: &Accumulator,
+    checks: &[Check],
+    (trust, resolved): (Trust, bool),
+    error_lx: f64,
+) -> bool {
+    let is_asked = |k: &usize| {
+        let check = &checks[*k];
+        check.is_resolved == resolved && check.may_be_trusted && !check.is_trusted(trust)
+    };
     let (mut area_m2, mut squared, mut spread) = (0.0, 0.0, 0.0);
     for k in (0..checks.len()).filter(is_asked) {
         let (own_m2, estimate) = (checks[k].area_m2, sums.estimate(k));

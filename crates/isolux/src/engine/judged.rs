@@ -39,10 +39,11 @@ impl Judged {
     pub(super) fn or_all_but_gaps(
         self,
         goal: f64,
-        is_enough: impl Fn() -> bool,
+        is_enough: impl Fn(&Accuracy) -> bool,
         by: impl Fn(Trust) -> Self,
     ) -> Self {
-        let all = (self.reaches(goal) && is_enough()).then(|| by(Trust::AllButGaps));
+        let reached = self.accuracy.filter(|accuracy| accuracy.reached <= goal);
+        let all = reached.filter(is_enough).map(|_| by(Trust::AllButGaps));
         let Some(mut all) = all.filter(|all| all.reaches(goal)) else { return self };
         // Who gathers in space reads what stands close by all the same.
         all.errors.untrusted_lx = all.errors.untrusted_lx.max(self.errors.untrusted_lx);

@@ -136,10 +136,11 @@ impl Look {
         self.errors.iter().filter(|e| e.is_beset && !e.is_at_wall).count() as f64
     }
 
-    /// Into how many vertices each is made by bisecting the others twice.
+    /// Into how many vertices each is made by bisecting the others twice, and those at walls as often as they are to be.
     pub(super) fn smoothed(&self) -> f64 {
         let free = 1.0 - self.beset() / self.errors.len().max(1) as f64;
-        1.0 + 3.0 * free
+        // Twice as many elements as vertices.
+        1.0 + 3.0 * free + 2.0 * self.walls.more_vertices() / self.errors.len().max(1) as f64
     }
 
     /// What interpolation may err by, before it is fitted, lx.

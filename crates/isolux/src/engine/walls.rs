@@ -8,7 +8,7 @@ use super::coarsening::least_connected;
 use super::detail::{LeafError, bisect_twice};
 use crate::elements::{FewNumbers, Subdivision, carries_map};
 use crate::scene::Scene;
-use isolux_geometry::{Point, Ray, Vector};
+use isolux_geometry::{Direction, Point, Ray, Vector};
 use std::collections::{HashMap, HashSet};
 
 /// How far from an edge, in lengths of it, a wall is looked for, along a ray that rises by so much of what it goes.
@@ -38,6 +38,10 @@ const SHARE: f64 = 0.2;
 const MOST_HALVINGS: u32 = 6;
 const FEWEST_HALVINGS: u32 = 2;
 
+/// Halving elements that touch a wall makes so many vertices for each of them, those included that keep elements together: as found
+/// in CUBE, one to four times.
+const MORE_VERTICES: f64 = 2.4;
+
 /// Rows of vertices beside walls lie at this share of the width of their elements.
 const ROW: f64 = 0.25;
 
@@ -65,8 +69,9 @@ pub(super) struct Walls {
     at: Vec<Vec<u32>>,
     /// The edges of elements on them, by their ends, the lower first.
     edges: HashSet<[u32; 2], FewNumbers>,
-    /// How often elements are to be halved there.
+    /// How often elements are to be halved there, and how many touch them.
     halvings: u32,
+    touching: usize,
 }
 
 /// A vertex that carries light beside a wall, and that on the wall which it stands beside.
@@ -110,24 +115,19 @@ impl Walls {
         walls
     }
 
-    /// Looks for a wall at the edge from the first of an element's corners to the second.
+    /// Takes down the edge between the first two of an element's corners, if there is a wall.
     fn look(&mut self, scene: &Scene, (subdivision, leaf): (&Subdivision, u32), corners: [u32; 3]) {
         let vertices = subdivision.vertices();
         let [from, to, far] = corners.map(|v| vertices[v as usize].position);
+        let up = vertices[corners[0] as usize].normal.to_vector();
         let length = (to - from).length();
-        let (Some(along), Some(up)) =
-            ((to - from).direction(), Some(vertices[corners[0] as usize].normal.to_vector()))
-        else {
-            return;
-        };
-        let along = along.to_vector();
+        let Some(along) = (to - from).direction().map(Direction::to_vector) else { return };
         let beside = (far - from) - along * (far - from).dot(along);
-        let Some(inward) = beside.direction() else { return };
-        let inward = inward.to_vector();
-        let Some(direction) = (up * RISE - inward).direction() else { return };
+        let Some(inward) = beside.direction().map(Direction::to_vector) else { return };
+        let Some(outward) = (up * RISE - inward).direction() else { return };
         let aside_m = ASIDE * length;
         let start = from.lerp(to, 0.5) + inward * aside_m;
-        let mut ray = Ray::new(start, direction).skipping(subdivision.node(leaf).1.triangle);
+        let mut ray = Ray::new(start, outward).skipping(subdivision.node(leaf).1.triangle);
         ray.t_max = (REACH * aside_m) as f32;
         let hit = scene.bvh().closest_hit(&ray);
         // Mirrors do not end a room.
@@ -139,16 +139,16 @@ impl Walls {
             let line = &self.lines[*line as usize];
             [from, to].into_iter().all(|end| line.distance_m(end) < BESIDE * length)
         };
-        let known = lines.iter().copied().find(is_on);
-        let line = known.unwrap_or(self.lines.len() as u32);
-        if known.is_none() && lines.len() <= MOST_LINES {
+        let line = lines.iter().copied().find(is_on).unwrap_or_else(|| {
+            let line = self.lines.len() as u32;
             self.lines.push(Wall { from, along, inward });
             lines.push(line);
-        }
+            line
+        });
         self.edges.insert(sorted(corners[0], corners[1]));
         for end in &corners[..2] {
             let at = &mut self.at[*end as usize];
-            if (line as usize) < self.lines.len() && !at.contains(&line) {
+            if !at.contains(&line) {
                 at.push(line);
             }
         }
@@ -165,8 +165,10 @@ impl Walls {
     ) {
         let (mut area_m2, mut squared) = (0.0, 0.0);
         for error in &*errors {
+            let corners = subdivision.node(error.node).0.vertices;
             area_m2 += error.area_m2;
-            let drop_lx = self.drop_lx(subdivision.node(error.node).0.vertices, values);
+            self.touching += usize::from(corners.iter().any(|&v| self.is_on(v)));
+            let drop_lx = self.drop_lx(corners, values);
             squared += error.area_m2 * drop_lx * drop_lx;
         }
         let allowed = SHARE * accuracy_lx;
@@ -207,6 +209,12 @@ impl Walls {
     /// Whether elements are to be finer at walls.
     pub(super) const fn are_resolved(&self) -> bool {
         self.halvings > 0
+    }
+
+    /// How many vertices that takes, roughly, beside halving all elements once.
+    pub(super) fn more_vertices(&self) -> f64 {
+        let doublings = libm::exp2(f64::from(self.halvings)) - 2.0;
+        MORE_VERTICES * self.touching as f64 * doublings.max(0.0)
     }
 
     fn is_on(&self, vertex: u32) -> bool {

@@ -392,9 +392,11 @@ impl<'p, 's> Work<'p, 's> {
         if noise_is != Noise::Counted || !self.is_believed() {
             return judged;
         }
-        let is_enough = || {
-            let than = (judged.trust, goal * self.plan.rms_lx);
-            !checks::is_gathering_worth_while(&self.checks.sums, &self.checks.points, than)
+        let is_enough = |accuracy: &Accuracy| {
+            let error = libm::hypot(accuracy.statistical, accuracy.discretization);
+            let lx = [goal, error].map(|share| share * self.plan.rms_lx);
+            let Checks { sums, points, .. } = &self.checks;
+            !checks::is_gathering_worth_while(sums, points, judged.trust, lx)
         };
         judged.or_all_but_gaps(goal, is_enough, by)
     }

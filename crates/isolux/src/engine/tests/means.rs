@@ -1,6 +1,5 @@
 //! Means of beset elements, and quadratic functions between carriers.
 
-use super::errors::room;
 use super::*;
 use crate::elements::Subdivision;
 use crate::engine::carriers::Carriers;
@@ -8,20 +7,32 @@ use crate::engine::detail::bisect_twice;
 use crate::engine::direct::Lighting;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
+use crate::engine::walls::Walls;
 use isolux_geometry::{Point, Triangle};
 
-/// For so small an error that the edges of an empty room have to be measured.
+/// A room with a block in it: light is resolved towards the walls of empty ones.
+fn furnished() -> Scene {
+    let mut block = inward_box([0.8, 0.7, 0.6], 0);
+    for shape in &mut block {
+        shape.triangles.iter_mut().for_each(|corners| corners.swap(0, 1));
+        shape.positions.iter_mut().for_each(|[x, y, _]| (*x, *y) = (*x + 1.6, *y + 0.5));
+    }
+    let shapes = inward_box([3.0, 2.0, 2.5], 0).into_iter().chain(block).collect();
+    scene(shapes, vec![painted(Rgb::grey(0.5))], vec![isotropic([1.0, 1.2, 1.5], 100.0)])
+}
+
+/// For so small an error that edges have to be measured.
 fn measured_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Plan<'s> {
     let request = PilotRequest {
-        target: 0.002,
-        goal: 0.002,
+        target: 0.00005,
+        goal: 0.00005,
         mesh_target: 0.1,
         seed: 1,
         is_fitted: true,
         has_means: true,
         refines_caustics: true,
         max_vertices: 1 << 20,
-        most_for_indirect_light: None,
+        most_for_indirect_light: Some(1500),
         least_edge_m: None,
     };
     pilot(scene, lighting, &request, &mut |_| true)
@@ -53,7 +64,7 @@ fn integrals(plan: &Plan, values: &[Rgb]) -> [f64; 2] {
 /// readers interpolate.
 #[test]
 fn what_is_measured_is_given_to_elements_that_nobody_trusts() {
-    let scene = room();
+    let scene = furnished();
     let lighting = Lighting::new(&scene);
     let plan = measured_plan(&scene, &lighting);
     let places = plan.places_of_means(1, Key::new(3));
@@ -100,7 +111,7 @@ fn vertices_between_carriers_have_the_quadratic_function_of_those_about_them() {
     let (subdivision, first, corners) = floor();
     let open = vec![true; subdivision.vertex_count()];
     let mut carriers = Carriers::all();
-    carriers.smooth(&subdivision, first, &corners, &open);
+    carriers.smooth(&subdivision, first, &corners, &open, (&Walls::default(), &[]));
     assert_eq!(carriers.count(open.len()), first, "none of the new ones carries light");
     let worst = |truth: &dyn Fn(Point) -> f64, margin_m: f64| {
         let all = subdivision.vertices();
@@ -127,7 +138,7 @@ fn what_is_hidden_tells_nothing() {
         open.push(vertex.parents.unwrap().iter().all(|&end| open[end as usize]));
     }
     let mut carriers = Carriers::all();
-    carriers.smooth(&subdivision, first, &corners, &open);
+    carriers.smooth(&subdivision, first, &corners, &open, (&Walls::default(), &[]));
     let grey = |v: usize| Rgb::grey(if v < first && v != hidden { 7.0 } else { 0.0 });
     let mut values: Vec<Rgb> = (0..open.len()).map(grey).collect();
     carriers.fill(&mut values);

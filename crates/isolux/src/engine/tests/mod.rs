@@ -26,6 +26,7 @@ mod parts;
 mod sharing;
 mod sums;
 mod trusting;
+mod walls;
 
 use super::path::Dice;
 use crate::photometry::IntensityDistribution;
