@@ -130,6 +130,15 @@ impl Subdivision {
         }
     }
 
+    /// Bisects an element and its children.
+    pub(crate) fn bisect_twice(&mut self, node: u32) {
+        self.bisect(node);
+        if let Some(split) = self.nodes[node as usize].split {
+            self.bisect(split.first_child);
+            self.bisect(split.first_child + 1);
+        }
+    }
+
     /// From element to element over longest edges, until an edge is the longest of all elements on
     /// it. The edges grow strictly in [`Self::longest_of`]'s order, so the path ends.
     fn end_of_longest_edge_path(&self, node: u32) -> [u32; 2] {
@@ -248,6 +257,24 @@ impl Subdivision {
         let p = self.triangle(node).corners;
         let (a, b) = (p[(corner + 1) % 3] - p[corner], p[(corner + 2) % 3] - p[corner]);
         libm::atan2(a.cross(b).length(), a.dot(b))
+    }
+
+    /// Of every vertex, the least that edges connect it to.
+    pub(crate) fn least_connected(&self) -> Vec<u32> {
+        fn root(of: &mut [u32], mut v: u32) -> u32 {
+            while of[v as usize] != v {
+                of[v as usize] = of[of[v as usize] as usize];
+                v = of[v as usize];
+            }
+            v
+        }
+        let mut of: Vec<u32> = (0..self.vertex_count() as u32).collect();
+        for leaf in self.leaves() {
+            let roots = self.nodes[leaf as usize].vertices.map(|v| root(&mut of, v));
+            let least = roots.into_iter().min().unwrap_or(0);
+            roots.iter().for_each(|&v| of[v as usize] = least);
+        }
+        (0..of.len() as u32).map(|v| root(&mut of, v)).collect()
     }
 
     /// Of every vertex, the longest edge of the elements at it, m.

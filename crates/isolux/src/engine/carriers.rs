@@ -11,7 +11,7 @@
 
 use super::coarsening::{Coarsening, Link, weights_at};
 use super::walls::{Beside, Walls};
-use crate::elements::Subdivision;
+use crate::elements::{Subdivision, Vertex};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
@@ -84,41 +84,16 @@ impl Carriers {
         (walls, rows): (&Walls, &[Beside]),
     ) {
         let vertices = subdivision.vertices();
-        let mut rings: Vec<Vec<u32>> = vec![Vec::new(); first];
-        let tells = |v: &u32| open[*v as usize] && self.is_active(*v);
-        for corners in elements {
-            let telling = || corners.iter().copied().filter(tells);
-            corners.iter().for_each(|&v| rings[v as usize].extend(telling()));
-        }
-        for row in rows {
-            // Whoever sees the vertex on the wall sees it, too.
-            let mut about = rings[row.of as usize].clone();
-            about.sort_unstable();
-            about.dedup();
-            let before = about.into_iter().filter(|&v| (v as usize) < first);
-            before.for_each(|v| rings[v as usize].push(row.vertex));
-        }
-        let rings_of = |some: &[u32]| {
-            let rings = some.iter().filter_map(|&v| rings.get(v as usize)).flatten();
-            let mut about: Vec<u32> = rings.copied().collect();
-            about.sort_unstable();
-            about.dedup();
-            about
-        };
+        let rings = Rings::of(elements, first, rows, |v| open[v as usize] && self.is_active(v));
         let link = |vertex: usize| {
             let ends = vertices[vertex].parents.expect("made by bisection");
-            let mut between = ends.map(|end| (end, 0.5)).to_vec();
-            while let Some(k) = between.iter().position(|&(end, _)| end as usize >= first) {
-                let (made, weight) = between.swap_remove(k);
-                let ends = vertices[made as usize].parents.expect("made by bisection");
-                between.extend(ends.map(|end| (end, 0.5 * weight)));
-            }
+            let mut between = first_ends(vertices, first, ends);
             let ends_of: Vec<u32> = between.iter().map(|&(end, _)| end).collect();
             let at = &vertices[vertex];
-            let mut about = rings_of(&ends_of);
+            let mut about = rings.about(&ends_of);
             let near_walls = walls.near(&about, at.position);
             if !near_walls.is_empty() {
-                about = rings_of(&about);
+                about = rings.about(&about);
             }
             let distance_m = |v: u32| (vertices[v as usize].position - at.position).length();
             let near = about.into_iter().map(|v| (distance_m(v), v as usize)).collect();
@@ -297,6 +272,56 @@ impl Carriers {
         }
         told
     }
+}
+
+/// The vertices before the `first` new one between which one made on an edge lies, and how much of each it has.
+fn first_ends(vertices: &[Vertex], first: usize, ends: [u32; 2]) -> Vec<(u32, f64)> {
+    let mut between = ends.map(|end| (end, 0.5)).to_vec();
+    while let Some(k) = between.iter().position(|&(end, _)| end as usize >= first) {
+        let (made, weight) = between.swap_remove(k);
+        let ends = vertices[made as usize].parents.expect("made by bisection");
+        between.extend(ends.map(|end| (end, 0.5 * weight)));
+    }
+    between
+}
+
+/// Of vertices, those about them that carry light.
+struct Rings(Vec<Vec<u32>>);
+
+impl Rings {
+    /// Of the first so many: corners of the elements about them that tell of light, and rows beside walls.
+    fn of(
+        elements: &[[u32; 3]],
+        first: usize,
+        rows: &[Beside],
+        tells: impl Fn(u32) -> bool,
+    ) -> Self {
+        let mut rings: Vec<Vec<u32>> = vec![Vec::new(); first];
+        for corners in elements {
+            let telling = || corners.iter().copied().filter(|&v| tells(v));
+            corners.iter().for_each(|&v| rings[v as usize].extend(telling()));
+        }
+        rings.iter_mut().for_each(sort_once);
+        for row in rows {
+            // Whoever sees the vertex on the wall sees it, too.
+            let about = rings[row.of as usize].clone();
+            let before = about.into_iter().filter(|&v| (v as usize) < first);
+            before.for_each(|v| rings[v as usize].push(row.vertex));
+        }
+        Self(rings)
+    }
+
+    fn about(&self, some: &[u32]) -> Vec<u32> {
+        let rings = some.iter().filter_map(|&v| self.0.get(v as usize)).flatten();
+        let mut about: Vec<u32> = rings.copied().collect();
+        sort_once(&mut about);
+        about
+    }
+}
+
+fn sort_once(some: &mut Vec<u32>) {
+    some.sort_unstable();
+    some.dedup();
 }
 
 impl Link {

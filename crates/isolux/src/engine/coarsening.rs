@@ -84,7 +84,7 @@ struct Surface {
 
 /// The surfaces that have vertices enough.
 fn surfaces(subdivision: &Subdivision, open: &[bool]) -> Vec<Surface> {
-    let of = least_connected(subdivision);
+    let of = subdivision.least_connected();
     let rank = ranks(subdivision);
     let mut waits = vec![true; of.len()];
     for (v, vertex) in subdivision.vertices().iter().enumerate() {
@@ -242,24 +242,6 @@ pub(super) fn weights_at(
     let weights = over_plane.or_else(|| weights_along_line(&samples))?;
     let of = near.iter().zip(weights);
     Some(of.filter(|(_, weight)| *weight != 0.0).map(|(&(_, other), w)| (other, w)).collect())
-}
-
-/// Of every vertex, the least that edges connect it to.
-pub(super) fn least_connected(subdivision: &Subdivision) -> Vec<u32> {
-    fn root(of: &mut [u32], mut v: u32) -> u32 {
-        while of[v as usize] != v {
-            of[v as usize] = of[of[v as usize] as usize];
-            v = of[v as usize];
-        }
-        v
-    }
-    let mut of: Vec<u32> = (0..subdivision.vertex_count() as u32).collect();
-    for leaf in subdivision.leaves() {
-        let roots = subdivision.node(leaf).0.vertices.map(|v| root(&mut of, v));
-        let least = roots.into_iter().min().unwrap_or(0);
-        roots.iter().for_each(|&v| of[v as usize] = least);
-    }
-    (0..of.len() as u32).map(|v| root(&mut of, v)).collect()
 }
 
 fn spacing_of(coarsest_m: f64, level: u8) -> f64 {

@@ -248,7 +248,7 @@ pub(super) fn refine_worst(
         if waits(carriers, corners) {
             asked.extend(corners);
         } else if subdivision.vertex_count() < max_vertices {
-            bisect_twice(subdivision, error.node);
+            subdivision.bisect_twice(error.node);
         } else {
             continue;
         }
@@ -257,13 +257,4 @@ pub(super) fn refine_worst(
     }
     carriers.activate(&asked);
     any
-}
-
-/// Bisects an element and its children.
-pub(super) fn bisect_twice(subdivision: &mut Subdivision, node: u32) {
-    subdivision.bisect(node);
-    if let Some(split) = subdivision.node(node).0.split {
-        subdivision.bisect(split.first_child);
-        subdivision.bisect(split.first_child + 1);
-    }
 }

@@ -3,7 +3,7 @@
 use super::detail::LeafError;
 use super::trust::{self, Worst};
 use super::walls::Walls;
-use crate::elements::Elements;
+use crate::elements::{Elements, Subdivision};
 
 /// The part of the accuracy asked for that interpolating indirect light may take.
 const DISCRETIZATION_SHARE: f64 = 0.5;
@@ -26,6 +26,9 @@ const MEANS_FROM_IF_SMOOTH: f64 = 0.15;
 const SMOOTH: f64 = 0.7;
 /// What quadratic functions leave of the error of linear ones there.
 const LEFT_BY_SMOOTHING: f64 = 0.5;
+
+/// What functions that fall off towards walls leave of the error of linear ones, along the edges of CUBE, beside what is left elsewhere.
+const LEFT_AT_WALLS: f64 = 0.5;
 
 /// What is asked of the pilot.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +90,41 @@ impl Look {
     pub(super) fn greatest_excess(&self, request: &PilotRequest) -> f64 {
         let reads = [Read::Trusted, Read::All];
         reads.into_iter().filter_map(|what| self.excess_of(what, request)).fold(1.0, f64::max)
+    }
+
+    /// Finds how often elements are to be halved towards walls, and what that leaves of their errors.
+    pub(super) fn resolve(
+        &mut self,
+        mut walls: Walls,
+        subdivision: &Subdivision,
+        values: &[Option<f64>],
+        accuracy_lx: f64,
+    ) {
+        let corners = |e: &LeafError| subdivision.node(e.node).0.vertices;
+        let (mut area_m2, mut squared, mut touching) = (0.0, 0.0, 0);
+        for error in &self.errors {
+            let corners = corners(error);
+            let drop_lx = walls.drop_lx(corners, values);
+            area_m2 += error.area_m2;
+            squared += error.area_m2 * drop_lx * drop_lx;
+            touching += usize::from(corners.iter().any(|&v| walls.is_on(v)));
+        }
+        walls.halve_for((squared / area_m2).sqrt(), touching, accuracy_lx);
+        self.walls = walls;
+        if !self.walls.are_resolved() {
+            return;
+        }
+        for error in &mut self.errors {
+            let corners = corners(error);
+            let is_known = corners.iter().all(|&v| values[v as usize].is_some());
+            let middle = subdivision.triangle(error.node).centroid();
+            let edge_m = subdivision.longest_edge_m(error.node);
+            if is_known && self.walls.stand_close(corners[0], middle, edge_m) {
+                error.is_at_wall = error.is_beset;
+                error.error *= LEFT_AT_WALLS;
+                error.excess *= LEFT_AT_WALLS;
+            }
+        }
     }
 
     fn excess_of(&self, what: Read, request: &PilotRequest) -> Option<f64> {

@@ -4,8 +4,6 @@
 //! other wall, whose light is `a + b s` at a distance `s` from it, is a smooth function of `d` and a multiple of `d ln d`,
 //! whose slope has no bound. No polynomial comes near it, nor do any few elements; a polynomial with that function beside it does.
 
-use super::coarsening::least_connected;
-use super::detail::{LeafError, bisect_twice};
 use crate::elements::{FewNumbers, Subdivision, carries_map};
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Point, Ray, Vector};
@@ -25,9 +23,6 @@ const MOST_LINES: usize = 64;
 
 /// Elements whose middle is no farther from a wall than so many of their edges have it stand close.
 const FROM_WALL: f64 = 1.5;
-
-/// What functions that fall off towards walls leave of the error of linear ones, along the edges of CUBE, beside what is left elsewhere.
-const LEFT_AT_WALLS: f64 = 0.5;
 
 /// Root mean square of the error of linear interpolation in the elements that touch a wall, as a share of how much light falls off
 /// over them: `d ln d` errs by 0.27 of the width of a strip, and falls by 1.3 to 2 of it.
@@ -91,7 +86,7 @@ impl Wall {
 impl Walls {
     /// Of surfaces as far as their vertices are `open`.
     pub(super) fn of(scene: &Scene, subdivision: &Subdivision, open: &[bool]) -> Self {
-        let pieces = least_connected(subdivision);
+        let pieces = subdivision.least_connected();
         let mut walls =
             Self { at: vec![Vec::new(); subdivision.vertex_count()], pieces, ..Self::default() };
         let borders: HashSet<[u32; 2], FewNumbers> = subdivision.border_edges().collect();
@@ -139,6 +134,9 @@ impl Walls {
             let line = &self.lines[*line as usize];
             [from, to].into_iter().all(|end| line.distance_m(end) < BESIDE * length)
         };
+        if lines.len() > MOST_LINES {
+            return;
+        }
         let line = lines.iter().copied().find(is_on).unwrap_or_else(|| {
             let line = self.lines.len() as u32;
             self.lines.push(Wall { from, along, inward });
@@ -154,49 +152,27 @@ impl Walls {
         }
     }
 
-    /// How often elements are to be halved towards walls, so that light is interpolated to a share of the accuracy asked for, in lx;
-    /// takes it down, and what that leaves of the errors of the elements there.
-    pub(super) fn resolve(
-        &mut self,
-        subdivision: &Subdivision,
-        values: &[Option<f64>],
-        errors: &mut [LeafError],
-        accuracy_lx: f64,
-    ) {
-        let (mut area_m2, mut squared) = (0.0, 0.0);
-        for error in &*errors {
-            let corners = subdivision.node(error.node).0.vertices;
-            area_m2 += error.area_m2;
-            self.touching += usize::from(corners.iter().any(|&v| self.is_on(v)));
-            let drop_lx = self.drop_lx(corners, values);
-            squared += error.area_m2 * drop_lx * drop_lx;
-        }
-        let allowed = SHARE * accuracy_lx;
-        let excess = OF_DROP * OF_DROP * squared / (area_m2 * allowed * allowed);
-        self.halvings = match (libm::log2(excess) / 3.0).ceil() {
+    /// Takes down how often elements are to be halved towards walls, so that light which falls off over those that touch one by so much,
+    /// root mean square over all surface, is interpolated to a share of the accuracy asked for.
+    pub(super) fn halve_for(&mut self, drop_lx: f64, touching: usize, accuracy_lx: f64) {
+        self.touching = touching;
+        let excess = OF_DROP * drop_lx / (SHARE * accuracy_lx);
+        // Halved, the strip along the wall has half of the error, and so has its area of the surface.
+        self.halvings = match (libm::log2(excess) / 1.5).ceil() {
             halvings if halvings > 0.0 => (halvings as u32).clamp(FEWEST_HALVINGS, MOST_HALVINGS),
             _ => 0,
         };
-        if self.halvings == 0 {
-            return;
-        }
-        for error in errors {
-            let corners = subdivision.node(error.node).0.vertices;
-            let is_known = corners.iter().all(|&v| values[v as usize].is_some());
-            let middle = subdivision.triangle(error.node).centroid();
-            let far_m = FROM_WALL * subdivision.longest_edge_m(error.node);
-            let lines = self.of_piece.get(&self.pieces[corners[0] as usize]);
-            let mut lines = lines.into_iter().flatten().map(|&line| &self.lines[line as usize]);
-            if is_known && lines.any(|line| line.distance_m(middle) < far_m) {
-                error.is_at_wall = error.is_beset;
-                error.error *= LEFT_AT_WALLS;
-                error.excess *= LEFT_AT_WALLS;
-            }
-        }
+    }
+
+    /// Whether a wall stands close before a place of the surface of a vertex, in an element of such edges.
+    pub(super) fn stand_close(&self, vertex: u32, place: Point, longest_edge_m: f64) -> bool {
+        let lines = self.of_piece.get(&self.pieces[vertex as usize]);
+        let mut lines = lines.into_iter().flatten().map(|&line| &self.lines[line as usize]);
+        lines.any(|line| line.distance_m(place) < FROM_WALL * longest_edge_m)
     }
 
     /// By how much light falls off over an element that touches a wall, lx.
-    fn drop_lx(&self, corners: [u32; 3], values: &[Option<f64>]) -> f64 {
+    pub(super) fn drop_lx(&self, corners: [u32; 3], values: &[Option<f64>]) -> f64 {
         let [mut on, mut off] = [(0.0, 0.0); 2];
         for v in corners {
             let Some(value) = values[v as usize] else { return 0.0 };
@@ -217,7 +193,8 @@ impl Walls {
         MORE_VERTICES * self.touching as f64 * doublings.max(0.0)
     }
 
-    fn is_on(&self, vertex: u32) -> bool {
+    /// Whether a vertex lies on a wall.
+    pub(super) fn is_on(&self, vertex: u32) -> bool {
         !self.at[vertex as usize].is_empty()
     }
 
@@ -242,7 +219,7 @@ impl Walls {
             let touches =
                 |&node: &u32| subdivision.node(node).0.vertices.iter().any(|&v| self.is_on(v));
             let touching: Vec<u32> = subdivision.leaves().filter(touches).collect();
-            touching.into_iter().for_each(|node| bisect_twice(subdivision, node));
+            touching.into_iter().for_each(|node| subdivision.bisect_twice(node));
             self.extend(subdivision);
             if halving == 1 {
                 rows = self.rows(subdivision, first, &edges_m);

@@ -10,7 +10,6 @@ use super::Pilot;
 use super::direct::MOST_REFLECTANCE;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::accuracy::mean_reflectance;
-use crate::engine::detail::bisect_twice;
 use crate::engine::flights::{CausticNoise, DOUBT, Flights};
 use crate::engine::forecast::{FINE, GoOn};
 use crate::engine::gather::known_weights;
@@ -318,7 +317,7 @@ impl Pilot<'_> {
             if marked >= MARKED_SHARE * all || self.subdivision.vertex_count() >= max_vertices {
                 break;
             }
-            bisect_twice(&mut self.subdivision, seen.node);
+            self.subdivision.bisect_twice(seen.node);
             marked += seen.squared.sum;
             any = true;
         }

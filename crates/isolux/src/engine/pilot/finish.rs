@@ -36,6 +36,7 @@ impl<'s> Pilot<'s> {
         let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
         let open: Vec<bool> = standings.iter().map(is_open).collect();
         let trusted_up_to_lx = look.trusted_up_to_lx(request);
+        let of_caustics = caustics.lx / look.rms_lx.max(f64::MIN_POSITIVE);
         let means = if look.asks_for_means(request) {
             let (of, open) = ((self.scene, &coarse), &open[..indirect_vertices]);
             Means::new(of, &look.errors, trusted_up_to_lx, open, carrying)
@@ -50,10 +51,7 @@ impl<'s> Pilot<'s> {
             level: coarse.node_count() as u32,
             trusted_up_to_lx,
             rms_lx: look.rms_lx,
-            interpolation: libm::hypot(
-                look.interpolation(request),
-                caustics.lx / look.rms_lx.max(f64::MIN_POSITIVE),
-            ),
+            interpolation: libm::hypot(look.interpolation(request), of_caustics),
             mean_reflectance: mean_reflectance(self.scene, &coarse),
             means,
             resolves_walls: look.walls.are_resolved(),

@@ -14,7 +14,7 @@ mod smoothing;
 use super::aim::Aim;
 use super::bright::Bright;
 use super::carriers::Carriers;
-use super::detail::{Details, Refinement, bisect_twice, refine_worst};
+use super::detail::{Details, Refinement, refine_worst};
 use super::direct::Lighting;
 use super::flights::CausticNoise;
 use super::forecast::{Costs, GoOn};
@@ -282,9 +282,8 @@ impl<'s> Pilot<'s> {
     fn look_for_walls(&self, look: &mut Look, request: &PilotRequest) {
         let luminances = self.in_the_open(&self.indirect);
         let open: Vec<bool> = luminances.iter().map(Option::is_some).collect();
-        look.walls = Walls::of(self.scene, &self.subdivision, &open);
-        let accuracy_lx = request.target * look.rms_lx;
-        look.walls.resolve(&self.subdivision, &luminances, &mut look.errors, accuracy_lx);
+        let walls = Walls::of(self.scene, &self.subdivision, &open);
+        look.resolve(walls, &self.subdivision, &luminances, request.target * look.rms_lx);
     }
 
     fn details<'a>(&'a self, elements: &'a Elements, values: &'a [Option<f64>]) -> Details<'a> {
@@ -528,7 +527,7 @@ impl<'s> Pilot<'s> {
         let rims: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_only_rim(n)).collect();
         for &node in &cut_off {
             if self.subdivision.vertex_count() < max_vertices {
-                bisect_twice(&mut self.subdivision, node);
+                self.subdivision.bisect_twice(node);
             }
         }
         for &node in &rims {

@@ -84,13 +84,11 @@ impl Pilot<'_> {
         });
         let interpolation = look.map_or(request.target, |look| look.interpolation(request));
         let measured = look.filter(|look| look.asks_for_means(request)).map_or(0.0, Look::beset);
-        let resolves_walls = look.is_some_and(|look| look.walls.are_resolved());
-        let noise = noise_for(request.target, interpolation, measured > 0.0 || resolves_walls);
+        let is_right = measured > 0.0 || look.is_some_and(|look| look.walls.are_resolved());
+        let noise = noise_for(request.target, interpolation, is_right);
         let wanted = trial.wanted(noise, rms_lx, BELIEVED_INCREMENTS);
-        let rays = look.map_or(wanted, |_| {
-            let areas_m2 = areas_m2(&self.subdivision, &self.carriers);
-            mean_of(&allot(&areas_m2, wanted))
-        });
+        let areas_m2 = || areas_m2(&self.subdivision, &self.carriers);
+        let rays = look.map_or(wanted, |_| mean_of(&allot(&areas_m2(), wanted)));
         let of_goal = (request.target, rms_lx);
         let outlook = Outlook {
             carriers,

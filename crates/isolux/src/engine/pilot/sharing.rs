@@ -4,7 +4,6 @@ use super::Pilot;
 use crate::elements::Subdivision;
 use crate::engine::accuracy::BELIEVED_INCREMENTS;
 use crate::engine::allot::allot;
-use crate::engine::coarsening::least_connected;
 use crate::engine::flights::CausticNoise;
 use crate::engine::gather::{Gatherer, known_at};
 use crate::engine::look::Look;
@@ -16,7 +15,7 @@ impl Pilot<'_> {
     /// has (see [`allot`]), a quarter of them at least.
     pub(super) fn shared_rays(subdivision: &Subdivision, target: f64) -> Vec<u32> {
         let usual = pilot_rays(target);
-        let surfaces = least_connected(subdivision);
+        let surfaces = subdivision.least_connected();
         let mut of_surface = vec![(0.0, 0.0); surfaces.len()];
         for leaf in subdivision.leaves() {
             let surface = surfaces[subdivision.node(leaf).0.vertices[0] as usize];

@@ -2,7 +2,6 @@
 
 use super::Pilot;
 use crate::elements::Elements;
-use crate::engine::detail::bisect_twice;
 use crate::engine::look::Look;
 use crate::map::Standing;
 use crate::units::Rgb;
@@ -17,7 +16,7 @@ impl Pilot<'_> {
         let leaves = self.subdivision.leaves();
         let corners: Vec<[u32; 3]> = leaves.map(|n| self.subdivision.node(n).0.vertices).collect();
         for error in look.errors.iter().filter(|e| !e.is_beset || e.is_at_wall) {
-            bisect_twice(&mut self.subdivision, error.node);
+            self.subdivision.bisect_twice(error.node);
         }
         let mut rows = look.walls.refine(&mut self.subdivision, max_vertices);
         for vertex in &self.subdivision.vertices()[first..] {

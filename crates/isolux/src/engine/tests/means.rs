@@ -3,7 +3,6 @@
 use super::*;
 use crate::elements::Subdivision;
 use crate::engine::carriers::Carriers;
-use crate::engine::detail::bisect_twice;
 use crate::engine::direct::Lighting;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
@@ -101,7 +100,7 @@ fn floor() -> (Subdivision, usize, Vec<[u32; 3]>) {
     let first = subdivision.vertex_count();
     let leaves: Vec<u32> = subdivision.leaves().collect();
     let corners: Vec<[u32; 3]> = leaves.iter().map(|&n| subdivision.node(n).0.vertices).collect();
-    leaves.into_iter().for_each(|node| bisect_twice(&mut subdivision, node));
+    leaves.into_iter().for_each(|node| subdivision.bisect_twice(node));
     (subdivision, first, corners)
 }
 

@@ -3,7 +3,9 @@
 use super::*;
 use crate::elements::{Subdivision, Vertex};
 use crate::engine::carriers::Carriers;
-use crate::engine::detail::{LeafError, bisect_twice};
+use crate::engine::detail::LeafError;
+use crate::engine::look::Look;
+use crate::engine::trust::Worst;
 use crate::engine::walls::{Beside, Walls};
 
 const SIDE_M: f64 = 4.0;
@@ -53,7 +55,7 @@ fn errors_of(subdivision: &Subdivision) -> Vec<LeafError> {
 
 struct Resolved {
     subdivision: Subdivision,
-    walls: Walls,
+    look: Look,
     rows: Vec<Beside>,
     first: usize,
     corners: Vec<[u32; 3]>,
@@ -64,15 +66,24 @@ fn resolved(accuracy_lx: f64) -> Resolved {
     let scene = cube(painted(Rgb::grey(0.5)));
     let mut subdivision = subdivided(&scene);
     let first = subdivision.vertex_count();
-    let mut walls = Walls::of(&scene, &subdivision, &vec![true; first]);
+    let walls = Walls::of(&scene, &subdivision, &vec![true; first]);
     let values: Vec<Option<f64>> = subdivision.vertices().iter().map(|v| Some(light(v))).collect();
-    let mut errors = errors_of(&subdivision);
-    walls.resolve(&subdivision, &values, &mut errors, accuracy_lx);
+    let errors = errors_of(&subdivision);
+    let mut look = Look {
+        elements: subdivision.elements(),
+        carriers: first,
+        worst: Worst::of(&errors),
+        errors,
+        walls: Walls::default(),
+        left_by_fit: 1.0,
+        rms_lx: 100.0,
+    };
+    look.resolve(walls, &subdivision, &values, accuracy_lx);
     let leaves: Vec<u32> = subdivision.leaves().collect();
     let corners = leaves.iter().map(|&n| subdivision.node(n).0.vertices).collect();
-    leaves.into_iter().for_each(|node| bisect_twice(&mut subdivision, node));
-    let rows = walls.refine(&mut subdivision, 1 << 20);
-    Resolved { subdivision, walls, rows, first, corners }
+    leaves.into_iter().for_each(|node| subdivision.bisect_twice(node));
+    let rows = look.walls.refine(&mut subdivision, 1 << 20);
+    Resolved { subdivision, look, rows, first, corners }
 }
 
 #[test]
@@ -135,8 +146,14 @@ fn elements_are_halved_towards_walls_as_often_as_an_accuracy_asks_for() {
         .into_iter()
         .map(|accuracy_lx| resolved(accuracy_lx).subdivision.vertex_count())
         .collect();
-    assert!(!resolved(50.0).walls.are_resolved(), "light falls off by less than that");
-    assert!(resolved(0.3).walls.are_resolved());
+    assert!(!resolved(50.0).look.walls.are_resolved(), "light falls off by less than that");
+    let look = resolved(0.3).look;
+    assert!(look.walls.are_resolved());
+    // All of the first and second rows of elements, and none amid a face.
+    let at_walls: f64 = look.errors.iter().filter(|e| e.is_at_wall).map(|e| e.area_m2).sum();
+    let share = at_walls / look.errors.iter().map(|e| e.area_m2).sum::<f64>();
+    assert!((0.43..0.76).contains(&share), "{share}");
+    assert!(look.errors.iter().all(|e| (e.error < 1.0) == e.is_at_wall));
     assert!(counts.windows(2).all(|w| w[0] < w[1]), "{counts:?}");
 }
 
@@ -160,7 +177,7 @@ fn rows_stand_beside_all_walls_a_quarter_of_an_element_away() {
 /// Interpolated from few vertices, light that falls off is nearer to what it is by far.
 #[test]
 fn what_falls_off_towards_walls_is_interpolated_as_it_falls() {
-    let Resolved { subdivision, walls, rows, first, corners } = resolved(0.1);
+    let Resolved { subdivision, look, rows, first, corners } = resolved(0.1);
     let open = vec![true; subdivision.vertex_count()];
     let error = |walls: &Walls, rows: &[Beside]| {
         let mut carriers = Carriers::all();
@@ -177,7 +194,7 @@ fn what_falls_off_towards_walls_is_interpolated_as_it_falls() {
         let errors: Vec<f64> = errors.collect();
         (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt()
     };
-    let (fallen, smooth) = (error(&walls, &rows), error(&Walls::default(), &[]));
+    let (fallen, smooth) = (error(&look.walls, &rows), error(&Walls::default(), &[]));
     // All but what linear functions beside the two nearest walls leave in corners.
     assert!(fallen < 0.01, "{fallen}");
     assert!(smooth > 5.0 * fallen, "{smooth} {fallen}");
