@@ -37,6 +37,9 @@ const FEWEST_HALVINGS: u32 = 2;
 /// in CUBE, one to four times.
 const MORE_VERTICES: f64 = 2.4;
 
+/// Halving an element makes so many vertices at most, in the mean.
+const MOST_OF_ONE: usize = 4;
+
 /// Rows of vertices beside walls lie at this share of the width of their elements.
 const ROW: f64 = 0.25;
 
@@ -213,12 +216,13 @@ impl Walls {
         let edges_m = subdivision.longest_edges_m();
         self.extend(subdivision);
         for halving in 1..self.halvings {
-            if subdivision.vertex_count() > max_vertices {
-                break;
-            }
             let touches =
                 |&node: &u32| subdivision.node(node).0.vertices.iter().any(|&v| self.is_on(v));
             let touching: Vec<u32> = subdivision.leaves().filter(touches).collect();
+            // Each makes as many, with those that keep elements together.
+            if subdivision.vertex_count() + MOST_OF_ONE * touching.len() > max_vertices {
+                break;
+            }
             touching.into_iter().for_each(|node| subdivision.bisect_twice(node));
             self.extend(subdivision);
             if halving == 1 {
