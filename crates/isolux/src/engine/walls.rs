@@ -54,6 +54,8 @@ pub(super) struct Wall {
     along: Vector,
     /// Into the surface.
     inward: Vector,
+    /// Where along it the wall begins and ends, m.
+    reach_m: [f64; 2],
 }
 
 /// All lines at which surfaces end before walls.
@@ -80,9 +82,26 @@ pub(super) struct Beside {
 }
 
 impl Wall {
-    /// How far a place of the surface is from it, m.
+    /// How far a place of the surface is from it, m; beside its ends, from these.
     pub(super) fn distance_m(&self, at: Point) -> f64 {
-        (at - self.from).cross(self.along).length()
+        let to = at - self.from;
+        let [begin_m, end_m] = self.reach_m;
+        (to - self.along * to.dot(self.along).clamp(begin_m, end_m)).length()
+    }
+
+    /// Whether an edge lies on the same straight line.
+    fn continues(&self, ends: [Point; 2]) -> bool {
+        let [from, to] = ends.map(|end| end - self.from);
+        let beside_m = from.cross(self.along).length().max(to.cross(self.along).length());
+        beside_m < BESIDE * (to - from).length()
+    }
+
+    fn extend(&mut self, ends: [Point; 2]) {
+        for end in ends {
+            let along_m = (end - self.from).dot(self.along);
+            let [begin_m, end_m] = self.reach_m;
+            self.reach_m = [begin_m.min(along_m), end_m.max(along_m)];
+        }
     }
 }
 
@@ -133,19 +152,17 @@ impl Walls {
             return;
         }
         let lines = self.of_piece.entry(self.pieces[corners[0] as usize]).or_default();
-        let is_on = |line: &u32| {
-            let line = &self.lines[*line as usize];
-            [from, to].into_iter().all(|end| line.distance_m(end) < BESIDE * length)
-        };
         if lines.len() > MOST_LINES {
             return;
         }
-        let line = lines.iter().copied().find(is_on).unwrap_or_else(|| {
+        let known = lines.iter().copied().find(|&k| self.lines[k as usize].continues([from, to]));
+        let line = known.unwrap_or_else(|| {
             let line = self.lines.len() as u32;
-            self.lines.push(Wall { from, along, inward });
+            self.lines.push(Wall { from, along, inward, reach_m: [0.0, length] });
             lines.push(line);
             line
         });
+        self.lines[line as usize].extend([from, to]);
         self.edges.insert(sorted(corners[0], corners[1]));
         for end in &corners[..2] {
             let at = &mut self.at[*end as usize];

@@ -199,3 +199,32 @@ fn what_falls_off_towards_walls_is_interpolated_as_it_falls() {
     assert!(fallen < 0.01, "{fallen}");
     assert!(smooth > 5.0 * fallen, "{smooth} {fallen}");
 }
+
+/// Beyond the corner of an L-shaped room, light does not fall off towards the line that the wall there would follow.
+#[test]
+fn walls_end_where_they_end() {
+    let place = |x: f64, y: f64| [x, y, 0.0];
+    let outline = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [2.0, 2.0], [2.0, 4.0], [0.0, 4.0]];
+    let mut shapes = vec![
+        rectangle(place(0.0, 0.0), [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0),
+        rectangle(place(2.0, 0.0), [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0),
+        rectangle(place(0.0, 2.0), [2.0, 0.0, 0.0], [0.0, 2.0, 0.0], 0),
+    ];
+    for (k, [x, y]) in outline.into_iter().enumerate() {
+        let [to_x, to_y] = outline[(k + 1) % outline.len()];
+        let side = [to_x - x, to_y - y, 0.0];
+        shapes.push(rectangle(place(x, y), [0.0, 0.0, 3.0], side, 0));
+    }
+    let scene = scene(shapes, vec![painted(Rgb::grey(0.5))], vec![]);
+    let subdivision = subdivided(&scene);
+    let walls = Walls::of(&scene, &subdivision, &vec![true; subdivision.vertex_count()]);
+    let floor = |v: &u32| subdivision.vertices()[*v as usize].normal.to_vector().z > 0.9;
+    let about: Vec<u32> = (0..subdivision.vertex_count() as u32).filter(floor).collect();
+    let nearest = |x: f64, y: f64| {
+        let at = Point::new(x, y, 0.0);
+        walls.near(&about, at)[0].distance_m(at)
+    };
+    // Beside the wall from (4, 2) to (2, 2), and half a metre further on.
+    assert!((nearest(3.0, 1.9) - 0.1).abs() < 1e-9);
+    assert!((nearest(1.5, 1.9) - libm::hypot(0.5, 0.1)).abs() < 1e-9);
+}
