@@ -347,7 +347,8 @@ pub(crate) fn first_vertex_count(scene: &Scene) -> usize {
     welded(scene).0.len()
 }
 
-const fn edge_key(a: u32, b: u32) -> [u32; 2] {
+/// The ends of an edge, the lower first.
+pub(crate) const fn edge_key(a: u32, b: u32) -> [u32; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 

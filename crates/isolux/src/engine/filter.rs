@@ -35,12 +35,8 @@ pub(super) struct Filtered {
 /// Filters `parts`, colour quantities at the vertices that indirect light lives on, by the
 /// photometric sum of them all and its variance.
 pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: f64) -> Filtered {
-    let means = Means::of(plan);
-    let areas_m2 = if plan.resolves_walls {
-        areas_m2(&plan.subdivision, &plan.carriers)
-    } else {
-        plan.elements.vertices()[..variance.len()].iter().map(|v| v.area_m2).collect()
-    };
+    let (elements, areas_m2) = acts_on(plan);
+    let means = Means::of(plan, elements);
     let mut values = parts.to_vec();
     let mut variance = variance.to_vec();
     let (mut smoothed_m2, mut bias, mut first) = (0.0, 0.0, Vec::new());
@@ -72,6 +68,17 @@ pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: 
     Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
 }
 
+/// Elements that the filter acts on, and the surface of every vertex, m2. Where light is resolved towards walls, those that carry light:
+/// the others show no noise of their own.
+fn acts_on(plan: &Plan) -> (Vec<u32>, Vec<f64>) {
+    if plan.resolves_walls {
+        let elements = plan.indirect_errors.iter().map(|e| e.node).collect();
+        return (elements, areas_m2(&plan.subdivision, &plan.carriers));
+    }
+    let vertices = &plan.elements.vertices()[..plan.indirect_vertices];
+    (plan.subdivision.leaves().collect(), vertices.iter().map(|v| v.area_m2).collect())
+}
+
 /// How much of a detail is signal, and how large the signal is, lx2.
 #[derive(Clone, Copy, Debug)]
 struct Kept {
@@ -81,15 +88,9 @@ struct Kept {
 
 impl Means {
     /// Hat functions weighted by their overlap.
-    fn of(plan: &Plan) -> Self {
+    fn of(plan: &Plan, elements: Vec<u32>) -> Self {
         let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); plan.indirect_vertices];
-        // Vertices that quadratic functions tell show no noise of their own.
-        let nodes: Vec<u32> = if plan.resolves_walls {
-            plan.indirect_errors.iter().map(|e| e.node).collect()
-        } else {
-            plan.subdivision.leaves().collect()
-        };
-        for leaf in nodes {
+        for leaf in elements {
             let corners = plan.subdivision.node(leaf).0.vertices;
             if !corners.iter().all(|&v| plan.is_open(v)) {
                 continue;

@@ -169,7 +169,7 @@ impl Look {
         request.has_means && self.left_by_fit < SMOOTH && has_room
     }
 
-    /// How many elements are beset.
+    /// How many elements are beset by something else than walls that light is resolved towards.
     pub(super) fn beset(&self) -> f64 {
         self.errors.iter().filter(|e| e.is_beset && !e.is_at_wall).count() as f64
     }

@@ -4,7 +4,7 @@
 //! other wall, whose light is `a + b s` at a distance `s` from it, is a smooth function of `d` and a multiple of `d ln d`,
 //! whose slope has no bound. No polynomial comes near it, nor do any few elements; a polynomial with that function beside it does.
 
-use crate::elements::{FewNumbers, Subdivision, carries_map};
+use crate::elements::{FewNumbers, Subdivision, carries_map, edge_key};
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Point, Ray, Vector};
 use std::collections::{HashMap, HashSet};
@@ -116,7 +116,7 @@ impl Walls {
             let corners = subdivision.node(leaf).0.vertices;
             for k in 0..3 {
                 let [a, b, c] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
-                let ends = sorted(a, b);
+                let ends = edge_key(a, b);
                 if borders.contains(&ends) && open[a as usize] && open[b as usize] {
                     walls.look(scene, (subdivision, leaf), [a, b, c]);
                 }
@@ -163,7 +163,7 @@ impl Walls {
             line
         });
         self.lines[line as usize].extend([from, to]);
-        self.edges.insert(sorted(corners[0], corners[1]));
+        self.edges.insert(edge_key(corners[0], corners[1]));
         for end in &corners[..2] {
             let at = &mut self.at[*end as usize];
             if !at.contains(&line) {
@@ -255,10 +255,10 @@ impl Walls {
             let [a, b] = subdivision.vertices()[v as usize].parents.expect("made by bisection");
             self.pieces.push(self.pieces[a as usize]);
             let mut on_both = Vec::new();
-            if self.edges.contains(&sorted(a, b)) {
+            if self.edges.contains(&edge_key(a, b)) {
                 on_both.clone_from(&self.at[a as usize]);
                 on_both.retain(|line| self.at[b as usize].contains(line));
-                self.edges.extend([a, b].map(|end| sorted(end, v)));
+                self.edges.extend([a, b].map(|end| edge_key(end, v)));
             }
             self.at.push(on_both);
         }
@@ -305,8 +305,4 @@ impl Walls {
         near.truncate(MOST_NEAR);
         near.into_iter().map(|(_, line)| self.lines[line as usize]).collect()
     }
-}
-
-const fn sorted(a: u32, b: u32) -> [u32; 2] {
-    if a < b { [a, b] } else { [b, a] }
 }

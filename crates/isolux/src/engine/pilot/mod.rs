@@ -273,17 +273,16 @@ impl<'s> Pilot<'s> {
         let walls = Walls::default();
         let mut look = Look { carriers, elements, errors, walls, worst, left_by_fit, rms_lx };
         if look.is_smooth(request) {
-            self.look_for_walls(&mut look, request);
+            self.look_for_walls(&mut look, request, &luminances);
         }
         look
     }
 
     /// Finds the walls that surfaces end at, and what elements err by once light is resolved towards them.
-    fn look_for_walls(&self, look: &mut Look, request: &PilotRequest) {
-        let luminances = self.in_the_open(&self.indirect);
+    fn look_for_walls(&self, look: &mut Look, request: &PilotRequest, luminances: &[Option<f64>]) {
         let open: Vec<bool> = luminances.iter().map(Option::is_some).collect();
         let walls = Walls::of(self.scene, &self.subdivision, &open);
-        look.resolve(walls, &self.subdivision, &luminances, request.target * look.rms_lx);
+        look.resolve(walls, &self.subdivision, luminances, request.target * look.rms_lx);
     }
 
     fn details<'a>(&'a self, elements: &'a Elements, values: &'a [Option<f64>]) -> Details<'a> {

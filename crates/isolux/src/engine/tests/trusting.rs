@@ -10,13 +10,13 @@ use crate::engine::trust::{self, Trust, Worst};
 
 fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
     let error = |(node, &(area_m2, error)): (usize, &(f64, f64))| LeafError {
-        is_at_wall: false,
         node: node as u32,
         area_m2,
         error,
         excess: 0.0,
         is_beset: false,
         is_beset_afar: false,
+        is_at_wall: false,
     };
     of.iter().enumerate().map(error).collect()
 }
@@ -51,13 +51,13 @@ fn errors_at_vertices_bound_those_of_elements() {
     coarse.bisect_to(1.0, 1 << 20);
     let left = |node: u32| coarse.triangle(node).centroid().x < 2.0;
     let error = |node: u32| LeafError {
-        is_at_wall: false,
         node,
         area_m2: coarse.triangle(node).area(),
         error: if left(node) { 1.0 + f64::from(node) } else { 0.0 },
         excess: 0.0,
         is_beset: false,
         is_beset_afar: false,
+        is_at_wall: false,
     };
     let errors: Vec<LeafError> = coarse.leaves().map(error).collect();
     let mut fine = coarse.clone();
