@@ -146,6 +146,7 @@ impl Elements {
     }
 
     /// The place that it is.
+    #[inline]
     pub(crate) fn place(
         &self,
         level: u32,
@@ -154,7 +155,7 @@ impl Elements {
         [u, v]: [f64; 2],
     ) -> Option<Place> {
         let root = self.roots.get(triangle as usize)?[usize::from(back)]?;
-        Some(self.walk.down(Place::in_root(root, u, v), level))
+        Some(self.walk.down(self.walk.in_root(root, u, v), level))
     }
 
     /// A place on a finer level.
@@ -163,8 +164,10 @@ impl Elements {
     }
 
     /// Vertices and their weights at a place.
+    #[inline]
     pub(crate) fn corners(&self, place: Place) -> [(u32, f64); 3] {
-        let (vertices, weights) = (self.nodes[place.node() as usize].vertices, place.weights());
+        let Node { vertices, split } = self.nodes[place.node() as usize];
+        let weights = place.weights(split.map_or(0, |split| split.edge));
         [0, 1, 2].map(|k| (vertices[k], weights[k]))
     }
 }

@@ -40,6 +40,17 @@ pub(super) struct Carriers {
     ends: Vec<usize>,
 }
 
+/// Vertices that do not carry light and what they are interpolated from, one after the other as they are read again and again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Waiting {
+    /// Coarse to fine, and where each level ends.
+    vertices: Vec<u32>,
+    levels: Vec<usize>,
+    /// Of all of them what they are interpolated from, and where that of each ends.
+    parents: Vec<(u32, f64)>,
+    ends: Vec<usize>,
+}
+
 /// What is told of the light at a vertex that does not carry it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Told {
@@ -204,18 +215,26 @@ impl Carriers {
         }
     }
 
-    /// Puts the values of those that do not carry light where they belong.
-    pub(super) fn fill(&self, values: &mut [Rgb]) {
+    /// Those that do not carry light.
+    pub(super) fn waiting(&self) -> Waiting {
+        let mut waiting = Waiting::default();
         let mut start = 0;
         for &end in &self.ends {
-            // A level needs those before it alone.
-            let level = self.order[start..end].par_iter().with_min_len(TOGETHER);
-            let waiting = level.filter(|&&v| !self.active[v as usize]);
-            let read = |&v: &u32| Some((v, self.links[v as usize].as_ref()?.read(values)));
-            let found: Vec<(u32, Rgb)> = waiting.filter_map(read).collect();
-            found.into_iter().for_each(|(v, value)| values[v as usize] = value);
+            for &vertex in self.order[start..end].iter().filter(|&&v| !self.active[v as usize]) {
+                let Some(link) = &self.links[vertex as usize] else { continue };
+                waiting.vertices.push(vertex);
+                waiting.parents.extend(&link.parents);
+                waiting.ends.push(waiting.parents.len());
+            }
+            waiting.levels.push(waiting.vertices.len());
             start = end;
         }
+        waiting
+    }
+
+    /// Puts the values of those that do not carry light where they belong.
+    pub(super) fn fill(&self, values: &mut [Rgb]) {
+        self.waiting().fill(values);
     }
 
     /// Changes of those that do not carry light, by changes of the others.
@@ -324,21 +343,31 @@ fn sort_once(some: &mut Vec<u32>) {
     some.dedup();
 }
 
-impl Link {
-    fn read(&self, values: &[Rgb]) -> Rgb {
+impl Waiting {
+    /// Puts their values where they belong.
+    pub(super) fn fill(&self, values: &mut [Rgb]) {
+        let mut start = 0;
+        for &end in &self.levels {
+            // A level needs those before it alone.
+            let level = (start..end).into_par_iter().with_min_len(TOGETHER);
+            let found: Vec<Rgb> = level.map(|k| self.read(k, values)).collect();
+            let vertices = &self.vertices[start..end];
+            vertices.iter().zip(found).for_each(|(&v, value)| values[v as usize] = value);
+            start = end;
+        }
+    }
+
+    fn read(&self, k: usize, values: &[Rgb]) -> Rgb {
+        let start = k.checked_sub(1).map_or(0, |before| self.ends[before]);
         let mut sum = Rgb::BLACK;
         let (mut low, mut high) = (Rgb::grey(f64::INFINITY), Rgb::grey(f64::NEG_INFINITY));
-        for &(parent, weight) in &self.parents {
+        for &(parent, weight) in &self.parents[start..self.ends[k]] {
             let value = values[parent as usize];
             sum += value * weight;
-            for c in 0..3 {
-                low.0[c] = low.0[c].min(value.0[c]);
-                high.0[c] = high.0[c].max(value.0[c]);
-            }
+            (low, high) = (low.lesser(value), high.greater(value));
         }
         let beyond = (high - low) * BEYOND;
-        Rgb([0, 1, 2].map(|c| {
-            sum.0[c].clamp((low.0[c] - beyond.0[c]).max(0.0), (high.0[c] + beyond.0[c]).max(0.0))
-        }))
+        let (least, most) = (low - beyond, high + beyond);
+        Rgb([0, 1, 2].map(|c| sum.0[c].clamp(least.0[c].max(0.0), most.0[c].max(0.0))))
     }
 }

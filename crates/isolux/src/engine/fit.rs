@@ -69,22 +69,13 @@ impl Fit {
             .into_par_iter()
             .map(|k| if is_moved(&all[k]) { mean(k) } else { Form::new() })
             .collect();
-        let mut sums: Vec<(f64, Form)> = vec![Default::default(); vertices];
-        for (element, mean) in all.iter().zip(means).filter(|(e, _)| is_known(e)) {
-            let corners = element.vertices.map(place);
-            let area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
-            let moved = element.vertices.iter().filter(|&&v| within(v)).count();
-            for vertex in element.vertices {
-                let (area, forms) = &mut sums[vertex as usize];
-                *area += area_m2;
-                if within(vertex) {
-                    // Those that stay leave their part to the others.
-                    let share_m2 = area_m2 * 3.0 / moved as f64;
-                    forms.extend(mean.iter().map(|&(v, weight)| (v, weight * share_m2)));
-                }
-            }
-        }
-        let forms: Vec<Form> = sums.into_par_iter().map(summed).collect();
+        let about = about(&all, vertices);
+        let one = |vertex: usize| {
+            let known = about.of(vertex).iter().map(|&k| (&all[k as usize], &means[k as usize]));
+            let known = known.filter(|(element, _)| is_known(element));
+            summed(shifts(known, vertex as u32, &within, &place))
+        };
+        let forms: Vec<Form> = (0..vertices).into_par_iter().with_min_len(256).map(one).collect();
         let mut fit = Self::default();
         for form in forms {
             let size: f64 = form.iter().map(|(_, weight)| weight.abs()).sum();
@@ -104,10 +95,7 @@ impl Fit {
             for &(v, weight) in &self.entries[start..self.ends[k]] {
                 let value = values[v as usize];
                 shift += value * weight;
-                for channel in 0..3 {
-                    low.0[channel] = low.0[channel].min(value.0[channel]);
-                    high.0[channel] = high.0[channel].max(value.0[channel]);
-                }
+                (low, high) = (low.lesser(value), high.greater(value));
             }
             let most = (high - low) * MOST_SHIFT;
             let bounded = |c: usize| shift.0[c].clamp(-most.0[c], most.0[c]);
@@ -115,6 +103,28 @@ impl Fit {
         };
         (0..self.ends.len()).into_par_iter().with_min_len(1024).map(one).collect()
     }
+}
+
+/// Of the elements about a vertex, their area and by how much the vertex is to be moved over it.
+fn shifts<'a>(
+    about: impl Iterator<Item = (&'a Element, &'a Form)>,
+    vertex: u32,
+    within: &impl Fn(u32) -> bool,
+    place: &impl Fn(u32) -> Point,
+) -> (f64, Form) {
+    let (mut area, mut form) = (0.0, Form::new());
+    for (element, mean) in about {
+        let corners = element.vertices.map(place);
+        let area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+        area += area_m2;
+        if within(vertex) {
+            // Those that stay leave their part to the others.
+            let moved = element.vertices.iter().filter(|&&v| within(v)).count();
+            let share_m2 = area_m2 * 3.0 / moved as f64;
+            form.extend(mean.iter().map(|&(v, weight)| (v, weight * share_m2)));
+        }
+    }
+    (area, form)
 }
 
 /// Shifts over an area in the mean, each vertex once.
@@ -128,6 +138,35 @@ fn summed((area_m2, mut form): (f64, Form)) -> Form {
     });
     form.iter_mut().for_each(|(_, weight)| *weight /= area_m2);
     form
+}
+
+/// Of every vertex, the elements about it, in their order.
+struct About {
+    elements: Vec<u32>,
+    /// Where those of each vertex start, and where the last ones end.
+    starts: Vec<usize>,
+}
+
+impl About {
+    fn of(&self, vertex: usize) -> &[u32] {
+        &self.elements[self.starts[vertex]..self.starts[vertex + 1]]
+    }
+}
+
+fn about(all: &[Element], vertices: usize) -> About {
+    let mut starts = vec![0; vertices + 1];
+    let corners = || all.iter().enumerate().flat_map(|(k, e)| e.vertices.map(|v| (k, v as usize)));
+    corners().for_each(|(_, vertex)| starts[vertex + 1] += 1);
+    for vertex in 0..vertices {
+        starts[vertex + 1] += starts[vertex];
+    }
+    let mut free = starts.clone();
+    let mut elements = vec![0; 3 * all.len()];
+    for (k, vertex) in corners() {
+        elements[free[vertex]] = k as u32;
+        free[vertex] += 1;
+    }
+    About { elements, starts }
 }
 
 /// Of every element, those on its edges: edge `k` is opposite vertex `k`. None where an edge is a

@@ -158,7 +158,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let (gathered, unsettled_lx) = operator.solve_or_give_up(
             &guess,
             &caustic,
-            (&plan.carriers, &fit),
+            (&plan.waiting, &fit),
             UNSETTLED * self.goal * (1.0 - plan.mean_reflectance).max(LEAST_ABSORBED),
         );
         let gathered = fit(&gathered);

@@ -5,7 +5,7 @@ use super::surface::SurfacePoint;
 use crate::sampling::Sequence;
 use crate::scene::{Body, Finish, Scene};
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Ray};
+use isolux_geometry::{Direction, Hit, Ray};
 
 /// Specular reflections after which a path is given up. Mirrors of a room lose the light long
 /// before; only light caught in lossless glass gets here.
@@ -58,15 +58,18 @@ pub(super) fn follow(
     dice: &mut Dice,
     mut met: impl FnMut(&SurfacePoint, &Finish, Rgb),
 ) -> PathEnd {
-    follow_counted(scene, (ray, direction), dice, |_, surface, finish, throughput| {
+    let hit = scene.bvh().closest_hit(&ray);
+    follow_on(scene, hit, direction, dice, |_, surface, finish, throughput| {
         met(surface, finish, throughput);
     })
 }
 
-/// The same; `met` is told, too, how many surfaces came before.
-pub(super) fn follow_counted(
+/// The same from where the ray has come to first; `met` is told, too, how many surfaces came before.
+#[inline]
+pub(super) fn follow_on(
     scene: &Scene,
-    (mut ray, mut direction): (Ray, Direction),
+    mut hit: Option<Hit>,
+    mut direction: Direction,
     dice: &mut Dice,
     mut met: impl FnMut(u32, &SurfacePoint, &Finish, Rgb),
 ) -> PathEnd {
@@ -75,9 +78,9 @@ pub(super) fn follow_counted(
     let mut throughput = Rgb::WHITE;
     let mut luminance_of_start = 1.0;
     for number in 0..MAX_SPECULAR {
-        let Some(hit) = scene.bvh().closest_hit(&ray) else { return PathEnd::Left };
-        let surface = SurfacePoint::from_hit(scene, &hit);
-        let body = &scene.material(hit.triangle).body;
+        let Some(at) = hit else { return PathEnd::Left };
+        let surface = SurfacePoint::from_hit(scene, &at);
+        let body = &scene.material(at.triangle).body;
         if let Body::Opaque { front, back } = body {
             let finish = if surface.back { back } else { front };
             met(number, &surface, finish, throughput * luminance_of_start);
@@ -86,7 +89,8 @@ pub(super) fn follow_counted(
             return PathEnd::Absorbed;
         };
         luminance_of_start *= luminance_ratio(body, &surface, next.direction);
-        (ray, direction, throughput) = (next.ray, next.direction, throughput * next.weight);
+        (direction, throughput) = (next.direction, throughput * next.weight);
+        hit = scene.bvh().closest_hit(&next.ray);
     }
     PathEnd::GivenUp(throughput.luminance())
 }

@@ -3,7 +3,7 @@
 use super::aim::Aim;
 use super::allot::{allot, areas_m2};
 use super::bright::Bright;
-use super::carriers::Carriers;
+use super::carriers::{Carriers, Waiting};
 use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
@@ -31,6 +31,7 @@ pub(super) struct Plan<'s> {
     pub(super) level: u32,
     /// Which of them carry it; the others are interpolated.
     pub(super) carriers: Carriers,
+    pub(super) waiting: Waiting,
     /// What vertices stand for; none are hidden in other geometry.
     pub(super) standings: Vec<Option<Standing>>,
     /// Direct light at the vertices; exact if the lighting is.

@@ -10,20 +10,17 @@ pub struct CosineHemisphere;
 impl CosineHemisphere {
     /// The direction of a point of the unit square: the concentric map to the disc (Shirley and
     /// Chiu 1997), lifted to the hemisphere. Continuous, so that nets stay nets.
+    #[inline]
     pub fn sample([a, b]: [f64; 2]) -> Vector {
         let (x, y) = (2.0 * a - 1.0, 2.0 * b - 1.0);
-        if x == 0.0 && y == 0.0 {
-            return Vector::new(0.0, 0.0, 1.0);
-        }
-        // By an angle within 45 degrees of the nearest axis: no reduction of arguments.
-        let (x, y) = if x.abs() > y.abs() {
-            let (s, c) = libm::sincos(PI / 4.0 * (y / x));
-            (x * c, x * s)
-        } else {
-            let (s, c) = libm::sincos(PI / 4.0 * (x / y));
-            (y * s, y * c)
-        };
-        Vector::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt())
+        // By an angle within 45 degrees of the nearest axis. Nobody can foretell which axis that is: no branches.
+        let is_x = x.abs() > y.abs();
+        let (along, across) = if is_x { (x, y) } else { (y, x) };
+        let divisor = if along == 0.0 { 1.0 } else { along };
+        let (s, c) = sine_and_cosine(PI / 4.0 * (across / divisor));
+        let (along_c, along_s) = (along * c, along * s);
+        let (x, y) = if is_x { (along_c, along_s) } else { (along_s, along_c) };
+        Vector::new(x, y, (1.0 - along * along).sqrt())
     }
 
     /// Density per steradian of a direction in the local frame.
@@ -47,6 +44,28 @@ impl CosineHemisphere {
         };
         [0.5 * (x + 1.0), 0.5 * (y + 1.0)]
     }
+}
+
+/// Sine and cosine of an angle within 45 degrees, by their series: what those leave out is less than is rounded.
+#[inline]
+fn sine_and_cosine(angle: f64) -> (f64, f64) {
+    const SINE: [f64; 8] = series(1);
+    const COSINE: [f64; 9] = series(0);
+    let squared = angle * angle;
+    let sum = |terms: &[f64]| terms.iter().rev().fold(0.0, |sum, term| sum * squared + term);
+    (angle * sum(&SINE), sum(&COSINE))
+}
+
+/// The terms `(-1)^k / (2 k + first)!`.
+const fn series<const N: usize>(first: usize) -> [f64; N] {
+    let mut terms = [1.0; N];
+    let mut k = 1;
+    while k < N {
+        let n = 2 * k + first;
+        terms[k] = -terms[k - 1] / (n * (n - 1)) as f64;
+        k += 1;
+    }
+    terms
 }
 
 /// Visible normals of the GGX distribution of width alpha (Heitz 2018, "Sampling the GGX

@@ -150,7 +150,7 @@ impl<'p, 's> Cached<'p, 's> {
             self.store.near_replicate(&for_near, &far)?;
         let (fresh, check_rays) = self.store.fresh(&self.checks, &for_checks, &far);
         let mut gathered: Vec<Rgb> = self.ties.par_iter().map(|ties| tied(ties, &near)).collect();
-        plan.carriers.fill(&mut gathered);
+        plan.waiting.fill(&mut gathered);
         let gathered = plan.fit.apply(&gathered);
         let is_direct_read = plan.lighting.are_read_at_ends();
         let lookup = |k: usize| {

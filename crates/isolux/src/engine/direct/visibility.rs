@@ -1,7 +1,9 @@
 //! What of a source's light reaches a receiver: along its chain of mirrors, through thin panes.
 
-use super::Lighting;
-use super::source::Target;
+use super::shadows::Shadows;
+use super::source::{self, Arriving, SourceKind, Target};
+use super::{EXACT_SOURCES, Lighting};
+use crate::engine::path::Dice;
 use crate::engine::scatter::pane;
 use crate::engine::surface::SurfacePoint;
 use crate::scene::Body;
@@ -12,6 +14,35 @@ use isolux_geometry::{Ray, Vector};
 const MAX_PANES: usize = 64;
 
 impl Lighting<'_> {
+    /// Such an estimate, a share of it: what it needs to know of shadows is asked later, with what others do.
+    pub(in crate::engine) fn estimate_later(
+        &self,
+        at: &SurfacePoint,
+        share: Rgb,
+        dice: &mut Dice,
+        shadows: &mut Shadows,
+    ) -> Rgb {
+        if self.sources.len() > EXACT_SOURCES {
+            return share * self.estimate(at, dice);
+        }
+        let mut sum = Rgb::BLACK;
+        for source in &self.sources {
+            if !source.chain.is_empty() || matches!(source.kind, SourceKind::Area { .. }) {
+                sum += share * self.lit_by(source, at, 1, dice);
+            } else if let Some(arriving) = source::unoccluded_if(self.scene, source, at, |_| true) {
+                let Arriving { target, illuminance_lx } = arriving;
+                shadows.ask(segment(at, target), target, share * illuminance_lx);
+            }
+        }
+        sum
+    }
+
+    /// The light that arrives of all that was asked for.
+    pub(in crate::engine) fn answer(&self, shadows: &mut Shadows) -> Rgb {
+        let free = shadows.free(self.scene.bvh());
+        free.map(|(ray, target, light)| light * self.through_glass(ray, target)).sum()
+    }
+
     /// The share of light, 0 to 1 a channel, that comes from `target` to a receiver: the image is
     /// looked at, its last mirror must be met first, and so back to the real luminaire. `emitter`
     /// is the emitting triangle, which does not shade itself.

@@ -63,6 +63,7 @@ impl<'s> Pilot<'s> {
             guess: self.indirect,
             elements: look.elements,
             indirect_errors: look.errors,
+            waiting: self.carriers.waiting(),
             carriers: self.carriers,
             standings,
             subdivision: coarse,

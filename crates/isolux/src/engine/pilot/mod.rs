@@ -398,7 +398,8 @@ impl<'s> Pilot<'s> {
         self.indirect.resize(gatherers.len(), Rgb::BLACK);
         if is_first {
             let black = vec![Rgb::BLACK; gatherers.len()];
-            self.indirect = operator.solve(&black, &black, &self.carriers, PILOT_TOLERANCE);
+            self.indirect =
+                operator.solve(&black, &black, &self.carriers.waiting(), PILOT_TOLERANCE);
             if !self.known.contains(&true) {
                 // No light at all: what is not closed in is dark.
                 self.known = operator.open();

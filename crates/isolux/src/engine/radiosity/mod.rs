@@ -384,8 +384,8 @@ impl<'p, 's> Radiosity<'p, 's> {
         let mut light: Vec<Rgb> = received.iter().map(|r| r.0).collect();
         let mut variances: Vec<Rgb> = received.iter().map(|r| Rgb::grey(r.1)).collect();
         // What is interpolated is no better than what it comes from.
-        self.plan.carriers.fill(&mut light);
-        self.plan.carriers.fill(&mut variances);
+        self.plan.waiting.fill(&mut light);
+        self.plan.waiting.fill(&mut variances);
         let light = self.plan.prolongate(&self.plan.fit.apply(&light));
         for (k, light) in light.into_iter().enumerate() {
             sums.add_part(k, RECEIVED, light);

@@ -52,7 +52,7 @@ fn a_furnace_settles_where_all_light_is_alike() {
     let given = vec![Rgb::new(7.0, 5.0, 3.0); n];
     let expected = Rgb::new(7.0, 5.0, 3.0) * REFLECTANCE.map(|rho| rho / (1.0 - rho));
     for guess in [Rgb::BLACK, Rgb::grey(1e4)] {
-        let solved = operator.solve(&vec![guess; n], &given, &Carriers::all(), 1e-9);
+        let solved = operator.solve(&vec![guess; n], &given, &Carriers::all().waiting(), 1e-9);
         for e in solved {
             for c in 0..3 {
                 // An error of a ray's weight is reflected as the light is.
@@ -82,7 +82,7 @@ fn the_fixed_point_is_one() {
     let (elements, gatherers) = elements_of(&scene, 32);
     let operator = operator(&scene, &elements, &gatherers);
     let given: Vec<Rgb> = (0..gatherers.len()).map(|k| Rgb::grey((k % 7) as f64)).collect();
-    let solved = operator.solve(&given, &given, &Carriers::all(), 1e-10);
+    let solved = operator.solve(&given, &given, &Carriers::all().waiting(), 1e-10);
     let light: Vec<Rgb> = solved.iter().zip(&given).map(|(&e, &g)| e + g).collect();
     for (a, b) in operator.apply(&light).iter().zip(&solved) {
         // The last change was 1e-10 of the root mean square, of values of about ten.

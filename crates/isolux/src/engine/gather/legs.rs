@@ -1,0 +1,427 @@
+//! The rays of a row: many at a time, one step of all of them after the other.
+//!
+//! While one ray waits for memory, or for the result of an instruction, others go on: all are traced together, their
+//! places are sought together, and what is read there lies ready when it is asked for.
+
+use super::operator::{Entry, Operator, Rows};
+use super::{DirectAtEnds, Gatherer, Gathering, known_weights, weights_in_gap};
+use crate::elements::Place;
+use crate::engine::bright;
+use crate::engine::deadline::Deadline;
+use crate::engine::direct::{About, Shadows};
+use crate::engine::path::{Dice, PathEnd, follow_on};
+use crate::engine::surface::SurfacePoint;
+use crate::engine::trust;
+use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::scene::Finish;
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
+use rayon::prelude::*;
+
+/// Receivers of one task: enough work to be worth handing out, few enough to share evenly.
+const CHUNK: usize = 64;
+
+/// Rays of a row that are followed together.
+const TOGETHER: u32 = 64;
+
+/// Random numbers of rays that are sent to what is bright.
+const SENT: u64 = 0x6272_6967_6874;
+
+/// How often a ray goes on from surfaces that are close by. In a corner half of the rays meet the other wall close
+/// by, and half of those the first again: with usual reflectances a hundredth of the light is left.
+const REGATHERED: u32 = 3;
+
+/// A row while it is made.
+#[derive(Default)]
+struct Row {
+    source: Rgb,
+    open: bool,
+    close: f64,
+    /// What is seen from about the receiver, once it was asked for.
+    about: Option<Option<About>>,
+}
+
+/// Rays that are followed together; kept, as to ask for memory at every row takes its time.
+#[derive(Default)]
+struct Wave {
+    /// Numbers of the rays that the row has begun.
+    dice: Vec<Dice>,
+    legs: Vec<Leg>,
+    directions: Vec<Direction>,
+    rays: Vec<Ray>,
+    hits: Vec<Option<Hit>>,
+    /// Diffuse surfaces that they have come to, and where those are on the level gathered over.
+    met: Vec<Met>,
+    places: Vec<Option<Place>>,
+    located: Vec<Option<Located>>,
+    /// What they wait for to know of direct light there.
+    shadows: Shadows,
+    /// Rays that go on from there.
+    next: Vec<Leg>,
+}
+
+/// A ray of a row, or what goes on from where one has ended.
+#[derive(Clone, Copy)]
+struct Leg {
+    /// Where it starts, and the triangle there.
+    origin: Point,
+    triangle: u32,
+    /// About what its direction is distributed.
+    normal: Normal,
+    /// What of the light there arrives at the receiver.
+    share: Rgb,
+    /// Whether it starts in a gap.
+    in_gap: bool,
+    /// The ray that it is part of.
+    ray: u32,
+}
+
+/// What all rays of a row have in common.
+struct Receiver<'a> {
+    place: &'a SurfacePoint,
+    /// What is bright, as seen from there, if rays are sent to it, too.
+    bright: Option<&'a bright::Seen<'a>>,
+}
+
+/// A diffuse surface that a ray has come to, and what it reflects along it.
+#[derive(Clone, Copy)]
+struct Met {
+    leg: u32,
+    surface: SurfacePoint,
+    reflectance: Rgb,
+    /// Whether nothing specular was between.
+    straight: bool,
+}
+
+/// A place on the level gathered over, and the vertices and weights there.
+#[derive(Clone, Copy)]
+struct Located {
+    place: Place,
+    corners: [(u32, f64); 3],
+}
+
+/// The end of a ray.
+struct End {
+    surface: SurfacePoint,
+    located: Option<Located>,
+    distance_m: f64,
+    /// Whether the map tells little there, so close to where the ray starts.
+    is_close: bool,
+    /// How far the ray has come if it starts in a gap.
+    out_of_gap_m: Option<f64>,
+}
+
+/// What a surface is to a gathering ray.
+enum Side {
+    /// It reflects.
+    Lit(Rgb),
+    /// It could be lit, but reflects nothing diffusely.
+    Black,
+    /// It is the black back of something: nothing is ever lit there.
+    Closed,
+}
+
+impl Row {
+    /// With what is known of about the receiver.
+    fn after(about: Option<Option<About>>) -> Self {
+        Self { about, ..Self::default() }
+    }
+}
+
+impl Gathering<'_> {
+    /// Traces the rays of all receivers; `key_of` gives each its random numbers.
+    pub(in crate::engine) fn operator(
+        &self,
+        gatherers: &[Gatherer],
+        key_of: impl Fn(usize) -> Key + Sync,
+    ) -> Operator {
+        let whole = self.operator_until(Deadline::NEVER, gatherers, key_of);
+        whole.expect("without a deadline nothing is given up")
+    }
+
+    /// The same; `None` if the deadline passes meanwhile.
+    pub(in crate::engine) fn operator_until(
+        &self,
+        deadline: Deadline,
+        gatherers: &[Gatherer],
+        key_of: impl Fn(usize) -> Key + Sync,
+    ) -> Option<Operator> {
+        let chunk = |(index, part): (usize, &[Gatherer])| {
+            if deadline.has_passed() {
+                return None;
+            }
+            let mut rows = Rows::default();
+            rows.entries.reserve(part.iter().map(|g| g.rays as usize).sum());
+            let (mut row, mut wave) = (Row::default(), Wave::default());
+            for (k, gatherer) in part.iter().enumerate() {
+                // Readers have many rows of one place.
+                let before = k.checked_sub(1).map(|k| &part[k]);
+                let about = row.about.filter(|_| before.is_some_and(|b| b.is_at(gatherer)));
+                row = Row::after(about);
+                let key = key_of(index * CHUNK + k);
+                self.row(gatherer, key, (&mut row, &mut wave), &mut rows);
+            }
+            Some(rows)
+        };
+        let chunks: Option<Vec<Rows>> =
+            gatherers.par_chunks(CHUNK).enumerate().map(chunk).collect();
+        let chunks = chunks?;
+        let further: u64 = chunks.iter().map(|rows| rows.further_rays).sum();
+        let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum::<u64>() + further;
+        let receivers = gatherers.iter().filter(|g| g.rays > 0).count();
+        Some(Operator { chunks, receivers, rays })
+    }
+
+    fn row(
+        &self,
+        gatherer: &Gatherer,
+        key: Key,
+        (row, wave): (&mut Row, &mut Wave),
+        rows: &mut Rows,
+    ) {
+        let sequence = Sequence::new(key);
+        let Gatherer { origin, normal, rays, in_gap, .. } = *gatherer;
+        let bright = self.bright.and_then(|bright| bright.seen_from(origin, normal, rays));
+        let receiver = Receiver { place: &gatherer.surface, bright: bright.as_ref() };
+        let share = Rgb::WHITE / f64::from(rays.max(1));
+        let triangle = gatherer.surface.triangle;
+        let first = Leg { origin, triangle, normal, share, in_gap, ray: 0 };
+        for start in (0..rays).step_by(TOGETHER as usize) {
+            let some = start..rays.min(start + TOGETHER);
+            wave.legs.clear();
+            wave.legs.extend((0..some.len() as u32).map(|ray| Leg { ray, ..first }));
+            wave.dice.clear();
+            wave.dice.extend(some.map(|index| Dice::new(sequence, index)));
+            for number in 0..=REGATHERED {
+                self.trace(wave, row, rows);
+                self.locate(wave);
+                self.read(&receiver, number, (row, wave), rows);
+                if wave.legs.is_empty() {
+                    break;
+                }
+            }
+        }
+        if let Some(bright) = &bright {
+            let sequence = Sequence::new(key.with(SENT));
+            for index in 0..bright.sent {
+                self.send(&first, bright, &mut Dice::new(sequence, index), &receiver, row);
+            }
+            rows.further_rays += u64::from(bright.sent);
+        }
+        rows.end_row(row.source, row.open, row.close);
+    }
+
+    /// Finds the diffuse surfaces that rays come to.
+    fn trace(&self, wave: &mut Wave, row: &mut Row, rows: &mut Rows) {
+        let Wave { dice, legs, directions, rays, hits, met, .. } = wave;
+        directions.clear();
+        directions.extend(legs.iter().map(|leg| {
+            let local = CosineHemisphere::sample(dice[leg.ray as usize].pair());
+            leg.normal.to_direction().from_local(local)
+        }));
+        rays.clear();
+        let begun = legs.iter().zip(&*directions);
+        rays.extend(begun.map(|(l, &d)| Ray::new(l.origin, d).skipping(l.triangle)));
+        hits.clear();
+        hits.resize(rays.len(), None);
+        self.scene.bvh().closest_hits(rays, hits);
+        met.clear();
+        for (k, leg) in legs.iter().enumerate() {
+            let dice = &mut dice[leg.ray as usize];
+            let note = |number: u32, at: &SurfacePoint, finish: &Finish, throughput: Rgb| match self
+                .side(at, finish, throughput)
+            {
+                Side::Lit(reflectance) => {
+                    let (leg, straight) = (k as u32, number == 0);
+                    met.push(Met { leg, surface: *at, reflectance, straight });
+                }
+                Side::Black => row.open = true,
+                Side::Closed => {}
+            };
+            match follow_on(self.scene, hits[k], directions[k], dice, note) {
+                PathEnd::Left => row.open = true,
+                PathEnd::Absorbed => {}
+                PathEnd::GivenUp(share) => rows.given_up += share * leg.share.luminance(),
+            }
+        }
+    }
+
+    /// Finds where those surfaces are on the level gathered over.
+    fn locate(&self, wave: &mut Wave) {
+        let Wave { met, places, located, .. } = wave;
+        places.clear();
+        places.extend(met.iter().map(|met| {
+            let SurfacePoint { triangle, back, u, v, .. } = met.surface;
+            self.elements.place(self.level, triangle, back, [u, v])
+        }));
+        // What is known of them lies far apart in memory: all is asked for at once.
+        located.clear();
+        located.extend(places.iter().map(|place| place.map(|place| self.located(place))));
+    }
+
+    /// Reads the light there, or has the rays go on.
+    fn read(
+        &self,
+        receiver: &Receiver<'_>,
+        number: u32,
+        (row, wave): (&mut Row, &mut Wave),
+        rows: &mut Rows,
+    ) {
+        let Wave { dice, legs, met, located, shadows, next, .. } = wave;
+        next.clear();
+        for (met, &located) in met.iter().zip(&*located) {
+            let leg = &legs[met.leg as usize];
+            let share = met.reflectance * leg.share;
+            let end = self.end(leg, met.surface, located);
+            let dice = &mut dice[leg.ray as usize];
+            let of_direct = match receiver.bright.filter(|_| number == 0 && met.straight) {
+                Some(bright) => met.reflectance * bright.share(self.elements, &met.surface),
+                None => share,
+            };
+            row.source += match self.direct {
+                DirectAtEnds::Evaluated => {
+                    self.lighting.estimate_later(&end.surface, of_direct, dice, shadows)
+                }
+                _ => of_direct * self.direct_at(&end, receiver.place, &mut row.about, dice),
+            };
+            if end.is_close && number < REGATHERED {
+                next.push(Leg {
+                    origin: end.surface.start(),
+                    triangle: end.surface.triangle,
+                    normal: end.surface.shading,
+                    share,
+                    in_gap: leg.in_gap && self.is_in_gap(&end.surface, end.distance_m),
+                    ray: leg.ray,
+                });
+            } else if let Some(entry) =
+                located.and_then(|l| self.entry(l.corners, end.out_of_gap_m))
+            {
+                row.close += if end.is_close { share.luminance() } else { 0.0 };
+                rows.push(entry, share.0.map(|c| c as f32));
+            }
+        }
+        row.source += self.lighting.answer(shadows);
+        rows.further_rays += next.len() as u64;
+        std::mem::swap(legs, next);
+    }
+
+    /// A ray to what is bright: of the light there, what comes straight from luminaires alone.
+    fn send(
+        &self,
+        leg: &Leg,
+        bright: &bright::Seen<'_>,
+        dice: &mut Dice,
+        receiver: &Receiver<'_>,
+        row: &mut Row,
+    ) {
+        let [pick, within] = [dice.pair(), dice.pair()];
+        let Some((to, direction)) = bright.draw(self.scene, pick, within) else { return };
+        let ray = Ray::new(leg.origin, direction).skipping(leg.triangle);
+        let hit = self.scene.bvh().closest_hit(&ray);
+        if hit.is_none_or(|hit| hit.triangle != to.triangle || hit.back != to.back) {
+            return;
+        }
+        let Some(finish) = self.scene.material(to.triangle).finish(to.back) else { return };
+        if let Side::Lit(reflectance) = self.side(&to, finish, Rgb::WHITE) {
+            let share = reflectance * bright.share(self.elements, &to);
+            let place = self.elements.place(self.level, to.triangle, to.back, [to.u, to.v]);
+            let end = self.end(leg, to, place.map(|place| self.located(place)));
+            row.source += share * self.direct_at(&end, receiver.place, &mut row.about, dice);
+        }
+    }
+
+    /// The end of a ray at a place.
+    fn end(&self, leg: &Leg, surface: SurfacePoint, located: Option<Located>) -> End {
+        let distance_m = (surface.point - leg.origin).length();
+        let is_near =
+            |located: Located| distance_m <= self.edge_m(self.corners(&located, u32::MAX));
+        let is_close = self.regathers && located.is_some_and(is_near);
+        let out_of_gap_m = leg.in_gap.then_some(distance_m);
+        End { surface, located, distance_m, is_close, out_of_gap_m }
+    }
+
+    fn located(&self, place: Place) -> Located {
+        Located { place, corners: self.elements.corners(place) }
+    }
+
+    /// Vertices and weights of a place on that level or a finer one.
+    fn corners(&self, of: &Located, level: u32) -> [(u32, f64); 3] {
+        if level == self.level {
+            return of.corners;
+        }
+        self.elements.corners(self.elements.below(of.place, level))
+    }
+
+    /// Whether a ray from within a gap may still be in it.
+    fn is_in_gap(&self, at: &SurfacePoint, distance_m: f64) -> bool {
+        distance_m < trust::NEAR * trust::edge_at_m(self.elements, at)
+    }
+
+    fn direct_at(
+        &self,
+        end: &End,
+        receiver: &SurfacePoint,
+        about: &mut Option<Option<About>>,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let read = |values: &[Rgb], level: u32| {
+            let corners = end.located.map(|located| self.corners(&located, level));
+            let known = corners.and_then(|corners| self.known(corners, end.out_of_gap_m));
+            known.map_or(Rgb::BLACK, |corners| {
+                corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
+            })
+        };
+        match self.direct {
+            DirectAtEnds::Read { values, level } => read(values, level),
+            DirectAtEnds::ReadFarOff { values } if !end.is_close => read(values, u32::MAX),
+            DirectAtEnds::ReadFarOff { .. } => {
+                let about = about.get_or_insert_with(|| {
+                    self.lighting.about(receiver.point, trust::edge_at_m(self.elements, receiver))
+                });
+                match about {
+                    Some(about) => self.lighting.estimate_by(about, &end.surface, dice),
+                    None => self.lighting.estimate(&end.surface, dice),
+                }
+            }
+            DirectAtEnds::Evaluated => self.lighting.estimate(&end.surface, dice),
+        }
+    }
+
+    fn side(&self, surface: &SurfacePoint, finish: &Finish, throughput: Rgb) -> Side {
+        if surface.back && *finish == Finish::BLACK {
+            return Side::Closed;
+        }
+        let SurfacePoint { triangle, u, v, .. } = *surface;
+        let reflectance = throughput * self.scene.diffuse_reflectance(finish, triangle, u, v);
+        if reflectance.is_black() { Side::Black } else { Side::Lit(reflectance) }
+    }
+
+    /// The entry for an end, over the known vertices of its element; `None` if there is none.
+    fn entry(&self, corners: [(u32, f64); 3], out_of_gap_m: Option<f64>) -> Option<Entry> {
+        let corners = self.known(corners, out_of_gap_m)?;
+        Some(Entry {
+            vertices: corners.map(|(vertex, _)| vertex),
+            weights: corners.map(|(_, weight)| weight as f32),
+        })
+    }
+
+    /// Vertices and weights of a place, over the known ones; for a ray that has come so far from within a
+    /// gap, over those in gaps as long as it may still be there.
+    fn known(
+        &self,
+        corners: [(u32, f64); 3],
+        out_of_gap_m: Option<f64>,
+    ) -> Option<[(u32, f64); 3]> {
+        let weights = if out_of_gap_m.is_some_and(|m| m < trust::NEAR * self.edge_m(corners)) {
+            weights_in_gap(corners, self.standings)?
+        } else {
+            known_weights(corners, self.standings)?
+        };
+        Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
+    }
+
+    /// Longest edge of the element of some corners, m.
+    fn edge_m(&self, corners: [(u32, f64); 3]) -> f64 {
+        trust::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex))
+    }
+}

@@ -1,0 +1,197 @@
+//! What gathering gives: a sparse matrix and what needs no further reflection, and the fixed point of both.
+
+use crate::engine::anderson::Anderson;
+use crate::engine::carriers::Waiting;
+use crate::units::Rgb;
+use rayon::prelude::*;
+
+/// From the light at receivers to what rays read at them.
+pub(in crate::engine) type Fitting<'a> = dyn Fn(&[Rgb]) -> Vec<Rgb> + 'a;
+
+/// What a ray reads from the map: the light of three vertices.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    pub(super) vertices: [u32; 3],
+    pub(super) weights: [f32; 3],
+}
+
+/// Entries of one row, one after the other, that reflect alike: rays end on few materials.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    /// Where they end among all entries.
+    end: u32,
+    /// The share of what is read there that arrives at the receiver.
+    share: [f32; 3],
+}
+
+/// Rows of the operator for consecutive receivers.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    pub(super) entries: Vec<Entry>,
+    runs: Vec<Run>,
+    /// End of the runs of every row.
+    ends: Vec<usize>,
+    /// Light that needs no further reflection, lx.
+    sources: Vec<Rgb>,
+    /// Whether some ray left the scene or came to a surface that could be lit.
+    open: Vec<bool>,
+    /// Of every row, the share of a unit of light that is read close by.
+    close: Vec<f64>,
+    /// Sum of the shares of rays that were given up on their way over specular surfaces.
+    pub(super) given_up: f64,
+    /// Rays beside those of the receivers.
+    pub(super) further_rays: u64,
+}
+
+/// The operator of all receivers: one noisy sample of light transport.
+pub(in crate::engine) struct Operator {
+    pub(super) chunks: Vec<Rows>,
+    /// Rows that have rays.
+    pub(super) receivers: usize,
+    pub(in crate::engine) rays: u64,
+}
+
+impl Operator {
+    /// `source + A light`, one value a receiver.
+    pub(in crate::engine) fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
+        let count = self.chunks.iter().map(|rows| rows.ends.len()).sum();
+        let mut values = vec![Rgb::BLACK; count];
+        let mut left = values.as_mut_slice();
+        let mut parts = Vec::with_capacity(self.chunks.len());
+        for rows in &self.chunks {
+            let (part, others) = std::mem::take(&mut left).split_at_mut(rows.ends.len());
+            parts.push((rows, part));
+            left = others;
+        }
+        parts.into_par_iter().for_each(|(rows, part)| rows.apply(light, part));
+        values
+    }
+
+    /// Adds the receivers of another.
+    pub(in crate::engine) fn append(&mut self, other: Self) {
+        self.chunks.extend(other.chunks);
+        self.receivers += other.receivers;
+        self.rays += other.rays;
+    }
+
+    /// Whether each receiver is open: not closed in by black backs.
+    pub(in crate::engine) fn open(&self) -> Vec<bool> {
+        self.chunks.iter().flat_map(|rows| rows.open.iter().copied()).collect()
+    }
+
+    /// Of every receiver, the share of a unit of light everywhere that it reads close by all the same.
+    pub(in crate::engine) fn close(&self) -> impl Iterator<Item = f64> + '_ {
+        self.chunks.iter().flat_map(|rows| rows.close.iter().copied())
+    }
+
+    /// The share of all that is gathered whose rays were given up.
+    pub(in crate::engine) fn given_up(&self) -> f64 {
+        self.chunks.iter().map(|rows| rows.given_up).sum::<f64>() / self.receivers.max(1) as f64
+    }
+
+    /// The fixed point `E = source + A (E + given)` over the first `given.len()` receivers, then one
+    /// application for all of them. Starts from `guess`. Ends when a sweep changes nothing beyond
+    /// `tolerance`, relative to the root mean square.
+    pub(in crate::engine) fn solve(
+        &self,
+        guess: &[Rgb],
+        given: &[Rgb],
+        waiting: &Waiting,
+        tolerance: f64,
+    ) -> Vec<Rgb> {
+        self.solve_or_give_up(guess, given, (waiting, &<[Rgb]>::to_vec), tolerance).0
+    }
+
+    /// The same, and the root mean square of what the last sweep changed. What does not carry light is
+    /// interpolated; with a fit, the light that is applied to is that of best fit.
+    ///
+    /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of
+    /// the operator; [`Anderson`] takes what the sweeps have told of it into account.
+    pub(in crate::engine) fn solve_or_give_up(
+        &self,
+        guess: &[Rgb],
+        given: &[Rgb],
+        (waiting, fit): (&Waiting, &Fitting<'_>),
+        tolerance: f64,
+    ) -> (Vec<Rgb>, f64) {
+        let apply = |light: &[Rgb]| {
+            let mut gathered = self.apply(light);
+            waiting.fill(&mut gathered);
+            gathered
+        };
+        let with_given = |light: &[Rgb]| -> Vec<Rgb> {
+            let mut light = fit(light);
+            light.iter_mut().zip(given).for_each(|(e, &g)| *e += g);
+            light
+        };
+        let mut light = guess.to_vec();
+        let mut unsettled = 0.0;
+        let mut mixing = Anderson::default();
+        for _ in 0..MAX_SWEEPS {
+            let mut next = apply(&with_given(&light));
+            let (mut change, mut size) = (0.0, 0.0);
+            for (a, b) in next.iter().zip(&light) {
+                let (difference, value) = ((*a - *b).luminance(), a.luminance());
+                change += difference * difference;
+                size += value * value;
+            }
+            let settled = change <= tolerance * tolerance * size;
+            unsettled = (change / light.len().max(1) as f64).sqrt();
+            if settled {
+                return (next, unsettled);
+            }
+            next.truncate(guess.len());
+            light = mixing.next(&light, next);
+        }
+        (apply(&with_given(&light)), unsettled)
+    }
+}
+
+/// Sweeps of the fixed point before giving up: at mean reflectance 0.99 the light left is e^-20.
+const MAX_SWEEPS: usize = 2000;
+
+impl Rows {
+    /// Adds an entry to the row that is being made.
+    pub(super) fn push(&mut self, entry: Entry, share: [f32; 3]) {
+        self.entries.push(entry);
+        // As many as 32 bits count are 100 GB, more than a part of the receivers is ever given.
+        let end = self.entries.len() as u32;
+        let first_of_row = self.ends.last().copied().unwrap_or(0);
+        match self.runs[first_of_row..].last_mut().filter(|run| run.share == share) {
+            Some(run) => run.end = end,
+            None => self.runs.push(Run { end, share }),
+        }
+    }
+
+    /// Ends the row that is being made.
+    pub(super) fn end_row(&mut self, source: Rgb, open: bool, close: f64) {
+        self.ends.push(self.runs.len());
+        self.sources.push(source);
+        self.open.push(open);
+        self.close.push(close);
+    }
+
+    fn apply(&self, light: &[Rgb], values: &mut [Rgb]) {
+        let (mut run, mut entry) = (0, 0);
+        for ((value, &end), &source) in values.iter_mut().zip(&self.ends).zip(&self.sources) {
+            *value = source;
+            for Run { end, share } in &self.runs[run..end] {
+                let entries = &self.entries[entry..*end as usize];
+                let read: Rgb = entries.iter().map(|entry| entry.light(light)).sum();
+                *value += read * Rgb(share.map(f64::from));
+                entry = *end as usize;
+            }
+            run = end;
+        }
+    }
+}
+
+impl Entry {
+    fn light(&self, light: &[Rgb]) -> Rgb {
+        let mut value = Rgb::BLACK;
+        for k in 0..3 {
+            value += light[self.vertices[k] as usize] * f64::from(self.weights[k]);
+        }
+        value
+    }
+}
