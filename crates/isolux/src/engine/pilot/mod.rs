@@ -61,6 +61,8 @@ const PULL_IN: f64 = 2e-3;
 /// A round in which the error falls with a lower power of the vertices was in vain. Where functions
 /// are smooth it is one; chasing light that comes in through narrow places, less for some rounds.
 const LEAST_ORDER: f64 = 0.25;
+/// So often may the error rise instead.
+const MOST_RISEN: usize = 3;
 /// Vertices for indirect light, unless the scene has nearly as many from the start.
 const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
 /// Bisections of elements with hidden vertices, and the places in one that are asked whether light
@@ -69,6 +71,8 @@ const ROUNDS_FOR_HIDDEN: usize = 4;
 const PLACES_OF_HIDDEN: u32 = 4;
 /// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
 const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
+/// Shadow rays to every emitting surface that tell whether luminaires shine into a gap.
+const SAMPLES_IN_GAPS: usize = 4;
 /// Sweeps of the pilot end when they change less than this.
 const PILOT_TOLERANCE: f64 = 1e-4;
 
@@ -338,7 +342,8 @@ impl<'s> Pilot<'s> {
     }
 
     /// Gathers in the middle of the elements that no details tell of, that have something close before
-    /// them and that were not looked at yet; not in gaps, where readers gather anyway.
+    /// them and that were not looked at yet; in gaps, where readers gather anyway, only if luminaires shine there,
+    /// as over a lamp that hangs close below the ceiling: what they lack is missing elsewhere, too.
     fn complete_middles(&mut self, elements: &Elements, values: &[Option<f64>]) {
         let details = self.details(elements, values);
         let is_new =
@@ -349,9 +354,9 @@ impl<'s> Pilot<'s> {
             let edge_m = self.subdivision.longest_edge_m(node);
             let corner = self.subdivision.node(node).0.vertices[0];
             let gatherer = Gatherer::on_surface(place, self.rays[corner as usize]);
-            let asks =
-                self.beset[node as usize] && !trust::is_closed_in(self.scene, &place, edge_m);
-            asks.then_some((node, gatherer))
+            let in_gap = trust::is_closed_in(self.scene, &place, edge_m);
+            let asks = self.beset[node as usize] && (!in_gap || self.is_lit_up(node, &place));
+            asks.then_some((node, gatherer.in_gap(in_gap)))
         };
         let asked: Vec<Option<(u32, Gatherer)>> = new.par_iter().map(|&n| beset(n)).collect();
         self.middles.extend(new.into_iter().map(|node| (node, None)));
@@ -361,7 +366,24 @@ impl<'s> Pilot<'s> {
         let operator = gathering.operator(&rows, |_| key);
         let light = operator.apply(&self.indirect);
         self.traced += operator.rays;
-        self.middles.extend(nodes.into_iter().zip(light.iter().map(|e| Some(e.luminance()))));
+        let middles = light.iter().map(|e| e.luminance()).zip(&rows);
+        // What is too bright in gaps nobody reads.
+        let told = |(node, (lx, row)): (u32, (f64, &Gatherer))| {
+            let darker = || values_read(&self.subdivision, node, values).all(|read| lx <= read);
+            (node, (!row.in_gap || !darker()).then_some(lx))
+        };
+        let told: Vec<(u32, Option<f64>)> = nodes.into_iter().zip(middles).map(told).collect();
+        self.middles.extend(told);
+    }
+
+    /// Whether more light comes to a place straight from luminaires than to the vertices of its element that are read.
+    fn is_lit_up(&self, node: u32, place: &SurfacePoint) -> bool {
+        let mut dice = Dice::new(Sequence::new(self.key.with(11).with(u64::from(node))), 0);
+        let direct = self.lighting.sampled(place, SAMPLES_IN_GAPS, &mut dice).luminance();
+        let corners = self.subdivision.node(node).0.vertices;
+        let is_read = |v: &u32| self.standings[*v as usize] == Some(Standing::Open);
+        let mut read = corners.into_iter().filter(is_read).peekable();
+        read.peek().is_some() && read.all(|v| self.direct[v as usize].luminance() < direct)
     }
 
     fn complete_indirect(
@@ -488,11 +510,16 @@ impl<'s> Pilot<'s> {
         go_on: &mut GoOn<'_>,
     ) -> Look {
         let mut before = (f64::INFINITY, look.carriers as f64);
+        let mut risen = 0;
         for _ in 0..MAX_ROUNDS {
             let Some((errors, excess)) = look.excess(what, request) else { break };
-            // Where bisection no longer helps, what is left is noise: the check points will tell.
+            // Where bisection no longer helps, what is left is noise: the check points will tell. Where errors rise, it
+            // has shown what nobody saw before.
             let carriers = look.carriers as f64;
-            let stalled = excess > before.0 * libm::pow(before.1 / carriers, LEAST_ORDER);
+            risen += usize::from(excess > before.0);
+            let goes_on = excess > before.0 && risen <= MOST_RISEN;
+            let stalled =
+                !goes_on && excess > before.0 * libm::pow(before.1 / carriers, LEAST_ORDER);
             let known = Some(before).filter(|(excess, _)| excess.is_finite());
             let excesses = (Some(look.greatest_excess(request)), known);
             if stalled || !self.has_time(&look, request, excesses, go_on) {
@@ -552,6 +579,15 @@ impl<'s> Pilot<'s> {
         self.subdivision.longest_edge_m(node) > 2.0 * self.least_edge_m
             && corners.iter().any(|&v| !self.known[v as usize])
     }
+}
+
+/// The values at the vertices of an element that say something.
+fn values_read<'a>(
+    subdivision: &Subdivision,
+    node: u32,
+    values: &'a [Option<f64>],
+) -> impl Iterator<Item = f64> + 'a {
+    subdivision.node(node).0.vertices.into_iter().filter_map(|v| values[v as usize])
 }
 
 /// Root mean square over the known surface.

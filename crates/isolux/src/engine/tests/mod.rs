@@ -19,6 +19,7 @@ mod gloss;
 mod judging;
 pub(super) mod many;
 mod means;
+mod middles;
 mod mirrors;
 mod mixing;
 mod net;
