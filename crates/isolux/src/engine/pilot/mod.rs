@@ -111,6 +111,8 @@ struct Pilot<'s> {
     beset: Vec<bool>,
     /// In the middle of elements that no details tell of, by node; nothing where that is not asked for.
     middles: HashMap<u32, Option<f64>>,
+    /// Whether there were some in gaps that luminaires shine into, at the last look.
+    sees_lit_gaps: bool,
     /// Nodes there were then.
     solved_nodes: u32,
     /// Rays that a vertex gathers with, alike all over a surface, so that their noise is.
@@ -193,6 +195,7 @@ impl<'s> Pilot<'s> {
             beset_from_m: HashMap::new(),
             beset: Vec::new(),
             middles: HashMap::new(),
+            sees_lit_gaps: false,
             solved_nodes: 0,
             rays,
             traced: 0,
@@ -373,6 +376,8 @@ impl<'s> Pilot<'s> {
             (node, (!row.in_gap || !darker()).then_some(lx))
         };
         let told: Vec<(u32, Option<f64>)> = nodes.into_iter().zip(middles).map(told).collect();
+        self.sees_lit_gaps =
+            told.iter().zip(&rows).any(|((_, lx), row)| row.in_gap && lx.is_some());
         self.middles.extend(told);
     }
 
@@ -513,13 +518,14 @@ impl<'s> Pilot<'s> {
         let mut risen = 0;
         for _ in 0..MAX_ROUNDS {
             let Some((errors, excess)) = look.excess(what, request) else { break };
-            // Where bisection no longer helps, what is left is noise: the check points will tell. Where errors rise, it
-            // has shown what nobody saw before.
+            // Where bisection no longer helps, what is left is noise: the check points will tell. As long as it finds light
+            // in gaps, errors may rise.
             let carriers = look.carriers as f64;
-            risen += usize::from(excess > before.0);
-            let goes_on = excess > before.0 && risen <= MOST_RISEN;
-            let stalled =
-                !goes_on && excess > before.0 * libm::pow(before.1 / carriers, LEAST_ORDER);
+            let has_risen = self.sees_lit_gaps && excess > before.0;
+            risen += usize::from(has_risen);
+            let is_excused = has_risen && risen <= MOST_RISEN;
+            let fallen = libm::pow(before.1 / carriers, LEAST_ORDER);
+            let stalled = !is_excused && excess > before.0 * fallen;
             let known = Some(before).filter(|(excess, _)| excess.is_finite());
             let excesses = (Some(look.greatest_excess(request)), known);
             if stalled || !self.has_time(&look, request, excesses, go_on) {
