@@ -115,6 +115,28 @@ impl Elements {
         found
     }
 
+    /// The node of every element, the triangle of the scene that it is part of, and whether it is on the back of that.
+    pub(crate) fn leaves(&self) -> impl Iterator<Item = (u32, u32, bool)> + '_ {
+        let sides = (0..).zip(&self.roots).flat_map(|(triangle, roots)| {
+            let of_side = move |back: bool| Some((roots[usize::from(back)]?, triangle, back));
+            [false, true].into_iter().filter_map(of_side)
+        });
+        sides.flat_map(move |(root, triangle, back)| {
+            let mut waiting = vec![root];
+            std::iter::from_fn(move || {
+                loop {
+                    let node = waiting.pop()?;
+                    match self.nodes[node as usize].split {
+                        None => return Some((node, triangle, back)),
+                        Some(Split { first_child, .. }) => {
+                            waiting.extend([first_child, first_child + 1]);
+                        }
+                    }
+                }
+            })
+        })
+    }
+
     /// Visits the vertices of all elements below a node.
     pub(crate) fn visit_below(&self, node: u32, visit: &mut impl FnMut([u32; 3])) {
         let node = self.nodes[node as usize];

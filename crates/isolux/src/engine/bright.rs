@@ -241,36 +241,25 @@ impl Seen<'_> {
 
 /// All elements, each with what it reflects of direct light.
 fn leaves(scene: &Scene, elements: &Elements, direct: impl Fn(u32) -> Rgb) -> Vec<Leaf> {
-    let mut leaves = Vec::new();
-    for (triangle, sides) in (0..).zip(elements.roots()) {
-        for (back, root) in [false, true].into_iter().zip(sides) {
-            let finish = scene.material(triangle).finish(back);
-            let Some((root, finish)) = root.zip(finish) else { continue };
-            let mut waiting = vec![root];
-            while let Some(number) = waiting.pop() {
-                let node = elements.node(number);
-                if let Some(split) = node.split {
-                    waiting.extend([split.first_child, split.first_child + 1]);
-                    continue;
-                }
-                let corners = node.vertices.map(|k| elements.vertices()[k as usize].position);
-                let [a, b, c] = corners;
-                let of_all: Rgb = node.vertices.into_iter().map(&direct).sum();
-                let middle = a + ((b - a) + (c - a)) * (1.0 / 3.0);
-                let [u, v] = scene.triangle(triangle).barycentric(middle);
-                let reflectance = scene.diffuse_reflectance(finish, triangle, u, v);
-                leaves.push(Leaf {
-                    node: number,
-                    triangle,
-                    back,
-                    corners,
-                    area_m2: 0.5 * (b - a).cross(c - a).length(),
-                    reflected_lx: (of_all * reflectance).luminance() / 3.0,
-                });
-            }
-        }
-    }
-    leaves
+    let leaf = |(node, triangle, back): (u32, u32, bool)| {
+        let finish = scene.material(triangle).finish(back)?;
+        let vertices = elements.node(node).vertices;
+        let corners = vertices.map(|k| elements.vertices()[k as usize].position);
+        let [a, b, c] = corners;
+        let of_all: Rgb = vertices.into_iter().map(&direct).sum();
+        let middle = a + ((b - a) + (c - a)) * (1.0 / 3.0);
+        let [u, v] = scene.triangle(triangle).barycentric(middle);
+        let reflectance = scene.diffuse_reflectance(finish, triangle, u, v);
+        Some(Leaf {
+            node,
+            triangle,
+            back,
+            corners,
+            area_m2: 0.5 * (b - a).cross(c - a).length(),
+            reflected_lx: (of_all * reflectance).luminance() / 3.0,
+        })
+    };
+    elements.leaves().filter_map(leaf).collect()
 }
 
 /// Elements by the cube of space that they lie in, the brightest cubes first, as many as there may be.

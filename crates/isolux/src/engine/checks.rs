@@ -177,6 +177,7 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
 
 fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Option<Check> {
     let weights = |level: u32| known_at(&plan.elements, level, &plan.standings, &gatherer.surface);
+    // As readers interpolate, who do not look for what stands across elements: rays, who do, err less.
     let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
     let edge_m = trust::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
     let is_beset = trust::is_beset(plan.scene, &gatherer.surface, edge_m);

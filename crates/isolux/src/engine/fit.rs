@@ -39,16 +39,16 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// For the first `vertices` vertices of elements, of which the `known` ones have values. Elements whose vertices all
+    /// For the first `vertices` vertices of elements, of which those with corners that `tells` accepts tell of light. Elements whose vertices all
     /// are interpolated from others, in the mean square already, are left as they are.
     pub(super) fn new(
         elements: &Elements,
         vertices: usize,
-        known: &[bool],
+        tells: impl Fn([u32; 3]) -> bool + Sync,
         carriers: &Carriers,
     ) -> Self {
         let all = elements.elements();
-        let is_known = |e: &Element| e.vertices.iter().all(|&v| known[v as usize]);
+        let is_known = |e: &Element| tells(e.vertices);
         let carries = |e: &Element| e.vertices.iter().any(|&v| carriers.is_active(v));
         let neighbours = neighbours(&all);
         let place = |v: u32| elements.vertices()[v as usize].position;

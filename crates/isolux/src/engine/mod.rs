@@ -11,6 +11,7 @@ mod carriers;
 mod caustics;
 mod checks;
 mod coarsening;
+mod cuts;
 mod deadline;
 mod detail;
 mod direct;

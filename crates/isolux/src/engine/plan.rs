@@ -4,6 +4,7 @@ use super::aim::Aim;
 use super::allot::{allot, areas_m2};
 use super::bright::Bright;
 use super::carriers::{Carriers, Waiting};
+use super::cuts::Cuts;
 use super::detail::LeafError;
 use super::direct::Lighting;
 use super::fit::Fit;
@@ -32,6 +33,8 @@ pub(super) struct Plan<'s> {
     /// Which of them carry it; the others are interpolated.
     pub(super) carriers: Carriers,
     pub(super) waiting: Waiting,
+    /// Elements that something stands across.
+    pub(super) cuts: Cuts,
     /// What vertices stand for; none are hidden in other geometry.
     pub(super) standings: Vec<Option<Standing>>,
     /// Direct light at the vertices; exact if the lighting is.
@@ -142,7 +145,13 @@ impl Plan<'_> {
             // From what stands as it does, if it can be, else as elements do.
             let own = self.standings[k].filter(|own| of.contains(&Some(*own)));
             let read = own.or(Standing::highest(of));
-            let known = (0..2).filter(|&e| read.is_some() && of[e] == read);
+            let reads = |e: usize| read.is_some() && of[e] == read;
+            // What stands between keeps light of the other end away.
+            let seen = self
+                .cuts
+                .end_of(k as u32)
+                .filter(|end| (0..2).any(|e| ends[e] == *end && reads(e)));
+            let known = (0..2).filter(|&e| reads(e) && seen.is_none_or(|end| end == ends[e]));
             let known: Vec<Rgb> = known.map(|e| values[ends[e] as usize]).collect();
             values.push(known.iter().copied().sum::<Rgb>() / known.len().max(1) as f64);
         }
@@ -166,6 +175,7 @@ impl<'a> Gathering<'a> {
             },
             regathers: false,
             bright: plan.bright.as_ref(),
+            cuts: Some(&plan.cuts),
         }
     }
 }

@@ -6,6 +6,7 @@ mod told;
 
 use super::accumulate::mean_and_variance;
 use super::bright::Bright;
+use super::cuts::Cuts;
 use super::direct::{Goal, Lighting, Measured, Patches};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::BEYOND;
@@ -68,6 +69,8 @@ pub struct MapReader<'a> {
     /// Direct light at the vertices, where sources are many: there rays read it.
     direct_values: Option<Vec<Rgb>>,
     bright: Option<Bright>,
+    /// Elements that something stands across.
+    cuts: Cuts,
     places: Places<'a>,
     patches: Patches,
     unseen: Unseen,
@@ -102,6 +105,7 @@ impl<'a> MapReader<'a> {
         let lighting = Lighting::new(scene);
         let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
         let are_read = lighting.are_read_at_ends();
+        let light: Vec<Rgb> = map.values.iter().map(reflected).collect();
         Self {
             scene,
             map,
@@ -109,7 +113,8 @@ impl<'a> MapReader<'a> {
             bright: Bright::of(scene, &map.elements, |k| direct(&map.values[k as usize])),
             direct_values: are_read.then(|| map.values.iter().map(direct).collect()),
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
-            light: map.values.iter().map(reflected).collect(),
+            cuts: Cuts::of_map(scene, &map.elements, &light),
+            light,
             places: Places::of(scene),
             patches: Patches::new(),
             unseen: Unseen::of(map),
@@ -245,6 +250,7 @@ impl<'a> MapReader<'a> {
             direct,
             regathers: true,
             bright: self.bright.as_ref(),
+            cuts: Some(&self.cuts),
         }
     }
 
@@ -374,7 +380,8 @@ impl<'a> MapReader<'a> {
         let replicates = settings.replicates.max(2);
         let Gathered { lx: indirect_lx, variance, .. } =
             self.gather(gatherer, DirectAtEnds::Evaluated, (replicates, key));
-        let looked_up = self.lookup_error() * indirect_lx.luminance();
+        // In proportion to what was read, but no less than it is elsewhere: where it is dark, what is bright may be read.
+        let looked_up = (self.lookup_error() * indirect_lx.luminance()).max(self.unseen.bias_lx);
         let stored = on_surface.and_then(|s| self.map.interpolate(s.triangle, s.back, s.u, s.v));
         let caustic_lx = stored.map_or(Rgb::BLACK, |stored| stored.caustic_lx);
         let of_caustics = stored.map_or(0.0, |stored| of_caustics(&stored));

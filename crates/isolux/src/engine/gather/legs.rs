@@ -4,7 +4,7 @@
 //! places are sought together, and what is read there lies ready when it is asked for.
 
 use super::operator::{Entry, Operator, Rows};
-use super::{DirectAtEnds, Gatherer, Gathering, known_weights, weights_in_gap};
+use super::{DirectAtEnds, Gatherer, Gathering, known_on_side, known_weights, weights_in_gap};
 use crate::elements::Place;
 use crate::engine::bright;
 use crate::engine::deadline::Deadline;
@@ -293,9 +293,7 @@ impl Gathering<'_> {
                     in_gap: leg.in_gap && self.is_in_gap(&end.surface, end.distance_m),
                     ray: leg.ray,
                 });
-            } else if let Some(entry) =
-                located.and_then(|l| self.entry(l.corners, end.out_of_gap_m))
-            {
+            } else if let Some(entry) = located.and_then(|l| self.entry(&l, end.out_of_gap_m)) {
                 row.close += if end.is_close { share.luminance() } else { 0.0 };
                 rows.push(entry, share.0.map(|c| c as f32));
             }
@@ -397,8 +395,10 @@ impl Gathering<'_> {
     }
 
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
-    fn entry(&self, corners: [(u32, f64); 3], out_of_gap_m: Option<f64>) -> Option<Entry> {
-        let corners = self.known(corners, out_of_gap_m)?;
+    fn entry(&self, at: &Located, out_of_gap_m: Option<f64>) -> Option<Entry> {
+        let cut = self.cuts.and_then(|cuts| cuts.of_node(at.place.node()));
+        let one_side = cut.and_then(|cut| known_on_side(at.corners, self.standings, cut));
+        let corners = one_side.or_else(|| self.known(at.corners, out_of_gap_m))?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
             weights: corners.map(|(_, weight)| weight as f32),

@@ -11,6 +11,7 @@ mod operator;
 pub(super) use operator::Operator;
 
 use super::bright::Bright;
+use super::cuts::{Cut, Cuts};
 use super::direct::Lighting;
 use super::surface::SurfacePoint;
 use crate::elements::{Elements, Receiver};
@@ -91,6 +92,8 @@ pub(super) struct Gathering<'a> {
     pub(super) regathers: bool,
     /// What is so bright that rays are sent there.
     pub(super) bright: Option<&'a Bright>,
+    /// Elements that something stands across, if they were looked for.
+    pub(super) cuts: Option<&'a Cuts>,
 }
 
 /// Where rays get the direct light of the surfaces that they end on.
@@ -140,6 +143,18 @@ fn weights_in_gap(corners: [(u32, f64); 3], standings: &[Option<Standing>]) -> O
         corners,
         corners.map(|(vertex, _)| standings[vertex as usize].filter(in_gap)),
     )
+}
+
+/// Those on the side of a cut that a place lies on; `None` if none is known.
+pub(super) fn known_on_side(
+    corners: [(u32, f64); 3],
+    standings: &[Option<Standing>],
+    cut: &Cut,
+) -> Option<[(u32, f64); 3]> {
+    let side = cut.side(corners.map(|(_, weight)| weight));
+    let of = [0, 1, 2].map(|k| standings[corners[k].0 as usize].filter(|_| side[k]));
+    let weights = weights_of_highest(corners, of)?;
+    Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
 }
 
 fn weights_of_highest(corners: [(u32, f64); 3], of: [Option<Standing>; 3]) -> Option<[f64; 3]> {

@@ -112,6 +112,11 @@ pub(super) struct CausticErrors {
 }
 
 impl CausticErrors {
+    /// Their share of light of this root mean square.
+    pub(super) fn share(&self, rms_lx: f64) -> f64 {
+        self.lx / rms_lx.max(f64::MIN_POSITIVE)
+    }
+
     /// The elements that increments are to check.
     pub(super) fn parts(&self, subdivision: &Subdivision) -> Parts {
         let nodes: Vec<u32> = self.seen[..self.checked].iter().map(|s| s.node).collect();

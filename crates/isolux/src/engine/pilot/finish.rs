@@ -1,10 +1,11 @@
 //! The end of the pilot: what increments share is put together.
 
 use super::Pilot;
-use crate::elements::{Elements, Subdivision};
+use crate::elements::{Elements, Origin, Subdivision};
 use crate::engine::accuracy::mean_reflectance;
 use crate::engine::bright::Bright;
 use crate::engine::carriers::Carriers;
+use crate::engine::cuts::{Cuts, Side};
 use crate::engine::fit::Fit;
 use crate::engine::forecast::{FINE, GoOn};
 use crate::engine::gather::Gatherer;
@@ -33,16 +34,15 @@ impl<'s> Pilot<'s> {
         let gatherers = self.measure_direct_light(&mut look, request, go_on);
         let mut standings = std::mem::take(&mut self.standings);
         forget_orphans(&look.elements, indirect_vertices, &mut standings);
-        let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
-        let open: Vec<bool> = standings.iter().map(is_open).collect();
+        let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();
         let trusted_up_to_lx = look.trusted_up_to_lx(request);
-        let of_caustics = caustics.lx / look.rms_lx.max(f64::MIN_POSITIVE);
         let means = if look.asks_for_means(request) {
-            let (of, open) = ((self.scene, &coarse), &open[..indirect_vertices]);
-            Means::new(of, &look.errors, trusted_up_to_lx, open, carrying)
+            let of = (self.scene, &coarse);
+            Means::new(of, &look.errors, trusted_up_to_lx, &open[..indirect_vertices], carrying)
         } else {
             Means::default()
         };
+        let cuts = self.cuts(&coarse, &look.elements);
         Plan {
             scene: self.scene,
             lighting: self.lighting,
@@ -51,11 +51,12 @@ impl<'s> Pilot<'s> {
             level: coarse.node_count() as u32,
             trusted_up_to_lx,
             rms_lx: look.rms_lx,
-            interpolation: libm::hypot(look.interpolation(request), of_caustics),
+            interpolation: libm::hypot(look.interpolation(request), caustics.share(look.rms_lx)),
             mean_reflectance: mean_reflectance(self.scene, &coarse),
             means,
             resolves_walls: look.walls.are_resolved(),
-            fit: self.fit(&coarse, &open),
+            fit: self.fit(&coarse, &open, &cuts),
+            cuts,
             bright: self.bright,
             parts: caustics.parts(&coarse),
             direct: self.direct,
@@ -103,11 +104,26 @@ impl<'s> Pilot<'s> {
         gatherers
     }
 
-    fn fit(&self, coarse: &Subdivision, open: &[bool]) -> Fit {
+    /// Elements that something stands across; where it stands close before their middle, or nobody looked, it may.
+    fn cuts(&self, coarse: &Subdivision, elements: &Elements) -> Cuts {
+        let nodes = coarse
+            .leaves()
+            .filter(|&node| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset))
+            .map(|node| {
+                let Origin { triangle, back, .. } = coarse.node(node).1;
+                Side { node, triangle, back }
+            });
+        let nodes: Vec<Side> = nodes.collect();
+        Cuts::of(self.scene, elements, &nodes, coarse.vertex_count())
+    }
+
+    fn fit(&self, coarse: &Subdivision, open: &[bool], cuts: &Cuts) -> Fit {
         let all = Carriers::all();
         // Quadratic functions tell the values at vertices; elements between them alone are to be fitted, too.
         let carriers = if self.is_smoothed { &all } else { &self.carriers };
-        Fit::new(&coarse.elements(), coarse.vertex_count(), open, carriers)
+        let tells =
+            |corners: [u32; 3]| corners.iter().all(|&v| open[v as usize]) && !cuts.has(corners);
+        Fit::new(&coarse.elements(), coarse.vertex_count(), tells, carriers)
     }
 }
 

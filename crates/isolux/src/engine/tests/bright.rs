@@ -48,6 +48,7 @@ impl<'a> Lit<'a> {
             direct: DirectAtEnds::Evaluated,
             regathers: false,
             bright,
+            cuts: None,
         };
         let rows = vec![Gatherer::on_surface(at, 16); 4000];
         let operator = gathering.operator(&rows, |k| Key::new(3).with(k as u64));

@@ -44,7 +44,7 @@ fn fitted(truth: impl Fn(Point) -> f64 + Copy) -> [[f64; 2]; 2] {
     let (subdivision, elements) = floor();
     let vertices = elements.vertices();
     let values: Vec<Rgb> = vertices.iter().map(|v| Rgb::grey(truth(v.position))).collect();
-    let fit = Fit::new(&elements, vertices.len(), &vec![true; vertices.len()], &Carriers::all());
+    let fit = Fit::new(&elements, vertices.len(), |_| true, &Carriers::all());
     let fitted = fit.apply(&values);
     [errors(&subdivision, &values, truth), errors(&subdivision, &fitted, truth)]
 }
@@ -73,8 +73,7 @@ fn jumps_are_not_overshot() {
     let vertices = elements.vertices();
     let value = |p: Point| if p.x + 0.3 * p.y > 1.3 { 100.0 } else { 0.0 };
     let values: Vec<Rgb> = vertices.iter().map(|v| Rgb::grey(value(v.position))).collect();
-    let fitted = Fit::new(&elements, vertices.len(), &vec![true; vertices.len()], &Carriers::all())
-        .apply(&values);
+    let fitted = Fit::new(&elements, vertices.len(), |_| true, &Carriers::all()).apply(&values);
     assert!(fitted.iter().all(|v| (-25.0..=125.0).contains(&v.luminance())));
     assert!(fitted != values);
 }
@@ -85,7 +84,12 @@ fn hidden_vertices_have_no_influence() {
     let (_, elements) = floor();
     let vertices = elements.vertices();
     let known: Vec<bool> = vertices.iter().map(|v| v.position.x < 2.0).collect();
-    let fit = Fit::new(&elements, vertices.len(), &known, &Carriers::all());
+    let fit = Fit::new(
+        &elements,
+        vertices.len(),
+        |corners| corners.iter().all(|&v| known[v as usize]),
+        &Carriers::all(),
+    );
     let values = |hidden: f64| -> Vec<Rgb> {
         let value = |(k, v): (usize, &crate::elements::Vertex)| {
             if known[k] { v.position.x * v.position.x } else { hidden }

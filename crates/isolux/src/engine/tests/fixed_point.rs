@@ -30,6 +30,7 @@ fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer]) -> Opera
         direct: DirectAtEnds::Read { values: &black, level: u32::MAX },
         regathers: false,
         bright: None,
+        cuts: None,
     };
     gathering.operator(gatherers, |k| Key::new(1).with(k as u64))
 }
@@ -184,6 +185,7 @@ fn rays_that_end_close_by_gather_again() {
         direct: DirectAtEnds::Read { values: &half, level: u32::MAX },
         regathers,
         bright: None,
+        cuts: None,
     };
     let [once, again] = [false, true]
         .map(|again| gathering(again).operator(&gatherers, |k| Key::new(1).with(k as u64)));

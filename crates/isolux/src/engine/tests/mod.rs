@@ -5,6 +5,7 @@ mod anderson;
 mod bright;
 mod carrying;
 mod coat;
+mod cuts;
 mod deposits;
 mod details;
 mod direct_light;

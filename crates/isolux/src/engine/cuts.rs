@@ -1,0 +1,175 @@
+//! Elements that something stands across, like a thin wall between two rooms that share a floor.
+//!
+//! Vertices on one side tell nothing of the light on the other. Where two edges of an element are blocked, close to the
+//! surface and well above it, and the third is not, one corner is cut off from the others by about a straight line: what lies
+//! before it is read from that corner alone, what lies behind it from the others.
+
+use super::surface::SurfacePoint;
+use super::trust::NEAR;
+use crate::elements::{Elements, FewNumbers};
+use crate::scene::{Body, Scene};
+use crate::units::Rgb;
+use isolux_geometry::{Normal, Point, Ray};
+use rayon::prelude::*;
+use std::collections::{HashMap, HashSet};
+
+/// How far above the surface it is looked for, in distances that rays start at; and, not to take for it what lies on the
+/// floor, as a share of the edge, at [`NEAR`].
+const LOW: f64 = 4.0;
+
+/// Light that differs by more than this share of the greatest at the corners of an element is not alike.
+const UNEVEN: f64 = 0.2;
+
+/// What stands closer to a vertex, as a share of the edge, may as well stand on the other side of it.
+const AT_END: f32 = 1e-3;
+
+/// All of them.
+#[derive(Debug, Default)]
+pub(super) struct Cuts {
+    of_nodes: HashMap<u32, Cut, FewNumbers>,
+    /// The same elements by their corners.
+    corners: HashSet<[u32; 3], FewNumbers>,
+    /// Of vertices made by bisecting them, the end of their edge that they see, where they see one alone.
+    ends: HashMap<u32, u32, FewNumbers>,
+}
+
+/// A corner that is cut off.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut {
+    corner: usize,
+    /// One over the share of the edges from there, to the next corner and the one after, at which the cut is met.
+    over: [f64; 2],
+}
+
+impl Cut {
+    /// The corners on whose side a place with these weights lies.
+    pub(super) fn side(&self, weights: [f64; 3]) -> [bool; 3] {
+        let along = [1, 2].map(|k| weights[(self.corner + k) % 3] * self.over[k - 1]);
+        let is_before = along[0] + along[1] < 1.0;
+        [0, 1, 2].map(|k| (k == self.corner) == is_before)
+    }
+}
+
+impl Cuts {
+    /// Among these nodes of elements, whose vertices are among the first so many.
+    pub(super) fn of(scene: &Scene, elements: &Elements, nodes: &[Side], first: usize) -> Self {
+        let look = Look { scene, elements };
+        let found = nodes.par_iter().filter_map(|side| Some((side, look.cut(side)?)));
+        let found: Vec<(&Side, Cut)> = found.collect();
+        let mut cuts = Self::default();
+        for (side, cut) in found {
+            cuts.of_nodes.insert(side.node, cut);
+            cuts.corners.insert(elements.node(side.node).vertices);
+            let above = side.above(scene);
+            elements.visit_below(side.node, &mut |corners| {
+                for vertex in corners.into_iter().filter(|&v| v as usize >= first) {
+                    if let Some(end) = look.end_seen(vertex, &above) {
+                        cuts.ends.insert(vertex, end);
+                    }
+                }
+            });
+        }
+        cuts
+    }
+
+    /// Among the elements of a map of which vertices tell of light that is not alike: to look at all would take too long.
+    pub(super) fn of_map(scene: &Scene, elements: &Elements, light: &[Rgb]) -> Self {
+        let is_uneven = |side: &Side| {
+            let corners = elements.node(side.node).vertices;
+            let [a, b, c] = corners.map(|vertex| light[vertex as usize].luminance());
+            let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+            most - least > UNEVEN * most
+        };
+        let uneven: Vec<Side> = elements.leaves().map(Side::from).filter(is_uneven).collect();
+        Self::of(scene, elements, &uneven, usize::MAX)
+    }
+
+    /// How a node is cut, if it is.
+    #[inline]
+    pub(super) fn of_node(&self, node: u32) -> Option<&Cut> {
+        if self.of_nodes.is_empty() { None } else { self.of_nodes.get(&node) }
+    }
+
+    /// Whether the element with these corners is cut.
+    pub(super) fn has(&self, corners: [u32; 3]) -> bool {
+        self.corners.contains(&corners)
+    }
+
+    /// The only end of its edge that a vertex sees, if it does not see both.
+    pub(super) fn end_of(&self, vertex: u32) -> Option<u32> {
+        self.ends.get(&vertex).copied()
+    }
+}
+
+/// A node, and the side of a triangle that it lies on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Side {
+    pub(super) node: u32,
+    pub(super) triangle: u32,
+    pub(super) back: bool,
+}
+
+impl From<(u32, u32, bool)> for Side {
+    fn from((node, triangle, back): (u32, u32, bool)) -> Self {
+        Self { node, triangle, back }
+    }
+}
+
+impl Side {
+    /// A place of the same triangle.
+    fn above(&self, scene: &Scene) -> SurfacePoint {
+        SurfacePoint::new(scene, self.triangle, self.back, 1.0 / 3.0, 1.0 / 3.0)
+    }
+}
+
+/// What elements are looked at in.
+struct Look<'a> {
+    scene: &'a Scene,
+    elements: &'a Elements,
+}
+
+impl Look<'_> {
+    fn cut(&self, side: &Side) -> Option<Cut> {
+        let above = side.above(self.scene);
+        let vertices = self.elements.node(side.node).vertices;
+        let corners = vertices.map(|v| self.elements.vertices()[v as usize].position);
+        let blocked = |k: usize| self.blocked_at(corners[k % 3], corners[(k + 1) % 3], &above);
+        let edges = [0, 1, 2].map(|k| blocked(k).is_some());
+        // Opposite the edge that is free.
+        let free = edges.iter().position(|blocked| !blocked)?;
+        let corner = (free + 2) % 3;
+        if edges.iter().filter(|&&blocked| blocked).count() != 2 {
+            return None;
+        }
+        let at = |k: usize| {
+            self.blocked_at(corners[corner], corners[(corner + k) % 3], &above).map(|t| 1.0 / t)
+        };
+        Some(Cut { corner, over: [at(1)?, at(2)?] })
+    }
+
+    /// Where on the way between two places of a surface something opaque stands, as a share of it.
+    fn blocked_at(&self, from: Point, to: Point, above: &SurfacePoint) -> Option<f64> {
+        let way = |height_m: f64| {
+            let raised = |p: Point| p + Normal::to_vector(above.geometric) * height_m;
+            Ray::between(raised(from), raised(to)).skipping(above.triangle)
+        };
+        if !self.scene.bvh().any_hit(&way(NEAR * (to - from).length())) {
+            return None;
+        }
+        let hit = self.scene.bvh().closest_hit(&way(LOW * above.away_m))?;
+        let is_opaque = matches!(self.scene.material(hit.triangle).body, Body::Opaque { .. });
+        (is_opaque && hit.t > AT_END && hit.t < 1.0 - AT_END).then(|| f64::from(hit.t))
+    }
+
+    fn end_seen(&self, vertex: u32, above: &SurfacePoint) -> Option<u32> {
+        let vertices = self.elements.vertices();
+        let ends = vertices[vertex as usize].parents?;
+        let place = |v: u32| vertices[v as usize].position;
+        let sees = ends.map(|end| self.blocked_at(place(vertex), place(end), above).is_none());
+        match sees {
+            [true, false] => Some(ends[0]),
+            [false, true] => Some(ends[1]),
+            _ => None,
+        }
+    }
+}

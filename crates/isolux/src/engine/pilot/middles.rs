@@ -1,0 +1,72 @@
+//! Light in the middle of elements that no details tell of.
+
+use super::Pilot;
+use crate::elements::{Elements, Subdivision};
+use crate::engine::gather::Gatherer;
+use crate::engine::path::Dice;
+use crate::engine::surface::SurfacePoint;
+use crate::engine::trust;
+use crate::map::Standing;
+use crate::sampling::Sequence;
+use rayon::prelude::*;
+
+/// Shadow rays to every emitting surface that tell whether luminaires shine into a gap.
+const SAMPLES_IN_GAPS: usize = 4;
+
+impl Pilot<'_> {
+    /// Gathers in the middle of the elements that no details tell of, that have something close before
+    /// them and that were not looked at yet; in gaps, where readers gather anyway, only if luminaires shine there,
+    /// as over a lamp that hangs close below the ceiling: what they lack is missing elsewhere, too.
+    pub(super) fn complete_middles(&mut self, elements: &Elements, values: &[Option<f64>]) {
+        let details = self.details(elements, values);
+        let is_new =
+            |&node: &u32| !self.middles.contains_key(&node) && details.told_error(node).is_none();
+        let new: Vec<u32> = self.subdivision.leaves().filter(is_new).collect();
+        let beset = |node: u32| {
+            let place = SurfacePoint::amid_node(self.scene, &self.subdivision, node);
+            let edge_m = self.subdivision.longest_edge_m(node);
+            let corner = self.subdivision.node(node).0.vertices[0];
+            let gatherer = Gatherer::on_surface(place, self.rays[corner as usize]);
+            let in_gap = trust::is_closed_in(self.scene, &place, edge_m);
+            let asks = self.beset[node as usize] && (!in_gap || self.is_lit_up(node, &place));
+            asks.then_some((node, gatherer.in_gap(in_gap)))
+        };
+        let asked: Vec<Option<(u32, Gatherer)>> = new.par_iter().map(|&n| beset(n)).collect();
+        self.middles.extend(new.into_iter().map(|node| (node, None)));
+        let (nodes, rows): (Vec<u32>, Vec<Gatherer>) = asked.into_iter().flatten().unzip();
+        let key = self.key.with(2);
+        let gathering = self.gathering(elements, self.solved_nodes, &self.standings);
+        let operator = gathering.operator(&rows, |_| key);
+        let light = operator.apply(&self.indirect);
+        self.traced += operator.rays;
+        let middles = light.iter().map(|e| e.luminance()).zip(&rows);
+        // What is too bright in gaps nobody reads.
+        let told = |(node, (lx, row)): (u32, (f64, &Gatherer))| {
+            let darker = || values_read(&self.subdivision, node, values).all(|read| lx <= read);
+            (node, (!row.in_gap || !darker()).then_some(lx))
+        };
+        let told: Vec<(u32, Option<f64>)> = nodes.into_iter().zip(middles).map(told).collect();
+        self.sees_lit_gaps =
+            told.iter().zip(&rows).any(|((_, lx), row)| row.in_gap && lx.is_some());
+        self.middles.extend(told);
+    }
+
+    /// Whether more light comes to a place straight from luminaires than to the vertices of its element that are read.
+    fn is_lit_up(&self, node: u32, place: &SurfacePoint) -> bool {
+        let mut dice = Dice::new(Sequence::new(self.key.with(11).with(u64::from(node))), 0);
+        let direct = self.lighting.sampled(place, SAMPLES_IN_GAPS, &mut dice).luminance();
+        let corners = self.subdivision.node(node).0.vertices;
+        let is_read = |v: &u32| self.standings[*v as usize] == Some(Standing::Open);
+        let mut read = corners.into_iter().filter(is_read).peekable();
+        read.peek().is_some() && read.all(|v| self.direct[v as usize].luminance() < direct)
+    }
+}
+
+/// The values at the vertices of an element that say something.
+fn values_read<'a>(
+    subdivision: &Subdivision,
+    node: u32,
+    values: &'a [Option<f64>],
+) -> impl Iterator<Item = f64> + 'a {
+    subdivision.node(node).0.vertices.into_iter().filter_map(|v| values[v as usize])
+}

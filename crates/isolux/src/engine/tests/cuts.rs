@@ -1,0 +1,104 @@
+//! Sheets that stand across elements.
+
+use super::*;
+use crate::engine::cuts::{Cuts, Side};
+use crate::engine::direct::Lighting;
+use crate::engine::gather::{known_at, known_on_side};
+use crate::engine::pilot::{PilotRequest, pilot};
+use crate::engine::surface::SurfacePoint;
+
+const SHEET_X: f64 = 1.37;
+
+/// Two rooms that share floor, ceiling and walls, parted by a sheet of so much height.
+fn rooms(height: f64) -> Scene {
+    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
+    shapes.push(rectangle([SHEET_X, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, height], 0));
+    let lamps = vec![isotropic([0.7, 1.0, 1.5], 100.0), isotropic([2.2, 1.0, 1.5], 1.0)];
+    scene(shapes, vec![painted(Rgb::grey(0.6))], lamps)
+}
+
+fn request() -> PilotRequest {
+    PilotRequest {
+        target: 0.02,
+        goal: 0.02,
+        mesh_target: 0.05,
+        seed: 1,
+        is_fitted: true,
+        has_means: true,
+        refines_caustics: true,
+        max_vertices: 1 << 20,
+        most_for_indirect_light: None,
+        least_edge_m: None,
+    }
+}
+
+/// Of places of the floor within 10 cm of the sheet, how many read vertices beyond it.
+fn reading_beyond(scene: &Scene) -> usize {
+    let lighting = Lighting::new(scene);
+    let plan = pilot(scene, &lighting, &request(), &mut |_| true);
+    let key = Key::new(9);
+    let reads_beyond = |k: &u64| {
+        let [x, y] = [0, 1].map(|n| key.with(2 * k + n).uniform());
+        let at = Point::new(SHEET_X - 0.1 + 0.2 * x, 0.1 + 1.8 * y, 0.0);
+        let lies_on = |t: &u32| {
+            let [u, v] = scene.triangle(*t).barycentric(at);
+            let is_in = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+            is_in && (scene.triangle(*t).point(u, v) - at).length() < 1e-6
+        };
+        let triangle = (0..scene.triangle_count()).find(lies_on).expect("a floor");
+        let [u, v] = scene.triangle(triangle).barycentric(at);
+        let surface = SurfacePoint::new(scene, triangle, false, u, v);
+        let place = plan.elements.place(plan.level, triangle, false, [u, v]).expect("it is lit");
+        let corners = plan.elements.corners(place);
+        // As rays read it.
+        let one_side = |cut| known_on_side(corners, &plan.standings, cut);
+        let read = plan.cuts.of_node(place.node()).and_then(one_side);
+        let read = read.or_else(|| known_at(&plan.elements, plan.level, &plan.standings, &surface));
+        let read = read.expect("it is lit");
+        let beyond = |&(vertex, weight): &(u32, f64)| {
+            let of = plan.elements.vertices()[vertex as usize].position;
+            weight > 0.0 && (of.x < SHEET_X) != (at.x < SHEET_X)
+        };
+        read.iter().any(beyond)
+    };
+    (0..400).filter(reads_beyond).count()
+}
+
+#[test]
+fn nobody_reads_what_lies_beyond_a_sheet() {
+    // The corners of elements that touch a wall are blocked there by it, too: a few are not told.
+    let beyond = reading_beyond(&rooms(2.5));
+    assert!(beyond <= 8, "{beyond} of 400");
+    // What lies on the floor does not part light.
+    let low = reading_beyond(&rooms(0.01));
+    assert!(low > 100, "{low} of 400");
+}
+
+#[test]
+fn a_corner_is_told_from_the_others_by_the_line_between() {
+    let scene = rooms(2.5);
+    let mut subdivision = crate::elements::Subdivision::new(&scene);
+    subdivision.bisect_to(0.5, usize::MAX);
+    let elements = subdivision.elements();
+    let sides: Vec<Side> = elements.leaves().map(Side::from).collect();
+    let cuts = Cuts::of(&scene, &elements, &sides, subdivision.vertex_count());
+    let (mut cut, mut crossed) = (0, 0);
+    for side in &sides {
+        let corners = elements.node(side.node).vertices;
+        let xs = corners.map(|v| elements.vertices()[v as usize].position.x);
+        let z = corners.map(|v| elements.vertices()[v as usize].position.z);
+        crossed += usize::from(
+            z == [0.0; 3] && xs.iter().any(|&x| x < SHEET_X) && xs.iter().any(|&x| x > SHEET_X),
+        );
+        let Some(of) = cuts.of_node(side.node) else { continue };
+        cut += usize::from(z == [0.0; 3]);
+        for weights in [[0.8, 0.1, 0.1], [0.1, 0.8, 0.1], [0.1, 0.1, 0.8], [0.2, 0.4, 0.4]] {
+            let x: f64 = weights.iter().zip(xs).map(|(w, x)| w * x).sum();
+            let own = of.side(weights);
+            for k in 0..3 {
+                assert_eq!(own[k], (xs[k] < SHEET_X) == (x < SHEET_X), "{xs:?} {weights:?}");
+            }
+        }
+    }
+    assert!(cut > 3 && cut <= crossed, "{cut} of {crossed}");
+}
