@@ -99,8 +99,6 @@ pub(crate) struct SolveFlags {
     /// Leave the noise in: without it, single receivers are as far off as their standard errors say
     #[arg(long)]
     pub no_filter: bool,
-    #[command(flatten)]
-    pub radiosity: RadiosityFlags,
     /// Go on from where an earlier run with the same flags stopped: its state is kept beside the
     /// map, as MAP.checkpoint
     #[arg(long)]
@@ -120,6 +118,9 @@ pub(crate) struct SolveFlags {
     /// How to report progress on standard error [default: bar on a terminal, else lines]
     #[arg(long, value_enum)]
     pub progress: Option<ProgressStyle>,
+    // The last: its heading stands above all that follow.
+    #[command(flatten)]
+    pub radiosity: RadiosityFlags,
 }
 
 /// How the light is shown in a `.glb`.
