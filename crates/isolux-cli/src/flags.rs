@@ -418,7 +418,7 @@ pub(crate) enum TargetName {
     Viewer,
     /// three.js: colours; lightmaps of illuminance, MOZ_lightmap
     Three,
-    /// Godot 4: colours of 16 bits; lightmaps: luminance as emission
+    /// Godot 4: colours, of which it keeps 8 bits; lightmaps: luminance as emission
     Godot,
     /// Unity with glTFast: colours; lightmaps: luminance as emission
     Unity,
