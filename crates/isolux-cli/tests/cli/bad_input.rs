@@ -127,6 +127,11 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["solve", "text.ies", "-o", "m.glb"], "[[luminaire]]"),
     (&["render", "missing.glb", "-o", "v.png"], "missing.glb"),
     (&["check", "missing.toml"], "missing.toml"),
+    (&["info", "nothing"], "nothing: does not exist"),
+    (&["info", "."], ".: is a directory"),
+    (&["check", "missing.glb"], "missing.glb: does not exist"),
+    (&["render", "missing.glb", "-o", "v.png"], "missing.glb: does not exist"),
+    (&["export", ".", "-o", "l.exr"], ".: is a directory"),
     (&["validate", "--case", "teapot"], "cube"),
     (&["validate", "--seeds", "0"], "--seeds"),
 ];

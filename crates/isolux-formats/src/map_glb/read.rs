@@ -5,7 +5,7 @@ use super::bytes::View;
 use super::container;
 use super::record::{Extras, Record, VERSIONS};
 use super::{Fault, lightmap_arrays, scene_arrays, value_arrays};
-use crate::{Loaded, Problem, Problems};
+use crate::{Loaded, Problem, Problems, source};
 use isolux::lightmap::Lightmap;
 use isolux::map::{IlluminationMap, Provenance};
 use isolux::scene::{Scene, SceneParts, SceneProblem};
@@ -45,6 +45,7 @@ pub fn read_with_texels(path: &Path) -> Result<Loaded<MapFile>, Problems> {
 
 fn file(path: &Path, with_texels: bool) -> Result<MapFile, Problems> {
     let problem = |fault: Fault| Problem::new(path, fault.place, fault.what, REMEDY);
+    source::check_present(path)?;
     let bytes = contents(path).map_err(|error| Problem::unreadable(path, &error))?;
     if !bytes.starts_with(container::MAGIC) {
         let what = "is no illumination map: it is not a binary glTF file";
