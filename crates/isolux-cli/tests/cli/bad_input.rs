@@ -182,6 +182,20 @@ fn every_subcommand_has_help_with_an_example() {
 
 #[cfg(unix)]
 #[test]
+fn names_too_long_for_a_map_or_its_state_are_refused_before_the_work() {
+    let home = Home::new();
+    // The second map could be written, its checkpoint not.
+    for length in [300, 250] {
+        let output = format!("{}.glb", "m".repeat(length));
+        let ran = home.run(&["solve", "builtin:cube", "-o", &output]);
+        assert!(ran.code == 2 && ran.err.contains("choose a shorter name"), "{ran:?}");
+        assert!(!ran.err.contains("subdividing"), "{}", ran.err);
+    }
+    assert_eq!(home.names(), [""; 0]);
+}
+
+#[cfg(unix)]
+#[test]
 fn points_without_end_that_are_no_text_are_refused_at_once() {
     let home = Home::new();
     let ran = home.run(&["probe", "m.glb", "--points", "/dev/zero"]);
