@@ -29,7 +29,7 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     let (view, camera, cache) = if let Some(path) = &flags.cache {
         let scene = scene_of(&flags.map)?;
         if scene.luminous_flux_lm() == 0.0 {
-            return Err(source::no_light(&flags.map));
+            return Err(source::no_light(&flags.map, &scene));
         }
         let camera = camera(&scene)?;
         let (view, used) = cached_view::look(&scene, &camera, flags.size, (path, flags.accuracy))?;

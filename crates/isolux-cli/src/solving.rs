@@ -23,7 +23,7 @@ pub(crate) fn estimate(
     source: &Path,
     request: &SolveRequest,
 ) -> Result<Estimate, Failure> {
-    Estimate::of(scene, request).map_err(|error| unsolvable(error, source))
+    Estimate::of(scene, request).map_err(|error| unsolvable(error, (scene, source)))
 }
 
 /// A solution and how its computation ended.
@@ -51,7 +51,7 @@ pub(crate) fn solve(
     saved: Option<&RunState>,
     reporter: &mut Reporter,
 ) -> Result<Solved, Failure> {
-    let solved = follow(scene, run.request, saved, reporter, |error| failure(error, run))?;
+    let solved = follow(scene, run.request, saved, reporter, |error| failure(error, (scene, run)))?;
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
     tell_of_time(&solved.solution, run.request.time_limit);
     tell_of_end(&solved, run.request);
@@ -127,7 +127,7 @@ pub(crate) fn solve_here(
     request: &SolveRequest,
 ) -> Result<Solved, Failure> {
     let reporter = &mut Reporter::new(None);
-    follow(scene, request, None, reporter, |error| unsolvable(error, source))
+    follow(scene, request, None, reporter, |error| unsolvable(error, (scene, source)))
 }
 
 fn follow(
@@ -153,18 +153,18 @@ fn follow(
 }
 
 /// Sorted by who can mend it.
-fn failure(error: SolveError, run: &Run) -> Failure {
+fn failure(error: SolveError, (scene, run): (&Scene, &Run)) -> Failure {
     match error {
         SolveError::OtherRun(what) => Failure::bad_input(format!(
             "{}: the saved run differs in {what}; repeat its flags, or solve without --resume",
             saved_run::path_beside(run.output.path()).display()
         )),
-        other => unsolvable(other, run.source),
+        other => unsolvable(other, (scene, run.source)),
     }
 }
 
 /// Why a scene cannot be solved.
-fn unsolvable(error: SolveError, path: &Path) -> Failure {
+fn unsolvable(error: SolveError, (scene, path): (&Scene, &Path)) -> Failure {
     let source = path.display();
     match error {
         SolveError::Memory { needed, allowed } => Failure::Refused(format!(
@@ -173,7 +173,7 @@ fn unsolvable(error: SolveError, path: &Path) -> Failure {
             show_bytes(needed),
             show_bytes(allowed)
         )),
-        SolveError::NoLight => source::no_light(path),
+        SolveError::NoLight => source::no_light(path, scene),
         SolveError::NoReceiver => Failure::bad_input(format!(
             "{source}: no surface can carry a map: all are mirrors, glass or without area; give one \
              a diffuse reflectance, and check the scales"

@@ -54,11 +54,18 @@ pub(crate) fn bad_file(problems: Problems) -> Failure {
     Failure::BadInput(problems.0.iter().map(ToString::to_string).collect())
 }
 
-/// A scene without luminaires is bad input.
-pub(crate) fn no_light(source: &Path) -> Failure {
-    let remedy = add_light(source);
-    Failure::bad_input(format!("{}: the scene has no light; {remedy}", source.display()))
+/// A scene without luminaires is bad input. Materials that emit are none where no surface has an area.
+pub(crate) fn no_light(source: &Path, scene: &Scene) -> Failure {
+    let (what, remedy) = match scene.triangle_count() {
+        0 if !scene.shape_names().is_empty() => NO_AREA,
+        _ => ("the scene has no light", add_light(source)),
+    };
+    Failure::bad_input(format!("{}: {what}; {remedy}", source.display()))
 }
+
+/// What is wrong with a scene of nothing but needles and points, and how to mend it.
+pub(crate) const NO_AREA: (&str, &str) =
+    ("no triangle of the scene has an area", "check coordinates and scales where it was made");
 
 /// How to, in this kind of file.
 fn add_light(source: &Path) -> &'static str {

@@ -60,9 +60,10 @@ impl Audit {
         let borders = borders::Borders::of(scene);
         let energy = energy::Energy::of(scene);
         let light = light::Light::of(scene);
-        findings.extend(extent.findings());
-        findings.extend(borders.findings());
-        findings.extend(energy.findings());
+        findings.extend(match scene.triangle_count() {
+            0 => without_area(),
+            _ => [extent.findings(), borders.findings(), energy.findings()].concat(),
+        });
         findings.extend(lamps::findings(scene));
         Self {
             scene: scene.name().to_owned(),
@@ -118,6 +119,12 @@ impl Audit {
         }
         text
     }
+}
+
+/// Nothing else can be told of such a scene.
+fn without_area() -> Vec<Finding> {
+    let (what, remedy) = source::NO_AREA;
+    vec![Finding::warning("scene", what, remedy)]
 }
 
 /// To two digits: more are not known.

@@ -123,6 +123,7 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
         &["solve", "dark.toml", "-o", "m.glb"],
         "dark.toml: the scene has no light; add a [[luminaire]]",
     ),
+    (&["solve", "flat.gltf", "-o", "m.glb"], "no triangle of the scene has an area"),
     (&["solve", "latin.toml", "-o", "m.glb"], "latin.toml: line 2: is not UTF-8"),
     (&["solve", "text.ies", "-o", "m.glb"], "[[luminaire]]"),
     (&["render", "missing.glb", "-o", "v.png"], "missing.glb"),
@@ -140,6 +141,14 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
 const DARK: &str = "[materials.m]\ndiffuse = 0.5\n[[geometry]]\nmaterial = \"m\"\n\
                     box = { min = [0, 0, 0], max = [4, 4, 3], inward = true }\n";
 
+/// A triangle of which all corners are one, that emits.
+const FLAT: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"emissiveFactor": [1, 1, 1]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,ZEROS"}]}"#;
+
 #[test]
 fn bad_input_is_refused_with_a_reason() {
     let home = Home::new();
@@ -150,6 +159,7 @@ fn bad_input_is_refused_with_a_reason() {
     home.file("dark.toml", DARK);
     home.file("latin.toml", b"# caf\xc3\xa9\n# caf\xe9\n");
     home.file("empty.obj", "");
+    home.file("flat.gltf", FLAT.replace("ZEROS", &"AAAA".repeat(12)));
     home.file("sky.rad", "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 180\n");
     home.file("shell.rad", "!rm good.pts\n");
     home.file("text.xyz", "this is nothing");
