@@ -68,7 +68,8 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
         && solved.solution.time_s < limit_s;
     let what = match (map.provenance.accuracy, request.accuracy) {
         (Some(_), _) if map.provenance.complete && is_dark() => {
-            "no light comes to any surface; `isolux check` names luminaires that light nothing".to_owned()
+            let what = "no light comes to any surface; `isolux check` names luminaires that light nothing";
+            return note(Note::Warning, what);
         }
         (None, _) if ends_itself => {
             "how good the map is cannot be told: light on paths that were given up, from mirror to mirror, may be more \
