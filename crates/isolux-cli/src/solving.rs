@@ -72,8 +72,9 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
             return note(Note::Warning, what);
         }
         (None, _) if ends_itself => {
-            "how good the map is cannot be told: light on paths that were given up, from mirror to mirror, may be more \
-             than all that came to a surface; `isolux check` names luminaires that light nothing"
+            "how good the map is cannot be told: light on paths that were given up, among mirrors or surfaces that \
+             absorb next to nothing, may be more than all that came to a surface; `isolux check` names luminaires that \
+             light nothing, and materials whose reflectance is to be lowered"
                 .to_owned()
         }
         (Some(accuracy), Some(asked)) if ends_itself && accuracy.of_elements() > asked => format!(
