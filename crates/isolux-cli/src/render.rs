@@ -7,6 +7,7 @@ use crate::flags::{LookFlags, RenderFlags, ToneName};
 use crate::meter::Meter;
 use crate::output::OutputPath;
 use crate::quantity::show_share;
+use crate::shown::name;
 use crate::{map_file, source, viewpoint};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
@@ -202,7 +203,7 @@ impl Report {
     fn text(&self) -> String {
         let mut lines = vec![
             ("picture", self.picture.clone()),
-            ("camera", self.camera.clone()),
+            ("camera", name(&self.camera)),
             ("size", format!("{} x {}", self.width, self.height)),
         ];
         lines.extend(self.indirect.iter().map(Indirect::fact));

@@ -12,6 +12,7 @@ use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
 use crate::quantity::{flux, significant};
+use crate::shown::name;
 use crate::source;
 use finding::Finding;
 use isolux::engine::SolveRequest;
@@ -97,7 +98,7 @@ impl Audit {
         let unknown = || ["none", "none", "cannot be solved"].map(str::to_owned);
         let [receivers, memory, time] = self.estimate.map_or_else(unknown, |e| e.shown());
         let mut text = facts(&[
-            ("scene", self.scene.clone()),
+            ("scene", name(&self.scene)),
             ("size", format!("{x} x {y} x {z} m")),
             ("up", up.to_owned()),
             ("triangles", self.triangles.to_string()),
