@@ -1,6 +1,7 @@
 //! What is printed on standard output: results.
 
 use crate::failure::Failure;
+use crate::shown::plain;
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle, presets};
 use serde::Serialize;
 use std::io::Write;
@@ -36,7 +37,7 @@ pub(crate) fn facts(rows: &[(&str, String)]) -> String {
     let mut table = Table::new();
     table.load_style(presets::NOTHING);
     for (name, value) in rows {
-        table.add_row([(*name).to_owned(), value.clone()]);
+        table.add_row([(*name).to_owned(), plain(value).into_owned()]);
     }
     finished(&table)
 }
@@ -46,7 +47,7 @@ pub(crate) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     let mut table = Table::new();
     table.load_style(RULED);
     table.set_header(header.iter().copied());
-    table.add_rows(rows.iter().cloned());
+    table.add_rows(rows.iter().map(|row| row.iter().map(|cell| plain(cell).into_owned())));
     for (index, column) in table.column_iter_mut().enumerate() {
         let is_number =
             |row: &Vec<String>| row.get(index).is_none_or(|cell| starts_as_number(cell));

@@ -20,6 +20,8 @@ pub(crate) fn run(flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
     }
     let (kind, extension) = kind(flags)?;
     let output = OutputPath::check(&flags.output, extension)?;
+    output.differs_from(&flags.map)?;
+    output.replaces_exports_alone()?;
     let (scene, map) = map_file::read(&flags.map)?;
     let preview = Preview::automatic(&scene, &map);
     let bytes = export(&scene, &map, &preview, kind);

@@ -99,8 +99,6 @@ pub(crate) struct SolveFlags {
     /// Leave the noise in: without it, single receivers are as far off as their standard errors say
     #[arg(long)]
     pub no_filter: bool,
-    #[command(flatten)]
-    pub radiosity: RadiosityFlags,
     /// Go on from where an earlier run with the same flags stopped: its state is kept beside the
     /// map, as MAP.checkpoint
     #[arg(long)]
@@ -120,6 +118,9 @@ pub(crate) struct SolveFlags {
     /// How to report progress on standard error [default: bar on a terminal, else lines]
     #[arg(long, value_enum)]
     pub progress: Option<ProgressStyle>,
+    // The last: its heading stands above all that follow.
+    #[command(flatten)]
+    pub radiosity: RadiosityFlags,
 }
 
 /// How the light is shown in a `.glb`.
@@ -375,8 +376,8 @@ pub(crate) enum ToneName {
 #[command(after_help = "Examples:
   isolux export map.glb -o room.wrl
   isolux export map.glb -o room.vtu
-  isolux export map.glb -o room.glb --target bevy
-  isolux export map.glb -o room.glb --layout texels --target three --texels-per-meter 20
+  isolux export map.glb -o baked.glb --target bevy
+  isolux export map.glb -o baked.glb --layout texels --target three --texels-per-meter 20
   isolux export map.glb -o lightmap.exr
 
 The extension tells the kind: .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row \
@@ -417,7 +418,7 @@ pub(crate) enum TargetName {
     Viewer,
     /// three.js: colours; lightmaps of illuminance, MOZ_lightmap
     Three,
-    /// Godot 4: colours of 16 bits; lightmaps: luminance as emission
+    /// Godot 4: colours, of which it keeps 8 bits; lightmaps: luminance as emission
     Godot,
     /// Unity with glTFast: colours; lightmaps: luminance as emission
     Unity,

@@ -6,6 +6,7 @@ use crate::flags::GridFlags;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::quantity::{show_share, significant};
+use crate::shown::{name, names};
 use crate::{map_file, render, solving, source};
 use isolux::engine::{MapReader, ProbePoint, SolveRequest};
 use isolux::geometry::{Point, Vector};
@@ -87,7 +88,10 @@ fn grids(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failu
         grid.border_m = flags.border.unwrap_or(grid.border_m);
         grid.maintenance_factor = flags.maintenance_factor.unwrap_or(grid.maintenance_factor);
         if let Some((what, remedy)) = grid.problem() {
-            return Err(Failure::bad_input(format!("grid `{}` {what}; {remedy}", grid.name)));
+            return Err(Failure::bad_input(format!(
+                "grid `{}` {what}; {remedy}",
+                name(&grid.name)
+            )));
         }
     }
     Ok(grids)
@@ -105,10 +109,9 @@ fn named(flags: &GridFlags, scene: &Scene) -> Result<Vec<CalculationGrid>, Failu
     let Some(name) = &flags.name else { return Ok(all.to_vec()) };
     let found: Vec<CalculationGrid> = all.iter().filter(|g| g.name == *name).cloned().collect();
     if found.is_empty() {
-        let names: Vec<&str> = all.iter().map(|g| g.name.as_str()).collect();
         return Err(Failure::bad_input(format!(
             "{source}: has no grid `{name}`; choose one of {}",
-            names.join(", ")
+            names(all.iter().map(|g| g.name.as_str()))
         )));
     }
     Ok(found)
@@ -341,7 +344,7 @@ fn text(results: &[GridResult]) -> String {
         let (counts, sides_m) = (result.grid.counts(), result.grid.sides_m());
         let cell_m = [0, 1].map(|k| significant(sides_m[k] / f64::from(counts[k]), 2));
         let mut row = vec![
-            result.grid.name.clone(),
+            name(&result.grid.name),
             format!("{} x {}", counts[0], counts[1]),
             format!("{} x {} m", cell_m[0], cell_m[1]),
         ];
@@ -362,7 +365,7 @@ fn text(results: &[GridResult]) -> String {
         let _ = writeln!(
             text,
             "grid `{}`: maintained values, {} of the initial ones",
-            result.grid.name,
+            name(&result.grid.name),
             significant(result.grid.maintenance_factor, 3)
         );
     }

@@ -11,7 +11,7 @@ use crate::progress::Reporter;
 use crate::quantity::{show_seconds, show_share};
 use crate::report::Report;
 use crate::solving::{self, Run, Solved};
-use crate::{map_file, saved_run};
+use crate::{map_file, saved_run, shown};
 use isolux::engine::{MixPart, SolveRequest, mix};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
@@ -32,7 +32,10 @@ pub(crate) fn of(scene: &Scene, source: &Path) -> Result<Vec<Group>, Failure> {
     for (number, name) in scene.groups().iter().enumerate() {
         match scene.lit_by(number as u32).filter(Scene::gives_light) {
             Some(lit) => groups.push(Group { name: name.clone(), scene: lit }),
-            None => note(Note::Info, format!("group {name:?} has no light and gets no map")),
+            None => note(
+                Note::Info,
+                format!("group \"{}\" has no light and gets no map", shown::name(name)),
+            ),
         }
     }
     if !groups.is_empty() {
@@ -211,7 +214,7 @@ fn solve_one(
         true => saved_run::read(output, request.max_memory_bytes)?,
         false => None,
     };
-    note(Note::Info, format!("group {:?}", group.name));
+    note(Note::Info, format!("group \"{}\"", shown::name(&group.name)));
     let run = Run { source, output, request: &request };
     let Solved { solution, outcome } =
         solving::solve(&group.scene, &run, saved.as_ref(), reporter)?;
@@ -267,7 +270,7 @@ impl Reports {
         let row = |g: &GroupReport| {
             let Report { accuracy_reached, time_s, map, .. } = &g.report;
             let error = accuracy_reached.map_or("not known".to_owned(), show_share);
-            vec![g.group.clone(), error, show_seconds(*time_s), map.clone()]
+            vec![shown::name(&g.group), error, show_seconds(*time_s), map.clone()]
         };
         let rows: Vec<Vec<String>> = self.groups.iter().map(row).collect();
         format!("{}\n{}", self.sum.text(), table(&["group", "error", "time", "map"], &rows))

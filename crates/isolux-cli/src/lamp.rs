@@ -2,6 +2,7 @@
 
 use crate::console::facts;
 use crate::quantity::significant;
+use crate::shown::name;
 use isolux::photometry::IntensityDistribution;
 use isolux_formats::ies::{Edition, IesFile};
 use isolux_formats::ldt::LdtFile;
@@ -77,7 +78,7 @@ impl Contents {
 
     /// For people.
     pub(crate) fn text(&self) -> String {
-        let named = |name: &Option<String>| name.clone().unwrap_or_else(|| "not said".to_owned());
+        let named = |said: &Option<String>| said.as_deref().map_or("not said".to_owned(), name);
         let lumen = |lm: f64| format!("{} lm", significant(lm, 4));
         let efficacy = match self.input_watts {
             w if w > 0.0 => format!("{w} W, {} lm/W", significant(self.luminous_flux_lm / w, 3)),

@@ -37,6 +37,7 @@ pub(crate) fn run(
 ) -> Result<Outcome, Failure> {
     let output = OutputPath::check(&flags.output, file.extension())?;
     output.differs_from(&flags.map)?;
+    output.replaces_exports_alone()?;
     if file == LightmapFile::Glb {
         for extension in lightmap_files::beside(target).iter().map(|kind| kind.extension()) {
             OutputPath::check(&flags.output.with_extension(extension), extension)?;

@@ -35,6 +35,7 @@ mod report;
 mod request;
 mod saved_run;
 mod scene;
+mod shown;
 mod solve;
 mod solving;
 mod source;

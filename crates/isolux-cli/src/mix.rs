@@ -5,6 +5,7 @@ use crate::failure::{Failure, Outcome};
 use crate::flags::MixFlags;
 use crate::output::OutputPath;
 use crate::report::Report;
+use crate::shown::names;
 use crate::{groups, map_file};
 use isolux::engine::{MixError, MixPart, mix};
 use isolux::map::{IlluminationMap, MixedPart};
@@ -88,7 +89,7 @@ fn dim(parts: &mut [Part], group: &str, dimming: f64) -> Result<(), Failure> {
             return Err(Failure::bad_input(format!(
                 "{}: holds the light of several groups ({}), which cannot be dimmed apart; solve with --group",
                 part.path.display(),
-                groups.join(", ")
+                names(groups.iter().map(String::as_str))
             )));
         }
         part.dimming *= dimming;
@@ -100,7 +101,10 @@ fn dim(parts: &mut [Part], group: &str, dimming: f64) -> Result<(), Failure> {
     let mut known: Vec<String> = parts.iter().flat_map(|part| lit_groups(&part.scene)).collect();
     known.sort_unstable();
     known.dedup();
-    let known = if known.is_empty() { "no groups".to_owned() } else { known.join(", ") };
+    let known = match known.is_empty() {
+        true => "no groups".to_owned(),
+        false => names(known.iter().map(String::as_str)),
+    };
     Err(Failure::bad_input(format!(
         "--dim {group}: no map has the light of that group; there are {known}"
     )))

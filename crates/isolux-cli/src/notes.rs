@@ -1,5 +1,6 @@
 //! What is printed on standard error: everything but results.
 
+use crate::shown::sentence;
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -43,8 +44,8 @@ impl Note {
     fn line(self, text: &str, as_json: bool) -> String {
         match (as_json, self) {
             (true, _) => serde_json::json!({ self.name(): text }).to_string(),
-            (false, Self::Info) => text.to_owned(),
-            (false, _) => format!("{}: {text}", self.name()),
+            (false, Self::Info) => sentence(text),
+            (false, _) => format!("{}: {}", self.name(), sentence(text)),
         }
     }
 }
@@ -68,6 +69,7 @@ mod tests {
         let text = "a \"b\": c";
         assert_eq!(Note::Warning.line(text, false), "warning: a \"b\": c");
         assert_eq!(Note::Info.line(text, false), text);
+        assert_eq!(Note::Warning.line("a\u{1b}", false), "warning: a\\u{1b}");
         assert_eq!(Note::Error.line(text, true), r#"{"error":"a \"b\": c"}"#);
     }
 }

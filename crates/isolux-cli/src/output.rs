@@ -38,6 +38,19 @@ impl OutputPath {
         }
     }
 
+    /// Refuses to replace a `.glb` or `.ply` that no export wrote: it may be somebody's scene, or the map of hours.
+    pub(crate) fn replaces_exports_alone(&self) -> Result<(), Failure> {
+        let holds_something = std::fs::metadata(&self.0).is_ok_and(|known| known.len() > 0);
+        if !holds_something || isolux_formats::export::may_be_replaced(&self.0) {
+            return Ok(());
+        }
+        Err(Failure::bad_input(format!(
+            "{}: is there already, and no export has written it: it may be a scene or a map; choose another name for \
+             the output, or remove it first",
+            self.0.display()
+        )))
+    }
+
     /// Writes the file whole or not at all.
     pub(crate) fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
         // It could be written when it was checked: what keeps it from it now is the machine.
@@ -69,5 +82,10 @@ mod tests {
         let output = OutputPath::check(&path, "glb").unwrap();
         assert!(output.differs_from(&path).is_err());
         assert!(output.differs_from(&home.path().join("other.glb")).is_ok());
+        assert!(output.replaces_exports_alone().is_err());
+        std::fs::write(&path, "").unwrap();
+        assert!(output.replaces_exports_alone().is_ok());
+        std::fs::remove_file(&path).unwrap();
+        assert!(output.replaces_exports_alone().is_ok());
     }
 }

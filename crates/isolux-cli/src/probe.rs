@@ -92,7 +92,7 @@ fn trace_paths(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<Values, Fail
     refuse(flags, &unused, "a scene, which has no map to read; leave it out or give a map")?;
     let scene = source::read_scene(&flags.source)?;
     if scene.luminaires().is_empty() && scene.area_luminaires().is_empty() {
-        return Err(source::no_light(&flags.source));
+        return Err(source::no_light(&flags.source, &scene));
     }
     let tracer = PathTracer::new(&scene);
     if tracer.leaves_caustics() {

@@ -7,6 +7,7 @@ use crate::flags::{LookFlags, RenderFlags, ToneName};
 use crate::meter::Meter;
 use crate::output::OutputPath;
 use crate::quantity::show_share;
+use crate::shown::name;
 use crate::{map_file, source, viewpoint};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
@@ -29,7 +30,7 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     let (view, camera, cache) = if let Some(path) = &flags.cache {
         let scene = scene_of(&flags.map)?;
         if scene.luminous_flux_lm() == 0.0 {
-            return Err(source::no_light(&flags.map));
+            return Err(source::no_light(&flags.map, &scene));
         }
         let camera = camera(&scene)?;
         let (view, used) = cached_view::look(&scene, &camera, flags.size, (path, flags.accuracy))?;
@@ -202,7 +203,7 @@ impl Report {
     fn text(&self) -> String {
         let mut lines = vec![
             ("picture", self.picture.clone()),
-            ("camera", self.camera.clone()),
+            ("camera", name(&self.camera)),
             ("size", format!("{} x {}", self.width, self.height)),
         ];
         lines.extend(self.indirect.iter().map(Indirect::fact));

@@ -23,7 +23,7 @@ pub(crate) fn estimate(
     source: &Path,
     request: &SolveRequest,
 ) -> Result<Estimate, Failure> {
-    Estimate::of(scene, request).map_err(|error| unsolvable(error, source))
+    Estimate::of(scene, request).map_err(|error| unsolvable(error, (scene, source)))
 }
 
 /// A solution and how its computation ended.
@@ -51,7 +51,7 @@ pub(crate) fn solve(
     saved: Option<&RunState>,
     reporter: &mut Reporter,
 ) -> Result<Solved, Failure> {
-    let solved = follow(scene, run.request, saved, reporter, |error| failure(error, run))?;
+    let solved = follow(scene, run.request, saved, reporter, |error| failure(error, (scene, run)))?;
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
     tell_of_time(&solved.solution, run.request.time_limit);
     tell_of_end(&solved, run.request);
@@ -68,11 +68,13 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
         && solved.solution.time_s < limit_s;
     let what = match (map.provenance.accuracy, request.accuracy) {
         (Some(_), _) if map.provenance.complete && is_dark() => {
-            "no light comes to any surface; `isolux check` names luminaires that light nothing".to_owned()
+            let what = "no light comes to any surface; `isolux check` names luminaires that light nothing";
+            return note(Note::Warning, what);
         }
         (None, _) if ends_itself => {
-            "how good the map is cannot be told: light on paths that were given up, from mirror to mirror, may be more \
-             than all that came to a surface; `isolux check` names luminaires that light nothing"
+            "how good the map is cannot be told: light on paths that were given up, among mirrors or surfaces that \
+             absorb next to nothing, may be more than all that came to a surface; `isolux check` names luminaires that \
+             light nothing, and materials whose reflectance is to be lowered"
                 .to_owned()
         }
         (Some(accuracy), Some(asked)) if ends_itself && accuracy.of_elements() > asked => format!(
@@ -127,7 +129,7 @@ pub(crate) fn solve_here(
     request: &SolveRequest,
 ) -> Result<Solved, Failure> {
     let reporter = &mut Reporter::new(None);
-    follow(scene, request, None, reporter, |error| unsolvable(error, source))
+    follow(scene, request, None, reporter, |error| unsolvable(error, (scene, source)))
 }
 
 fn follow(
@@ -153,18 +155,18 @@ fn follow(
 }
 
 /// Sorted by who can mend it.
-fn failure(error: SolveError, run: &Run) -> Failure {
+fn failure(error: SolveError, (scene, run): (&Scene, &Run)) -> Failure {
     match error {
         SolveError::OtherRun(what) => Failure::bad_input(format!(
             "{}: the saved run differs in {what}; repeat its flags, or solve without --resume",
             saved_run::path_beside(run.output.path()).display()
         )),
-        other => unsolvable(other, run.source),
+        other => unsolvable(other, (scene, run.source)),
     }
 }
 
 /// Why a scene cannot be solved.
-fn unsolvable(error: SolveError, path: &Path) -> Failure {
+fn unsolvable(error: SolveError, (scene, path): (&Scene, &Path)) -> Failure {
     let source = path.display();
     match error {
         SolveError::Memory { needed, allowed } => Failure::Refused(format!(
@@ -173,7 +175,7 @@ fn unsolvable(error: SolveError, path: &Path) -> Failure {
             show_bytes(needed),
             show_bytes(allowed)
         )),
-        SolveError::NoLight => source::no_light(path),
+        SolveError::NoLight => source::no_light(path, scene),
         SolveError::NoReceiver => Failure::bad_input(format!(
             "{source}: no surface can carry a map: all are mirrors, glass or without area; give one \
              a diffuse reflectance, and check the scales"

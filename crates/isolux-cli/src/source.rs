@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::notes::{Note, note};
+use crate::shown::plain;
 use isolux::scene::{Scene, SceneParts, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
 use isolux_formats::{Loaded, Problem, Problems};
@@ -51,14 +52,24 @@ pub(crate) fn show_warnings(warnings: &[Problem]) {
 
 /// Problems of a file are bad input.
 pub(crate) fn bad_file(problems: Problems) -> Failure {
-    Failure::BadInput(problems.0.iter().map(ToString::to_string).collect())
+    // A line each, whatever names they hold.
+    Failure::BadInput(
+        problems.0.iter().map(|problem| plain(&problem.to_string()).into_owned()).collect(),
+    )
 }
 
-/// A scene without luminaires is bad input.
-pub(crate) fn no_light(source: &Path) -> Failure {
-    let remedy = add_light(source);
-    Failure::bad_input(format!("{}: the scene has no light; {remedy}", source.display()))
+/// A scene without luminaires is bad input. Materials that emit are none where no surface has an area.
+pub(crate) fn no_light(source: &Path, scene: &Scene) -> Failure {
+    let (what, remedy) = match scene.triangle_count() {
+        0 if !scene.shape_names().is_empty() => NO_AREA,
+        _ => ("the scene has no light", add_light(source)),
+    };
+    Failure::bad_input(format!("{}: {what}; {remedy}", source.display()))
 }
+
+/// What is wrong with a scene of nothing but needles and points, and how to mend it.
+pub(crate) const NO_AREA: (&str, &str) =
+    ("no triangle of the scene has an area", "check coordinates and scales where it was made");
 
 /// How to, in this kind of file.
 fn add_light(source: &Path) -> &'static str {

@@ -2,6 +2,7 @@
 
 use crate::console::table;
 use crate::quantity::significant;
+use crate::shown::name;
 use isolux::elements::Element;
 use isolux::geometry::Triangle;
 use isolux::map::{Illuminance, IlluminationMap};
@@ -49,7 +50,7 @@ pub(crate) fn text(lit: &[Lit]) -> String {
     let lux = |value: Option<f64>| value.map_or("-".to_owned(), |lx| significant(lx, 3));
     let row = |l: &Lit| {
         vec![
-            l.shape.clone(),
+            name(&l.shape),
             significant(l.area_m2, 3),
             lux(l.mean_lx),
             lux(l.min_lx),

@@ -20,6 +20,7 @@ pub(crate) fn run(flags: &ExportFlags, target: Target, json: bool) -> Result<Out
     }
     let output = OutputPath::check(&flags.output, "glb")?;
     output.differs_from(&flags.map)?;
+    output.replaces_exports_alone()?;
     let (scene, map) = map_file::read(&flags.map)?;
     let preview = Preview::automatic(&scene, &map);
     let white_cd_m2 = flags.white;

@@ -1,5 +1,6 @@
 //! The camera of a view: one of the scene's, or one that shows the most of it.
 
+use crate::shown::names;
 use isolux::geometry::{Direction, Point, Vector};
 use isolux::scene::{Camera, Scene, UpAxis};
 
@@ -15,13 +16,13 @@ pub(crate) fn camera(scene: &Scene, name: Option<&str>) -> Result<Camera, String
     let Some(name) = name else {
         return Ok(scene.cameras().first().cloned().unwrap_or_else(|| overview(scene)));
     };
-    scene.cameras().iter().find(|c| c.name == name).cloned().ok_or_else(|| {
-        let names: Vec<&str> = scene.cameras().iter().map(|c| c.name.as_str()).collect();
-        match names[..] {
-            [] => format!(
-                "there is no camera `{name}`, nor any other; leave --camera out for an overview"
-            ),
-            _ => format!("there is no camera `{name}`; choose one of {}", names.join(", ")),
+    scene.cameras().iter().find(|c| c.name == name).cloned().ok_or_else(|| match scene.cameras() {
+        [] => format!(
+            "there is no camera `{name}`, nor any other; leave --camera out for an overview"
+        ),
+        all => {
+            let names = names(all.iter().map(|c| c.name.as_str()));
+            format!("there is no camera `{name}`; choose one of {names}")
         }
     })
 }

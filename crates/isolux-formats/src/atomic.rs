@@ -18,18 +18,26 @@ pub fn check_writable(path: &Path) -> Result<(), Problem> {
         let what = format!("there is no directory `{}`", directory.display());
         return Err(problem(path, what, "create it or choose another place"));
     }
-    if let Ok(known) = fs::metadata(path) {
-        if known.is_dir() {
-            return Err(problem(path, "is a directory", "add a file name"));
-        }
-        if !known.is_file() {
-            return Err(problem(path, "is not a regular file", "choose another place"));
-        }
-        if known.permissions().readonly() {
-            return Err(problem(path, "is read-only", "choose another name or allow writing"));
-        }
+    match fs::metadata(path) {
+        Ok(known) => check_replaceable(path, &known)?,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        // Too long a name, say: a temporary file beside it has a shorter one.
+        Err(error) => return Err(unwritable(path, &error)),
     }
     temporary_beside(&followed(path)).map(drop).map_err(|error| unwritable(path, &error))
+}
+
+fn check_replaceable(path: &Path, known: &fs::Metadata) -> Result<(), Problem> {
+    if known.is_dir() {
+        return Err(problem(path, "is a directory", "add a file name"));
+    }
+    if !known.is_file() {
+        return Err(problem(path, "is not a regular file", "choose another place"));
+    }
+    if known.permissions().readonly() {
+        return Err(problem(path, "is read-only", "choose another name or allow writing"));
+    }
+    Ok(())
 }
 
 /// Writes a file so that at any moment, power failures included, its name stands for the old
@@ -105,6 +113,7 @@ fn problem(path: &Path, what: impl Into<String>, remedy: &str) -> Problem {
 fn unwritable(path: &Path, error: &io::Error) -> Problem {
     let remedy = match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "free some space",
+        io::ErrorKind::InvalidFilename => "choose a shorter name",
         io::ErrorKind::PermissionDenied => "choose a place where you may write",
         _ => "choose another place",
     };
@@ -176,6 +185,15 @@ mod tests {
         let found = check_writable(Path::new("/proc/map.glb")).unwrap_err();
         assert!(found.what.starts_with("cannot be written: "), "{found}");
         assert!(!found.to_string().contains(".part"), "{found}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_name_that_is_too_long_is_found_before_anything_is_written() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("m".repeat(300));
+        let found = check_writable(&path).unwrap_err();
+        assert_eq!(found.remedy, "choose a shorter name", "{found}");
     }
 
     #[cfg(unix)]

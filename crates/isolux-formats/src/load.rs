@@ -1,13 +1,14 @@
 //! A scene file of any kind.
 
 use crate::{
-    Loaded, Problem, Problems, gltf, mitsuba, obj, ply, product_file, rad, scene_toml, stl,
+    Loaded, Problem, Problems, gltf, mitsuba, obj, ply, product_file, rad, scene_toml, source, stl,
 };
 use isolux::scene::SceneParts;
 use std::path::Path;
 
 /// Reads a scene by the extension of its file.
 pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
+    source::check_present(path)?;
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("gltf" | "glb") => gltf::read(path),

@@ -2,7 +2,7 @@
 
 use crate::Problem;
 use std::fs::File;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 
 /// The bytes of a regular file of at most `limit` bytes.
@@ -22,6 +22,19 @@ pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Problem> {
         return Err(refused(what, "split it, or reduce its detail"));
     }
     Ok(bytes)
+}
+
+/// Says first of all that there is no file, whatever its name would make of it.
+pub(crate) fn check_present(path: &Path) -> Result<(), Problem> {
+    match std::fs::metadata(path) {
+        Ok(known) if known.is_dir() => {
+            Err(Problem::new(path, "", "is a directory", "name a file in it"))
+        }
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            Err(Problem::new(path, "", "does not exist", "check the name"))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What to do about text in UTF-16.
@@ -131,5 +144,11 @@ mod tests {
         assert!(read_bytes(&path, 16).unwrap_err().what.contains("larger"));
         assert!(read_bytes(dir.path(), 16).unwrap_err().what.contains("regular"));
         assert!(read_bytes(&dir.path().join("b"), 16).unwrap_err().what.contains("cannot"));
+        assert!(check_present(&path).is_ok());
+        for (name, what) in
+            [("b", "does not exist"), ("a/b", "does not exist"), ("", "is a directory")]
+        {
+            assert_eq!(check_present(&dir.path().join(name)).unwrap_err().what, what, "{name}");
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! What an audit says.
 
+use crate::shown::sentence;
 use isolux_formats::Problem;
 use serde::Serialize;
 
@@ -59,6 +60,6 @@ impl Finding {
             Severity::Warning => "warning",
             Severity::Note => "note",
         };
-        format!("{severity}: {}: {}; {}\n", self.place, self.what, self.remedy)
+        sentence(&format!("{severity}: {}: {}; {}", self.place, self.what, self.remedy)) + "\n"
     }
 }

@@ -10,6 +10,9 @@ const MAX_SHOWN: usize = 10;
 /// A luminaire that sees nothing beyond this share of the scene is shut in.
 const SHUT_IN_SHARE: f64 = 0.02;
 
+/// One that sees backs alone, none beyond this share of the scene, is inside a solid.
+const INSIDE_SHARE: f64 = 0.1;
+
 /// Reflections from mirror to mirror that are followed.
 const REFLECTIONS: usize = 64;
 
@@ -25,6 +28,7 @@ enum Trouble {
 
 /// What a luminaire sees in one direction.
 struct Seen {
+    back: bool,
     black_back: bool,
     /// It comes to no other surface, as far as it was followed.
     mirrors_alone: bool,
@@ -59,7 +63,11 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
         .map(|direction| look(scene, *position, direction))
         .collect();
     let seen = || looks.iter().flatten();
-    let shut_in_m = SHUT_IN_SHARE * extent_m(scene);
+    let extent_m = extent_m(scene);
+    let is_close = |s: &Seen| {
+        let share = if s.back { INSIDE_SHARE } else { SHUT_IN_SHARE };
+        !s.clear && s.distance_m < share * extent_m
+    };
     // A beam narrower than the directions tried is left alone.
     if looks.is_empty() {
         None
@@ -69,8 +77,7 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
         Some(Trouble::LightsBlackBacks)
     } else if looks.iter().all(|l| l.as_ref().is_some_and(|s| s.mirrors_alone)) {
         Some(Trouble::LightsMirrorsAlone)
-    } else if looks.iter().all(|l| l.as_ref().is_some_and(|s| !s.clear && s.distance_m < shut_in_m))
-    {
+    } else if looks.iter().all(|l| l.as_ref().is_some_and(is_close)) {
         Some(Trouble::ShutIn)
     } else {
         None
@@ -84,6 +91,7 @@ fn look(scene: &Scene, from: Point, direction: Direction) -> Option<Seen> {
     let material = scene.material(hit.triangle);
     let is_black = material.finish(true).is_some_and(|back| *back == Finish::BLACK);
     Some(Seen {
+        back: hit.back,
         black_back: hit.back && is_black,
         mirrors_alone,
         clear: matches!(material.body, Body::Dielectric(_)),
@@ -228,6 +236,8 @@ mod tests {
             (vec![cube(5.0, false)], 1.0, false, Some(Trouble::LightsBlackBacks)),
             (vec![room(), cube(0.1, false)], 1.0, false, Some(Trouble::LightsBlackBacks)),
             (vec![room(), cube(0.1, false)], 1.0, true, Some(Trouble::ShutIn)),
+            (vec![room(), cube(0.7, false)], 1.0, true, Some(Trouble::ShutIn)),
+            (vec![room(), cube(0.7, true)], 1.0, true, None),
             (vec![far()], 1.0, true, Some(Trouble::LightsNothing)),
         ] {
             assert_eq!(trouble_of(shapes, intensity_cd, two_sided), expected);

@@ -34,16 +34,17 @@ impl Light {
             return None;
         }
         let (tracer, sequence) = (PathTracer::new(scene), Sequence::new(Key::new(2)));
+        let on: Vec<usize> = (0..count).map(|index| sides.at(index, count)).collect();
         let lx_at = |index: usize| {
-            let place = sides.place(scene, index, (count, sequence));
+            let place = sides.place(scene, on[index], sequence.pair(index as u32, 0));
             tracer.estimate(place, &SETTINGS).illuminance_lx()
         };
         let found: Vec<f64> = (0..count).into_par_iter().map(lx_at).collect();
-        let lit = found.iter().filter(|lx| **lx > 0.0).count();
-        (lit > 0).then(|| Self {
-            mean_lx: found.iter().sum::<f64>() / lit as f64,
-            lit_m2: sides.total_m2() * lit as f64 / count as f64,
-        })
+        let areas_m2 = sides.areas_m2(&on);
+        let lit = || found.iter().zip(&areas_m2).filter(|(lx, _)| **lx > 0.0);
+        let lit_m2: f64 = lit().map(|(_, m2)| m2).sum();
+        (lit_m2 > 0.0)
+            .then(|| Self { mean_lx: lit().map(|(lx, m2)| lx * m2).sum::<f64>() / lit_m2, lit_m2 })
     }
 }
 
@@ -71,17 +72,32 @@ impl Sides {
         self.sums_m2.last().copied().unwrap_or(0.0)
     }
 
-    /// One of so many places spread evenly over all sides.
-    fn place(
-        &self,
-        scene: &Scene,
-        index: usize,
-        (count, sequence): (usize, Sequence),
-    ) -> ProbePoint {
+    /// The side that one of so many places spread evenly over all of them lies on.
+    fn at(&self, index: usize, count: usize) -> usize {
         let sum_m2 = (index as f64 + 0.5) / count as f64 * self.total_m2();
-        let side = self.sums_m2.partition_point(|&sum| sum <= sum_m2).min(self.all.len() - 1);
+        self.sums_m2.partition_point(|&sum| sum <= sum_m2).min(self.all.len() - 1)
+    }
+
+    /// What each of the places stands for, given the sides that they lie on: an equal part of its side, or of all sides
+    /// together that are too small to have a place for certain. So a room has the area of its walls, whatever else there is.
+    fn areas_m2(&self, on: &[usize]) -> Vec<f64> {
+        let even_m2 = self.total_m2() / on.len() as f64;
+        let of_side =
+            |side: usize| self.sums_m2[side] - side.checked_sub(1).map_or(0.0, |s| self.sums_m2[s]);
+        let is_small = |side: usize| of_side(side) < even_m2;
+        let small_m2: f64 = (0..self.all.len()).filter(|&s| is_small(s)).map(of_side).sum();
+        let small = on.iter().filter(|&&side| is_small(side)).count();
+        let places = on.chunk_by(|a, b| a == b);
+        let part = |same: &[usize]| match is_small(same[0]) {
+            true => small_m2 / small as f64,
+            false => of_side(same[0]) / same.len() as f64,
+        };
+        places.flat_map(|same| std::iter::repeat_n(part(same), same.len())).collect()
+    }
+
+    /// A place on a side.
+    fn place(&self, scene: &Scene, side: usize, [a, b]: [f64; 2]) -> ProbePoint {
         let (triangle, back) = self.all[side];
-        let [a, b] = sequence.pair(index as u32, 0);
         let root = a.sqrt();
         let (u, v) = (root * (1.0 - b), root * b);
         let front = scene.geometric_normal(triangle);
@@ -112,6 +128,15 @@ mod tests {
         let found = light(|_| {}).unwrap();
         assert!((found.mean_lx / expected - 1.0).abs() < 0.05, "{} lx", found.mean_lx);
         assert!((found.lit_m2 - 600.0).abs() < 1e-6, "{} m2", found.lit_m2);
+        // As exact where as many sides again are dark.
+        let two_sided = light(|parts| {
+            for material in &mut parts.materials {
+                *material =
+                    Material::two_sided(material.name.clone(), Finish::diffuse(Rgb::grey(0.5)));
+            }
+        })
+        .unwrap();
+        assert!((two_sided.lit_m2 - 600.0).abs() < 1e-6, "{} m2", two_sided.lit_m2);
         assert_eq!(light(|parts| parts.luminaires.clear()), None);
     }
 

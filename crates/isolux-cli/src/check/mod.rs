@@ -12,6 +12,7 @@ use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
 use crate::quantity::{flux, significant};
+use crate::shown::name;
 use crate::source;
 use finding::Finding;
 use isolux::engine::SolveRequest;
@@ -60,9 +61,10 @@ impl Audit {
         let borders = borders::Borders::of(scene);
         let energy = energy::Energy::of(scene);
         let light = light::Light::of(scene);
-        findings.extend(extent.findings());
-        findings.extend(borders.findings());
-        findings.extend(energy.findings());
+        findings.extend(match scene.triangle_count() {
+            0 => without_area(),
+            _ => [extent.findings(), borders.findings(), energy.findings()].concat(),
+        });
         findings.extend(lamps::findings(scene));
         Self {
             scene: scene.name().to_owned(),
@@ -96,7 +98,7 @@ impl Audit {
         let unknown = || ["none", "none", "cannot be solved"].map(str::to_owned);
         let [receivers, memory, time] = self.estimate.map_or_else(unknown, |e| e.shown());
         let mut text = facts(&[
-            ("scene", self.scene.clone()),
+            ("scene", name(&self.scene)),
             ("size", format!("{x} x {y} x {z} m")),
             ("up", up.to_owned()),
             ("triangles", self.triangles.to_string()),
@@ -118,6 +120,12 @@ impl Audit {
         }
         text
     }
+}
+
+/// Nothing else can be told of such a scene.
+fn without_area() -> Vec<Finding> {
+    let (what, remedy) = source::NO_AREA;
+    vec![Finding::warning("scene", what, remedy)]
 }
 
 /// To two digits: more are not known.

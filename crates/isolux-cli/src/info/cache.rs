@@ -3,6 +3,7 @@
 use crate::cache_samples;
 use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
+use crate::shown::name;
 use isolux::engine::SampleKind;
 use serde::Serialize;
 use std::path::Path;
@@ -37,7 +38,7 @@ struct Contents {
 impl Contents {
     fn text(&self) -> String {
         facts(&[
-            ("cache of", self.scene.clone()),
+            ("cache of", name(&self.scene)),
             ("computed by", format!("isolux {}", self.version)),
             ("samples that are read", self.samples_read.to_string()),
             ("samples that rays read", self.samples_for_rays.to_string()),

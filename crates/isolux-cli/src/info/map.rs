@@ -5,6 +5,7 @@ use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
 use crate::quantity::{show_count, show_share, significant};
 use crate::request::method_name;
+use crate::shown::name;
 use crate::summary::{self, Lit};
 use isolux::map::{IlluminationMap, MixedPart, Provenance, Unshot};
 use isolux::scene::Scene;
@@ -44,7 +45,7 @@ impl Contents<'_> {
         let target = from.accuracy_target.map_or("none".to_owned(), show_share);
         let reached = if from.complete { "reached" } else { "not reached" };
         let mut all = vec![
-            ("map of", from.scene.clone()),
+            ("map of", name(&from.scene)),
             ("computed by", format!("isolux {}, {}", from.version, method_name(from.method))),
             ("seed", from.seed.to_string()),
             ("error", share(from.accuracy.map(|a| a.reached))),
@@ -75,6 +76,7 @@ impl Contents<'_> {
 
 /// A part of a sum, as `spots 30 %`.
 fn part(part: &MixedPart) -> String {
-    let name = if part.groups.is_empty() { "a map".to_owned() } else { part.groups.join(" and ") };
-    format!("{name} {}", show_share(part.dimming))
+    let groups: Vec<String> = part.groups.iter().map(|group| name(group)).collect();
+    let whole = if groups.is_empty() { "a map".to_owned() } else { groups.join(" and ") };
+    format!("{whole} {}", show_share(part.dimming))
 }

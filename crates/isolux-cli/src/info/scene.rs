@@ -3,6 +3,7 @@
 use crate::console::{facts, print, print_json, table};
 use crate::failure::Failure;
 use crate::quantity::{flux, significant};
+use crate::shown::{name, names};
 use isolux::geometry::Point;
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Body, Finish, LuminaireKind, Material, Scene, UpAxis};
@@ -21,8 +22,8 @@ pub(super) fn show(scene: &Scene, json: bool) -> Result<(), Failure> {
 }
 
 /// Names in a row.
-pub(super) fn list(names: &[String]) -> String {
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+pub(super) fn list(all: &[String]) -> String {
+    if all.is_empty() { "none".to_owned() } else { names(all.iter().map(String::as_str)) }
 }
 
 /// What `info --json` prints of a scene.
@@ -97,7 +98,7 @@ impl Contents {
             UpAxis::Z => "z",
         };
         let mut text = facts(&[
-            ("scene", self.name.clone()),
+            ("scene", name(&self.name)),
             ("from", corner(self.low_m)),
             ("to", corner(self.high_m)),
             ("up", up.to_owned()),
@@ -131,7 +132,7 @@ impl Surface {
     fn row(&self) -> Vec<String> {
         let number = |value: Option<f64>| value.map_or("-".to_owned(), |v| significant(v, 2));
         vec![
-            self.name.clone(),
+            name(&self.name),
             self.kind.to_owned(),
             number(self.diffuse),
             number(self.mirror),

@@ -2,6 +2,7 @@
 
 use crate::lamp::Contents;
 use crate::quantity::significant;
+use crate::shown::sentence;
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux_formats::lint::{Audit, Finding, Severity};
 use serde::Serialize;
@@ -83,7 +84,7 @@ impl Found {
 
     fn text(&self, file: &str) -> String {
         let line = self.line.map_or_else(String::new, |line| format!("line {line}: "));
-        format!("{}: {file}: {line}{}; {}\n", self.severity, self.what, self.remedy)
+        sentence(&format!("{}: {file}: {line}{}; {}", self.severity, self.what, self.remedy)) + "\n"
     }
 }
 

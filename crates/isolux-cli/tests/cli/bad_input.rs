@@ -123,10 +123,16 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
         &["solve", "dark.toml", "-o", "m.glb"],
         "dark.toml: the scene has no light; add a [[luminaire]]",
     ),
+    (&["solve", "flat.gltf", "-o", "m.glb"], "no triangle of the scene has an area"),
     (&["solve", "latin.toml", "-o", "m.glb"], "latin.toml: line 2: is not UTF-8"),
     (&["solve", "text.ies", "-o", "m.glb"], "[[luminaire]]"),
     (&["render", "missing.glb", "-o", "v.png"], "missing.glb"),
     (&["check", "missing.toml"], "missing.toml"),
+    (&["info", "nothing"], "nothing: does not exist"),
+    (&["info", "."], ".: is a directory"),
+    (&["check", "missing.glb"], "missing.glb: does not exist"),
+    (&["render", "missing.glb", "-o", "v.png"], "missing.glb: does not exist"),
+    (&["export", ".", "-o", "l.exr"], ".: is a directory"),
     (&["validate", "--case", "teapot"], "cube"),
     (&["validate", "--seeds", "0"], "--seeds"),
 ];
@@ -134,6 +140,14 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
 /// A room without a luminaire.
 const DARK: &str = "[materials.m]\ndiffuse = 0.5\n[[geometry]]\nmaterial = \"m\"\n\
                     box = { min = [0, 0, 0], max = [4, 4, 3], inward = true }\n";
+
+/// A triangle of which all corners are one, that emits.
+const FLAT: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"emissiveFactor": [1, 1, 1]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,ZEROS"}]}"#;
 
 #[test]
 fn bad_input_is_refused_with_a_reason() {
@@ -145,6 +159,7 @@ fn bad_input_is_refused_with_a_reason() {
     home.file("dark.toml", DARK);
     home.file("latin.toml", b"# caf\xc3\xa9\n# caf\xe9\n");
     home.file("empty.obj", "");
+    home.file("flat.gltf", FLAT.replace("ZEROS", &"AAAA".repeat(12)));
     home.file("sky.rad", "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 180\n");
     home.file("shell.rad", "!rm good.pts\n");
     home.file("text.xyz", "this is nothing");
@@ -173,6 +188,20 @@ fn every_subcommand_has_help_with_an_example() {
         assert!(ran.out.contains("--json"), "{subcommand}: {}", ran.out);
     }
     assert_eq!(home.run(&["--version"]).code, 0);
+}
+
+#[cfg(unix)]
+#[test]
+fn names_too_long_for_a_map_or_its_state_are_refused_before_the_work() {
+    let home = Home::new();
+    // The second map could be written, its checkpoint not.
+    for length in [300, 250] {
+        let output = format!("{}.glb", "m".repeat(length));
+        let ran = home.run(&["solve", "builtin:cube", "-o", &output]);
+        assert!(ran.code == 2 && ran.err.contains("choose a shorter name"), "{ran:?}");
+        assert!(!ran.err.contains("subdividing"), "{}", ran.err);
+    }
+    assert_eq!(home.names(), [""; 0]);
 }
 
 #[cfg(unix)]

@@ -45,3 +45,26 @@ fn what_makes_no_sense_is_refused() {
     }
     assert_eq!(home.names(), ["m.glb"]);
 }
+
+#[test]
+fn scenes_and_maps_are_not_replaced_and_exports_are() {
+    let home = Home::new();
+    home.run(&["solve", "builtin:cube", "-o", "m.glb", "--quality", "draft"]);
+    std::fs::copy(home.path("m.glb"), home.path("other.glb")).unwrap();
+    home.file("scan.ply", "ply\nformat ascii 1.0\nend_header\n");
+    home.file("room.glb", "a scene");
+    for name in ["other.glb", "scan.ply", "room.glb"] {
+        let before = std::fs::read(home.path(name)).unwrap();
+        let ran = home.run(&["export", "m.glb", "-o", name]);
+        assert_eq!(ran.code, 2, "{ran:?}");
+        assert!(ran.err.contains("choose another name"), "{}", ran.err);
+        assert_eq!(std::fs::read(home.path(name)).unwrap(), before, "{name}");
+    }
+    for target in ["three", "bevy"] {
+        for name in ["baked.glb", "baked.ply"] {
+            let more: &[&str] = if name == "baked.glb" { &["--target", target] } else { &[] };
+            let ran = home.run(&[&["export", "m.glb", "-o", name], more].concat());
+            assert_eq!(ran.code, 0, "{ran:?}");
+        }
+    }
+}

@@ -353,3 +353,26 @@ fn sides_without_light_are_left_out_of_what_a_map_tells() {
     assert!((area_m2 - 80.0).abs() < 1e-6, "{area_m2}");
     assert!(home.run(&["info", "map.glb"]).out.contains("no light comes to"));
 }
+
+#[test]
+fn names_from_files_leave_the_terminal_alone() {
+    let home = Home::new();
+    let name = format!("\u{1b}[31m\n{}", "n".repeat(1000));
+    let written = name.replace('\u{1b}', "\\u001b").replace('\n', "\\n");
+    let scene = format!(
+        "name = \"{written}\"\n[materials.\"{written}\"]\ndiffuse = 0.99\n[[geometry]]\nname = \"{written}\"\n\
+         material = \"{written}\"\nbox = {{ min = [0, 0, 0], max = [4, 4, 3], inward = true }}\n"
+    );
+    home.file("room.toml", scene);
+    for command in ["info", "check"] {
+        let said = home.run(&[command, "room.toml"]);
+        assert_eq!(said.code, 0, "{said:?}");
+        assert!(
+            !said.out.contains('\u{1b}') && !said.out.contains(&"n".repeat(201)),
+            "{}",
+            said.out
+        );
+        assert!(said.out.contains("\\u{1b}[31m\\nnn") && said.out.contains('…'), "{}", said.out);
+    }
+    assert_eq!(home.run(&["info", "room.toml", "--json"]).json()["name"], name);
+}

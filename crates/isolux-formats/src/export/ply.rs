@@ -30,7 +30,11 @@ pub(super) fn write(scene: &Scene, map: &IlluminationMap, preview: &Preview) -> 
     bytes
 }
 
-fn header(vertices: usize, faces: usize) -> String {
+/// What every file begins with.
+pub(super) const START: &str =
+    "ply\nformat binary_little_endian 1.0\ncomment illumination map of isolux, metres and lux\n";
+
+pub(super) fn header(vertices: usize, faces: usize) -> String {
     let floats = |names: &[&str]| -> String {
         names.iter().map(|name| format!("property float {name}\n")).collect()
     };
@@ -38,8 +42,8 @@ fn header(vertices: usize, faces: usize) -> String {
     let colours = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     let lux = floats(&["illuminance_lx", "standard_error_lx", "direct_lx", "indirect_lx"]);
     format!(
-        "ply\nformat binary_little_endian 1.0\ncomment illumination map of isolux, metres and lux\nelement vertex \
-         {vertices}\n{places}{colours}{lux}element face {faces}\nproperty list uchar uint vertex_indices\nend_header\n"
+        "{START}element vertex {vertices}\n{places}{colours}{lux}element face {faces}\nproperty list uchar uint \
+         vertex_indices\nend_header\n"
     )
 }
 

@@ -24,7 +24,7 @@ mod write;
 
 pub(crate) use displayed::{Displayed, displayed};
 pub use preview::Preview;
-pub use read::{MapFile, is_map, read, read_with_texels};
+pub use read::{MapFile, is_export, is_map, read, read_with_texels};
 pub use texels::{TexelFile, write_texels};
 pub use vertices::{VertexColours, VertexFile, write_vertices};
 pub use write::write;

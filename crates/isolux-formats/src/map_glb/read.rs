@@ -5,7 +5,7 @@ use super::bytes::View;
 use super::container;
 use super::record::{Extras, Record, VERSIONS};
 use super::{Fault, lightmap_arrays, scene_arrays, value_arrays};
-use crate::{Loaded, Problem, Problems};
+use crate::{Loaded, Problem, Problems, source};
 use isolux::lightmap::Lightmap;
 use isolux::map::{IlluminationMap, Provenance};
 use isolux::scene::{Scene, SceneParts, SceneProblem};
@@ -45,6 +45,7 @@ pub fn read_with_texels(path: &Path) -> Result<Loaded<MapFile>, Problems> {
 
 fn file(path: &Path, with_texels: bool) -> Result<MapFile, Problems> {
     let problem = |fault: Fault| Problem::new(path, fault.place, fault.what, REMEDY);
+    source::check_present(path)?;
     let bytes = contents(path).map_err(|error| Problem::unreadable(path, &error))?;
     if !bytes.starts_with(container::MAGIC) {
         let what = "is no illumination map: it is not a binary glTF file";
@@ -98,6 +99,16 @@ pub fn is_map(path: &Path) -> bool {
         .is_ok_and(|json| serde_json::from_slice::<Document<Extras<IgnoredAny>>>(&json).is_ok())
 }
 
+/// Whether a file was written by [`super::write_vertices`] or [`super::write_texels`] without a map in it: it can be
+/// made again from its map.
+pub fn is_export(path: &Path) -> bool {
+    let marks = |json: Vec<u8>| serde_json::from_slice::<Document<Marks>>(&json).ok();
+    json_chunk(path).ok().and_then(marks).is_some_and(|document| {
+        let Marks { isolux, isolux_vertices, isolux_lightmap } = document.extras;
+        isolux.is_none() && (isolux_vertices.is_some() || isolux_lightmap.is_some())
+    })
+}
+
 fn json_chunk(path: &Path) -> io::Result<Vec<u8>> {
     let mut file = open(path)?;
     let mut prefix = [0; container::PREFIX_BYTES];
@@ -134,6 +145,14 @@ struct Document<E> {
     #[serde(default)]
     buffer_views: Vec<View>,
     extras: E,
+}
+
+/// Which notes of ours a document has.
+#[derive(Deserialize)]
+struct Marks {
+    isolux: Option<IgnoredAny>,
+    isolux_vertices: Option<IgnoredAny>,
+    isolux_lightmap: Option<IgnoredAny>,
 }
 
 #[derive(Deserialize)]

@@ -1,0 +1,75 @@
+//! Text from files as a terminal may be given it: without control characters, names of a length that can be read. JSON
+//! holds them as they are.
+
+use std::borrow::Cow;
+
+/// Longest name in tables and lists, characters.
+const MOST_OF_NAME: usize = 60;
+/// Longest name, or path, between backticks in a sentence.
+const MOST_OF_QUOTE: usize = 200;
+
+/// With control characters as escapes: `\n`, `\u{1b}`.
+pub(crate) fn plain(text: &str) -> Cow<'_, str> {
+    if !text.contains(char::is_control) {
+        return Cow::Borrowed(text);
+    }
+    let escaped = |c: char| match c.is_control() {
+        true => c.escape_default().collect(),
+        false => c.to_string(),
+    };
+    Cow::Owned(text.chars().map(escaped).collect())
+}
+
+/// A name, plain, and cut if it is long.
+pub(crate) fn name(text: &str) -> String {
+    cut(&plain(text), MOST_OF_NAME)
+}
+
+/// Names in a row.
+pub(crate) fn names<'a>(all: impl IntoIterator<Item = &'a str>) -> String {
+    all.into_iter().map(name).collect::<Vec<String>>().join(", ")
+}
+
+/// A message, plain, with what stands between backticks cut if it is long: it comes from files.
+pub(crate) fn sentence(text: &str) -> String {
+    let text = plain(text);
+    let parts: Vec<&str> = text.split('`').collect();
+    let is_quote = |k: usize| k % 2 == 1 && k + 1 < parts.len();
+    let shown = parts.iter().enumerate().map(|(k, part)| match is_quote(k) {
+        true => cut(part, MOST_OF_QUOTE),
+        false => (*part).to_owned(),
+    });
+    shown.collect::<Vec<String>>().join("`")
+}
+
+fn cut(text: &str, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some(_) => text.chars().take(most - 1).chain(['…']).collect(),
+        None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_plain_and_short() {
+        let long = "é".repeat(100_000);
+        assert_eq!(name(&long), "é".repeat(59) + "…");
+        assert_eq!(name(&"é".repeat(60)), "é".repeat(60));
+        assert_eq!(name("\u{1b}[31mred\n"), "\\u{1b}[31mred\\n");
+        assert_eq!(names(["a", "b\t"]), "a, b\\t");
+    }
+
+    #[test]
+    fn sentences_keep_what_we_say() {
+        let said =
+            format!("a.glb: material `{}`: is {} black", "m".repeat(1000), "quite ".repeat(9));
+        let shown = sentence(&said);
+        assert!(shown.starts_with("a.glb: material `mm"), "{shown}");
+        assert!(shown.ends_with(&format!("mm…`: is {} black", "quite ".repeat(9))), "{shown}");
+        let half = format!("a ` {}", "b".repeat(300));
+        assert_eq!(sentence(&half), half);
+    }
+}
