@@ -78,14 +78,19 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
                 .to_owned()
         }
         (Some(accuracy), Some(asked)) if ends_itself && accuracy.of_elements() > asked => format!(
-            "ended as more of the same would not help: with {} receivers interpolation and lookups alone err by {}, \
-             and no finer elements were made, as they {}; ask for less accuracy{}",
+            "ended as more of the same would not help: with {} receivers interpolation and lookups alone err by {}{}, \
+             and {}; ask for no more than that{}",
             map.values.len(),
             show_share(accuracy.of_elements()),
-            if 2 * map.values.len() > request.most_receivers() {
-                "would take more than --max-memory: raise it"
+            if 2.0 * accuracy.caustics.powi(2) > accuracy.of_elements().powi(2) {
+                ", most of it in light that comes over glossy, mirroring or transparent surfaces"
             } else {
-                "may be no more or came to nothing"
+                ""
+            },
+            if 2 * map.values.len() > request.most_receivers() {
+                "finer elements would take more than --max-memory: raise it"
+            } else {
+                "finer elements were not found to err by less"
             },
             if request.method == Method::Hybrid { "" } else { ", or use --method hybrid" }
         ),
