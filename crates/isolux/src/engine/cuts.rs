@@ -51,8 +51,21 @@ impl Cut {
 }
 
 impl Cuts {
-    /// Among these nodes of elements, whose vertices are among the first so many.
-    pub(super) fn of(scene: &Scene, elements: &Elements, nodes: &[Side], first: usize) -> Self {
+    /// Among these nodes of elements, whose vertices are among the first so many, where vertices tell of light that is not alike: to
+    /// look at all would take too long.
+    pub(super) fn of(
+        scene: &Scene,
+        elements: &Elements,
+        (nodes, light): (impl Iterator<Item = Side>, &[Rgb]),
+        first: usize,
+    ) -> Self {
+        let is_uneven = |side: &Side| {
+            let corners = elements.node(side.node).vertices;
+            let [a, b, c] = corners.map(|vertex| light[vertex as usize].luminance());
+            let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+            most - least > UNEVEN * most
+        };
+        let nodes: Vec<Side> = nodes.filter(is_uneven).collect();
         let look = Look { scene, elements };
         let found = nodes.par_iter().filter_map(|side| Some((side, look.cut(side)?)));
         let found: Vec<(&Side, Cut)> = found.collect();
@@ -72,16 +85,9 @@ impl Cuts {
         cuts
     }
 
-    /// Among the elements of a map of which vertices tell of light that is not alike: to look at all would take too long.
+    /// Among the elements of a map.
     pub(super) fn of_map(scene: &Scene, elements: &Elements, light: &[Rgb]) -> Self {
-        let is_uneven = |side: &Side| {
-            let corners = elements.node(side.node).vertices;
-            let [a, b, c] = corners.map(|vertex| light[vertex as usize].luminance());
-            let (least, most) = (a.min(b).min(c), a.max(b).max(c));
-            most - least > UNEVEN * most
-        };
-        let uneven: Vec<Side> = elements.leaves().map(Side::from).filter(is_uneven).collect();
-        Self::of(scene, elements, &uneven, usize::MAX)
+        Self::of(scene, elements, (elements.leaves().map(Side::from), light), usize::MAX)
     }
 
     /// How a node is cut, if it is.

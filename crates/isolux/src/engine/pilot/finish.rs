@@ -113,8 +113,7 @@ impl<'s> Pilot<'s> {
                 let Origin { triangle, back, .. } = coarse.node(node).1;
                 Side { node, triangle, back }
             });
-        let nodes: Vec<Side> = nodes.collect();
-        Cuts::of(self.scene, elements, &nodes, coarse.vertex_count())
+        Cuts::of(self.scene, elements, (nodes, &self.indirect), coarse.vertex_count())
     }
 
     fn fit(&self, coarse: &Subdivision, open: &[bool], cuts: &Cuts) -> Fit {

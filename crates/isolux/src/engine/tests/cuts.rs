@@ -81,7 +81,11 @@ fn a_corner_is_told_from_the_others_by_the_line_between() {
     subdivision.bisect_to(0.5, usize::MAX);
     let elements = subdivision.elements();
     let sides: Vec<Side> = elements.leaves().map(Side::from).collect();
-    let cuts = Cuts::of(&scene, &elements, &sides, subdivision.vertex_count());
+    // Bright on one side.
+    let is_there = |v: &crate::elements::Vertex| v.position.x < SHEET_X;
+    let light: Vec<Rgb> =
+        elements.vertices().iter().map(|v| Rgb::grey(f64::from(is_there(v)))).collect();
+    let cuts = Cuts::of_map(&scene, &elements, &light);
     let (mut cut, mut crossed) = (0, 0);
     for side in &sides {
         let corners = elements.node(side.node).vertices;
