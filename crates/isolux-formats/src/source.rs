@@ -31,7 +31,7 @@ pub(crate) fn check_present(path: &Path) -> Result<(), Problem> {
             Err(Problem::new(path, "", "is a directory", "name a file in it"))
         }
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
-            Err(Problem::new(path, "", "does not exist", "check the name"))
+            Err(Problem::new(path, "", "does not exist and cannot be read", "check the name"))
         }
         _ => Ok(()),
     }
@@ -145,9 +145,8 @@ mod tests {
         assert!(read_bytes(dir.path(), 16).unwrap_err().what.contains("regular"));
         assert!(read_bytes(&dir.path().join("b"), 16).unwrap_err().what.contains("cannot"));
         assert!(check_present(&path).is_ok());
-        for (name, what) in
-            [("b", "does not exist"), ("a/b", "does not exist"), ("", "is a directory")]
-        {
+        let none = "does not exist and cannot be read";
+        for (name, what) in [("b", none), ("a/b", none), ("", "is a directory")] {
             assert_eq!(check_present(&dir.path().join(name)).unwrap_err().what, what, "{name}");
         }
     }
