@@ -88,7 +88,7 @@ pub(super) struct Gathering<'a> {
     pub(super) standings: &'a [Option<Standing>],
     pub(super) direct: DirectAtEnds<'a>,
     /// Whether a ray that ends nearer than the element there is long gathers again from there, instead of
-    /// reading a map that tells little of places so close to something: up to [`REGATHERED`] times.
+    /// reading a map that tells little of places so close to something: a few times.
     pub(super) regathers: bool,
     /// What is so bright that rays are sent there.
     pub(super) bright: Option<&'a Bright>,
