@@ -22,16 +22,19 @@ impl Pilot<'_> {
         let is_new =
             |&node: &u32| !self.middles.contains_key(&node) && details.told_error(node).is_none();
         let new: Vec<u32> = self.subdivision.leaves().filter(is_new).collect();
-        let beset = |node: u32| {
+        let asking = |node: u32| {
+            if !self.beset[node as usize] {
+                return None;
+            }
             let place = SurfacePoint::amid_node(self.scene, &self.subdivision, node);
             let edge_m = self.subdivision.longest_edge_m(node);
             let corner = self.subdivision.node(node).0.vertices[0];
             let gatherer = Gatherer::on_surface(place, self.rays[corner as usize]);
             let in_gap = trust::is_closed_in(self.scene, &place, edge_m);
-            let asks = self.beset[node as usize] && (!in_gap || self.is_lit_up(node, &place));
+            let asks = !in_gap || self.is_lit_up(node, &place);
             asks.then_some((node, gatherer.in_gap(in_gap)))
         };
-        let asked: Vec<Option<(u32, Gatherer)>> = new.par_iter().map(|&n| beset(n)).collect();
+        let asked: Vec<Option<(u32, Gatherer)>> = new.par_iter().map(|&n| asking(n)).collect();
         self.middles.extend(new.into_iter().map(|node| (node, None)));
         let (nodes, rows): (Vec<u32>, Vec<Gatherer>) = asked.into_iter().flatten().unzip();
         let key = self.key.with(2);
