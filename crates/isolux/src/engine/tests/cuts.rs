@@ -4,8 +4,7 @@ use super::*;
 use crate::engine::cuts::{Cuts, Side};
 use crate::engine::direct::Lighting;
 use crate::engine::gather::{known_at, known_on_side};
-use crate::engine::pilot::{PilotRequest, pilot};
-use crate::engine::surface::SurfacePoint;
+use crate::engine::pilot::pilot;
 
 const SHEET_X: f64 = 1.37;
 
@@ -17,37 +16,16 @@ fn rooms(height: f64) -> Scene {
     scene(shapes, vec![painted(Rgb::grey(0.6))], lamps)
 }
 
-fn request() -> PilotRequest {
-    PilotRequest {
-        target: 0.02,
-        goal: 0.02,
-        mesh_target: 0.05,
-        seed: 1,
-        is_fitted: true,
-        has_means: true,
-        refines_caustics: true,
-        max_vertices: 1 << 20,
-        most_for_indirect_light: None,
-        least_edge_m: None,
-    }
-}
-
 /// Of places of the floor within 10 cm of the sheet, how many read vertices beyond it.
 fn reading_beyond(scene: &Scene) -> usize {
     let lighting = Lighting::new(scene);
-    let plan = pilot(scene, &lighting, &request(), &mut |_| true);
+    let plan = pilot(scene, &lighting, &usual_request(), &mut |_| true);
     let key = Key::new(9);
     let reads_beyond = |k: &u64| {
         let [x, y] = [0, 1].map(|n| key.with(2 * k + n).uniform());
         let at = Point::new(SHEET_X - 0.1 + 0.2 * x, 0.1 + 1.8 * y, 0.0);
-        let lies_on = |t: &u32| {
-            let [u, v] = scene.triangle(*t).barycentric(at);
-            let is_in = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
-            is_in && (scene.triangle(*t).point(u, v) - at).length() < 1e-6
-        };
-        let triangle = (0..scene.triangle_count()).find(lies_on).expect("a floor");
-        let [u, v] = scene.triangle(triangle).barycentric(at);
-        let surface = SurfacePoint::new(scene, triangle, false, u, v);
+        let surface = front_at(scene, at);
+        let SurfacePoint { triangle, u, v, .. } = surface;
         let place = plan.elements.place(plan.level, triangle, false, [u, v]).expect("it is lit");
         let corners = plan.elements.corners(place);
         // As rays read it.

@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::engine::direct::Lighting;
-use crate::engine::pilot::{PilotRequest, pilot};
-use crate::engine::surface::SurfacePoint;
+use crate::engine::pilot::pilot;
 
 const REFLECTANCE: f64 = 0.6;
 const RADIANCE: f64 = 100.0;
@@ -24,19 +23,7 @@ fn room() -> Scene {
 fn a_panel_close_below_the_ceiling_is_seen_to_light_it() {
     let scene = room();
     let lighting = Lighting::new(&scene);
-    let request = PilotRequest {
-        target: 0.02,
-        goal: 0.02,
-        mesh_target: 0.05,
-        seed: 1,
-        is_fitted: true,
-        has_means: true,
-        refines_caustics: true,
-        max_vertices: 1 << 20,
-        most_for_indirect_light: None,
-        least_edge_m: None,
-    };
-    let plan = pilot(&scene, &lighting, &request, &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
     // Between two planes light goes up and down without end.
     let direct = std::f64::consts::PI * RADIANCE;
     let expected = direct / (1.0 - REFLECTANCE * REFLECTANCE) - direct;
@@ -45,16 +32,7 @@ fn a_panel_close_below_the_ceiling_is_seen_to_light_it() {
     for k in 0..count {
         let [x, y] = [0, 1].map(|n| key.with(2 * k + n).uniform());
         let at = Point::new(1.4 + 1.2 * x, 1.0 + 1.0 * y, 2.5);
-        let triangle = (0..scene.triangle_count()).find(|&t| {
-            let [u, v] = scene.triangle(t).barycentric(at);
-            u >= 0.0
-                && v >= 0.0
-                && u + v <= 1.0
-                && (scene.triangle(t).point(u, v) - at).length() < 1e-6
-        });
-        let triangle = triangle.expect("the ceiling is there");
-        let [u, v] = scene.triangle(triangle).barycentric(at);
-        let surface = SurfacePoint::new(&scene, triangle, false, u, v);
+        let surface = front_at(&scene, at);
         let read = plan.read(plan.level, &plan.guess, &surface).luminance();
         // 10 cm from the border of a gap of 1 cm the rim is hardly seen: 15 % are for the noise of few rays.
         misread += u32::from((read / expected - 1.0).abs() > 0.15);

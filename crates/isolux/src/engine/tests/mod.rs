@@ -31,6 +31,8 @@ mod trusting;
 mod walls;
 
 use super::path::Dice;
+use super::pilot::PilotRequest;
+use super::surface::SurfacePoint;
 use crate::photometry::IntensityDistribution;
 use crate::sampling::{Key, Sequence};
 use crate::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape};
@@ -92,6 +94,33 @@ pub(super) fn scene(
 ) -> Scene {
     let parts = SceneParts { shapes, materials, luminaires, ..SceneParts::default() };
     Scene::assemble(parts).unwrap()
+}
+
+/// What a pilot is asked for a map of 2 %.
+fn usual_request() -> PilotRequest {
+    PilotRequest {
+        target: 0.02,
+        goal: 0.02,
+        mesh_target: 0.05,
+        seed: 1,
+        is_fitted: true,
+        has_means: true,
+        refines_caustics: true,
+        max_vertices: 1 << 20,
+        most_for_indirect_light: None,
+        least_edge_m: None,
+    }
+}
+
+/// The front of the first triangle that a place lies on.
+fn front_at(scene: &Scene, at: Point) -> SurfacePoint {
+    let weights = |t: u32| {
+        let [u, v] = scene.triangle(t).barycentric(at);
+        let lies_on = (scene.triangle(t).point(u, v) - at).length() < 1e-6;
+        (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && lies_on).then_some((t, [u, v]))
+    };
+    let (triangle, [u, v]) = (0..scene.triangle_count()).find_map(weights).expect("a surface");
+    SurfacePoint::new(scene, triangle, false, u, v)
 }
 
 fn dice(seed: u64) -> Dice {
