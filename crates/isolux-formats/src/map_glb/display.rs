@@ -1,6 +1,6 @@
 //! The displayed geometry: elements grouped by shape and side, as a viewer wants them.
 
-use isolux::elements::Element;
+use isolux::elements::{Element, FewNumbers};
 use isolux::geometry::{Point, Vector};
 use isolux::map::{Illuminance, IlluminationMap, Standing};
 use isolux::scene::{Body, Finish, Scene};
@@ -27,7 +27,7 @@ pub(super) struct Surface {
     /// What the map says at each vertex; nothing unless the layer has a map.
     pub(super) values: Vec<Option<Illuminance>>,
     pub(super) indices: Vec<u32>,
-    known: HashMap<Key, u32>,
+    known: HashMap<Key, u32, FewNumbers>,
 }
 
 /// What makes vertices of a mapped layer the same: vertex of the elements, texture coordinates.

@@ -5,7 +5,7 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 /// Hashes a few numbers: the usual hash would take most of the time of a subdivision. It starts from a secret of its
 /// own, so that no file can make keys collide; the order of a table is random, therefore, and nothing may depend on it.
 #[derive(Clone, Debug)]
-pub(crate) struct FewNumbers(u64);
+pub struct FewNumbers(u64);
 
 impl Default for FewNumbers {
     fn default() -> Self {
@@ -22,7 +22,8 @@ impl BuildHasher for FewNumbers {
 }
 
 /// Folds products with a number that has no pattern.
-pub(crate) struct Folding(u64);
+#[derive(Clone, Debug)]
+pub struct Folding(u64);
 
 impl Hasher for Folding {
     fn write(&mut self, bytes: &[u8]) {

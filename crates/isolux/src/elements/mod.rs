@@ -12,7 +12,7 @@ mod walk;
 mod tests;
 
 pub use arrays::{ElementArrays, ElementArraysError};
-pub(crate) use hash::FewNumbers;
+pub use hash::FewNumbers;
 pub(crate) use subdivide::edge_key;
 pub(crate) use subdivide::first_vertex_count;
 pub use subdivide::{Origin, Receiver, Subdivision, carries_map};

@@ -7,6 +7,7 @@ use super::trial::OF_INTERPOLATED;
 use crate::elements::Subdivision;
 use crate::map::Accuracy;
 use crate::scene::Scene;
+use rayon::prelude::*;
 
 /// Replicates from which on their spread is believed. The scene figure pools thousands of
 /// receivers, so eight give it to a few per cent.
@@ -14,6 +15,9 @@ pub(super) const BELIEVED_INCREMENTS: u64 = 8;
 
 /// Increments after which elements may be seen to be too coarse: the spread of fewer tells little of check points.
 pub(super) const FEWEST_TO_MISS: u64 = 4;
+
+/// Vertices whose sums are added up by one task.
+const POOLED_TOGETHER: usize = 1024;
 
 /// The error of the scene so far, however few replicates there are; `None` where nothing is
 /// known: what paths given up would have brought may be more than what is there.
@@ -30,7 +34,7 @@ pub(super) fn accuracy(
 /// noise of the values at the vertices is part of what they see.
 pub(super) fn accuracy_of_map(
     plan: &Plan,
-    estimate: impl Fn(usize) -> Estimate,
+    estimate: impl Fn(usize) -> Estimate + Sync,
     seen: &InterpolationErrors,
 ) -> Option<Accuracy> {
     let pooled = Pooled::of(plan, estimate);
@@ -104,6 +108,7 @@ pub(super) fn early_statistical(plan: &Plan, sums: &Accumulator) -> Option<f64> 
 }
 
 /// Over the known vertices, weighted by area: squares of the light and variances of its mean.
+#[derive(Default)]
 pub(super) struct Pooled {
     area_m2: f64,
     /// Where there is light.
@@ -113,19 +118,37 @@ pub(super) struct Pooled {
 }
 
 impl Pooled {
-    pub(super) fn of(plan: &Plan, estimate: impl Fn(usize) -> Estimate) -> Self {
-        let mut pooled = Self { area_m2: 0.0, lit_m2: 0.0, squared: 0.0, variance: 0.0 };
-        let vertices = plan.elements.vertices().iter().enumerate();
-        for (k, vertex) in vertices.filter(|&(k, _)| plan.standings[k].is_some()) {
-            let estimate = estimate(k);
-            let mean = &estimate.mean;
-            let lx = (mean.direct + mean.caustic + mean.indirect).luminance();
-            pooled.area_m2 += vertex.area_m2;
-            pooled.lit_m2 += if lx == 0.0 { 0.0 } else { vertex.area_m2 };
-            pooled.squared += vertex.area_m2 * lx * lx;
-            pooled.variance += vertex.area_m2 * estimate.variance;
+    pub(super) fn of(plan: &Plan, estimate: impl Fn(usize) -> Estimate + Sync) -> Self {
+        let vertices = plan.elements.vertices();
+        let part = |start: usize| {
+            let mut pooled = Self::default();
+            let end = vertices.len().min(start + POOLED_TOGETHER);
+            for k in (start..end).filter(|&k| plan.standings[k].is_some()) {
+                pooled.add(vertices[k].area_m2, &estimate(k));
+            }
+            pooled
+        };
+        let starts = (0..vertices.len()).into_par_iter().step_by(POOLED_TOGETHER);
+        let parts: Vec<Self> = starts.map(part).collect();
+        parts.into_iter().fold(Self::default(), Self::with)
+    }
+
+    fn add(&mut self, area_m2: f64, estimate: &Estimate) {
+        let mean = &estimate.mean;
+        let lx = (mean.direct + mean.caustic + mean.indirect).luminance();
+        self.area_m2 += area_m2;
+        self.lit_m2 += if lx == 0.0 { 0.0 } else { area_m2 };
+        self.squared += area_m2 * lx * lx;
+        self.variance += area_m2 * estimate.variance;
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self {
+            area_m2: self.area_m2 + other.area_m2,
+            lit_m2: self.lit_m2 + other.lit_m2,
+            squared: self.squared + other.squared,
+            variance: self.variance + other.variance,
         }
-        pooled
     }
 }
 

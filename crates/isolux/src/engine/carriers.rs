@@ -96,18 +96,19 @@ impl Carriers {
     ) {
         let vertices = subdivision.vertices();
         let rings = Rings::of(elements, first, rows, |v| open[v as usize] && self.is_active(v));
-        let link = |vertex: usize| {
+        let found = || Found::among(vertices.len());
+        let wider = rings.wider(found);
+        let link = |found: &mut Found, vertex: usize| {
             let ends = vertices[vertex].parents.expect("made by bisection");
             let mut between = first_ends(vertices, first, ends);
-            let ends_of: Vec<u32> = between.iter().map(|&(end, _)| end).collect();
+            let ends_of = || between.iter().map(|&(end, _)| end);
             let at = &vertices[vertex];
-            let mut about = rings.about(&ends_of);
-            let near_walls = walls.near(&about, at.position);
+            let near_walls = walls.near(rings.about(ends_of(), found), at.position);
             if !near_walls.is_empty() {
-                about = rings.about(&about);
+                wider.about(ends_of(), found);
             }
             let distance_m = |v: u32| (vertices[v as usize].position - at.position).length();
-            let near = about.into_iter().map(|v| (distance_m(v), v as usize)).collect();
+            let near = found.all.iter().map(|&v| (distance_m(v), v as usize)).collect();
             let told = weights_at(at, near, |v| vertices[v].position, &near_walls);
             let told = told.filter(|_| open[vertex]);
             let told =
@@ -123,7 +124,7 @@ impl Carriers {
             Some(Link { parents, spacing_m: distance_m(ends[0]) + distance_m(ends[1]) })
         };
         self.links.resize(first, None);
-        self.links.par_extend((first..vertices.len()).into_par_iter().map(link));
+        self.links.par_extend((first..vertices.len()).into_par_iter().map_init(found, link));
         self.active.resize(first, true);
         self.active.resize(vertices.len(), false);
         for row in rows {
@@ -330,11 +331,45 @@ impl Rings {
         Self(rings)
     }
 
-    fn about(&self, some: &[u32]) -> Vec<u32> {
-        let rings = some.iter().filter_map(|&v| self.0.get(v as usize)).flatten();
-        let mut about: Vec<u32> = rings.copied().collect();
-        sort_once(&mut about);
-        about
+    /// The same about all of those.
+    fn wider(&self, found: impl Fn() -> Found + Sync + Send) -> Self {
+        let about =
+            |found: &mut Found, ring: &Vec<u32>| self.about(ring.iter().copied(), found).to_vec();
+        Self(self.0.par_iter().map_init(found, about).collect())
+    }
+
+    /// Those about any of some, each once.
+    fn about<'f>(&self, some: impl Iterator<Item = u32>, found: &'f mut Found) -> &'f [u32] {
+        found.begin();
+        for ring in some.filter_map(|v| self.0.get(v as usize)) {
+            ring.iter().for_each(|&v| found.add(v));
+        }
+        &found.all
+    }
+}
+
+/// Vertices that were found, each once.
+struct Found {
+    all: Vec<u32>,
+    /// Of every vertex the search in which it was found last, and which search this is.
+    last: Vec<u32>,
+    search: u32,
+}
+
+impl Found {
+    fn among(vertices: usize) -> Self {
+        Self { all: Vec::new(), last: vec![0; vertices], search: 0 }
+    }
+
+    fn begin(&mut self) {
+        self.all.clear();
+        self.search += 1;
+    }
+
+    fn add(&mut self, vertex: u32) {
+        if std::mem::replace(&mut self.last[vertex as usize], self.search) != self.search {
+            self.all.push(vertex);
+        }
     }
 }
 

@@ -162,7 +162,7 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
         let area_m2 = errors[k].area_m2 / (count as f64 * density(k) / sum);
         check(plan, Gatherer::on_surface(surface, rays), area_m2, &errors[k])
     };
-    let mut checks: Vec<Check> = (0..count).filter_map(one).collect();
+    let mut checks: Vec<Check> = (0..count).into_par_iter().filter_map(one).collect();
     let is_gathered = |check: &Check| !check.is_trusted(plan.trust().least());
     let rows = checks.iter().filter(|check| is_gathered(check));
     let rows: Vec<Gatherer> = rows.map(|c| c.gatherer.with_rays(CLOSE_RAYS)).collect();

@@ -216,8 +216,13 @@ pub(super) fn weights_at(
     position: impl Fn(usize) -> Point,
     walls: &[Wall],
 ) -> Option<Vec<(usize, f64)>> {
-    near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    near.truncate(if walls.is_empty() { NEIGHBOURS } else { NEIGHBOURS_AT_WALLS });
+    let order = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    let most = if walls.is_empty() { NEIGHBOURS } else { NEIGHBOURS_AT_WALLS };
+    if near.len() > most {
+        near.select_nth_unstable_by(most, order);
+        near.truncate(most);
+    }
+    near.sort_unstable_by(order);
     let axis = at.normal.to_direction();
     let [x, y] =
         [[1.0, 0.0], [0.0, 1.0]].map(|[x, y]| axis.from_local(Vector::new(x, y, 0.0)).to_vector());
@@ -226,22 +231,28 @@ pub(super) fn weights_at(
         let d = wall.distance_m(place) / width_m;
         if d > 0.0 { d * libm::log(d) } else { 0.0 }
     };
+    let mut falls_here = [0.0; MOST_NEAR];
+    falls_here.iter_mut().zip(walls).for_each(|(own, wall)| *own = fall(wall, at.position));
     let sample = |&(distance_m, other): &(f64, usize)| {
         let to = position(other) - at.position;
         let share = distance_m / width_m;
         let bump = 1.0 - share * share;
         let mut falls = [0.0; MOST_NEAR];
-        for (own, wall) in falls.iter_mut().zip(walls) {
-            *own = fall(wall, position(other)) - fall(wall, at.position);
+        for ((own, wall), here) in falls.iter_mut().zip(walls).zip(falls_here) {
+            *own = fall(wall, position(other)) - here;
         }
         Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump, falls }
     };
-    let samples: Vec<Sample> = near.iter().map(sample).collect();
+    let mut samples = [Sample::default(); NEIGHBOURS_AT_WALLS];
+    samples.iter_mut().zip(&near).for_each(|(own, near)| *own = sample(near));
+    let samples = &samples[..near.len()];
     let over_plane = (0..=walls.len()).rev().flat_map(|walls| &OVER_PLANE[walls]);
-    let over_plane = over_plane.into_iter().find_map(|beside| weights(&samples, beside));
-    let weights = over_plane.or_else(|| weights_along_line(&samples))?;
-    let of = near.iter().zip(weights);
-    Some(of.filter(|(_, weight)| *weight != 0.0).map(|(&(_, other), w)| (other, w)).collect())
+    let over_plane = over_plane.into_iter().find_map(|beside| weights(samples, beside));
+    let weights = over_plane.or_else(|| weights_along_line(samples))?;
+    let of = near.iter().zip(weights).filter(|(_, weight)| *weight != 0.0);
+    let mut told = Vec::with_capacity(near.len());
+    told.extend(of.map(|(&(_, other), weight)| (other, weight)));
+    Some(told)
 }
 
 fn spacing_of(coarsest_m: f64, level: u8) -> f64 {
@@ -293,13 +304,21 @@ impl Grid {
 }
 
 /// A place in the tangent plane, and how much it counts.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Sample {
     at: [f64; 2],
     weight: f64,
     /// How light that falls off towards walls differs from that at the origin.
     falls: [f64; MOST_NEAR],
 }
+
+/// A number of every sample, zeros after the last.
+type Column = [f64; NEIGHBOURS_AT_WALLS];
+
+const NO_COLUMN: Column = [0.0; NEIGHBOURS_AT_WALLS];
+
+/// A constant, five of a quadratic function, and what falls off towards walls.
+const MOST_TERMS: usize = 6 + MOST_NEAR;
 
 /// Terms over a plane before so many walls, those to be tried first.
 const OVER_PLANE: [[&[usize]; 2]; 1 + MOST_NEAR] = [
@@ -311,36 +330,40 @@ const OVER_PLANE: [[&[usize]; 2]; 1 + MOST_NEAR] = [
 /// Weights of the values at some places that give the value at the origin of the polynomial of best
 /// fit of a constant and some terms beside it of `1, x, y, x2, xy, y2` and what falls off towards walls; `None` where they do not tell it, or
 /// extrapolate. By orthogonal columns (modified Gram-Schmidt).
-fn weights(samples: &[Sample], beside: &[usize]) -> Option<Vec<f64>> {
+fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
     if samples.len() <= beside.len() {
         return None;
     }
-    let roots: Vec<f64> = samples.iter().map(|s| s.weight.sqrt()).collect();
-    let column = |term: usize| -> Vec<f64> {
+    let mut roots = NO_COLUMN;
+    roots.iter_mut().zip(samples).for_each(|(root, s)| *root = s.weight.sqrt());
+    let column = |term: usize| -> Column {
         let value = |s: &Sample| {
             let [x, y] = s.at;
             let [first, second] = s.falls;
             [1.0, x, y, x * x, x * y, y * y, first, second][term]
         };
-        samples.iter().zip(&roots).map(|(s, root)| value(s) * root).collect()
+        let mut column = NO_COLUMN;
+        let of = samples.iter().zip(&roots).map(|(s, root)| value(s) * root);
+        column.iter_mut().zip(of).for_each(|(own, value)| *own = value);
+        column
     };
     // The constant column comes last: what the others leave of it is what tells the value.
-    let mut columns: Vec<Vec<f64>> = Vec::new();
-    for &term in beside.iter().chain(&[0]) {
+    let mut columns = [NO_COLUMN; MOST_TERMS];
+    let mut squares = [0.0; MOST_TERMS];
+    for (k, &term) in beside.iter().chain(&[0]).enumerate() {
         let mut own = column(term);
         let before = dot(&own, &own);
-        for other in &columns {
-            let share = dot(&own, other) / dot(other, other);
+        for (other, square) in columns[..k].iter().zip(squares) {
+            let share = dot(&own, other) / square;
             own.iter_mut().zip(other).for_each(|(a, b)| *a -= share * b);
         }
-        if dot(&own, &own) <= LEAST_PIVOT * before {
+        (columns[k], squares[k]) = (own, dot(&own, &own));
+        if squares[k] <= LEAST_PIVOT * before {
             return None;
         }
-        columns.push(own);
     }
-    let last = columns.pop()?;
-    let length = dot(&last, &last);
-    let weights: Vec<f64> = last.iter().zip(&roots).map(|(c, root)| c * root / length).collect();
+    let (mut weights, length) = (columns[beside.len()], squares[beside.len()]);
+    weights.iter_mut().zip(roots).for_each(|(weight, root)| *weight *= root / length);
     let size: f64 = weights.iter().map(|w| w.abs()).sum();
     let most = if beside.iter().any(|&term| term > 5) { MOST_WEIGHT_AT_WALLS } else { MOST_WEIGHT };
     (size <= most).then_some(weights)
@@ -348,7 +371,7 @@ fn weights(samples: &[Sample], beside: &[usize]) -> Option<Vec<f64>> {
 
 /// The same of a polynomial along a line through the origin that some of the samples lie on, as others on the same border do;
 /// the line is told by one of the nearest.
-fn weights_along_line(samples: &[Sample]) -> Option<Vec<f64>> {
+fn weights_along_line(samples: &[Sample]) -> Option<Column> {
     samples.iter().take(LINES).find_map(|towards| {
         let [x, y] = towards.at;
         let length = libm::hypot(x, y);
@@ -358,12 +381,17 @@ fn weights_along_line(samples: &[Sample]) -> Option<Vec<f64>> {
         let on: Vec<usize> = (0..samples.len()).filter(|&k| is_on(&samples[k])).collect();
         let line: Vec<Sample> = on.iter().map(|&k| along(&samples[k])).collect();
         let found = [&[1, 3][..], &[1]].into_iter().find_map(|beside| weights(&line, beside))?;
-        let mut all = vec![0.0; samples.len()];
+        let mut all = NO_COLUMN;
         on.into_iter().zip(found).for_each(|(k, weight)| all[k] = weight);
         Some(all)
     })
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+/// Four sums side by side, as processors add.
+fn dot(a: &Column, b: &Column) -> f64 {
+    let mut sums = [0.0; 4];
+    for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
+        (0..4).for_each(|k| sums[k] += a[k] * b[k]);
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }

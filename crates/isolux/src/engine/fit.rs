@@ -50,14 +50,15 @@ impl Fit {
         let all = elements.elements();
         let is_known = |e: &Element| tells(e.vertices);
         let carries = |e: &Element| e.vertices.iter().any(|&v| carriers.is_active(v));
-        let neighbours = neighbours(&all);
+        let about = about(&all, vertices);
+        let neighbours = neighbours(&all, &about);
         let place = |v: u32| elements.vertices()[v as usize].position;
-        let inner: Vec<Option<[Form; 3]>> = (0..all.len())
+        let inner: Vec<Option<Hessian>> = (0..all.len())
             .into_par_iter()
             .map(|k| {
                 let beside = [neighbours[k][0]?, neighbours[k][1]?, neighbours[k][2]?];
                 let around = beside.iter().chain([&k]).all(|&n| is_known(&all[n]));
-                (carries(&all[k]) && around).then(|| hessian(&all, k, beside, &place)).flatten()
+                (carries(&all[k]) && around).then(|| Hessian::of(&all, k, beside, &place)).flatten()
             })
             .collect();
         let on_border = borders(&all, &neighbours, vertices);
@@ -69,7 +70,6 @@ impl Fit {
             .into_par_iter()
             .map(|k| if is_moved(&all[k]) { mean(k) } else { Form::new() })
             .collect();
-        let about = about(&all, vertices);
         let one = |vertex: usize| {
             let known = about.of(vertex).iter().map(|&k| (&all[k as usize], &means[k as usize]));
             let known = known.filter(|(element, _)| is_known(element));
@@ -112,7 +112,7 @@ fn shifts<'a>(
     within: &impl Fn(u32) -> bool,
     place: &impl Fn(u32) -> Point,
 ) -> (f64, Form) {
-    let (mut area, mut form) = (0.0, Form::new());
+    let (mut area, mut form) = (0.0, Form::with_capacity(64));
     for (element, mean) in about {
         let corners = element.vertices.map(place);
         let area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
@@ -171,23 +171,15 @@ fn about(all: &[Element], vertices: usize) -> About {
 
 /// Of every element, those on its edges: edge `k` is opposite vertex `k`. None where an edge is a
 /// border or a crease.
-fn neighbours(all: &[Element]) -> Vec<[Option<usize>; 3]> {
-    let of_element = |index: usize| {
-        [0, 1, 2].map(|k| {
-            let [a, b] = [all[index].vertices[(k + 1) % 3], all[index].vertices[(k + 2) % 3]];
-            ([a.min(b), a.max(b)], index, k)
-        })
+fn neighbours(all: &[Element], about: &About) -> Vec<[Option<usize>; 3]> {
+    let across = |index: usize, k: usize| {
+        let [a, b] = [1, 2].map(|next| all[index].vertices[(k + next) % 3]);
+        let around = about.of(a as usize).iter().map(|&other| other as usize);
+        let mut across = around.filter(|&other| other != index && all[other].vertices.contains(&b));
+        across.next().filter(|_| across.next().is_none())
     };
-    let mut edges: Vec<([u32; 2], usize, usize)> =
-        (0..all.len()).into_par_iter().flat_map_iter(of_element).collect();
-    edges.par_sort_unstable();
-    let mut beside = vec![[None; 3]; all.len()];
-    for alike in edges.chunk_by(|a, b| a.0 == b.0) {
-        if let [(_, a, on_a), (_, b, on_b)] = *alike {
-            (beside[a][on_a], beside[b][on_b]) = (Some(b), Some(a));
-        }
-    }
-    beside
+    let beside = |index: usize| [0, 1, 2].map(|k| across(index, k));
+    (0..all.len()).into_par_iter().with_min_len(1024).map(beside).collect()
 }
 
 /// Which vertices lie on borders and creases.
@@ -202,81 +194,93 @@ fn borders(all: &[Element], beside: &[[Option<usize>; 3]], vertices: usize) -> V
     found
 }
 
-/// The Hessian in a basis of the plane of an element, its components xx, xy and yy as linear
-/// combinations of the values at the vertices of the element and its neighbours.
-fn hessian(
-    all: &[Element],
-    index: usize,
-    beside: [usize; 3],
-    place: &impl Fn(u32) -> Point,
-) -> Option<[Form; 3]> {
-    let own = all[index].vertices;
-    let corners = own.map(place);
-    let [x, y] = basis(corners)?;
-    let flat = |v: Vector| [v.dot(x), v.dot(y)];
-    let [a, b, c] = corners;
-    let (ab, ac) = (flat(b - a), flat(c - a));
-    let twice_area = ab[0] * ac[1] - ab[1] * ac[0];
-    let mut rows = [[0.0; 3]; 3];
-    let mut far = [(0, [0.0; 3]); 3];
-    for (row, &neighbour) in beside.iter().enumerate() {
-        let vertex = *all[neighbour].vertices.iter().find(|v| !own.contains(v))?;
-        let ap = flat(place(vertex) - a);
-        let l1 = (ap[0] * ac[1] - ap[1] * ac[0]) / twice_area;
-        let l2 = (ab[0] * ap[1] - ab[1] * ap[0]) / twice_area;
-        let l = [1.0 - l1 - l2, l1, l2];
-        let mut products = [0.0; 3];
-        for (m, n) in [(0, 1), (1, 2), (2, 0)] {
-            let e = flat(corners[n] - corners[m]);
-            let half = -0.5 * l[m] * l[n];
-            products[0] += half * e[0] * e[0];
-            products[1] += half * 2.0 * e[0] * e[1];
-            products[2] += half * e[1] * e[1];
+/// The Hessian in a basis of the plane of an element, as linear combinations of the values at its vertices and at the
+/// far ones of its neighbours.
+struct Hessian {
+    vertices: [u32; 6],
+    /// Of the components xx, xy and yy.
+    weights: [[f64; 6]; 3],
+}
+
+impl Hessian {
+    fn of(
+        all: &[Element],
+        index: usize,
+        beside: [usize; 3],
+        place: &impl Fn(u32) -> Point,
+    ) -> Option<Self> {
+        let own = all[index].vertices;
+        let corners = own.map(place);
+        let [x, y] = basis(corners)?;
+        let flat = |v: Vector| [v.dot(x), v.dot(y)];
+        let [a, b, c] = corners;
+        let (ab, ac) = (flat(b - a), flat(c - a));
+        let twice_area = ab[0] * ac[1] - ab[1] * ac[0];
+        let edges = [(0, 1), (1, 2), (2, 0)].map(|(m, n)| (m, n, flat(corners[n] - corners[m])));
+        let mut rows = [[0.0; 3]; 3];
+        let mut barycentric = [[0.0; 3]; 3];
+        let mut vertices = [own[0], own[1], own[2], 0, 0, 0];
+        for (row, &neighbour) in beside.iter().enumerate() {
+            let far = *all[neighbour].vertices.iter().find(|v| !own.contains(v))?;
+            let ap = flat(place(far) - a);
+            let l1 = (ap[0] * ac[1] - ap[1] * ac[0]) / twice_area;
+            let l2 = (ab[0] * ap[1] - ab[1] * ap[0]) / twice_area;
+            let l = [1.0 - l1 - l2, l1, l2];
+            for (m, n, e) in edges {
+                let half = -0.5 * l[m] * l[n];
+                add(&mut rows[row], products(e), half);
+            }
+            vertices[3 + row] = far;
+            barycentric[row] = l;
         }
-        rows[row] = products;
-        far[row] = (vertex, l);
+        let weights = inverse(rows)?.map(|of_far| {
+            let mut weights = [0.0, 0.0, 0.0, of_far[0], of_far[1], of_far[2]];
+            for (weight, l) in of_far.into_iter().zip(barycentric) {
+                (0..3).for_each(|k| weights[k] -= weight * l[k]);
+            }
+            weights
+        });
+        Some(Self { vertices, weights })
     }
-    let inverse = inverse(rows)?;
-    Some(inverse.map(|weights| {
-        let mut form: Form = own.map(|v| (v, 0.0)).to_vec();
-        for (weight, (vertex, l)) in weights.into_iter().zip(far) {
-            form.push((vertex, weight));
-            (0..3).for_each(|k| form[k].1 -= weight * l[k]);
-        }
-        form
-    }))
+}
+
+/// The products of the components of a vector that those of a Hessian are multiplied by.
+fn products([x, y]: [f64; 2]) -> [f64; 3] {
+    [x * x, 2.0 * x * y, y * y]
+}
+
+fn add(sum: &mut [f64; 3], products: [f64; 3], factor: f64) {
+    sum.iter_mut().zip(products).for_each(|(sum, product)| *sum += factor * product);
 }
 
 /// By how much a function exceeds its interpolation in the mean over an element, as a linear
 /// combination of its values. An element on a border takes the Hessian of its neighbours.
 fn mean_excess(
     all: &[Element],
-    inner: &[Option<[Form; 3]>],
+    inner: &[Option<Hessian>],
     beside: &[Option<usize>; 3],
     index: usize,
     place: &impl Fn(u32) -> Point,
 ) -> Form {
-    let from: Vec<usize> = match inner[index] {
-        Some(_) => vec![index],
-        None => beside.iter().flatten().copied().filter(|&n| inner[n].is_some()).collect(),
-    };
+    let is_inner = |&from: &usize| inner[from].is_some();
+    let beside = beside.iter().flatten().copied();
+    let own = Some(index).filter(is_inner);
+    let instead = beside.filter(|_| own.is_none()).filter(is_inner);
+    let from = || own.into_iter().chain(instead.clone());
+    let count = from().count();
     let corners = all[index].vertices.map(place);
-    let mut form = Form::new();
-    for &source in &from {
-        let Some(forms) = &inner[source] else { continue };
+    let edges = [(0, 1), (1, 2), (2, 0)].map(|(m, n)| corners[n] - corners[m]);
+    let mut form = Form::with_capacity(6 * count);
+    for source in from() {
+        let Some(Hessian { vertices, weights }) = &inner[source] else { continue };
         let Some([x, y]) = basis(all[source].vertices.map(place)) else { continue };
-        let mut products = [0.0; 3];
-        for (m, n) in [(0, 1), (1, 2), (2, 0)] {
-            let e = corners[n] - corners[m];
-            let [ex, ey] = [e.dot(x), e.dot(y)];
-            products[0] += ex * ex;
-            products[1] += 2.0 * ex * ey;
-            products[2] += ey * ey;
+        let mut sum = [0.0; 3];
+        for e in edges {
+            add(&mut sum, products([e.dot(x), e.dot(y)]), 1.0);
         }
-        for (component, product) in forms.iter().zip(products) {
-            let share = -product / (24.0 * from.len() as f64);
-            form.extend(component.iter().map(|&(v, weight)| (v, weight * share)));
-        }
+        let share = -1.0 / (24.0 * count as f64);
+        let of_vertex = |k: usize| (0..3).map(|c| weights[c][k] * sum[c]).sum::<f64>() * share;
+        form.extend((0..6).map(|k| (vertices[k], of_vertex(k))));
     }
     form
 }

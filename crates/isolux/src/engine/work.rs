@@ -434,7 +434,6 @@ impl<'p, 's> Work<'p, 's> {
         if let (Engine::Radiosity(radiosity), Some(left)) = (&self.engine, &self.left) {
             return radiosity.shots_needed(count, left);
         }
-        let seen = || self.accuracy_if(Noise::TakenOff).filter(|_| count >= FEWEST_TO_TELL);
         let by_all = |a: Accuracy| predict::increments_needed(&a, count, target);
         let by_noise = || {
             let statistical = early_statistical(self.plan, &self.sums).unwrap_or(0.0);
@@ -442,8 +441,9 @@ impl<'p, 's> Work<'p, 's> {
             count as f64 * share * share
         };
         let needed = if count < BELIEVED_INCREMENTS {
-            let seen = if self.has_nets() { seen().and_then(by_all) } else { None };
-            Some(seen.unwrap_or_else(by_noise))
+            let is_told = self.has_nets() && count >= FEWEST_TO_TELL;
+            let seen = is_told.then(|| self.accuracy_if(Noise::TakenOff).and_then(by_all));
+            Some(seen.flatten().unwrap_or_else(by_noise))
         } else {
             accuracy.and_then(|a| self.needed_beyond_doubt(a, target))
         };

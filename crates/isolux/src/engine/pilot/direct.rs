@@ -124,6 +124,7 @@ impl Pilot<'_> {
         };
         for _ in 0..MAX_ROUNDS {
             let (errors, excess) = self.direct_excess(&look.elements, request, look.rms_lx);
+            self.direct_excess = Some((self.subdivision.vertex_count(), excess));
             if excess <= 1.0 || !self.has_time(look, request, FINE, go_on) {
                 break;
             }

@@ -90,6 +90,8 @@ struct Pilot<'s> {
     /// How noisy it may be where it is measured once by part of the luminaires: of all light, and in lx.
     direct_noise: Option<f64>,
     direct_noise_lx: Option<f64>,
+    /// By how much direct light as interpolated errs more than it should, with so many vertices.
+    direct_excess: Option<(usize, f64)>,
     indirect: Vec<Rgb>,
     known: Vec<bool>,
     /// Where some particles came over specular surfaces.
@@ -181,6 +183,7 @@ impl<'s> Pilot<'s> {
             measured_at: Vec::new(),
             direct_noise: has_noise.then_some(NOISE_OF_DIRECT_LIGHT * request.mesh_target),
             direct_noise_lx: None,
+            direct_excess: None,
             indirect: Vec::new(),
             known: Vec::new(),
             reached: Vec::new(),

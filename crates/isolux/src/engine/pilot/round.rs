@@ -78,7 +78,7 @@ impl Pilot<'_> {
         let most = self.most_for_direct_light(request) as f64;
         let unmeasured = look.filter(|_| !self.is_measured);
         let more = unmeasured.map_or(0.0, |look| {
-            let excess = self.direct_excess(&look.elements, request, look.rms_lx).1;
+            let excess = self.direct_excess_now(look, request);
             let then = vertices as f64 * excess.max(1.0).sqrt();
             (then.min(most) - vertices as f64).max(0.0)
         });
@@ -122,6 +122,13 @@ impl Pilot<'_> {
             receivers_then: outlook.vertices_then(),
             left: outlook.left(&self.costs),
         }
+    }
+
+    /// What direct light as interpolated errs by, in what is asked for, as found already or by a look.
+    fn direct_excess_now(&self, look: &Look, request: &PilotRequest) -> f64 {
+        let known = self.direct_excess.filter(|(of, _)| *of == self.subdivision.vertex_count());
+        let look_now = || self.direct_excess(&look.elements, request, look.rms_lx).1;
+        known.map_or_else(look_now, |(_, excess)| excess)
     }
 
     /// Among many things light is not smooth: the usual first mesh, as a multiple of that there is.
