@@ -4,9 +4,7 @@ use super::accumulate::{Accumulator, Estimate};
 use super::checks::InterpolationErrors;
 use super::plan::Plan;
 use super::trial::OF_INTERPOLATED;
-use crate::elements::Subdivision;
 use crate::map::Accuracy;
-use crate::scene::Scene;
 use rayon::prelude::*;
 
 /// Replicates from which on their spread is believed. The scene figure pools thousands of
@@ -170,17 +168,4 @@ fn given_up_share(plan: &Plan, given_up_lx: f64, rms_lx: f64) -> f64 {
     } else {
         0.0
     }
-}
-
-/// Mean diffuse reflectance of the surfaces.
-pub(super) fn mean_reflectance(scene: &Scene, subdivision: &Subdivision) -> f64 {
-    let (mut area, mut reflected) = (0.0, 0.0);
-    for leaf in subdivision.leaves() {
-        let (_, origin) = subdivision.node(leaf);
-        let finish = scene.material(origin.triangle).finish(origin.back);
-        let m2 = subdivision.triangle(leaf).area();
-        area += m2;
-        reflected += m2 * finish.map_or(0.0, |f| f.diffuse.colour.luminance());
-    }
-    reflected / area
 }

@@ -2,26 +2,21 @@
 //!
 //! Vertices on one side tell nothing of the light on the other. Where two edges of an element are blocked, close to the
 //! surface and well above it, and the third is not, one corner is cut off from the others by about a straight line: what lies
-//! before it is read from that corner alone, what lies behind it from the others.
+//! before it is read from that corner alone, what lies behind it from the others. Where one edge is blocked and something
+//! stands on the corner opposite, the line leads from there.
 
 use super::surface::SurfacePoint;
+use super::torn::{AT_END, LOW, stands_on};
 use super::trust::NEAR;
 use crate::elements::{Elements, FewNumbers};
-use crate::scene::{Body, Scene};
+use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point, Ray};
 use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
 
-/// How far above the surface it is looked for, in distances that rays start at; and, not to take for it what lies on the
-/// floor, as a share of the edge, at [`NEAR`].
-const LOW: f64 = 4.0;
-
 /// Light that differs by more than this share of the greatest at the corners of an element is not alike.
 const UNEVEN: f64 = 0.2;
-
-/// What stands closer to a vertex, as a share of the edge, may as well stand on the other side of it.
-const AT_END: f32 = 1e-3;
 
 /// All of them.
 #[derive(Debug, Default)]
@@ -140,11 +135,18 @@ impl Look<'_> {
         let vertices = self.elements.node(side.node).vertices;
         let corners = vertices.map(|v| self.elements.vertices()[v as usize].position);
         let blocked = |k: usize| self.blocked_at(corners[k % 3], corners[(k + 1) % 3], &above);
-        let edges = [0, 1, 2].map(|k| blocked(k).is_some());
+        let edges = [0, 1, 2].map(blocked);
+        if let [Some(at), None, None] | [None, Some(at), None] | [None, None, Some(at)] = edges {
+            let corner = edges.iter().position(Option::is_some)?;
+            let opposite = [0, 1, 2].map(|k| corners[(corner + 2 + k) % 3]);
+            // From the corner on which it stands to where the edge is met.
+            let is_torn = stands_on(self.scene, opposite, &above);
+            return is_torn.then_some(Cut { corner, over: [1.0 / at, 1.0] });
+        }
         // Opposite the edge that is free.
-        let free = edges.iter().position(|blocked| !blocked)?;
+        let free = edges.iter().position(Option::is_none)?;
         let corner = (free + 2) % 3;
-        if edges.iter().filter(|&&blocked| blocked).count() != 2 {
+        if edges.iter().flatten().count() != 2 {
             return None;
         }
         let at = |k: usize| {
@@ -153,18 +155,17 @@ impl Look<'_> {
         Some(Cut { corner, over: [at(1)?, at(2)?] })
     }
 
-    /// Where on the way between two places of a surface something opaque stands, as a share of it.
+    /// Where on the way between two places of a surface something stands, as a share of it.
     fn blocked_at(&self, from: Point, to: Point, above: &SurfacePoint) -> Option<f64> {
         let way = |height_m: f64| {
             let raised = |p: Point| p + Normal::to_vector(above.geometric) * height_m;
             Ray::between(raised(from), raised(to)).skipping(above.triangle)
         };
-        if !self.scene.bvh().any_hit(&way(NEAR * (to - from).length())) {
-            return None;
-        }
-        let hit = self.scene.bvh().closest_hit(&way(LOW * above.away_m))?;
-        let is_opaque = matches!(self.scene.material(hit.triangle).body, Body::Opaque { .. });
-        (is_opaque && hit.t > AT_END && hit.t < 1.0 - AT_END).then(|| f64::from(hit.t))
+        // Panes part light, too.
+        self.scene.bvh().closest_hit(&way(NEAR * (to - from).length()))?;
+        let at = f64::from(self.scene.bvh().closest_hit(&way(LOW * above.away_m))?.t);
+        // What stands at an end may as well stand on the other side of it.
+        (at > AT_END && at < 1.0 - AT_END).then_some(at)
     }
 
     fn end_seen(&self, vertex: u32, above: &SurfacePoint) -> Option<u32> {

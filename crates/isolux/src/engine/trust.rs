@@ -138,12 +138,15 @@ pub(super) fn above_all(errors: &[LeafError]) -> f64 {
 /// Whether something stands so close before a place that an element of such edges cannot tell what
 /// light comes there: in the gap between a cupboard and its wall, on the ceiling above a column.
 pub(super) fn is_closed_in(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> bool {
-    is_met(scene, at, NEAR * longest_edge_m, CLOSED)
+    let is_closed = |ray: &Ray| scene.bvh().any_hit(ray);
+    is_met(is_closed, at, NEAR * longest_edge_m, CLOSED)
 }
 
-/// Whether there is something before a place that is as near as an element of such edges is long.
+/// Whether there is something before a place that is as near as an element of such edges is long, transparent or not: panes part
+/// light, too.
 pub(super) fn is_beset(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> bool {
-    is_met(scene, at, longest_edge_m, BESET)
+    let is_there = |ray: &Ray| scene.bvh().closest_hit(ray).is_some();
+    is_met(is_there, at, longest_edge_m, BESET)
 }
 
 /// How long an element may at most be for a place not to be beset, m; infinite if nothing is within
@@ -169,12 +172,12 @@ fn feeler(at: &SurfacePoint, reach_m: f64) -> impl Fn(u32) -> Ray + '_ {
     }
 }
 
-/// Whether so many of them do.
-fn is_met(scene: &Scene, at: &SurfacePoint, reach_m: f64, enough: u32) -> bool {
+/// Whether so many of them find something there.
+fn is_met(is_there: impl Fn(&Ray) -> bool, at: &SurfacePoint, reach_m: f64, enough: u32) -> bool {
     let ray = feeler(at, reach_m);
     let (mut met, mut missed) = (0, 0);
     for index in 0..FEELERS {
-        if scene.bvh().any_hit(&ray(index)) {
+        if is_there(&ray(index)) {
             met += 1;
         } else {
             missed += 1;

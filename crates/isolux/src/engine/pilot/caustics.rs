@@ -9,7 +9,6 @@
 use super::Pilot;
 use super::direct::MOST_REFLECTANCE;
 use crate::elements::{Elements, Subdivision};
-use crate::engine::accuracy::mean_reflectance;
 use crate::engine::flights::{CausticNoise, DOUBT, Flights};
 use crate::engine::forecast::{FINE, GoOn};
 use crate::engine::gather::known_weights;
@@ -17,6 +16,7 @@ use crate::engine::hats::Hats;
 use crate::engine::look::{Look, PilotRequest};
 use crate::engine::noise::Noise;
 use crate::engine::parts::{PARTS, Parts, Squared, part_of, read_in_parts, squared_error};
+use crate::engine::reflectance;
 use crate::engine::surface::SurfacePoint;
 use crate::map::Standing;
 use crate::sampling::Key;
@@ -196,7 +196,7 @@ impl Pilot<'_> {
             lm += m2 * (other_lx + sum / n);
             caustic_lm += m2 * sum / n;
         }
-        let reflectance = mean_reflectance(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
+        let reflectance = reflectance::of_all(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
         let reflected_lx = caustic_lm / area_m2 * reflectance / (1.0 - reflectance);
         let squared = (squares + 2.0 * reflected_lx * lm) / area_m2 + reflected_lx * reflected_lx;
         let rms_lx = squared.max(0.0).sqrt();

@@ -2,13 +2,13 @@
 
 use super::{MAX_ROUNDS, Pilot};
 use crate::elements::Elements;
-use crate::engine::accuracy::mean_reflectance;
 use crate::engine::carriers::Carriers;
 use crate::engine::detail::{Details, LeafError, Refinement, refine_worst};
 use crate::engine::direct::{Goal, Measured};
 use crate::engine::forecast::{FINE, GoOn};
 use crate::engine::gather::Gatherer;
 use crate::engine::look::{Look, PilotRequest};
+use crate::engine::reflectance;
 use crate::engine::shrink::beyond_noise;
 use crate::engine::trust;
 use crate::sampling::Sequence;
@@ -98,7 +98,7 @@ impl Pilot<'_> {
         let mean =
             |power: i32| some.iter().map(|&(m2, lx)| m2 * lx.powi(power)).sum::<f64>() / area_m2;
         let (mean_lx, square) = (mean(1), mean(2));
-        let reflectance = mean_reflectance(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
+        let reflectance = reflectance::of_all(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
         let whole_lx = mean_lx / (1.0 - reflectance);
         let varies = (square - mean_lx * mean_lx).max(0.0);
         self.direct_noise_lx = Some(share * (varies + whole_lx * whole_lx).sqrt());

@@ -2,7 +2,6 @@
 
 use super::Pilot;
 use crate::elements::{Elements, Origin, Subdivision};
-use crate::engine::accuracy::mean_reflectance;
 use crate::engine::bright::Bright;
 use crate::engine::carriers::Carriers;
 use crate::engine::cuts::{Cuts, Side};
@@ -12,6 +11,7 @@ use crate::engine::gather::Gatherer;
 use crate::engine::look::{Look, PilotRequest};
 use crate::engine::means::Means;
 use crate::engine::plan::Plan;
+use crate::engine::reflectance;
 use crate::engine::trial::Trial;
 use crate::map::Standing;
 
@@ -52,7 +52,7 @@ impl<'s> Pilot<'s> {
             trusted_up_to_lx,
             rms_lx: look.rms_lx,
             interpolation: libm::hypot(look.interpolation(request), caustics.share(look.rms_lx)),
-            mean_reflectance: mean_reflectance(self.scene, &coarse),
+            mean_reflectance: reflectance::of_all(self.scene, &coarse),
             means,
             resolves_walls: look.walls.are_resolved(),
             fit: self.fit(&coarse, &open, &cuts),

@@ -26,6 +26,7 @@ use super::look::{Look, Read};
 use super::path::Dice;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
+use super::torn::Torn;
 use super::trial::Trial;
 use super::trust::{self, Felt, Worst};
 use super::walls::Walls;
@@ -99,6 +100,7 @@ struct Pilot<'s> {
     /// What they stand for.
     standings: Vec<Option<Standing>>,
     felt: Felt,
+    torn: Torn,
     /// Which of them carry indirect light; how far apart the coarsest may be, m; which have gathered it.
     carriers: Carriers,
     spacing_m: f64,
@@ -189,6 +191,7 @@ impl<'s> Pilot<'s> {
             reached: Vec::new(),
             standings: Vec::new(),
             felt: Felt::default(),
+            torn: Torn::default(),
             carriers: Carriers::all(),
             usual_edge_m: is_coarse.then_some(edge_m),
             has_many_things,
@@ -446,8 +449,10 @@ impl<'s> Pilot<'s> {
         before.resize(gatherers.len(), None);
         let surface = |k: usize| gatherers[k].surface;
         self.standings = self.felt.standings(self.scene, &self.subdivision, &before, surface);
-        for (standing, known) in self.standings.iter_mut().zip(&self.known) {
-            *standing = standing.filter(|_| *known);
+        self.torn.look(self.scene, &self.subdivision);
+        for (k, standing) in self.standings.iter_mut().enumerate() {
+            let own = standing.filter(|_| self.known[k]);
+            *standing = if self.torn.has(k) { own.and(Some(Standing::Rim)) } else { own };
         }
     }
 

@@ -27,6 +27,8 @@ impl Pilot<'_> {
             self.known.push(ends.iter().any(|&end| self.known[end as usize]));
         }
         rows.retain(|row| open[row.vertex as usize]);
+        // What stands on a vertex stands close to the elements about it, which are left as they are.
+        self.torn.skip(&self.subdivision);
         self.carriers.smooth(&self.subdivision, first, &corners, &open, (&look.walls, &rows));
         look.elements = self.subdivision.elements();
         self.indirect.resize(self.subdivision.vertex_count(), Rgb::BLACK);

@@ -9,8 +9,8 @@
 use super::light::Light;
 use crate::elements::{Elements, Origin, Split};
 use crate::engine::plan::Plan;
+use crate::engine::reflectance;
 use crate::map::Standing;
-use crate::sampling::{Key, Sequence};
 use crate::scene::{Body, Finish};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Triangle, Vector};
@@ -18,9 +18,6 @@ use std::ops::Range;
 
 /// Patches: surfaces are put together until they have at least such a share of the area.
 const SHARE_OF_PATCH: f64 = 1.0 / 48.0;
-
-/// Places at which the reflectance of a textured element is looked up.
-const PLACES_OF_TEXTURE: u32 = 16;
 
 /// A node of the trees.
 #[derive(Clone, Debug)]
@@ -215,7 +212,7 @@ impl Build<'_, '_> {
         let split = of.split.filter(|s| s.first_child < self.level);
         let reflectance = match (known, split) {
             (Some(known), _) => known,
-            (None, None) => self.mean_reflectance(origin, &triangle, node),
+            (None, None) => reflectance::of_part(self.plan.scene, origin, &triangle, node),
             (None, Some(_)) => Rgb::BLACK,
         };
         let face = Face {
@@ -254,21 +251,6 @@ impl Build<'_, '_> {
 
     fn finish(&self, origin: &Origin) -> Option<&Finish> {
         self.plan.scene.material(origin.triangle).finish(origin.back)
-    }
-
-    /// Of a textured element, in the mean over some places.
-    fn mean_reflectance(&self, origin: &Origin, part: &Triangle, node: u32) -> Rgb {
-        let Some(finish) = self.finish(origin) else { return Rgb::BLACK };
-        let scene = self.plan.scene;
-        let sequence = Sequence::new(Key::new(0).with(u64::from(node)));
-        let at = |k: u32| {
-            let [a, b] = sequence.pair(k, 0);
-            let root = a.sqrt();
-            let place = part.point(root * (1.0 - b), root * b);
-            let [u, v] = scene.triangle(origin.triangle).barycentric(place);
-            scene.diffuse_reflectance(finish, origin.triangle, u, v)
-        };
-        (0..PLACES_OF_TEXTURE).map(at).sum::<Rgb>() / f64::from(PLACES_OF_TEXTURE)
     }
 }
 

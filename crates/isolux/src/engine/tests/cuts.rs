@@ -5,25 +5,32 @@ use crate::engine::cuts::{Cuts, Side};
 use crate::engine::direct::Lighting;
 use crate::engine::gather::{known_at, known_on_side};
 use crate::engine::pilot::pilot;
+use crate::scene::{Body, Dielectric};
 
+/// Where no vertices are, and where bisection of rooms 3 m long makes them.
 const SHEET_X: f64 = 1.37;
+const MIDDLE_X: f64 = 1.5;
 
 /// Two rooms that share floor, ceiling and walls, parted by a sheet of so much height.
-fn rooms(height: f64) -> Scene {
-    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
-    shapes.push(rectangle([SHEET_X, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, height], 0));
-    let lamps = vec![isotropic([0.7, 1.0, 1.5], 100.0), isotropic([2.2, 1.0, 1.5], 1.0)];
-    scene(shapes, vec![painted(Rgb::grey(0.6))], lamps)
+fn rooms(sheet_x: f64, height: f64) -> Scene {
+    parted(sheet_x, height, painted(Rgb::grey(0.6)))
 }
 
-/// Of places of the floor within 10 cm of the sheet, how many read vertices beyond it.
-fn reading_beyond(scene: &Scene) -> usize {
+fn parted(sheet_x: f64, height: f64, sheet: Material) -> Scene {
+    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
+    shapes.push(rectangle([sheet_x, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, height], 1));
+    let lamps = vec![isotropic([0.7, 1.0, 1.5], 100.0), isotropic([2.2, 1.0, 1.5], 1.0)];
+    scene(shapes, vec![painted(Rgb::grey(0.6)), sheet], lamps)
+}
+
+/// Of places of the floor within 10 cm of the sheet, how many read vertices on or beyond it.
+fn reading_beyond(scene: &Scene, sheet_x: f64) -> usize {
     let lighting = Lighting::new(scene);
     let plan = pilot(scene, &lighting, &usual_request(), &mut |_| true);
     let key = Key::new(9);
     let reads_beyond = |k: &u64| {
         let [x, y] = [0, 1].map(|n| key.with(2 * k + n).uniform());
-        let at = Point::new(SHEET_X - 0.1 + 0.2 * x, 0.1 + 1.8 * y, 0.0);
+        let at = Point::new(sheet_x - 0.1 + 0.2 * x, 0.1 + 1.8 * y, 0.0);
         let surface = front_at(scene, at);
         let SurfacePoint { triangle, u, v, .. } = surface;
         let place = plan.elements.place(plan.level, triangle, false, [u, v]).expect("it is lit");
@@ -35,7 +42,7 @@ fn reading_beyond(scene: &Scene) -> usize {
         let read = read.expect("it is lit");
         let beyond = |&(vertex, weight): &(u32, f64)| {
             let of = plan.elements.vertices()[vertex as usize].position;
-            weight > 0.0 && (of.x < SHEET_X) != (at.x < SHEET_X)
+            weight > 0.0 && (of.x - sheet_x) * (at.x - sheet_x) <= 0.0
         };
         read.iter().any(beyond)
     };
@@ -45,16 +52,34 @@ fn reading_beyond(scene: &Scene) -> usize {
 #[test]
 fn nobody_reads_what_lies_beyond_a_sheet() {
     // The corners of elements that touch a wall are blocked there by it, too: a few are not told.
-    let beyond = reading_beyond(&rooms(2.5));
+    let beyond = reading_beyond(&rooms(SHEET_X, 2.5), SHEET_X);
     assert!(beyond <= 8, "{beyond} of 400");
     // What lies on the floor does not part light.
-    let low = reading_beyond(&rooms(0.01));
+    let low = reading_beyond(&rooms(SHEET_X, 0.01), SHEET_X);
     assert!(low > 100, "{low} of 400");
 }
 
 #[test]
+fn nobody_reads_vertices_that_a_sheet_stands_on() {
+    let beyond = reading_beyond(&rooms(MIDDLE_X, 2.5), MIDDLE_X);
+    assert_eq!(beyond, 0, "of 400");
+    let low = reading_beyond(&rooms(MIDDLE_X, 0.01), MIDDLE_X);
+    assert!(low > 100, "{low} of 400");
+}
+
+#[test]
+fn panes_part_light() {
+    let glass = Dielectric { ior: 1.5, transmittance: Rgb::grey(0.5), thin: true };
+    let pane = || Material { name: "pane".into(), body: Body::Dielectric(glass) };
+    for x in [SHEET_X, MIDDLE_X] {
+        let beyond = reading_beyond(&parted(x, 2.5, pane()), x);
+        assert!(beyond <= 8, "{beyond} of 400 at {x}");
+    }
+}
+
+#[test]
 fn a_corner_is_told_from_the_others_by_the_line_between() {
-    let scene = rooms(2.5);
+    let scene = rooms(SHEET_X, 2.5);
     let mut subdivision = crate::elements::Subdivision::new(&scene);
     subdivision.bisect_to(0.5, usize::MAX);
     let elements = subdivision.elements();

@@ -25,6 +25,7 @@ mod mirrors;
 mod mixing;
 mod net;
 mod parts;
+mod reflectance;
 mod sharing;
 mod sums;
 mod trusting;

@@ -1,0 +1,30 @@
+//! What surfaces reflect in the mean.
+
+use super::*;
+use crate::elements::Subdivision;
+use crate::engine::reflectance;
+use crate::scene::Texture;
+
+#[test]
+fn textures_count() {
+    // A white finish under a picture of two greys, side by side; each covers half of the rectangle.
+    let dark_and_light = [0, 0, 0, 188, 188, 188];
+    let texture = Texture { width: 2, height: 1, srgb: dark_and_light.to_vec() };
+    let mut finish = Finish::diffuse(Rgb::WHITE);
+    finish.diffuse.texture = Some(0);
+    let mut floor = rectangle([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0);
+    floor.uvs = Some(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+    let parts = SceneParts {
+        shapes: vec![floor],
+        materials: vec![Material::one_sided("tiles", finish)],
+        textures: vec![texture],
+        ..SceneParts::default()
+    };
+    let scene = Scene::assemble(parts).unwrap();
+    let mut subdivision = Subdivision::new(&scene);
+    subdivision.bisect_to(0.2, usize::MAX);
+    let found = reflectance::of_all(&scene, &subdivision);
+    // 16 places in each of some hundred elements of a linear ramp from one to the other.
+    let mean = scene.textures()[0].mean().luminance();
+    assert!((found - mean).abs() < 0.01 * mean, "{found} for {mean}");
+}
