@@ -21,6 +21,8 @@ const MOST_FOR_DIRECT_LIGHT: usize = 4;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 /// What direct light as interpolated may err by where it is smooth, of the accuracy asked for: details tell three times what it is in CUBE.
 const OF_ACCURACY: f64 = 1.0;
+/// What direct light that rays read may err by in the mean, once all surfaces have reflected that, of the accuracy asked for.
+const OF_MEAN: f64 = 0.25;
 /// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
 const LOOKED_AT: usize = 512;
 pub(super) const MOST_REFLECTANCE: f64 = 0.9;
@@ -165,6 +167,19 @@ impl Pilot<'_> {
         let own = if is_cheap { OF_ACCURACY * request.target } else { f64::INFINITY };
         let target = request.mesh_target.min(own);
         let excess = trust::error_of(&errors, |_| true) / (target * rms_lx);
-        (errors, excess)
+        let of_mean = self.mean_excess(&errors) / (OF_MEAN * request.target * rms_lx);
+        (errors, excess.max(of_mean))
+    }
+
+    /// What rays lack in the mean where they read direct light of elements with such errors, and what that lacks once it is
+    /// reflected, again and again, lx.
+    fn mean_excess(&self, errors: &[LeafError]) -> f64 {
+        if !self.lighting.are_read_at_ends() {
+            return 0.0;
+        }
+        let area_m2: f64 = errors.iter().map(|e| e.area_m2).sum();
+        let lacking: f64 = errors.iter().map(|e| e.area_m2 * e.excess).sum();
+        let reflectance = reflectance::of_all(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
+        (lacking / area_m2).abs() * reflectance / (1.0 - reflectance)
     }
 }
