@@ -64,7 +64,8 @@ impl Planned {
 
     /// What it will be.
     pub(crate) fn sizes(&self, scene: &Scene) -> Sizes {
-        let Layout { width, height, pages, charts, texels_per_m, .. } = self.layout;
+        let Layout { width, height, pages, charts, texels_per_m, least_texels_per_m, .. } =
+            self.layout;
         let of_surfaces = lit_area_m2(scene) * texels_per_m * texels_per_m;
         Sizes {
             width,
@@ -72,6 +73,7 @@ impl Planned {
             pages,
             charts,
             texels_per_meter: texels_per_m,
+            least_texels_per_meter: least_texels_per_m,
             texels: self.layout.texel_count() as u64,
             texels_of_surfaces: of_surfaces.round() as u64,
             memory_bytes: self.layout.texel_count() as u64 * BYTES_PER_TEXEL,
@@ -102,6 +104,15 @@ impl Planned {
                 show_bytes(layout.texel_count() as u64 * BYTES_PER_TEXEL)
             ),
         );
+        if layout.is_short() {
+            let text = format!(
+                "lightmap: charts have as few as {} texels a metre in place of {}, as they are longer than a page; \
+                 fewer --texels-per-meter, or surfaces in shorter pieces, are alike all over",
+                significant(layout.least_texels_per_m, 3),
+                significant(layout.asked_texels_per_m, 3)
+            );
+            note(Note::Warning, text);
+        }
         match &layout.own_places {
             OwnPlaces::None => {}
             OwnPlaces::Kept => {
@@ -130,6 +141,11 @@ impl Planned {
         match baked {
             Ok(lightmap) => {
                 let time_s = started.elapsed().as_secs_f64();
+                if lightmap.count(Cover::Known) == 0 {
+                    let text =
+                        "lightmap: no texel is known, as the map knows nothing of any surface";
+                    note(Note::Warning, text);
+                }
                 Ok(Some(Baked { lightmap, is_held: false, time_s }))
             }
             Err(LightmapError::Stopped) => Ok(None),
@@ -169,7 +185,8 @@ impl Baked {
     /// What was made, in which files.
     pub(crate) fn report(&self, target: Target, files: Vec<String>) -> Report {
         let map = &self.lightmap;
-        let Layout { width, height, pages, charts, texels_per_m, .. } = map.layout;
+        let Layout { width, height, pages, charts, texels_per_m, least_texels_per_m, .. } =
+            map.layout;
         Report {
             target: target.name(),
             convention: target.convention(),
@@ -179,6 +196,7 @@ impl Baked {
             pages,
             charts,
             texels_per_meter: texels_per_m,
+            least_texels_per_meter: least_texels_per_m,
             texels_known: map.count(Cover::Known),
             texels_unknown: map.count(Cover::Unknown),
             texels_filled: map.count(Cover::Filled),
@@ -212,6 +230,9 @@ fn failure(error: LightmapError) -> Failure {
         LightmapError::NothingLit => Failure::bad_input(
             "no surface can carry a lightmap: all are mirrors, glass or without area",
         ),
+        LightmapError::Sparse(_) => {
+            Failure::bad_input(format!("{error}; ask for more --texels-per-meter"))
+        }
         other => Failure::bad_input(format!("{other}; try other --texels-per-meter")),
     }
 }
@@ -228,6 +249,7 @@ pub(crate) struct Sizes {
     pages: u32,
     charts: u32,
     texels_per_meter: f64,
+    least_texels_per_meter: f64,
     texels: u64,
     texels_of_surfaces: u64,
     memory_bytes: u64,
@@ -259,6 +281,7 @@ pub(crate) struct Report {
     pages: u32,
     charts: u32,
     texels_per_meter: f64,
+    least_texels_per_meter: f64,
     texels_known: usize,
     texels_unknown: usize,
     texels_filled: usize,
@@ -322,6 +345,10 @@ impl Report {
                 significant(j.rms_lx, 3)
             )
         };
+        let [mean, least] = [self.texels_per_meter, self.least_texels_per_meter]
+            .map(|density| significant(density, 3));
+        let is_even = self.least_texels_per_meter >= self.texels_per_meter || mean == least;
+        let least = if is_even { String::new() } else { format!(" in the mean, {least} at least") };
         let Convention { quantity, unit, formula, setting, .. } = self.convention;
         let mut all = vec![
             ("lightmap", self.files.join(", ")),
@@ -329,11 +356,11 @@ impl Report {
             (
                 "  size",
                 format!(
-                    "{} of {} x {}, {} texels a metre, {} charts",
+                    "{} of {} x {}, {} texels a metre{least}, {} charts",
                     pages(self.pages),
                     self.width,
                     self.height,
-                    significant(self.texels_per_meter, 3),
+                    mean,
                     self.charts
                 ),
             ),

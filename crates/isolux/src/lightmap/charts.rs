@@ -35,6 +35,8 @@ pub struct Unwrapped {
     pub pages: u32,
     /// Charts.
     pub charts: u32,
+    /// Texels a metre of the chart that has the fewest: as asked, or less where one is larger than a page.
+    pub least_texels_per_m: f64,
     /// For every patch, for every triangle, where it lies.
     pub placed: Vec<Vec<Placed>>,
 }

@@ -6,7 +6,7 @@ use crate::scene::Scene;
 use rayon::prelude::*;
 
 /// Smaller parts of a texel are rounding.
-const LEAST_AREA: f64 = 1e-9;
+pub(super) const LEAST_AREA: f64 = 1e-9;
 
 /// The part of a side that a texel covers.
 #[derive(Clone, Copy, Debug, PartialEq)]

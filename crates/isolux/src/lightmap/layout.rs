@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Densities differ by no more than this share if they are the same: coordinates of charts are `f32`.
+pub(super) const ROUNDING: f64 = 1e-3;
+
 /// The charts of all lit sides. Pages are of one size; texel row 0 is at `v` = 0, the upper edge of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layout {
@@ -11,8 +14,10 @@ pub struct Layout {
     pub height: u32,
     /// Number of pages.
     pub pages: u32,
-    /// Density that was aimed at, texels a metre.
+    /// Density in the mean over all surfaces, texels a metre.
     pub texels_per_m: f64,
+    /// Density of the chart that has the least of those laid out anew: less than others where it is larger than a page.
+    pub least_texels_per_m: f64,
     /// Density that was asked for, or comes of the size of the scene: where places are kept, they decide.
     pub asked_texels_per_m: f64,
     /// Texels around each chart that belong to no other.
@@ -51,7 +56,26 @@ pub struct Side {
     pub uvs: [[f32; 2]; 3],
 }
 
+impl Side {
+    /// The share of its page that it covers.
+    pub(super) fn share(&self) -> f64 {
+        let [a, b, c] = self.uvs.map(|uv| uv.map(f64::from));
+        0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
+    }
+}
+
 impl Layout {
+    /// Texels that surfaces cover.
+    pub(super) fn covered(&self) -> f64 {
+        let page = f64::from(self.width) * f64::from(self.height);
+        page * self.sides.iter().map(Side::share).sum::<f64>()
+    }
+
+    /// Whether some surfaces have fewer texels than were asked for: pages end before their charts do.
+    pub fn is_short(&self) -> bool {
+        self.least_texels_per_m < self.asked_texels_per_m * (1.0 - ROUNDING)
+    }
+
     /// Texels of all pages.
     pub fn texel_count(&self) -> usize {
         self.width as usize * self.height as usize * self.pages as usize

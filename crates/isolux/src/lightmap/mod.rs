@@ -17,6 +17,7 @@ mod lit;
 mod own_places;
 mod places;
 mod plan;
+mod reach;
 mod seam_report;
 mod seams;
 mod shadow;

@@ -36,13 +36,14 @@ pub(super) fn find(
         height: size,
         pages: 1,
         texels_per_m: density,
+        least_texels_per_m: density,
         asked_texels_per_m: texels_per_m,
         padding,
         charts: 0,
         own_places: OwnPlaces::Kept,
         sides,
     };
-    let charts = charts(&layout.sides);
+    let charts = charts(scene, &layout.sides);
     layout.charts = charts.iter().copied().max().map_or(0, |last| last + 1);
     check_room(scene, &layout, &charts)?;
     Ok(Some(layout))
@@ -66,7 +67,7 @@ fn name<'a>(scene: &'a Scene, side: &Side) -> &'a str {
 /// Density on a square page, and its size: as asked for in the mean, if the page may be so large.
 fn size(scene: &Scene, sides: &[Side], texels_per_m: f64, most: u32) -> Result<(f64, u32), String> {
     let area_m2: f64 = sides.iter().map(|side| scene.triangle(side.triangle).area()).sum();
-    let share: f64 = sides.iter().map(|side| area(side.uvs)).sum();
+    let share: f64 = sides.iter().map(Side::share).sum();
     let side_m = (area_m2 / share).sqrt();
     if !side_m.is_finite() {
         return Err("the second texture coordinates cover no area".to_owned());
@@ -76,17 +77,13 @@ fn size(scene: &Scene, sides: &[Side], texels_per_m: f64, most: u32) -> Result<(
     Ok((f64::from(size) / side_m, size))
 }
 
-fn area(uvs: [[f32; 2]; 3]) -> f64 {
-    let [a, b, c] = uvs.map(|uv| uv.map(f64::from));
-    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])).abs()
-}
-
-/// The number of the chart of each side: sides that share an edge on the page are of one chart.
-fn charts(sides: &[Side]) -> Vec<u32> {
-    let mut edges: HashMap<[[u32; 2]; 2], usize> = HashMap::new();
+/// The number of the chart of each side: sides that share an edge both on the page and in space are of one chart. Those
+/// that only touch on the page are not: light does not go on from one to the other.
+fn charts(scene: &Scene, sides: &[Side]) -> Vec<u32> {
+    let mut edges: HashMap<[Corner; 2], usize> = HashMap::new();
     let mut parent: Vec<usize> = (0..sides.len()).collect();
     for (index, side) in sides.iter().enumerate() {
-        let corners = side.uvs.map(|uv| uv.map(|c| (c + 0.0).to_bits()));
+        let corners = corners(scene, side);
         for k in 0..3 {
             let mut edge = [corners[k], corners[(k + 1) % 3]];
             edge.sort_unstable();
@@ -102,6 +99,18 @@ fn charts(sides: &[Side]) -> Vec<u32> {
             *numbers.entry(root(&mut parent, index)).or_insert(next)
         })
         .collect()
+}
+
+/// A place on the page and in space, as whole numbers, with one zero.
+type Corner = ([u32; 2], [u64; 3]);
+
+fn corners(scene: &Scene, side: &Side) -> [Corner; 3] {
+    let points = scene.triangle(side.triangle).corners;
+    [0, 1, 2].map(|k| {
+        let place = side.uvs[k].map(|c| (c + 0.0).to_bits());
+        let point = points[k];
+        (place, [point.x, point.y, point.z].map(|c| (c + 0.0).to_bits()))
+    })
 }
 
 fn root(parent: &mut [usize], mut index: usize) -> usize {

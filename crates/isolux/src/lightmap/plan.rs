@@ -1,7 +1,8 @@
 //! From a map to a layout: which sides, how dense, and whether it fits into memory.
 
 use super::charts::{Patch, UnwrapError, UnwrapRequest, Unwrapper};
-use super::layout::{Layout, OwnPlaces, Side};
+use super::cover::LEAST_AREA;
+use super::layout::{Layout, OwnPlaces, ROUNDING, Side};
 use super::lit::{lit_area_m2, lit_sides};
 use super::own_places;
 use crate::scene::Scene;
@@ -54,6 +55,9 @@ pub enum LightmapError {
     /// The density is not a number above zero.
     #[error("{0} texels a metre are no density")]
     Density(f64),
+    /// The density is such that all surfaces together cover less of a texel than counts.
+    #[error("at {0} texels a metre no texel would be known")]
+    Sparse(f64),
     /// No side carries the map.
     #[error("no surface carries the map")]
     NothingLit,
@@ -104,6 +108,10 @@ pub fn plan(
         }
     };
     check_memory(layout.texel_count() as f64, settings)?;
+    if layout.covered() <= LEAST_AREA {
+        return Err(LightmapError::Sparse(texels_per_m));
+    }
+    let layout = of_true_density(scene, layout);
     Ok(Layout { own_places, asked_texels_per_m: texels_per_m, ..layout })
 }
 
@@ -141,6 +149,7 @@ fn unwrapped(
         height: unwrapped.height,
         pages: unwrapped.pages,
         texels_per_m,
+        least_texels_per_m: unwrapped.least_texels_per_m,
         asked_texels_per_m: texels_per_m,
         padding,
         charts: unwrapped.charts,
@@ -160,7 +169,22 @@ fn joined(first: Layout, rest: Layout) -> Layout {
     });
     let mut sides: Vec<Side> = first.sides.into_iter().chain(moved).collect();
     sides.sort_unstable_by_key(|side| (side.triangle, side.back));
-    Layout { pages: first.pages + rest.pages, charts: first.charts + rest.charts, sides, ..first }
+    Layout {
+        pages: first.pages + rest.pages,
+        charts: first.charts + rest.charts,
+        least_texels_per_m: first.least_texels_per_m.min(rest.least_texels_per_m),
+        sides,
+        ..first
+    }
+}
+
+/// With the density that surfaces have in the mean, where some charts have less than they should.
+fn of_true_density(scene: &Scene, layout: Layout) -> Layout {
+    if layout.least_texels_per_m >= layout.texels_per_m * (1.0 - ROUNDING) {
+        return layout;
+    }
+    let area_m2: f64 = layout.sides.iter().map(|s| scene.triangle(s.triangle).area()).sum();
+    Layout { texels_per_m: (layout.covered() / area_m2).sqrt(), ..layout }
 }
 
 fn check_memory(texels: f64, settings: &LightmapSettings) -> Result<(), LightmapError> {

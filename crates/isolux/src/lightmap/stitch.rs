@@ -3,10 +3,11 @@
 //! The texels about seams are moved so that bilinear lookups along both sides of an edge give the same, by least
 //! squares (Iwanicki 2013, "Lighting technology of The Last of Us", SIGGRAPH talks). Unlike there, every texel is held
 //! to its value in proportion to its standard error, and known ones move by no more than twice that: what is well known
-//! gives way least, and what was only filled in beside a chart gives way first. Jumps that are left are no noise but the
-//! size of texels.
+//! gives way least, and what was only filled in beside a chart gives way first, no further than to what is known about
+//! the seam. Jumps that are left are no noise but the size of texels.
 
 use super::edge::Seam;
+use super::reach::{self, Reach};
 use super::seam_report::{Jump, SeamReport};
 use super::seams;
 use super::solve::{Row, solve};
@@ -24,8 +25,6 @@ const AGREEMENT: f64 = 0.1;
 const SUREST: f64 = 1e-3;
 /// What was filled in beside a chart is held this loosely, a share of its value.
 const FILLED: f64 = 1.0;
-/// Known texels move by no more than so many of their standard errors: within the interval of 95 %.
-const MOST_ERRORS: f64 = 2.0;
 /// Times that texels are stopped there and the others solved for anew.
 const PASSES: usize = 4;
 /// A lookup counts if known texels have this weight in it on either side: beside narrow charts there may be none.
@@ -35,6 +34,27 @@ const KNOWN_WEIGHT: f64 = 0.25;
 struct Pair {
     place: Point,
     sides: [[(usize, f64); 4]; 2],
+}
+
+impl Pair {
+    /// What either side shows, the photometric value.
+    fn looked_up_lx(&self, lightmap: &Lightmap) -> [f64; 2] {
+        self.sides.map(|side| {
+            let light = |(t, w): (usize, f64)| Rgb(lightmap.shown_lx[t].map(f64::from)) * w;
+            side.into_iter().map(light).sum::<Rgb>().luminance()
+        })
+    }
+
+    fn jump_lx(&self, lightmap: &Lightmap) -> f64 {
+        let [a, b] = self.looked_up_lx(lightmap);
+        (a - b).abs()
+    }
+
+    /// Those that count.
+    fn texels(&self) -> impl Iterator<Item = usize> {
+        let all = self.sides.as_flattened().iter();
+        all.filter(|(_, weight)| *weight > 0.0).map(|&(texel, _)| texel)
+    }
 }
 
 /// Adjusts the texels about all seams.
@@ -52,31 +72,39 @@ pub(super) fn stitch(scene: &Scene, lightmap: &mut Lightmap) -> SeamReport {
         return report;
     }
     let (texels, rows) = system(lightmap, &pairs);
-    let changes = bounded(lightmap, &texels, rows);
-    let (mut squared, mut known, mut stopped) = (0.0, 0_usize, 0_usize);
-    for (&texel, change) in texels.iter().zip(&changes) {
-        if lightmap.covers[texel] == Cover::Known {
-            let moved_lx = Rgb(*change).luminance().abs();
-            let errors = moved_lx / give_lx(lightmap, texel);
-            squared += errors * errors;
-            known += 1;
-            stopped += usize::from(errors >= MOST_ERRORS * (1.0 - 1e-9));
-            report.largest_change_lx = report.largest_change_lx.max(moved_lx);
-        }
-    }
-    for (&texel, change) in texels.iter().zip(&changes) {
-        for (shown, change) in lightmap.shown_lx[texel].iter_mut().zip(change) {
-            *shown = (f64::from(*shown) + change).max(0.0) as f32;
-        }
-    }
-    report.rms_change_errors = (squared / known.max(1) as f64).sqrt();
-    report.stopped = stopped as f64 / known.max(1) as f64;
+    let reaches = reaches(lightmap, &texels, &pairs);
+    let mut changes = bounded(lightmap, (&texels, &reaches), rows);
+    apply(lightmap, (&texels, &mut changes), (&pairs, report.before.largest_lx));
+    reach::tell(&mut report, reaches.into_iter().zip(changes));
     report.after = jump(lightmap, &pairs);
     report
 }
 
+/// How far each texel may move.
+fn reaches(lightmap: &Lightmap, texels: &[usize], pairs: &[Pair]) -> Vec<Reach> {
+    let new = |&texel: &usize| (texel, Reach::new(lightmap, texel, give_lx(lightmap, texel)));
+    let mut found: HashMap<usize, Reach> = texels.iter().map(new).collect();
+    for pair in pairs {
+        let (filled, known): (Vec<usize>, Vec<usize>) =
+            pair.texels().partition(|&texel| lightmap.covers[texel] == Cover::Filled);
+        for &texel in &filled {
+            let Some(reach) = found.get_mut(&texel) else { continue };
+            let own = lightmap.shown_lx[texel].map(f64::from);
+            for &other in &known {
+                let other = lightmap.shown_lx[other].map(f64::from);
+                reach.admit([0, 1, 2].map(|c| other[c] - own[c]));
+            }
+        }
+    }
+    texels.iter().map(|texel| found[texel]).collect()
+}
+
 /// What texels change by. Those that would move too far are stopped on the way, and the others solved for anew.
-fn bounded(lightmap: &Lightmap, texels: &[usize], mut rows: Vec<Row>) -> Vec<[f64; 3]> {
+fn bounded(
+    lightmap: &Lightmap,
+    (texels, reaches): (&[usize], &[Reach]),
+    mut rows: Vec<Row>,
+) -> Vec<[f64; 3]> {
     let give: Vec<f64> = texels.iter().map(|&texel| give_lx(lightmap, texel)).collect();
     let mut stopped: Vec<Option<[f64; 3]>> = vec![None; texels.len()];
     let mut changes = Vec::new();
@@ -86,12 +114,9 @@ fn bounded(lightmap: &Lightmap, texels: &[usize], mut rows: Vec<Row>) -> Vec<[f6
         for k in 0..texels.len() {
             if let Some(at) = stopped[k] {
                 changes[k] = at;
-                continue;
-            }
-            let moved = Rgb(changes[k]).luminance().abs() / give[k];
-            if lightmap.covers[texels[k]] == Cover::Known && moved > MOST_ERRORS {
-                changes[k] = changes[k].map(|c| c * MOST_ERRORS / moved);
-                stopped[k] = Some(changes[k]);
+            } else if let Some(cut) = reaches[k].cut(changes[k]) {
+                changes[k] = cut;
+                stopped[k] = Some(cut);
                 is_done = false;
             }
         }
@@ -101,6 +126,35 @@ fn bounded(lightmap: &Lightmap, texels: &[usize], mut rows: Vec<Row>) -> Vec<[f6
         rows.iter_mut().for_each(|row| row.fix(&stopped));
     }
     changes
+}
+
+/// Moves texels, and those back that make any jump larger than the largest was: squares of jumps, each in its standard
+/// errors, may grow less in sum while one of them grows.
+fn apply(
+    lightmap: &mut Lightmap,
+    (texels, changes): (&[usize], &mut [[f64; 3]]),
+    (pairs, largest_lx): (&[Pair], f64),
+) {
+    let before: Vec<[f32; 3]> = texels.iter().map(|&texel| lightmap.shown_lx[texel]).collect();
+    for (&texel, change) in texels.iter().zip(changes.iter()) {
+        for (shown, change) in lightmap.shown_lx[texel].iter_mut().zip(change) {
+            *shown = (f64::from(*shown) + change).max(0.0) as f32;
+        }
+    }
+    let numbers: HashMap<usize, usize> = texels.iter().enumerate().map(|(k, &t)| (t, k)).collect();
+    loop {
+        let grown: Vec<&Pair> =
+            pairs.iter().filter(|pair| pair.jump_lx(lightmap) > largest_lx).collect();
+        // Lookups of texels that are all back jump as they did: this ends.
+        if grown.is_empty() {
+            return;
+        }
+        for texel in grown.into_iter().flat_map(Pair::texels) {
+            let number = numbers[&texel];
+            lightmap.shown_lx[texel] = before[number];
+            changes[number] = [0.0; 3];
+        }
+    }
 }
 
 fn lookups(lightmap: &Lightmap, seam: &Seam) -> Vec<Pair> {
@@ -174,11 +228,8 @@ fn jump(lightmap: &Lightmap, pairs: &[Pair]) -> Jump {
     let mut found = Jump::default();
     let mut squared = 0.0;
     for pair in pairs {
-        let [a, b] = pair.sides.map(|side| {
-            let light = |(t, w): (usize, f64)| Rgb(lightmap.shown_lx[t].map(f64::from)) * w;
-            side.into_iter().map(light).sum::<Rgb>().luminance()
-        });
-        let jump_lx = (a - b).abs();
+        let [a, b] = pair.looked_up_lx(lightmap);
+        let jump_lx = pair.jump_lx(lightmap);
         squared += jump_lx * jump_lx;
         if jump_lx > found.largest_lx {
             let mean = 0.5 * (a + b);

@@ -84,6 +84,42 @@ fn large_surfaces_take_several_pages_and_charts_no_more_than_one() {
     }
 }
 
+#[test]
+fn the_density_told_is_that_of_charts_cut_down_to_a_page() {
+    let strip = |length: f64| quad("strip", [0.0; 3], [[length, 0.0, 0.0], [0.0, 0.3, 0.0]], 1);
+    let tile = quad("tile", [0.0, 0.0, 1.0], [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], 1);
+    let small = LightmapSettings { page: 256, ..settings(60.0) };
+    let density = |shapes: Vec<Shape>| {
+        let scene = scene(shapes);
+        let layout = plan(&scene, &small, &UvUnwrap).unwrap();
+        let texels: f64 = fragments(&scene, &layout).iter().map(|f| f64::from(f.share)).sum();
+        // Coordinates are f32.
+        let off = layout.texels_per_m / (texels / lit_area_m2(&scene)).sqrt() - 1.0;
+        assert!(off.abs() < 1e-3, "{off}");
+        assert_eq!(layout.asked_texels_per_m, 60.0);
+        (layout.texels_per_m, layout.least_texels_per_m, layout.is_short())
+    };
+    assert_eq!(density(vec![strip(4.0), tile.clone()]), (60.0, 60.0, false));
+    // Of 256 texels, two of padding on either side: 252 for 6 m.
+    let (mean, least, is_short) = density(vec![strip(6.0)]);
+    assert!(
+        (mean - 42.0).abs() < 0.05 && (least - 42.0).abs() < 0.05 && is_short,
+        "{mean} {least}"
+    );
+    let (mean, least, is_short) = density(vec![strip(6.0), tile]);
+    // The strip has 1.8 m2, the tile 1 m2: the root of the mean of squares.
+    assert!(
+        (mean - 49.19).abs() < 0.05 && (least - 42.0).abs() < 0.05 && is_short,
+        "{mean} {least}"
+    );
+}
+
+#[test]
+fn a_density_at_which_nothing_covers_a_texel_is_refused() {
+    let refused = plan(&room(), &settings(1e-9), &UvUnwrap);
+    assert_eq!(refused, Err(LightmapError::Sparse(1e-9)));
+}
+
 /// The floor with places of its own on a page.
 fn placed(places: impl Fn([f64; 3]) -> [f32; 2]) -> Shape {
     let floor = quad("floor", [0.0; 3], [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], 2);
@@ -116,6 +152,35 @@ fn places_of_the_file_are_kept_where_they_serve() {
         .sum();
     // Of the wall, 7.5 m2 at a hundred texels each; coordinates of f32.
     assert!((rest - 750.0).abs() < 1.0, "{rest}");
+}
+
+#[test]
+fn charts_that_touch_on_the_page_alone_are_two() {
+    // A floor, and beside it on the page, without a margin, another that lies a metre away.
+    let beside = |[x, y, z]: [f64; 3]| left_half([x - 1.0, y, z]);
+    let far = quad("far", [5.0, 0.0, 0.0], [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], 2);
+    let lightmap_uvs = Some(far.positions.iter().map(|&p| beside(p)).collect());
+    let scene = scene(vec![placed(left_half), Shape { lightmap_uvs, ..far }]);
+    let edge = |triangle: u32| scene.corner_lightmap_uvs(triangle).unwrap();
+    let shared =
+        (0..8).flat_map(edge).filter(|uv| (8..16).flat_map(edge).any(|other| other == *uv));
+    assert!(shared.count() > 2, "they have edges in common on the page, bit for bit");
+    let layout = plan(&scene, &settings(10.0), &UvUnwrap).unwrap();
+    let OwnPlaces::Refused(why) = &layout.own_places else { panic!("{:?}", layout.own_places) };
+    assert!(why.contains("nearer than a texel"), "{why}");
+    assert_eq!(layout.charts, 2);
+}
+
+#[test]
+fn pieces_that_share_an_edge_in_space_too_are_one_chart() {
+    let half = |name: &str, x: f64| {
+        let floor = quad(name, [x, 0.0, 0.0], [[2.0, 0.0, 0.0], [0.0, 4.0, 0.0]], 1);
+        let lightmap_uvs = Some(floor.positions.iter().map(|&p| left_half(p)).collect());
+        Shape { lightmap_uvs, ..floor }
+    };
+    let scene = scene(vec![half("left", 0.0), half("right", 2.0)]);
+    let layout = plan(&scene, &settings(10.0), &UvUnwrap).unwrap();
+    assert_eq!((layout.own_places, layout.charts), (OwnPlaces::Kept, 1));
 }
 
 #[test]
