@@ -25,6 +25,7 @@ mod map_file;
 mod meter;
 mod mix;
 mod notes;
+mod origin;
 mod output;
 mod points;
 mod probe;

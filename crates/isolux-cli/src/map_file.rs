@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::output::OutputPath;
-use crate::source::{bad_file, show_warnings};
+use crate::source::{bad_file, check_place, show_warnings};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_formats::map_glb::{self, MapFile, Preview};
@@ -13,10 +13,11 @@ pub(crate) fn is_map(path: &Path) -> bool {
     map_glb::is_map(path)
 }
 
-/// Reads a map with the scene in it.
+/// Reads a map with the scene in it, which is not refused by [`check_place`].
 pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
     let loaded = map_glb::read(path).map_err(bad_file)?;
     show_warnings(&loaded.warnings);
+    check_place(path, &loaded.value.0)?;
     Ok(loaded.value)
 }
 
@@ -24,6 +25,7 @@ pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
 pub(crate) fn read_with_texels(path: &Path) -> Result<MapFile, Failure> {
     let loaded = map_glb::read_with_texels(path).map_err(bad_file)?;
     show_warnings(&loaded.warnings);
+    check_place(path, &loaded.value.scene)?;
     Ok(loaded.value)
 }
 

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::notes::{Note, note};
+use crate::origin::{Extent, Remoteness};
 use crate::shown::plain;
 use isolux::scene::{Scene, SceneParts, SceneProblem};
 use isolux_compare::{BUILTIN_NAMES, BuiltinError, builtin};
@@ -11,11 +12,24 @@ use std::path::Path;
 /// What comes before the name of a scene that is built in.
 const BUILTIN: &str = "builtin:";
 
-/// Reads a scene and says on standard error what its reader left out or guessed.
+/// Reads a scene to compute light in it, and says on standard error what its reader left out or guessed.
 pub(crate) fn read_scene(source: &Path) -> Result<Scene, Failure> {
     let Loaded { value, warnings } = read_scene_with_warnings(source)?;
     show_warnings(&warnings);
+    check_place(source, &value)?;
     Ok(value)
+}
+
+/// Refuses a scene that lies so far off that results would be wrong, and warns of one that lies far off.
+pub(crate) fn check_place(source: &Path, scene: &Scene) -> Result<(), Failure> {
+    match Extent::of(scene).remoteness(source) {
+        Remoteness::Near => Ok(()),
+        Remoteness::Far(warning) => {
+            show_warnings(&[warning]);
+            Ok(())
+        }
+        Remoteness::TooFar(problem) => Err(bad_file(problem.into())),
+    }
 }
 
 /// Reads a scene.

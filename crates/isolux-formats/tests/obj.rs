@@ -181,6 +181,21 @@ fn mtl_properties() {
 }
 
 #[test]
+fn a_picture_without_kd_is_the_reflectance() {
+    let home = tempfile::tempdir().unwrap();
+    image::RgbImage::from_pixel(1, 1, image::Rgb([188; 3]))
+        .save(home.path().join("a.png"))
+        .unwrap();
+    std::fs::write(home.path().join("thing.mtl"), "newmtl m\nmap_Kd a.png\n").unwrap();
+    let path = home.path().join("thing.obj");
+    std::fs::write(&path, TRIANGLE).unwrap();
+    let loaded = obj::read(&path).unwrap();
+    let finish = loaded.value.materials[0].finish(false).unwrap();
+    assert_eq!((finish.diffuse.colour, finish.diffuse.texture), (Rgb::WHITE, Some(0)));
+    assert_eq!(loaded.warnings, []);
+}
+
+#[test]
 fn missing_things_become_grey_or_untextured_with_a_warning() {
     for (text, mtl, expected) in [
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "", "no material"),

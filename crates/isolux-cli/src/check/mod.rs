@@ -11,6 +11,7 @@ use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::CheckFlags;
+use crate::origin::Extent;
 use crate::quantity::{flux, significant};
 use crate::shown::name;
 use crate::source;
@@ -18,11 +19,13 @@ use finding::Finding;
 use isolux::engine::SolveRequest;
 use isolux::scene::{Scene, UpAxis};
 use serde::Serialize;
+use std::path::Path;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &CheckFlags, json: bool) -> Result<Outcome, Failure> {
     let loaded = source::read_scene_with_warnings(&flags.scene)?;
-    let audit = Audit::of(&loaded.value, loaded.warnings.iter().map(Finding::of_reading).collect());
+    let read = loaded.warnings.iter().map(Finding::of_reading).collect();
+    let audit = Audit::of(&loaded.value, &flags.scene, read);
     if json {
         print_json(&audit)?
     } else {
@@ -56,20 +59,22 @@ struct Audit {
 }
 
 impl Audit {
-    fn of(scene: &Scene, mut findings: Vec<Finding>) -> Self {
-        let extent = extent::Extent::of(scene);
+    fn of(scene: &Scene, source: &Path, mut findings: Vec<Finding>) -> Self {
+        let extent = Extent::of(scene);
         let borders = borders::Borders::of(scene);
         let energy = energy::Energy::of(scene);
         let light = light::Light::of(scene);
         findings.extend(match scene.triangle_count() {
             0 => without_area(),
-            _ => [extent.findings(), borders.findings(), energy.findings()].concat(),
+            _ => {
+                [extent::findings(&extent, source), borders.findings(), energy.findings()].concat()
+            }
         });
         findings.extend(lamps::findings(scene));
         Self {
             scene: scene.name().to_owned(),
             triangles: scene.triangle_count(),
-            size_m: extent.size_m,
+            size_m: extent.size_m(),
             up: scene.up(),
             area_m2: energy.area_m2,
             luminaires: scene.luminaires().len(),

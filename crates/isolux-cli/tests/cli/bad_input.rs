@@ -124,6 +124,10 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
         "dark.toml: the scene has no light; add a [[luminaire]]",
     ),
     (&["solve", "flat.gltf", "-o", "m.glb"], "no triangle of the scene has an area"),
+    (&["solve", "far.toml", "-o", "m.glb"], "far.toml: it reaches 4000004 m from its origin"),
+    (&["probe", "far.toml", "--points", "good.pts"], "resolves 0.25 m"),
+    (&["grid", "far.toml"], "by (-500000, -4000000, 0) m"),
+    (&["render", "far.toml", "-o", "v.png", "--cache", "c"], "move it near the origin"),
     (&["solve", "latin.toml", "-o", "m.glb"], "latin.toml: line 2: is not UTF-8"),
     (&["solve", "text.ies", "-o", "m.glb"], "[[luminaire]]"),
     (&["render", "missing.glb", "-o", "v.png"], "missing.glb"),
@@ -141,6 +145,11 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
 const DARK: &str = "[materials.m]\ndiffuse = 0.5\n[[geometry]]\nmaterial = \"m\"\n\
                     box = { min = [0, 0, 0], max = [4, 4, 3], inward = true }\n";
 
+/// A room where a survey puts it.
+const FAR: &str = "[materials.m]\ndiffuse = 0.5\n[[luminaire]]\nposition = [500002, 4000002, 2]\n\
+                   isotropic = { flux_lm = 1000 }\n[[geometry]]\nmaterial = \"m\"\n\
+                   box = { min = [500000, 4000000, 0], max = [500004, 4000004, 3], inward = true }\n";
+
 /// A triangle of which all corners are one, that emits.
 const FLAT: &str = r#"{"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
@@ -157,6 +166,7 @@ fn bad_input_is_refused_with_a_reason() {
     home.file("text.ldt", "this is no lamp");
     home.file("text.toml", "this is no scene");
     home.file("dark.toml", DARK);
+    home.file("far.toml", FAR);
     home.file("latin.toml", b"# caf\xc3\xa9\n# caf\xe9\n");
     home.file("empty.obj", "");
     home.file("flat.gltf", FLAT.replace("ZEROS", &"AAAA".repeat(12)));

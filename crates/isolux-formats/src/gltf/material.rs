@@ -25,6 +25,8 @@ pub(super) struct Reading<'r, 'a> {
     pub(super) notes: &'r mut Notes,
     /// Luminance of unlit white, if unlit materials shine.
     pub(super) unlit_luminance_cd_m2: Option<f64>,
+    /// What its surface shows of the emissive texture in the mean.
+    pub(super) glow: Option<Rgb>,
 }
 
 impl Reading<'_, '_> {
@@ -200,11 +202,7 @@ impl Reading<'_, '_> {
             let what = format!("luminance {:?} times {strength} cd/m2", factor.0);
             return Err(Flaw::new(what, "give finite numbers of zero or more").at("emissiveFactor"));
         }
-        if luminance.is_black() {
-            return Ok(luminance);
-        }
-        let info = self.record.emissive_texture.as_ref();
-        Ok(self.mean(info, "emissiveTexture")?.map_or(luminance, |means| luminance * means.colour))
+        Ok(self.glow.map_or(luminance, |glow| luminance * glow))
     }
 
     /// What an extension says that the typed model does not know.

@@ -30,6 +30,7 @@ mod placeholders;
 mod primitive;
 mod punctual;
 mod record;
+mod shown;
 mod skin;
 mod specular_gloss;
 mod surfaces;

@@ -28,6 +28,8 @@ pub(super) struct Pictures<'a> {
     texture_of_image: HashMap<usize, u32>,
     /// The picture decoded last: its pixels are often wanted right after its means.
     latest: Option<(usize, Texture)>,
+    /// Those of which parts are looked at.
+    kept: HashMap<usize, Texture>,
     means_of_image: HashMap<usize, Result<Means, Flaw>>,
     pixels_left: u64,
     bytes_left: u64,
@@ -40,6 +42,7 @@ impl<'a> Pictures<'a> {
             textures: Vec::new(),
             texture_of_image: HashMap::new(),
             latest: None,
+            kept: HashMap::new(),
             means_of_image: HashMap::new(),
             pixels_left: limits::ALL_PIXELS,
             bytes_left: limits::PICTURE_BYTES,
@@ -55,15 +58,35 @@ impl<'a> Pictures<'a> {
         if let Some(Err(flaw)) = self.means_of_image.get(&image) {
             return Err(flaw.clone());
         }
-        let latest = self.latest.take().filter(|(of, _)| *of == image);
-        let picture = match latest {
-            Some((_, picture)) => picture,
-            None => self.decode(image)?,
-        };
+        let picture = self.taken(image)?;
         let index = self.textures.len() as u32;
         self.textures.push(picture);
         self.texture_of_image.insert(image, index);
         Ok(index)
+    }
+
+    /// The picture of a glTF texture, to be looked at.
+    pub(super) fn picture(&mut self, texture: usize) -> Result<&Texture, Flaw> {
+        let image = self.image_of(texture)?;
+        if let Some(&known) = self.texture_of_image.get(&image) {
+            return Ok(&self.textures[known as usize]);
+        }
+        if let Some(Err(flaw)) = self.means_of_image.get(&image) {
+            return Err(flaw.clone());
+        }
+        if !self.kept.contains_key(&image) {
+            let picture = self.taken(image)?;
+            self.kept.insert(image, picture);
+        }
+        Ok(&self.kept[&image])
+    }
+
+    fn taken(&mut self, image: usize) -> Result<Texture, Flaw> {
+        let latest = self.latest.take().filter(|(of, _)| *of == image);
+        match latest.map(|(_, picture)| picture).or_else(|| self.kept.remove(&image)) {
+            Some(picture) => Ok(picture),
+            None => self.decode(image),
+        }
     }
 
     /// The averages of the picture of a glTF texture.

@@ -3,6 +3,7 @@
 use super::accessor::{self, Format};
 use super::buffers::Document;
 use super::notes::{Flaw, Notes};
+use super::shown::{Shown, shown};
 use super::skin::{self, Influence, Influences};
 use super::surfaces::Surfaces;
 use super::texcoord::TexCoord;
@@ -143,8 +144,9 @@ impl<'a> Source<'a> {
             let what = "no material: glTF's default is a rough white metal that absorbs nothing";
             notes.warn(Flaw::new(what, "give it a material").at(self.place()));
         }
+        let glow = self.glow(surfaces, (&positions, &triangles), size, notes)?;
         let surface =
-            surfaces.surface(material, tint, notes).map_err(|flaw| flaw.at("material"))?;
+            surfaces.surface(material, (tint, glow), notes).map_err(|flaw| flaw.at("material"))?;
         Ok(Decoded {
             normals,
             uvs: surface.texcoord.map(|t| self.uvs(t, size, notes)).transpose()?,
@@ -276,6 +278,29 @@ impl<'a> Source<'a> {
                 .warn(Flaw::new(what, "keep texture coordinates between 0 and 1").at(self.place()));
         }
         Ok(uvs)
+    }
+
+    /// What it shows of the emissive texture in the mean over the area.
+    fn glow(
+        &self,
+        surfaces: &mut Surfaces,
+        (positions, triangles): (&[[f64; 3]], &[[u32; 3]]),
+        size: Size,
+        notes: &mut Notes,
+    ) -> Result<Option<Rgb>, Flaw> {
+        let Some(material) = self.record.material.map(|m| m.value()) else { return Ok(None) };
+        let rooted = |flaw: Flaw| flaw.rooted(format!("materials[{material}]"));
+        let emissive = surfaces.emissive(Some(material)).map_err(rooted)?;
+        let Some((texcoord, picture)) = emissive else { return Ok(None) };
+        let uvs = self.uvs(texcoord, size, notes)?;
+        let Shown { mean, is_even } = shown(picture, positions, &uvs, triangles);
+        if !is_even {
+            let what = "the surface shines evenly, by the mean of the emissiveTexture over it";
+            let remedy =
+                "split the mesh where the picture changes: each primitive has a mean of its own";
+            notes.warn(Flaw::new(what, remedy).at(self.place()));
+        }
+        Ok(Some(mean))
     }
 
     /// The second set of texture coordinates, which by custom is the place in a lightmap.

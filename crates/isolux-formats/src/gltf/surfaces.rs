@@ -16,12 +16,16 @@ pub(super) struct Surface {
     pub(super) texcoord: Option<TexCoord>,
 }
 
-/// Materials made so far. A glTF material becomes one for every mean vertex colour it is used with.
+/// A glTF material, and the bits of the colours it is used with.
+type Use = (Option<usize>, [u64; 3], Option<[u64; 3]>);
+
+/// Materials made so far. A glTF material becomes one for every mean vertex colour, and mean of its emissive texture,
+/// it is used with.
 pub(super) struct Surfaces<'a> {
     document: &'a Document<'a>,
     pictures: Pictures<'a>,
     materials: Vec<Material>,
-    known: HashMap<(Option<usize>, [u64; 3]), Result<Surface, Flaw>>,
+    known: HashMap<Use, Result<Surface, Flaw>>,
     /// Luminance of unlit white, if unlit materials shine.
     unlit_luminance_cd_m2: Option<f64>,
 }
@@ -37,18 +41,38 @@ impl<'a> Surfaces<'a> {
         }
     }
 
-    /// The surface of a glTF material (glTF's default without one) times a colour.
+    /// The emissive texture of a glTF material that emits light, and how it lies on surfaces.
+    pub(super) fn emissive(
+        &mut self,
+        index: Option<usize>,
+    ) -> Result<Option<(TexCoord, &Texture)>, Flaw> {
+        let record = index.and_then(|index| self.document.root.materials.get(index));
+        let emitting = record.filter(|record| {
+            let is_unlit = record.extensions.as_ref().is_some_and(|e| e.unlit.is_some());
+            !is_unlit && record.emissive_factor.0 != [0.0; 3]
+        });
+        let Some(info) = emitting.and_then(|record| record.emissive_texture.as_ref()) else {
+            return Ok(None);
+        };
+        let at = |flaw: Flaw| flaw.at("emissiveTexture");
+        let texcoord = TexCoord::read(self.document, info).map_err(at)?;
+        let picture = self.pictures.picture(info.index.value()).map_err(at)?;
+        Ok(Some((texcoord, picture)))
+    }
+
+    /// The surface of a glTF material (glTF's default without one) times a colour, its emission times another.
     pub(super) fn surface(
         &mut self,
         index: Option<usize>,
-        tint: Rgb,
+        (tint, glow): (Rgb, Option<Rgb>),
         notes: &mut Notes,
     ) -> Result<Surface, Flaw> {
-        let key = (index, tint.0.map(f64::to_bits));
+        let bits = |colour: Rgb| colour.0.map(f64::to_bits);
+        let key = (index, bits(tint), glow.map(bits));
         if let Some(known) = self.known.get(&key) {
             return known.clone();
         }
-        let made = self.make(index, tint, notes);
+        let made = self.make(index, (tint, glow), notes);
         self.known.insert(key, made.clone());
         made
     }
@@ -60,7 +84,7 @@ impl<'a> Surfaces<'a> {
     fn make(
         &mut self,
         index: Option<usize>,
-        tint: Rgb,
+        (tint, glow): (Rgb, Option<Rgb>),
         notes: &mut Notes,
     ) -> Result<Surface, Flaw> {
         let all = &self.document.root.materials;
@@ -82,6 +106,7 @@ impl<'a> Surfaces<'a> {
             pictures: &mut self.pictures,
             notes,
             unlit_luminance_cd_m2: self.unlit_luminance_cd_m2,
+            glow,
         };
         let body = reading.body(tint).map_err(|flaw| flaw.rooted(&place))?;
         let is_textured =

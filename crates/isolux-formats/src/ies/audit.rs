@@ -97,7 +97,7 @@ fn mirrored(record: &IesFile) -> Option<Problem> {
     ))
 }
 
-fn too_bright(record: &IesFile) -> Option<Problem> {
+pub(super) fn too_bright(record: &IesFile) -> Option<Problem> {
     let lamps = record.lamp_lumens()?;
     let flux = record.resolve().ok()?.luminous_flux_lm();
     (flux > (1.0 + EXCESS) * lamps).then(|| {

@@ -1,11 +1,17 @@
 //! An [`IesFile`] to the distribution an engine uses.
 
+use super::audit;
 use super::{IesFile, PhotometricType, across};
 use crate::Problem;
 use isolux::photometry::{IntensityDistribution, PhotometricWeb, Symmetry};
 use std::sync::Arc;
 
 impl IesFile {
+    /// What is odd about its flux, if anything: of no concern to who gives it another.
+    pub(crate) fn doubt_of_flux(&self) -> Option<Problem> {
+        audit::too_bright(self)
+    }
+
     /// The intensity distribution of the luminaire in its base position, in candela: the table
     /// completed by its symmetry, times [`Self::intensity_factor`].
     ///

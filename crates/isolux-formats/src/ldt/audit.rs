@@ -56,7 +56,7 @@ fn no_factor(record: &LdtFile) -> Option<Problem> {
         .then(|| record.problem(24, "the conversion factor is 0 or missing; 1 is used", "write 1"))
 }
 
-fn output_ratio(record: &LdtFile) -> Option<Problem> {
+pub(super) fn output_ratio(record: &LdtFile) -> Option<Problem> {
     let set = record.lamp_sets.first()?;
     let flux = record.resolve().ok()?.luminous_flux_lm();
     let stated = set.flux_lm * record.light_output_ratio_percent / 100.0;

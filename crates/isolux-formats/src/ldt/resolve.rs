@@ -1,5 +1,6 @@
 //! An [`LdtFile`] to the distribution an engine uses.
 
+use super::audit;
 use super::{LampSet, LdtFile, LdtSymmetry};
 use crate::Problem;
 use crate::ies::LuminousOpening;
@@ -48,6 +49,11 @@ impl LdtSymmetry {
 }
 
 impl LdtFile {
+    /// What is odd about its flux, if anything: of no concern to who gives it another.
+    pub(crate) fn doubt_of_flux(&self) -> Option<Problem> {
+        audit::output_ratio(self)
+    }
+
     /// The intensity distribution with the first lamp set, in candela.
     pub fn resolve(&self) -> Result<IntensityDistribution, Problem> {
         match self.lamp_sets.first() {

@@ -167,13 +167,14 @@ impl Reader<'_> {
         match dielectric(record, findings) {
             Some(glass) => Material { name: record.name.clone(), body: Body::Dielectric(glass) },
             None => {
-                let mut finish = finish(record, findings);
                 if is_glossy(record) {
                     self.note_gloss(record, findings.file());
                 }
                 let base = source::directory_of(findings.file()).to_owned();
-                finish.diffuse.texture =
+                let texture =
                     record.map_kd.as_ref().and_then(|named| self.picture(&base, named, findings));
+                let mut finish = finish(record, texture.is_some(), findings);
+                finish.diffuse.texture = texture;
                 Material::two_sided(record.name.clone(), finish)
             }
         }
@@ -247,13 +248,17 @@ fn dielectric(record: &MtlMaterial, findings: &mut Findings) -> Option<Dielectri
     Some(Dielectric { ior, transmittance, thin })
 }
 
-fn finish(record: &MtlMaterial, findings: &mut Findings) -> Finish {
+/// Without its picture, which alone tells what is reflected where there is no Kd beside it.
+fn finish(record: &MtlMaterial, is_textured: bool, findings: &mut Findings) -> Finish {
     let mut say = |what: String, remedy: &str| {
         findings.warning(place(record.line), format!("material `{}`: {what}", record.name), remedy);
     };
-    let written = record.kd.unwrap_or_else(|| {
-        say(format!("no Kd: taken as {UNKNOWN_REFLECTANCE}"), "write its diffuse reflectance");
-        Rgb::grey(UNKNOWN_REFLECTANCE)
+    let written = record.kd.unwrap_or_else(|| match is_textured {
+        true => Rgb::WHITE,
+        false => {
+            say(format!("no Kd: taken as {UNKNOWN_REFLECTANCE}"), "write its diffuse reflectance");
+            Rgb::grey(UNKNOWN_REFLECTANCE)
+        }
     });
     let diffuse = written.map(|c| c.min(1.0));
     if diffuse != written {

@@ -5,7 +5,7 @@ use super::quantity::NonNegative;
 use super::record::{CosineRecord, IsotropicRecord, LightRecord, SpotRecord};
 use super::spans::{At, Span};
 use crate::ies::LuminousOpening;
-use crate::{Loaded, Problems, ies, ldt};
+use crate::{Loaded, Problem, Problems, ies, ldt};
 use isolux::geometry::Vector;
 use isolux::photometry::IntensityDistribution;
 use std::collections::HashMap;
@@ -23,7 +23,15 @@ pub(super) struct Emission {
 #[derive(Default)]
 pub(super) struct Files {
     /// By path and lamp set.
-    read: HashMap<(PathBuf, u32), Option<Emission>>,
+    read: HashMap<(PathBuf, u32), Option<Known>>,
+}
+
+/// What one of them holds.
+#[derive(Clone)]
+struct Known {
+    emission: Emission,
+    /// That its flux is in doubt, until it was said.
+    doubt: Option<Problem>,
 }
 
 /// The light of a luminaire that is not directional; `None` after a problem.
@@ -189,36 +197,57 @@ impl Files {
         let path = context.path_of(&file.span(), file.get_ref())?;
         let set = record.lamp_set.map_or(1, |set| *set.get_ref());
         let key = (path, set);
-        if let Some(known) = self.read.get(&key) {
-            return known.clone();
+        if !self.read.contains_key(&key) {
+            let known = read(file, (&key.0, set), record, context);
+            self.read.insert(key.clone(), known);
         }
-        let read = if record.ies.is_some() { read_ies(&key.0) } else { read_ldt(&key.0, set) };
-        let emission = match read {
-            Ok(None) => {
-                let at = record.lamp_set.map_or(file.span(), At::span);
-                let what = format!("{} has no lamp set {set}", file.get_ref());
-                context.problem(&at, what, "count the sets of the file from 1");
-                None
-            }
-            Ok(Some(loaded)) => context.findings.absorb(Ok(loaded)),
-            Err(problems) => context.findings.absorb(Err(problems)),
-        };
-        self.read.insert(key, emission.clone());
-        emission
+        let known = self.read.get_mut(&key)?.as_mut()?;
+        // A luminaire with a flux of its own takes only the shape of the table.
+        if let (Some(doubt), None) = (&known.doubt, record.flux_lm) {
+            let warnings = vec![doubt.clone()];
+            context.findings.absorb(Ok(Loaded { value: (), warnings }));
+            known.doubt = None;
+        }
+        Some(known.emission.clone())
     }
 }
 
-fn read_ies(path: &Path) -> Result<Option<Loaded<Emission>>, Problems> {
+fn read(
+    file: &At<String>,
+    (path, set): (&Path, u32),
+    record: &LightRecord,
+    context: &mut Context,
+) -> Option<Known> {
+    let read = if record.ies.is_some() { read_ies(path) } else { read_ldt(path, set) };
+    match read {
+        Ok(None) => {
+            let at = record.lamp_set.map_or(file.span(), At::span);
+            let what = format!("{} has no lamp set {set}", file.get_ref());
+            context.problem(&at, what, "count the sets of the file from 1");
+            None
+        }
+        Ok(Some(loaded)) => context.findings.absorb(Ok(loaded)),
+        Err(problems) => context.findings.absorb(Err(problems)),
+    }
+}
+
+fn read_ies(path: &Path) -> Result<Option<Loaded<Known>>, Problems> {
     let Loaded { value, warnings } = ies::read(path)?;
     let emission = Emission { intensity: value.resolve()?, opening: Some(value.opening) };
-    Ok(Some(Loaded { value: emission, warnings }))
+    Ok(Some(known(emission, value.doubt_of_flux(), warnings)))
 }
 
 /// With a lamp set, counted from 1; nothing if there is none.
-fn read_ldt(path: &Path, set: u32) -> Result<Option<Loaded<Emission>>, Problems> {
+fn read_ldt(path: &Path, set: u32) -> Result<Option<Loaded<Known>>, Problems> {
     let Loaded { value, warnings } = ldt::read(path)?;
     let index = (set as usize).checked_sub(1);
     let Some(set) = index.and_then(|k| value.lamp_sets.get(k)) else { return Ok(None) };
     let emission = Emission { intensity: value.resolve_with(set)?, opening: Some(value.opening()) };
-    Ok(Some(Loaded { value: emission, warnings }))
+    Ok(Some(known(emission, value.doubt_of_flux(), warnings)))
+}
+
+/// What concerns every luminaire with a file is said at once.
+fn known(emission: Emission, doubt: Option<Problem>, mut warnings: Vec<Problem>) -> Loaded<Known> {
+    warnings.retain(|warning| Some(warning) != doubt.as_ref());
+    Loaded { value: Known { emission, doubt }, warnings }
 }

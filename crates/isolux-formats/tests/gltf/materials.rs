@@ -120,10 +120,23 @@ fn emission() {
     file.json["images"] = json!([{"bufferView": view, "mimeType": "image/png"}]);
     file.json["textures"] = json!([{"source": 0}]);
     file.json["materials"][0]["emissiveTexture"] = json!({"index": 0});
-    let loaded = file.load();
-    assert_near(front(&loaded.value).luminance_cd_m2, [100.0, 50.0, 25.0]);
-    assert_warns(&loaded, "materials[0].emissiveTexture", "only the mean");
-    assert_eq!(loaded.value.textures, []);
+    for (uvs, share, warnings) in [
+        ([0.0, 0.0, 1.0, 0.0, 0.0, 1.0], 0.75, 1),
+        ([0.1, 0.1, 0.4, 0.1, 0.1, 0.4], 1.0, 0),
+        ([0.6, 0.1, 0.9, 0.1, 0.6, 0.4], 0.0, 0),
+    ] {
+        let mut file = file.clone();
+        let accessor = file.accessor(&floats(&uvs), "VEC2", FLOAT, 3);
+        file.primitive()["attributes"]["TEXCOORD_0"] = json!(accessor);
+        let loaded = file.load();
+        let expected = [200.0, 100.0, 50.0].map(|luminance| share * luminance);
+        assert_near(front(&loaded.value).luminance_cd_m2, expected);
+        assert_eq!(loaded.warnings.len(), warnings, "{:?}", loaded.warnings);
+        if warnings > 0 {
+            assert_warns(&loaded, "meshes[0].primitives[0]", "by the mean of the emissiveTexture");
+        }
+        assert_eq!(loaded.value.textures, []);
+    }
 }
 
 #[test]

@@ -70,6 +70,23 @@ fn photometric_files() {
     assert!(scene("ldt = 'lamp.ies'").is_err());
 }
 
+/// A table that holds more than the lamps give, which is of no concern where the flux is given.
+#[test]
+fn doubts_of_a_flux_that_is_replaced_are_not_told() {
+    let ies = "IESNA:LM-63-2002\nTILT=NONE\n1 100 1 3 1 1 2 0 0 0\n1 1 20\n0 45 90\n0\n300 200 0\n";
+    let own = "[[luminaire]]\nposition = [0,0,1]\nies = 'lamp.ies'\n";
+    let given = format!("{own}flux_lm = 500\n");
+    for (text, expected) in [
+        (given.clone(), 0),
+        (own.to_owned(), 1),
+        (format!("{own}maintenance_factor = 0.8\n"), 1),
+        (format!("{given}{own}{own}"), 1),
+    ] {
+        let loaded = read_with(&format!("{text}{FLOOR}"), &[("lamp.ies", ies)]).unwrap();
+        assert_eq!(loaded.warnings.len(), expected, "{text}: {:?}", loaded.warnings);
+    }
+}
+
 #[test]
 fn aim_and_rotation() {
     let near = |a: Vector, b: [f64; 3]| (a - Vector::from(b)).length() < 1e-14;

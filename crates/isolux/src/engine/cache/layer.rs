@@ -16,6 +16,9 @@ const RELAXED: f64 = 3.0;
 /// step of a stair.
 const STEEPEST: f64 = 0.3;
 
+/// Farther below a sample than its surface bends down, by this share of the distance, is on the other side of it.
+const BELOW: f64 = 1e-4;
+
 /// What is nearer to a sample than this share of the nearest that it sees cannot be behind a wall.
 const CLEAR: f64 = 0.5;
 
@@ -167,16 +170,21 @@ impl Site {
     }
 
     /// Whether nothing stands between the sample and a place. Over a bent surface it is looked for
-    /// as high as the surface bulges between them.
+    /// as high as the surface bulges between them. Of what lies below its own surface, as the room does below
+    /// a sample on the outside of a wall, it has seen nothing, and that surface stands between.
     fn sees(&self, scene: &Scene, at: Point, normal: Normal) -> bool {
-        let distance_m = (at - self.origin).length();
-        if distance_m <= CLEAR * self.nearest_m {
+        let shift = at - self.origin;
+        let distance_m = shift.length();
+        let bend = (normal.to_vector() - self.normal.to_vector()).length();
+        let below_m = -shift.dot(self.normal.to_vector());
+        let is_below = below_m > (bend + BELOW) * distance_m + 1e-5 * self.radius_m;
+        if distance_m <= CLEAR * self.nearest_m && !is_below {
             return true;
         }
-        let bend = (normal.to_vector() - self.normal.to_vector()).length();
         let lift_m = 0.25 * distance_m * bend;
         let (from, to) = (self.origin + self.normal * lift_m, at + normal * lift_m);
-        !scene.bvh().any_hit(&Ray::between(from, to).skipping(self.triangle))
+        let ray = Ray::between(from, to);
+        !scene.bvh().any_hit(&if is_below { ray } else { ray.skipping(self.triangle) })
     }
 }
 

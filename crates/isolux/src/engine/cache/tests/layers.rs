@@ -7,7 +7,7 @@ use crate::engine::cache::placing::{Place, Radii, serve, typical_radius_m};
 use crate::engine::tests::{inward_box, isotropic, painted, rectangle, scene};
 use crate::sampling::Key;
 use crate::units::Rgb;
-use isolux_geometry::{Normal, Point};
+use isolux_geometry::{Normal, Point, Ray, Vector};
 
 fn floor_site(x: f64, y: f64) -> Site {
     site([x, y, 1e-4], Normal::Z.to_vector())
@@ -65,6 +65,29 @@ fn no_sample_serves_what_is_behind_a_wall() {
     let mut ties = Vec::new();
     layer.ties(&scene, (Point::new(2.1, 1.5, 1e-4), Normal::Z), 4, &mut ties);
     assert!(ties.is_empty());
+}
+
+/// A corridor with sides of which both carry light: nothing is seen from a sample on the outside of one, not even
+/// the other, which is nearly in its plane as seen from there.
+#[test]
+fn no_sample_on_the_outside_serves_the_inside() {
+    let grey = crate::scene::Finish::diffuse(Rgb::grey(0.5));
+    let material = crate::scene::Material::two_sided("wall", grey);
+    let lamp = isotropic([1.5, 0.9, 2.5], 100.0);
+    let scene = scene(inward_box([24.0, 1.8, 2.6], 0), vec![material], vec![lamp]);
+    let out = Point::new(11.25, 1.8001, 1.06);
+    let inwards = Ray::between(out, Point::new(11.25, 1.0, 1.06));
+    let triangle = scene.bvh().closest_hit(&inwards).unwrap().triangle;
+    let mut layer = Layer::new(&scene, 0.6);
+    let y = Vector::new(0.0, 1.0, 0.0).normal().unwrap();
+    layer.insert(Site {
+        triangle,
+        radius_m: 12.0,
+        nearest_m: f64::INFINITY,
+        ..site([out.x, out.y, out.z], y.to_vector())
+    });
+    assert!(layer.covers(&scene, Point::new(16.0, 1.8001, 2.0), y));
+    assert!(!layer.covers(&scene, Point::new(18.0, 1e-4, 1.95), y));
 }
 
 #[test]
