@@ -15,8 +15,8 @@ use std::path::Path;
 const FAR_M: f64 = 10_000.0;
 
 /// The coarsest step of coordinates, in largest sides of the scene, with which there are results: that of the room
-/// above between 8 and 16 km. The next, twice as coarse, is that of 20 km.
-const COARSEST: f64 = 1.0 / 5000.0;
+/// above up to 8 km. The next, twice as coarse, is that of 10 km.
+const COARSEST: f64 = 1.0 / 8000.0;
 
 /// The box around all surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -36,7 +36,8 @@ pub(super) struct LeafError {
     pub(super) excess: f64,
     /// Whether readers gather there anyway, as something stands close.
     pub(super) is_beset: bool,
-    /// Whether that is so only because its light is carried by vertices farther apart than its own.
+    /// Whether that is so only because its light is carried by vertices farther apart than its own, or at the rim of something
+    /// that stands closer before them.
     pub(super) is_beset_afar: bool,
     /// Whether what stands close is a wall, which light is resolved towards.
     pub(super) is_at_wall: bool,
@@ -77,11 +78,13 @@ impl<'a> Details<'a> {
     }
 
     /// Errors of all elements, from the details and the values in the middle of those without, where
-    /// known; `is_beset` says where readers gather anyway.
+    /// known; `is_beset` says where readers gather anyway, `is_hemmed` of a vertex whether something stands so close before it
+    /// that it tells nothing of such a distance.
     pub(super) fn leaf_errors(
         &self,
         in_the_middle: impl Fn(u32) -> Option<f64> + Sync,
         is_beset: impl Fn(u32) -> bool + Sync,
+        is_hemmed: impl Fn(u32, f64) -> bool + Sync,
     ) -> Vec<LeafError> {
         let leaf = |node: u32| {
             let area_m2 = self.subdivision.triangle(node).area();
@@ -90,8 +93,10 @@ impl<'a> Details<'a> {
                 untold_error(corners.map(|v| self.values[v as usize]), in_the_middle(node))
             });
             let beset = is_beset(node);
-            let is_beset_afar = !beset
-                && corners.iter().any(|&v| self.told_at(v).is_some_and(|told| told.is_beset));
+            let edge_m = self.subdivision.longest_edge_m(node);
+            let is_told = |v: u32| self.told_at(v).is_some_and(|told| told.is_beset);
+            let is_beset_afar =
+                !beset && corners.iter().any(|&v| is_told(v) || is_hemmed(v, edge_m));
             LeafError {
                 node,
                 area_m2,

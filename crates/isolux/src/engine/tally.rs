@@ -160,7 +160,7 @@ fn detail_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     // Particles come to all vertices.
     let (carriers, no) = (Carriers::all(), |_, _| false);
     let details = Details::of(&plan.subdivision, &plan.elements, &known, &carriers, no);
-    for error in details.leaf_errors(|_| None, |_| false) {
+    for error in details.leaf_errors(|_| None, |_| false, |_, _| false) {
         let corners = plan.subdivision.node(error.node).0.vertices;
         let noise: f64 = corners.iter().map(|&v| variances[v as usize]).sum::<f64>() / 3.0;
         area += error.area_m2;

@@ -161,7 +161,7 @@ impl Pilot<'_> {
         // All vertices have direct light of their own.
         let (carriers, no) = (Carriers::all(), |_, _| false);
         let details = Details::of(&self.subdivision, elements, &signal, &carriers, no);
-        let errors = details.leaf_errors(|_| None, |_| false);
+        let errors = details.leaf_errors(|_| None, |_| false, |_, _| false);
         // Where light is smooth and exact, it costs little not to stay behind what is gathered.
         let is_cheap = self.is_smoothed && self.direct_noise.is_none();
         let own = if is_cheap { OF_ACCURACY * request.target } else { f64::INFINITY };

@@ -73,6 +73,9 @@ const ROUNDS_FOR_HIDDEN: usize = 4;
 const PLACES_OF_HIDDEN: u32 = 4;
 /// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
 const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
+/// Something that stands closer before a vertex than this part of an element takes light from it that the rest of the element
+/// has: pictures on walls, shelves.
+const HEM: f64 = 0.125;
 /// Sweeps of the pilot end when they change less than this.
 const PILOT_TOLERANCE: f64 = 1e-4;
 
@@ -110,6 +113,8 @@ struct Pilot<'s> {
     gathered: Vec<bool>,
     /// By carrier, from which distance to others on something stands nearer before it than they.
     beset_from_m: HashMap<u32, f64>,
+    /// By vertex, how close something stands before it, m, if that is less than a part of its elements.
+    hemmed_in_m: Vec<f64>,
     /// By node, whether something stands close before its middle.
     beset: Vec<bool>,
     /// In the middle of elements that no details tell of, by node; nothing where that is not asked for.
@@ -198,6 +203,7 @@ impl<'s> Pilot<'s> {
             spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
             gathered: Vec::new(),
             beset_from_m: HashMap::new(),
+            hemmed_in_m: Vec::new(),
             beset: Vec::new(),
             middles: HashMap::new(),
             sees_lit_gaps: false,
@@ -268,12 +274,14 @@ impl<'s> Pilot<'s> {
         let started = Instant::now();
         let luminances = self.in_the_open(&self.indirect);
         self.complete_beset();
+        self.complete_hemmed(&gatherers);
         self.complete_middles(&elements, &luminances);
         let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
         let middle = |node: u32| self.middles.get(&node).copied().flatten();
         let beset = |node: u32| self.beset[node as usize];
         let details = self.details(&elements, &luminances);
-        let errors = details.leaf_errors(middle, beset);
+        let hemmed = |vertex: u32, edge_m: f64| self.hemmed_in_m[vertex as usize] < HEM * edge_m;
+        let errors = details.leaf_errors(middle, beset, hemmed);
         let rms_lx = rms(&elements, &self.standings, lx);
         let left_by_fit = details.left_by_fit(&errors);
         let carriers = self.carriers.count(gatherers.len());
@@ -336,6 +344,21 @@ impl<'s> Pilot<'s> {
         };
         let new: Vec<bool> = new.into_par_iter().map(is_beset).collect();
         self.beset.extend(new);
+    }
+
+    /// How close something stands before the vertices that were not looked at yet, but before those on borders: there walls do.
+    fn complete_hemmed(&mut self, gatherers: &[Gatherer]) {
+        let on_border = self.subdivision.border_vertices();
+        let edges_m = self.subdivision.longest_edges_m();
+        let stands_in_m = |vertex: usize| {
+            if on_border[vertex] {
+                return f64::INFINITY;
+            }
+            trust::beset_from_m(self.scene, &gatherers[vertex].surface, HEM * edges_m[vertex])
+        };
+        let new: Vec<f64> =
+            (self.hemmed_in_m.len()..gatherers.len()).into_par_iter().map(stands_in_m).collect();
+        self.hemmed_in_m.extend(new);
     }
 
     /// The same for carriers that others are interpolated from.

@@ -18,7 +18,7 @@ fn errors_of(subdivision: &Subdivision, f: impl Fn(Point) -> Option<f64>) -> Vec
     let values: Vec<Option<f64>> = elements.vertices().iter().map(|v| f(v.position)).collect();
     let carriers = Carriers::all();
     let details = Details::of(subdivision, &elements, &values, &carriers, |_, _| false);
-    details.leaf_errors(|_| None, |_| false)
+    details.leaf_errors(|_| None, |_| false, |_, _| false)
 }
 
 /// Root mean square over the surface.
