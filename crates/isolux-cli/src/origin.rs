@@ -125,7 +125,7 @@ mod tests {
         let room = [4.0, 3.0, 5.0];
         check([0.0; 3], room, "near");
         check([9000.0, 0.0, 0.0], room, "near");
-        check([10_000.0, 0.0, 0.0], room, "far: a.glb: it reaches 10004 m");
+        check([10_000.0, 0.0, 0.0], room, "too far: a.glb: it reaches 10004 m");
         check([20_000.0, 0.0, 0.0], room, "too far");
         check([0.0, -100_000.0, 0.0], room, "resolves 7.8 mm: too little");
         check([500_000.0, 0.0, 4e6], room, "by (-500000, 0, -4000000) m");
