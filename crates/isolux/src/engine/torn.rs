@@ -35,8 +35,13 @@ struct Place {
 }
 
 impl Torn {
-    /// Looks at the vertices that are new.
-    pub(super) fn look(&mut self, scene: &Scene, subdivision: &Subdivision) {
+    /// Looks at the vertices that are new, in elements that something stands close before.
+    pub(super) fn look(
+        &mut self,
+        scene: &Scene,
+        subdivision: &Subdivision,
+        is_beset: impl Fn(u32) -> bool + Sync,
+    ) {
         let first = self.0.len();
         self.0.resize(subdivision.vertex_count(), false);
         if self.0.len() == first {
@@ -47,7 +52,7 @@ impl Torn {
             let new = (0..3).filter(move |&k| corners[k] as usize >= first);
             new.map(move |k| places(subdivision, node, k))
         };
-        let leaves: Vec<u32> = subdivision.leaves().collect();
+        let leaves: Vec<u32> = subdivision.leaves().filter(|&node| is_beset(node)).collect();
         let within: Vec<[Place; 2]> = leaves.into_par_iter().flat_map_iter(of_leaf).collect();
         let is_parted = |a: &Place, b: &Place| {
             let (triangle, back) = a.side;

@@ -18,6 +18,9 @@ use rayon::prelude::*;
 /// Rays that look for something before a place.
 const FEELERS: u32 = 16;
 
+/// So many of them, the first, meet something that hides half of what there is.
+const FEWEST_FEELERS: u32 = 4;
+
 /// How many of them must meet it in a gap: at an edge of a room half of them do, behind a cupboard all.
 const CLOSED: u32 = 13;
 
@@ -157,6 +160,14 @@ pub(super) fn beset_from_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f6
         (0..FEELERS).filter_map(|k| scene.bvh().closest_hit(&ray(k))).map(|hit| hit.t).collect();
     near.sort_by(f32::total_cmp);
     near.get(BESET as usize - 1).map_or(f64::INFINITY, |&t| f64::from(t))
+}
+
+/// How close something stands before a place that hides much of what there is, m; infinite if nothing does within `reach_m`. A few rays
+/// find out that nothing does.
+pub(super) fn hemmed_in_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f64 {
+    let ray = feeler(at, reach_m);
+    let is_hemmed = (0..FEWEST_FEELERS).any(|k| scene.bvh().closest_hit(&ray(k)).is_some());
+    if is_hemmed { beset_from_m(scene, at, reach_m) } else { f64::INFINITY }
 }
 
 /// The rays that feel about before a place.

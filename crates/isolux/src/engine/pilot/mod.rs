@@ -268,12 +268,14 @@ impl<'s> Pilot<'s> {
         if is_first {
             self.begin(&elements, &gatherers, request, go_on);
         }
+        let started = Instant::now();
+        self.complete_beset();
+        self.costs.looks.add(started.elapsed(), 0.0);
         self.complete_direct(&elements, &gatherers);
         self.bright = Bright::of(self.scene, &elements, |k| self.direct[k as usize]);
         self.complete_indirect(&elements, &gatherers, request, go_on);
         let started = Instant::now();
         let luminances = self.in_the_open(&self.indirect);
-        self.complete_beset();
         self.complete_hemmed(&gatherers);
         self.complete_middles(&elements, &luminances);
         let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
@@ -354,7 +356,7 @@ impl<'s> Pilot<'s> {
             if on_border[vertex] {
                 return f64::INFINITY;
             }
-            trust::beset_from_m(self.scene, &gatherers[vertex].surface, HEM * edges_m[vertex])
+            trust::hemmed_in_m(self.scene, &gatherers[vertex].surface, HEM * edges_m[vertex])
         };
         let new: Vec<f64> =
             (self.hemmed_in_m.len()..gatherers.len()).into_par_iter().map(stands_in_m).collect();
@@ -472,7 +474,9 @@ impl<'s> Pilot<'s> {
         before.resize(gatherers.len(), None);
         let surface = |k: usize| gatherers[k].surface;
         self.standings = self.felt.standings(self.scene, &self.subdivision, &before, surface);
-        self.torn.look(self.scene, &self.subdivision);
+        // Where nobody looked, something may stand close.
+        let is_beset = |node: u32| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
+        self.torn.look(self.scene, &self.subdivision, is_beset);
         for (k, standing) in self.standings.iter_mut().enumerate() {
             let own = standing.filter(|_| self.known[k]);
             *standing = if self.torn.has(k) { own.and(Some(Standing::Rim)) } else { own };
