@@ -142,19 +142,16 @@ fn gaps_are_closed_in_and_edges_are_not() {
 
 #[test]
 fn readers_gather_beside_a_picture_on_a_wall() {
-    // The wall is bisected at x = 1.5: a vertex lies just behind the rim.
-    let is_gathered = |from_wall: f64| {
-        let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
-        shapes.push(rectangle([1.5, from_wall, 0.7], [0.8, 0.0, 0.0], [0.0, 0.0, 1.1], 0));
-        let lamps = vec![isotropic([0.7, 1.2, 1.6], 100.0)];
-        let scene = scene(shapes, vec![painted(Rgb::grey(0.6))], lamps);
-        let lighting = Lighting::new(&scene);
-        let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
-        let at = front_at(&scene, Point::new(1.42, 0.0, 1.25));
-        let corners = plan.elements.locate(at.triangle, at.back, at.u, at.v).expect("it is lit");
-        let expected_lx = plan.expected_lx(plan.trust());
-        corners.iter().any(|&(vertex, _)| expected_lx[vertex as usize] > plan.trusted_up_to_lx)
-    };
-    assert!(is_gathered(0.01), "beside the rim");
-    assert!(!is_gathered(0.9), "far before the wall");
+    // The wall is bisected at x = 7: a vertex lies just behind the rim.
+    let mut shapes = inward_box([14.0, 7.0, 4.5], 0);
+    shapes.push(rectangle([7.0, 0.01, 1.0], [1.2, 0.0, 0.0], [0.0, 0.0, 1.0], 0));
+    let lamps = vec![isotropic([4.6, 1.8, 4.3], 100.0)];
+    let scene = scene(shapes, vec![painted(Rgb::grey(0.6))], lamps);
+    let lighting = Lighting::new(&scene);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let at = front_at(&scene, Point::new(6.85, 0.0, 1.45));
+    let corners = plan.elements.locate(at.triangle, at.back, at.u, at.v).expect("it is lit");
+    let expected_lx = plan.expected_lx(plan.trust());
+    let is_gathered = |&(v, _): &(u32, f64)| expected_lx[v as usize] > plan.trusted_up_to_lx;
+    assert!(corners.iter().any(is_gathered));
 }
