@@ -79,7 +79,7 @@ pub fn disc_polygon(centre: Point, radius_m: f64, corners: u32) -> Vec<Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quadrature::GaussRule;
+    use isolux::quadrature::GaussRule;
     use crate::tolerance::{DISC_POLYGON, QUADRATURE};
 
     const UP: Normal = Normal::Z;

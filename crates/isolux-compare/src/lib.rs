@@ -13,7 +13,6 @@ pub mod lambert;
 mod measure;
 pub mod metric;
 pub mod model;
-pub mod quadrature;
 pub mod statistics;
 pub mod tolerance;
 mod validate;

@@ -1,7 +1,7 @@
 //! Illumination maps: the illuminance on every surface of a scene, with its standard error.
 //!
 //! The core of isolux. It computes; it reads no file and prints nothing. Modules know only those
-//! before them: [`units`], [`photometry`], [`scene`], [`elements`], [`map`], [`sampling`],
+//! before them: [`units`], [`quadrature`], [`photometry`], [`scene`], [`elements`], [`map`], [`sampling`],
 //! [`engine`], [`lightmap`].
 //!
 //! Units are SI: metre, candela, lumen, lux (illuminance), cd/m2 (luminance), steradian. A colour
@@ -15,6 +15,7 @@ pub mod engine;
 pub mod lightmap;
 pub mod map;
 pub mod photometry;
+pub mod quadrature;
 pub mod sampling;
 pub mod scene;
 pub mod units;

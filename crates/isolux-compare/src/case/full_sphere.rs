@@ -196,7 +196,7 @@ fn places(mesh: &SphereMesh) -> Vec<ProbePoint> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quadrature::GaussRule;
+    use isolux::quadrature::GaussRule;
     use crate::tolerance::QUADRATURE;
 
     const ALL: [FullSphere; 8] = [

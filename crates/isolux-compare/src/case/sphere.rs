@@ -13,7 +13,7 @@
 
 use crate::expectation::{Bound, Case, Expectation, Quantity};
 use crate::model::{SphereMesh, isotropic, octant};
-use crate::quadrature::GaussRule;
+use isolux::quadrature::GaussRule;
 use isolux::engine::ProbePoint;
 use isolux::geometry::{Point, Vector};
 use isolux::scene::{Finish, Material, SceneParts};

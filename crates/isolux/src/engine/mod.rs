@@ -5,6 +5,7 @@ mod accuracy;
 mod aim;
 mod allot;
 mod anderson;
+mod backdrop;
 mod bright;
 mod cache;
 mod carriers;

@@ -2,6 +2,7 @@
 
 use super::aim::Aim;
 use super::allot::{allot, areas_m2};
+use super::backdrop::Backdrop;
 use super::bright::Bright;
 use super::carriers::{Carriers, Waiting};
 use super::cuts::Cuts;
@@ -43,6 +44,8 @@ pub(super) struct Plan<'s> {
     pub(super) direct_variance: Vec<f64>,
     /// What is far brighter than all else.
     pub(super) bright: Option<Bright>,
+    /// Walls that rays are judged by.
+    pub(super) backdrop: Option<Backdrop>,
     /// First guess of the indirect light.
     pub(super) guess: Vec<Rgb>,
     /// Errors of the elements that indirect light lives on.
@@ -176,6 +179,7 @@ impl<'a> Gathering<'a> {
             regathers: false,
             bright: plan.bright.as_ref(),
             cuts: Some(&plan.cuts),
+            backdrop: plan.backdrop.as_ref(),
         }
     }
 }

@@ -251,6 +251,7 @@ impl<'a> MapReader<'a> {
             regathers: true,
             bright: self.bright.as_ref(),
             cuts: Some(&self.cuts),
+            backdrop: None,
         }
     }
 

@@ -6,7 +6,7 @@
 //! constant ratio with Gauss nodes converge exponentially (hp collocation; Stephan and Suri 1989).
 //! Orders fall linearly towards the end, where panels count less.
 
-use crate::quadrature::GaussRule;
+use isolux::quadrature::GaussRule;
 
 /// How finely the panels resolve the solution and the kernel.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,6 +6,7 @@
 use super::operator::{Entry, Operator, Rows};
 use super::{DirectAtEnds, Gatherer, Gathering, known_on_side, known_weights, weights_in_gap};
 use crate::elements::Place;
+use crate::engine::backdrop;
 use crate::engine::bright;
 use crate::engine::deadline::Deadline;
 use crate::engine::direct::{About, Shadows};
@@ -184,6 +185,9 @@ impl Gathering<'_> {
         let bright = self.bright.and_then(|bright| bright.seen_from(origin, normal, rays));
         let receiver = Receiver { place: &gatherer.surface, bright: bright.as_ref() };
         let share = Rgb::WHITE / f64::from(rays.max(1));
+        let behind = gatherer.behind.filter(|_| rays > 0).zip(self.backdrop);
+        let walls = behind.map_or(Vec::new(), |(_, backdrop)| backdrop.seen_from(gatherer));
+        row.source += behind.map_or(Rgb::BLACK, |(whole, _)| whole);
         let triangle = gatherer.surface.triangle;
         let first = Leg { origin, triangle, normal, share, in_gap, ray: 0 };
         for start in (0..rays).step_by(TOGETHER as usize) {
@@ -194,6 +198,9 @@ impl Gathering<'_> {
             wave.dice.extend(some.map(|index| Dice::new(sequence, index)));
             for number in 0..=REGATHERED {
                 self.trace(wave, row, rows);
+                if number == 0 {
+                    row.source += backdrop::lacking(&walls, &wave.directions) * share;
+                }
                 self.locate(wave);
                 self.read(&receiver, number, (row, wave), rows);
                 if wave.legs.is_empty() {

@@ -10,6 +10,7 @@ mod operator;
 
 pub(super) use operator::Operator;
 
+use super::backdrop::Backdrop;
 use super::bright::Bright;
 use super::cuts::{Cut, Cuts};
 use super::direct::Lighting;
@@ -33,6 +34,8 @@ pub(super) struct Gatherer {
     pub(super) rays: u32,
     /// Whether it lies in a gap: what its rays meet close by does not lie in the open.
     pub(super) in_gap: bool,
+    /// What it gets from the [`Backdrop`] with nothing between, lx, if rays are judged by that.
+    pub(super) behind: Option<Rgb>,
 }
 
 impl Gatherer {
@@ -42,7 +45,7 @@ impl Gatherer {
         let flat = SurfacePoint::new(scene, triangle, back, 0.0, 0.0);
         let surface = SurfacePoint { point, shading: normal, geometric: normal, ..flat };
         let origin = SurfacePoint { point, ..flat }.start();
-        Self { origin, normal, surface, rays, in_gap: false }
+        Self { origin, normal, surface, rays, in_gap: false, behind: None }
     }
 
     /// The same, in a gap or not.
@@ -57,7 +60,14 @@ impl Gatherer {
 
     /// A place inside a triangle.
     pub(super) fn on_surface(surface: SurfacePoint, rays: u32) -> Self {
-        Self { origin: surface.start(), normal: surface.shading, surface, rays, in_gap: false }
+        Self {
+            origin: surface.start(),
+            normal: surface.shading,
+            surface,
+            rays,
+            in_gap: false,
+            behind: None,
+        }
     }
 
     /// Whether it lies where another does.
@@ -73,6 +83,7 @@ impl Gatherer {
             surface: SurfacePoint::in_space(point, normal),
             rays,
             in_gap: false,
+            behind: None,
         }
     }
 }
@@ -94,6 +105,8 @@ pub(super) struct Gathering<'a> {
     pub(super) bright: Option<&'a Bright>,
     /// Elements that something stands across, if they were looked for.
     pub(super) cuts: Option<&'a Cuts>,
+    /// Walls that rays are judged by, for gatherers that know them.
+    pub(super) backdrop: Option<&'a Backdrop>,
 }
 
 /// Where rays get the direct light of the surfaces that they end on.

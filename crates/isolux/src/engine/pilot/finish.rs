@@ -14,6 +14,7 @@ use crate::engine::plan::Plan;
 use crate::engine::reflectance;
 use crate::engine::trial::Trial;
 use crate::map::Standing;
+use rayon::prelude::*;
 
 impl<'s> Pilot<'s> {
     /// Refines further for direct light as interpolated, and puts the plan together.
@@ -31,7 +32,15 @@ impl<'s> Pilot<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
         let coarse = self.subdivision.clone();
         self.refine_for_direct_light(&mut look, request, go_on);
-        let gatherers = self.measure_direct_light(&mut look, request, go_on);
+        let mut gatherers = self.measure_direct_light(&mut look, request, go_on);
+        if let Some(backdrop) = &self.backdrop {
+            let behind = |(v, g): (usize, &mut Gatherer)| {
+                if self.carriers.is_active(v as u32) {
+                    g.behind = backdrop.behind(self.scene, g);
+                }
+            };
+            gatherers[..indirect_vertices].par_iter_mut().enumerate().for_each(behind);
+        }
         let mut standings = std::mem::take(&mut self.standings);
         forget_orphans(&look.elements, indirect_vertices, &mut standings);
         let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();
@@ -58,6 +67,7 @@ impl<'s> Pilot<'s> {
             fit: self.fit(&coarse, &open, &cuts),
             cuts,
             bright: self.bright,
+            backdrop: self.backdrop,
             parts: caustics.parts(&coarse),
             direct: self.direct,
             direct_variance: self.direct_variance,

@@ -13,6 +13,7 @@ mod sharing;
 mod smoothing;
 
 use super::aim::Aim;
+use super::backdrop::Backdrop;
 use super::bright::Bright;
 use super::carriers::Carriers;
 use super::detail::{Details, Refinement, refine_worst};
@@ -132,6 +133,8 @@ struct Pilot<'s> {
     is_smoothed: bool,
     /// Whether direct light is what it will be.
     is_measured: bool,
+    /// Walls that rays are judged by, once there is light.
+    backdrop: Option<Backdrop>,
     /// What a few receivers tell of noise, once there is light.
     trial: Option<Trial>,
     caustic_noise: CausticNoise,
@@ -214,6 +217,7 @@ impl<'s> Pilot<'s> {
             is_smoothed: false,
             is_measured: false,
             trial: None,
+            backdrop: None,
             caustic_noise: CausticNoise::default(),
             aim: None,
             is_whole: true,
@@ -334,6 +338,7 @@ impl<'s> Pilot<'s> {
             regathers: false,
             bright: self.bright.as_ref(),
             cuts: None,
+            backdrop: self.backdrop.as_ref(),
         }
     }
 

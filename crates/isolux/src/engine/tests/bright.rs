@@ -49,6 +49,7 @@ impl<'a> Lit<'a> {
             regathers: false,
             bright,
             cuts: None,
+            backdrop: None,
         };
         let rows = vec![Gatherer::on_surface(at, 16); 4000];
         let operator = gathering.operator(&rows, |k| Key::new(3).with(k as u64));

@@ -31,6 +31,7 @@ fn operator(scene: &Scene, elements: &Elements, gatherers: &[Gatherer]) -> Opera
         regathers: false,
         bright: None,
         cuts: None,
+        backdrop: None,
     };
     gathering.operator(gatherers, |k| Key::new(1).with(k as u64))
 }
@@ -186,6 +187,7 @@ fn rays_that_end_close_by_gather_again() {
         regathers,
         bright: None,
         cuts: None,
+        backdrop: None,
     };
     let [once, again] = [false, true]
         .map(|again| gathering(again).operator(&gatherers, |k| Key::new(1).with(k as u64)));

@@ -1,0 +1,229 @@
+//! The walls of a room, as if nothing stood before them: a control variate of gathering.
+//!
+//! What a place gathers from large plane surfaces whose light is a polynomial, with nothing between, has a closed form. What rays
+//! find of the same is known, too. Where most of what a place sees are walls, rays are as wrong about both, so that the difference of the two
+//! takes most of their noise off what they gather, whatever stands in the room: its mean is zero.
+
+mod planes;
+mod polynomial;
+
+use super::gather::Gatherer;
+use super::path::Dice;
+use super::surface::SurfacePoint;
+use crate::elements::Subdivision;
+use crate::quadrature::GaussRule;
+use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::scene::Scene;
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Ray};
+use planes::Rectangle;
+use polynomial::{COUNT, Polynomial, View, powers};
+use rayon::prelude::*;
+
+/// Places of a wall each way whose light is asked for.
+const PLACES: usize = 16;
+/// A polynomial is held as if it were nothing at so many more places, in proportion: where few places are lit.
+const HELD: f64 = 1e-6;
+/// Rays tell whether something stands before the walls; of so many so many have to come to them.
+const TRIED: u32 = 16;
+const CLEAR: u32 = 12;
+/// How far a ray to a wall may end before or behind it, as a share of its length.
+const BESIDE: f64 = 1e-3;
+/// Walls are left out for places farther away from their middle than so many halves of their sides: the closed form loses its
+/// digits there.
+const FAR: f64 = 24.0;
+
+/// Walls and their light.
+#[derive(Debug)]
+pub(super) struct Backdrop {
+    walls: Vec<Wall>,
+}
+
+#[derive(Debug)]
+struct Wall {
+    rectangle: Rectangle,
+    /// What it reflects, lx, photometric, and its colour.
+    light: Polynomial,
+    tint: Rgb,
+}
+
+/// A wall as seen from a place.
+pub(super) struct Seen<'a> {
+    wall: &'a Wall,
+    view: View,
+}
+
+impl Backdrop {
+    /// Of a scene that has large plane surfaces; `light_at` tells what light comes to a place of them, if it is known.
+    pub(super) fn of(
+        scene: &Scene,
+        subdivision: &Subdivision,
+        light_at: impl Fn(&SurfacePoint) -> Option<Rgb> + Sync,
+    ) -> Option<Self> {
+        let rectangles = planes::largest(subdivision);
+        let wall = |rectangle: Rectangle| Wall::of(scene, rectangle, &light_at);
+        let walls: Vec<Wall> = rectangles.into_par_iter().filter_map(wall).collect();
+        (!walls.is_empty()).then_some(Self { walls })
+    }
+
+    /// What a place gets from it if nothing is between; nothing where too much is.
+    pub(super) fn behind(&self, scene: &Scene, of: &Gatherer) -> Option<Rgb> {
+        let seen = self.seen_from(of);
+        if seen.is_empty() || !Self::is_clear(scene, of, &seen) {
+            return None;
+        }
+        Some(seen.iter().map(Seen::illuminance).sum())
+    }
+
+    /// The walls that a place may see.
+    pub(super) fn seen_from(&self, of: &Gatherer) -> Vec<Seen<'_>> {
+        self.walls.iter().filter_map(|wall| Seen::from(of, wall)).collect()
+    }
+
+    fn is_clear(scene: &Scene, of: &Gatherer, seen: &[Seen<'_>]) -> bool {
+        let sequence = Sequence::new(Key::new(0));
+        let comes_there = |&index: &u32| {
+            let direction = first_direction(of, Dice::new(sequence, index));
+            let far_m = seen.iter().filter_map(|s| s.at(direction)).map(|(t, _)| t);
+            let far_m = far_m.fold(f64::INFINITY, f64::min);
+            let ray = Ray::new(of.origin, direction).skipping(of.surface.triangle);
+            let hit = scene.bvh().closest_hit(&ray);
+            hit.is_some_and(|hit| {
+                let at = SurfacePoint::from_hit(scene, &hit).point;
+                ((at - of.origin).length() - far_m).abs() <= BESIDE * far_m
+            })
+        };
+        (0..TRIED).filter(comes_there).count() as u32 >= CLEAR
+    }
+}
+
+/// What is to be added to what rays find for what they find of the walls.
+pub(super) fn lacking(walls: &[Seen<'_>], directions: &[Direction]) -> Rgb {
+    let found = walls.iter().flat_map(|wall| directions.iter().filter_map(|&d| wall.light(d)));
+    found.fold(Rgb::BLACK, |lacking, light| lacking - light)
+}
+
+/// In which direction a ray of a place starts.
+fn first_direction(of: &Gatherer, mut dice: Dice) -> Direction {
+    of.normal.to_direction().from_local(CosineHemisphere::sample(dice.pair()))
+}
+
+impl Wall {
+    /// With the polynomial that comes nearest to the light of its places.
+    fn of(
+        scene: &Scene,
+        rectangle: Rectangle,
+        light_at: &(impl Fn(&SurfacePoint) -> Option<Rgb> + Sync),
+    ) -> Option<Self> {
+        let rule = GaussRule::new(PLACES);
+        let mut sums = Sums::default();
+        let mut colour = Rgb::BLACK;
+        for (&x, &weight_x) in rule.nodes.iter().zip(&rule.weights) {
+            for (&y, &weight_y) in rule.nodes.iter().zip(&rule.weights) {
+                let weight = weight_x * weight_y;
+                let Some(at) = rectangle.surface(scene, [x, y]) else { continue };
+                let Some(finish) = scene.material(at.triangle).finish(at.back) else { continue };
+                let Some(light) = light_at(&at) else { continue };
+                let reflectance = scene.diffuse_reflectance(finish, at.triangle, at.u, at.v);
+                let light = light * reflectance;
+                colour += light * weight;
+                sums.add(&powers([x, y]), light.luminance(), weight);
+            }
+        }
+        let all = colour.luminance();
+        let light = sums.solved().filter(|_| all > 0.0)?;
+        Some(Self { rectangle, light: Polynomial(light), tint: colour / all })
+    }
+}
+
+impl<'a> Seen<'a> {
+    fn from(of: &Gatherer, wall: &'a Wall) -> Option<Self> {
+        let Rectangle { middle, axes, half_m } = &wall.rectangle;
+        let normal = of.normal.to_vector();
+        let view = View::new(of.origin - *middle, normal, axes);
+        let is_near = |m: f64, half_m: f64| m.abs() < FAR * half_m;
+        let least_m = half_m[0].min(half_m[1]);
+        let is_before = view.height_m > 0.0
+            && is_near(view.height_m, least_m)
+            && (0..2).all(|k| is_near(view.foot_m[k], half_m[k]));
+        is_before.then_some(Self { wall, view })
+    }
+
+    fn illuminance(&self) -> Rgb {
+        let Wall { light, rectangle, tint } = self.wall;
+        *tint * light.illuminance(rectangle.half_m, &self.view)
+    }
+
+    /// Where a ray comes to it: how far away, m, and the place.
+    fn at(&self, direction: Direction) -> Option<(f64, [f64; 2])> {
+        let Rectangle { axes, half_m, .. } = &self.wall.rectangle;
+        let direction = direction.to_vector();
+        let falls = -direction.dot(axes[2]);
+        if falls <= 0.0 {
+            return None;
+        }
+        let far_m = self.view.height_m / falls;
+        let place =
+            [0, 1].map(|k| (self.view.foot_m[k] + far_m * direction.dot(axes[k])) / half_m[k]);
+        (place[0].abs() <= 1.0 && place[1].abs() <= 1.0).then_some((far_m, place))
+    }
+
+    fn light(&self, direction: Direction) -> Option<Rgb> {
+        let (_, place) = self.at(direction)?;
+        Some(self.wall.tint * self.wall.light.at(place))
+    }
+}
+
+/// Normal equations of a polynomial.
+struct Sums {
+    products: [[f64; COUNT]; COUNT],
+    values: [f64; COUNT],
+}
+
+impl Default for Sums {
+    fn default() -> Self {
+        Self { products: [[0.0; COUNT]; COUNT], values: [0.0; COUNT] }
+    }
+}
+
+impl Sums {
+    fn add(&mut self, powers: &[f64; COUNT], value: f64, weight: f64) {
+        for (i, row) in self.products.iter_mut().enumerate() {
+            for (k, product) in row.iter_mut().enumerate().take(i + 1) {
+                *product += weight * powers[i] * powers[k];
+            }
+            self.values[i] += weight * powers[i] * value;
+        }
+    }
+
+    /// By Cholesky's method; `None` without any place.
+    fn solved(mut self) -> Option<[f64; COUNT]> {
+        let held = HELD * self.products[0][0];
+        let rows = &mut self.products;
+        for i in 0..COUNT {
+            rows[i][i] += held;
+            for k in 0..=i {
+                let known: f64 = (0..k).map(|j| rows[i][j] * rows[k][j]).sum();
+                let left = rows[i][k] - known;
+                if i == k {
+                    if left <= 0.0 {
+                        return None;
+                    }
+                    rows[i][i] = left.sqrt();
+                } else {
+                    rows[i][k] = left / rows[k][k];
+                }
+            }
+        }
+        let mut values = self.values;
+        for i in 0..COUNT {
+            let known: f64 = (0..i).map(|j| rows[i][j] * values[j]).sum();
+            values[i] = (values[i] - known) / rows[i][i];
+        }
+        for i in (0..COUNT).rev() {
+            let known: f64 = (i + 1..COUNT).map(|j| rows[j][i] * values[j]).sum();
+            values[i] = (values[i] - known) / rows[i][i];
+        }
+        Some(values)
+    }
+}

@@ -1,0 +1,110 @@
+//! The largest plane surfaces of a scene, as rectangles.
+
+use crate::elements::{FewNumbers, Subdivision};
+use crate::engine::surface::SurfacePoint;
+use crate::scene::Scene;
+use isolux_geometry::{Direction, Point, Ray, Triangle, Vector};
+use std::collections::HashMap;
+
+/// Rectangles at most: a room has six walls.
+const MOST: usize = 8;
+/// Each has this share of all surface, and of itself, at least.
+const LEAST_SHARE: f64 = 0.02;
+const LEAST_FILLED: f64 = 0.5;
+/// Triangles lie in one plane if their normals agree so far, and their distances from the origin, as a share of the size of the scene.
+const ALIKE: f64 = 1e-4;
+/// From how far before it a place of a rectangle is looked for, as a share of its size.
+const BEFORE: f64 = 1e-3;
+/// Edges that tell how a rectangle lies.
+const MOST_EDGES: usize = 64;
+
+/// A rectangle that faces the room.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rectangle {
+    pub(super) middle: Point,
+    /// Along its sides, and the normal.
+    pub(super) axes: [Vector; 3],
+    /// Half of its sides.
+    pub(super) half_m: [f64; 2],
+}
+
+/// Triangles in one plane.
+struct Plane {
+    normal: Vector,
+    area_m2: f64,
+    triangles: Vec<Triangle>,
+}
+
+/// The largest plane surfaces, as the rectangles about them, as long as they fill these.
+pub(super) fn largest(subdivision: &Subdivision) -> Vec<Rectangle> {
+    let vertices = subdivision.vertices();
+    let from = vertices.first().map_or(Point::ORIGIN, |v| v.position);
+    let size_m = vertices.iter().map(|v| (v.position - from).length()).fold(0.0, f64::max);
+    let mut planes: HashMap<[i32; 4], Plane, FewNumbers> = HashMap::default();
+    let mut all_m2 = 0.0;
+    for leaf in subdivision.leaves() {
+        let triangle = subdivision.triangle(leaf);
+        let area_m2 = triangle.area();
+        all_m2 += area_m2;
+        let [a, b, c] = triangle.corners;
+        let Some(normal) = (b - a).cross(c - a).direction().map(Direction::to_vector) else {
+            continue;
+        };
+        let normal = if subdivision.node(leaf).1.back { -normal } else { normal };
+        let rounded = |x: f64| libm::round(x / ALIKE) as i32;
+        let far = (a - from).dot(normal) / size_m;
+        let key = [normal.x, normal.y, normal.z, far].map(rounded);
+        let plane =
+            planes.entry(key).or_insert(Plane { normal, area_m2: 0.0, triangles: Vec::new() });
+        plane.area_m2 += area_m2;
+        plane.triangles.push(triangle);
+    }
+    let mut planes: Vec<([i32; 4], Plane)> =
+        planes.into_iter().filter(|(_, p)| p.area_m2 >= LEAST_SHARE * all_m2).collect();
+    planes.sort_by(|(a, p), (b, q)| q.area_m2.total_cmp(&p.area_m2).then(a.cmp(b)));
+    planes.truncate(MOST);
+    planes.iter().filter_map(|(_, plane)| plane.rectangle()).collect()
+}
+
+impl Plane {
+    /// The smallest rectangle about it with sides along some edge, if it is filled.
+    fn rectangle(&self) -> Option<Rectangle> {
+        let edges = self.triangles.iter().flat_map(|t| {
+            let [a, b, c] = t.corners;
+            [b - a, c - b, a - c]
+        });
+        let about = |edge: Vector| {
+            let along = edge.direction()?.to_vector();
+            let axes = [along, self.normal.cross(along), self.normal];
+            let from = self.triangles[0].corners[0];
+            let [mut low, mut high] = [[0.0_f64; 2]; 2];
+            for corner in self.triangles.iter().flat_map(|t| t.corners) {
+                for k in 0..2 {
+                    let at = (corner - from).dot(axes[k]);
+                    low[k] = low[k].min(at);
+                    high[k] = high[k].max(at);
+                }
+            }
+            let middle = (0..2).fold(from, |at, k| at + axes[k] * (0.5 * (low[k] + high[k])));
+            Some(Rectangle { middle, axes, half_m: [0, 1].map(|k| 0.5 * (high[k] - low[k])) })
+        };
+        let area_m2 = |r: &Rectangle| 4.0 * r.half_m[0] * r.half_m[1];
+        let smallest = edges
+            .take(MOST_EDGES)
+            .filter_map(about)
+            .min_by(|a, b| area_m2(a).total_cmp(&area_m2(b)))?;
+        (self.area_m2 >= LEAST_FILLED * area_m2(&smallest)).then_some(smallest)
+    }
+}
+
+impl Rectangle {
+    /// The place of a surface there, if there is one.
+    pub(super) fn surface(&self, scene: &Scene, [x, y]: [f64; 2]) -> Option<SurfacePoint> {
+        let at = self.middle + self.axes[0] * (x * self.half_m[0]) + self.axes[1] * (y * self.half_m[1]);
+        let before_m = BEFORE * self.half_m[0].min(self.half_m[1]);
+        let mut ray = Ray::new(at + self.axes[2] * before_m, (-self.axes[2]).direction()?);
+        ray.t_max = (2.0 * before_m) as f32;
+        let hit = scene.bvh().closest_hit(&ray)?;
+        Some(SurfacePoint::from_hit(scene, &hit))
+    }
+}

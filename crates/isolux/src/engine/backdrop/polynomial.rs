@@ -1,0 +1,279 @@
+//! Polynomials over a rectangle, and the light that a place gets from a surface that is as bright as one tells.
+
+use crate::quadrature::GaussRule;
+use isolux_geometry::Vector;
+use std::f64::consts::FRAC_1_PI;
+use std::sync::LazyLock;
+
+/// The highest power. On CUBE, whose walls are five times as bright in the middle as in a corner, polynomials of degree
+/// 0, 2, 4, 6 leave 26, 7.7, 2.3, 0.7 % of the light; nets of 64 rays then err by 1.3, 0.56, 0.19, 0.06 %.
+pub(super) const DEGREE: usize = 6;
+/// Coefficients of a polynomial in two unknowns.
+pub(super) const COUNT: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
+/// Functions of an angle are integrated at so many places, and so many more for every unit of the variable.
+const FEWEST_NODES: f64 = 4.0;
+const NODES_A_UNIT: f64 = 1.5;
+const MOST_NODES: usize = 16;
+/// Variables beyond this hold nothing.
+const FAR: f64 = 24.0;
+
+/// A polynomial in two unknowns that go from -1 to 1: coefficients of `x^i y^k`, by `i`, then `k`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Polynomial(pub(super) [f64; COUNT]);
+
+/// The light of a surface element in a plane, seen from a place beside the plane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View {
+    /// How far the place is from the plane, m.
+    pub(super) height_m: f64,
+    /// The point of the plane nearest to it, m along its two axes from the middle of the rectangle.
+    pub(super) foot_m: [f64; 2],
+    /// The normal of the place along both, and along that of the plane.
+    pub(super) normal: [f64; 3],
+}
+
+/// Where the coefficient of `x^i` and `y^0` is.
+const fn first(i: usize) -> usize {
+    i * (DEGREE + 1) - i * i.saturating_sub(1) / 2
+}
+
+/// The powers in their order, times what is given.
+pub(super) fn powers([x, y]: [f64; 2]) -> [f64; COUNT] {
+    let mut powers = [0.0; COUNT];
+    let mut of_x = 1.0;
+    for i in 0..=DEGREE {
+        let mut both = of_x;
+        for power in &mut powers[first(i)..first(i + 1)] {
+            *power = both;
+            both *= y;
+        }
+        of_x *= x;
+    }
+    powers
+}
+
+impl Polynomial {
+    /// By Horner's rule, twice.
+    pub(super) fn at(&self, [x, y]: [f64; 2]) -> f64 {
+        let mut value = 0.0;
+        for i in (0..=DEGREE).rev() {
+            let of_y = self.0[first(i)..first(i + 1)].iter().rev();
+            value = value * x + of_y.fold(0.0, |sum, c| sum * y + c);
+        }
+        value
+    }
+
+    /// The same function of what the unknowns are more than these.
+    fn about(&self, [x, y]: [f64; 2]) -> Self {
+        let mut shifted = *self;
+        for i in 0..=DEGREE {
+            let row = &mut shifted.0[first(i)..first(i + 1)];
+            for from in 0..row.len() {
+                for k in (from..row.len() - 1).rev() {
+                    row[k] += y * row[k + 1];
+                }
+            }
+        }
+        for k in 0..=DEGREE {
+            for from in 0..=DEGREE - k {
+                for i in (from..DEGREE - k).rev() {
+                    shifted.0[first(i) + k] += x * shifted.0[first(i + 1) + k];
+                }
+            }
+        }
+        shifted
+    }
+
+    /// Its parts of every degree in a direction.
+    fn parts(&self, [x, y]: [f64; 2]) -> [f64; DEGREE + 1] {
+        let mut parts = [0.0; DEGREE + 1];
+        let powers = powers([x, y]);
+        for i in 0..=DEGREE {
+            for k in 0..=DEGREE - i {
+                parts[i + k] += self.0[first(i) + k] * powers[first(i) + k];
+            }
+        }
+        parts
+    }
+
+    /// Illuminance from a rectangle of these half sides, m, whose radiosity this is, at a place that nothing hides it from.
+    ///
+    /// In polar coordinates about the foot of the place the integral over the radius has a closed form. That over the angle
+    /// goes along the edges of the part of the rectangle above the horizon: at `x = d sinh w` on an edge that is `d` away
+    /// the angle grows by `dw / cosh w`, and the rest is smooth in `w`.
+    pub(super) fn illuminance(&self, half_m: [f64; 2], view: &View) -> f64 {
+        let about = self.about([0, 1].map(|k| view.foot_m[k] / half_m[k]));
+        let corners = view.above_horizon(half_m);
+        let mut sum = 0.0;
+        for (k, &from) in corners.iter().enumerate() {
+            let to = corners[(k + 1) % corners.len()];
+            let side = [to[0] - from[0], to[1] - from[1]];
+            let length = libm::hypot(side[0], side[1]);
+            if length <= 0.0 {
+                continue;
+            }
+            let along = side.map(|s| s / length);
+            // To the right of an edge that goes round to the left.
+            let out = [along[1], -along[0]];
+            let apart = from[0] * out[0] + from[1] * out[1];
+            let away = apart.abs();
+            let place = |at: [f64; 2]| (at[0] * along[0] + at[1] * along[1]) / away;
+            if !place(from).is_finite() || !place(to).is_finite() {
+                continue;
+            }
+            let [begin, end] =
+                [from, to].map(|at| libm::asinh(place(at)).clamp(-FAR, FAR));
+            let of_angle = |w: f64| {
+                let grown = libm::exp(w);
+                let [cosh, sinh] = [0.5 * (grown + 1.0 / grown), 0.5 * (grown - 1.0 / grown)];
+                // At a radius of one.
+                let toward = [0, 1].map(|k| (out[k] * apart.signum() + along[k] * sinh) / cosh);
+                let parts = about.parts([0, 1].map(|k| toward[k] / half_m[k]));
+                view.along_radius(toward, &parts, away * cosh) / cosh
+            };
+            sum += apart.signum() * integral(begin, end, of_angle);
+        }
+        sum * FRAC_1_PI
+    }
+}
+
+impl View {
+    /// The part of a rectangle about the middle that the place may see, its corners from the foot, m, round to the left.
+    fn above_horizon(&self, half_m: [f64; 2]) -> Vec<[f64; 2]> {
+        let [a, b] = half_m;
+        let corners = [[-a, -b], [a, -b], [a, b], [-a, b]]
+            .map(|at| [at[0] - self.foot_m[0], at[1] - self.foot_m[1]]);
+        let [n_s, n_t, n_m] = self.normal;
+        let above = |at: &[f64; 2]| at[0] * n_s + at[1] * n_t - self.height_m * n_m;
+        let mut seen = Vec::with_capacity(5);
+        for (k, from) in corners.iter().enumerate() {
+            let to = &corners[(k + 1) % 4];
+            let [begin, end] = [above(from), above(to)];
+            if begin > 0.0 {
+                seen.push(*from);
+            }
+            if (begin > 0.0) != (end > 0.0) {
+                let share = begin / (begin - end);
+                seen.push([0, 1].map(|k| from[k] + (to[k] - from[k]) * share));
+            }
+        }
+        seen
+    }
+
+    /// The integral over the radius, up to one, in a direction of the plane.
+    fn along_radius(&self, toward: [f64; 2], parts: &[f64; DEGREE + 1], radius_m: f64) -> f64 {
+        let [n_s, n_t, n_m] = self.normal;
+        let across = n_s * toward[0] + n_t * toward[1];
+        let of_height = radial(radius_m / self.height_m);
+        let (mut sum, mut height) = (0.0, 1.0);
+        for (j, part) in parts.iter().enumerate() {
+            sum += part * height * (across * of_height[j + 2] - n_m * of_height[j + 1]);
+            height *= self.height_m;
+        }
+        sum
+    }
+
+    /// Of a place and the axes of a plane through a point, the third its normal.
+    pub(super) fn new(from_middle: Vector, normal: Vector, axes: &[Vector; 3]) -> Self {
+        Self {
+            height_m: from_middle.dot(axes[2]),
+            foot_m: [from_middle.dot(axes[0]), from_middle.dot(axes[1])],
+            normal: axes.map(|axis| normal.dot(axis)),
+        }
+    }
+}
+
+/// The integrals of `u^k / (1 + u^2)^2` from zero, by `k`.
+fn radial(to: f64) -> [f64; DEGREE + 3] {
+    let squared = to * to;
+    let mut once = [0.0; DEGREE + 3];
+    once[0] = libm::atan(to);
+    once[1] = 0.5 * libm::log1p(squared);
+    let mut power = 1.0;
+    for k in 2..DEGREE + 3 {
+        power *= to;
+        once[k] = power / (k - 1) as f64 - once[k - 2];
+    }
+    let mut twice = [0.0; DEGREE + 3];
+    twice[0] = 0.5 * (once[0] + to / (1.0 + squared));
+    twice[1] = 0.5 * squared / (1.0 + squared);
+    for k in 2..DEGREE + 3 {
+        twice[k] = once[k - 2] - twice[k - 2];
+    }
+    twice
+}
+
+/// By Gauss's rules, on either side of zero.
+fn integral(from: f64, to: f64, of: impl Fn(f64) -> f64) -> f64 {
+    let middle = 0.0_f64.clamp(from, to);
+    let one_side = |from: f64, to: f64| {
+        if to <= from {
+            return 0.0;
+        }
+        let nodes = (FEWEST_NODES + NODES_A_UNIT * (to - from)).ceil() as usize;
+        let parts = nodes.div_ceil(MOST_NODES);
+        let rule = &RULES[nodes.div_ceil(parts)];
+        let at = |part: usize| from + (to - from) * part as f64 / parts as f64;
+        (0..parts).map(|part| rule.integrate(at(part), at(part + 1), &of)).sum()
+    };
+    one_side(from, middle) + one_side(middle, to)
+}
+
+/// By their number of nodes.
+static RULES: LazyLock<Vec<GaussRule>> =
+    LazyLock::new(|| (0..=MOST_NODES).map(GaussRule::new).collect());
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What panels that small leave out.
+    const BY_PANELS: f64 = 2e-5;
+
+    fn some() -> Polynomial {
+        Polynomial(std::array::from_fn(|k| 1.0 / (1.0 + k as f64) * if k % 3 == 1 { -1.0 } else { 1.0 }))
+    }
+
+    #[test]
+    fn a_shifted_polynomial_is_the_same() {
+        let (own, by) = (some(), [0.3, -1.7]);
+        let shifted = own.about(by);
+        for at in [[0.1, 0.2], [-0.4, 1.1]] {
+            let there = [at[0] + by[0], at[1] + by[1]];
+            assert!((shifted.at(at) - own.at(there)).abs() < 1e-10, "{at:?}");
+            let sum: f64 = powers(there).iter().zip(own.0).map(|(p, c)| p * c).sum();
+            assert!((sum - own.at(there)).abs() < 1e-12, "{at:?}");
+        }
+    }
+
+    #[test]
+    fn illuminance_from_a_rectangle_is_what_its_parts_give() {
+        let half_m = [1.5, 0.8];
+        let slope = 0.48_f64.sqrt();
+        let places = [
+            ([0.3, 0.2], 1.0, [0.0, 0.0, -1.0]),
+            ([0.3, 0.8], 0.4, [0.0, -1.0, 0.0]),
+            ([-1.2, -0.8], 0.05, [0.0, 1.0, 0.0]),
+            ([2.5, 0.1], 0.7, [-slope, 0.4, -0.6]),
+            ([1.0, -3.0], 2.0, [0.6, 0.8, 0.0]),
+            ([0.5, 0.5], 9.0, [0.0, 0.6, -0.8]),
+        ];
+        for (foot_m, height_m, normal) in places {
+            let view = View { height_m, foot_m, normal };
+            let found = some().illuminance(half_m, &view);
+            let panels = GaussRule::new(400);
+            let mut expected = 0.0;
+            for (x, wx) in panels.over(-1.0, 1.0) {
+                for (y, wy) in panels.over(-1.0, 1.0) {
+                    let to = [x * half_m[0] - foot_m[0], y * half_m[1] - foot_m[1], -height_m];
+                    let squared = to.iter().map(|c| c * c).sum::<f64>();
+                    let cos: f64 = (0..3).map(|k| to[k] * normal[k]).sum();
+                    let kernel = cos.max(0.0) * height_m / (squared * squared);
+                    expected += wx * wy * kernel * some().at([x, y]);
+                }
+            }
+            expected *= half_m[0] * half_m[1] * FRAC_1_PI;
+            assert!((found / expected - 1.0).abs() < BY_PANELS, "{foot_m:?}: {found} {expected}");
+        }
+    }
+}
