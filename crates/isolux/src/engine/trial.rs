@@ -77,6 +77,17 @@ impl Trial {
         (trial, traced + more)
     }
 
+    /// The noise of receivers, root mean square over the surface, lx, and the rays traced.
+    pub(super) fn noise(
+        gathering: &Gathering,
+        some: &[(Gatherer, f64)],
+        light: &[Rgb],
+        (rms_lx, key): (f64, Key),
+    ) -> (f64, u64) {
+        let (trial, traced) = Self::with(RAYS, gathering, some, light, (rms_lx, key));
+        (trial.noise_lx, traced)
+    }
+
     fn with(
         rays: u32,
         gathering: &Gathering,

@@ -54,16 +54,30 @@ pub(super) struct Seen<'a> {
 }
 
 impl Backdrop {
-    /// Of a scene that has large plane surfaces; `light_at` tells what light comes to a place of them, if it is known.
-    pub(super) fn of(
-        scene: &Scene,
-        subdivision: &Subdivision,
-        light_at: impl Fn(&SurfacePoint) -> Option<Rgb> + Sync,
-    ) -> Option<Self> {
-        let rectangles = planes::largest(subdivision);
-        let wall = |rectangle: Rectangle| Wall::of(scene, rectangle, &light_at);
-        let walls: Vec<Wall> = rectangles.into_par_iter().filter_map(wall).collect();
+    /// The walls of a scene that has large plane surfaces, in the dark.
+    pub(super) fn of(subdivision: &Subdivision) -> Option<Self> {
+        let dark = |rectangle: Rectangle| {
+            let light = Polynomial([0.0; COUNT]);
+            Wall { rectangle, light, tint: Rgb::BLACK }
+        };
+        let walls: Vec<Wall> = planes::largest(subdivision).into_iter().map(dark).collect();
         (!walls.is_empty()).then_some(Self { walls })
+    }
+
+    /// Takes down their light: `light_at` tells what comes to a place of them, if that is known.
+    pub(super) fn see(
+        &mut self,
+        scene: &Scene,
+        light_at: impl Fn(&SurfacePoint) -> Option<Rgb> + Sync,
+    ) {
+        self.walls.par_iter_mut().for_each(|wall| wall.see(scene, &light_at));
+    }
+
+    /// Of some places, the share that see mostly walls.
+    pub(super) fn share_of_clear(&self, scene: &Scene, places: &[Gatherer]) -> f64 {
+        let is_clear = |of: &&Gatherer| Self::is_clear(scene, of, &self.seen_from(of));
+        let clear = places.par_iter().filter(is_clear).count();
+        clear as f64 / places.len().max(1) as f64
     }
 
     /// What a place gets from it if nothing is between; nothing where too much is.
@@ -109,19 +123,19 @@ fn first_direction(of: &Gatherer, mut dice: Dice) -> Direction {
 }
 
 impl Wall {
-    /// With the polynomial that comes nearest to the light of its places.
-    fn of(
+    /// Finds the polynomial that comes nearest to the light of its places.
+    fn see(
+        &mut self,
         scene: &Scene,
-        rectangle: Rectangle,
         light_at: &(impl Fn(&SurfacePoint) -> Option<Rgb> + Sync),
-    ) -> Option<Self> {
+    ) {
         let rule = GaussRule::new(PLACES);
         let mut sums = Sums::default();
         let mut colour = Rgb::BLACK;
         for (&x, &weight_x) in rule.nodes.iter().zip(&rule.weights) {
             for (&y, &weight_y) in rule.nodes.iter().zip(&rule.weights) {
                 let weight = weight_x * weight_y;
-                let Some(at) = rectangle.surface(scene, [x, y]) else { continue };
+                let Some(at) = self.rectangle.surface(scene, [x, y]) else { continue };
                 let Some(finish) = scene.material(at.triangle).finish(at.back) else { continue };
                 let Some(light) = light_at(&at) else { continue };
                 let reflectance = scene.diffuse_reflectance(finish, at.triangle, at.u, at.v);
@@ -131,8 +145,9 @@ impl Wall {
             }
         }
         let all = colour.luminance();
-        let light = sums.solved().filter(|_| all > 0.0)?;
-        Some(Self { rectangle, light: Polynomial(light), tint: colour / all })
+        if let Some(light) = sums.solved().filter(|_| all > 0.0) {
+            (self.light, self.tint) = (Polynomial(light), colour / all);
+        }
     }
 }
 

@@ -31,16 +31,14 @@ impl<'s> Pilot<'s> {
         let caustics = self.refine_for_caustics(&mut look, request, go_on);
         let indirect_vertices = self.subdivision.vertex_count();
         let coarse = self.subdivision.clone();
+        self.look_at_walls_again(&look.elements, request.target);
         self.refine_for_direct_light(&mut look, request, go_on);
         let mut gatherers = self.measure_direct_light(&mut look, request, go_on);
-        if let Some(backdrop) = &self.backdrop {
-            let behind = |(v, g): (usize, &mut Gatherer)| {
-                if self.carriers.is_active(v as u32) {
-                    g.behind = backdrop.behind(self.scene, g);
-                }
-            };
-            gatherers[..indirect_vertices].par_iter_mut().enumerate().for_each(behind);
-        }
+        gatherers[..indirect_vertices].par_iter_mut().enumerate().for_each(|(v, gatherer)| {
+            if self.carriers.is_active(v as u32) {
+                *gatherer = self.before_walls(v as u32, *gatherer);
+            }
+        });
         let mut standings = std::mem::take(&mut self.standings);
         forget_orphans(&look.elements, indirect_vertices, &mut standings);
         let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();

@@ -11,6 +11,7 @@ mod middles;
 mod round;
 mod sharing;
 mod smoothing;
+mod walls;
 
 use super::aim::Aim;
 use super::backdrop::Backdrop;
@@ -135,6 +136,8 @@ struct Pilot<'s> {
     is_measured: bool,
     /// Walls that rays are judged by, once there is light.
     backdrop: Option<Backdrop>,
+    /// What vertices get from them, by vertex, and where it was.
+    behind: HashMap<u32, (Point, Option<Rgb>)>,
     /// What a few receivers tell of noise, once there is light.
     trial: Option<Trial>,
     caustic_noise: CausticNoise,
@@ -218,6 +221,7 @@ impl<'s> Pilot<'s> {
             is_measured: false,
             trial: None,
             backdrop: None,
+            behind: HashMap::new(),
             caustic_noise: CausticNoise::default(),
             aim: None,
             is_whole: true,
@@ -391,12 +395,14 @@ impl<'s> Pilot<'s> {
         // On the first mesh nobody knows yet what stands close.
         if is_first {
             self.set_out(elements, gatherers);
+            self.find_walls(elements, gatherers);
         }
         let new = self.new_carriers(gatherers.len());
+        let rows = self.rows(&new, gatherers);
+        self.keep_behind(&new, &rows);
         let level = if is_first { u32::MAX } else { self.solved_nodes };
         let gathering = self.gathering(elements, level, &self.standings);
         let key = self.key.with(2);
-        let rows = self.rows(&new, gatherers);
         let mut started = Instant::now();
         let head = if is_first { rows.len() / FIRST_PART } else { 0 };
         let mut operator = gathering.operator(&rows[..head], |_| key);
@@ -461,9 +467,10 @@ impl<'s> Pilot<'s> {
         let row = |&vertex: &u32| {
             let gatherer = &gatherers[vertex as usize];
             let edge_m = edges_m[vertex as usize];
-            let rays = if self.carriers.is_active(vertex) { gatherer.rays } else { 0 };
+            let rays = if self.carriers.is_active(vertex) { self.rays[vertex as usize] } else { 0 };
             let in_gap = trust::is_closed_in(self.scene, &gatherer.surface, edge_m);
-            gatherer.with_rays(rays).in_gap(in_gap)
+            let gatherer = gatherer.with_rays(rays).in_gap(in_gap);
+            if rays > 0 { self.before_walls(vertex, gatherer) } else { gatherer }
         };
         vertices.par_iter().map(row).collect()
     }

@@ -4,15 +4,11 @@ use super::Pilot;
 use crate::elements::Subdivision;
 use crate::engine::accuracy::BELIEVED_INCREMENTS;
 use crate::engine::allot::allot;
-use crate::engine::backdrop::Backdrop;
 use crate::engine::flights::CausticNoise;
 use crate::engine::gather::{Gatherer, known_at};
 use crate::engine::look::Look;
-use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::engine::trial::{self, Trial};
-use crate::sampling::Sequence;
-use crate::units::Rgb;
 
 impl Pilot<'_> {
     /// Rays of the vertices in the pilot: so many where a surface has no more vertices than others for its area, fewer where it
@@ -45,14 +41,10 @@ impl Pilot<'_> {
         let all: Vec<usize> = (0..vertices.len()).filter(carries).collect();
         let every = all.len().div_ceil(trial::RECEIVERS).max(1);
         let gatherers = self.gatherers();
+        self.look_at_walls_again(&look.elements, target);
         let some = all.into_iter().step_by(every);
         let some: Vec<(Gatherer, f64)> =
-            some.map(|v| (gatherers[v], vertices[v].area_m2)).collect();
-        self.look_at_walls(look);
-        let mut some = some;
-        if let Some(backdrop) = &self.backdrop {
-            some.iter_mut().for_each(|(g, _)| g.behind = backdrop.behind(self.scene, g));
-        }
+            some.map(|v| (self.before_walls(v as u32, gatherers[v]), vertices[v].area_m2)).collect();
         let gathering = self.gathering(&look.elements, u32::MAX, &self.standings);
         let wanted = (target, look.rms_lx, BELIEVED_INCREMENTS, self.key.with(6));
         let (trial, rays) = Trial::of(&gathering, &some, &self.indirect, wanted);
@@ -65,23 +57,6 @@ impl Pilot<'_> {
         self.caustic_noise = noise;
         self.aim = aim;
         self.traced += rays;
-    }
-
-    /// Finds the walls that rays are judged by.
-    fn look_at_walls(&mut self, look: &Look) {
-        let light_at = |at: &SurfacePoint| {
-            let known = known_at(&look.elements, u32::MAX, &self.standings, at)?;
-            let read = |values: &[Rgb]| -> Rgb {
-                known.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
-            };
-            let direct = if self.lighting.are_read_at_ends() {
-                read(&self.direct)
-            } else {
-                self.lighting.estimate(at, &mut Dice::new(Sequence::new(self.key.with(8)), 0))
-            };
-            Some(direct + read(&self.indirect))
-        };
-        self.backdrop = Backdrop::of(self.scene, &self.subdivision, light_at);
     }
 
     /// New vertices gather as their parents do.
