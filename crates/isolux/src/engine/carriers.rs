@@ -379,6 +379,25 @@ fn sort_once(some: &mut Vec<u32>) {
 }
 
 impl Waiting {
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Of so many vertices, for each the carrier that it is mostly interpolated from; carriers have themselves.
+    pub(super) fn nearest_carriers(&self, vertices: usize) -> Vec<u32> {
+        let mut nearest: Vec<u32> = (0..vertices as u32).collect();
+        let mut start = 0;
+        for (&vertex, &end) in self.vertices.iter().zip(&self.ends) {
+            let parents = &self.parents[start..end];
+            if let Some((parent, _)) = parents.iter().max_by(|a, b| a.1.total_cmp(&b.1)) {
+                nearest[vertex as usize] = nearest[*parent as usize];
+            }
+            start = end;
+        }
+        nearest
+    }
+
     /// Puts their values where they belong.
     pub(super) fn fill(&self, values: &mut [Rgb]) {
         let mut start = 0;

@@ -7,7 +7,7 @@
 //! switches itself off, as that of Inspirer did (Kopylov, Khodulev, Volevich 1998). It never reaches
 //! over creases, borders or hidden vertices, since elements do not. Where light bends one way everywhere, as it does in rooms, all
 //! details that are taken off have one sign: each piece of surface gets back what it has lost in the mean, over its smoothed parts
-//! evenly. Standard errors stay those of the unfiltered values.
+//! evenly. And what a room without things in it would show (`backdrop`) is no detail: only what differs from it is filtered. Standard errors stay those of the unfiltered values.
 
 use super::allot::areas_m2;
 use super::plan::Plan;
@@ -33,11 +33,14 @@ pub(super) struct Filtered {
 }
 
 /// Filters `parts`, colour quantities at the vertices that indirect light lives on, by the
-/// photometric sum of them all and its variance.
+/// photometric sum of them all and its variance. The first is indirect light.
 pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: f64) -> Filtered {
     let (elements, areas_m2) = acts_on(plan);
     let means = Means::of(plan, elements);
-    let mut values = parts.to_vec();
+    let behind = means.behind(plan);
+    let mut parts = parts.to_vec();
+    parts[0].iter_mut().zip(&behind).for_each(|(value, &behind)| *value = *value - behind);
+    let mut values = parts.clone();
     let mut variance = variance.to_vec();
     let (mut smoothed_m2, mut bias, mut first) = (0.0, 0.0, Vec::new());
     for pass in 0..PASSES {
@@ -55,7 +58,7 @@ pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: 
         variance = means.noise_left(&variance, &kept);
     }
     let pieces = means.pieces();
-    for (filtered, part) in values.iter_mut().zip(parts) {
+    for (filtered, part) in values.iter_mut().zip(&parts) {
         give_back(&areas_m2, (&pieces, &first), filtered, part);
         if plan.resolves_walls {
             let changed = filtered.iter().zip(part).map(|(&after, &before)| after - before);
@@ -64,6 +67,7 @@ pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: 
             *filtered = part.iter().zip(changes).map(|(&before, by)| before + by).collect();
         }
     }
+    values[0].iter_mut().zip(behind).for_each(|(value, behind)| *value += behind);
     let bias = if rms_lx > 0.0 { bias / rms_lx } else { 0.0 };
     Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
 }
@@ -115,6 +119,15 @@ impl Means {
             }
         }
         Self { rows }
+    }
+
+    /// What vertices get from the walls of a room: it has no noise, and nearly all the details of the light. Nothing where some
+    /// do not know it.
+    fn behind(&self, plan: &Plan) -> Vec<Rgb> {
+        let none = vec![Rgb::BLACK; self.rows.len()];
+        let rows = self.rows.iter().zip(&plan.gatherers);
+        let known = rows.map(|(row, of)| if row.len() > 1 { of.behind } else { Some(Rgb::BLACK) });
+        known.collect::<Option<_>>().unwrap_or(none)
     }
 
     /// Of every vertex, the first of those that are connected with it.

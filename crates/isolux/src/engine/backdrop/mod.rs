@@ -27,7 +27,7 @@ const HELD: f64 = 1e-6;
 /// Rays tell whether something stands before the walls; of so many so many have to come to them.
 const TRIED: u32 = 16;
 const CLEAR: u32 = 12;
-/// How far a ray to a wall may end before or behind it, as a share of its length.
+/// How far a ray to a wall may end before or behind it, as a share of its length and the size of the wall.
 const BESIDE: f64 = 1e-3;
 /// Walls are left out for places farther away from their middle than so many halves of their sides: the closed form loses its
 /// digits there.
@@ -98,13 +98,14 @@ impl Backdrop {
         let sequence = Sequence::new(Key::new(0));
         let comes_there = |&index: &u32| {
             let direction = first_direction(of, Dice::new(sequence, index));
-            let far_m = seen.iter().filter_map(|s| s.at(direction)).map(|(t, _)| t);
-            let far_m = far_m.fold(f64::INFINITY, f64::min);
+            let far = |s: &Seen<'_>| s.at(direction).map(|(far_m, _)| (far_m, s.size_m()));
+            let nearest = seen.iter().filter_map(far).min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((far_m, size_m)) = nearest else { return false };
             let ray = Ray::new(of.origin, direction).skipping(of.surface.triangle);
             let hit = scene.bvh().closest_hit(&ray);
             hit.is_some_and(|hit| {
                 let at = SurfacePoint::from_hit(scene, &hit).point;
-                ((at - of.origin).length() - far_m).abs() <= BESIDE * far_m
+                ((at - of.origin).length() - far_m).abs() <= BESIDE * (far_m + size_m)
             })
         };
         (0..TRIED).filter(comes_there).count() as u32 >= CLEAR
@@ -162,6 +163,12 @@ impl<'a> Seen<'a> {
             && is_near(view.height_m, least_m)
             && (0..2).all(|k| is_near(view.foot_m[k], half_m[k]));
         is_before.then_some(Self { wall, view })
+    }
+
+    /// Half of the shorter side of the wall.
+    fn size_m(&self) -> f64 {
+        let [a, b] = self.wall.rectangle.half_m;
+        a.min(b)
     }
 
     fn illuminance(&self) -> Rgb {

@@ -125,19 +125,19 @@ impl Operator {
             light
         };
         let mut light = guess.to_vec();
+        if let Some(rough) = Rough::of(self, guess.len(), waiting) {
+            match self.settle_roughly(&rough, (light, waiting), with_given, tolerance) {
+                Ok(settled) => return settled,
+                Err(nearer) => light = nearer,
+            }
+        }
         let mut unsettled = 0.0;
         let mut mixing = Anderson::default();
         for _ in 0..MAX_SWEEPS {
             let mut next = apply(&with_given(&light));
-            let (mut change, mut size) = (0.0, 0.0);
-            for (a, b) in next.iter().zip(&light) {
-                let (difference, value) = ((*a - *b).luminance(), a.luminance());
-                change += difference * difference;
-                size += value * value;
-            }
-            let settled = change <= tolerance * tolerance * size;
-            unsettled = (change / light.len().max(1) as f64).sqrt();
-            if settled {
+            let settling = Settling::of(&next, &light);
+            unsettled = settling.rms();
+            if settling.is_within(tolerance) {
                 return (next, unsettled);
             }
             next.truncate(guess.len());
@@ -145,10 +145,144 @@ impl Operator {
         }
         (apply(&with_given(&light)), unsettled)
     }
+
+    /// The same where few vertices carry light: what a sweep changes there is followed on its further ways over a rough operator,
+    /// whose rays read the nearest carrier. Without success, the light it has come to.
+    fn settle_roughly(
+        &self,
+        rough: &Rough,
+        (mut light, waiting): (Vec<Rgb>, &Waiting),
+        with_given: impl Fn(&[Rgb]) -> Vec<Rgb>,
+        tolerance: f64,
+    ) -> Result<(Vec<Rgb>, f64), Vec<Rgb>> {
+        let carried = |light: &[Rgb]| -> Vec<Rgb> {
+            rough.carriers.iter().map(|&v| light[v as usize]).collect()
+        };
+        let mut before = f64::INFINITY;
+        for _ in 0..MAX_SWEEPS {
+            let mut next = self.apply(&with_given(&light));
+            let [now, then] = [carried(&next), carried(&light)];
+            let settling = Settling::of(&now, &then);
+            if settling.is_within(tolerance) {
+                waiting.fill(&mut next);
+                return Ok((next, settling.rms()));
+            }
+            if settling.change > before * ROUGHLY * ROUGHLY {
+                break;
+            }
+            before = settling.change;
+            let change: Vec<Rgb> = now.iter().zip(&then).map(|(&a, &b)| a - b).collect();
+            let whole = rough.followed(change);
+            let of = rough.carriers.iter().zip(then).zip(whole);
+            of.for_each(|((&vertex, then), whole)| light[vertex as usize] = then + whole);
+            waiting.fill(&mut light);
+        }
+        Err(light)
+    }
 }
+
+/// Of a change what is left from one sweep to the next, at most, where its further ways are followed roughly: else it does not help.
+const ROUGHLY: f64 = 0.5;
+/// Those ways are followed until they change less than this, relative, and so many at most.
+const FOLLOWED: f64 = 0.01;
+const MOST_FOLLOWED: usize = 100;
 
 /// Sweeps of the fixed point before giving up: at mean reflectance 0.99 the light left is e^-20.
 const MAX_SWEEPS: usize = 2000;
+
+/// How far a sweep has gone.
+struct Settling {
+    /// Sums of squares of what has changed, and of what there is.
+    change: f64,
+    size: f64,
+    count: usize,
+}
+
+impl Settling {
+    fn of(next: &[Rgb], light: &[Rgb]) -> Self {
+        let mut settling = Self { change: 0.0, size: 0.0, count: light.len() };
+        for (a, b) in next.iter().zip(light) {
+            let (difference, value) = ((*a - *b).luminance(), a.luminance());
+            settling.change += difference * difference;
+            settling.size += value * value;
+        }
+        settling
+    }
+
+    fn is_within(&self, tolerance: f64) -> bool {
+        self.change <= tolerance * tolerance * self.size
+    }
+
+    fn rms(&self) -> f64 {
+        (self.change / self.count.max(1) as f64).sqrt()
+    }
+}
+
+/// An operator among carriers alone.
+struct Rough {
+    carriers: Vec<u32>,
+    chunks: Vec<Rows>,
+}
+
+impl Rough {
+    /// Of an operator whose rows are vertices, if few of them carry light.
+    fn of(operator: &Operator, vertices: usize, waiting: &Waiting) -> Option<Self> {
+        let count: usize = operator.chunks.iter().map(|rows| rows.ends.len()).sum();
+        if count != vertices || 2 * waiting.count() < vertices {
+            return None;
+        }
+        let stands_for = waiting.nearest_carriers(vertices);
+        let is_carrier = |vertex: usize| stands_for[vertex] == vertex as u32;
+        let mut number = vec![u32::MAX; vertices];
+        let carriers: Vec<u32> =
+            (0..vertices).filter(|&v| is_carrier(v)).map(|v| v as u32).collect();
+        carriers.iter().zip(0..).for_each(|(&vertex, k)| number[vertex as usize] = k);
+        let read = |vertex: u32| number[stands_for[vertex as usize] as usize];
+        let mut chunks = Vec::with_capacity(operator.chunks.len());
+        let mut vertex = 0;
+        for rows in &operator.chunks {
+            let mut own = Rows {
+                entries: rows
+                    .entries
+                    .iter()
+                    .map(|entry| Entry { vertices: entry.vertices.map(read), ..*entry })
+                    .collect(),
+                runs: rows.runs.clone(),
+                ..Rows::default()
+            };
+            // Rows of what waits have no rays.
+            for &end in &rows.ends {
+                if is_carrier(vertex) {
+                    own.ends.push(end);
+                    own.sources.push(Rgb::BLACK);
+                }
+                vertex += 1;
+            }
+            chunks.push(own);
+        }
+        Some(Self { carriers, chunks })
+    }
+
+    /// What a change comes to once it is reflected again and again.
+    fn followed(&self, change: Vec<Rgb>) -> Vec<Rgb> {
+        let mut whole = change.clone();
+        let mut mixing = Anderson::default();
+        for _ in 0..MOST_FOLLOWED {
+            let mut next = change.clone();
+            let mut left = next.as_mut_slice();
+            for rows in &self.chunks {
+                let (part, others) = std::mem::take(&mut left).split_at_mut(rows.ends.len());
+                rows.add(&whole, part);
+                left = others;
+            }
+            if Settling::of(&next, &whole).is_within(FOLLOWED) {
+                return next;
+            }
+            whole = mixing.next(&whole, next);
+        }
+        whole
+    }
+}
 
 impl Rows {
     /// Adds an entry to the row that is being made.
@@ -172,9 +306,14 @@ impl Rows {
     }
 
     fn apply(&self, light: &[Rgb], values: &mut [Rgb]) {
+        values.copy_from_slice(&self.sources);
+        self.add(light, values);
+    }
+
+    /// Adds what is read to the values of all rows.
+    fn add(&self, light: &[Rgb], values: &mut [Rgb]) {
         let (mut run, mut entry) = (0, 0);
-        for ((value, &end), &source) in values.iter_mut().zip(&self.ends).zip(&self.sources) {
-            *value = source;
+        for (value, &end) in values.iter_mut().zip(&self.ends) {
             for Run { end, share } in &self.runs[run..end] {
                 let entries = &self.entries[entry..*end as usize];
                 let read: Rgb = entries.iter().map(|entry| entry.light(light)).sum();

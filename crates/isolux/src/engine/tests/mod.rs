@@ -2,6 +2,7 @@
 
 mod aiming;
 mod anderson;
+mod backdrop;
 mod bright;
 mod carrying;
 mod coat;
