@@ -79,8 +79,8 @@ pub fn disc_polygon(centre: Point, radius_m: f64, corners: u32) -> Vec<Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use isolux::quadrature::GaussRule;
     use crate::tolerance::{DISC_POLYGON, QUADRATURE};
+    use isolux::quadrature::GaussRule;
 
     const UP: Normal = Normal::Z;
 

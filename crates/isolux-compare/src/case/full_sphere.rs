@@ -196,8 +196,8 @@ fn places(mesh: &SphereMesh) -> Vec<ProbePoint> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use isolux::quadrature::GaussRule;
     use crate::tolerance::QUADRATURE;
+    use isolux::quadrature::GaussRule;
 
     const ALL: [FullSphere; 8] = [
         CENTRED_20,

@@ -13,9 +13,9 @@
 
 use crate::expectation::{Bound, Case, Expectation, Quantity};
 use crate::model::{SphereMesh, isotropic, octant};
-use isolux::quadrature::GaussRule;
 use isolux::engine::ProbePoint;
 use isolux::geometry::{Point, Vector};
+use isolux::quadrature::GaussRule;
 use isolux::scene::{Finish, Material, SceneParts};
 use isolux::units::Rgb;
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -37,7 +37,8 @@ pub(super) struct Filtered {
 pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: f64) -> Filtered {
     let (elements, areas_m2) = acts_on(plan);
     let means = Means::of(plan, elements);
-    let behind = means.behind(plan);
+    let pieces = means.pieces();
+    let behind = means.behind(plan, &pieces);
     let mut parts = parts.to_vec();
     parts[0].iter_mut().zip(&behind).for_each(|(value, &behind)| *value = *value - behind);
     let mut values = parts.clone();
@@ -57,7 +58,6 @@ pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: 
         }
         variance = means.noise_left(&variance, &kept);
     }
-    let pieces = means.pieces();
     for (filtered, part) in values.iter_mut().zip(&parts) {
         give_back(&areas_m2, (&pieces, &first), filtered, part);
         if plan.resolves_walls {
@@ -121,13 +121,16 @@ impl Means {
         Self { rows }
     }
 
-    /// What vertices get from the walls of a room: it has no noise, and nearly all the details of the light. Nothing where some
-    /// do not know it.
-    fn behind(&self, plan: &Plan) -> Vec<Rgb> {
-        let none = vec![Rgb::BLACK; self.rows.len()];
-        let rows = self.rows.iter().zip(&plan.gatherers);
-        let known = rows.map(|(row, of)| if row.len() > 1 { of.behind } else { Some(Rgb::BLACK) });
-        known.collect::<Option<_>>().unwrap_or(none)
+    /// What vertices get from the walls of a room: it has no noise, and nearly all the details of the light. Nothing on pieces of
+    /// surface where some do not know it.
+    fn behind(&self, plan: &Plan, pieces: &[u32]) -> Vec<Rgb> {
+        let of = |k: usize| plan.gatherers[k].behind;
+        let mut is_known = vec![true; self.rows.len()];
+        for (k, _) in self.rows.iter().enumerate().filter(|(_, row)| row.len() > 1) {
+            is_known[pieces[k] as usize] &= of(k).is_some();
+        }
+        let behind = |k: usize| of(k).filter(|_| is_known[pieces[k] as usize]);
+        (0..self.rows.len()).map(|k| behind(k).unwrap_or(Rgb::BLACK)).collect()
     }
 
     /// Of every vertex, the first of those that are connected with it.

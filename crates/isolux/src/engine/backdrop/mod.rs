@@ -20,6 +20,8 @@ use planes::Rectangle;
 use polynomial::{COUNT, Polynomial, View, powers};
 use rayon::prelude::*;
 
+/// Walls at most: a room has six.
+const MOST: usize = 8;
 /// Places of a wall each way whose light is asked for.
 const PLACES: usize = 16;
 /// A polynomial is held as if it were nothing at so many more places, in proportion: where few places are lit.
@@ -47,6 +49,15 @@ struct Wall {
     tint: Rgb,
 }
 
+/// Integrals over walls: of light, of its square, and of the square of what is left of it.
+#[derive(Default)]
+struct Moments {
+    area_m2: f64,
+    light: f64,
+    squared: f64,
+    left: f64,
+}
+
 /// A wall as seen from a place.
 pub(super) struct Seen<'a> {
     wall: &'a Wall,
@@ -55,29 +66,44 @@ pub(super) struct Seen<'a> {
 
 impl Backdrop {
     /// The walls of a scene that has large plane surfaces, in the dark.
-    pub(super) fn of(subdivision: &Subdivision) -> Option<Self> {
+    pub(super) fn of(scene: &Scene, subdivision: &Subdivision) -> Option<Self> {
         let dark = |rectangle: Rectangle| {
             let light = Polynomial([0.0; COUNT]);
             Wall { rectangle, light, tint: Rgb::BLACK }
         };
-        let walls: Vec<Wall> = planes::largest(subdivision).into_iter().map(dark).collect();
+        let largest = planes::largest(subdivision).into_iter();
+        let faced = largest.filter(|rectangle| rectangle.faces_something(scene));
+        let walls: Vec<Wall> = faced.take(MOST).map(dark).collect();
         (!walls.is_empty()).then_some(Self { walls })
     }
 
-    /// Takes down their light: `light_at` tells what comes to a place of them, if that is known.
+    /// Takes down their light: `light_at` tells what comes to a place of them, if that is known. Returns what of its differences from
+    /// place to place that leaves out, root mean square.
     pub(super) fn see(
         &mut self,
         scene: &Scene,
         light_at: impl Fn(&SurfacePoint) -> Option<Rgb> + Sync,
-    ) {
-        self.walls.par_iter_mut().for_each(|wall| wall.see(scene, &light_at));
+    ) -> f64 {
+        let of_walls = self.walls.par_iter_mut().map(|wall| wall.see(scene, &light_at));
+        let of_walls: Vec<Moments> = of_walls.collect();
+        let all = of_walls.iter().fold(Moments::default(), |all, of| Moments {
+            area_m2: all.area_m2 + of.area_m2,
+            light: all.light + of.light,
+            squared: all.squared + of.squared,
+            left: all.left + of.left,
+        });
+        let spread = all.squared - all.light * all.light / all.area_m2;
+        if spread > 0.0 { (all.left / spread).sqrt() } else { 1.0 }
     }
 
-    /// Of some places, the share that see mostly walls.
-    pub(super) fn share_of_clear(&self, scene: &Scene, places: &[Gatherer]) -> f64 {
-        let is_clear = |of: &&Gatherer| Self::is_clear(scene, of, &self.seen_from(of));
-        let clear = places.par_iter().filter(is_clear).count();
-        clear as f64 / places.len().max(1) as f64
+    /// Of the surface that some places stand for, the share that sees mostly walls.
+    pub(super) fn share_of_clear(&self, scene: &Scene, places: &[(Gatherer, f64)]) -> f64 {
+        let is_clear = |(of, _): &(Gatherer, f64)| Self::is_clear(scene, of, &self.seen_from(of));
+        let clear: Vec<bool> = places.par_iter().map(is_clear).collect();
+        let all_m2: f64 = places.iter().map(|(_, m2)| m2).sum();
+        let of_clear = places.iter().zip(clear).filter(|(_, is_clear)| *is_clear);
+        let clear_m2: f64 = of_clear.map(|((_, m2), _)| m2).sum();
+        if all_m2 > 0.0 { clear_m2 / all_m2 } else { 0.0 }
     }
 
     /// What a place gets from it if nothing is between; nothing where too much is.
@@ -129,10 +155,11 @@ impl Wall {
         &mut self,
         scene: &Scene,
         light_at: &(impl Fn(&SurfacePoint) -> Option<Rgb> + Sync),
-    ) {
+    ) -> Moments {
         let rule = GaussRule::new(PLACES);
         let mut sums = Sums::default();
         let mut colour = Rgb::BLACK;
+        let mut places = Vec::with_capacity(PLACES * PLACES);
         for (&x, &weight_x) in rule.nodes.iter().zip(&rule.weights) {
             for (&y, &weight_y) in rule.nodes.iter().zip(&rule.weights) {
                 let weight = weight_x * weight_y;
@@ -143,12 +170,23 @@ impl Wall {
                 let light = light * reflectance;
                 colour += light * weight;
                 sums.add(&powers([x, y]), light.luminance(), weight);
+                places.push(([x, y], light.luminance(), weight));
             }
         }
         let all = colour.luminance();
         if let Some(light) = sums.solved().filter(|_| all > 0.0) {
             (self.light, self.tint) = (Polynomial(light), colour / all);
         }
+        let [a, b] = self.rectangle.half_m;
+        let mut moments = Moments::default();
+        for (at, light, weight) in places {
+            let (m2, left) = (weight * a * b, light - self.light.at(at));
+            moments.area_m2 += m2;
+            moments.light += m2 * light;
+            moments.squared += m2 * light * light;
+            moments.left += m2 * left * left;
+        }
+        moments
     }
 }
 

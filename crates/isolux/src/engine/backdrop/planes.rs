@@ -1,13 +1,15 @@
 //! The largest plane surfaces of a scene, as rectangles.
 
 use crate::elements::{FewNumbers, Subdivision};
+use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
+use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Point, Ray, Triangle, Vector};
 use std::collections::HashMap;
 
-/// Rectangles at most: a room has six walls.
-const MOST: usize = 8;
+/// Rectangles at most: a room has six walls, each with two sides.
+const MOST: usize = 16;
 /// Each has this share of all surface, and of itself, at least.
 const LEAST_SHARE: f64 = 0.02;
 const LEAST_FILLED: f64 = 0.5;
@@ -97,10 +99,28 @@ impl Plane {
     }
 }
 
+/// Rays that tell whether a rectangle faces anything: the inner side of a wall does.
+const FACING: u32 = 16;
+
 impl Rectangle {
+    /// Whether rays from all over it mostly meet something.
+    pub(super) fn faces_something(&self, scene: &Scene) -> bool {
+        let sequence = Sequence::new(Key::new(0));
+        let Some(axis) = self.axes[2].direction() else { return false };
+        let meets = |&index: &u32| {
+            let mut dice = Dice::new(sequence, index);
+            let [x, y] = dice.pair().map(|p| 2.0 * p - 1.0);
+            let Some(at) = self.surface(scene, [x, y]) else { return false };
+            let local = CosineHemisphere::sample(dice.pair());
+            scene.bvh().closest_hit(&at.leave(axis.from_local(local))).is_some()
+        };
+        2 * (0..FACING).filter(meets).count() as u32 > FACING
+    }
+
     /// The place of a surface there, if there is one.
     pub(super) fn surface(&self, scene: &Scene, [x, y]: [f64; 2]) -> Option<SurfacePoint> {
-        let at = self.middle + self.axes[0] * (x * self.half_m[0]) + self.axes[1] * (y * self.half_m[1]);
+        let at =
+            self.middle + self.axes[0] * (x * self.half_m[0]) + self.axes[1] * (y * self.half_m[1]);
         let before_m = BEFORE * self.half_m[0].min(self.half_m[1]);
         let mut ray = Ray::new(at + self.axes[2] * before_m, (-self.axes[2]).direction()?);
         ray.t_max = (2.0 * before_m) as f32;

@@ -182,10 +182,12 @@ impl Gathering<'_> {
     ) {
         let sequence = Sequence::new(key);
         let Gatherer { origin, normal, rays, in_gap, .. } = *gatherer;
-        let bright = self.bright.and_then(|bright| bright.seen_from(origin, normal, rays));
+        let behind = gatherer.behind.filter(|_| rays > 0).zip(self.backdrop);
+        // Rays that are judged by walls know what is bright there.
+        let bright = self.bright.filter(|_| behind.is_none());
+        let bright = bright.and_then(|bright| bright.seen_from(origin, normal, rays));
         let receiver = Receiver { place: &gatherer.surface, bright: bright.as_ref() };
         let share = Rgb::WHITE / f64::from(rays.max(1));
-        let behind = gatherer.behind.filter(|_| rays > 0).zip(self.backdrop);
         let walls = behind.map_or(Vec::new(), |(_, backdrop)| backdrop.seen_from(gatherer));
         row.source += behind.map_or(Rgb::BLACK, |(whole, _)| whole);
         let triangle = gatherer.surface.triangle;

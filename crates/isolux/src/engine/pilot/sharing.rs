@@ -43,8 +43,9 @@ impl Pilot<'_> {
         let gatherers = self.gatherers();
         self.look_at_walls_again(&look.elements, target);
         let some = all.into_iter().step_by(every);
-        let some: Vec<(Gatherer, f64)> =
-            some.map(|v| (self.before_walls(v as u32, gatherers[v]), vertices[v].area_m2)).collect();
+        let some: Vec<(Gatherer, f64)> = some
+            .map(|v| (self.before_walls(v as u32, gatherers[v]), vertices[v].area_m2))
+            .collect();
         let gathering = self.gathering(&look.elements, u32::MAX, &self.standings);
         let wanted = (target, look.rms_lx, BELIEVED_INCREMENTS, self.key.with(6));
         let (trial, rays) = Trial::of(&gathering, &some, &self.indirect, wanted);

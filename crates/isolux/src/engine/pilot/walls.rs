@@ -1,6 +1,6 @@
 //! Walls that rays are judged by: whether there are any, and how much noise that takes off.
 
-use super::Pilot;
+use super::{PILOT_TOLERANCE, Pilot};
 use crate::elements::Elements;
 use crate::engine::backdrop::Backdrop;
 use crate::engine::gather::{Gatherer, known_at};
@@ -10,8 +10,10 @@ use crate::engine::trial::{self, NET_ORDER, Trial};
 use crate::sampling::Sequence;
 use crate::units::Rgb;
 
-/// The share of all places that have to see mostly walls.
-const CLEAR: f64 = 0.75;
+/// The share of all surface that has to see mostly walls.
+const CLEAR: f64 = 0.3;
+/// What polynomials may leave out of direct light on walls: where they leave out more, as pools of many luminaires, they take no noise off.
+const LEFT_OUT: f64 = 0.3;
 /// A first look at the light, with so many rays; vertices have as many later at least.
 const FIRST_RAYS: u32 = 16;
 /// Noise that is left of what it is without walls, for which it is worth while; and for which the pilot has fewer rays.
@@ -22,43 +24,30 @@ const MUCH: f64 = 0.35;
 const FINE: f64 = 2e-3;
 
 impl Pilot<'_> {
-    /// Looks whether rays are to be judged by walls.
+    /// Looks whether rays are to be judged by walls, and how many of them do then.
     pub(super) fn find_walls(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
-        let every = gatherers.len().div_ceil(trial::RECEIVERS).max(1);
-        let some: Vec<Gatherer> = gatherers.iter().step_by(every).copied().collect();
-        let is_clear = |b: &Backdrop| b.share_of_clear(self.scene, &some) >= CLEAR;
-        let Some(mut backdrop) = Backdrop::of(&self.subdivision).filter(is_clear) else { return };
-        let key = self.key.with(8);
-        let rows: Vec<u32> = (0..gatherers.len() as u32).collect();
-        let rows = self.rows(&rows, gatherers).into_iter();
-        let rows: Vec<Gatherer> =
-            rows.map(|g| g.with_rays(g.rays.min(FIRST_RAYS))).collect();
-        let gathering = self.gathering(elements, u32::MAX, &self.standings);
-        let operator = gathering.operator(&rows, |_| key);
-        self.traced += operator.rays;
-        let black = vec![Rgb::BLACK; gatherers.len()];
-        self.indirect = operator.solve(&black, &black, &self.carriers.waiting(), super::PILOT_TOLERANCE);
+        let lit: Vec<usize> = (0..gatherers.len())
+            .filter(|&v| self.standings[v].is_some() && self.known[v])
+            .collect();
+        let every = lit.len().div_ceil(trial::RECEIVERS).max(1);
+        let place = |&v: &usize| (gatherers[v], elements.vertices()[v].area_m2);
+        let places: Vec<(Gatherer, f64)> = lit.iter().step_by(every).map(place).collect();
+        let is_clear = |b: &Backdrop| b.share_of_clear(self.scene, &places) >= CLEAR;
+        let backdrop = Backdrop::of(self.scene, &self.subdivision).filter(is_clear);
+        let Some(mut backdrop) = backdrop else { return };
+        self.indirect = vec![Rgb::BLACK; gatherers.len()];
+        if self.look_at_walls(&mut backdrop, elements) > LEFT_OUT {
+            self.indirect.clear();
+            return;
+        }
+        self.glance(elements, gatherers);
         self.look_at_walls(&mut backdrop, elements);
         self.backdrop = Some(backdrop);
-        let weight = |v: usize| elements.vertices()[v].area_m2;
-        let with: Vec<(Gatherer, f64)> = (0..gatherers.len())
-            .step_by(every)
-            .map(|v| (self.before_walls(v as u32, gatherers[v]), weight(v)))
-            .collect();
-        let without: Vec<(Gatherer, f64)> =
-            with.iter().map(|&(g, m2)| (Gatherer { behind: None, ..g }, m2)).collect();
-        let gathering = self.gathering(elements, u32::MAX, &self.standings);
-        let rms_lx = super::rms(elements, &self.standings, |v| (self.direct[v] + self.indirect[v]).luminance());
-        let noise = |some: &[(Gatherer, f64)]| {
-            Trial::noise(&gathering, some, &self.indirect, (rms_lx, key.with(1)))
-        };
-
-        let [(with_lx, traced), (without_lx, _)] = [noise(&with), noise(&without)];
-        self.traced += 2 * traced;
-        let left = with_lx / without_lx;
-        if !(left < WORTH) {
+        let left = self.noise_left_by_walls(elements, &places);
+        if left.is_none_or(|left| left > WORTH) {
             self.backdrop = None;
-        } else if left < MUCH {
+        }
+        if let Some(left) = left.filter(|&left| left < MUCH) {
             let fewer = libm::pow(left, 1.0 / NET_ORDER);
             let rays = |of: &u32| {
                 let wanted = (f64::from(*of) * fewer) as u32;
@@ -66,7 +55,37 @@ impl Pilot<'_> {
             };
             self.rays = self.rays.iter().map(rays).collect();
         }
-        eprintln!("backdrop left {left} rays {:?}", self.rays.iter().max());
+    }
+
+    /// Indirect light by few rays.
+    fn glance(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        let vertices: Vec<u32> = (0..gatherers.len() as u32).collect();
+        let mut rows = self.rows(&vertices, gatherers);
+        rows.iter_mut().for_each(|row| row.rays = row.rays.min(FIRST_RAYS));
+        let key = self.key.with(8);
+        let gathering = self.gathering(elements, u32::MAX, &self.standings);
+        let operator = gathering.operator(&rows, |_| key);
+        self.traced += operator.rays;
+        let black = vec![Rgb::BLACK; gatherers.len()];
+        self.indirect = operator.solve(&black, &black, &self.carriers.waiting(), PILOT_TOLERANCE);
+    }
+
+    /// Noise of some places if rays are judged by walls, as a share of what it is otherwise.
+    fn noise_left_by_walls(
+        &mut self,
+        elements: &Elements,
+        places: &[(Gatherer, f64)],
+    ) -> Option<f64> {
+        let behind = |of: &Gatherer| self.backdrop.as_ref().and_then(|b| b.behind(self.scene, of));
+        let with = |&(of, m2): &(Gatherer, f64)| (Gatherer { behind: behind(&of), ..of }, m2);
+        let with: Vec<(Gatherer, f64)> = places.iter().map(with).collect();
+        let lx = |v: usize| (self.direct[v] + self.indirect[v]).luminance();
+        let of = (super::rms(elements, &self.standings, lx), self.key.with(9));
+        let gathering = self.gathering(elements, u32::MAX, &self.standings);
+        let noise = |some: &[(Gatherer, f64)]| Trial::noise(&gathering, some, &self.indirect, of);
+        let [(with_lx, rays), (without_lx, others)] = [noise(&with), noise(places)];
+        self.traced += rays + others;
+        (without_lx > 0.0).then(|| with_lx / without_lx)
     }
 
     /// Takes down the light of the walls once more, where what the first look made of it may add to the noise.
@@ -80,7 +99,7 @@ impl Pilot<'_> {
     }
 
     /// Takes down the light of the walls that rays are judged by.
-    fn look_at_walls(&self, backdrop: &mut Backdrop, elements: &Elements) {
+    fn look_at_walls(&self, backdrop: &mut Backdrop, elements: &Elements) -> f64 {
         let light_at = |at: &SurfacePoint| {
             let known = known_at(elements, u32::MAX, &self.standings, at)?;
             let read = |values: &[Rgb]| -> Rgb {
@@ -89,11 +108,11 @@ impl Pilot<'_> {
             let direct = if self.lighting.are_read_at_ends() {
                 read(&self.direct)
             } else {
-                self.lighting.estimate(at, &mut Dice::new(Sequence::new(self.key.with(9)), 0))
+                self.lighting.estimate(at, &mut Dice::new(Sequence::new(self.key.with(10)), 0))
             };
             Some(direct + read(&self.indirect))
         };
-        backdrop.see(self.scene, light_at);
+        backdrop.see(self.scene, light_at)
     }
 
     /// A vertex that gathers, with what it gets from the walls.

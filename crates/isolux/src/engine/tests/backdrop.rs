@@ -3,7 +3,9 @@
 use super::*;
 use crate::elements::Subdivision;
 use crate::engine::backdrop::{Backdrop, lacking};
-use crate::engine::gather::Gatherer;
+use crate::engine::direct::Lighting;
+use crate::engine::gather::{Gatherer, Gathering};
+use crate::engine::pilot::pilot;
 use crate::sampling::CosineHemisphere;
 
 const ROOM_M: [f64; 3] = [6.0, 4.0, 3.0];
@@ -13,7 +15,7 @@ fn room(things: Vec<Shape>) -> (Scene, Backdrop) {
     let mut shapes = inward_box(ROOM_M, 0);
     shapes.extend(things);
     let scene = scene(shapes, vec![painted(Rgb([0.7, 0.5, 0.3]))], vec![]);
-    let mut backdrop = Backdrop::of(&Subdivision::new(&scene)).expect("a room has walls");
+    let mut backdrop = Backdrop::of(&scene, &Subdivision::new(&scene)).expect("a room has walls");
     backdrop.see(&scene, |at| {
         let from_lamp = (at.point - Point::new(2.0, 1.5, 2.2)).length_squared();
         Some(Rgb::grey(100.0 / (1.0 + from_lamp)))
@@ -39,32 +41,98 @@ fn found(backdrop: &Backdrop, of: &Gatherer, nets: std::ops::Range<u64>) -> (f64
 #[test]
 fn rays_find_of_the_walls_what_they_give() {
     let (scene, backdrop) = room(vec![]);
-    for at in [[3.0, 2.0, 0.0], [0.01, 2.0, 0.0], [5.99, 3.99, 0.0], [1.0, 0.0, 0.02], [4.0, 1.0, 3.0]] {
+    for at in
+        [[3.0, 2.0, 0.0], [0.01, 2.0, 0.0], [5.99, 3.99, 0.0], [1.0, 0.0, 0.02], [4.0, 1.0, 3.0]]
+    {
         let at = front_at(&scene, Point::from(at));
         let of = Gatherer::on_surface(at, 16);
         let whole = backdrop.behind(&scene, &of).expect("nothing stands there").luminance();
         let (mean, error) = found(&backdrop, &of, 0..20_000);
-        println!("{whole} {mean} +- {error}");
         assert!((mean - whole).abs() < 4.0 * error, "{:?}: {whole}, {mean} +- {error}", at.point);
     }
 }
 
 #[test]
-fn debug_all_vertices() {
+fn walls_behind_things_are_left_alone() {
+    // A table top close above a part of the floor.
+    let top = rectangle([1.0, 1.0, 0.2], [2.0, 0.0, 0.0], [0.0, 1.5, 0.0], 0);
+    let (scene, backdrop) = room(vec![top]);
+    let at = |x: f64, y: f64| Gatherer::on_surface(front_at(&scene, Point::new(x, y, 0.0)), 16);
+    assert!(backdrop.behind(&scene, &at(2.0, 1.7)).is_none(), "below the table");
+    assert!(backdrop.behind(&scene, &at(5.0, 3.0)).is_some(), "beside it");
+}
+
+#[test]
+fn outer_sides_of_walls_are_none() {
     let (scene, backdrop) = room(vec![]);
-    let mut subdivision = Subdivision::new(&scene);
-    subdivision.bisect_to(0.4, 1 << 20);
-    let mut sums = std::collections::BTreeMap::new();
-    for (n, receiver) in subdivision.receivers(2e-3).iter().enumerate() {
-        let of = Gatherer::at_vertex(&scene, receiver, 16);
-        let Some(whole) = backdrop.behind(&scene, &of).map(|l| l.luminance()) else { println!("none"); continue };
-        let (mean, error) = found(&backdrop, &of, n as u64 * 1000..n as u64 * 1000 + 400);
-        let p = receiver.point;
-        let d = [p.x, 6.0 - p.x, p.y, 4.0 - p.y, p.z, 3.0 - p.z];
-        let near = d.iter().filter(|d| **d < 0.02).count();
-        let s: &mut (f64, f64, f64, usize) = sums.entry(near).or_default();
-        s.0 += mean - whole; s.1 += error * error; s.2 += whole; s.3 += 1;
-        if (mean - whole).abs() > 6.0 * error { println!("{p:?} {whole} {mean} {error}"); }
+    let outside = front_at(&scene, Point::new(3.0, 2.0, 0.0)).other_side();
+    let of = Gatherer::on_surface(outside, 16);
+    assert!(backdrop.seen_from(&of).is_empty(), "no wall faces it");
+}
+
+/// A lit room, whose pilot judges rays by walls.
+fn lit_room() -> Scene {
+    let lamps = vec![isotropic([2.0, 1.5, 1.6], 100.0)];
+    scene(inward_box(ROOM_M, 0), vec![painted(Rgb::grey(0.5))], lamps)
+}
+
+#[test]
+fn walls_take_noise_off_and_leave_the_light() {
+    let scene = lit_room();
+    let lighting = Lighting::new(&scene);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let gathering = Gathering::of(&plan, &plan.direct);
+    let judged = plan.gatherers.iter().filter(|of| of.behind.is_some()).step_by(61);
+    let judged: Vec<Gatherer> = judged.map(|of| of.with_rays(16)).collect();
+    assert!(judged.len() > 5, "{}", judged.len());
+    let raw: Vec<Gatherer> = judged.iter().map(|of| Gatherer { behind: None, ..*of }).collect();
+    let nets = |rows: &[Gatherer]| -> Vec<Vec<f64>> {
+        let net = |net: u64| {
+            let key = Key::new(3).with(net);
+            let operator = gathering.operator(rows, |row| key.with(row as u64));
+            operator.apply(&plan.guess).iter().map(|light| light.luminance()).collect()
+        };
+        (0..256).map(net).collect()
+    };
+    let [judged, raw] = [nets(&judged), nets(&raw)];
+    let (mut noise, mut noise_of_raw) = (0.0, 0.0);
+    for row in 0..raw[0].len() {
+        let [(own, error), (other, other_error)] =
+            [&judged, &raw].map(|nets| mean_and_error(nets.iter().map(|net| net[row])));
+        let both = libm::hypot(error, other_error);
+        assert!((own - other).abs() < 4.0 * both, "{row}: {own} {other} +- {both}");
+        noise += error * error;
+        noise_of_raw += other_error * other_error;
     }
-    for (near, s) in sums { println!("{near}: {} {:.5} +- {:.5}", s.3, s.0 / s.2, s.1.sqrt() / s.2); }
+    // On CUBE a twentieth is left; here the lamp hangs nearer to some walls.
+    assert!(noise.sqrt() < 0.2 * noise_of_raw.sqrt(), "{noise} {noise_of_raw}");
+}
+
+#[test]
+fn light_settles_among_carriers_as_it_does_among_all() {
+    let scene = lit_room();
+    let lighting = Lighting::new(&scene);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let vertices = plan.guess.len();
+    assert!(2 * plan.waiting.count() >= vertices, "few carry light");
+    let gathering = Gathering::of(&plan, &plan.direct);
+    let rows: Vec<Gatherer> = (0..vertices)
+        .map(|v| plan.gatherers[v].with_rays(if plan.carriers.is_active(v as u32) { 8 } else { 0 }))
+        .collect();
+    let operator = gathering.operator(&rows, |row| Key::new(4).with(row as u64));
+    let black = vec![Rgb::BLACK; vertices];
+    let fit = |light: &[Rgb]| plan.fit.apply(light);
+    let (settled, left) = operator.solve_or_give_up(&black, &black, (&plan.waiting, &fit), 1e-10);
+    let mut image = operator.apply(&fit(&settled));
+    plan.waiting.fill(&mut image);
+    let rms = |of: &dyn Fn(usize) -> f64| {
+        ((0..vertices).map(|k| of(k) * of(k)).sum::<f64>() / vertices as f64).sqrt()
+    };
+    let change = rms(&|k| (image[k] - settled[k]).luminance());
+    let size = rms(&|k| settled[k].luminance());
+    // What a sweep changes shrinks at every further one.
+    assert!(
+        size > 1.0 && change <= 1e-10 * size && left <= 1e-10 * 2.0 * size,
+        "{change} {left} {size}"
+    );
 }
