@@ -6,8 +6,17 @@ use super::paths::{Path, expressions, uses};
 use super::tree::{File, Tree};
 
 const SOURCES: &str = "crates/isolux/src/";
-const ORDER: [&str; 8] =
-    ["units", "photometry", "scene", "elements", "map", "sampling", "engine", "lightmap"];
+const ORDER: [&str; 9] = [
+    "units",
+    "quadrature",
+    "photometry",
+    "scene",
+    "elements",
+    "map",
+    "sampling",
+    "engine",
+    "lightmap",
+];
 
 pub(super) fn check(tree: &Tree) -> Vec<Finding> {
     tree.rust_under(SOURCES).flat_map(check_file).collect()

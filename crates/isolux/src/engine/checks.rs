@@ -187,7 +187,7 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let is_beset = is_beset || of.is_beset_afar;
     let may_be_trusted = reads_open && !in_gap;
     let mut gatherer = gatherer.in_gap(in_gap);
-    gatherer.behind = plan.backdrop.as_ref().and_then(|b| b.behind(plan.scene, &gatherer));
+    gatherer.behind = plan.backdrop.as_ref().and_then(|b| b.behind(plan.scene, &gatherer.stand()));
     let reads_direct = plan.lighting.are_read_at_ends();
     let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
     let node = plan.elements.place(plan.level, triangle, back, [u, v]).map(|place| place.node());

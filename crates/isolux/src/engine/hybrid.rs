@@ -22,6 +22,8 @@ use std::time::Instant;
 /// What the last sweep of the fixed point may change, once all surfaces have reflected that, as a share of the accuracy asked for:
 /// all increments start from one guess, so that what is left of it does not average out.
 const UNSETTLED: f64 = 0.03;
+/// Coarser accuracies count as this: where walls take the noise off, what is left of the guess would be more than all noise.
+const COARSEST: f64 = 0.01;
 /// The least share of light that is taken to be absorbed.
 const LEAST_ABSORBED: f64 = 1e-3;
 
@@ -159,7 +161,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             &guess,
             &caustic,
             (&plan.waiting, &fit),
-            UNSETTLED * self.goal * (1.0 - plan.mean_reflectance).max(LEAST_ABSORBED),
+            UNSETTLED * self.goal.min(COARSEST) * (1.0 - plan.mean_reflectance).max(LEAST_ABSORBED),
         );
         let gathered = fit(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();

@@ -14,6 +14,9 @@ use crate::map::Accuracy;
 const SHARES: [f64; 3] = [0.7, 0.5, LEAST_SHARE];
 const LEAST_SHARE: f64 = 0.35;
 
+/// The part of the accuracy asked for that readers leave to where they would gather, however good the map is elsewhere.
+pub(super) const OF_GOAL: f64 = 0.25;
+
 /// A map as it is to be read.
 #[derive(Clone, Copy)]
 pub(super) struct Judged {

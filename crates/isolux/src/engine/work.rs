@@ -12,7 +12,7 @@ use super::filter::filter;
 use super::flights;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
-use super::judged::Judged;
+use super::judged::{Judged, OF_GOAL};
 use super::noise::Noise;
 use super::parts::{self, Squared};
 use super::plan::Plan;
@@ -394,7 +394,7 @@ impl<'p, 's> Work<'p, 's> {
         }
         let is_enough = |accuracy: &Accuracy| {
             let error = libm::hypot(accuracy.statistical, accuracy.discretization);
-            let lx = [goal, error].map(|share| share * self.plan.rms_lx);
+            let lx = [goal, error.max(OF_GOAL * goal)].map(|share| share * self.plan.rms_lx);
             let Checks { sums, points, .. } = &self.checks;
             !checks::is_gathering_worth_while(sums, points, judged.trust, lx)
         };

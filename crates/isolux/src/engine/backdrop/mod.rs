@@ -7,7 +7,6 @@
 mod planes;
 mod polynomial;
 
-use super::gather::Gatherer;
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::elements::Subdivision;
@@ -15,7 +14,7 @@ use crate::quadrature::GaussRule;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Ray};
+use isolux_geometry::{Direction, Normal, Point, Ray};
 use planes::Rectangle;
 use polynomial::{COUNT, Polynomial, View, powers};
 use rayon::prelude::*;
@@ -34,6 +33,14 @@ const BESIDE: f64 = 1e-3;
 /// Walls are left out for places farther away from their middle than so many halves of their sides: the closed form loses its
 /// digits there.
 const FAR: f64 = 24.0;
+
+/// Where rays start, about what they are distributed, and the triangle that they leave.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stand {
+    pub(super) origin: Point,
+    pub(super) normal: Normal,
+    pub(super) triangle: u32,
+}
 
 /// Walls and their light.
 #[derive(Debug)]
@@ -97,8 +104,8 @@ impl Backdrop {
     }
 
     /// Of the surface that some places stand for, the share that sees mostly walls.
-    pub(super) fn share_of_clear(&self, scene: &Scene, places: &[(Gatherer, f64)]) -> f64 {
-        let is_clear = |(of, _): &(Gatherer, f64)| Self::is_clear(scene, of, &self.seen_from(of));
+    pub(super) fn share_of_clear(&self, scene: &Scene, places: &[(Stand, f64)]) -> f64 {
+        let is_clear = |(of, _): &(Stand, f64)| Self::is_clear(scene, of, &self.seen_from(of));
         let clear: Vec<bool> = places.par_iter().map(is_clear).collect();
         let all_m2: f64 = places.iter().map(|(_, m2)| m2).sum();
         let of_clear = places.iter().zip(clear).filter(|(_, is_clear)| *is_clear);
@@ -107,7 +114,7 @@ impl Backdrop {
     }
 
     /// What a place gets from it if nothing is between; nothing where too much is.
-    pub(super) fn behind(&self, scene: &Scene, of: &Gatherer) -> Option<Rgb> {
+    pub(super) fn behind(&self, scene: &Scene, of: &Stand) -> Option<Rgb> {
         let seen = self.seen_from(of);
         if seen.is_empty() || !Self::is_clear(scene, of, &seen) {
             return None;
@@ -116,18 +123,18 @@ impl Backdrop {
     }
 
     /// The walls that a place may see.
-    pub(super) fn seen_from(&self, of: &Gatherer) -> Vec<Seen<'_>> {
+    pub(super) fn seen_from(&self, of: &Stand) -> Vec<Seen<'_>> {
         self.walls.iter().filter_map(|wall| Seen::from(of, wall)).collect()
     }
 
-    fn is_clear(scene: &Scene, of: &Gatherer, seen: &[Seen<'_>]) -> bool {
+    fn is_clear(scene: &Scene, of: &Stand, seen: &[Seen<'_>]) -> bool {
         let sequence = Sequence::new(Key::new(0));
         let comes_there = |&index: &u32| {
             let direction = first_direction(of, Dice::new(sequence, index));
             let far = |s: &Seen<'_>| s.at(direction).map(|(far_m, _)| (far_m, s.size_m()));
             let nearest = seen.iter().filter_map(far).min_by(|a, b| a.0.total_cmp(&b.0));
             let Some((far_m, size_m)) = nearest else { return false };
-            let ray = Ray::new(of.origin, direction).skipping(of.surface.triangle);
+            let ray = Ray::new(of.origin, direction).skipping(of.triangle);
             let hit = scene.bvh().closest_hit(&ray);
             hit.is_some_and(|hit| {
                 let at = SurfacePoint::from_hit(scene, &hit).point;
@@ -145,7 +152,7 @@ pub(super) fn lacking(walls: &[Seen<'_>], directions: &[Direction]) -> Rgb {
 }
 
 /// In which direction a ray of a place starts.
-fn first_direction(of: &Gatherer, mut dice: Dice) -> Direction {
+fn first_direction(of: &Stand, mut dice: Dice) -> Direction {
     of.normal.to_direction().from_local(CosineHemisphere::sample(dice.pair()))
 }
 
@@ -191,7 +198,7 @@ impl Wall {
 }
 
 impl<'a> Seen<'a> {
-    fn from(of: &Gatherer, wall: &'a Wall) -> Option<Self> {
+    fn from(of: &Stand, wall: &'a Wall) -> Option<Self> {
         let Rectangle { middle, axes, half_m } = &wall.rectangle;
         let normal = of.normal.to_vector();
         let view = View::new(of.origin - *middle, normal, axes);

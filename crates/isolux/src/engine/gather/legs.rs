@@ -188,7 +188,8 @@ impl Gathering<'_> {
         let bright = bright.and_then(|bright| bright.seen_from(origin, normal, rays));
         let receiver = Receiver { place: &gatherer.surface, bright: bright.as_ref() };
         let share = Rgb::WHITE / f64::from(rays.max(1));
-        let walls = behind.map_or(Vec::new(), |(_, backdrop)| backdrop.seen_from(gatherer));
+        let walls =
+            behind.map_or(Vec::new(), |(_, backdrop)| backdrop.seen_from(&gatherer.stand()));
         row.source += behind.map_or(Rgb::BLACK, |(whole, _)| whole);
         let triangle = gatherer.surface.triangle;
         let first = Leg { origin, triangle, normal, share, in_gap, ray: 0 };

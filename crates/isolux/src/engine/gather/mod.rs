@@ -10,7 +10,7 @@ mod operator;
 
 pub(super) use operator::Operator;
 
-use super::backdrop::Backdrop;
+use super::backdrop::{Backdrop, Stand};
 use super::bright::Bright;
 use super::cuts::{Cut, Cuts};
 use super::direct::Lighting;
@@ -68,6 +68,11 @@ impl Gatherer {
             in_gap: false,
             behind: None,
         }
+    }
+
+    /// Where its rays start, and how.
+    pub(super) const fn stand(&self) -> Stand {
+        Stand { origin: self.origin, normal: self.normal, triangle: self.surface.triangle }
     }
 
     /// Whether it lies where another does.

@@ -14,7 +14,6 @@ use crate::engine::plan::Plan;
 use crate::engine::reflectance;
 use crate::engine::trial::Trial;
 use crate::map::Standing;
-use rayon::prelude::*;
 
 impl<'s> Pilot<'s> {
     /// Refines further for direct light as interpolated, and puts the plan together.
@@ -34,21 +33,12 @@ impl<'s> Pilot<'s> {
         self.look_at_walls_again(&look.elements, request.target);
         self.refine_for_direct_light(&mut look, request, go_on);
         let mut gatherers = self.measure_direct_light(&mut look, request, go_on);
-        gatherers[..indirect_vertices].par_iter_mut().enumerate().for_each(|(v, gatherer)| {
-            if self.carriers.is_active(v as u32) {
-                *gatherer = self.before_walls(v as u32, *gatherer);
-            }
-        });
+        self.stand_before_walls(&mut gatherers[..indirect_vertices]);
         let mut standings = std::mem::take(&mut self.standings);
         forget_orphans(&look.elements, indirect_vertices, &mut standings);
-        let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();
         let trusted_up_to_lx = look.trusted_up_to_lx(request);
-        let means = if look.asks_for_means(request) {
-            let of = (self.scene, &coarse);
-            Means::new(of, &look.errors, trusted_up_to_lx, &open[..indirect_vertices], carrying)
-        } else {
-            Means::default()
-        };
+        let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();
+        let means = self.means(&coarse, &look, request, (&open[..indirect_vertices], carrying));
         let cuts = self.cuts(&coarse, &look.elements);
         Plan {
             scene: self.scene,
@@ -84,6 +74,21 @@ impl<'s> Pilot<'s> {
             is_whole: self.is_whole,
             rays: self.traced,
         }
+    }
+
+    /// Elements whose means increments measure, if they do.
+    fn means(
+        &self,
+        coarse: &Subdivision,
+        look: &Look,
+        request: &PilotRequest,
+        (open, carrying): (&[bool], usize),
+    ) -> Means {
+        if !look.asks_for_means(request) {
+            return Means::default();
+        }
+        let up_to_lx = look.trusted_up_to_lx(request);
+        Means::new((self.scene, coarse), &look.errors, up_to_lx, open, carrying)
     }
 
     /// Direct light on the final elements, and the receivers there; without time for it, light from where receivers were before

@@ -9,6 +9,7 @@ use crate::engine::surface::SurfacePoint;
 use crate::engine::trial::{self, NET_ORDER, Trial};
 use crate::sampling::Sequence;
 use crate::units::Rgb;
+use rayon::prelude::*;
 
 /// The share of all surface that has to see mostly walls.
 const CLEAR: f64 = 0.3;
@@ -32,7 +33,8 @@ impl Pilot<'_> {
         let every = lit.len().div_ceil(trial::RECEIVERS).max(1);
         let place = |&v: &usize| (gatherers[v], elements.vertices()[v].area_m2);
         let places: Vec<(Gatherer, f64)> = lit.iter().step_by(every).map(place).collect();
-        let is_clear = |b: &Backdrop| b.share_of_clear(self.scene, &places) >= CLEAR;
+        let stands: Vec<_> = places.iter().map(|(of, m2)| (of.stand(), *m2)).collect();
+        let is_clear = |b: &Backdrop| b.share_of_clear(self.scene, &stands) >= CLEAR;
         let backdrop = Backdrop::of(self.scene, &self.subdivision).filter(is_clear);
         let Some(mut backdrop) = backdrop else { return };
         self.indirect = vec![Rgb::BLACK; gatherers.len()];
@@ -76,7 +78,8 @@ impl Pilot<'_> {
         elements: &Elements,
         places: &[(Gatherer, f64)],
     ) -> Option<f64> {
-        let behind = |of: &Gatherer| self.backdrop.as_ref().and_then(|b| b.behind(self.scene, of));
+        let behind =
+            |of: &Gatherer| self.backdrop.as_ref().and_then(|b| b.behind(self.scene, &of.stand()));
         let with = |&(of, m2): &(Gatherer, f64)| (Gatherer { behind: behind(&of), ..of }, m2);
         let with: Vec<(Gatherer, f64)> = places.iter().map(with).collect();
         let lx = |v: usize| (self.direct[v] + self.indirect[v]).luminance();
@@ -120,8 +123,18 @@ impl Pilot<'_> {
         let Some(backdrop) = &self.backdrop else { return of };
         // Those on borders move as elements become smaller.
         let known = self.behind.get(&vertex).filter(|(origin, _)| *origin == of.origin);
-        let behind = known.map_or_else(|| backdrop.behind(self.scene, &of), |&(_, light)| light);
+        let behind =
+            known.map_or_else(|| backdrop.behind(self.scene, &of.stand()), |&(_, light)| light);
         Gatherer { behind, ..of }
+    }
+
+    /// The same for all that carry light.
+    pub(super) fn stand_before_walls(&self, gatherers: &mut [Gatherer]) {
+        gatherers.par_iter_mut().enumerate().for_each(|(v, gatherer)| {
+            if self.carriers.is_active(v as u32) {
+                *gatherer = self.before_walls(v as u32, *gatherer);
+            }
+        });
     }
 
     /// Keeps that for later.
