@@ -27,6 +27,11 @@ pub use told::{IndirectReading, Told};
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
 
+/// What interpolation errs by has longer tails than noise: so that 1.96 standard errors hold 95 % of places, they are these times
+/// the root mean square. (Two-sided exponential errors would take 1.08. On CUBE at 2 %, where noise is a tenth of interpolation, intervals
+/// without held 91.3 %.)
+const OF_LONG_TAILS: f64 = 1.15;
+
 /// Noise of what readers gather, in errors of the map: it adds half of the square of that, and only where the map
 /// is not trusted.
 const FRESH_NOISE: f64 = 0.7;
@@ -189,7 +194,7 @@ impl<'a> MapReader<'a> {
     /// scene is taken to be spread evenly, half as expected of the elements.
     fn with_interpolation_error(&self, stored: Illuminance) -> Illuminance {
         let (even, own) = (self.unseen.discretization_lx, stored.interpolation_error_lx);
-        let interpolation_error_lx = (0.5 * (even * even + own * own)).sqrt();
+        let interpolation_error_lx = OF_LONG_TAILS * (0.5 * (even * even + own * own)).sqrt();
         Illuminance { interpolation_error_lx, ..stored }
     }
 
