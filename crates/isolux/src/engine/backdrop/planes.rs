@@ -3,9 +3,9 @@
 use crate::elements::{FewNumbers, Subdivision};
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
-use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::sampling::{self, CosineHemisphere, Sequence};
 use crate::scene::Scene;
-use isolux_geometry::{Direction, Point, Ray, Triangle, Vector};
+use isolux_geometry::{Point, Ray, Triangle, Vector};
 use std::collections::HashMap;
 
 /// Rectangles at most: a room has six walls, each with two sides.
@@ -17,9 +17,6 @@ const LEAST_FILLED: f64 = 0.5;
 const ALIKE: f64 = 1e-4;
 /// From how far before it a place of a rectangle is looked for, as a share of its size.
 const BEFORE: f64 = 1e-3;
-/// Edges that tell how a rectangle lies.
-const MOST_EDGES: usize = 64;
-
 /// A rectangle that faces the room.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rectangle {
@@ -30,10 +27,16 @@ pub(super) struct Rectangle {
     pub(super) half_m: [f64; 2],
 }
 
+/// Planes that are kept apart at most, and triangles of one that tell by their edges how it lies.
+const MOST_PLANES: usize = 1 << 16;
+const TELLING: usize = 8;
+
+/// Which plane, roughly: its normal, and how far it is from a place.
+type Key = [i32; 4];
+
 /// Triangles in one plane.
 struct Plane {
     normal: Vector,
-    area_m2: f64,
     triangles: Vec<Triangle>,
 }
 
@@ -42,36 +45,53 @@ pub(super) fn largest(subdivision: &Subdivision) -> Vec<Rectangle> {
     let vertices = subdivision.vertices();
     let from = vertices.first().map_or(Point::ORIGIN, |v| v.position);
     let size_m = vertices.iter().map(|v| (v.position - from).length()).fold(0.0, f64::max);
-    let mut planes: HashMap<[i32; 4], Plane, FewNumbers> = HashMap::default();
+    let plane_of = |leaf: u32| plane_of(subdivision, leaf, (from, size_m));
+    let mut areas_m2: HashMap<Key, f64, FewNumbers> = HashMap::default();
     let mut all_m2 = 0.0;
     for leaf in subdivision.leaves() {
-        let triangle = subdivision.triangle(leaf);
-        let area_m2 = triangle.area();
-        all_m2 += area_m2;
-        let [a, b, c] = triangle.corners;
-        let Some(normal) = (b - a).cross(c - a).direction().map(Direction::to_vector) else {
-            continue;
-        };
-        let normal = if subdivision.node(leaf).1.back { -normal } else { normal };
-        let rounded = |x: f64| libm::round(x / ALIKE) as i32;
-        let far = (a - from).dot(normal) / size_m;
-        let key = [normal.x, normal.y, normal.z, far].map(rounded);
-        let plane =
-            planes.entry(key).or_insert(Plane { normal, area_m2: 0.0, triangles: Vec::new() });
-        plane.area_m2 += area_m2;
-        plane.triangles.push(triangle);
+        let Some((key, _, triangle)) = plane_of(leaf) else { continue };
+        let own_m2 = triangle.area();
+        all_m2 += own_m2;
+        if areas_m2.len() < MOST_PLANES || areas_m2.contains_key(&key) {
+            *areas_m2.entry(key).or_default() += own_m2;
+        }
     }
-    let mut planes: Vec<([i32; 4], Plane)> =
-        planes.into_iter().filter(|(_, p)| p.area_m2 >= LEAST_SHARE * all_m2).collect();
-    planes.sort_by(|(a, p), (b, q)| q.area_m2.total_cmp(&p.area_m2).then(a.cmp(b)));
-    planes.truncate(MOST);
-    planes.iter().filter_map(|(_, plane)| plane.rectangle()).collect()
+    let mut large: Vec<(Key, f64)> =
+        areas_m2.into_iter().filter(|(_, m2)| *m2 >= LEAST_SHARE * all_m2).collect();
+    large.sort_by(|(a, own_m2), (b, m2)| m2.total_cmp(own_m2).then(a.cmp(b)));
+    large.truncate(MOST);
+    let mut planes: Vec<Option<Plane>> = large.iter().map(|_| None).collect();
+    for leaf in subdivision.leaves() {
+        let Some((key, normal, triangle)) = plane_of(leaf) else { continue };
+        if let Some(k) = large.iter().position(|(own, _)| *own == key) {
+            let plane = planes[k].get_or_insert(Plane { normal, triangles: Vec::new() });
+            plane.triangles.push(triangle);
+        }
+    }
+    let areas_m2 = large.iter().map(|(_, m2)| *m2);
+    planes.iter().flatten().zip(areas_m2).filter_map(|(plane, m2)| plane.rectangle(m2)).collect()
+}
+
+/// In which plane an element lies, the normal of that, and where.
+fn plane_of(
+    subdivision: &Subdivision,
+    leaf: u32,
+    (from, size_m): (Point, f64),
+) -> Option<(Key, Vector, Triangle)> {
+    let triangle = subdivision.triangle(leaf);
+    let [a, b, c] = triangle.corners;
+    let normal = (b - a).cross(c - a).direction()?.to_vector();
+    let normal = if subdivision.node(leaf).1.back { -normal } else { normal };
+    let far = (a - from).dot(normal) / size_m;
+    let key = [normal.x, normal.y, normal.z, far].map(|x| libm::round(x / ALIKE) as i32);
+    Some((key, normal, triangle))
 }
 
 impl Plane {
-    /// The smallest rectangle about it with sides along some edge, if it is filled.
-    fn rectangle(&self) -> Option<Rectangle> {
-        let edges = self.triangles.iter().flat_map(|t| {
+    /// The smallest rectangle about it with sides along some edge, if so much surface fills it.
+    fn rectangle(&self, area_m2: f64) -> Option<Rectangle> {
+        let every = self.triangles.len().div_ceil(TELLING).max(1);
+        let edges = self.triangles.iter().step_by(every).flat_map(|t| {
             let [a, b, c] = t.corners;
             [b - a, c - b, a - c]
         });
@@ -90,12 +110,10 @@ impl Plane {
             let middle = (0..2).fold(from, |at, k| at + axes[k] * (0.5 * (low[k] + high[k])));
             Some(Rectangle { middle, axes, half_m: [0, 1].map(|k| 0.5 * (high[k] - low[k])) })
         };
-        let area_m2 = |r: &Rectangle| 4.0 * r.half_m[0] * r.half_m[1];
-        let smallest = edges
-            .take(MOST_EDGES)
-            .filter_map(about)
-            .min_by(|a, b| area_m2(a).total_cmp(&area_m2(b)))?;
-        (self.area_m2 >= LEAST_FILLED * area_m2(&smallest)).then_some(smallest)
+        let whole_m2 = |r: &Rectangle| 4.0 * r.half_m[0] * r.half_m[1];
+        let smallest =
+            edges.filter_map(about).min_by(|a, b| whole_m2(a).total_cmp(&whole_m2(b)))?;
+        (area_m2 >= LEAST_FILLED * whole_m2(&smallest)).then_some(smallest)
     }
 }
 
@@ -105,7 +123,7 @@ const FACING: u32 = 16;
 impl Rectangle {
     /// Whether rays from all over it mostly meet something.
     pub(super) fn faces_something(&self, scene: &Scene) -> bool {
-        let sequence = Sequence::new(Key::new(0));
+        let sequence = Sequence::new(sampling::Key::new(0));
         let Some(axis) = self.axes[2].direction() else { return false };
         let meets = |&index: &u32| {
             let mut dice = Dice::new(sequence, index);
