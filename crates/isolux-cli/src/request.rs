@@ -6,6 +6,9 @@ use crate::output::OutputPath;
 use isolux::engine::{IrradianceCache, RadiositySettings, SolveRequest};
 use isolux::map::Method;
 
+/// Stack of a thread: as much as the first one of a process has.
+const STACK_BYTES: usize = 8 << 20;
+
 /// A solution to compute.
 #[derive(Clone, Debug)]
 pub(crate) struct Solution {
@@ -106,9 +109,10 @@ fn accuracy(quality: Quality) -> f64 {
 
 /// From now on computations use this many threads.
 pub(crate) fn use_threads(threads: Option<u16>) -> Result<(), Failure> {
-    let Some(threads) = threads else { return Ok(()) };
     rayon::ThreadPoolBuilder::new()
-        .num_threads(usize::from(threads))
+        // None: as many as there are processors, or as the environment says.
+        .num_threads(threads.map_or(0, usize::from))
+        .stack_size(STACK_BYTES)
         .build_global()
-        .map_err(|e| Failure::Refused(format!("cannot start {threads} threads: {e}")))
+        .map_err(|e| Failure::Refused(format!("cannot start threads: {e}")))
 }

@@ -10,13 +10,14 @@
 use super::accumulate::{Accumulator, Sample, Sums};
 use super::detail::LeafError;
 use super::direct::Goal;
-use super::gather::{Gatherer, Gathering, known_at};
+use super::gather::{DirectAtEnds, Gatherer, Gathering, known_at};
 use super::noise::Noise;
 use super::path::Dice;
 use super::plan::Plan;
 use super::surface::SurfacePoint;
 use super::trust::{self, Trust};
 use super::views::{self, Read, View, views};
+use super::walls::STRIPS;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -34,7 +35,7 @@ const AT_ONCE: usize = 8;
 const NOT_WORTH: f64 = 1.5;
 
 /// Rays that tell how much a reader reads close by.
-const CLOSE_RAYS: u32 = 64;
+const CLOSE_RAYS: u32 = 16;
 
 /// A place where the map is checked.
 pub(super) struct Check {
@@ -53,6 +54,8 @@ pub(super) struct Check {
     is_beset: bool,
     /// Whether light is resolved there: in rooms where it is towards walls, and nothing else stands close.
     is_resolved: bool,
+    /// The strip before a wall that it lies in.
+    strip: usize,
     /// The share of a unit of light that readers who gather there read close by all the same.
     close: f64,
     /// The longest edge of the element there, m.
@@ -104,6 +107,8 @@ pub(super) struct InterpolationErrors {
     pub(super) noise_lx: Option<f64>,
     /// By how much more elements err than expected; `None` where nobody looked.
     pub(super) over_expected: Option<f64>,
+    /// The same of each strip before walls.
+    pub(super) over_in_strips: [Option<f64>; STRIPS],
 }
 
 impl Checks {
@@ -166,7 +171,9 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let is_gathered = |check: &Check| !check.is_trusted(plan.trust().least());
     let rows = checks.iter().filter(|check| is_gathered(check));
     let rows: Vec<Gatherer> = rows.map(|c| c.gatherer.with_rays(CLOSE_RAYS)).collect();
-    let gathering = Gathering { regathers: true, ..Gathering::of(plan, &plan.direct) };
+    // Where rays go is asked, not what comes along them.
+    let direct = DirectAtEnds::Read { values: &plan.direct, level: u32::MAX };
+    let gathering = Gathering { regathers: true, direct, ..Gathering::of(plan, &plan.direct) };
     let operator = gathering.operator(&rows, |k| key.with(1).with(k as u64));
     let gathered = checks.iter_mut().filter(|check| is_gathered(check));
     gathered.zip(operator.close()).for_each(|(check, close)| check.close = close);
@@ -202,6 +209,7 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
         may_be_trusted,
         is_beset,
         is_resolved: plan.resolves_walls && (of.is_at_wall || !is_beset),
+        strip: plan.strip(fine.iter().map(|&(vertex, _)| vertex)),
         close,
         edge_m,
         reads_direct,
@@ -276,8 +284,8 @@ pub(super) fn errors(
     let area = area_m2(checks);
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
     // Of the mean: what lies where the map is trusted, and the variance of all of it.
-    let (mut expected, mut trusted_mean, mut of_mean) = (0.0, 0.0, 0.0);
-    let (mut untrusted, mut close, mut share_untrusted) = (0.0, 0.0, 0.0);
+    let [mut expected, mut trusted_mean, mut of_mean] = [0.0; 3];
+    let [mut untrusted, mut close, mut share_untrusted] = [0.0; 3];
     for (k, check) in checks.iter().enumerate() {
         let estimate = sums.estimate(k);
         let (indirect, share) = (estimate.mean.indirect.luminance(), check.area_m2 / area);
@@ -308,9 +316,8 @@ pub(super) fn errors(
     let believed = |mean: f64| noise_is.of_mean(mean, of_mean.sqrt());
     let looked_up = |k: usize| sums.estimate(2 * checks.len() + k).mean.indirect.luminance();
     if sums.sums.len() > 2 * checks.len() {
-        let mean_lx = |(k, check): (usize, &Check)| check.area_m2 / area * looked_up(k);
         // All of it, whichever light is read there.
-        mean = [checks.iter().enumerate().map(mean_lx).sum::<f64>(); 2];
+        mean = [(0..checks.len()).map(|k| checks[k].area_m2 / area * looked_up(k)).sum::<f64>(); 2];
     }
     let [seen_mean_lx, seen_spread_lx] = seen(sums, checks, noise_is);
     InterpolationErrors {
@@ -325,8 +332,30 @@ pub(super) fn errors(
         close: close.sqrt(),
         noise_lx: (!checks.is_empty()).then(|| (noise_of_readings(sums, checks) / area).sqrt()),
         over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),
+        over_in_strips: over_in_strips(sums, checks, (trust, noise_is)),
         ..InterpolationErrors::default()
     }
+}
+
+/// By how much more than expected elements err in every strip before walls, as far as readers with such trust interpolate there.
+fn over_in_strips(
+    sums: &Accumulator,
+    checks: &[Check],
+    (trust, noise_is): (Trust, Noise),
+) -> [Option<f64>; STRIPS] {
+    let mut strips = [[0.0; 3]; STRIPS];
+    for (k, check) in checks.iter().enumerate().filter(|(_, check)| check.is_trusted(trust)) {
+        let (own_m2, estimate) = (check.area_m2, sums.estimate(k));
+        let (error, variance) = (estimate.mean.indirect.luminance(), estimate.indirect_variance);
+        let [expected, squared, spread] = &mut strips[check.strip];
+        *expected += own_m2 * check.expected_lx * check.expected_lx;
+        *squared += own_m2 * (error * error - variance);
+        *spread += own_m2 * own_m2 * 2.0 * variance * variance;
+    }
+    strips.map(|[expected, squared, spread]| {
+        let seen = noise_is.of_squared(squared, spread.sqrt());
+        (expected > 0.0).then(|| (seen / expected).sqrt())
+    })
 }
 
 /// The surface that all points stand for.

@@ -27,6 +27,9 @@ const MOST_WEIGHT: f64 = 4.0;
 /// parabola at its top by a sixth. Across kinks and jumps second differences are no curvature.
 const MOST_SHIFT: f64 = 0.25;
 
+/// Vertices of one task.
+const AT_ONCE: usize = 256;
+
 /// A linear combination of values of vertices.
 type Form = Vec<(u32, f64)>;
 
@@ -70,19 +73,30 @@ impl Fit {
             .into_par_iter()
             .map(|k| if is_moved(&all[k]) { mean(k) } else { Form::new() })
             .collect();
-        let one = |vertex: usize| {
+        let one = |fit: &mut Self, form: &mut Form, vertex: usize| {
             let known = about.of(vertex).iter().map(|&k| (&all[k as usize], &means[k as usize]));
             let known = known.filter(|(element, _)| is_known(element));
-            summed(shifts(known, vertex as u32, &within, &place))
-        };
-        let forms: Vec<Form> = (0..vertices).into_par_iter().with_min_len(256).map(one).collect();
-        let mut fit = Self::default();
-        for form in forms {
+            form.clear();
+            let area_m2 = shifts(known, vertex as u32, (&within, &place), form);
+            form.sort_unstable_by_key(|&(v, _)| v);
+            form.iter_mut().for_each(|(_, weight)| *weight /= area_m2);
             let size: f64 = form.iter().map(|(_, weight)| weight.abs()).sum();
             if size <= MOST_WEIGHT {
-                fit.entries.extend(form);
+                fit.entries.extend(&*form);
             }
             fit.ends.push(fit.entries.len());
+        };
+        let some = |first: usize| {
+            let (mut fit, mut form) = (Self::default(), Form::new());
+            (first..vertices.min(first + AT_ONCE)).for_each(|v| one(&mut fit, &mut form, v));
+            fit
+        };
+        let parts: Vec<Self> = (0..vertices).into_par_iter().step_by(AT_ONCE).map(some).collect();
+        let mut fit = Self::default();
+        for part in parts {
+            let before = fit.entries.len();
+            fit.entries.extend(part.entries);
+            fit.ends.extend(part.ends.into_iter().map(|end| before + end));
         }
         fit
     }
@@ -105,14 +119,14 @@ impl Fit {
     }
 }
 
-/// Of the elements about a vertex, their area and by how much the vertex is to be moved over it.
+/// Of the elements about a vertex, their area, and to `form` by how much the vertex is to be moved over it, each of the others once.
 fn shifts<'a>(
     about: impl Iterator<Item = (&'a Element, &'a Form)>,
     vertex: u32,
-    within: &impl Fn(u32) -> bool,
-    place: &impl Fn(u32) -> Point,
-) -> (f64, Form) {
-    let (mut area, mut form) = (0.0, Form::with_capacity(64));
+    (within, place): (&impl Fn(u32) -> bool, &impl Fn(u32) -> Point),
+    form: &mut Form,
+) -> f64 {
+    let mut area = 0.0;
     for (element, mean) in about {
         let corners = element.vertices.map(place);
         let area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
@@ -121,23 +135,17 @@ fn shifts<'a>(
             // Those that stay leave their part to the others.
             let moved = element.vertices.iter().filter(|&&v| within(v)).count();
             let share_m2 = area_m2 * 3.0 / moved as f64;
-            form.extend(mean.iter().map(|&(v, weight)| (v, weight * share_m2)));
+            for &(v, weight) in mean {
+                let weight = weight * share_m2;
+                // Few are about a vertex.
+                match form.iter_mut().find(|(known, _)| *known == v) {
+                    Some((_, sum)) => *sum += weight,
+                    None => form.push((v, weight)),
+                }
+            }
         }
     }
-    (area, form)
-}
-
-/// Shifts over an area in the mean, each vertex once.
-fn summed((area_m2, mut form): (f64, Form)) -> Form {
-    // In the order of the elements, for each vertex.
-    form.sort_by_key(|&(v, _)| v);
-    form.dedup_by(|next, sum| {
-        let same = next.0 == sum.0;
-        sum.1 += if same { next.1 } else { 0.0 };
-        same
-    });
-    form.iter_mut().for_each(|(_, weight)| *weight /= area_m2);
-    form
+    area
 }
 
 /// Of every vertex, the elements about it, in their order.

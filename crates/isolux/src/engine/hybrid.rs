@@ -12,6 +12,7 @@ use super::deadline::Deadline;
 use super::gather::{Gatherer, Gathering};
 use super::path::Dice;
 use super::plan::Plan;
+use super::trial::FEWEST_UNJUDGED;
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
@@ -63,23 +64,27 @@ pub(super) struct Increment {
 
 impl<'p, 's> Hybrid<'p, 's> {
     /// With so many gathering rays in every increment for each vertex that is not hidden, or others that serve as well, and so
-    /// many particles.
+    /// many particles; for an accuracy, and with the rays halved so many times.
     pub(super) fn new(
         plan: &'p Plan<'s>,
         checks: &[Check],
-        (rays, particles, goal): (f64, u32, f64),
+        (rays, particles, goal, halvings): (f64, u32, f64, u32),
         seed: u64,
     ) -> Self {
         let key = Key::new(seed).with(1);
+        let rays = rays / f64::from(1_u32 << halvings);
         let allotted = plan.allotted(rays);
+        let fewest = FEWEST_UNJUDGED >> halvings;
         let row = |vertex: usize| {
             let in_gap = plan.standings[vertex] != Some(Standing::Open);
-            plan.gatherers[vertex].with_rays(allotted[vertex]).in_gap(in_gap)
+            let (of, own) = (plan.gatherers[vertex], allotted[vertex]);
+            let needs_more = own > 0 && of.behind.is_none();
+            of.with_rays(if needs_more { own.max(fewest) } else { own }).in_gap(in_gap)
         };
         let rows: Vec<Gatherer> = (0..plan.indirect_vertices).map(row).collect();
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, key.with(0));
-        let rays_of_means = libm::exp2(libm::round(libm::log2(rays))) as u32;
+        let rays_of_means = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
         let ahead = VecDeque::new();
         Self { plan, check_direct, rays_of_means, rows, check_rows, particles, goal, key, ahead }
     }

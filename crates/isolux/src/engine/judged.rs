@@ -17,6 +17,10 @@ const LEAST_SHARE: f64 = 0.35;
 /// The part of the accuracy asked for that readers leave to where they would gather, however good the map is elsewhere.
 pub(super) const OF_GOAL: f64 = 0.25;
 
+/// Greatest factor between the interpolation error seen and that expected that is believed, either
+/// way: details tell the order at least.
+const MOST_OVER: f64 = 10.0;
+
 /// A map as it is to be read.
 #[derive(Clone, Copy)]
 pub(super) struct Judged {
@@ -53,9 +57,24 @@ impl Judged {
         all
     }
 
+    /// The factor by which elements err more than the pilot has expected, within reason.
+    pub(super) fn over_expected(&self) -> f64 {
+        bounded(self.errors.over_expected)
+    }
+
+    /// The same in a strip before walls. Who gathers elsewhere than in gaps goes by what all are expected to err by.
+    pub(super) fn over_expected_in(&self, strip: usize) -> f64 {
+        let own = self.errors.over_in_strips[strip].filter(|_| self.trust == Trust::AllButGaps);
+        bounded(own.or(self.errors.over_expected))
+    }
+
     fn reaches(&self, goal: f64) -> bool {
         self.accuracy.is_some_and(|accuracy| accuracy.reached <= goal)
     }
+}
+
+fn bounded(over: Option<f64>) -> f64 {
+    over.map_or(1.0, |over| over.clamp(1.0 / MOST_OVER, MOST_OVER))
 }
 
 impl Trust {

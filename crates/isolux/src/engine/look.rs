@@ -127,6 +127,12 @@ impl Look {
         }
     }
 
+    /// In which strip before a wall vertices lie, where light is resolved towards them.
+    pub(super) fn strips(&self) -> Vec<u8> {
+        let close = self.errors.iter().filter(|e| e.is_at_wall).map(|e| e.node);
+        self.walls.strips(&self.elements, close)
+    }
+
     fn excess_of(&self, what: Read, request: &PilotRequest) -> Option<f64> {
         let goal_lx = match what {
             // Fits do little for what is steep at edges.

@@ -17,6 +17,7 @@ mod deadline;
 mod detail;
 mod direct;
 mod emission;
+mod feelers;
 mod filter;
 mod fit;
 mod flights;

@@ -77,6 +77,8 @@ pub(super) struct Plan<'s> {
     pub(super) means: Means,
     /// Whether light is resolved towards walls.
     pub(super) resolves_walls: bool,
+    /// And if so, in which strip before them vertices lie.
+    pub(super) strips: Vec<u8>,
     /// Whether there was time for all of it.
     pub(super) is_whole: bool,
     pub(super) rays: u64,
@@ -108,6 +110,12 @@ impl Plan<'_> {
     /// Area of all elements, m2.
     pub(super) fn area_m2(&self) -> f64 {
         self.indirect_errors.iter().map(|e| e.area_m2).sum()
+    }
+
+    /// In which strip before a wall an element with these corners lies.
+    pub(super) fn strip(&self, corners: impl Iterator<Item = u32>) -> usize {
+        let strips = corners.map(|v| self.strips.get(v as usize).copied().unwrap_or(0));
+        usize::from(strips.min().unwrap_or(0))
     }
 
     /// What readers trust, unless check points tell otherwise.

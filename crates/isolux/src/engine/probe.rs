@@ -3,8 +3,10 @@
 mod effort;
 mod parts;
 mod told;
+mod walls;
 
 use super::accumulate::mean_and_variance;
+use super::backdrop::Backdrop;
 use super::bright::Bright;
 use super::cuts::Cuts;
 use super::direct::{Goal, Lighting, Measured, Patches};
@@ -26,11 +28,6 @@ pub use told::{IndirectReading, Told};
 
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
-
-/// What interpolation errs by has longer tails than noise: so that 1.96 standard errors hold 95 % of places, they are these times
-/// the root mean square. (Two-sided exponential errors would take 1.08. On CUBE at 2 %, where noise is a tenth of interpolation, intervals
-/// without held 91.3 %.)
-const OF_LONG_TAILS: f64 = 1.15;
 
 /// Noise of what readers gather, in errors of the map: it adds half of the square of that, and only where the map
 /// is not trusted.
@@ -77,6 +74,8 @@ pub struct MapReader<'a> {
     /// Elements that something stands across.
     cuts: Cuts,
     places: Places<'a>,
+    /// Walls that rays are judged by.
+    pub(super) backdrop: Option<Backdrop>,
     patches: Patches,
     unseen: Unseen,
 }
@@ -92,6 +91,8 @@ struct Gathered {
 
 /// Errors of what is read from vertices that replicates do not tell, lx.
 struct Unseen {
+    /// Root mean square of the light.
+    rms_lx: f64,
     /// Of interpolation, root mean square over the scene.
     discretization_lx: f64,
     /// Common to all of the map.
@@ -111,7 +112,7 @@ impl<'a> MapReader<'a> {
         let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
         let are_read = lighting.are_read_at_ends();
         let light: Vec<Rgb> = map.values.iter().map(reflected).collect();
-        Self {
+        let reader = Self {
             scene,
             map,
             lighting,
@@ -121,9 +122,11 @@ impl<'a> MapReader<'a> {
             cuts: Cuts::of_map(scene, &map.elements, &light),
             light,
             places: Places::of(scene),
+            backdrop: None,
             patches: Patches::new(),
             unseen: Unseen::of(map),
-        }
+        };
+        Self { backdrop: reader.walls(), ..reader }
     }
 
     /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
@@ -194,7 +197,7 @@ impl<'a> MapReader<'a> {
     /// scene is taken to be spread evenly, half as expected of the elements.
     fn with_interpolation_error(&self, stored: Illuminance) -> Illuminance {
         let (even, own) = (self.unseen.discretization_lx, stored.interpolation_error_lx);
-        let interpolation_error_lx = OF_LONG_TAILS * (0.5 * (even * even + own * own)).sqrt();
+        let interpolation_error_lx = (0.5 * (even * even + own * own)).sqrt();
         Illuminance { interpolation_error_lx, ..stored }
     }
 
@@ -207,6 +210,8 @@ impl<'a> MapReader<'a> {
         lookup_lx: f64,
     ) -> Illuminance {
         let key = self.gathering_key(&trial);
+        let behind = self.backdrop.as_ref().and_then(|b| b.behind(self.scene, &trial.stand()));
+        let trial = Gatherer { behind, ..trial };
         // With numbers of its own: who stopped at a small variance would report too small ones.
         let gatherer = trial.with_rays(self.rays_needed((trial, noise), key).rays);
         let Gathered { lx, variance, close } =
@@ -256,7 +261,7 @@ impl<'a> MapReader<'a> {
             regathers: true,
             bright: self.bright.as_ref(),
             cuts: Some(&self.cuts),
-            backdrop: None,
+            backdrop: self.backdrop.as_ref(),
         }
     }
 
@@ -461,6 +466,7 @@ impl Unseen {
             map.provenance.accuracy.as_ref().map_or(0.0, |accuracy| part(accuracy) * rms_lx)
         };
         Self {
+            rms_lx,
             discretization_lx: share(Accuracy::discretization_beside_caustics),
             bias_lx: share(|a| a.bias),
             reached_lx: share(|a| a.reached),

@@ -1,9 +1,11 @@
 //! How many rays an increment needs: a few receivers are tried.
 
 use super::accumulate::{Accumulator, Sample};
+use super::backdrop::Stand;
 use super::gather::{Gatherer, Gathering};
 use crate::sampling::Key;
 use crate::units::Rgb;
+use rayon::prelude::*;
 
 /// Receivers, increments and rays of a trial.
 pub(super) const RECEIVERS: usize = 128;
@@ -32,8 +34,9 @@ pub(super) const OF_INTERPOLATED: f64 = 0.5;
 /// to 128 rays (independent rays err like 0.5).
 pub(super) const NET_ORDER: f64 = 0.85;
 
-/// Rays of a receiver and increment, whatever is asked for.
-const FEWEST_WANTED: f64 = 8.0;
+/// Rays of a receiver and increment, whatever is asked for, where walls take most of the noise off; and where they do not.
+const FEWEST_WANTED: f64 = 4.0;
+pub(super) const FEWEST_UNJUDGED: u32 = 8;
 
 /// And at most: a run can soon be stopped after that many.
 const MOST_WANTED: f64 = 1024.0;
@@ -44,6 +47,11 @@ pub(super) fn noise_for(target: f64, interpolation: f64, has_means: bool) -> f64
     let others = interpolation / target / if has_means { ALONE_WITH_MEANS } else { ALONE };
     let share = MOST_NOISE_SHARE * (1.0 - others * others).max(0.0).sqrt();
     target * share.max(NOISE_SHARE)
+}
+
+/// Where receivers stand, each with its surface, m2.
+pub(super) fn stands(some: &[(Gatherer, f64)]) -> impl Iterator<Item = (Stand, f64)> + '_ {
+    some.iter().map(|(of, m2)| (of.stand(), *m2))
 }
 
 /// What a trial has found: the noise of one net of so many rays, root mean square over the surface, lx.
@@ -60,15 +68,16 @@ impl Trial {
     }
 
     /// Tries some receivers, each with the surface it stands for, m2, for a run of so many increments that
-    /// is to reach a target; also returns the rays traced.
+    /// is to reach a target; also returns the rays traced. What [`Trial::of_walls`] has found already is not tried again.
     pub(super) fn of(
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
         light: &[Rgb],
         (target, rms_lx, increments, key): (f64, f64, u64, Key),
+        known: Option<Self>,
     ) -> (Self, u64) {
         let with = |rays: u32| Self::with(rays, gathering, some, light, (rms_lx, key));
-        let (first, traced) = with(RAYS);
+        let (first, traced) = known.map_or_else(|| with(RAYS), |known| (known, 0));
         let nearer = first.rays_for(NOISE_SHARE * target, rms_lx, increments) / NEARER;
         if nearer <= RAYS {
             return (first, traced);
@@ -77,15 +86,21 @@ impl Trial {
         (trial, traced + more)
     }
 
-    /// The noise of receivers, root mean square over the surface, lx, and the rays traced.
-    pub(super) fn noise(
+    /// With few rays that are judged by walls; and their noise as a share of what it is if they are not, if that is any, and the rays
+    /// traced.
+    pub(super) fn of_walls(
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
         light: &[Rgb],
-        (rms_lx, key): (f64, Key),
-    ) -> (f64, u64) {
-        let (trial, traced) = Self::with(RAYS, gathering, some, light, (rms_lx, key));
-        (trial.noise_lx, traced)
+        of: (f64, Key),
+    ) -> (Self, Option<f64>, u64) {
+        let behind = |of: &Gatherer| gathering.backdrop?.behind(gathering.scene, &of.stand());
+        let judged = |&(of, m2): &(Gatherer, f64)| (Gatherer { behind: behind(&of), ..of }, m2);
+        let judged: Vec<(Gatherer, f64)> = some.par_iter().map(judged).collect();
+        let (trial, rays) = Self::with(RAYS, gathering, &judged, light, of);
+        let (other, others) = Self::with(RAYS, gathering, some, light, of);
+        let left = (other.noise_lx > 0.0).then(|| trial.noise_lx / other.noise_lx);
+        (trial, left, rays + others)
     }
 
     fn with(
@@ -119,7 +134,12 @@ impl Trial {
         libm::exp2(libm::round(libm::log2(self.wanted(noise, rms_lx, increments)))) as u32
     }
 
-    /// The same, any number: what receivers that share rays as best they can should have in the mean.
+    /// The same of receivers that may lie where walls take no noise off.
+    pub(super) fn rays_anywhere(self, noise: f64, rms_lx: f64, increments: u64) -> u32 {
+        self.rays_for(noise, rms_lx, increments).max(FEWEST_UNJUDGED)
+    }
+
+    /// The same as [`Trial::rays_for`], any number: what receivers that share rays as best they can should have in the mean.
     pub(super) fn wanted(self, noise: f64, rms_lx: f64, increments: u64) -> f64 {
         let noise_lx = self.noise_lx * (OF_INTERPOLATED / increments as f64).sqrt();
         let allowed_lx = noise * rms_lx;

@@ -6,23 +6,25 @@
 //! error expected of every element, and above which of them it is not to be trusted.
 
 use super::detail::LeafError;
-use super::path::Dice;
+use super::feelers::Feelers;
 use super::surface::SurfacePoint;
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
-use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::sampling::Key;
 use crate::scene::Scene;
-use isolux_geometry::{Point, Ray};
+use isolux_geometry::{Hit, Point};
 use rayon::prelude::*;
+use std::sync::LazyLock;
 
 /// Rays that look for something before a place.
-const FEELERS: u32 = 16;
+const FEELERS: usize = 16;
+static DIRECTIONS: LazyLock<Feelers<FEELERS>> = LazyLock::new(|| Feelers::of(Key::new(0).with(6)));
 
 /// So many of them, the first, meet something that hides half of what there is.
-const FEWEST_FEELERS: u32 = 4;
+const FEWEST_FEELERS: usize = 4;
 
 /// How many of them must meet it in a gap: at an edge of a room half of them do, behind a cupboard all.
-const CLOSED: u32 = 13;
+const CLOSED: usize = 13;
 
 /// How far they look, as a share of the longest edge of the element: what is nearer than that
 /// changes light from place to place in ways that its vertices do not tell.
@@ -30,7 +32,7 @@ pub(super) const NEAR: f64 = 0.25;
 
 /// How many must meet something as near as the element is long for its vertices not to tell what light
 /// comes between them.
-const BESET: u32 = 3;
+const BESET: usize = 3;
 
 /// Where readers interpolate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,63 +143,45 @@ pub(super) fn above_all(errors: &[LeafError]) -> f64 {
 /// Whether something stands so close before a place that an element of such edges cannot tell what
 /// light comes there: in the gap between a cupboard and its wall, on the ceiling above a column.
 pub(super) fn is_closed_in(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> bool {
-    let is_closed = |ray: &Ray| scene.bvh().any_hit(ray);
-    is_met(is_closed, at, NEAR * longest_edge_m, CLOSED)
+    let (mut met, mut missed) = (0, 0);
+    for index in 0..FEELERS {
+        if scene.bvh().any_hit(&DIRECTIONS.ray_of(index, at, NEAR * longest_edge_m)) {
+            met += 1;
+        } else {
+            missed += 1;
+        }
+        if met >= CLOSED || missed > FEELERS - CLOSED {
+            break;
+        }
+    }
+    met >= CLOSED
 }
 
 /// Whether there is something before a place that is as near as an element of such edges is long, transparent or not: panes part
 /// light, too.
 pub(super) fn is_beset(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> bool {
-    let is_there = |ray: &Ray| scene.bvh().closest_hit(ray).is_some();
-    is_met(is_there, at, longest_edge_m, BESET)
+    met_within(scene, at, longest_edge_m).iter().flatten().count() >= BESET
 }
 
 /// How long an element may at most be for a place not to be beset, m; infinite if nothing is within
 /// `reach_m`.
 pub(super) fn beset_from_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f64 {
-    let ray = feeler(at, reach_m);
-    let mut near: Vec<f32> =
-        (0..FEELERS).filter_map(|k| scene.bvh().closest_hit(&ray(k))).map(|hit| hit.t).collect();
+    let met = met_within(scene, at, reach_m);
+    let mut near: Vec<f32> = met.iter().flatten().map(|hit| hit.t).collect();
     near.sort_by(f32::total_cmp);
-    near.get(BESET as usize - 1).map_or(f64::INFINITY, |&t| f64::from(t))
+    near.get(BESET - 1).map_or(f64::INFINITY, |&t| f64::from(t))
 }
 
 /// How close something stands before a place that hides much of what there is, m; infinite if nothing does within `reach_m`. A few rays
 /// find out that nothing does.
 pub(super) fn hemmed_in_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f64 {
-    let ray = feeler(at, reach_m);
-    let is_hemmed = (0..FEWEST_FEELERS).any(|k| scene.bvh().closest_hit(&ray(k)).is_some());
-    if is_hemmed { beset_from_m(scene, at, reach_m) } else { f64::INFINITY }
+    let meets = |k: usize| scene.bvh().closest_hit(&DIRECTIONS.ray_of(k, at, reach_m)).is_some();
+    if (0..FEWEST_FEELERS).any(meets) { beset_from_m(scene, at, reach_m) } else { f64::INFINITY }
 }
 
-/// The rays that feel about before a place.
-fn feeler(at: &SurfacePoint, reach_m: f64) -> impl Fn(u32) -> Ray + '_ {
-    let sequence = Sequence::new(Key::new(0).with(6));
-    let axis = at.shading.to_direction();
-    move |index: u32| {
-        let mut dice = Dice::new(sequence, index);
-        let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
-        let mut ray = Ray::new(at.start(), direction).skipping(at.triangle);
-        ray.t_max = reach_m as f32;
-        ray
-    }
-}
-
-/// Whether so many of them find something there.
-fn is_met(is_there: impl Fn(&Ray) -> bool, at: &SurfacePoint, reach_m: f64, enough: u32) -> bool {
-    let ray = feeler(at, reach_m);
-    let (mut met, mut missed) = (0, 0);
-    for index in 0..FEELERS {
-        if is_there(&ray(index)) {
-            met += 1;
-        } else {
-            missed += 1;
-        }
-        if met >= enough || missed > FEELERS - enough {
-            break;
-        }
-    }
-    met >= enough
+/// What rays find that feel about before a place.
+fn met_within(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> [Option<Hit>; FEELERS] {
+    DIRECTIONS.met(scene, |k| DIRECTIONS.ray_of(k, at, reach_m))
 }
 
 /// Longest edge of the element at a place, m; zero where there is none.

@@ -7,19 +7,21 @@
 //! which share of its surroundings sees it from afar, and some of them, which others they see: as discs of the area
 //! that those stand for.
 
-use super::path::Dice;
+use super::feelers::Feelers;
 use super::surface::SurfacePoint;
-use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::sampling::Key;
 use crate::scene::Scene;
 use isolux_geometry::Ray;
 use rayon::prelude::*;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Rays that tell from how much of its surroundings a place is seen.
-const FEELERS: u32 = 64;
+const FEELERS: usize = 16;
+static DIRECTIONS: LazyLock<Feelers<FEELERS>> = LazyLock::new(|| Feelers::of(Key::new(0).with(9)));
 
 /// Places that look about.
-const LOOKING: usize = 128;
+const LOOKING: usize = 64;
 
 /// A place that rays read at.
 #[derive(Clone, Copy, Debug)]
@@ -46,11 +48,16 @@ pub(super) fn views(scene: &Scene, places: &[Read]) -> Vec<View> {
         places.iter().map(|place| reflectance(scene, &place.surface)).collect();
     let every = places.len().div_ceil(LOOKING).max(1);
     let seen = |from: usize| {
-        let sees = |(k, at): (usize, &Read)| {
-            let share = reflected[k] * share(scene, &places[from], at);
-            (share > 0.0).then_some((k as u32, share))
-        };
-        places.iter().enumerate().filter_map(sees).collect()
+        let share = |at: &Read| share(&places[from], at);
+        let of = places.iter().zip(&reflected).map(|(at, reflected)| reflected * share(at));
+        let facing: Vec<(u32, f64)> = (0..).zip(of).filter(|(_, share)| *share > 0.0).collect();
+        let ray =
+            |k: u32| Ray::between(places[from].surface.start(), places[k as usize].surface.start());
+        let rays: Vec<Ray> = facing.iter().map(|&(k, _)| ray(k)).collect();
+        let mut are_hidden = vec![false; rays.len()];
+        scene.bvh().any_hits(&rays, &mut are_hidden);
+        let of = facing.into_iter().zip(are_hidden).filter(|(_, is_hidden)| !is_hidden);
+        of.map(|(seen, _)| seen).collect()
     };
     let view = |k: usize| View {
         shown: reflected[k] * far(scene, &places[k]),
@@ -93,28 +100,24 @@ fn reflectance(scene: &Scene, at: &SurfacePoint) -> f64 {
 /// The share of its surroundings that sees a place from farther away than its element is long.
 fn far(scene: &Scene, place: &Read) -> f64 {
     let at = &place.surface;
-    let sequence = Sequence::new(Key::new(0).with(9));
-    let axis = at.geometric.to_direction();
-    let is_free = |&index: &u32| {
-        let mut dice = Dice::new(sequence, index);
-        let mut ray = at.leave(axis.from_local(CosineHemisphere::sample(dice.pair())));
+    let axis = at.geometric;
+    let rays: [Ray; FEELERS] = std::array::from_fn(|k| {
+        let mut ray = DIRECTIONS.ray(k, (at.start(), axis, at.triangle));
         ray.t_max = place.edge_m as f32;
-        !scene.bvh().any_hit(&ray)
-    };
-    (0..FEELERS).filter(is_free).count() as f64 / f64::from(FEELERS)
+        ray
+    });
+    let mut are_hit = [false; FEELERS];
+    scene.bvh().any_hits(&rays, &mut are_hit);
+    are_hit.iter().filter(|&&is_hit| !is_hit).count() as f64 / FEELERS as f64
 }
 
-/// The share of what one place sees that another is, as a disc, if it is seen from afar.
-fn share(scene: &Scene, from: &Read, at: &Read) -> f64 {
+/// The share of what one place sees that another is, as a disc, if it is seen from afar and nothing is between.
+fn share(from: &Read, at: &Read) -> f64 {
     let between = at.surface.point - from.surface.point;
     let distance_m = between.length();
     let there = from.surface.geometric.to_vector().dot(between);
     let back = -at.surface.geometric.to_vector().dot(between);
     if distance_m <= at.edge_m || there <= 0.0 || back <= 0.0 {
-        return 0.0;
-    }
-    let ray = Ray::between(from.surface.start(), at.surface.start());
-    if scene.bvh().any_hit(&ray) {
         return 0.0;
     }
     let cosines = there * back / (distance_m * distance_m);

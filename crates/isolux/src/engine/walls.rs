@@ -4,7 +4,7 @@
 //! other wall, whose light is `a + b s` at a distance `s` from it, is a smooth function of `d` and a multiple of `d ln d`,
 //! whose slope has no bound. No polynomial comes near it, nor do any few elements; a polynomial with that function beside it does.
 
-use crate::elements::{FewNumbers, Subdivision, carries_map, edge_key};
+use crate::elements::{Elements, FewNumbers, Subdivision, carries_map, edge_key};
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Point, Ray, Vector};
 use std::collections::{HashMap, HashSet};
@@ -73,6 +73,12 @@ pub(super) struct Walls {
     halvings: u32,
     touching: usize,
 }
+
+/// How near elements lie to walls that light is resolved towards: as near as the vertices of theirs that are farthest.
+pub(super) const STRIPS: usize = 3;
+/// Numbers of strips: elsewhere is 0.
+const CLOSE: u8 = 1;
+const TOUCHING: u8 = 2;
 
 /// A vertex that carries light beside a wall, and that on the wall which it stands beside.
 #[derive(Clone, Copy, Debug)]
@@ -247,6 +253,25 @@ impl Walls {
             }
         }
         rows
+    }
+
+    /// Of every vertex the strip that it lies in: at elements that touch a wall, at those below the nodes that were `close` to one, elsewhere.
+    /// Nothing where light is not resolved.
+    pub(super) fn strips(&self, elements: &Elements, close: impl Iterator<Item = u32>) -> Vec<u8> {
+        if !self.are_resolved() {
+            return Vec::new();
+        }
+        let mut strips = vec![0; elements.vertices().len()];
+        for node in close {
+            elements.visit_below(node, &mut |corners| {
+                let is_on = |&v: &u32| self.at.get(v as usize).is_some_and(|at| !at.is_empty());
+                let strip = if corners.iter().any(is_on) { TOUCHING } else { CLOSE };
+                for v in corners {
+                    strips[v as usize] = strip.max(strips[v as usize]);
+                }
+            });
+        }
+        strips
     }
 
     /// Takes in the vertices that bisection has made since.

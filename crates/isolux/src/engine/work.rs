@@ -40,10 +40,6 @@ const MOST_INCREMENTS: f64 = 3.0 * BELIEVED_INCREMENTS as f64;
 /// Increments that a run makes at most only to be less in doubt.
 const MOST_HOPED_FOR: f64 = 32.0 * BELIEVED_INCREMENTS as f64;
 
-/// Greatest factor between the interpolation error seen and that expected that is believed, either
-/// way: details tell the order at least.
-const MOST_OVER: f64 = 10.0;
-
 /// How far the light that an ambient term stands for is from it at a place, as a share of it: between
 /// none, in gaps, and twice as much.
 const DOUBT_OF_AMBIENT: f64 = 0.5;
@@ -100,7 +96,7 @@ impl<'p, 's> Work<'p, 's> {
             Method::Radiosity => (target, Some(request.radiosity.limits(target).check_rays)),
         };
         let noise = noise(plan, goal, target);
-        let by_noise = || plan.trial.rays_for(noise, reference, FEWEST_INCREMENTS);
+        let by_noise = || plan.trial.rays_anywhere(noise, reference, FEWEST_INCREMENTS);
         let wanted = wanted.unwrap_or_else(by_noise);
         let most = most_rays(plan.indirect_vertices, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
@@ -113,8 +109,8 @@ impl<'p, 's> Work<'p, 's> {
         let engine = match request.method {
             Method::Hybrid => {
                 let (mean, particles) = rays_and_particles(plan, noise, goal, most);
-                let mean = mean / f64::from(1_u32 << halvings);
-                Engine::Hybrid(Hybrid::new(plan, &points, (mean, particles, goal), request.seed))
+                let of = (mean, particles, goal, halvings);
+                Engine::Hybrid(Hybrid::new(plan, &points, of, request.seed))
             }
             Method::Cache => {
                 let wanted = (&request.cache, target);
@@ -361,7 +357,7 @@ impl<'p, 's> Work<'p, 's> {
             return None;
         }
         let judged = self.judged(Noise::Counted);
-        let over = over_expected(&judged);
+        let over = judged.over_expected();
         let limit_lx = judged.trust.up_to_lx() * over;
         Some(Fresh {
             above_lx: limit_lx.is_finite().then_some(limit_lx),
@@ -478,10 +474,12 @@ impl<'p, 's> Work<'p, 's> {
         let judged = self.is_believed().then(|| self.judged(Noise::Counted));
         let trust = judged.map_or(self.plan.trust(), |judged| judged.trust);
         let expected = self.plan.expected_lx(trust);
-        let over = judged.as_ref().map_or(1.0, over_expected);
+        let strip = |k: usize| self.plan.strip(std::iter::once(k as u32));
+        let over =
+            |k: usize| judged.as_ref().map_or(1.0, |judged| judged.over_expected_in(strip(k)));
         let of_caustics = self.caustic_variances();
         let value = |(k, expected_lx): (usize, f64)| {
-            self.value(k, over * expected_lx, of_caustics.get(k).map_or(0.0, |lx2| lx2.0[0]))
+            self.value(k, over(k) * expected_lx, of_caustics.get(k).map_or(0.0, |lx2| lx2.0[0]))
         };
         let mut values: Vec<Option<Illuminance>> =
             expected.into_iter().enumerate().map(value).collect();
@@ -565,11 +563,6 @@ impl<'p, 's> Work<'p, 's> {
             samples: self.sums.increments * u64::from(self.samples_of(vertex)),
         })
     }
-}
-
-/// The factor by which elements err more than the pilot has expected, within reason.
-fn over_expected(judged: &Judged) -> f64 {
-    judged.errors.over_expected.map_or(1.0, |factor| factor.clamp(1.0 / MOST_OVER, MOST_OVER))
 }
 
 /// Takes back what noise and overshooting deposits of particles have put below zero, each part of the light for itself, as readers

@@ -7,17 +7,17 @@
 mod planes;
 mod polynomial;
 
-use super::path::Dice;
+use super::feelers::Feelers;
 use super::surface::SurfacePoint;
-use crate::elements::Subdivision;
 use crate::quadrature::GaussRule;
-use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::sampling::Key;
 use crate::scene::Scene;
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Normal, Point, Ray};
+use isolux_geometry::{Direction, Normal, Point};
 use planes::Rectangle;
 use polynomial::{COUNT, Polynomial, View, powers};
 use rayon::prelude::*;
+use std::sync::LazyLock;
 
 /// Walls at most: a room has six.
 const MOST: usize = 8;
@@ -25,9 +25,17 @@ const MOST: usize = 8;
 const PLACES: usize = 16;
 /// A polynomial is held as if it were nothing at so many more places, in proportion: where few places are lit.
 const HELD: f64 = 1e-6;
+/// The share of all surface that has to see mostly walls, for which some places stand.
+const CLEAR_SHARE: f64 = 0.3;
+pub(super) const SOME: usize = 64;
+/// What polynomials may leave out of direct light on walls: where they leave out more, as pools of many luminaires, they take no noise off.
+pub(super) const LEFT_OUT: f64 = 0.3;
+/// Noise that is left of what it is without walls, for which they are worth while.
+pub(super) const WORTH: f64 = 0.7;
 /// Rays tell whether something stands before the walls; of so many so many have to come to them.
-const TRIED: u32 = 16;
-const CLEAR: u32 = 12;
+const TRIED: usize = 16;
+const CLEAR: usize = 12;
+static DIRECTIONS: LazyLock<Feelers<TRIED>> = LazyLock::new(|| Feelers::of(Key::new(0)));
 /// How far a ray to a wall may end before or behind it, as a share of its length and the size of the wall.
 const BESIDE: f64 = 1e-3;
 /// Walls are left out for places farther away from their middle than so many halves of their sides: the closed form loses its
@@ -72,13 +80,23 @@ pub(super) struct Seen<'a> {
 }
 
 impl Backdrop {
-    /// The walls of a scene that has large plane surfaces, in the dark.
-    pub(super) fn of(scene: &Scene, subdivision: &Subdivision) -> Option<Self> {
+    /// The walls of a scene that has large plane surfaces, in the dark, if enough of these places, each with the surface that it stands
+    /// for, see them.
+    pub(super) fn seen_by(
+        scene: &Scene,
+        places: impl Iterator<Item = (Stand, f64)>,
+    ) -> Option<Self> {
+        let places: Vec<_> = places.collect();
+        Self::of(scene).filter(|walls| walls.share_of_clear(scene, &places) >= CLEAR_SHARE)
+    }
+
+    /// The same, whoever sees them.
+    pub(super) fn of(scene: &Scene) -> Option<Self> {
         let dark = |rectangle: Rectangle| {
             let light = Polynomial([0.0; COUNT]);
             Wall { rectangle, light, tint: Rgb::BLACK }
         };
-        let largest = planes::largest(subdivision).into_iter();
+        let largest = planes::largest(scene).into_iter();
         let faced = largest.filter(|rectangle| rectangle.faces_something(scene));
         let walls: Vec<Wall> = faced.take(MOST).map(dark).collect();
         (!walls.is_empty()).then_some(Self { walls })
@@ -104,7 +122,7 @@ impl Backdrop {
     }
 
     /// Of the surface that some places stand for, the share that sees mostly walls.
-    pub(super) fn share_of_clear(&self, scene: &Scene, places: &[(Stand, f64)]) -> f64 {
+    fn share_of_clear(&self, scene: &Scene, places: &[(Stand, f64)]) -> f64 {
         let is_clear = |(of, _): &(Stand, f64)| Self::is_clear(scene, of, &self.seen_from(of));
         let clear: Vec<bool> = places.par_iter().map(is_clear).collect();
         let all_m2: f64 = places.iter().map(|(_, m2)| m2).sum();
@@ -128,20 +146,19 @@ impl Backdrop {
     }
 
     fn is_clear(scene: &Scene, of: &Stand, seen: &[Seen<'_>]) -> bool {
-        let sequence = Sequence::new(Key::new(0));
-        let comes_there = |&index: &u32| {
-            let direction = first_direction(of, Dice::new(sequence, index));
+        let ray = |k: usize| DIRECTIONS.ray(k, (of.origin, of.normal, of.triangle));
+        let met = DIRECTIONS.met(scene, ray);
+        let comes_there = |&k: &usize| {
+            let direction = DIRECTIONS.direction(k, of.normal);
             let far = |s: &Seen<'_>| s.at(direction).map(|(far_m, _)| (far_m, s.size_m()));
             let nearest = seen.iter().filter_map(far).min_by(|a, b| a.0.total_cmp(&b.0));
             let Some((far_m, size_m)) = nearest else { return false };
-            let ray = Ray::new(of.origin, direction).skipping(of.triangle);
-            let hit = scene.bvh().closest_hit(&ray);
-            hit.is_some_and(|hit| {
+            met[k].is_some_and(|hit| {
                 let at = SurfacePoint::from_hit(scene, &hit).point;
                 ((at - of.origin).length() - far_m).abs() <= BESIDE * (far_m + size_m)
             })
         };
-        (0..TRIED).filter(comes_there).count() as u32 >= CLEAR
+        (0..TRIED).filter(comes_there).count() >= CLEAR
     }
 }
 
@@ -149,11 +166,6 @@ impl Backdrop {
 pub(super) fn lacking(walls: &[Seen<'_>], directions: &[Direction]) -> Rgb {
     let found = walls.iter().flat_map(|wall| directions.iter().filter_map(|&d| wall.light(d)));
     found.fold(Rgb::BLACK, |lacking, light| lacking - light)
-}
-
-/// In which direction a ray of a place starts.
-fn first_direction(of: &Stand, mut dice: Dice) -> Direction {
-    of.normal.to_direction().from_local(CosineHemisphere::sample(dice.pair()))
 }
 
 impl Wall {

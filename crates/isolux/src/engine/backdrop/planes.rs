@@ -1,6 +1,6 @@
 //! The largest plane surfaces of a scene, as rectangles.
 
-use crate::elements::{FewNumbers, Subdivision};
+use crate::elements::{FewNumbers, carries_map};
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::sampling::{self, CosineHemisphere, Sequence};
@@ -40,16 +40,18 @@ struct Plane {
     triangles: Vec<Triangle>,
 }
 
-/// The largest plane surfaces, as the rectangles about them, as long as they fill these.
-pub(super) fn largest(subdivision: &Subdivision) -> Vec<Rectangle> {
-    let vertices = subdivision.vertices();
-    let from = vertices.first().map_or(Point::ORIGIN, |v| v.position);
-    let size_m = vertices.iter().map(|v| (v.position - from).length()).fold(0.0, f64::max);
-    let plane_of = |leaf: u32| plane_of(subdivision, leaf, (from, size_m));
+/// The largest plane surfaces that carry a map, as the rectangles about them, as long as they fill these.
+pub(super) fn largest(scene: &Scene) -> Vec<Rectangle> {
+    let Some((low, high)) = scene.bvh().mesh().bounds() else { return Vec::new() };
+    let of = (low, (high - low).length());
+    let sides = || {
+        let all = (0..scene.triangle_count()).flat_map(|t| [(t, false), (t, true)]);
+        let mapped = all.filter(|&(t, back)| carries_map(scene, t, back));
+        mapped.filter_map(|(t, back)| plane_of(scene.triangle(t), back, of))
+    };
     let mut areas_m2: HashMap<Key, f64, FewNumbers> = HashMap::default();
     let mut all_m2 = 0.0;
-    for leaf in subdivision.leaves() {
-        let Some((key, _, triangle)) = plane_of(leaf) else { continue };
+    for (key, _, triangle) in sides() {
         let own_m2 = triangle.area();
         all_m2 += own_m2;
         if areas_m2.len() < MOST_PLANES || areas_m2.contains_key(&key) {
@@ -61,8 +63,7 @@ pub(super) fn largest(subdivision: &Subdivision) -> Vec<Rectangle> {
     large.sort_by(|(a, own_m2), (b, m2)| m2.total_cmp(own_m2).then(a.cmp(b)));
     large.truncate(MOST);
     let mut planes: Vec<Option<Plane>> = large.iter().map(|_| None).collect();
-    for leaf in subdivision.leaves() {
-        let Some((key, normal, triangle)) = plane_of(leaf) else { continue };
+    for (key, normal, triangle) in sides().filter(|_| !large.is_empty()) {
         if let Some(k) = large.iter().position(|(own, _)| *own == key) {
             let plane = planes[k].get_or_insert(Plane { normal, triangles: Vec::new() });
             plane.triangles.push(triangle);
@@ -72,16 +73,15 @@ pub(super) fn largest(subdivision: &Subdivision) -> Vec<Rectangle> {
     planes.iter().flatten().zip(areas_m2).filter_map(|(plane, m2)| plane.rectangle(m2)).collect()
 }
 
-/// In which plane an element lies, the normal of that, and where.
+/// In which plane a side of a triangle lies, the normal of that, and where.
 fn plane_of(
-    subdivision: &Subdivision,
-    leaf: u32,
+    triangle: Triangle,
+    back: bool,
     (from, size_m): (Point, f64),
 ) -> Option<(Key, Vector, Triangle)> {
-    let triangle = subdivision.triangle(leaf);
     let [a, b, c] = triangle.corners;
     let normal = (b - a).cross(c - a).direction()?.to_vector();
-    let normal = if subdivision.node(leaf).1.back { -normal } else { normal };
+    let normal = if back { -normal } else { normal };
     let far = (a - from).dot(normal) / size_m;
     let key = [normal.x, normal.y, normal.z, far].map(|x| libm::round(x / ALIKE) as i32);
     Some((key, normal, triangle))

@@ -52,6 +52,7 @@ impl<'s> Pilot<'s> {
             mean_reflectance: reflectance::of_all(self.scene, &coarse),
             means,
             resolves_walls: look.walls.are_resolved(),
+            strips: look.strips(),
             fit: self.fit(&coarse, &open, &cuts),
             cuts,
             bright: self.bright,

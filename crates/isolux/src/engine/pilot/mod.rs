@@ -138,7 +138,7 @@ struct Pilot<'s> {
     backdrop: Option<Backdrop>,
     /// What vertices get from them, by vertex, and where it was.
     behind: HashMap<u32, (Point, Option<Rgb>)>,
-    /// What a few receivers tell of noise, once there is light.
+    /// What a few receivers tell of noise, once there is light: first, where there are walls, those that tell what these take off.
     trial: Option<Trial>,
     caustic_noise: CausticNoise,
     aim: Option<Aim>,

@@ -48,7 +48,7 @@ impl Pilot<'_> {
             .collect();
         let gathering = self.gathering(&look.elements, u32::MAX, &self.standings);
         let wanted = (target, look.rms_lx, BELIEVED_INCREMENTS, self.key.with(6));
-        let (trial, rays) = Trial::of(&gathering, &some, &self.indirect, wanted);
+        let (trial, rays) = Trial::of(&gathering, &some, &self.indirect, wanted, self.trial);
         self.trial = Some(trial);
         self.traced += rays;
         let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();

@@ -2,7 +2,7 @@
 
 use super::{PILOT_TOLERANCE, Pilot};
 use crate::elements::Elements;
-use crate::engine::backdrop::Backdrop;
+use crate::engine::backdrop::{self, Backdrop};
 use crate::engine::gather::{Gatherer, known_at};
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
@@ -11,14 +11,9 @@ use crate::sampling::Sequence;
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// The share of all surface that has to see mostly walls.
-const CLEAR: f64 = 0.3;
-/// What polynomials may leave out of direct light on walls: where they leave out more, as pools of many luminaires, they take no noise off.
-const LEFT_OUT: f64 = 0.3;
 /// A first look at the light, with so many rays; vertices have as many later at least.
 const FIRST_RAYS: u32 = 16;
-/// Noise that is left of what it is without walls, for which it is worth while; and for which the pilot has fewer rays.
-const WORTH: f64 = 0.7;
+/// Noise that is left of what it is without walls, for which the pilot has fewer rays.
 const MUCH: f64 = 0.35;
 
 /// Accuracies for which the first look is too coarse.
@@ -30,15 +25,14 @@ impl Pilot<'_> {
         let lit: Vec<usize> = (0..gatherers.len())
             .filter(|&v| self.standings[v].is_some() && self.known[v])
             .collect();
-        let every = lit.len().div_ceil(trial::RECEIVERS).max(1);
+        let every = lit.len().div_ceil(backdrop::SOME).max(1);
         let place = |&v: &usize| (gatherers[v], elements.vertices()[v].area_m2);
         let places: Vec<(Gatherer, f64)> = lit.iter().step_by(every).map(place).collect();
-        let stands: Vec<_> = places.iter().map(|(of, m2)| (of.stand(), *m2)).collect();
-        let is_clear = |b: &Backdrop| b.share_of_clear(self.scene, &stands) >= CLEAR;
-        let backdrop = Backdrop::of(self.scene, &self.subdivision).filter(is_clear);
-        let Some(mut backdrop) = backdrop else { return };
+        let Some(mut backdrop) = Backdrop::seen_by(self.scene, trial::stands(&places)) else {
+            return;
+        };
         self.indirect = vec![Rgb::BLACK; gatherers.len()];
-        if self.look_at_walls(&mut backdrop, elements) > LEFT_OUT {
+        if self.look_at_walls(&mut backdrop, elements) > backdrop::LEFT_OUT {
             self.indirect.clear();
             return;
         }
@@ -46,8 +40,8 @@ impl Pilot<'_> {
         self.look_at_walls(&mut backdrop, elements);
         self.backdrop = Some(backdrop);
         let left = self.noise_left_by_walls(elements, &places);
-        if left.is_none_or(|left| left > WORTH) {
-            self.backdrop = None;
+        if left.is_none_or(|left| left > backdrop::WORTH) {
+            (self.backdrop, self.trial) = (None, None);
         }
         if let Some(left) = left.filter(|&left| left < MUCH) {
             let fewer = libm::pow(left, 1.0 / NET_ORDER);
@@ -78,17 +72,13 @@ impl Pilot<'_> {
         elements: &Elements,
         places: &[(Gatherer, f64)],
     ) -> Option<f64> {
-        let behind =
-            |of: &Gatherer| self.backdrop.as_ref().and_then(|b| b.behind(self.scene, &of.stand()));
-        let with = |&(of, m2): &(Gatherer, f64)| (Gatherer { behind: behind(&of), ..of }, m2);
-        let with: Vec<(Gatherer, f64)> = places.iter().map(with).collect();
         let lx = |v: usize| (self.direct[v] + self.indirect[v]).luminance();
         let of = (super::rms(elements, &self.standings, lx), self.key.with(9));
         let gathering = self.gathering(elements, u32::MAX, &self.standings);
-        let noise = |some: &[(Gatherer, f64)]| Trial::noise(&gathering, some, &self.indirect, of);
-        let [(with_lx, rays), (without_lx, others)] = [noise(&with), noise(places)];
-        self.traced += rays + others;
-        (without_lx > 0.0).then(|| with_lx / without_lx)
+        let (trial, left, rays) = Trial::of_walls(&gathering, places, &self.indirect, of);
+        self.traced += rays;
+        self.trial = Some(trial);
+        left
     }
 
     /// Takes down the light of the walls once more, where what the first look made of it may add to the noise.

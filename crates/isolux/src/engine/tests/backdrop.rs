@@ -1,12 +1,14 @@
 //! Walls that rays are judged by.
 
 use super::*;
-use crate::elements::Subdivision;
 use crate::engine::backdrop::{Backdrop, lacking};
 use crate::engine::direct::Lighting;
 use crate::engine::gather::{Gatherer, Gathering};
 use crate::engine::pilot::pilot;
+use crate::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest, Watch, solve};
+use crate::map::Fresh;
 use crate::sampling::CosineHemisphere;
+use isolux_geometry::Normal;
 
 const ROOM_M: [f64; 3] = [6.0, 4.0, 3.0];
 
@@ -15,7 +17,7 @@ fn room(things: Vec<Shape>) -> (Scene, Backdrop) {
     let mut shapes = inward_box(ROOM_M, 0);
     shapes.extend(things);
     let scene = scene(shapes, vec![painted(Rgb([0.7, 0.5, 0.3]))], vec![]);
-    let mut backdrop = Backdrop::of(&scene, &Subdivision::new(&scene)).expect("a room has walls");
+    let mut backdrop = Backdrop::of(&scene).expect("a room has walls");
     backdrop.see(&scene, |at| {
         let from_lamp = (at.point - Point::new(2.0, 1.5, 2.2)).length_squared();
         Some(Rgb::grey(100.0 / (1.0 + from_lamp)))
@@ -135,4 +137,59 @@ fn light_settles_among_carriers_as_it_does_among_all() {
         size > 1.0 && change <= 1e-10 * size && left <= 1e-10 * 2.0 * size,
         "{change} {left} {size}"
     );
+}
+
+#[test]
+fn readers_gather_with_fewer_rays_before_walls_and_read_the_same() {
+    let scene = lit_room();
+    let request = SolveRequest { accuracy: Some(0.01), ..SolveRequest::default() };
+    let mut map =
+        solve(&scene, &request, None, &mut |_| Watch::Continue).expect("it has light").map;
+    // Everywhere, and until noise is a hundredth of the light.
+    let everywhere = Fresh { above_lx: Some(0.0), in_gaps_alone: false, lookup_lx: 0.0 };
+    map.provenance.fresh = Some(everywhere);
+    let judged = MapReader::new(&scene, &map);
+    assert!(judged.backdrop.is_some(), "a room has walls");
+    let mut raw = MapReader::new(&scene, &map);
+    raw.backdrop = None;
+    let (mut rays, mut rays_of_raw) = (0, 0);
+    for k in 0..40 {
+        let [x, y] = Sequence::new(Key::new(5)).pair(k, 0);
+        let position = Point::new(x * ROOM_M[0], y * ROOM_M[1], 0.0);
+        let at = ProbePoint { position, normal: Normal::Z };
+        let [own, other] = [&judged, &raw].map(|reader| {
+            let read = reader.probe(at).expect("a floor");
+            reader.by_replicates(read)
+        });
+        rays += own.samples;
+        rays_of_raw += other.samples;
+        let error = libm::hypot(own.indirect_standard_error_lx, other.indirect_standard_error_lx);
+        let apart = (own.indirect_lx - other.indirect_lx).luminance();
+        // Errors of 16 replicates: Student's distribution goes beyond 4.5 of them once in 2000 times.
+        assert!(apart.abs() < 4.5 * error, "{position:?}: {apart} +- {error}");
+    }
+    assert!(4 * rays < rays_of_raw, "{rays} {rays_of_raw}");
+}
+
+#[test]
+fn errors_told_beside_walls_are_those_of_the_strip_there() {
+    let scene = lit_room();
+    let request = SolveRequest { accuracy: Some(0.02), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).expect("it has light").map;
+    assert!(map.provenance.fresh.is_some_and(|fresh| fresh.in_gaps_alone), "readers interpolate");
+    let reader = MapReader::new(&scene, &map);
+    let (mut squared, mut told) = (0.0, 0.0);
+    for k in 0..24 {
+        // On the floor, a hundredth of its length from a wall.
+        let [along, _] = Sequence::new(Key::new(6)).pair(k, 0);
+        let position = Point::new(0.06, ROOM_M[1] * along, 0.0);
+        let at = ProbePoint { position, normal: Normal::Z };
+        let read = reader.probe(at).expect("a floor");
+        let exact = reader.estimate(at, &ExactSettings::default());
+        squared += (read.indirect_lx - exact.indirect_lx).luminance().powi(2);
+        told += read.interpolation_error_lx.powi(2);
+    }
+    // Of 24 places that are not independent.
+    let ratio = (squared / told).sqrt();
+    assert!((0.3..1.3).contains(&ratio), "{ratio}");
 }

@@ -235,6 +235,7 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
         given_up_lx: 0.0,
         noise_lx: None,
         over_expected: None,
+        over_in_strips: [None; 3],
     };
     let found = of_map(&plan, &sums(&plan, 25, 0.1), &errors).unwrap();
     // Some 150 vertices of 25 increments: the variance is known to sqrt(2 / 3600) = 2.4 %.
