@@ -46,6 +46,25 @@ pub struct Solution {
     pub time_s: f64,
 }
 
+impl Solution {
+    /// Itself, unless it has not reached its goal and an earlier one is known to be nearer to the truth.
+    fn or_better(self, before: Option<Self>) -> Self {
+        let error = |of: &Self| {
+            let accuracy = of.map.provenance.accuracy;
+            accuracy.map_or(f64::INFINITY, |accuracy| accuracy.reached)
+        };
+        let is_better = |before: &Self| {
+            let increments = [before, &self].map(|of| of.map.provenance.increments);
+            let alike = error(before) == error(&self);
+            error(before) < error(&self) || alike && increments[0] > increments[1]
+        };
+        let before = before.filter(|before| !self.map.provenance.complete && is_better(before));
+        // The clock went on.
+        let time_s = self.time_s;
+        before.map_or(self, |before| Self { time_s, ..before })
+    }
+}
+
 /// Computes the illumination map of a scene, or goes on from a saved state.
 ///
 /// `watch` is called after every round of the pilot and every increment and may stop the run; the
@@ -102,6 +121,8 @@ pub fn solve_with_maps(
         run.saved_stage = run.stage;
     }
     let mut tried = None;
+    // Who stops a run while finer elements are made has what was known before.
+    let mut best: Option<Solution> = None;
     loop {
         let plan = run.pilot(&lighting, watch);
         let saved = resume.filter(|state| state.stage == run.stage);
@@ -114,8 +135,11 @@ pub fn solve_with_maps(
             continue;
         }
         match run.increments(&plan, saved, watch)? {
-            Outcome::Done(solution) => return Ok(*solution),
-            Outcome::TooCoarse(stages) => run.stage = (run.stage + stages).min(MOST_STAGES),
+            Outcome::Done(solution) => return Ok(solution.or_better(best)),
+            Outcome::TooCoarse(stages, solution) => {
+                best = Some(solution.or_better(best));
+                run.stage = (run.stage + stages).min(MOST_STAGES);
+            }
         }
     }
 }
@@ -123,8 +147,8 @@ pub fn solve_with_maps(
 /// What came of the increments on one mesh.
 enum Outcome {
     Done(Box<Solution>),
-    /// The elements are too coarse for the accuracy asked for: so many stages on they will do.
-    TooCoarse(u32),
+    /// The elements are too coarse for the accuracy asked for: so many stages on they will do. What they have come to.
+    TooCoarse(u32, Box<Solution>),
 }
 
 fn check(scene: &Scene, request: &SolveRequest) -> Result<(), SolveError> {
@@ -153,6 +177,8 @@ struct Run<'s, 'r> {
     /// Refinement ended before its goal, for lack of time.
     cut: bool,
     stage: u32,
+    /// What the last pilot has taken, s.
+    pilot_s: f64,
     /// The stage that a saved run had come to; none is 0.
     saved_stage: u32,
 }
@@ -168,6 +194,7 @@ impl<'s, 'r> Run<'s, 'r> {
             stopped: false,
             cut: false,
             stage: 1,
+            pilot_s: 0.0,
             saved_stage: 0,
         }
     }
@@ -184,6 +211,15 @@ impl<'s, 'r> Run<'s, 'r> {
     fn refined_long_enough(&self) -> bool {
         let is_over = |limit: Duration| self.elapsed_s() >= PILOT_SHARE * limit.as_secs_f64();
         self.request.time_limit.is_some_and(is_over)
+    }
+
+    /// Whether finer elements would be made before that: what the pilot had taken grows as the number of elements does, which fall in
+    /// error like one over it. Elements that are cut short are worse than those there are.
+    fn has_time_for_finer(&self, work: &Work) -> bool {
+        let Some(limit) = self.request.time_limit else { return true };
+        let stages = self.stages_missing(work.error_of_elements());
+        let pilot_s = self.pilot_s / libm::pow(FINER, f64::from(stages));
+        self.elapsed_s() + pilot_s < PILOT_SHARE * limit.as_secs_f64()
     }
 
     /// The accuracy that the elements of this stage are made for.
@@ -210,7 +246,7 @@ impl<'s, 'r> Run<'s, 'r> {
 
     fn pilot(&mut self, lighting: &'s Lighting<'s>, watch: &mut Watcher<'_>) -> Plan<'s> {
         let request = self.pilot_request();
-        let before = self.rays;
+        let (before, started_s) = (self.rays, self.elapsed_s());
         let scene = self.scene;
         let plan = pilot(scene, lighting, &request, &mut |round| {
             self.rays = before + round.rays;
@@ -224,6 +260,7 @@ impl<'s, 'r> Run<'s, 'r> {
         });
         self.cut |= !plan.is_whole;
         self.rays = before + plan.rays;
+        self.pilot_s = self.elapsed_s() - started_s;
         plan
     }
 
@@ -288,7 +325,9 @@ impl<'s, 'r> Run<'s, 'r> {
                 )));
             }
             if end == Some(End::TooCoarse) && answer != Watch::Insist {
-                return Ok(Outcome::TooCoarse(self.stages_missing(work.error_of_elements())));
+                let stages = self.stages_missing(work.error_of_elements());
+                let solution = self.solution(&mut work, accuracy, reached, whole_mesh);
+                return Ok(Outcome::TooCoarse(stages, Box::new(solution)));
             }
         }
     }
@@ -302,7 +341,7 @@ impl<'s, 'r> Run<'s, 'r> {
         if work.is_vain(accuracy) {
             return Some(End::InVain);
         }
-        let finer = self.stage < MOST_STAGES && !self.refined_long_enough();
+        let finer = self.stage < MOST_STAGES && self.has_time_for_finer(work);
         if finer && goal.is_some_and(|goal| work.is_too_coarse(accuracy, goal)) {
             return Some(End::TooCoarse);
         }
