@@ -81,6 +81,8 @@ pub(super) struct Plan<'s> {
     pub(super) strips: Vec<u8>,
     /// Whether there was time for all of it.
     pub(super) is_whole: bool,
+    /// Whether elements for a higher accuracy would be about the same: there are as many as there may be.
+    pub(super) is_finest: bool,
     pub(super) rays: u64,
 }
 

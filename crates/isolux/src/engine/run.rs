@@ -341,7 +341,8 @@ impl<'s, 'r> Run<'s, 'r> {
         if work.is_vain(accuracy) {
             return Some(End::InVain);
         }
-        let finer = self.stage < MOST_STAGES && self.has_time_for_finer(work);
+        let is_finest = self.stage == MOST_STAGES || work.plan.is_finest;
+        let finer = !is_finest && self.has_time_for_finer(work);
         if finer && goal.is_some_and(|goal| work.is_too_coarse(accuracy, goal)) {
             return Some(End::TooCoarse);
         }

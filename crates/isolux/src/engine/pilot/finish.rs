@@ -73,6 +73,7 @@ impl<'s> Pilot<'s> {
             caustics_beside_lx2: caustics.beside_lx2,
             aim: self.aim,
             is_whole: self.is_whole,
+            is_finest: self.is_full && self.direct_excess.is_some_and(|(_, excess)| excess > 1.0),
             rays: self.traced,
         }
     }

@@ -69,6 +69,8 @@ const LEAST_ORDER: f64 = 0.25;
 const MOST_RISEN: usize = 3;
 /// Vertices for indirect light, unless the scene has nearly as many from the start.
 const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
+/// More than this part of the vertices there may be are all: the worst elements are bisected some at a time.
+const FULL: f64 = 0.95;
 /// Bisections of elements with hidden vertices, and the places in one that are asked whether light
 /// comes there.
 const ROUNDS_FOR_HIDDEN: usize = 4;
@@ -144,6 +146,8 @@ struct Pilot<'s> {
     aim: Option<Aim>,
     /// Whether there was time for all that it wanted to do.
     is_whole: bool,
+    /// Whether there are about as many vertices for indirect light as there may be.
+    is_full: bool,
 }
 
 /// Looks and refines; `go_on` is asked after every round.
@@ -225,6 +229,7 @@ impl<'s> Pilot<'s> {
             caustic_noise: CausticNoise::default(),
             aim: None,
             is_whole: true,
+            is_full: false,
             least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
         }
     }
@@ -258,6 +263,7 @@ impl<'s> Pilot<'s> {
         for &what in reads {
             look = self.refine(look, request, (what, most), go_on);
         }
+        self.is_full = look.elements.vertices().len() as f64 > FULL * most as f64;
         look
     }
 
