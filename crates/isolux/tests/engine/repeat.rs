@@ -93,6 +93,29 @@ fn a_run_stopped_and_resumed_gives_the_same_bits() {
 }
 
 #[test]
+fn who_stops_while_finer_elements_are_made_has_what_was_known_before() {
+    let room = inward_box([0.0; 3], [4.0, 5.0, 2.8], 0);
+    let table = outward_box([1.0, 1.0, 0.7], [3.0, 2.0, 0.8], 0);
+    let shapes = room.into_iter().chain(table).collect();
+    let scene = scene(shapes, vec![painted(0.7)], vec![lamp([2.0, 2.5, 2.5], 100.0)]);
+    let request = SolveRequest { accuracy: Some(5e-3), ..SolveRequest::default() };
+    let (mut seen, mut stopped) = (None, false);
+    let solution = solve(&scene, &request, None, &mut |p| {
+        stopped |= p.stage == Stage::Pilot && seen.is_some();
+        if p.stage == Stage::Increments && !stopped {
+            seen = Some((p.increments, p.receivers));
+        }
+        if stopped { Watch::Stop } else { Watch::Continue }
+    });
+    let solution = solution.expect("the scene has light");
+    assert!(!solution.map.provenance.complete, "the first elements were to be too coarse");
+    let (increments, receivers) = seen.expect("increments came first");
+    assert_eq!(solution.state.stage, 1);
+    assert_eq!(solution.state.increments, increments);
+    assert_eq!(solution.map.elements.vertices().len() as u64, receivers);
+}
+
+#[test]
 fn a_map_looked_at_on_the_way_is_that_of_a_run_stopped_there() {
     let scene = everything();
     for method in METHODS {
