@@ -119,7 +119,8 @@ fn limits(request: &SolveRequest) -> Vec<String> {
              disagree about more than {visibility}, it is divided.",
         ),
         format!(
-            "Shooting stops at {} unshot, whose reflections are a small part of the accuracy; {}.",
+            "Shooting stops as soon as the map has its accuracy, at the latest at {} unshot, whose reflections \
+             are a small part of that; {}.",
             show_share(limits.unshot),
             by("--unshot", set.unshot.is_some())
         ),
