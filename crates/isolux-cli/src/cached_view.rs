@@ -7,6 +7,7 @@ use crate::notes::{Note, note};
 use crate::quantity::{show_count, show_seconds};
 use isolux::engine::{CacheReader, CacheSettings, CachedPlace, IrradianceCache, SampleKind};
 use isolux::scene::{Camera, Scene};
+use isolux_formats::counted;
 use isolux_view::{LuminanceImage, Size, SurfacePoint, TraceSettings, trace, trace_watched};
 use serde::Serialize;
 use std::path::Path;
@@ -35,10 +36,11 @@ pub(crate) struct CacheUse {
 impl CacheUse {
     /// For people.
     pub(crate) fn facts(&self) -> [(&'static str, String); 3] {
-        let (found, made) = (self.samples_found, self.samples_made);
+        let found = counted(self.samples_found, "sample", "samples");
+        let made = self.samples_made;
         let times = [self.samples_time_s, self.view_time_s].map(show_seconds);
         [
-            ("cache", format!("{}: {found} samples found, {made} made", self.cache)),
+            ("cache", format!("{}: {found} found, {made} made", self.cache)),
             ("rays for samples", show_count(self.rays as f64)),
             ("time", format!("{} for samples, {} for the view", times[0], times[1])),
         ]

@@ -90,8 +90,8 @@ pub(crate) struct SolveFlags {
     /// Seed of the random numbers: the same seed gives the same bits
     #[arg(long, value_name = "N", value_parser = quantity::seed, default_value = "1", allow_hyphen_values = true)]
     pub seed: u64,
-    /// Threads to use [default: all there are]; the result does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    /// Threads to use, at most 1024 [default: all there are]; the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
     pub threads: Option<u16>,
     /// Refuse to need more memory than this: 8GiB, 500MB
     #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
@@ -155,7 +155,7 @@ pub(crate) struct RadiosityFlags {
     #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
     pub unshot: Option<f64>,
     /// Subdivide for indirect light up to so many receivers
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = quantity::receivers, allow_hyphen_values = true)]
     pub max_receivers: Option<u32>,
     /// Do not bisect elements below this edge: 5cm, 0.1m
     #[arg(long, value_name = "LENGTH", value_parser = quantity::length_m, allow_hyphen_values = true)]
@@ -218,7 +218,7 @@ pub(crate) struct InfoFlags {
 #[command(after_help = "Examples:
   isolux probe map.glb --points desk.pts
   echo '1 2 0.75  0 0 1' | isolux probe map.glb --points - --exact --json
-  isolux probe map.glb --points desk.pts -o desk.res
+  isolux probe map.glb --points desk.pts --exact -o desk.res
   isolux probe builtin:hall --points desk.pts --paths 65536
 
 Points are `x y z nx ny nz`, one a line, in metres and in the axes of the scene as written; # starts a comment. \
@@ -245,7 +245,7 @@ pub(crate) struct ProbeFlags {
     pub interpolated: bool,
     /// Paths to trace at every point of a scene, at least 32 [default: 16384]; four times as many
     /// halve the standard error
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(32..))]
+    #[arg(long, value_name = "N", value_parser = quantity::paths, allow_hyphen_values = true)]
     pub paths: Option<u32>,
     /// Seed of the random numbers of paths [default: 1]
     #[arg(long, value_name = "N", value_parser = quantity::seed, allow_hyphen_values = true)]
@@ -288,8 +288,8 @@ pub(crate) struct GridFlags {
     /// shorter side, whichever is less; else none]
     #[arg(long, value_name = "M", value_parser = quantity::metres, allow_hyphen_values = true)]
     pub border: Option<f64>,
-    /// The share of the initial light that is left when maintained [default: the grid's, else 1]
-    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
+    /// The share of the initial light that is left when maintained: 0.8 or 80%; 1 is all of it [default: the grid's, else 1]
+    #[arg(long, value_name = "SHARE", value_parser = quantity::maintenance_factor, allow_hyphen_values = true)]
     pub maintenance_factor: Option<f64>,
     /// Of a scene: solve it to this accuracy [default: 1%]
     #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true)]
@@ -406,8 +406,8 @@ pub(crate) struct ExportFlags {
     /// Refuse to need more memory than this for a lightmap: 8GiB, 500MB
     #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
     pub max_memory: u64,
-    /// Threads to use [default: all there are]; the result does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    /// Threads to use, at most 1024 [default: all there are]; the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
     pub threads: Option<u16>,
 }
 
@@ -497,7 +497,7 @@ pub(crate) struct ValidateFlags {
     #[arg(long, value_enum)]
     pub method: Option<MethodName>,
     /// Repetitions with different seeds [default: 1, 200 with --calibrate]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", value_parser = quantity::repetitions, allow_hyphen_values = true)]
     pub seeds: Option<u32>,
     /// Judge the errors that maps report, and the predicted finishing times, over many seeds
     #[arg(long)]

@@ -12,6 +12,7 @@ use isolux::engine::{MapReader, ProbePoint, SolveRequest};
 use isolux::geometry::{Point, Vector};
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
 use isolux::scene::{CalculationGrid, Scene, UpAxis};
+use isolux_formats::counted;
 use isolux_view::{Contours, FalseColour, false_colour, plan};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -214,9 +215,9 @@ impl GridResult {
         let unknown = self.values.iter().filter(|value| value.is_none()).count();
         if unknown > 0 {
             let text = format!(
-                "grid `{}`: {unknown} of {} points lie within something and are left out",
+                "grid `{}`: {unknown} of {} left out, within something",
                 self.grid.name,
-                self.points.len()
+                counted(self.points.len(), "point is", "points are")
             );
             note(Note::Warning, text);
         }

@@ -15,6 +15,7 @@ use crate::{map_file, saved_run, shown};
 use isolux::engine::{MixPart, SolveRequest, mix};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
+use isolux_formats::counted;
 use isolux_formats::lightmap::Target;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -101,8 +102,8 @@ pub(crate) fn run(
                 note(
                     Note::Warning,
                     format!(
-                        "{path}: not written, {} groups have no map yet; go on with --resume",
-                        left - 1
+                        "{path}: not written, {} no map yet; go on with --resume",
+                        counted(left - 1, "group has", "groups have")
                     ),
                 );
                 return Ok(Outcome::Interrupted);

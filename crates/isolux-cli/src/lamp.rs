@@ -4,6 +4,7 @@ use crate::console::facts;
 use crate::quantity::significant;
 use crate::shown::name;
 use isolux::photometry::IntensityDistribution;
+use isolux_formats::counted;
 use isolux_formats::ies::{Edition, IesFile};
 use isolux_formats::ldt::LdtFile;
 use isolux_formats::photometric_file::PhotometricFile;
@@ -93,7 +94,10 @@ impl Contents {
             ("flux of the luminaire", lumen(self.luminous_flux_lm)),
             ("greatest intensity", format!("{} cd", significant(self.max_intensity_cd, 4))),
             ("input", efficacy),
-            ("table", format!("{} planes of {} angles", self.planes, self.gammas)),
+            (
+                "table",
+                format!("{} of {} angles", counted(self.planes, "plane", "planes"), self.gammas),
+            ),
         ])
     }
 }

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use isolux::engine::ProbePoint;
 use isolux::geometry::{Point, Vector};
+use isolux_formats::{Problem, counted};
 use std::io::Read;
 use std::path::Path;
 
@@ -17,11 +18,7 @@ const MAX_PROBLEMS: usize = 20;
 pub(crate) fn read(path: &Path) -> Result<Vec<ProbePoint>, Failure> {
     let name =
         if path == Path::new("-") { "standard input".into() } else { path.to_string_lossy() };
-    let fail = |e| {
-        Failure::bad_input(format!(
-            "{name}: cannot be read ({e}); check the name, and that you may read the file"
-        ))
-    };
+    let fail = |e| Failure::bad_input(Problem::unreadable(Path::new(name.as_ref()), &e));
     let source: Box<dyn Read> = if path == Path::new("-") {
         Box::new(std::io::stdin().lock())
     } else {
@@ -31,6 +28,11 @@ pub(crate) fn read(path: &Path) -> Result<Vec<ProbePoint>, Failure> {
     let mut bytes = Vec::new();
     // Text has no zero bytes: what is no text need not be read to its end, if it has one.
     source.by_ref().take(FIRST_BYTES).read_to_end(&mut bytes).map_err(fail)?;
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(Failure::bad_input(format!(
+            "{name}: is text in UTF-16, which is not read; save it as UTF-8"
+        )));
+    }
     if bytes.contains(&0) {
         return Err(Failure::bad_input(format!(
             "{name}: is not text; write x y z nx ny nz, one a line"
@@ -45,6 +47,8 @@ pub(crate) fn read(path: &Path) -> Result<Vec<ProbePoint>, Failure> {
 
 /// The points of a text; every problem with its line.
 fn parse(text: &str, name: &str) -> Result<Vec<ProbePoint>, Failure> {
+    // Windows editors begin UTF-8 with a byte order mark.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut points = Vec::new();
     let mut problems = Vec::new();
     for (index, line) in text.lines().enumerate() {
@@ -72,7 +76,8 @@ fn point(line: &str) -> Result<ProbePoint, String> {
         line.split(|c: char| c.is_whitespace() || c == ',').filter(|f| !f.is_empty()).collect();
     let mut numbers = [0.0; 6];
     if fields.len() != numbers.len() {
-        return Err(format!("{} numbers; write six: x y z nx ny nz", fields.len()));
+        let found = counted(fields.len(), "number", "numbers");
+        return Err(format!("{found}; write six: x y z nx ny nz"));
     }
     for (number, field) in numbers.iter_mut().zip(&fields) {
         let finite = field.parse::<f64>().ok().filter(|v| v.is_finite());
@@ -94,10 +99,18 @@ mod tests {
 
     #[test]
     fn points_comments_and_blank_lines() {
-        let points = parse("# desk\n\n1 2 3 0 0 2 # up\r\n-1e0, 0,0 , 1 0 0", "p").unwrap();
+        let points =
+            parse("\u{feff}# desk\r\n\n1 2 3 0 0 2 # up\r\n-1e0, 0,0 , 1 0 0", "p").unwrap();
         assert_eq!(points.len(), 2);
         assert_eq!(points[0].position, Point::new(1.0, 2.0, 3.0));
         assert_eq!(points[0].normal.to_vector(), Vector::new(0.0, 0.0, 1.0));
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_part_of_a_number() {
+        let points = parse("\u{feff}2,2.5,0.75,0,0,1\r\n3,2.5,0.75,0,0,1\r\n", "p").unwrap();
+        assert_eq!(points[0].position, Point::new(2.0, 2.5, 0.75));
+        assert_eq!(points.len(), 2);
     }
 
     #[test]

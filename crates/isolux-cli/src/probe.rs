@@ -8,6 +8,7 @@ use crate::output::OutputPath;
 use crate::{map_file, points, source};
 use isolux::engine::{ExactSettings, MapReader, PathTracer, ProbePoint};
 use isolux::map::Illuminance;
+use isolux_formats::counted;
 use isolux_formats::rad::irradiance_lines;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -33,9 +34,8 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
     let unknown = values.iter().filter(|v| v.is_none()).count();
     if unknown > 0 {
         let text = format!(
-            "{unknown} of {} points lie on no surface with a known value; move them onto one, or use \
-             --exact",
-            points.len()
+            "{unknown} of {} on no surface with a known value; move points onto one, or use --exact",
+            counted(points.len(), "point lies", "points lie")
         );
         note(Note::Warning, text);
     }
@@ -60,10 +60,10 @@ fn write_irradiances(output: &OutputPath, values: &Values) -> Result<(), Failure
     let known: Vec<Illuminance> = values.iter().flatten().copied().collect();
     if known.len() < values.len() {
         return Err(Failure::bad_input(format!(
-            "{}: {} points have no value, which lines of irradiance cannot say; move them onto a \
-             surface, use --exact, or ask for the table",
+            "{}: {} no value, which lines of irradiance cannot say; use --exact, move points onto a \
+             surface, or ask for the table",
             output.path().display(),
-            values.len() - known.len()
+            counted(values.len() - known.len(), "point has", "points have")
         )));
     }
     output.write(irradiance_lines(known.iter().map(Illuminance::total_lx)).as_bytes())

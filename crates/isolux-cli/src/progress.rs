@@ -6,6 +6,7 @@ use crate::notes::{self, Note, note};
 use crate::quantity::{show_count, show_seconds, show_share};
 use indicatif::ProgressBar;
 use isolux::engine::{Progress, Stage};
+use isolux_formats::counted;
 use serde::Serialize;
 use std::io::IsTerminal;
 
@@ -86,9 +87,10 @@ fn line(progress: &Progress) -> String {
         Stage::Pilot => "subdividing".to_owned(),
         Stage::Increments => match progress.unshot {
             Some(unshot) => {
-                format!("{} shots, {} of the light unshot", progress.increments, show_share(unshot))
+                let shots = counted(progress.increments, "shot", "shots");
+                format!("{shots}, {} of the light unshot", show_share(unshot))
             }
-            None => format!("{} increments", progress.increments),
+            None => counted(progress.increments, "increment", "increments"),
         },
     }];
     match progress.accuracy {
@@ -112,7 +114,7 @@ fn line(progress: &Progress) -> String {
     if progress.elapsed_s > 0.0 {
         parts.push(format!("{} rays/s", show_count(progress.rays as f64 / progress.elapsed_s)));
     }
-    parts.push(format!("{} receivers", progress.receivers));
+    parts.push(counted(progress.receivers, "receiver", "receivers"));
     parts.join(", ")
 }
 

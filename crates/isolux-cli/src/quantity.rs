@@ -1,38 +1,74 @@
 //! Quantities as people write them on a command line.
 
 use isolux_view::Exposure;
+use std::fmt::Display;
+use std::str::FromStr;
 use std::time::Duration;
 
 /// A share as `1%` or `0.01`, more than 0 and less than 1.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
-    let text = text.trim();
-    let value = match text.strip_suffix('%') {
-        Some(percent) => percent.trim_end().parse::<f64>().map(|p| p / 100.0),
-        None => text.parse::<f64>(),
-    };
-    match value {
-        Ok(share) if share > 0.0 && share < 1.0 => Ok(share),
-        Ok(_) => Err("must be more than 0 and less than 1; one per cent is 1% or 0.01".into()),
-        Err(_) => Err("not a number; write 1% or 0.01".into()),
+    match number_or_percent(text) {
+        Some(share) if share > 0.0 && share < 1.0 => Ok(share),
+        Some(_) => Err("must be more than 0 and less than 1; one per cent is 1% or 0.01".into()),
+        None => Err("not a number; write 1% or 0.01".into()),
     }
 }
 
-/// What light is multiplied by, as `30%` or `0.3`: 0 is off, more than 1 is brighter.
-pub(crate) fn dimming(text: &str) -> Result<f64, String> {
+/// A factor on light as `80%` or `0.8`, more than 0 and at most 1. A bare 1 is all of it, not one per cent.
+pub(crate) fn maintenance_factor(text: &str) -> Result<f64, String> {
+    match number_or_percent(text) {
+        Some(factor) if factor > 0.0 && factor <= 1.0 => Ok(factor),
+        Some(_) => Err("must be more than 0 and at most 1, or 100%; write 0.8 or 80%".into()),
+        None => Err("not a number; write 0.8 or 80%".into()),
+    }
+}
+
+/// A bare number as it is, one with a per cent sign as a hundredth.
+fn number_or_percent(text: &str) -> Option<f64> {
     let text = text.trim();
     let (number, unit) = match text.strip_suffix('%') {
         Some(percent) => (percent.trim_end(), 100.0),
         None => (text, 1.0),
     };
-    let value = number.parse::<f64>().ok().map(|value| value / unit);
+    number.parse::<f64>().ok().map(|value| value / unit)
+}
+
+/// What light is multiplied by, as `30%` or `0.3`: 0 is off, more than 1 is brighter.
+pub(crate) fn dimming(text: &str) -> Result<f64, String> {
     // Beyond that there is no light left to tell from rounding.
-    let value = value.filter(|value| *value == 0.0 || (1e-6..=1e6).contains(value));
+    let value =
+        number_or_percent(text).filter(|value| *value == 0.0 || (1e-6..=1e6).contains(value));
     value.ok_or_else(|| format!("{text:?} is no dimming; write 30% or 0.3, 0 for off"))
 }
 
 /// A seed of random numbers.
 pub(crate) fn seed(text: &str) -> Result<u64, String> {
-    text.parse().map_err(|_| format!("write a whole number from 0 to {}", u64::MAX))
+    whole(text, 0, u64::MAX)
+}
+
+/// A number of threads. More than any machine has processors would only take memory.
+pub(crate) fn threads(text: &str) -> Result<u16, String> {
+    whole(text, 1, 1024)
+}
+
+/// A number of paths, of which every replicate gets some.
+pub(crate) fn paths(text: &str) -> Result<u32, String> {
+    whole(text, 32, u32::MAX)
+}
+
+/// A number of receivers.
+pub(crate) fn receivers(text: &str) -> Result<u32, String> {
+    whole(text, 1, u32::MAX)
+}
+
+/// A number of repetitions.
+pub(crate) fn repetitions(text: &str) -> Result<u32, String> {
+    whole(text, 1, 10_000)
+}
+
+fn whole<N: FromStr + PartialOrd + Display>(text: &str, least: N, most: N) -> Result<N, String> {
+    let number = text.trim().parse::<N>().ok().filter(|n| (&least..=&most).contains(&n));
+    number.ok_or_else(|| format!("write a whole number from {least} to {most}"))
 }
 
 const TIME_UNITS_S: [(&str, f64); 4] = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("h", 3600.0)];
@@ -238,6 +274,27 @@ mod tests {
         }
         for text in ["", "%", "0", "1", "5", "100%", "-1%", "NaN", "inf", "1 percent"] {
             assert!(share(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn maintenance_factors() {
+        for (text, expected) in
+            [("1", 1.0), ("1.0", 1.0), ("100%", 1.0), ("80%", 0.8), ("0.8", 0.8), ("1%", 0.01)]
+        {
+            assert_eq!(maintenance_factor(text), Ok(expected), "{text}");
+        }
+        for text in ["", "%", "0", "0%", "80", "1.1", "101%", "-1", "NaN", "inf"] {
+            assert!(maintenance_factor(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn whole_numbers_are_told_their_bounds() {
+        assert_eq!((threads("1"), threads("1024"), paths("32")), (Ok(1), Ok(1024), Ok(32)));
+        for text in ["", "0", "1025", "65535", "65536", "-1", "abc", "1.5", "1e3"] {
+            let told = threads(text).unwrap_err();
+            assert_eq!(told, "write a whole number from 1 to 1024", "{text}");
         }
     }
 

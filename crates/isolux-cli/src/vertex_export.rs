@@ -6,6 +6,7 @@ use crate::flags::ExportFlags;
 use crate::map_file;
 use crate::output::OutputPath;
 use crate::quantity::{show_bytes, significant};
+use isolux_formats::counted;
 use isolux_formats::lightmap::{Target, VertexConvention};
 use isolux_formats::map_glb::{Preview, VertexColours, VertexFile, write_vertices};
 use serde::Serialize;
@@ -78,7 +79,8 @@ impl Report {
         ];
         if self.vertices_above_white > 0 {
             let (largest, count) = (significant(self.largest_colour, 3), self.vertices_above_white);
-            let text = format!("{count} vertices, up to {largest} times; cut (--white says where)");
+            let count = counted(count, "vertex", "vertices");
+            let text = format!("{count}, up to {largest} times; cut (--white says where)");
             all.push(("  above white", text));
         }
         if !setting.is_empty() {

@@ -1,5 +1,6 @@
 //! What is found while one file is read.
 
+use crate::counted;
 use crate::{Loaded, Problem, Problems};
 use std::path::{Path, PathBuf};
 
@@ -27,7 +28,11 @@ impl Listed {
 
     fn all(mut self, file: &Path) -> Vec<Problem> {
         if self.unlisted > 0 {
-            let what = format!("{} further findings are not listed", self.unlisted);
+            let what = counted(
+                self.unlisted,
+                "further finding is not listed",
+                "further findings are not listed",
+            );
             self.list.push(Problem::new(file, "", what, "mend those above first"));
         }
         self.list

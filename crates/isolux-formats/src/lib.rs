@@ -4,6 +4,7 @@ pub mod atomic;
 mod bare;
 pub mod cache_file;
 pub mod checkpoint;
+mod counted;
 mod efficacy;
 pub mod export;
 mod extent;
@@ -33,5 +34,6 @@ mod source;
 mod srgb;
 pub mod stl;
 
+pub use counted::counted;
 pub use load::load;
 pub use problem::{Loaded, Problem, Problems};

@@ -9,6 +9,9 @@ use std::path::Path;
 /// Reads a scene by the extension of its file.
 pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     source::check_present(path)?;
+    if std::fs::metadata(path).is_ok_and(|known| known.is_file() && known.len() == 0) {
+        return Err(Problem::new(path, "", "is empty", "copy or export it again").into());
+    }
     let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("gltf" | "glb") => gltf::read(path),

@@ -1,7 +1,7 @@
 //! Plain text of unknown encoding: bounded reading, decoding, lines.
 
 use crate::Problem;
-use crate::source::{SAVE_AS_UTF8, is_utf16};
+use crate::source::{SAVE_AS_UTF8, is_utf16, without_mark};
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::Read;
@@ -45,7 +45,7 @@ pub(crate) fn decode<'a>(bytes: &'a [u8], file: &Path) -> Result<Cow<'a, str>, P
     if is_utf16(bytes) {
         return Err(Problem::new(file, "", "is text in UTF-16, which is not read", SAVE_AS_UTF8));
     }
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let bytes = without_mark(bytes);
     let end = bytes.iter().position(|&b| b == 0x1a).unwrap_or(bytes.len());
     let bytes = &bytes[..end];
     if bytes.contains(&0) {
@@ -55,6 +55,9 @@ pub(crate) fn decode<'a>(bytes: &'a [u8], file: &Path) -> Result<Cow<'a, str>, P
             "is not plain text",
             "give a photometric file in ASCII, Latin-1 or UTF-8",
         ));
+    }
+    if bytes.trim_ascii().is_empty() {
+        return Err(Problem::new(file, "", "is empty", "copy it again, or get it from its maker"));
     }
     Ok(match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
@@ -100,5 +103,8 @@ mod tests {
         assert_eq!(text(b"\x80 5 \x96 M\xfc"), Ok("€ 5 – Mü".into()));
         assert_eq!(text(b"one\x1atwo \x00"), Ok("one".into()));
         assert!(text(b"\xff\xfeI\0E\0S\0").is_err());
+        for empty in [&b""[..], b"\r\n \n", b"\xef\xbb\xbf", b"\x1a"] {
+            assert_eq!(text(empty).unwrap_err().what, "is empty", "{empty:?}");
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! What is wrong with a file, where, and how to mend it.
 
 use std::fmt;
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 /// One finding about one file.
@@ -32,20 +33,36 @@ impl Problem {
         }
     }
 
-    /// A file that the system does not give.
-    pub(crate) fn unreadable(path: &Path, error: &std::io::Error) -> Self {
-        let remedy = "check the name, and that you may read the file";
-        Self::new(path, "", format!("cannot be read ({error})"), remedy)
+    /// A file that the system does not give, in plain words where they say all.
+    pub fn unreadable(path: &Path, error: &io::Error) -> Self {
+        let (what, remedy) = match error.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory => {
+                ("does not exist and cannot be read".to_owned(), "check the name")
+            }
+            ErrorKind::IsADirectory => ("is a directory".to_owned(), "name a file in it"),
+            ErrorKind::PermissionDenied => {
+                ("cannot be read: permission denied".to_owned(), "allow reading, or copy it")
+            }
+            _ => (format!("cannot be read ({error})"), "check the name and the disk"),
+        };
+        Self::new(path, "", what, remedy)
+    }
+}
+
+impl Problem {
+    /// File, place and what is wrong, for a finding about another file that names this one.
+    pub(crate) fn without_remedy(&self) -> String {
+        let Self { file, place, what, .. } = self;
+        match place.as_str() {
+            "" => format!("{}: {what}", file.display()),
+            place => format!("{}: {place}: {what}", file.display()),
+        }
     }
 }
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: ", self.file.display())?;
-        if !self.place.is_empty() {
-            write!(f, "{}: ", self.place)?;
-        }
-        write!(f, "{}; {}", self.what, self.remedy)
+        write!(f, "{}; {}", self.without_remedy(), self.remedy)
     }
 }
 

@@ -28,10 +28,10 @@ pub(crate) fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>, Problem> {
 pub(crate) fn check_present(path: &Path) -> Result<(), Problem> {
     match std::fs::metadata(path) {
         Ok(known) if known.is_dir() => {
-            Err(Problem::new(path, "", "is a directory", "name a file in it"))
+            Err(Problem::unreadable(path, &ErrorKind::IsADirectory.into()))
         }
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
-            Err(Problem::new(path, "", "does not exist and cannot be read", "check the name"))
+            Err(Problem::unreadable(path, &error))
         }
         _ => Ok(()),
     }
@@ -43,6 +43,11 @@ pub(crate) const SAVE_AS_UTF8: &str = "save it as UTF-8";
 /// Whether bytes begin as Windows begins text in UTF-16.
 pub(crate) fn is_utf16(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")
+}
+
+/// Bytes of text without the mark that Windows editors put before UTF-8.
+pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
 /// The text of a file; bytes that are not UTF-8 become replacement characters.
@@ -74,6 +79,8 @@ pub(crate) enum Unreachable {
     Outside,
     /// There is no such file.
     Missing,
+    /// It is a directory.
+    Directory,
 }
 
 impl Unreachable {
@@ -87,6 +94,7 @@ impl Unreachable {
             Self::Missing => {
                 (format!("file `{name}` does not exist"), "check the name and its case")
             }
+            Self::Directory => (format!("`{name}` is a directory"), "name a file in it"),
         }
     }
 }
@@ -105,7 +113,10 @@ pub(crate) fn within(root: &Path, base: &Path, name: &str) -> Result<PathBuf, Un
     let path = base.join(relative);
     let real = path.canonicalize().map_err(|_| Unreachable::Missing)?;
     let real_root = root.canonicalize().map_err(|_| Unreachable::Missing)?;
-    if real.starts_with(real_root) { Ok(path) } else { Err(Unreachable::Outside) }
+    if !real.starts_with(real_root) {
+        return Err(Unreachable::Outside);
+    }
+    if real.is_dir() { Err(Unreachable::Directory) } else { Ok(path) }
 }
 
 #[cfg(test)]
@@ -127,6 +138,7 @@ mod tests {
         assert_eq!(reach("/etc/hostname"), Err(Unreachable::Outside));
         assert_eq!(reach("C:\\a.txt"), Err(Unreachable::Outside));
         assert_eq!(reach("sub/b.txt"), Err(Unreachable::Missing));
+        assert_eq!(reach("sub"), Err(Unreachable::Directory));
         assert_eq!(within(&root, &root.join("sub"), "../../secret.txt"), Err(Unreachable::Outside));
         #[cfg(unix)]
         {
@@ -143,7 +155,8 @@ mod tests {
         assert_eq!(read_bytes(&path, 17).unwrap().len(), 17);
         assert!(read_bytes(&path, 16).unwrap_err().what.contains("larger"));
         assert!(read_bytes(dir.path(), 16).unwrap_err().what.contains("regular"));
-        assert!(read_bytes(&dir.path().join("b"), 16).unwrap_err().what.contains("cannot"));
+        let missing = read_bytes(&dir.path().join("b"), 16).unwrap_err().to_string();
+        assert!(missing.ends_with("b: does not exist and cannot be read; check the name"));
         assert!(check_present(&path).is_ok());
         let none = "does not exist and cannot be read";
         for (name, what) in [("b", none), ("a/b", none), ("", "is a directory")] {

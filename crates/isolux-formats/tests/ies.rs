@@ -356,7 +356,24 @@ fn a_tilt_file_elsewhere_is_refused() {
     }
     let (_, lamp) = beside("ies_tilt_missing", "absent.tlt");
     let refusal = ies::read(&lamp).unwrap_err().to_string();
-    assert!(refusal.contains("absent.tlt: cannot be read"), "{refusal}");
+    let told = "lamp.ies: line 5: TILT=absent.tlt names no file beside this one; write TILT=NONE, ";
+    assert!(refusal.contains(told), "{refusal}");
+}
+
+#[test]
+fn a_file_that_is_cut_in_its_tilt_line_was_said_to_name_a_tilt_file() {
+    let (_, lamp) = beside("ies_tilt_cut", "NONE");
+    let whole = std::fs::read_to_string(&lamp).unwrap();
+    let value = whole.find("TILT=").unwrap() + "TILT=".len();
+    for cut in 0.."NONE".len() {
+        std::fs::write(&lamp, &whole[..value + cut]).unwrap();
+        let refusal = ies::read(&lamp).unwrap_err().to_string();
+        let told = format!(
+            "lamp.ies: line 5: the file seems cut in this line: TILT={} names no file beside this one; ",
+            &"NONE"[..cut]
+        );
+        assert!(refusal.contains(&told) && refusal.contains("TILT= is NONE, INCLUDE"), "{refusal}");
+    }
 }
 
 #[cfg(unix)]
@@ -366,5 +383,6 @@ fn a_link_out_of_the_directory_is_refused() {
     std::os::unix::fs::symlink(directory.join("secret.tlt"), directory.join("in/link.tlt"))
         .unwrap();
     let refusal = ies::read(&lamp).unwrap_err().to_string();
-    assert!(refusal.contains("is a link to another directory"), "{refusal}");
+    let told = "lamp.ies: line 5: the file of TILT=link.tlt is a link to another directory";
+    assert!(refusal.contains(told), "{refusal}");
 }

@@ -38,8 +38,9 @@ fn check<const N: usize>(table: [(String, &str, &str); N]) {
 #[test]
 fn what_is_no_photometric_file_is_refused() {
     check([
-        (String::new(), "line 1", "there is no TILT= line"),
-        ("\n\n\n".into(), "line 4", "there is no TILT= line"),
+        (String::new(), "lamp.ies", "is empty"),
+        ("\n\n\n".into(), "lamp.ies", "is empty"),
+        ("IESNA91\n[TEST] 1\nTIL".into(), "line 3", "the file ends before its TILT= line"),
         ("PNG\0\u{1}\u{2}".into(), "lamp.ies", "is not plain text"),
         ("<html>not found</html>".into(), "line 1", "there is no TILT= line"),
     ]);
@@ -141,7 +142,7 @@ fn tilt_tables_are_checked() {
 fn a_directory_and_an_absent_file_are_told_apart_from_bad_ones() {
     for (path, what) in [
         (env!("CARGO_TARGET_TMPDIR"), "not a regular file"),
-        ("/no/such/lamp.ies", "cannot be read"),
+        ("/no/such/lamp.ies", "does not exist"),
     ] {
         let found = ies::read(Path::new(path)).unwrap_err().to_string();
         assert!(found.contains(what), "{found}");

@@ -145,7 +145,8 @@ fn every_defect_is_named_with_its_line() {
     };
     let cut = |number: usize| plain.lines().take(number).collect::<Vec<_>>().join("\n");
     for (text, place, what) in [
-        (String::new(), "line 1", "the file ends where the type indicator should follow"),
+        (String::new(), "lamp.ldt", "is empty"),
+        ("maker".into(), "line 1", "the file ends where the type indicator should follow"),
         ("one\0two".into(), "lamp.ldt", "is not plain text"),
         ("IESNA91\nTILT=NONE".into(), "line 2", "\"TILT=NONE\" is not a number"),
         (line(2, "4"), "line 2", "the type indicator is 4"),

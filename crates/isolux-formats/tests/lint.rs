@@ -76,7 +76,7 @@ fn every_rule_for_lm_63() {
             ("1.10000", "1.70000", Note, 9, "file generation type 1.7"),
             ("[LUMCAT] c\n", "", Note, 1, "keywords are missing: LUMCAT"),
             ("[TEST] 1", "[TEST] 1\n[FOO] x", Note, 3, "outside the standard: FOO"),
-            ("[TEST] 1", "[TEST] 1\nfree text", Note, 0, "1 lines before TILT="),
+            ("[TEST] 1", "[TEST] 1\nfree text", Note, 0, "1 line before TILT="),
             ("[TEST] 1", "[_INTENSITYUNITS] mW/sr", Warning, 2, "are not candela"),
             ("[TEST] 1", "[TEST] Größe", Note, 2, "beyond ASCII, read as UTF-8"),
             ("\n1 -1 1 7", "\n0 -1 1 7", Note, 9, "number of lamps is 0"),
@@ -150,10 +150,17 @@ fn stray_light_and_hidden_symmetry_are_told() {
 
 #[test]
 fn other_formats_and_absent_files_are_named() {
-    for (name, what) in
-        [("lamp.gldf", "GLDF"), ("lamp.txt", "by its extension"), ("gone.ies", "cannot be read")]
-    {
-        let audit = lint(Path::new(name));
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    for (name, what) in [
+        ("lamp.gldf", "GLDF"),
+        ("lamp.txt", "by its extension"),
+        ("gone.ies", "does not exist"),
+        ("gone.txt", "does not exist"),
+    ] {
+        if !name.starts_with("gone") {
+            std::fs::write(folder.join(name), "lamp").unwrap();
+        }
+        let audit = lint(&folder.join(name));
         assert!(!audit.is_usable());
         let [finding] = audit.findings.as_slice() else { panic!("{:?}", audit.findings) };
         assert_eq!((finding.severity, finding.line), (Severity::Error, None));

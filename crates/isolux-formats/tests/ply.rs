@@ -123,7 +123,7 @@ fn all_three_forms_are_the_same() {
     let told: String = loaded.warnings.iter().map(|w| format!("{w}\n")).collect();
     for due in [
         "line 4: properties `alpha` of vertices are not used",
-        "line 12: 1 rows of `edge` are not used",
+        "line 12: 1 row of `edge` not used",
         "line 15: properties `flags` of faces are not used",
         "the colours of its vertices are not used; to read them",
         "PLY names no material: taken as grey 0.5",
@@ -188,7 +188,7 @@ fn strips_normals_and_texture_coordinates() {
     assert_eq!(shape.uvs.as_ref().unwrap()[2], [0.0, 0.0], "v downwards");
     assert_eq!(shape.normals.as_ref().unwrap()[..2], [[0.0, 0.0, 1.0], [0.0; 3]]);
     assert_eq!(area(&loaded.value), 1.0);
-    assert!(loaded.warnings.iter().any(|w| w.what.contains("1 faces lie exactly on others")));
+    assert!(loaded.warnings.iter().any(|w| w.what.contains("1 face lies exactly on another")));
 }
 
 #[test]

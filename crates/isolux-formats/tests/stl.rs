@@ -95,7 +95,7 @@ fn what_lies_twice_is_there_once() {
     let [one, _] = TWO;
     let turned = [one[0], one[2], one[1]];
     let told = told(&binary(&[one, turned, TWO[1]], 3));
-    assert!(told.contains("1 faces lie exactly on others"), "{told}");
+    assert!(told.contains("1 face lies exactly on another"), "{told}");
 }
 
 #[test]
@@ -128,7 +128,7 @@ fn what_is_wrong_is_told_with_its_place() {
     let open = TEXT.strip_suffix("endsolid\n").unwrap();
     assert!(told(open.as_bytes()).contains("ends without `endsolid`"));
     assert!(
-        told(&broken("endfacet", "color 1 1 1\nendfacet")).contains("line 8: `color` (1 times")
+        told(&broken("endfacet", "color 1 1 1\nendfacet")).contains("line 8: `color` (1 time,")
     );
 }
 

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
-use isolux_formats::{Problem, Problems, gltf, ies, map_glb, obj};
+use isolux_formats::{Problem, Problems, gltf, ies, ldt, map_glb, obj, ply, stl};
 use std::fs;
 use std::path::Path;
 
@@ -68,6 +68,27 @@ fn text_in_utf_16_was_said_to_hold_nothing() {
     assert!(found.what.contains("UTF-16"), "{found}");
     let lamp = ies::parse(b"\xff\xfeI\0E\0", Path::new("lamp.ies"), &mut |_| unreachable!());
     assert!(only_problem(lamp).what.contains("UTF-16"));
+}
+
+#[test]
+fn an_empty_photometric_file_was_said_to_lack_a_line() {
+    for bytes in [&b""[..], b"\r\n\r\n", b"\xef\xbb\xbf"] {
+        let lamp = ies::parse(bytes, Path::new("a.ies"), &mut |_| unreachable!());
+        assert_eq!(only_problem(lamp).what, "is empty");
+        assert_eq!(only_problem(ldt::parse(bytes, Path::new("a.ldt"))).what, "is empty");
+    }
+}
+
+#[test]
+fn a_byte_order_mark_before_geometry_was_taken_for_its_first_word() {
+    let stl = "\u{feff}solid s\r\nfacet normal 0 0 1\r\nouter loop\r\nvertex 0 0 0\r\nvertex 1 0 0\r\n\
+               vertex 0 1 0\r\nendloop\r\nendfacet\r\nendsolid s\r\n";
+    assert_eq!(in_file(stl.as_bytes(), stl::read).unwrap().value.shapes.len(), 1);
+    let ply = "\u{feff}ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\n\
+               property float y\r\nproperty float z\r\nelement face 1\r\n\
+               property list uchar int vertex_indices\r\nend_header\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n\
+               3 0 1 2\r\n";
+    assert_eq!(in_file(ply.as_bytes(), ply::read).unwrap().value.shapes.len(), 1);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use super::finding::Finding;
 use isolux::scene::Scene;
+use isolux_formats::counted;
 use std::collections::HashMap;
 
 /// Vertices of one place: coordinates bit by bit.
@@ -58,14 +59,22 @@ impl Borders {
         if self.forked > 0 {
             found.push(Finding::note(
                 "scene",
-                format!("{} edges of three or more triangles", self.forked),
+                counted(
+                    self.forked,
+                    "edge of three or more triangles",
+                    "edges of three or more triangles",
+                ),
                 "fine where walls meet; inside one object, remove inner faces",
             ));
         }
         if self.doubled > 0 {
             found.push(Finding::warning(
                 "scene",
-                format!("{} triangles lie on another one", self.doubled),
+                counted(
+                    self.doubled,
+                    "triangle lies on another one",
+                    "triangles lie on another one",
+                ),
                 "remove the copies: which of the two is lit is left to rounding",
             ));
         }

@@ -7,6 +7,7 @@ use crate::shown::{name, names};
 use isolux::geometry::Point;
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Body, Finish, LuminaireKind, Material, Scene, UpAxis};
+use isolux_formats::counted;
 use serde::Serialize;
 
 /// Materials shown in text; JSON holds all.
@@ -102,7 +103,10 @@ impl Contents {
             ("from", corner(self.low_m)),
             ("to", corner(self.high_m)),
             ("up", up.to_owned()),
-            ("triangles", format!("{} in {} shapes", self.triangles, self.shapes)),
+            (
+                "triangles",
+                format!("{} in {}", self.triangles, counted(self.shapes, "shape", "shapes")),
+            ),
             ("textures", self.textures.to_string()),
             ("cameras", list(&self.cameras)),
             ("light groups", list(&self.groups)),

@@ -26,6 +26,7 @@ pub(super) struct Audited {
 struct Found {
     severity: &'static str,
     line: Option<usize>,
+    column: Option<usize>,
     what: String,
     remedy: String,
 }
@@ -77,14 +78,20 @@ impl Found {
                 Severity::Note => "note",
             },
             line: finding.line,
+            column: finding.column,
             what: finding.what.clone(),
             remedy: finding.remedy.clone(),
         }
     }
 
     fn text(&self, file: &str) -> String {
-        let line = self.line.map_or_else(String::new, |line| format!("line {line}: "));
-        sentence(&format!("{}: {file}: {line}{}; {}", self.severity, self.what, self.remedy)) + "\n"
+        let place = match (self.line, self.column) {
+            (Some(line), Some(column)) => format!("line {line}, column {column}: "),
+            (Some(line), None) => format!("line {line}: "),
+            (None, _) => String::new(),
+        };
+        sentence(&format!("{}: {file}: {place}{}; {}", self.severity, self.what, self.remedy))
+            + "\n"
     }
 }
 

@@ -7,6 +7,7 @@ use isolux_compare::calibrate::{
     Calibrated, CalibratedCase, CalibratedStage, Coverage, Decile, Judgement, PredictionTable,
     Stage,
 };
+use isolux_formats::counted;
 
 /// Tables, remarks and the verdict.
 pub(super) fn text(calibrated: &Calibrated) -> String {
@@ -134,7 +135,7 @@ fn remarks(case: &CalibratedCase) -> String {
     }
     let unknown: u64 = case.stages.iter().map(|stage| stage.unknown).sum();
     if unknown > 0 {
-        lines.push(format!("{unknown} readings have no value"));
+        lines.push(counted(unknown, "reading has no value", "readings have no value"));
     }
     let judged = || case.receivers.iter().filter_map(|r| Some((r, r.coverage?)));
     let short = judged().filter(|(_, c)| c.judge() == Judgement::Short).count();

@@ -59,7 +59,15 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["export", "text.glb", "-o", "text.glb", "--layout", "texels"], "input"),
     (&["solve", "builtin:cube", "-o", "m.glb", "--time-limit", "60"], "60s"),
     (&["solve", "builtin:cube", "-o", "m.glb", "--max-memory", "8"], "8GiB"),
-    (&["solve", "builtin:cube", "-o", "m.glb", "--threads", "0"], "--threads"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--threads", "0"], "whole number from 1 to 1024"),
+    (
+        &["solve", "builtin:cube", "-o", "m.glb", "--threads", "65535"],
+        "whole number from 1 to 1024",
+    ),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--threads", "abc"], "whole number from 1 to 1024"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--threads", "-1"], "whole number from 1 to 1024"),
+    (&["export", "m.glb", "-o", "m.ktx2", "--threads", "0"], "whole number from 1 to 1024"),
+    (&["solve", "builtin:cube", "-o", "m.glb", "--max-receivers", "0"], "whole number from 1 to"),
     (&["solve", "builtin:cube", "-o", "m.glb", "--seed", "-1"], "whole number"),
     (&["solve", "builtin:cube", "-o", "m.png"], ".glb"),
     (&["solve", "builtin:cube", "-o", "missing/m.glb"], "missing/m.glb"),
@@ -77,18 +85,23 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["solve", "text.glb", "-o", "text.glb"], "input"),
     (&["solve", "scene.xyz", "-o", "m.glb"], "scene.xyz"),
     (&["solve", "text.toml", "-o", "m.glb"], "text.toml"),
-    (&["solve", "empty.obj", "-o", "m.glb"], "empty.obj"),
+    (&["solve", "empty.obj", "-o", "m.glb"], "empty.obj: is empty"),
+    (&["check", "empty.stl"], "empty.stl: is empty"),
     (&["solve", "sky.rad", "-o", "m.glb"], "sky.rad: line 2: source `sky`"),
     (&["check", "shell.rad"], "`!rm` is not run"),
     (&["info", "text.ldt"], "text.ldt"),
-    (&["info", "missing.ies"], "missing.ies"),
+    (&["info", "missing.ies"], "missing.ies: does not exist"),
+    (&["solve", "folder.toml", "-o", "m.glb"], "folder.toml: line 8, column 7: `.` is a directory"),
     (&["info", "text.ies"], "text.ies"),
     (&["info", "text.xyz"], "text.xyz"),
     (&["validate", "--calibrate", "--method", "radiosity"], "replicates"),
     (&["probe", "text.glb"], "--points"),
     (&["probe", "missing.glb", "--points", "good.pts"], "missing.glb"),
     (&["probe", "text.glb", "--points", "good.pts"], "text.glb"),
-    (&["probe", "text.glb", "--points", "missing.pts"], "missing.pts"),
+    (&["probe", "text.glb", "--points", "missing.pts"], "missing.pts: does not exist"),
+    (&["probe", "text.glb", "--points", "taken.exr"], "taken.exr: is a directory"),
+    (&["probe", "text.glb", "--points", "utf16.pts"], "utf16.pts: is text in UTF-16"),
+    (&["probe", "text.glb", "--points", "short.pts"], "short.pts: line 1: 1 number; write six"),
     (&["probe", "text.glb", "--points", "bad.pts"], "bad.pts: line 2"),
     (&["probe", "text.glb", "--points", "empty.glb"], "x y z nx ny nz"),
     (&["probe", "builtin:teapot", "--points", "good.pts"], "builtin:cube"),
@@ -97,7 +110,7 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
         "--exact: builtin:cube is a scene",
     ),
     (&["probe", "builtin:cube", "--points", "good.pts", "--interpolated"], "give a map"),
-    (&["probe", "builtin:cube", "--points", "good.pts", "--paths", "7"], "--paths"),
+    (&["probe", "builtin:cube", "--points", "good.pts", "--paths", "31"], "whole number from 32"),
     (&["probe", "dark.toml", "--points", "good.pts"], "dark.toml: the scene has no light"),
     (
         &["probe", "m.glb", "--points", "good.pts", "--exact", "--interpolated"],
@@ -138,7 +151,8 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["render", "missing.glb", "-o", "v.png"], "missing.glb: does not exist"),
     (&["export", ".", "-o", "l.exr"], ".: is a directory"),
     (&["validate", "--case", "teapot"], "cube"),
-    (&["validate", "--seeds", "0"], "--seeds"),
+    (&["validate", "--seeds", "0"], "whole number from 1 to 10000"),
+    (&["grid", "builtin:cube", "--maintenance-factor", "80"], "write 0.8 or 80%"),
 ];
 
 /// A room without a luminaire.
@@ -169,12 +183,19 @@ fn bad_input_is_refused_with_a_reason() {
     home.file("far.toml", FAR);
     home.file("latin.toml", b"# caf\xc3\xa9\n# caf\xe9\n");
     home.file("empty.obj", "");
+    home.file("empty.stl", "");
     home.file("flat.gltf", FLAT.replace("ZEROS", &"AAAA".repeat(12)));
     home.file("sky.rad", "void glow g 0 0 4 1 1 1 0\ng source sky 0 0 4 0 0 1 180\n");
     home.file("shell.rad", "!rm good.pts\n");
     home.file("text.xyz", "this is nothing");
     home.file("empty.glb", "");
     home.file("good.pts", "0 0 0 0 0 1\n");
+    home.file("short.pts", "7\n");
+    home.file("utf16.pts", b"\xff\xfe0\0 \0");
+    home.file(
+        "folder.toml",
+        DARK.to_owned() + "[[luminaire]]\nposition = [2, 2, 2]\nies = \".\"\n",
+    );
     home.file("bad.pts", "0 0 0 0 0 1\n0 0 zero 0 0 1\n");
     std::fs::create_dir(home.path("taken.exr")).unwrap();
     let before = home.names();

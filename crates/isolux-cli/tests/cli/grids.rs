@@ -58,6 +58,22 @@ fn a_working_plane_covers_the_floor_and_leaves_solids_out() {
 }
 
 #[test]
+fn a_maintenance_factor_of_1_is_all_of_the_light() {
+    let home = solved();
+    let mean_lx = |factor: &str| {
+        let ran = home.run(&["grid", "map.glb", "--maintenance-factor", factor, "--json"]);
+        assert_eq!(ran.code, 0, "{ran:?}");
+        ran.json()["grids"][0]["mean_lx"]["value"].as_f64().unwrap()
+    };
+    let all_lx = mean_lx("1");
+    assert_eq!(mean_lx("100%"), all_lx);
+    for factor in ["0.8", "80%"] {
+        // Two orders of the same products.
+        assert!((mean_lx(factor) / (0.8 * all_lx) - 1.0).abs() < 1e-12, "{factor}");
+    }
+}
+
+#[test]
 fn bad_grids_are_refused_before_anything_is_computed() {
     let home = solved();
     home.file("bare.toml", &ROOM[..ROOM.find("[[grid]]").unwrap()]);

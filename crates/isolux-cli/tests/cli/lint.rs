@@ -20,6 +20,10 @@ fn a_bad_file_ends_with_2_and_the_others_are_reported() {
     assert_eq!(usable, [false, true, true, false]);
     assert_eq!(files[0]["findings"][0]["severity"], "error");
     assert_eq!(files[0]["findings"][0]["line"], 13);
+    assert_eq!(files[0]["findings"][0]["column"], 13);
+    let gone = "does not exist and cannot be read";
+    assert_eq!(files[3]["findings"][0]["what"], gone, "{json}");
+    assert!(files[3]["findings"][0]["line"].is_null());
     assert!(files[0]["contents"].is_null());
     assert_eq!(files[1]["findings"].as_array().unwrap().len(), 0, "{json}");
     let ratio = files[1]["light_output_ratio"].as_f64().unwrap();
@@ -29,9 +33,30 @@ fn a_bad_file_ends_with_2_and_the_others_are_reported() {
     assert!(json["conversion"].is_null());
     let ran = home.run(&["lint", "bad.ies", "good.ies"]);
     assert_eq!(ran.code, 2, "{ran:?}");
-    assert!(ran.out.contains("error: bad.ies: line 13: \"x\" is not a number"), "{}", ran.out);
+    assert!(
+        ran.out.contains("error: bad.ies: line 13, column 13: \"x\" is not a number"),
+        "{}",
+        ran.out
+    );
     assert!(ran.out.contains("nothing found"), "{}", ran.out);
     assert_eq!(home.run(&["lint", "good.ies", "odd.ies"]).code, 0);
+}
+
+#[test]
+fn a_file_cut_in_its_tilt_line_was_blamed_on_another_file() {
+    let home = Home::new();
+    home.file("cut.ies", &IES[..IES.find("ONE\n").unwrap()]);
+    home.file("blank.ies", "\r\n");
+    let scene = "[materials.m]\ndiffuse = 0.5\n[[luminaire]]\nposition = [2, 2, 2]\nies = \"cut.ies\"\n\
+                 [[geometry]]\nmaterial = \"m\"\nbox = { min = [0, 0, 0], max = [4, 4, 3] }\n";
+    home.file("scene.toml", scene);
+    let told =
+        "cut.ies: line 8: the file seems cut in this line: TILT=N names no file beside this one; ";
+    let ran = home.run(&["lint", "cut.ies", "blank.ies"]);
+    assert!(ran.code == 2 && ran.out.contains(&format!("error: {told}")), "{ran:?}");
+    assert!(ran.out.contains("error: blank.ies: is empty; copy it again"), "{ran:?}");
+    let ran = home.run(&["solve", "scene.toml", "-o", "map.glb"]);
+    assert!(ran.code == 2 && ran.err.contains(told), "{ran:?}");
 }
 
 #[test]

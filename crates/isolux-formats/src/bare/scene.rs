@@ -1,5 +1,6 @@
 //! Parts without materials into a scene.
 
+use crate::counted;
 use crate::extent::{IMPLAUSIBLE_EXTENT_M, largest_side_m};
 use crate::findings::Findings;
 use isolux::scene::{Finish, Material, Reflectance, SceneParts, Shape, Texture, UpAxis};
@@ -116,7 +117,11 @@ fn say(
         findings.warning("", what, remedy);
     }
     if copies > 0 {
-        let what = format!("{copies} faces lie exactly on others and are left out");
+        let what = counted(
+            copies,
+            "face lies exactly on another and is left out",
+            "faces lie exactly on others and are left out",
+        );
         findings.warning("", what, "remove them; every face has both sides");
     }
     let largest_m = largest_side_m(&scene.shapes);

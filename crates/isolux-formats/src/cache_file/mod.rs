@@ -18,6 +18,7 @@ mod tests;
 
 use crate::Problem;
 use crate::atomic;
+use crate::counted;
 use blocks::{Blocks, pack};
 use head::Head;
 use isolux::engine::{CacheSample, IrradianceCache};
@@ -144,10 +145,8 @@ impl CacheFile {
             Blocks::unpack(rest).map_err(|what| self.problem(what, REMOVE))?;
         self.read_bytes += whole;
         let warning = is_cut.then(|| {
-            let what = format!(
-                "the last block is cut short: {} samples before it are whole",
-                samples.len()
-            );
+            let whole = counted(samples.len(), "sample before it is", "samples before it are");
+            let what = format!("the last block is cut short: {whole} whole");
             self.problem(what, "nothing need be done: the next run replaces it")
         });
         Ok(Found { cache: IrradianceCache { samples }, warning })

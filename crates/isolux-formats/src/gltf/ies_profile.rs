@@ -85,12 +85,9 @@ fn distribution(
     place: &str,
     notes: &mut Notes,
 ) -> Result<IntensityDistribution, Flaw> {
-    let flaw = |problem: Problem| {
-        let what = format!("{}: {}: {}", name.display(), problem.place, problem.what);
-        Flaw::new(what, problem.remedy).rooted(place)
-    };
+    let flaw = |problem: Problem| Flaw::new(problem.without_remedy(), problem.remedy).rooted(place);
     let read_tilt = &mut |_: &str| {
-        let what = "a tilt file of its own is not read through glTF";
+        let what = "is not read through glTF";
         Err(Problem::new(name, "", what, "write TILT=NONE or TILT=INCLUDE"))
     };
     let loaded = ies::parse(bytes, name, read_tilt).map_err(|problems| {

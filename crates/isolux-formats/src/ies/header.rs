@@ -25,12 +25,14 @@ pub(super) fn split<'a>(
 ) -> Result<(Header<'a>, &'a [Line<'a>]), Problem> {
     let found = lines.iter().enumerate().find_map(|(k, line)| Some((k, tilt_value(line.text)?)));
     let Some((at, tilt)) = found else {
-        return Err(Problem::new(
-            file,
-            format!("line {}", lines.len()),
-            "there is no TILT= line",
-            "give an IES LM-63 file; EULUMDAT files end in .ldt",
-        ));
+        let is_ies = lines.first().is_some_and(|first| is_version(first.text));
+        let (what, remedy) = match is_ies {
+            true => ("the file ends before its TILT= line", "get it again from its maker"),
+            false => {
+                ("there is no TILT= line", "give an IES LM-63 file; EULUMDAT files end in .ldt")
+            }
+        };
+        return Err(Problem::new(file, format!("line {}", lines.len()), what, remedy));
     };
     let mut header = Header {
         edition: Edition::E1986,

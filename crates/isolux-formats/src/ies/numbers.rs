@@ -20,6 +20,11 @@ impl<'a> Numbers<'a> {
         Self { file, lines, at: 0, place: (lines.first().map_or(1, |l| l.number), 1) }
     }
 
+    /// Whether nothing is left.
+    pub(super) fn is_at_end(&self) -> bool {
+        Self { ..*self }.word().is_none()
+    }
+
     /// Line of the next number, from 1.
     pub(super) fn next_line(&self) -> usize {
         let mut ahead = Self { ..*self };

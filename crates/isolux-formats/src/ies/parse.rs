@@ -13,12 +13,20 @@ use std::path::{Component, Path};
 /// Intensities a file may hold: a quarter of a degree over the whole sphere.
 const MAX_INTENSITIES: u32 = 1 << 20;
 
+/// The bytes of a tilt file; `None` if there is no such file.
+type TiltBytes = Result<Option<Vec<u8>>, Problem>;
+
+/// What may stand after `TILT=`.
+const TILT_REMEDY: &str = "write TILT=NONE, TILT=INCLUDE with the table after it, or the name of a tilt file that lies beside it";
+const CUT_TILT_REMEDY: &str = "get it again from its maker; TILT= is NONE, INCLUDE with a table after it, or the \
+                               name of a tilt file that lies beside it";
+
 /// Reads a photometric file from memory. `file` is its name for messages; `read_tilt` gives the
-/// bytes of the tilt file beside it, which is asked for by plain name only.
+/// bytes of the tilt file beside it, which is asked for by plain name only, and `None` if there is none.
 pub fn parse(
     bytes: &[u8],
     file: &Path,
-    read_tilt: &mut dyn FnMut(&str) -> Result<Vec<u8>, Problem>,
+    read_tilt: &mut dyn FnMut(&str) -> TiltBytes,
 ) -> Result<Loaded<IesFile>, Problems> {
     if let Some(problem) = product_file::by_content(bytes, file) {
         return Err(problem.into());
@@ -43,7 +51,7 @@ fn tilt(
     header: &Header,
     numbers: &mut Numbers,
     file: &Path,
-    read_tilt: &mut dyn FnMut(&str) -> Result<Vec<u8>, Problem>,
+    read_tilt: &mut dyn FnMut(&str) -> TiltBytes,
 ) -> Result<Tilt, Problem> {
     let name = header.tilt;
     if name.eq_ignore_ascii_case("NONE") {
@@ -52,16 +60,21 @@ fn tilt(
     if name.eq_ignore_ascii_case("INCLUDE") {
         return Ok(Tilt::Included(TiltTable::parse(numbers)?));
     }
-    if !is_plain_name(name) {
-        return Err(Problem::new(
-            file,
-            format!("line {}", header.tilt_line),
-            format!("TILT={name} names no file beside this one"),
-            "write TILT=NONE or TILT=INCLUDE, or put the tilt file beside it and give its name",
-        ));
-    }
+    let wrong =
+        |what, remedy| Problem::new(file, format!("line {}", header.tilt_line), what, remedy);
+    let told = |problem: Problem| {
+        wrong(format!("the file of TILT={name} {}", problem.what), problem.remedy)
+    };
+    let found = if is_plain_name(name) { read_tilt(name).map_err(told)? } else { None };
+    let Some(bytes) = found else {
+        let what = format!("TILT={name} names no file beside this one");
+        let (what, remedy) = match numbers.is_at_end() {
+            true => (format!("the file seems cut in this line: {what}"), CUT_TILT_REMEDY),
+            false => (what, TILT_REMEDY),
+        };
+        return Err(wrong(what, remedy.into()));
+    };
     let tilt_file = file.with_file_name(name);
-    let bytes = read_tilt(name)?;
     let text = decode(&bytes, &tilt_file)?;
     let table = TiltTable::parse(&mut Numbers::new(&tilt_file, &lines(&text)))?;
     Ok(Tilt::File(name.into(), table))

@@ -3,6 +3,7 @@
 use super::{IesFile, parse};
 use crate::plain_text::read_bounded;
 use crate::{Loaded, Problem, Problems};
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// Largest file read, bytes: a million intensities of sixty characters.
@@ -17,8 +18,8 @@ pub fn read(path: &Path) -> Result<Loaded<IesFile>, Problems> {
     parse(&bytes, path, &mut |name| beside(path, name))
 }
 
-/// The bytes of a file that lies in the directory of another, links followed.
-fn beside(path: &Path, name: &str) -> Result<Vec<u8>, Problem> {
+/// The bytes of a file that lies in the directory of another, links followed; `None` if there is no such file.
+fn beside(path: &Path, name: &str) -> Result<Option<Vec<u8>>, Problem> {
     let tilt_file = path.with_file_name(name);
     let directory = match path.parent() {
         Some(parent) if parent != Path::new("") => parent,
@@ -26,6 +27,7 @@ fn beside(path: &Path, name: &str) -> Result<Vec<u8>, Problem> {
     };
     let (real, home) = match (tilt_file.canonicalize(), directory.canonicalize()) {
         (Ok(real), Ok(home)) => (real, home),
+        (Err(error), _) if error.kind() == ErrorKind::NotFound => return Ok(None),
         (Err(error), _) | (_, Err(error)) => return Err(Problem::unreadable(&tilt_file, &error)),
     };
     if real.parent() != Some(&home) {
@@ -36,5 +38,5 @@ fn beside(path: &Path, name: &str) -> Result<Vec<u8>, Problem> {
             "put the tilt file itself beside the photometric file",
         ));
     }
-    read_bounded(&real, MAX_TILT_FILE)
+    read_bounded(&real, MAX_TILT_FILE).map(Some)
 }

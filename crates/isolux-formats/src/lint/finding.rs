@@ -21,6 +21,8 @@ pub struct Finding {
     pub severity: Severity,
     /// Line of the file, from 1; `None` for the whole file.
     pub line: Option<usize>,
+    /// Column in it, from 1, where one place is meant.
+    pub column: Option<usize>,
     /// What was found.
     pub what: String,
     /// What to do about it.
@@ -35,7 +37,7 @@ impl Finding {
         remedy: impl Into<String>,
     ) -> Self {
         let line = Some(line).filter(|line| *line > 0);
-        Self { severity, line, what: what.into(), remedy: remedy.into() }
+        Self { severity, line, column: None, what: what.into(), remedy: remedy.into() }
     }
 
     pub(super) fn warning(line: usize, what: impl Into<String>, remedy: impl Into<String>) -> Self {
@@ -48,16 +50,22 @@ impl Finding {
 
     /// What a reader says of a file.
     pub(super) fn of_reading(problem: &Problem, file: &Path, severity: Severity) -> Self {
-        let line = problem.place.strip_prefix("line ").and_then(|rest| {
-            rest.split(|c: char| !c.is_ascii_digit()).next().and_then(|digits| digits.parse().ok())
-        });
+        let remedy = problem.remedy.clone();
         // A finding in another file, of a tilt table, says so.
-        let what = if problem.file == file {
-            problem.what.clone()
-        } else {
-            format!("{}: {}: {}", problem.file.display(), problem.place, problem.what)
-        };
-        let line = line.filter(|_| problem.file == file);
-        Self { severity, line, what, remedy: problem.remedy.clone() }
+        if problem.file != file {
+            let what = problem.without_remedy();
+            return Self { severity, line: None, column: None, what, remedy };
+        }
+        let (line, column) = line_and_column(&problem.place);
+        Self { severity, line, column, what: problem.what.clone(), remedy }
+    }
+}
+
+/// Those of `line 12, column 3` and of `line 12`.
+fn line_and_column(place: &str) -> (Option<usize>, Option<usize>) {
+    let Some(numbers) = place.strip_prefix("line ") else { return (None, None) };
+    match numbers.split_once(", column ") {
+        Some((line, column)) => (line.parse().ok(), column.parse().ok()),
+        None => (numbers.parse().ok(), None),
     }
 }

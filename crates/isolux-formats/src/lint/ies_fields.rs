@@ -1,6 +1,7 @@
 //! Fields that LM-63 does not know, or misses.
 
 use super::finding::Finding;
+use crate::counted;
 use crate::ies::{Edition, IesFile, LampFactor};
 
 /// Keywords that every file must have since 1991, and since 2002, and since 2019.
@@ -100,7 +101,11 @@ fn unknown_keywords(file: &IesFile) -> Option<Finding> {
 
 fn labels(file: &IesFile) -> Option<Finding> {
     (file.edition > Edition::E1986 && !file.labels.is_empty()).then(|| {
-        let what = format!("{} lines before TILT= are no keywords", file.labels.len());
+        let what = counted(
+            file.labels.len(),
+            "line before TILT= is no keyword",
+            "lines before TILT= are no keywords",
+        );
         Finding::note(0, what, "write [OTHER] before each, or [MORE] to continue a line")
     })
 }

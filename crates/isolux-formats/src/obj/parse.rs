@@ -2,6 +2,7 @@
 
 use super::lines::{Statement, numbers, statements};
 use super::record::{Corner, Face, Named, ObjFile, Part};
+use crate::counted;
 use crate::findings::Findings;
 use crate::polygon::MOST_CORNERS;
 use std::collections::BTreeMap;
@@ -18,7 +19,7 @@ pub(super) fn parse(text: &str, findings: &mut Findings) -> ObjFile {
     for (keyword, (line, count)) in parser.unused {
         findings.warning(
             super::lines::place(line),
-            format!("`{keyword}` ({count} times, first here) is not used"),
+            format!("`{keyword}` ({}, first here) is not used", counted(count, "time", "times")),
             "only polygons with `v`, `vt`, `vn`, `f` are read; convert the rest to polygons",
         );
     }

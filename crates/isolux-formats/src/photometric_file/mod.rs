@@ -12,7 +12,7 @@ pub use direct_ratios::{ROOM_INDICES, direct_ratios};
 
 use crate::ies::{self, IesFile};
 use crate::ldt::{self, LdtFile};
-use crate::{Loaded, Problem, Problems, product_file};
+use crate::{Loaded, Problem, Problems, product_file, source};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use std::path::Path;
 use std::sync::Arc;
@@ -53,6 +53,7 @@ impl Kind {
 impl PhotometricFile {
     /// Reads a file by its extension.
     pub fn read(path: &Path) -> Result<Loaded<Self>, Problems> {
+        source::check_present(path)?;
         Ok(match Kind::of(path)? {
             Kind::Ies => {
                 let Loaded { value, warnings } = ies::read(path)?;
@@ -69,9 +70,9 @@ impl PhotometricFile {
     pub fn parse(bytes: &[u8], path: &Path) -> Result<Loaded<Self>, Problems> {
         Ok(match Kind::of(path)? {
             Kind::Ies => {
-                let Loaded { value, warnings } = ies::parse(bytes, path, &mut |name: &str| {
+                let Loaded { value, warnings } = ies::parse(bytes, path, &mut |_| {
                     let remedy = "write TILT=NONE or TILT=INCLUDE";
-                    Err(Problem::new(path, "", format!("no tilt file {name} is read here"), remedy))
+                    Err(Problem::new(path, "", "is not read here", remedy))
                 })?;
                 Loaded { value: Self::Ies(value), warnings }
             }

@@ -30,13 +30,14 @@ pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
 
 /// Reads a PLY file of which something is known.
 pub(crate) fn read_as(path: &Path, reading: &Reading) -> Result<Loaded<SceneParts>, Problems> {
-    let bytes = source::read_bytes(path, MOST_BYTES)?;
+    let contents = source::read_bytes(path, MOST_BYTES)?;
+    let bytes = source::without_mark(&contents);
     let mut findings = Findings::new(path);
-    let mesh = match header::parse(&bytes) {
+    let mesh = match header::parse(bytes) {
         Ok((header, start)) => record::parse(&header, &bytes[start..], &mut findings),
         Err(wrong) => Err(wrong),
     };
-    drop(bytes);
+    drop(contents);
     let mesh = match mesh {
         Ok(mesh) => mesh,
         Err(wrong) => {

@@ -4,6 +4,7 @@ use super::body::{Body, Row};
 use super::faces::Faces;
 use super::header::{Header, Wrong};
 use super::vertices::Vertices;
+use crate::counted;
 use crate::findings::Findings;
 
 /// What of a file is read.
@@ -31,7 +32,8 @@ pub(super) fn parse(header: &Header, data: &[u8], findings: &mut Findings) -> Re
             name => {
                 if element.count > 0 {
                     let place = format!("line {}", element.line);
-                    let what = format!("{} rows of `{name}` are not used", element.count);
+                    let what =
+                        format!("{} of `{name}` not used", counted(element.count, "row", "rows"));
                     let remedy = "nothing needs to be done if they are no surfaces";
                     findings.warning(place, what, remedy);
                 }

@@ -3,6 +3,7 @@
 use super::record::Mesh;
 use super::vertices::Vertices;
 use crate::bare::{Painter, Part, Reading, UNNAMED};
+use crate::counted;
 use crate::findings::Findings;
 use crate::polygon;
 use isolux::geometry::Point;
@@ -60,7 +61,7 @@ fn triangles(mesh: &Mesh, findings: &mut Findings) -> Vec<[u32; 3]> {
         crossed += usize::from(cut.crosses_itself);
     }
     if crossed > 0 {
-        let what = format!("{crossed} faces cross themselves");
+        let what = counted(crossed, "face crosses itself", "faces cross themselves");
         findings.warning("", what, "triangulate them before export");
     }
     triangles

@@ -8,7 +8,7 @@ const MOST_BYTES: u64 = 64 << 20;
 /// Reads UTF-8, with or without a byte order mark.
 pub(super) fn of(path: &Path) -> Result<String, Problem> {
     let bytes = source::read_bytes(path, MOST_BYTES)?;
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+    let bytes = source::without_mark(&bytes);
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
         Problem::new(path, format!("line {line}"), "is not UTF-8", "save the file as UTF-8")

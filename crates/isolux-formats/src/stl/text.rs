@@ -1,6 +1,7 @@
 //! STL as text: facets of three vertices between `solid` and `endsolid`.
 
 use super::record::Solid;
+use crate::counted;
 use crate::findings::Findings;
 use std::collections::{BTreeMap, HashMap};
 
@@ -22,7 +23,8 @@ pub(super) fn parse(text: &str, findings: &mut Findings) -> Vec<Solid> {
         findings.warning(place(last), what, "copy or export it again if something is missing");
     }
     for (keyword, (line, count)) in parser.unused {
-        let what = format!("`{keyword}` ({count} times, first here) is not used");
+        let what =
+            format!("`{keyword}` ({}, first here) is not used", counted(count, "time", "times"));
         findings.warning(place(line), what, "nothing needs to be done; only facets are read");
     }
     parser.solids
