@@ -7,14 +7,12 @@ use crate::flags::ExportFlags;
 use crate::map_file;
 use crate::output::OutputPath;
 use crate::quantity::show_bytes;
-use crate::request;
 use isolux_formats::export::{ExportKind, export};
 use isolux_formats::map_glb::Preview;
 use serde::Serialize;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
-    request::use_threads(flags.threads)?;
     if let Some(wanted) = engine_export::Wanted::of(flags)? {
         return wanted.write(flags, json);
     }

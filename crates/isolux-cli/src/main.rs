@@ -61,7 +61,14 @@ fn main() -> ExitCode {
 
 fn run(flags: &Flags) -> Result<Outcome, Failure> {
     let json = flags.json;
-    match &flags.command {
+    let threads = match &flags.command {
+        Command::Solve(flags) => flags.threads,
+        Command::Export(flags) => flags.threads,
+        _ => None,
+    };
+    request::use_threads(threads)?;
+    // Among the threads that share the work: to hand it to them from outside makes each of its many small parts wait.
+    rayon::scope(|_| match &flags.command {
         Command::Solve(flags) => solve::run(flags, json),
         Command::Probe(flags) => probe::run(flags, json),
         Command::Grid(flags) => grid::run(flags, json),
@@ -74,5 +81,5 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Demo(flags) => demo::run(flags, json),
         Command::Mix(flags) => mix::run(flags, json),
         Command::Info(flags) => info::run(flags, json),
-    }
+    })
 }

@@ -20,17 +20,7 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
     if flags.progress == Some(ProgressStyle::Json) {
         note_as_json();
     }
-    let asked = request::solution(flags)?;
-    request::use_threads(flags.threads)?;
-    // Among the threads that share the work: to hand it to them from outside makes each of its many small parts wait.
-    rayon::scope(|_| compute(flags, asked, json))
-}
-
-fn compute(
-    flags: &SolveFlags,
-    mut asked: request::Solution,
-    json: bool,
-) -> Result<Outcome, Failure> {
+    let mut asked = request::solution(flags)?;
     let scene = source::read_scene(&flags.scene)?;
     let scene = match flags.radiosity.diffuse_only {
         true => source::diffuse(&flags.scene, &scene)?,
