@@ -112,6 +112,7 @@ impl Pilot<'_> {
             smoothed: look
                 .filter(|look| !self.is_smoothed && look.is_smooth(request))
                 .map_or(1.0, Look::smoothed),
+            is_smooth: self.is_smoothed || look.is_some_and(|look| look.is_smooth(request)),
             more_for_direct: more,
             measured_again: if self.is_measured { 0.0 } else { MOVED },
             measured_each: !self.lighting.is_measured_once(),

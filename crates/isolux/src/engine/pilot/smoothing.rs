@@ -5,11 +5,13 @@ use crate::elements::Elements;
 use crate::engine::look::Look;
 use crate::map::Standing;
 use crate::units::Rgb;
+use std::time::Instant;
 
 impl Pilot<'_> {
     /// Bisects elements that readers interpolate twice once more; the light of the new vertices is that of the quadratic function
     /// that fits the vertices about them best. Costs no rays, and leaves half of the error of interpolation or less.
     pub(super) fn smooth(&mut self, look: &mut Look, max_vertices: usize) {
+        let started = Instant::now();
         let first = self.subdivision.vertex_count();
         let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
         let mut open: Vec<bool> = self.standings.iter().map(is_open).collect();
@@ -38,6 +40,7 @@ impl Pilot<'_> {
         }
         self.settle(&look.elements);
         self.is_smoothed = true;
+        self.costs.smoothing.add(started.elapsed(), self.subdivision.vertex_count() as f64);
     }
 
     /// What new vertices that do not gather have: direct light, and indirect light from those that they wait for.

@@ -25,6 +25,7 @@ fn known() -> (Outlook, Costs) {
         before: None,
         usual: None,
         smoothed: 1.0,
+        is_smooth: false,
         more_for_direct: 0.0,
         measured_again: 0.0,
         measured_each: false,
@@ -64,6 +65,12 @@ fn elements_grow_as_errors_are_seen_to_fall() {
     assert!(beside_s > 3.0 * looks_s && beside_s < 8.0 * looks_s, "{beside_s} {looks_s}");
     // Where light is smooth, more vertices lie between those that carry it, at no rays.
     let smooth = Outlook { smoothed: 3.0, ..first };
+    // They are made once, at a microsecond each, put together before the first of eight increments, and filled in each.
+    let mut made = costs;
+    made.smoothing.add(Duration::from_millis(4), 4000.0);
+    let between_s = Outlook { is_smooth: true, ..smooth }.left(&made).time_s;
+    let more_s = between_s - smooth.left(&costs).time_s;
+    assert!(more_s > 3.0 * 0.009 && more_s < 6.0 * 0.009, "{more_s}");
     assert_eq!(smooth.vertices_then(), 9000.0);
     assert!(left.factor > outlook.left(&costs).factor, "less is known");
 }
