@@ -3,6 +3,7 @@
 mod effort;
 mod parts;
 mod told;
+mod unlit;
 mod walls;
 
 use super::accumulate::mean_and_variance;
