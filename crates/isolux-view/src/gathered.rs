@@ -5,7 +5,7 @@ use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
 use crate::trace::{SurfacePoint, TraceSettings, trace, trace_watched};
 use isolux::engine::net::{Fineness, Net, Wanted};
-use isolux::engine::{IndirectReading, MapReader, Told};
+use isolux::engine::{Allowance, IndirectReading, MapReader, Told};
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::{Camera, Scene};
 use isolux::units::Rgb;
@@ -17,8 +17,9 @@ use std::sync::{Mutex, PoisonError};
 const BLOCK: usize = 64;
 /// Pixels that are gathered between two words to whoever watches.
 const WATCHED: usize = 1024;
-/// Noise of what is gathered, as a share of it, before it is smoothed.
-const NOISE: f64 = 0.05;
+/// Noise of what is gathered, as a share of it, before it is smoothed; and what elements may be expected to err by, which is seen as
+/// their pattern.
+const ALLOWANCE: Allowance = Allowance { noise: 0.05, interpolation: 0.03 };
 /// Pixels over which the difference that gathering made fades out.
 const FADE: u32 = 32;
 /// Times that what fades out is evened along the way.
@@ -157,7 +158,7 @@ impl PixelLight {
         let gather = |numbers: &[usize], more: f64| -> Result<Vec<_>, Infallible> {
             let one = |&number: &usize| {
                 let SurfacePoint { triangle, back, u, v, .. } = pixels.entries[number].at;
-                reader.indirect_at((triangle, back, [u, v]), NOISE)
+                reader.indirect_at((triangle, back, [u, v]), ALLOWANCE)
             };
             let mut found = Vec::with_capacity(numbers.len());
             for some in numbers.chunks(WATCHED) {
@@ -336,7 +337,7 @@ impl Entry {
 
 /// Whether light is to be gathered at a place, and whether that lies in a gap; else the standard error of what the map tells, lx.
 fn wanted(reader: &MapReader<'_>, at: &SurfacePoint) -> (Option<bool>, f64) {
-    match reader.told_at((at.triangle, at.back, [at.u, at.v])) {
+    match reader.told_at((at.triangle, at.back, [at.u, at.v]), ALLOWANCE) {
         Some(Told::Little { in_gap }) => (Some(in_gap), 0.0),
         Some(Told::Light(reading)) => (None, reading.error_lx),
         None => (None, 0.0),
