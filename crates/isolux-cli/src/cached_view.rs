@@ -2,10 +2,13 @@
 
 use crate::cache_samples;
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::meter::Meter;
 use crate::notes::{Note, note};
 use crate::quantity::{show_count, show_seconds};
-use isolux::engine::{CacheReader, CacheSettings, CachedPlace, IrradianceCache, SampleKind};
+use isolux::engine::{
+    CacheReader, CacheSettings, CachedPlace, IrradianceCache, SampleKind, Served,
+};
 use isolux::scene::{Camera, Scene};
 use isolux_formats::counted;
 use isolux_view::{LuminanceImage, Size, SurfacePoint, TraceSettings, trace, trace_watched};
@@ -47,13 +50,15 @@ impl CacheUse {
     }
 }
 
-/// Traces a view; makes the samples that it still needs and keeps them in the file.
+/// Traces a view; makes the samples that it still needs and keeps them in the file. No view if the user stops that: those made
+/// until then are kept, and it is said.
 pub(crate) fn look(
     scene: &Scene,
     camera: &Camera,
     (width, height): (u32, u32),
     (path, accuracy): (&Path, f64),
-) -> Result<(LuminanceImage, CacheUse), Failure> {
+) -> Result<Option<(LuminanceImage, CacheUse)>, Failure> {
+    let interrupt = Interrupt::install()?;
     let size = Size::new(width, height).map_err(Failure::bad_input)?;
     let started = Instant::now();
     let (mut file, cache) = cache_samples::open(path, scene, cache_samples::MAX_CACHE_BYTES)?;
@@ -75,8 +80,13 @@ pub(crate) fn look(
     };
     trace(scene, camera, size, &settings, &ask).map_err(Failure::bad_input)?;
     let asked = asked.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    let served = reader.serve(&asked);
+    let served = reader.serve_until(&asked, &|| interrupt.is_requested());
     cache_samples::keep(&mut file, &served.made);
+    if !served.is_whole {
+        tell_interrupted(path, &served);
+        return Ok(None);
+    }
+    interrupt.has_nothing_more_to_keep();
     let samples_time_s = started.elapsed().as_secs_f64();
     let mut meter = Meter::new("view");
     let read = |at: SurfacePoint| reader.glance(&place(at), 0);
@@ -93,7 +103,16 @@ pub(crate) fn look(
         samples_time_s,
         view_time_s: started.elapsed().as_secs_f64() - samples_time_s,
     };
-    Ok((view, found))
+    Ok(Some((view, found)))
+}
+
+fn tell_interrupted(path: &Path, served: &Served) {
+    let (made, path) = (served.made.samples.len(), path.display());
+    let kept = match made {
+        0 => "no sample was whole yet".to_owned(),
+        _ => format!("{made} samples are kept in {path}, and the same command goes on from there"),
+    };
+    note(Note::Warning, format!("interrupted, without a view: {kept}"));
 }
 
 fn place(at: SurfacePoint) -> CachedPlace {

@@ -1,18 +1,18 @@
 //! `isolux grid`: illuminance on calculation grids.
 
+mod warnings;
+
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
-use crate::notes::{Note, note};
 use crate::output::OutputPath;
-use crate::quantity::{show_share, significant};
+use crate::quantity::significant;
 use crate::shown::{name, names};
 use crate::{map_file, render, solving, source};
 use isolux::engine::{MapReader, ProbePoint, SolveRequest};
 use isolux::geometry::{Point, Vector};
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
 use isolux::scene::{CalculationGrid, Scene, UpAxis};
-use isolux_formats::counted;
 use isolux_view::{Contours, FalseColour, false_colour, plan};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -53,7 +53,9 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     let reader = MapReader::new(&scene, &map);
     let results: Vec<GridResult> =
         grids.into_iter().map(|grid| GridResult::of(grid, &reader)).collect();
-    results.iter().for_each(|result| result.warn(&map));
+    for GridResult { grid, values, in_space, outside, .. } in &results {
+        warnings::warn(&grid.name, (values, *outside), in_space.then(|| map.caustic_share()));
+    }
     if let Some(csv) = csv {
         csv.write(rows(&results).as_bytes())?;
     }
@@ -175,9 +177,6 @@ fn solved(flags: &GridFlags, scene: &Scene) -> Result<(IlluminationMap, Outcome)
     Ok((solved.solution.map, solved.outcome))
 }
 
-/// Caustics of less than this share of all light are not worth a word.
-const TOLD_FROM: f64 = 1e-3;
-
 /// A grid with its values.
 struct GridResult {
     grid: CalculationGrid,
@@ -187,6 +186,7 @@ struct GridResult {
     /// Initial illuminance.
     values: Vec<Option<Illuminance>>,
     figures: Option<GridFigures>,
+    outside: warnings::Outside,
 }
 
 impl GridResult {
@@ -198,36 +198,8 @@ impl GridResult {
             points.iter().any(|&position| !reader.is_on_surface(ProbePoint { position, normal }));
         let values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
         let figures = GridFigures::of(&grid, &values);
-        Self { grid, points, in_space, values, figures }
-    }
-
-    fn warn(&self, map: &IlluminationMap) {
-        let caustics = map.caustic_share();
-        if self.in_space && caustics > TOLD_FROM {
-            let text = format!(
-                "grid `{}`: light that glass, gloss and curved mirrors throw is left out, and of the intervals, too, as it is \
-                 known on surfaces alone; there it is {} of all light",
-                self.grid.name,
-                show_share(caustics)
-            );
-            note(Note::Warning, text);
-        }
-        let unknown = self.values.iter().filter(|value| value.is_none()).count();
-        if unknown > 0 {
-            let text = format!(
-                "grid `{}`: {unknown} of {} left out, within something",
-                self.grid.name,
-                counted(self.points.len(), "point is", "points are")
-            );
-            note(Note::Warning, text);
-        }
-        if self.values.iter().flatten().all(|value| value.illuminance_lx() == 0.0) && unknown == 0 {
-            let text = format!(
-                "grid `{}`: no light comes to any of its points; check its place, and that its sides `u x v` turn up",
-                self.grid.name
-            );
-            note(Note::Warning, text);
-        }
+        let outside = warnings::Outside::of((&points, &values), normal, reader);
+        Self { grid, points, in_space, values, figures, outside }
     }
 
     /// Values as they are maintained.

@@ -10,7 +10,10 @@ static INSTALLED: OnceLock<Interrupt> = OnceLock::new();
 
 /// Whether the user wants the run to end.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Interrupt(Arc<AtomicBool>);
+pub(crate) struct Interrupt {
+    is_requested: Arc<AtomicBool>,
+    ends_at_once: Arc<AtomicBool>,
+}
 
 impl Interrupt {
     /// From now on the first signal asks for an end with a valid map, the second ends at once. Runs
@@ -20,9 +23,9 @@ impl Interrupt {
             return Ok(installed.clone());
         }
         let interrupt = Self::default();
-        let flag = Arc::clone(&interrupt.0);
+        let Self { is_requested, ends_at_once } = interrupt.clone();
         let handler = move || {
-            if flag.swap(true, Ordering::Relaxed) {
+            if is_requested.swap(true, Ordering::Relaxed) || ends_at_once.load(Ordering::Relaxed) {
                 std::process::exit(130);
             }
             note(
@@ -37,6 +40,11 @@ impl Interrupt {
 
     /// Whether a signal has arrived.
     pub(crate) fn is_requested(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
+        self.is_requested.load(Ordering::Relaxed)
+    }
+
+    /// From now on the next signal ends at once: all that could be kept is.
+    pub(crate) fn has_nothing_more_to_keep(&self) {
+        self.ends_at_once.store(true, Ordering::Relaxed);
     }
 }

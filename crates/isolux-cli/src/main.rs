@@ -10,6 +10,7 @@ mod engine_export;
 mod estimate;
 mod explain;
 mod export;
+mod exposed;
 mod failure;
 mod flags;
 mod grid;

@@ -8,7 +8,7 @@ use crate::meter::Meter;
 use crate::output::OutputPath;
 use crate::quantity::show_share;
 use crate::shown::name;
-use crate::{map_file, source, viewpoint};
+use crate::{exposed, map_file, source, viewpoint};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_view::{
@@ -22,33 +22,14 @@ use std::path::Path;
 pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     let output = OutputPath::check(&flags.output, "png")?;
     check_limits(&flags.look)?;
-    let camera = |scene: &Scene| {
-        viewpoint::camera(scene, flags.camera.as_deref())
-            .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))
-    };
-    let mut gathered = None;
-    let (view, camera, cache) = if let Some(path) = &flags.cache {
-        let scene = scene_of(&flags.map)?;
-        if scene.luminous_flux_lm() == 0.0 {
-            return Err(source::no_light(&flags.map, &scene));
-        }
-        let camera = camera(&scene)?;
-        let (view, used) = cached_view::look(&scene, &camera, flags.size, (path, flags.accuracy))?;
-        (view, camera, Some(used))
-    } else {
-        let (scene, map) = map_file::read(&flags.map)?;
-        let camera = camera(&scene)?;
-        let (view, found) = if flags.interpolated {
-            (bare(&scene, &map, &camera, flags.size)?, None)
-        } else {
-            let (view, found) = look(&scene, &map, &camera, flags.size)?;
-            (view, Some(found))
-        };
-        gathered = found;
-        (view, camera, None)
+    let Some(Seen { view, camera, gathered, cache }) = see(flags)? else {
+        return Ok(Outcome::Interrupted);
     };
     let picture = shown(&view, &flags.look)?;
     write(&output, &picture)?;
+    if !flags.look.false_colour {
+        exposed::warn(&view, &picture, flags.look.exposure);
+    }
     let report = Report {
         picture: output.path().display().to_string(),
         camera: camera.name,
@@ -63,6 +44,45 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
         print(&report.text())?
     }
     Ok(Outcome::Done)
+}
+
+/// A view, whose it is, and where its indirect light comes from.
+struct Seen {
+    view: LuminanceImage,
+    camera: Camera,
+    gathered: Option<Gathered>,
+    cache: Option<CacheUse>,
+}
+
+/// Looks at a map, or at a scene by its cache; nothing if the user stops that.
+fn see(flags: &RenderFlags) -> Result<Option<Seen>, Failure> {
+    let camera = |scene: &Scene| {
+        viewpoint::camera(scene, flags.camera.as_deref())
+            .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))
+    };
+    if let Some(path) = &flags.cache {
+        let scene = scene_of(&flags.map)?;
+        if scene.luminous_flux_lm() == 0.0 {
+            return Err(source::no_light(&flags.map, &scene));
+        }
+        let camera = camera(&scene)?;
+        let looked = cached_view::look(&scene, &camera, flags.size, (path, flags.accuracy))?;
+        return Ok(looked.map(|(view, used)| Seen {
+            view,
+            camera,
+            gathered: None,
+            cache: Some(used),
+        }));
+    }
+    let (scene, map) = map_file::read(&flags.map)?;
+    let camera = camera(&scene)?;
+    let (view, gathered) = if flags.interpolated {
+        (bare(&scene, &map, &camera, flags.size)?, None)
+    } else {
+        let (view, found) = look(&scene, &map, &camera, flags.size)?;
+        (view, Some(found))
+    };
+    Ok(Some(Seen { view, camera, gathered, cache: None }))
 }
 
 /// The scene of a map, or of a file of its own.

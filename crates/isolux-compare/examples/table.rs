@@ -2,7 +2,6 @@
 //! `cargo run --release -p isolux-compare --example table -- ACCURACY SEEDS [PART OF CASE] [METHOD] [SECONDS]`.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "an example for the terminal")]
 
-use isolux::engine::Watch;
 use isolux::map::Method;
 use isolux_compare::case::cases;
 use isolux_compare::{Case, ValidateRow, ValidateSettings, validate_all};
@@ -20,10 +19,7 @@ fn main() {
     let chosen: Vec<Case> = cases().into_iter().filter(|c| c.name.contains(&word(2))).collect();
     let mut methods = vec![Method::Hybrid, Method::Forward];
     methods.retain(|m| format!("{m:?}").to_lowercase().contains(&word(3)));
-    let table = validate_all(&chosen, &methods, &seeds, &settings, &mut |row| {
-        print(row);
-        Watch::Continue
-    });
+    let table = validate_all(&chosen, &methods, &seeds, &settings, (&mut print, &|| false));
     for calibration in table.calibrations {
         println!("{calibration:?}");
     }

@@ -24,6 +24,6 @@ pub use measure::{
     measure_sphere, sphere_grid,
 };
 pub use validate::{
-    Calibration, Reading, ValidateError, ValidateRow, ValidateSettings, ValidateTable, Verdict,
-    validate, validate_all,
+    Calibration, OnRow, Reading, ValidateError, ValidateRow, ValidateSettings, ValidateTable,
+    Verdict, validate, validate_all,
 };

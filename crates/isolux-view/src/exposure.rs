@@ -6,6 +6,9 @@ use crate::image::LuminanceImage;
 /// The share of light that a middle grey reflects, and that the mean of a picture is shown as.
 const MIDDLE_GREY: f64 = 0.18;
 
+/// What saturates at an exposure value of nought, cd/m2: 78 / (100 x 0.65) lx s over the s of that value (ISO 12232).
+const SATURATION_CD_M2: f64 = 1.2;
+
 /// How the luminance that the tone curve counts as 1 is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Exposure {
@@ -31,11 +34,16 @@ impl Exposure {
             Self::Automatic => (MIDDLE_GREY, log_average(image) / MIDDLE_GREY),
             Self::Percentile(share) if !(0.0..=1.0).contains(&share) => (share, f64::NAN),
             Self::Percentile(share) => (share, percentile(image, share)),
-            Self::Ev100(ev) => (ev, 1.2 * libm::exp2(ev)),
+            Self::Ev100(ev) => (ev, SATURATION_CD_M2 * libm::exp2(ev)),
             Self::WhiteCdM2(white) => (white, white),
         };
         let usable = white > 0.0 && white.is_finite();
         usable.then_some(white).ok_or(ViewError::Exposure(given))
+    }
+
+    /// The exposure value of [`Exposure::Ev100`] that shows a luminance as 1.
+    pub fn ev100_of(white_cd_m2: f64) -> f64 {
+        libm::log2(white_cd_m2 / SATURATION_CD_M2)
     }
 }
 

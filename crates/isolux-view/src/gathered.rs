@@ -5,7 +5,7 @@ use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
 use crate::trace::{SurfacePoint, TraceSettings, trace, trace_watched};
 use isolux::engine::net::{Fineness, Net, Wanted};
-use isolux::engine::{IndirectReading, MapReader, Told};
+use isolux::engine::{Allowance, IndirectReading, MapReader, Told};
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::{Camera, Scene};
 use isolux::units::Rgb;
@@ -17,8 +17,9 @@ use std::sync::{Mutex, PoisonError};
 const BLOCK: usize = 64;
 /// Pixels that are gathered between two words to whoever watches.
 const WATCHED: usize = 1024;
-/// Noise of what is gathered, as a share of it, before it is smoothed.
-const NOISE: f64 = 0.05;
+/// Noise of what is gathered, as a share of it, before it is smoothed; and what elements may be expected to err by, which is seen as
+/// their pattern.
+const ALLOWANCE: Allowance = Allowance { noise: 0.05, interpolation: 0.03 };
 /// Pixels over which the difference that gathering made fades out.
 const FADE: u32 = 32;
 /// Times that what fades out is evened along the way.
@@ -66,7 +67,7 @@ pub fn trace_map(
         if blurred {
             return of_map();
         }
-        let known = match light.at(scene, &at) {
+        let known = match light.at((scene, &reader), &at) {
             Light::OfMap => None,
             Light::Gathered(reading) => Some(reading),
             Light::Beside(more) => of_map().map(|stored| IndirectReading {
@@ -157,7 +158,7 @@ impl PixelLight {
         let gather = |numbers: &[usize], more: f64| -> Result<Vec<_>, Infallible> {
             let one = |&number: &usize| {
                 let SurfacePoint { triangle, back, u, v, .. } = pixels.entries[number].at;
-                reader.indirect_at((triangle, back, [u, v]), NOISE)
+                reader.indirect_at((triangle, back, [u, v]), ALLOWANCE)
             };
             let mut found = Vec::with_capacity(numbers.len());
             for some in numbers.chunks(WATCHED) {
@@ -273,18 +274,29 @@ impl PixelLight {
     }
 
     /// The light of a place that a pixel shows, where it is gathered: that of the middle of the pixel, or, if that shows
-    /// another surface, of the nearest place of the same that the middle of one of the pixels around shows.
-    fn at(&self, scene: &Scene, at: &SurfacePoint) -> Light {
+    /// another surface, of the nearest place of the same that the middle of one of the pixels around shows. A place in a gap
+    /// stands for no place outside of it.
+    fn at(&self, (scene, reader): (&Scene, &MapReader<'_>), at: &SurfacePoint) -> Light {
         let surface = surface(scene, at);
         let shows = |entry: &&Entry| entry.at.path == at.path && entry.surface.continues(&surface);
         let own = self.of(at.pixel).map(|number| &self.entries[number]).find(shows);
         let away = |entry: &&Entry| (entry.surface.position - surface.position).length_squared();
-        let nearest = || {
+        let around = || {
             let around = self.around(at.pixel).flat_map(|pixel| self.of(pixel));
-            let around = around.map(|number| &self.entries[number]).filter(shows);
-            around.min_by(|a, b| away(a).total_cmp(&away(b)))
+            around.map(|number| &self.entries[number]).filter(shows)
         };
-        own.or_else(nearest).map_or(Light::OfMap, |entry| entry.light)
+        let nearest = |like: &dyn Fn(&&Entry) -> bool| {
+            around().filter(like).min_by(|a, b| away(a).total_cmp(&away(b)))
+        };
+        let Some(standing) = own.or_else(|| nearest(&|_| true)) else { return Light::OfMap };
+        if !standing.is_in_gap() || around().all(|entry| entry.is_in_gap()) {
+            return standing.light;
+        }
+        let (wanted, _) = wanted(reader, at);
+        if wanted == standing.wanted {
+            return standing.light;
+        }
+        nearest(&|entry| entry.wanted == wanted).map_or(Light::OfMap, |entry| entry.light)
     }
 
     fn around(&self, pixel: usize) -> impl Iterator<Item = usize> + use<> {
@@ -297,12 +309,12 @@ impl PixelLight {
 
 impl Entry {
     fn new(scene: &Scene, reader: &MapReader<'_>, at: SurfacePoint) -> Self {
-        let (wanted, error_lx) = match reader.told_at((at.triangle, at.back, [at.u, at.v])) {
-            Some(Told::Little { in_gap }) => (Some(in_gap), 0.0),
-            Some(Told::Light(reading)) => (None, reading.error_lx),
-            None => (None, 0.0),
-        };
+        let (wanted, error_lx) = wanted(reader, &at);
         Self { at, surface: surface(scene, &at), wanted, error_lx, light: Light::OfMap }
+    }
+
+    fn is_in_gap(&self) -> bool {
+        self.wanted == Some(true)
     }
 
     /// What gathering in the open has changed, lx.
@@ -320,6 +332,15 @@ impl Entry {
     /// Whether light may be continued from here to a pixel beside it.
     fn is_one_piece_with(&self, other: &Self) -> bool {
         self.at.path == other.at.path && self.surface.continues(&other.surface)
+    }
+}
+
+/// Whether light is to be gathered at a place, and whether that lies in a gap; else the standard error of what the map tells, lx.
+fn wanted(reader: &MapReader<'_>, at: &SurfacePoint) -> (Option<bool>, f64) {
+    match reader.told_at((at.triangle, at.back, [at.u, at.v]), ALLOWANCE) {
+        Some(Told::Little { in_gap }) => (Some(in_gap), 0.0),
+        Some(Told::Light(reading)) => (None, reading.error_lx),
+        None => (None, 0.0),
     }
 }
 

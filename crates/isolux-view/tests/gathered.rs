@@ -39,8 +39,13 @@ fn cuboid(low: [f64; 3], size: [f64; 3], inward: bool) -> Vec<Shape> {
 
 /// A room with a block that turns its back on the lamp, and a camera that looks at its foot.
 fn room() -> (Scene, Camera) {
+    let direction = Vector::new(0.1, 1.0, -0.6).direction().unwrap();
+    room_with(cuboid([1.4, 1.4, 0.0], [1.2, 0.8, 1.6], false), direction)
+}
+
+fn room_with(block: Vec<Shape>, direction: Direction) -> (Scene, Camera) {
     let mut shapes = cuboid([0.0; 3], [4.0, 4.0, 3.0], true);
-    shapes.extend(cuboid([1.4, 1.4, 0.0], [1.2, 0.8, 1.6], false));
+    shapes.extend(block);
     let parts = SceneParts {
         shapes,
         materials: vec![Material::one_sided("grey", Finish::diffuse(Rgb::grey(0.6)))],
@@ -56,7 +61,6 @@ fn room() -> (Scene, Camera) {
         }],
         ..SceneParts::default()
     };
-    let direction = Vector::new(0.1, 1.0, -0.6).direction().unwrap();
     let position = Point::new(1.9, 0.05, 1.3);
     let camera = Camera {
         name: "camera".into(),
@@ -121,4 +125,26 @@ fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let again = || trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap().0;
     assert!(alone.install(again) == view, "the same on any number of threads");
+}
+
+#[test]
+fn a_gap_in_the_middle_of_a_pixel_does_not_darken_what_the_pixel_shows_before_it() {
+    // A beam that ends two millimetres below the ceiling: less than a pixel.
+    let beam = cuboid([0.3, 1.9, 2.6], [3.4, 0.3, 0.398], false);
+    let (scene, camera) = room_with(beam, Vector::new(0.5, 1.85, 0.6).direction().unwrap());
+    let position = Point::new(1.9, 0.05, 2.4);
+    let camera = Camera { position, vertical_fov_rad: 0.3, ..camera };
+    let request = SolveRequest { accuracy: Some(0.02), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let reader = MapReader::new(&scene, &map);
+    let (size, settings) = (Size::new(128, 48).unwrap(), TraceSettings::FINE);
+    let (view, _) = trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap();
+    let read = |at: SurfacePoint| reader.at(at.triangle, at.back, at.u, at.v);
+    let by_readings = trace(&scene, &camera, size, &settings, &read).unwrap();
+    let share = |pixel: usize| {
+        view.luminance_cd_m2(pixel).luminance() / by_readings.luminance_cd_m2(pixel).luminance()
+    };
+    // Noise of readings takes up to a tenth; the gap, where it stood for its pixel, took a third.
+    let darkened = (0..size.pixels()).filter(|&pixel| share(pixel) < 0.85).count();
+    assert_eq!(darkened, 0, "pixels of {}", size.pixels());
 }

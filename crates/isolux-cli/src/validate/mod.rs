@@ -12,7 +12,6 @@ use crate::notes::{Note, note};
 use crate::quantity::{show_seconds, show_share, significant};
 use crate::request;
 use chosen::{chosen, methods, seeds};
-use isolux::engine::Watch;
 use isolux_compare::{
     Calibration, ValidateRow, ValidateSettings, ValidateTable, Verdict, validate_all,
 };
@@ -33,17 +32,23 @@ pub(crate) fn run(flags: &ValidateFlags, json: bool) -> Result<Outcome, Failure>
     let seeds = seeds(flags.seeds.unwrap_or(1));
     let interrupt = Interrupt::install()?;
     let settings = ValidateSettings::default();
-    let table = validate_all(&cases, &methods, &seeds, &settings, &mut |row| {
-        note(Note::Info, line(row));
-        if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
-    });
+    let on_row = &mut |row: &ValidateRow| note(Note::Info, line(row));
+    let is_over = || interrupt.is_requested();
+    let table = validate_all(&cases, &methods, &seeds, &settings, (on_row, &is_over));
+    let (done, all) = (table.rows.len(), cases.len() * methods.len() * seeds.len());
+    if done < all {
+        note(
+            Note::Warning,
+            format!("interrupted: {done} of {all} runs are done, and only they are told"),
+        );
+    }
     if json {
         print_json(&table)?
     } else {
         print(&text(&table))?
     }
     let failed = table.rows.iter().any(|row| row.verdict != Verdict::Pass);
-    Ok(match (interrupt.is_requested(), failed) {
+    Ok(match (done < all, failed) {
         (true, _) => Outcome::Interrupted,
         (false, true) => Outcome::CheckFailed,
         (false, false) => Outcome::Done,

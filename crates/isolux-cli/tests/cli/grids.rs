@@ -103,3 +103,34 @@ fn a_height_outside_of_the_scene_is_refused_and_a_grid_without_light_is_told() {
     assert_eq!(ran.code, 0, "{ran:?}");
     assert!(ran.err.contains("no light comes to any of its points"), "{}", ran.err);
 }
+
+#[test]
+fn points_outside_of_the_walls_are_told() {
+    let home = solved();
+    // Four of eight points lie behind the wall at x = 4 m.
+    let half = [
+        "grid",
+        "map.glb",
+        "--corner",
+        "2,1.5,0.75",
+        "--u",
+        "4,0,0",
+        "--v",
+        "0,2,0",
+        "--spacing",
+        "1",
+    ];
+    let ran = home.run(&half);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    assert!(
+        ran.err.contains("4 of 8 points get no light and see nothing that is lit"),
+        "{}",
+        ran.err
+    );
+    assert!(ran.err.contains("all beyond the bounds of the scene"), "{}", ran.err);
+    // In the shadow of the box there is no light either, but what is lit is seen from there.
+    let shadow =
+        ["grid", "map.glb", "--corner", "0.1,1.05,0.1", "--u", "0.8,0,0", "--v", "0,0.1,0"];
+    let ran = home.run(&shadow);
+    assert!(ran.code == 0 && !ran.err.contains("see nothing"), "{}", ran.err);
+}

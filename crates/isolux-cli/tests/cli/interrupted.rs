@@ -75,3 +75,33 @@ fn a_damaged_state_is_refused() {
         assert!(ran.code == 2 && ran.err.contains("m.checkpoint"), "{ran:?}");
     }
 }
+
+#[test]
+fn an_interrupted_view_keeps_the_samples_that_are_whole() {
+    let home = Home::new();
+    let view =
+        ["render", "builtin:sphere", "--cache", "s.cache", "--accuracy", "0.1%", "-o", "v.png"];
+    let mut child = home.start(&view);
+    // As soon as it listens, which is before any sample is made.
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    let mut said = String::new();
+    std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut said).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{said}");
+    assert!(said.contains("interrupted, without a view: "), "{said}");
+    assert!(!home.path("v.png").exists());
+}
+
+#[test]
+fn an_interrupted_validation_tells_what_is_done() {
+    let home = Home::new();
+    let mut child = home.start(&["validate", "--case", "cube", "--seeds", "50"]);
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    assert!(lines.by_ref().any(|line| line.ends_with(": pass")));
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    let said: String = lines.collect();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{said}");
+    assert!(said.contains("of 200 runs are done, and only they are told"), "{said}");
+}

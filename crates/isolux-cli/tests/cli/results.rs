@@ -376,3 +376,38 @@ fn names_from_files_leave_the_terminal_alone() {
     }
     assert_eq!(home.run(&["info", "room.toml", "--json"]).json()["name"], name);
 }
+
+#[test]
+fn a_picture_that_shows_nothing_is_told() {
+    let home = Home::new();
+    assert_eq!(home.run(&["solve", "builtin:cube", "-o", "m.glb", "--quality", "draft"]).code, 0);
+    for (exposure, told) in [
+        (
+            "ev99",
+            Some("100 % of what is lit in the picture is black; --exposure auto (here about ev"),
+        ),
+        (
+            "ev-20",
+            Some(
+                "100 % of what is lit in the picture is burnt out; --exposure auto (here about ev",
+            ),
+        ),
+        ("auto", None),
+    ] {
+        let ran = home.run(&[
+            "render",
+            "m.glb",
+            "--size",
+            "32x24",
+            "--exposure",
+            exposure,
+            "-o",
+            "v.png",
+        ]);
+        assert_eq!(ran.code, 0, "{ran:?}");
+        match told {
+            Some(told) => assert!(ran.err.contains(told), "{}", ran.err),
+            None => assert!(!ran.err.contains("of what is lit"), "{}", ran.err),
+        }
+    }
+}

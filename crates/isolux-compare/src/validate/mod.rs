@@ -73,13 +73,15 @@ pub(crate) fn scene_of(case: &Case) -> Result<Scene, ValidateError> {
     })
 }
 
-/// Runs a case through an engine.
+/// Runs a case through an engine, unless it is over before the run ends: then there is no row, as a run cut short shows
+/// nothing of the engine.
 pub fn validate(
     case: &Case,
     method: Method,
     seed: u64,
     settings: &ValidateSettings,
-) -> Result<ValidateRow, ValidateError> {
+    is_over: &dyn Fn() -> bool,
+) -> Result<Option<ValidateRow>, ValidateError> {
     let scene = scene_of(case)?;
     let request = SolveRequest {
         method,
@@ -89,11 +91,18 @@ pub fn validate(
         max_memory_bytes: settings.max_memory_bytes,
         ..SolveRequest::default()
     };
-    let Solution { map, time_s, .. } =
-        solve(&scene, &request, None, &mut |_: &Progress| Watch::Continue)
-            .map_err(|error| ValidateError::Solve { case: case.name, error })?;
+    let mut was_stopped = false;
+    let watch = &mut |_: &Progress| {
+        was_stopped = was_stopped || is_over();
+        if was_stopped { Watch::Stop } else { Watch::Continue }
+    };
+    let Solution { map, time_s, .. } = solve(&scene, &request, None, watch)
+        .map_err(|error| ValidateError::Solve { case: case.name, error })?;
+    if was_stopped {
+        return Ok(None);
+    }
     let count = judge::count(&scene, &map, &(case.expectations)());
-    Ok(ValidateRow {
+    Ok(Some(ValidateRow {
         case: case.name,
         method,
         seed,
@@ -108,28 +117,33 @@ pub fn validate(
         rays: map.provenance.rays,
         time_s,
         verdict: count.verdict,
-    })
+    }))
 }
 
-/// Runs cases through engines from several seeds. `on_row` sees every row as it comes and may stop.
-/// An engine that gives no map has a failed row.
+/// Who sees every row as it comes.
+pub type OnRow<'r> = dyn FnMut(&ValidateRow) + 'r;
+
+/// Runs cases through engines from several seeds. `on_row` sees every row as it comes; `is_over` is asked after every
+/// increment, and what is not done then is left out. An engine that gives no map has a failed row.
 pub fn validate_all(
     cases: &[Case],
     methods: &[Method],
     seeds: &[u64],
     settings: &ValidateSettings,
-    on_row: &mut dyn FnMut(&ValidateRow) -> Watch,
+    (on_row, is_over): (&mut OnRow<'_>, &dyn Fn() -> bool),
 ) -> ValidateTable {
     let mut rows: Vec<ValidateRow> = Vec::new();
     'all: for case in cases {
         for &method in methods {
             for &seed in seeds {
-                let row = validate(case, method, seed, settings)
-                    .unwrap_or_else(|error| failed(case.name, method, seed, &error));
-                let answer = on_row(&row);
-                rows.push(row);
-                if answer == Watch::Stop {
+                if is_over() {
                     break 'all;
+                }
+                let row = validate(case, method, seed, settings, is_over)
+                    .unwrap_or_else(|error| Some(failed(case.name, method, seed, &error)));
+                if let Some(row) = row {
+                    on_row(&row);
+                    rows.push(row);
                 }
             }
         }

@@ -3,6 +3,7 @@
 mod effort;
 mod parts;
 mod told;
+mod unlit;
 mod walls;
 
 use super::accumulate::mean_and_variance;
@@ -20,11 +21,9 @@ use crate::map::{Accuracy, Fresh, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use effort::{
-    ANY_NOISE, FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, OF_FEW, TRIAL_RAYS,
-};
+use effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, OF_FEW, TRIAL_RAYS};
 use isolux_geometry::Ray;
-pub use told::{IndirectReading, Told};
+pub use told::{Allowance, IndirectReading, Told};
 
 /// Independent estimates of the direct light of emitting surfaces, for its standard error.
 const DIRECT_REPLICATES: u64 = 8;
@@ -152,13 +151,16 @@ impl<'a> MapReader<'a> {
     }
 
     fn read(&self, surface: SurfacePoint) -> Option<Illuminance> {
-        let (indirect, at) = self.indirect(surface, ANY_NOISE)?;
+        let (indirect, at) = self.indirect(surface, Allowance::ANY)?;
         Some(self.with_fresh_direct(indirect, &at))
     }
 
-    /// What is known of the indirect light at a place, and the place to evaluate direct light at. Where it is gathered, its
-    /// noise is to be no more than a share of it.
-    fn indirect(&self, surface: SurfacePoint, noise: f64) -> Option<(Illuminance, SurfacePoint)> {
+    /// What is known of the indirect light at a place, and the place to evaluate direct light at.
+    fn indirect(
+        &self,
+        surface: SurfacePoint,
+        allowance: Allowance,
+    ) -> Option<(Illuminance, SurfacePoint)> {
         let SurfacePoint { triangle, back, u, v, .. } = surface;
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.places.pulled_in(surface);
@@ -166,12 +168,13 @@ impl<'a> MapReader<'a> {
             return Some((stored, at));
         };
         let edge_m = trust::edge_at_m(&self.map.elements, &at);
-        let indirect = if self.is_trusted(fresh, &stored, (&at, edge_m)) {
+        let is_allowed = allowance.includes(&stored);
+        let indirect = if is_allowed && self.is_trusted(fresh, &stored, (&at, edge_m)) {
             self.with_interpolation_error(stored)
         } else {
             let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
             let trial = Gatherer::on_surface(at, TRIAL_RAYS).in_gap(in_gap);
-            self.gathered(stored, (trial, noise), fresh.lookup_lx)
+            self.gathered(stored, (trial, allowance.noise), fresh.lookup_lx)
         };
         Some((indirect, at))
     }
@@ -322,7 +325,8 @@ impl<'a> MapReader<'a> {
                 return None;
             }
             let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
-            let indirect = self.gathered(Illuminance::NOTHING, (trial, ANY_NOISE), lookup_lx);
+            let indirect =
+                self.gathered(Illuminance::NOTHING, (trial, Allowance::ANY.noise), lookup_lx);
             Some(self.with_fresh_direct(indirect, &trial.surface))
         })
     }

@@ -2,7 +2,7 @@
 
 use super::cover::{self, Fragment};
 use super::layout::Layout;
-use crate::engine::{IndirectReading, MapReader, Told};
+use crate::engine::{Allowance, IndirectReading, MapReader, Told};
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 
@@ -132,7 +132,7 @@ impl Places<'_> {
     }
 
     fn told(&self, place: Place) -> Option<Told> {
-        self.reader.told_at(self.on_side(place))
+        self.reader.told_at(self.on_side(place), Allowance::ANY)
     }
 
     /// The mean of what readings would be all over a texel.

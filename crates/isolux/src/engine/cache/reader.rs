@@ -51,6 +51,8 @@ pub struct Served {
     pub made: IrradianceCache,
     /// Rays traced for them.
     pub rays: u64,
+    /// Whether all are there.
+    pub is_whole: bool,
 }
 
 /// A place on one side of a triangle of the scene, by the barycentric weights of its second and third
@@ -111,9 +113,18 @@ impl<'s> CacheReader<'s> {
     /// Makes the samples that these places still need. The same places in any order and number, from
     /// the same cache, make the same samples on any number of threads.
     pub fn serve(&mut self, places: &[CachedPlace]) -> Served {
+        self.serve_until(places, &|| false)
+    }
+
+    /// The same, until it is over: then those made so far are the first of them, each as it would be otherwise, and the
+    /// reader tells nothing any more.
+    pub fn serve_until(&mut self, places: &[CachedPlace], is_over: &dyn Fn() -> bool) -> Served {
         let Self { scene, lighting, store, settings, .. } = self;
         let places = places.iter().filter_map(|at| place(scene, &self.places, at));
-        let mut rays = store.serve(places.map(|at| Place::from(&at)).collect());
+        let mut served = Served {
+            rays: store.serve(places.map(|at| Place::from(&at)).collect()),
+            ..Served::default()
+        };
         let key = Key::new(settings.seed).with(7);
         let making = |part: u64, index: u64, rays: u32| Making {
             index,
@@ -124,17 +135,31 @@ impl<'s> CacheReader<'s> {
             deadline: Deadline::NEVER,
         };
         if store.far.known.is_empty() {
-            rays += store.guess(&making(0, 0, settings.far_rays));
+            served.rays += store.guess(&making(0, 0, settings.far_rays));
         }
+        let mut far = Vec::new();
         for index in 0..CACHE_REPLICATES as u64 {
-            let far = store.far_replicate(&making(1, index, settings.far_rays));
-            let far = far.expect("without a deadline nothing is given up");
-            let near = store.near_replicate(&making(2, index, settings.rays), &far.lights);
-            rays += far.rays + near.map_or(0, |near| near.rays);
+            if is_over() {
+                return served;
+            }
+            let one = store.far_replicate(&making(1, index, settings.far_rays));
+            let one = one.expect("without a deadline nothing is given up");
+            served.rays += one.rays;
+            far.push(one.lights);
         }
-        let samples = store.make_known();
+        served.made.samples = store.far.make_known();
+        let near = |index| making(2, index, settings.rays);
+        while store.near.is_wanting() {
+            if is_over() {
+                return served;
+            }
+            let (made, rays) = store.make_near(&near, &far);
+            served.made.samples.extend(made);
+            served.rays += rays;
+        }
+        served.is_whole = true;
         self.learn();
-        Served { made: IrradianceCache { samples }, rays }
+        served
     }
 
     /// Takes up the means of samples that are known since the last time.
@@ -152,14 +177,14 @@ impl<'s> CacheReader<'s> {
     pub fn glance(&self, at: &CachedPlace, number: u64) -> Option<Illuminance> {
         let at = place(self.scene, &self.places, at)?;
         let ties = self.store.ties(&Place::from(&at));
+        if ties.is_empty() || self.store.near.is_wanting() {
+            return None;
+        }
         let variance = |tie: &super::layer::Tie| {
             let share = f64::from(tie.shares[0]);
             share * share * self.variances[tie.sample as usize]
         };
         let error_lx = ties.iter().map(variance).sum::<f64>().sqrt();
-        if ties.is_empty() {
-            return None;
-        }
         let indirect = super::hemisphere::tied(&ties, &self.lights).map(|channel| channel.max(0.0));
         let sequence = Sequence::new(place_key(at.point).with(number));
         let dice = &mut Dice::new(sequence, 0);

@@ -162,6 +162,33 @@ impl<'s> Store<'s> {
         Some(Replicate { lights, lost, ..whole })
     }
 
+    /// The next of the samples that are read, in every replicate, over those of what rays read; and the rays traced for
+    /// them. Each is what it would be whoever was made before it.
+    pub(super) fn make_near<'a>(
+        &mut self,
+        making: &dyn Fn(u64) -> Making<'a>,
+        far: &[Vec<Light>],
+    ) -> (Vec<CacheSample>, u64) {
+        let wanting = &self.near.layer.sites[self.near.known.len()..];
+        let sites = &wanting[..wanting.len().min(SITES_AT_ONCE)];
+        let mut sums = vec![Sum::default(); sites.len()];
+        let mut rays = 0;
+        for (index, far) in (0..).zip(far) {
+            let seen = self.look(sites, &making(index));
+            let seen = seen.expect("without a deadline nothing is given up");
+            let lights: Vec<Light> = seen.par_iter().map(|s| s.light(far)).collect();
+            sums.iter_mut().zip(&lights).for_each(|(sum, light)| sum.add(index, light));
+            rays += seen.iter().map(Hemisphere::ray_count).sum::<u64>();
+        }
+        let made: Vec<CacheSample> = sites
+            .iter()
+            .zip(&sums)
+            .filter_map(|(site, sum)| sum.sample(self.near.kind, site))
+            .collect();
+        self.near.known.extend_from_slice(&made);
+        (made, rays)
+    }
+
     /// Light at other places over what rays read, traced afresh.
     pub(super) fn fresh(
         &self,
@@ -218,7 +245,7 @@ impl<'s> Store<'s> {
 }
 
 /// Samples whose rays are in memory at once.
-const SITES_AT_ONCE: usize = 4096;
+const SITES_AT_ONCE: usize = 1024;
 
 impl Family {
     /// What is known of a replicate, and the first sample of which nothing is.
@@ -238,7 +265,12 @@ impl Family {
         self.sums.iter_mut().zip(new).for_each(|(sum, light)| sum.add(index, light));
     }
 
-    fn make_known(&mut self) -> Vec<CacheSample> {
+    /// Whether some samples are not known yet.
+    pub(super) const fn is_wanting(&self) -> bool {
+        self.known.len() < self.layer.sites.len()
+    }
+
+    pub(super) fn make_known(&mut self) -> Vec<CacheSample> {
         let sites = self.layer.sites[self.known.len()..].iter();
         let made: Option<Vec<CacheSample>> =
             sites.zip(&self.sums).map(|(site, sum)| sum.sample(self.kind, site)).collect();

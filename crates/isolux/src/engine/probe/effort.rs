@@ -9,9 +9,6 @@ pub(super) const FRESH_MOST_RAYS: f64 = 1024.0;
 /// cases, of so much more in 95 % (quantiles of Student's distribution with 15 degrees of freedom and of the normal one).
 pub(super) const OF_FEW: f64 = 2.131 / 1.96;
 
-/// Of readings: noise may be any share of the light.
-pub(super) const ANY_NOISE: f64 = f64::INFINITY;
-
 /// Rays of each in the trial that tells how many it takes: half of the fewest, as they are thrown away.
 pub(super) const TRIAL_RAYS: u32 = 4;
 

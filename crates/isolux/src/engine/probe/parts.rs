@@ -1,8 +1,8 @@
 //! The parts of a reading apart, for means over a surface.
 
 use super::MapReader;
-use super::effort::{ANY_NOISE, FRESH_REPLICATES, Needed, TRIAL_RAYS};
-use super::told::{IndirectReading, Told};
+use super::effort::{FRESH_REPLICATES, Needed, TRIAL_RAYS};
+use super::told::{Allowance, IndirectReading, Told};
 use crate::engine::accumulate::mean_and_variance;
 use crate::engine::gather::Gatherer;
 use crate::engine::path::Dice;
@@ -34,27 +34,31 @@ impl MapReader<'_> {
     }
 
     /// Indirect light as the map tells it. `None` where the map knows nothing.
-    pub fn told_at(&self, (triangle, back, [u, v]): (u32, bool, [f64; 2])) -> Option<Told> {
+    pub fn told_at(
+        &self,
+        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+        allowance: Allowance,
+    ) -> Option<Told> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
         let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
         if self.map.provenance.fresh.is_none() {
             return Some(Told::Light(self.reading(&stored, 0.0)));
         }
-        Some(match self.trial(&stored, &at) {
+        Some(match self.trial(&stored, &at, allowance) {
             None => Told::Light(self.reading(&self.with_interpolation_error(stored), 0.0)),
             Some(trial) => Told::Little { in_gap: trial.in_gap },
         })
     }
 
-    /// Indirect light as [`MapReader::at`] reads it: gathered where the map is not trusted, until noise is no more than a
-    /// share of it, if the map errs by more (best effort: rays are limited).
+    /// Indirect light as [`MapReader::at`] reads it, but gathered also where interpolation is expected to err by more than is
+    /// allowed.
     pub fn indirect_at(
         &self,
         (triangle, back, [u, v]): (u32, bool, [f64; 2]),
-        noise: f64,
+        allowance: Allowance,
     ) -> Option<IndirectReading> {
         let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
-        let (read, _) = self.indirect(surface, noise)?;
+        let (read, _) = self.indirect(surface, allowance)?;
         Some(self.gathered_reading(&read))
     }
 
@@ -75,7 +79,7 @@ impl MapReader<'_> {
         for surface in &surfaces {
             let SurfacePoint { triangle, back, u, v, .. } = *surface;
             let Some(stored) = self.map.interpolate(triangle, back, u, v) else { continue };
-            match self.trial(&stored, &self.places.pulled_in(*surface)) {
+            match self.trial(&stored, &self.places.pulled_in(*surface), Allowance::ANY) {
                 None => told.push(self.with_interpolation_error(stored)),
                 Some(trial) => trials.push((*surface, trial)),
             }
@@ -83,7 +87,7 @@ impl MapReader<'_> {
         if let ([], [(surface, _)]) = (&told[..], &trials[..]) {
             // One place alone tells nothing of its own noise.
             return self
-                .indirect(*surface, ANY_NOISE)
+                .indirect(*surface, Allowance::ANY)
                 .map(|(read, _)| self.gathered_reading(&read));
         }
         let trials: Vec<Gatherer> = trials.into_iter().map(|(_, trial)| trial).collect();
@@ -112,10 +116,16 @@ impl MapReader<'_> {
     }
 
     /// What would gather at a place, unless the map is to be trusted there.
-    fn trial(&self, stored: &Illuminance, at: &SurfacePoint) -> Option<Gatherer> {
+    fn trial(
+        &self,
+        stored: &Illuminance,
+        at: &SurfacePoint,
+        allowance: Allowance,
+    ) -> Option<Gatherer> {
         let fresh = self.map.provenance.fresh?;
         let edge_m = trust::edge_at_m(&self.map.elements, at);
-        (!self.is_trusted(fresh, stored, (at, edge_m))).then(|| {
+        let is_trusted = allowance.includes(stored) && self.is_trusted(fresh, stored, (at, edge_m));
+        (!is_trusted).then(|| {
             let in_gap = trust::is_closed_in(self.scene, at, edge_m);
             Gatherer::on_surface(*at, TRIAL_RAYS).in_gap(in_gap)
         })
@@ -126,7 +136,7 @@ impl MapReader<'_> {
     fn one_of_each(&self, trials: &[Gatherer]) -> (Vec<(Rgb, f64)>, f64) {
         let Some(first) = trials.first() else { return (Vec::new(), 0.0) };
         let key = self.gathering_key(first);
-        let Needed { rays, variance } = self.rays_needed((*first, ANY_NOISE), key);
+        let Needed { rays, variance } = self.rays_needed((*first, Allowance::ANY.noise), key);
         let rows: Vec<Gatherer> = trials.iter().map(|trial| trial.with_rays(rays)).collect();
         let operator =
             self.gathering(self.direct_at_ends()).operator(&rows, |k| key.with(1).with(k as u64));

@@ -2,10 +2,11 @@
 
 use super::room;
 use crate::engine::{
-    CacheReader, CacheSettings, CachedPlace, IrradianceCache, SampleKind, SolveRequest, Watch,
-    solve,
+    CACHE_REPLICATES, CacheReader, CacheSettings, CachedPlace, IrradianceCache, SampleKind,
+    SolveRequest, Watch, solve,
 };
 use crate::map::Method;
+use std::cell::Cell;
 
 /// Places on every triangle of a scene.
 fn places(triangles: u32) -> Vec<CachedPlace> {
@@ -43,6 +44,31 @@ fn views_make_the_same_samples_on_any_number_of_threads_and_none_twice() {
     let more = again.serve(&asked).made.samples.len();
     // Places whose sample has shrunk beside a later one.
     assert!(more * 5 < first.samples.len(), "{more} of {}", first.samples.len());
+}
+
+#[test]
+fn serving_cut_short_makes_the_first_of_the_same_samples() {
+    let scene = room();
+    let asked = places(scene.triangle_count());
+    let settings = CacheSettings::for_accuracy(0.02);
+    let served_until = |most: u32| {
+        let mut reader = CacheReader::new(&scene, &IrradianceCache::default(), settings).unwrap();
+        let times = Cell::new(0);
+        let served = reader.serve_until(&asked, &|| times.replace(times.get() + 1) >= most);
+        assert_eq!(served.is_whole, reader.glance(&asked[7], 0).is_some());
+        served
+    };
+    let whole = served_until(u32::MAX);
+    assert!(whole.is_whole);
+    // Asked before each of the replicates of what rays read, and then before parts of what is read.
+    let replicates = CACHE_REPLICATES as u32;
+    assert_eq!(served_until(replicates - 1).made, IrradianceCache::default());
+    let short = served_until(replicates);
+    assert!(!short.is_whole && short.made.count(SampleKind::Far) > 20);
+    assert_eq!(short.made.samples[..], whole.made.samples[..short.made.samples.len()]);
+    let mut again = CacheReader::new(&scene, &short.made, settings).unwrap();
+    let rest = again.serve(&asked);
+    assert!(rest.is_whole && rest.made.count(SampleKind::Near) > 20);
 }
 
 #[test]

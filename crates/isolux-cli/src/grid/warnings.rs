@@ -1,0 +1,92 @@
+//! What a grid does not say by its figures.
+
+use crate::notes::{Note, note};
+use crate::quantity::show_share;
+use crate::shown::name;
+use isolux::engine::{MapReader, ProbePoint};
+use isolux::geometry::{Normal, Point};
+use isolux::map::Illuminance;
+use isolux_formats::counted;
+use rayon::prelude::*;
+
+/// Caustics of less than this share of all light are not worth a word.
+const TOLD_FROM: f64 = 1e-3;
+
+/// Points that get no light at all and see nothing that does: as those behind the walls of a room.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Outside {
+    /// Within the bounds of the scene.
+    within_bounds: usize,
+    /// And those beyond.
+    beyond_bounds: usize,
+}
+
+impl Outside {
+    pub(super) fn of(
+        (points, values): (&[Point], &[Option<Illuminance>]),
+        normal: Normal,
+        reader: &MapReader,
+    ) -> Self {
+        let is_outside = |&(&position, value): &(&Point, &Option<Illuminance>)| {
+            let is_dark = value.is_some_and(|value| value.illuminance_lx() == 0.0);
+            is_dark && !reader.sees_lit(ProbePoint { position, normal })
+        };
+        let outside: Vec<_> = points.par_iter().zip(values).filter(is_outside).collect();
+        let beyond = outside.iter().filter(|(position, _)| reader.is_beyond_bounds(**position));
+        let beyond_bounds = beyond.count();
+        Self { within_bounds: outside.len() - beyond_bounds, beyond_bounds }
+    }
+
+    const fn count(self) -> usize {
+        self.within_bounds + self.beyond_bounds
+    }
+
+    /// Where they are.
+    fn place(self) -> String {
+        match (self.within_bounds, self.beyond_bounds) {
+            (_, 0) => "all within the bounds of the scene".into(),
+            (0, _) => "all beyond the bounds of the scene".into(),
+            (within, beyond) => {
+                format!("{beyond} beyond the bounds of the scene, {within} within them")
+            }
+        }
+    }
+}
+
+/// Tells what the user should know beside the figures; `caustics` are the share of light that is left out in free space, where
+/// points of the grid are.
+pub(super) fn warn(
+    grid: &str,
+    (values, outside): (&[Option<Illuminance>], Outside),
+    caustics: Option<f64>,
+) {
+    let own = name(grid);
+    let all = values.len();
+    let warn = |text: String| note(Note::Warning, format!("grid `{own}`: {text}"));
+    if let Some(caustics) = caustics.filter(|&share| share > TOLD_FROM) {
+        warn(format!(
+            "light that glass, gloss and curved mirrors throw is left out, and of the intervals, too, as it is \
+             known on surfaces alone; there it is {} of all light",
+            show_share(caustics)
+        ));
+    }
+    let unknown = values.iter().filter(|value| value.is_none()).count();
+    if unknown > 0 {
+        let are = counted(all, "point is", "points are");
+        warn(format!("{unknown} of {are} left out, within something"));
+    }
+    let is_dark = values.iter().flatten().all(|value| value.illuminance_lx() == 0.0);
+    let dark = outside.count();
+    if is_dark && unknown == 0 {
+        warn(
+            "no light comes to any of its points; check its place, and that its sides `u x v` turn up"
+                .into(),
+        );
+    } else if dark > 0 {
+        warn(format!(
+            "{dark} of {all} points get no light and see nothing that is lit, as outside of walls ({}), and count \
+             as 0 lx in all figures; shrink or move the grid so that it lies within its room, or widen its border",
+            outside.place()
+        ));
+    }
+}
