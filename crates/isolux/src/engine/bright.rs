@@ -19,7 +19,7 @@ const BRIGHT: f64 = 8.0;
 /// It matters if it reflects this share of all direct light.
 const MATTERS: f64 = 0.02;
 
-/// What is bright is divided into cubes of this share of its extent, and into so many of them at most, the brightest.
+/// What is bright is divided into cubes of this share of its extent, larger ones if they were more than so many.
 const CUBE: f64 = 1.0 / 16.0;
 const MOST_CUBES: usize = 64;
 
@@ -97,7 +97,7 @@ impl Bright {
             return None;
         }
         let bright: Vec<Leaf> = leaves.into_iter().filter(is_bright).collect();
-        let parts = divided(bright);
+        let parts = divided(&bright);
         let mut of_nodes = vec![(NONE, 0.0); elements.node_count()];
         let mut has = vec![[false; 2]; elements.roots().len()];
         for (number, part) in parts.iter().enumerate() {
@@ -262,8 +262,8 @@ fn leaves(scene: &Scene, elements: &Elements, direct: impl Fn(u32) -> Rgb) -> Ve
     elements.leaves().filter_map(leaf).collect()
 }
 
-/// Elements by the cube of space that they lie in, the brightest cubes first, as many as there may be.
-fn divided(bright: Vec<Leaf>) -> Vec<Part> {
+/// Elements by the cube of space that they lie in, the brightest cubes first.
+fn divided(bright: &[Leaf]) -> Vec<Part> {
     let middle =
         |leaf: &Leaf| leaf.corners[0].lerp(leaf.corners[1], 0.5).lerp(leaf.corners[2], 1.0 / 3.0);
     let extent_m = |k: usize| {
@@ -271,14 +271,21 @@ fn divided(bright: Vec<Leaf>) -> Vec<Part> {
         all.clone().fold(f64::MIN, f64::max) - all.fold(f64::MAX, f64::min)
     };
     let widest_m = (0..3).map(extent_m).fold(f64::MIN_POSITIVE, f64::max);
-    let mut cubes: BTreeMap<[i64; 3], Vec<Leaf>> = BTreeMap::new();
-    for leaf in bright {
-        let at = middle(&leaf).to_vector();
-        let cube = [0, 1, 2].map(|k| (at.component(k) / (CUBE * widest_m)).floor() as i64);
-        cubes.entry(cube).or_default().push(leaf);
-    }
+    let mut edge_m = CUBE * widest_m;
+    let cubes = loop {
+        let mut cubes: BTreeMap<[i64; 3], Vec<Leaf>> = BTreeMap::new();
+        for leaf in bright {
+            let at = middle(leaf).to_vector();
+            let cube = [0, 1, 2].map(|k| (at.component(k) / edge_m).floor() as i64);
+            cubes.entry(cube).or_default().push(*leaf);
+        }
+        // What is left out would be as noisy as if nothing were sent there.
+        if cubes.len() <= MOST_CUBES {
+            break cubes;
+        }
+        edge_m *= std::f64::consts::SQRT_2;
+    };
     let mut parts: Vec<Part> = cubes.into_values().map(Part::of).collect();
     parts.sort_by(|a, b| b.flux_lm.total_cmp(&a.flux_lm));
-    parts.truncate(MOST_CUBES);
     parts
 }

@@ -7,7 +7,7 @@ pub(super) enum Noise {
     Counted,
     /// What is seen with noise taken off.
     TakenOff,
-    /// One standard error less: what is left is hardly noise.
+    /// Two standard errors less: what is left is hardly noise.
     RuledOut,
 }
 
@@ -17,15 +17,18 @@ impl Noise {
         match self {
             Self::Counted => squared.max(0.0) + standard_error,
             Self::TakenOff => squared.max(0.0),
-            Self::RuledOut => (squared - standard_error).max(0.0),
+            Self::RuledOut => (squared - 2.0 * standard_error).max(0.0),
         }
     }
 
     /// A mean, given its standard error.
     pub(super) fn of_mean(self, mean: f64, standard_error: f64) -> f64 {
         match self {
-            Self::Counted | Self::TakenOff => mean,
-            Self::RuledOut => (mean.abs() - standard_error).max(0.0).copysign(mean),
+            Self::Counted => mean,
+            Self::TakenOff => {
+                (mean * mean - standard_error * standard_error).max(0.0).sqrt().copysign(mean)
+            }
+            Self::RuledOut => (mean.abs() - 2.0 * standard_error).max(0.0).copysign(mean),
         }
     }
 }

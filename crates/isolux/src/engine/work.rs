@@ -34,8 +34,9 @@ const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
 /// Increments that tell how many it will take; those of fewer were off by a factor of two.
 const FEWEST_TO_TELL: u64 = 6;
 
-/// Increments beyond which finer elements are faster, which take their pilot and as many increments as are believed.
-const MOST_INCREMENTS: f64 = 3.0 * BELIEVED_INCREMENTS as f64;
+/// Increments beyond which finer elements are faster, which take their pilot, as long as some ten increments of theirs, and as many
+/// increments as are believed, all on half as many vertices again or more.
+const MOST_INCREMENTS: f64 = 5.0 * BELIEVED_INCREMENTS as f64;
 
 /// Increments that a run makes at most only to be less in doubt.
 const MOST_HOPED_FOR: f64 = 32.0 * BELIEVED_INCREMENTS as f64;
