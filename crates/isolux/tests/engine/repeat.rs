@@ -98,7 +98,7 @@ fn who_stops_while_finer_elements_are_made_has_what_was_known_before() {
     let table = outward_box([1.0, 1.0, 0.7], [3.0, 2.0, 0.8], 0);
     let shapes = room.into_iter().chain(table).collect();
     let scene = scene(shapes, vec![painted(0.7)], vec![lamp([2.0, 2.5, 2.5], 100.0)]);
-    let request = SolveRequest { accuracy: Some(5e-3), ..SolveRequest::default() };
+    let request = SolveRequest { accuracy: Some(1.5e-3), ..SolveRequest::default() };
     let (mut seen, mut stopped) = (None, false);
     let solution = solve(&scene, &request, None, &mut |p| {
         stopped |= p.stage == Stage::Pilot && seen.is_some();
