@@ -23,10 +23,12 @@ use std::time::{Duration, Instant};
 const PILOT_SHARE: f64 = 0.4;
 /// Halvings of the rays of an increment at most, where time is short.
 const MOST_HALVINGS: u32 = 8;
-/// Each stage is for elements that err by this factor less than those of the one before.
-const FINER: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// Stages to a factor of two in what their elements are made to err by.
+const STAGES_TO_HALF: u32 = 4;
 /// Stages at most, then a run settles for what it has: elements for an eighth of the error asked for.
-const MOST_STAGES: u32 = 7;
+const MOST_STAGES: u32 = 3 * STAGES_TO_HALF + 1;
+/// Stages that elements are made finer by at least: what they err by is known with some noise.
+const FEWEST_STAGES: u32 = 2;
 /// What elements too coarse at first are to err by, as a share of the error asked for: noise needs the rest.
 const LEFT_TO_ELEMENTS: f64 = 0.8;
 /// Accuracy that elements are made for where none is asked.
@@ -131,7 +133,7 @@ pub fn solve_with_maps(
             && run.stage < MOST_STAGES
             && plan.is_whole
         {
-            run.stage += 1;
+            run.stage = (run.stage + FEWEST_STAGES).min(MOST_STAGES);
             continue;
         }
         match run.increments(&plan, saved, watch)? {
@@ -142,6 +144,11 @@ pub fn solve_with_maps(
             }
         }
     }
+}
+
+/// What elements so many stages on err by, as a share.
+fn finer(stages: u32) -> f64 {
+    libm::exp2(-f64::from(stages) / f64::from(STAGES_TO_HALF))
 }
 
 /// What came of the increments on one mesh.
@@ -218,14 +225,14 @@ impl<'s, 'r> Run<'s, 'r> {
     fn has_time_for_finer(&self, work: &Work) -> bool {
         let Some(limit) = self.request.time_limit else { return true };
         let stages = self.stages_missing(work.error_of_elements());
-        let pilot_s = self.pilot_s / libm::pow(FINER, f64::from(stages));
+        let pilot_s = self.pilot_s / finer(stages);
         self.elapsed_s() + pilot_s < PILOT_SHARE * limit.as_secs_f64()
     }
 
     /// The accuracy that the elements of this stage are made for.
     fn mesh_for(&self) -> f64 {
         let target = self.request.accuracy.unwrap_or(DEFAULT_ACCURACY);
-        target * libm::pow(FINER, f64::from(self.stage) - 1.0)
+        target * finer(self.stage - 1)
     }
 
     fn pilot_request(&self) -> PilotRequest {
@@ -354,9 +361,8 @@ impl<'s, 'r> Run<'s, 'r> {
     /// How many stages on elements are fine enough, if they keep what they err by in proportion.
     fn stages_missing(&self, errs: Option<f64>) -> u32 {
         let missed = errs.zip(self.request.accuracy).map_or(1.0, |(errs, goal)| errs / goal);
-        let stages =
-            libm::log2(LEFT_TO_ELEMENTS / missed.max(LEFT_TO_ELEMENTS)) / libm::log2(FINER);
-        stages.ceil().max(1.0) as u32
+        let halvings = libm::log2(missed.max(LEFT_TO_ELEMENTS) / LEFT_TO_ELEMENTS);
+        ((f64::from(STAGES_TO_HALF) * halvings).ceil() as u32).max(FEWEST_STAGES)
     }
 
     /// The same with fewer rays an increment, if the time left is too short to know how good the map
