@@ -112,7 +112,7 @@ fn line(progress: &Progress) -> String {
         });
     }
     if progress.elapsed_s > 0.0 {
-        parts.push(format!("{} rays/s", show_count(progress.rays as f64 / progress.elapsed_s)));
+        parts.push(format!("{} rays/s", show_count(progress.rays_per_s())));
     }
     parts.push(counted(progress.receivers, "receiver", "receivers"));
     parts.join(", ")
@@ -151,7 +151,7 @@ impl Report {
             target: progress.target,
             receivers: progress.receivers,
             rays: progress.rays,
-            rays_per_s: progress.rays as f64 / progress.elapsed_s.max(1e-9),
+            rays_per_s: progress.rays_per_s(),
             elapsed_s: progress.elapsed_s,
             finish_s: progress.prediction.map(|p| p.finish_s),
             finish_earliest_s: progress.prediction.map(|p| p.earliest_s),
@@ -174,7 +174,8 @@ mod tests {
             unshot: None,
             target: Some(0.01),
             receivers: 3458,
-            rays: 3_000_000,
+            rays: 7_000_000,
+            earlier_rays: 4_000_000,
             elapsed_s: 2.0,
             prediction: Some(Prediction { finish_s: 5.0, earliest_s: 4.0, latest_s: 8.0 }),
             ends: false,

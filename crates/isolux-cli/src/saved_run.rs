@@ -4,11 +4,16 @@ use crate::failure::Failure;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::source::bad_file;
-use isolux::engine::{RunIdentity, RunState, Sums};
+use isolux::engine::{RunIdentity, RunState, SoFar, Sums};
 use isolux_formats::checkpoint::{self, ArrayError, Checkpoint};
 use isolux_formats::{Problem, Problems, atomic};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// A run is kept as often as this, unless that took more than one part in so many of its time.
+const KEPT_AFTER: Duration = Duration::from_secs(60);
+const KEEPING: u32 = 100;
 
 /// Where the state of a map's run is kept.
 pub(crate) fn path_beside(map: &Path) -> PathBuf {
@@ -34,7 +39,34 @@ pub(crate) fn keep(output: &OutputPath, state: &RunState, finished: bool) -> Res
             _ => Err(Failure::Refused(format!("{}: cannot be removed ({e})", path.display()))),
         })
     } else {
-        checkpoint::write(&path, &to_checkpoint(state)).map_err(|p| bad_file(Problems::from(p)))
+        write(output, state).map_err(|p| bad_file(Problems::from(p)))
+    }
+}
+
+fn write(output: &OutputPath, state: &RunState) -> Result<(), Problem> {
+    checkpoint::write(&path_beside(output.path()), &to_checkpoint(state))
+}
+
+/// Keeps the state of a run on the way, so that hours of work do not end with the machine.
+pub(crate) struct Keeper<'a> {
+    output: &'a OutputPath,
+    due: Instant,
+}
+
+impl<'a> Keeper<'a> {
+    /// Beside a map.
+    pub(crate) fn beside(output: &'a OutputPath) -> Self {
+        Self { output, due: Instant::now() + KEPT_AFTER }
+    }
+
+    /// Keeps what a run has come to, if it is time for it. Who cannot be kept goes on.
+    pub(crate) fn look(&mut self, so_far: &SoFar) {
+        let started = Instant::now();
+        let Some(state) = (started >= self.due).then(|| so_far.state()).flatten() else { return };
+        if let Err(problem) = write(self.output, &state) {
+            note(Note::Warning, problem);
+        }
+        self.due = Instant::now() + KEPT_AFTER.max(KEEPING * started.elapsed());
     }
 }
 
@@ -105,4 +137,28 @@ fn sums(checkpoint: &Checkpoint, name: &str) -> Result<Vec<Sums>, ArrayError> {
     let (squares, _) = squares.as_chunks::<2>();
     let rows = values.iter().zip(totals).zip(squares);
     Ok(rows.map(|((&values, &totals), &squares)| Sums { values, totals, squares }).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use isolux::engine::{SolveRequest, Watch, solve, solve_looked_at};
+
+    #[test]
+    fn a_run_is_kept_on_the_way_once_it_is_due() {
+        let home = tempfile::tempdir().unwrap();
+        let output = OutputPath::check(&home.path().join("map.glb"), "glb").unwrap();
+        let scene = crate::source::read_scene(Path::new("builtin:cube")).unwrap();
+        let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+        let mut keeper = Keeper { output: &output, due: Instant::now() };
+        let whole = solve_looked_at(&scene, &request, None, &mut |_, so_far| {
+            keeper.look(so_far);
+            Watch::Continue
+        });
+        // The first increment was due, the others are within the minute.
+        let kept = read(&output, u64::MAX).unwrap().unwrap();
+        assert_eq!(kept.increments, 1);
+        let resumed = solve(&scene, &request, Some(&kept), &mut |_| Watch::Continue);
+        assert_eq!(resumed.unwrap().map, whole.unwrap().map);
+    }
 }

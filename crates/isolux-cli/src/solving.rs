@@ -7,7 +7,8 @@ use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::{show_bytes, show_seconds, show_share};
-use crate::{saved_run, source};
+use crate::saved_run::{self, Keeper};
+use crate::source;
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
 use isolux::map::{IlluminationMap, Method};
 use isolux::scene::Scene;
@@ -51,7 +52,9 @@ pub(crate) fn solve(
     saved: Option<&RunState>,
     reporter: &mut Reporter,
 ) -> Result<Solved, Failure> {
-    let solved = follow(scene, run.request, saved, reporter, |error| failure(error, (scene, run)))?;
+    let mut keeper = Keeper::beside(run.output);
+    let follower = Follower { reporter, keeper: Some(&mut keeper) };
+    let solved = follow(scene, run.request, saved, follower, |error| failure(error, (scene, run)))?;
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
     tell_of_time(&solved.solution, run.request.time_limit);
     tell_of_end(&solved, run.request);
@@ -133,20 +136,29 @@ pub(crate) fn solve_here(
     (scene, source): (&Scene, &Path),
     request: &SolveRequest,
 ) -> Result<Solved, Failure> {
-    let reporter = &mut Reporter::new(None);
-    follow(scene, request, None, reporter, |error| unsolvable(error, (scene, source)))
+    let follower = Follower { reporter: &mut Reporter::new(None), keeper: None };
+    follow(scene, request, None, follower, |error| unsolvable(error, (scene, source)))
+}
+
+/// Who is told of a run on the way.
+struct Follower<'a, 'k> {
+    reporter: &'a mut Reporter,
+    keeper: Option<&'a mut Keeper<'k>>,
 }
 
 fn follow(
     scene: &Scene,
     request: &SolveRequest,
     saved: Option<&RunState>,
-    reporter: &mut Reporter,
+    Follower { reporter, mut keeper }: Follower<'_, '_>,
     failure: impl Fn(SolveError) -> Failure,
 ) -> Result<Solved, Failure> {
     let interrupt = Interrupt::install()?;
-    let solved = engine::solve(scene, request, saved, &mut |progress| {
+    let solved = engine::solve_looked_at(scene, request, saved, &mut |progress, so_far| {
         reporter.show(progress);
+        if let Some(keeper) = &mut keeper {
+            keeper.look(so_far);
+        }
         if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
     });
     reporter.finish();

@@ -4,7 +4,7 @@ use super::places::Place;
 use crate::expectation::Quantity;
 use crate::statistics::student_two_sided;
 use crate::tolerance::RAY_KERNEL_POSITION;
-use isolux::engine::{MapReader, Progress, SolveError, SolveRequest, Watch, solve_with_maps};
+use isolux::engine::{MapReader, Progress, SolveError, SolveRequest, Watch, solve_looked_at};
 use isolux::map::{Accuracy, Illuminance, IlluminationMap};
 use isolux::scene::Scene;
 use serde::Serialize;
@@ -131,7 +131,7 @@ pub(super) fn observe(
 ) -> Result<Observed, SolveError> {
     let mut observed = Observed { seed: request.seed, stages: Vec::new(), reached: false };
     let mut first = None;
-    solve_with_maps(scene, request, None, &mut |progress, map| {
+    solve_looked_at(scene, request, None, &mut |progress, so_far| {
         if progress.increments == 1 && !observed.has(Stage::AtStop) {
             // Finer elements: what was seen of the coarser ones is no stage of this run.
             observed.stages.retain(|(stage, _)| *stage == Stage::FirstBelieved);
@@ -140,7 +140,7 @@ pub(super) fn observe(
             first = Some(progress.increments);
         }
         let due = due(&observed, progress, first, fixed_work);
-        if let (false, Some(map)) = (due.is_empty(), due.first().and_then(|_| map())) {
+        if let (false, Some(map)) = (due.is_empty(), due.first().and_then(|_| so_far.map())) {
             let ends = due.contains(&Stage::AtStop);
             observed.reached |= ends && map.provenance.complete;
             if let Some(observation) = look(scene, &map, places) {

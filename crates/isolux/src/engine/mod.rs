@@ -74,5 +74,5 @@ pub use probe::{Allowance, ExactSettings, IndirectReading, MapReader, Told};
 pub use radiosity::{RadiosityLimits, RadiositySettings};
 pub use reference::PathTracer;
 pub use request::{Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
-pub use run::{Solution, Watcher, foresee, solve, solve_with_maps};
+pub use run::{SoFar, Solution, Watcher, foresee, solve, solve_looked_at};
 pub use state::{RunIdentity, RunState};

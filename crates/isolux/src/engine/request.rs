@@ -83,12 +83,21 @@ pub struct Progress {
     pub receivers: u64,
     /// Rays traced.
     pub rays: u64,
+    /// Those of them that an earlier run has traced, which this one goes on from.
+    pub earlier_rays: u64,
     /// Time since the start, s.
     pub elapsed_s: f64,
     /// When it will be done; `None` until it can be said.
     pub prediction: Option<Prediction>,
     /// Whether the run ends here of itself.
     pub ends: bool,
+}
+
+impl Progress {
+    /// Rays traced per second.
+    pub fn rays_per_s(&self) -> f64 {
+        (self.rays - self.earlier_rays) as f64 / self.elapsed_s.max(1e-9)
+    }
 }
 
 /// A predicted finishing time, s since the start, with an interval of 90 %.

@@ -1,6 +1,6 @@
 //! A run: pilot, increments, stop, map.
 
-use super::accumulate::MAX_INCREMENTS;
+use super::accumulate::{MAX_INCREMENTS, Sums};
 use super::accuracy::BELIEVED_INCREMENTS;
 use super::cache::IrradianceCache;
 use super::deadline::Deadline;
@@ -79,7 +79,7 @@ pub fn solve(
     resume: Option<&RunState>,
     watch: &mut dyn FnMut(&Progress) -> Watch,
 ) -> Result<Solution, SolveError> {
-    solve_with_maps(scene, request, resume, &mut |progress, _| watch(progress))
+    solve_looked_at(scene, request, resume, &mut |progress, _| watch(progress))
 }
 
 /// What a run would need, from as much of its pilot as there is patience for; one look at least.
@@ -100,12 +100,31 @@ pub fn foresee(
     Ok(seen)
 }
 
-/// Who watches a run: sees its progress, may have the map as it is now (none while elements are being
-/// made), and says how to go on.
-pub type Watcher<'w> = dyn FnMut(&Progress, &dyn Fn() -> Option<IlluminationMap>) -> Watch + 'w;
+/// What a run has come to, made for who asks.
+pub struct SoFar<'a> {
+    map: &'a dyn Fn() -> Option<IlluminationMap>,
+    state: &'a dyn Fn() -> Option<RunState>,
+}
 
-/// As [`solve`], for a watcher that looks at maps on the way.
-pub fn solve_with_maps(
+impl SoFar<'_> {
+    const NOTHING: Self = Self { map: &|| None, state: &|| None };
+
+    /// The map as it is now; none while elements are being made.
+    pub fn map(&self) -> Option<IlluminationMap> {
+        (self.map)()
+    }
+
+    /// What it takes to go on from here, with the same flags to the same bits; none while there is nothing to go on from.
+    pub fn state(&self) -> Option<RunState> {
+        (self.state)()
+    }
+}
+
+/// Who watches a run: sees its progress, may have what it has come to, and says how to go on.
+pub type Watcher<'w> = dyn FnMut(&Progress, &SoFar<'_>) -> Watch + 'w;
+
+/// As [`solve`], for a watcher that looks at maps on the way, or keeps states.
+pub fn solve_looked_at(
     scene: &Scene,
     request: &SolveRequest,
     resume: Option<&RunState>,
@@ -179,6 +198,8 @@ struct Run<'s, 'r> {
     identity: RunIdentity,
     started: Instant,
     rays: u64,
+    /// Those of them that an earlier run has traced.
+    earlier_rays: u64,
     /// Stopped by the watcher or the clock before the mesh was complete.
     stopped: bool,
     /// Refinement ended before its goal, for lack of time.
@@ -198,6 +219,7 @@ impl<'s, 'r> Run<'s, 'r> {
             identity: RunIdentity::of(scene, request),
             started: Instant::now(),
             rays: 0,
+            earlier_rays: 0,
             stopped: false,
             cut: false,
             stage: 1,
@@ -260,8 +282,9 @@ impl<'s, 'r> Run<'s, 'r> {
             let progress = self.progress(Stage::Pilot, 0, round.receivers as u64, None);
             let progress = Progress { prediction: self.foreseen(round), ..progress };
             // Who has said stop is not asked again.
-            self.stopped =
-                self.stopped || watch(&progress, &|| None) == Watch::Stop || self.out_of_time();
+            self.stopped = self.stopped
+                || watch(&progress, &SoFar::NOTHING) == Watch::Stop
+                || self.out_of_time();
             // The elements of a saved run are made again, whole, or what it has would be lost.
             self.stage == self.saved_stage || !(self.stopped || self.refined_long_enough())
         });
@@ -293,6 +316,7 @@ impl<'s, 'r> Run<'s, 'r> {
             target: self.request.accuracy,
             receivers,
             rays: self.rays,
+            earlier_rays: self.earlier_rays,
             elapsed_s: self.elapsed_s(),
             prediction: None,
             ends: false,
@@ -312,6 +336,7 @@ impl<'s, 'r> Run<'s, 'r> {
         }
         if let Some(state) = saved {
             work.restore(state)?;
+            self.earlier_rays = state.rays.saturating_sub(self.rays);
             self.rays = state.rays;
         }
         let pace = Pace { started_s: self.elapsed_s(), before: work.sums.increments };
@@ -322,7 +347,11 @@ impl<'s, 'r> Run<'s, 'r> {
             let end = self.end(&work, accuracy);
             let progress = self.report(&work, accuracy, pace, end);
             let reached = end == Some(End::Reached);
-            let answer = watch(&progress, &|| Some(self.map(&work, accuracy, reached)));
+            let so_far = SoFar {
+                map: &|| Some(self.map(&work, accuracy, reached)),
+                state: &|| whole_mesh.then(|| self.state(Some(&work))),
+            };
+            let answer = watch(&progress, &so_far);
             self.stopped |= answer == Watch::Stop || self.out_of_time();
             let done = end.is_some_and(|end| end != End::TooCoarse && answer != Watch::Insist)
                 || work.sums.increments >= MAX_INCREMENTS;
@@ -403,9 +432,10 @@ impl<'s, 'r> Run<'s, 'r> {
         let progress = self.progress(Stage::Increments, count, receivers, accuracy);
         let goal = self.request.accuracy;
         let needed = goal.and_then(|goal| work.increments_needed(accuracy, goal));
-        let prediction = needed.map(|needed| {
-            let made = count + work.ahead();
-            let each_s = (progress.elapsed_s - pace.started_s) / (made - pace.before).max(1) as f64;
+        let made = count + work.ahead();
+        // Who has made none here does not know what one takes.
+        let prediction = needed.filter(|_| made > pace.before).map(|needed| {
+            let each_s = (progress.elapsed_s - pace.started_s) / (made - pace.before) as f64;
             predict::finish(needed, made, each_s, progress.elapsed_s)
         });
         let ends = end.is_some_and(|end| end != End::TooCoarse);
@@ -420,18 +450,24 @@ impl<'s, 'r> Run<'s, 'r> {
         reached: bool,
         whole_mesh: bool,
     ) -> Solution {
-        let state = RunState {
-            identity: self.identity.clone(),
-            stage: self.stage,
-            rays: self.rays,
-            increments: if whole_mesh { work.sums.increments } else { 0 },
-            receivers: if whole_mesh { work.sums.sums.clone() } else { Vec::new() },
-            checks: if whole_mesh { work.checks.all() } else { Vec::new() },
-            given_up: if whole_mesh { work.given_up.sums.clone() } else { Vec::new() },
-        };
+        let state = self.state(whole_mesh.then_some(work));
         let time_s = self.elapsed_s();
         let cache = IrradianceCache { samples: work.made() };
         Solution { map: self.map(work, accuracy, reached), state, cache, time_s }
+    }
+
+    /// With sums, or none: those of elements that were cut short are of no use to another run.
+    fn state(&self, sums: Option<&Work>) -> RunState {
+        let some = |of: &dyn Fn(&Work) -> Vec<Sums>| sums.map_or(Vec::new(), of);
+        RunState {
+            identity: self.identity.clone(),
+            stage: self.stage,
+            rays: self.rays,
+            increments: sums.map_or(0, |work| work.sums.increments),
+            receivers: some(&|work| work.sums.sums.clone()),
+            checks: some(&|work| work.checks.all()),
+            given_up: some(&|work| work.given_up.sums.clone()),
+        }
     }
 
     fn map(&self, work: &Work, accuracy: Option<Accuracy>, reached: bool) -> IlluminationMap {

@@ -2,7 +2,7 @@
 
 use crate::rooms::{inward_box, lamp, mirror, painted, rectangle, scene};
 use crate::runs::{coarse, run};
-use isolux::engine::{RadiositySettings, SolveRequest, Stage, Watch, solve_with_maps};
+use isolux::engine::{RadiositySettings, SoFar, SolveRequest, Stage, Watch, solve_looked_at};
 use isolux::map::{IlluminationMap, Method};
 use isolux::scene::Scene;
 
@@ -29,17 +29,16 @@ fn mean_lx(map: &IlluminationMap) -> f64 {
 fn on_the_way(ambient: bool) -> Vec<(f64, f64, f64)> {
     let mut seen = Vec::new();
     let settings = RadiositySettings { ambient, ..RadiositySettings::default() };
-    let watch = &mut |progress: &isolux::engine::Progress,
-                      map: &dyn Fn() -> Option<IlluminationMap>| {
+    let watch = &mut |progress: &isolux::engine::Progress, so_far: &SoFar| {
         if progress.stage == Stage::Increments {
-            let map = map().expect("there is a map after every shot");
+            let map = so_far.map().expect("there is a map after every shot");
             let unshot = progress.unshot.expect("radiosity knows");
             let error = progress.accuracy.expect("check points know").reached;
             seen.push((mean_lx(&map), unshot, error));
         }
         Watch::Continue
     };
-    solve_with_maps(&room(), &request(settings), None, watch).expect("the scene has light");
+    solve_looked_at(&room(), &request(settings), None, watch).expect("the scene has light");
     seen
 }
 

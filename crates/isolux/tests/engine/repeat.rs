@@ -4,7 +4,9 @@ use crate::rooms::{
     clear_glass, glowing, inward_box, lamp, outward_box, painted, rectangle, scene,
 };
 use crate::runs::{METHODS, coarse, run};
-use isolux::engine::{Progress, Solution, SolveRequest, Stage, Watch, solve, solve_with_maps};
+use isolux::engine::{
+    Progress, SoFar, Solution, SolveRequest, Stage, Watch, solve, solve_looked_at,
+};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Finish, Gloss, Material, Scene};
 use isolux::units::Rgb;
@@ -121,10 +123,10 @@ fn a_map_looked_at_on_the_way_is_that_of_a_run_stopped_there() {
     for method in METHODS {
         let request = coarse(method, 250);
         let (mut looked, mut ended_at) = (None, None);
-        let watch = &mut |p: &Progress, map: &dyn Fn() -> Option<IlluminationMap>| {
-            assert_eq!(map().is_some(), p.stage == Stage::Increments);
+        let watch = &mut |p: &Progress, so_far: &SoFar| {
+            assert_eq!(so_far.map().is_some(), p.stage == Stage::Increments);
             if p.ends && ended_at.is_none() {
-                (looked, ended_at) = (map(), Some(p.increments));
+                (looked, ended_at) = (so_far.map(), Some(p.increments));
             }
             match ended_at {
                 Some(end) if p.increments > end + 2 => Watch::Stop,
@@ -132,7 +134,7 @@ fn a_map_looked_at_on_the_way_is_that_of_a_run_stopped_there() {
                 None => Watch::Continue,
             }
         };
-        let on = solve_with_maps(&scene, &request, None, watch).expect("the scene has light");
+        let on = solve_looked_at(&scene, &request, None, watch).expect("the scene has light");
         let itself = solve(&scene, &request, None, &mut |_| Watch::Continue).expect("the same");
         let end = itself.map.provenance.increments;
         assert_eq!((ended_at, on.state.increments), (Some(end), end + 3), "{method:?}");
