@@ -262,7 +262,7 @@ fn leaves(scene: &Scene, elements: &Elements, direct: impl Fn(u32) -> Rgb) -> Ve
     elements.leaves().filter_map(leaf).collect()
 }
 
-/// Elements by the cube of space that they lie in, the brightest cubes first.
+/// Elements by the cube of space that they lie in.
 fn divided(bright: &[Leaf]) -> Vec<Part> {
     let middle =
         |leaf: &Leaf| leaf.corners[0].lerp(leaf.corners[1], 0.5).lerp(leaf.corners[2], 1.0 / 3.0);
@@ -285,7 +285,5 @@ fn divided(bright: &[Leaf]) -> Vec<Part> {
         }
         edge_m *= std::f64::consts::SQRT_2;
     };
-    let mut parts: Vec<Part> = cubes.into_values().map(Part::of).collect();
-    parts.sort_by(|a, b| b.flux_lm.total_cmp(&a.flux_lm));
-    parts
+    cubes.into_values().map(Part::of).collect()
 }
