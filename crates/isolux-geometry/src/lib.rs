@@ -8,9 +8,11 @@ mod ray;
 mod transform;
 mod triangle;
 mod vector;
+mod vectors;
 
 pub use bvh::Bvh;
 pub use ray::{Hit, Ray};
 pub use transform::Transform;
 pub use triangle::{Triangle, TriangleMesh};
 pub use vector::{Direction, Normal, Point, Vector};
+pub use vectors::{Vectorized, with_vectors};

@@ -4,6 +4,7 @@
 //! find of the same is known, too. Where most of what a place sees are walls, rays are as wrong about both, so that the difference of the two
 //! takes most of their noise off what they gather, whatever stands in the room: its mean is zero.
 
+mod lanes;
 mod planes;
 mod polynomial;
 
@@ -153,10 +154,7 @@ impl Backdrop {
             let far = |s: &Seen<'_>| s.at(direction).map(|(far_m, _)| (far_m, s.size_m()));
             let nearest = seen.iter().filter_map(far).min_by(|a, b| a.0.total_cmp(&b.0));
             let Some((far_m, size_m)) = nearest else { return false };
-            met[k].is_some_and(|hit| {
-                let at = SurfacePoint::from_hit(scene, &hit).point;
-                ((at - of.origin).length() - far_m).abs() <= BESIDE * (far_m + size_m)
-            })
+            met[k].is_some_and(|hit| (f64::from(hit.t) - far_m).abs() <= BESIDE * (far_m + size_m))
         };
         (0..TRIED).filter(comes_there).count() >= CLEAR
     }

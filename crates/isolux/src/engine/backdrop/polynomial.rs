@@ -1,9 +1,9 @@
 //! Polynomials over a rectangle, and the light that a place gets from a surface that is as bright as one tells.
 
+use super::lanes::{LANES, Lanes};
 use crate::quadrature::GaussRule;
-use isolux_geometry::Vector;
+use isolux_geometry::{Vector, Vectorized, with_vectors};
 use std::f64::consts::FRAC_1_PI;
-use std::ops::{Add, Mul, Sub};
 use std::sync::LazyLock;
 
 /// The highest power. On CUBE, whose walls are five times as bright in the middle as in a corner, polynomials of degree
@@ -14,7 +14,9 @@ pub(super) const COUNT: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
 /// Functions of an angle are integrated at so many places, and so many more for every unit of the variable.
 const FEWEST_NODES: f64 = 3.0;
 const NODES_A_UNIT: f64 = 1.0;
-const MOST_NODES: usize = 28;
+const MOST_NODES: usize = 51;
+/// Nodes of a rectangle as it is usually seen.
+const USUAL_NODES: usize = 32;
 /// Variables beyond this hold nothing.
 const FAR: f64 = 24.0;
 
@@ -86,16 +88,21 @@ impl Polynomial {
     }
 
     /// Its parts of every degree in some directions.
+    #[inline(always)]
     fn parts(&self, x: Lanes, y: Lanes) -> [Lanes; DEGREE + 1] {
         let mut of_y = [Lanes::of(1.0); DEGREE + 1];
-        (1..=DEGREE).for_each(|k| of_y[k] = y * of_y[k - 1]);
-        std::array::from_fn(|degree| {
+        for k in 1..=DEGREE {
+            of_y[k] = y * of_y[k - 1];
+        }
+        let mut parts = [Lanes::of(0.0); DEGREE + 1];
+        for (degree, own) in parts.iter_mut().enumerate() {
             let mut part = Lanes::of(self.0[first(degree)]);
             for (k, &of_y) in of_y.iter().enumerate().take(degree + 1).skip(1) {
                 part = part * x + Lanes::of(self.0[first(degree - k) + k]) * of_y;
             }
-            part
-        })
+            *own = part;
+        }
+        parts
     }
 
     /// Illuminance from a rectangle of these half sides, m, whose radiosity this is, at a place that nothing hides it from.
@@ -105,92 +112,98 @@ impl Polynomial {
     /// the angle grows by `dw / cosh w`, and the rest is smooth in `w`.
     pub(super) fn illuminance(&self, half_m: [f64; 2], view: &View) -> f64 {
         let about = self.about([0, 1].map(|k| view.foot_m[k] / half_m[k]));
-        let corners = view.above_horizon(half_m);
-        let mut nodes = Vec::with_capacity(MOST_NODES * corners.len());
-        for (k, &from) in corners.iter().enumerate() {
-            along_edge(from, corners[(k + 1) % corners.len()], &mut nodes);
+        let corners = &view.above_horizon(half_m);
+        with_vectors(OfRectangle { light: &about, half_m, view, corners })
+    }
+}
+
+/// A rectangle as seen from a place.
+struct OfRectangle<'a> {
+    /// By what the unknowns are more than at the foot.
+    light: &'a Polynomial,
+    half_m: [f64; 2],
+    view: &'a View,
+    /// Of the part above the horizon.
+    corners: &'a [[f64; 2]],
+}
+
+impl Vectorized for OfRectangle<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run(self) -> f64 {
+        let nodes = along_edges(self.corners);
+        let mut sum = 0.0;
+        for some in nodes.chunks(LANES) {
+            sum += self.view.along_radii(self.half_m, some, self.light);
         }
-        let sum: f64 = nodes.chunks(LANES).map(|some| view.along_radii(half_m, some, &about)).sum();
         sum * FRAC_1_PI
     }
 }
 
-/// Numbers that are worked out side by side.
-const LANES: usize = 4;
-
-#[derive(Clone, Copy)]
-struct Lanes([f64; LANES]);
-
-impl Lanes {
-    const fn of(value: f64) -> Self {
-        Self([value; LANES])
-    }
+/// An edge of a polygon about the foot.
+#[derive(Clone, Copy, Default)]
+struct Edge {
+    /// Of length one: from the foot to the nearest place of its line, and along it.
+    out: [f64; 2],
+    along: [f64; 2],
+    /// How far that place is, m.
+    away_m: f64,
 }
 
-impl Add for Lanes {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
-    }
-}
-
-impl Sub for Lanes {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
-    }
-}
-
-impl Mul for Lanes {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] * other.0[k]))
-    }
-}
-
-/// A direction in a plane, how far the edge is there, and how much that counts.
+/// A part of the angle that an edge is seen under: where on the edge, and how much it counts.
 #[derive(Clone, Copy, Default)]
 struct Node {
-    toward: [f64; 2],
-    radius_m: f64,
+    edge: Edge,
+    place: f64,
     weight: f64,
 }
 
-/// The angle that an edge is seen under from the foot, in parts.
-fn along_edge(from: [f64; 2], to: [f64; 2], nodes: &mut Vec<Node>) {
-    let side = [to[0] - from[0], to[1] - from[1]];
-    let length = libm::hypot(side[0], side[1]);
-    if length <= 0.0 {
-        return;
+/// The angles that the edges are seen under from the foot, in parts.
+#[inline(always)]
+fn along_edges(corners: &[[f64; 2]]) -> Vec<Node> {
+    let mut edges = [(Edge::default(), 0.0); LANES];
+    let (mut begins, mut ends) = (Lanes::of(0.0), Lanes::of(0.0));
+    for (k, &from) in corners.iter().enumerate() {
+        let to = corners[(k + 1) % corners.len()];
+        let Some((edge, sign)) = Edge::between(from, to) else { continue };
+        edges[k] = (edge, sign);
+        (begins.0[k], ends.0[k]) = (edge.place(from), edge.place(to));
     }
-    let along = side.map(|s| s / length);
-    // To the right of an edge that goes round to the left.
-    let out = [along[1], -along[0]];
-    let apart = from[0] * out[0] + from[1] * out[1];
-    let away = apart.abs();
-    let place = |at: [f64; 2]| (at[0] * along[0] + at[1] * along[1]) / away;
-    let places = [from, to].map(place);
-    // An edge through the foot is seen under no angle.
-    if !places.iter().all(|place| place.is_finite()) {
-        return;
-    }
-    let [begin, end] = places.map(|place| libm::asinh(place).clamp(-FAR, FAR));
-    let middle = 0.0_f64.clamp(begin, end);
-    for [begin, end] in [[begin, middle], [middle, end]] {
-        if end <= begin {
-            continue;
+    let [begins, ends] = [begins, ends].map(|places| places.asinh().map(|w| w.clamp(-FAR, FAR)));
+    let mut nodes = Vec::with_capacity(USUAL_NODES);
+    for (k, (edge, sign)) in edges.into_iter().enumerate() {
+        let (begin, end) = (begins.0[k], ends.0[k]);
+        if end > begin {
+            let count = (FEWEST_NODES + NODES_A_UNIT * (end - begin)).ceil() as usize;
+            let rule = RULES[count.min(MOST_NODES)].over(begin, end);
+            nodes.extend(rule.map(|(place, weight)| Node { edge, place, weight: sign * weight }));
         }
-        let count = (FEWEST_NODES + NODES_A_UNIT * (end - begin)).ceil() as usize;
-        let rule = &RULES[count.min(MOST_NODES)];
-        nodes.extend(rule.over(begin, end).map(|(w, weight)| {
-            let grown = libm::exp(w);
-            let [cosh, sinh] = [0.5 * (grown + 1.0 / grown), 0.5 * (grown - 1.0 / grown)];
-            Node {
-                toward: [0, 1].map(|k| (out[k] * apart.signum() + along[k] * sinh) / cosh),
-                radius_m: away * cosh,
-                weight: apart.signum() * weight / cosh,
-            }
-        }));
+    }
+    nodes
+}
+
+impl Edge {
+    /// The edge between two corners, and whether its angle is to be added (1) or taken off (-1). An edge through the foot is seen under
+    /// no angle.
+    #[inline(always)]
+    fn between(from: [f64; 2], to: [f64; 2]) -> Option<(Self, f64)> {
+        let side = [to[0] - from[0], to[1] - from[1]];
+        let length = (side[0] * side[0] + side[1] * side[1]).sqrt();
+        let along = side.map(|s| s / length);
+        // To the right of an edge that goes round to the left.
+        let out = [along[1], -along[0]];
+        let apart = from[0] * out[0] + from[1] * out[1];
+        let (away_m, sign) = (apart.abs(), apart.signum());
+        let edge = Self { out: out.map(|c| c * sign), along, away_m };
+        let is_seen = length > 0.0 && [from, to].iter().all(|&at| edge.place(at).is_finite());
+        is_seen.then_some((edge, sign))
+    }
+
+    /// Where along it a place is, from the nearest to the foot, in distances of that.
+    #[inline(always)]
+    fn place(&self, at: [f64; 2]) -> f64 {
+        (at[0] * self.along[0] + at[1] * self.along[1]) / self.away_m
     }
 }
 
@@ -218,22 +231,32 @@ impl View {
     }
 
     /// The integrals over the radius in some directions of the plane.
+    #[inline(always)]
     fn along_radii(&self, half_m: [f64; 2], some: &[Node], about: &Polynomial) -> f64 {
         let mut nodes = [Node::default(); LANES];
         nodes[..some.len()].copy_from_slice(some);
+        let grown = lanes(&nodes, |node| node.place).exp();
+        let shrunk = Lanes::of(1.0) / grown;
+        let [cosh, sinh] = [(grown + shrunk) * Lanes::of(0.5), (grown - shrunk) * Lanes::of(0.5)];
+        let over_cosh = Lanes::of(1.0) / cosh;
+        let toward = [0, 1].map(|k| {
+            let (out, along) =
+                (lanes(&nodes, |n| n.edge.out[k]), lanes(&nodes, |n| n.edge.along[k]));
+            (out + along * sinh) * over_cosh
+        });
+        let radius_m = lanes(&nodes, |node| node.edge.away_m) * cosh;
         let [n_s, n_t, n_m] = self.normal;
-        let of = |of: &dyn Fn(&Node) -> f64| Lanes(std::array::from_fn(|k| of(&nodes[k])));
-        let across = of(&|node| n_s * node.toward[0] + n_t * node.toward[1]);
-        let parts = about
-            .parts(of(&|node| node.toward[0] / half_m[0]), of(&|node| node.toward[1] / half_m[1]));
-        let of_height = radial(of(&|node| node.radius_m / self.height_m));
+        let across = toward[0] * Lanes::of(n_s) + toward[1] * Lanes::of(n_t);
+        let [x, y] = [0, 1].map(|k| toward[k] * Lanes::of(1.0 / half_m[k]));
+        let parts = about.parts(x, y);
+        let of_height = radial(radius_m * Lanes::of(1.0 / self.height_m));
         let (mut sum, mut height) = (Lanes::of(0.0), 1.0);
         for (j, &part) in parts.iter().enumerate() {
             let both = across * of_height[j + 2] - Lanes::of(n_m) * of_height[j + 1];
             sum = sum + part * Lanes::of(height) * both;
             height *= self.height_m;
         }
-        (0..LANES).map(|k| nodes[k].weight * sum.0[k]).sum()
+        (sum * over_cosh * lanes(&nodes, |node| node.weight)).sum()
     }
 
     /// Of a place and the axes of a plane through a point, the third its normal.
@@ -257,13 +280,24 @@ const INVERSE: [f64; DEGREE + 2] = {
     inverse
 };
 
+/// A number of every node.
+#[inline(always)]
+fn lanes(nodes: &[Node; LANES], of: impl Fn(&Node) -> f64) -> Lanes {
+    let mut all = Lanes::of(0.0);
+    for (own, node) in all.0.iter_mut().zip(nodes) {
+        *own = of(node);
+    }
+    all
+}
+
 /// The integrals of `u^k / (1 + u^2)^2` from zero, by `k`.
+#[inline(always)]
 fn radial(to: Lanes) -> [Lanes; DEGREE + 3] {
     let squared = to * to;
-    let fall = Lanes(squared.0.map(|squared| 1.0 / (1.0 + squared)));
+    let fall = Lanes::of(1.0) / (Lanes::of(1.0) + squared);
     let mut once = [Lanes::of(0.0); DEGREE + 3];
-    once[0] = Lanes(to.0.map(libm::atan));
-    once[1] = Lanes(squared.0.map(|squared| 0.5 * libm::log(1.0 + squared)));
+    once[0] = to.atan();
+    once[1] = (Lanes::of(1.0) + squared).ln() * Lanes::of(0.5);
     let mut power = Lanes::of(1.0);
     for k in 2..DEGREE + 3 {
         power = power * to;

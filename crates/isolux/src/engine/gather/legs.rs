@@ -21,6 +21,9 @@ use rayon::prelude::*;
 
 /// Receivers of one task: enough work to be worth handing out, few enough to share evenly.
 const CHUNK: usize = 64;
+/// Where there are few, tasks at least, and the least of one.
+const FEWEST_CHUNKS: usize = 16;
+const LEAST_CHUNK: usize = 4;
 
 /// Rays of a row that are followed together.
 const TOGETHER: u32 = 64;
@@ -147,6 +150,7 @@ impl Gathering<'_> {
         gatherers: &[Gatherer],
         key_of: impl Fn(usize) -> Key + Sync,
     ) -> Option<Operator> {
+        let size = gatherers.len().div_ceil(FEWEST_CHUNKS).clamp(LEAST_CHUNK, CHUNK);
         let chunk = |(index, part): (usize, &[Gatherer])| {
             if deadline.has_passed() {
                 return None;
@@ -159,13 +163,13 @@ impl Gathering<'_> {
                 let before = k.checked_sub(1).map(|k| &part[k]);
                 let about = row.about.filter(|_| before.is_some_and(|b| b.is_at(gatherer)));
                 row = Row::after(about);
-                let key = key_of(index * CHUNK + k);
+                let key = key_of(index * size + k);
                 self.row(gatherer, key, (&mut row, &mut wave), &mut rows);
             }
             Some(rows)
         };
         let chunks: Option<Vec<Rows>> =
-            gatherers.par_chunks(CHUNK).enumerate().map(chunk).collect();
+            gatherers.par_chunks(size).enumerate().map(chunk).collect();
         let chunks = chunks?;
         let further: u64 = chunks.iter().map(|rows| rows.further_rays).sum();
         let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum::<u64>() + further;
