@@ -14,6 +14,10 @@ pub(super) const BELIEVED_INCREMENTS: u64 = 8;
 /// Increments after which elements may be seen to be too coarse: the spread of fewer tells little of check points.
 pub(super) const FEWEST_TO_MISS: u64 = 4;
 
+/// Errors are told relative to the root mean square of the light, but to no more than so many times its mean where there is any: of a
+/// lamp close below a ceiling a hand's breadth of that can have a hundred times the root mean square of all else.
+const MOST_UNEVEN: f64 = 2.0;
+
 /// Vertices whose sums are added up by one task.
 const POOLED_TOGETHER: usize = 1024;
 
@@ -24,7 +28,8 @@ pub(super) fn accuracy(
     pooled: &Pooled,
     interpolation: &InterpolationErrors,
 ) -> Option<Accuracy> {
-    let noise_lx = interpolation.noise_lx.unwrap_or((pooled.variance / pooled.area_m2).sqrt());
+    let noise_lx =
+        interpolation.noise_lx.unwrap_or((pooled.variance / pooled.light.area_m2).sqrt());
     in_all(plan, (pooled, noise_lx), interpolation)
 }
 
@@ -36,7 +41,7 @@ pub(super) fn accuracy_of_map(
     seen: &InterpolationErrors,
 ) -> Option<Accuracy> {
     let pooled = Pooled::of(plan, estimate);
-    let noise_lx = (OF_INTERPOLATED * pooled.variance / pooled.area_m2).sqrt();
+    let noise_lx = (OF_INTERPOLATED * pooled.variance / pooled.light.area_m2).sqrt();
     let beyond = |lx: f64| (lx * lx - noise_lx * noise_lx).max(0.0).sqrt();
     let rest = InterpolationErrors {
         indirect_lx: beyond(seen.indirect_lx),
@@ -51,22 +56,22 @@ fn in_all(
     (pooled, noise_lx): (&Pooled, f64),
     interpolation: &InterpolationErrors,
 ) -> Option<Accuracy> {
-    let Pooled { area_m2: area, lit_m2, squared, .. } = *pooled;
+    let Light { area_m2: area, lit_m2, squared, .. } = pooled.light;
     if !(squared > 0.0 && area > 0.0) {
         // No light at all is known exactly, if none was lost on the way and the pilot saw none.
-        let dark = area > 0.0 && plan.rms_lx == 0.0 && interpolation.given_up_lx == 0.0;
+        let dark = area > 0.0 && plan.reference_lx == 0.0 && interpolation.given_up_lx == 0.0;
         return dark.then_some(NO_ERROR);
     }
-    let rms_lx = (squared / area).sqrt();
+    let reference_lx = pooled.light.reference_lx();
     // What has one sign lies where light is: means over all of the surface are larger there.
     let lit = (lit_m2 / area).sqrt();
-    let given_up = given_up_share(plan, interpolation.given_up_lx, rms_lx) / lit;
+    let given_up = given_up_share(plan, interpolation.given_up_lx, reference_lx) / lit;
     if given_up > 1.0 {
         return None;
     }
-    let statistical = noise_lx / rms_lx;
+    let statistical = noise_lx / reference_lx;
     let of_readers = interpolation.close * interpolation.untrusted_lx;
-    let discretization = libm::hypot(interpolation.indirect_lx, of_readers) / rms_lx;
+    let discretization = libm::hypot(interpolation.indirect_lx, of_readers) / reference_lx;
     // Check points see what their rays read of indirect light; direct light that is read, too, adds what
     // is reflected of its own error.
     let is_read = plan.lighting.are_read_at_ends();
@@ -79,10 +84,10 @@ fn in_all(
     let rho = plan.mean_reflectance.min(0.99);
     let of_each = [rho * mean_lx, interpolation.seen_mean_lx];
     let larger = if of_each[0].abs() > of_each[1].abs() { of_each[0] } else { of_each[1] };
-    let reflected = larger / (1.0 - rho) / rms_lx / lit;
-    let spread = interpolation.seen_spread_lx / rms_lx;
+    let reflected = larger / (1.0 - rho) / reference_lx / lit;
+    let spread = interpolation.seen_spread_lx / reference_lx;
     let bias_beside = |read_lx: f64| {
-        let alike = (2.0 * reflected / lit * read_lx / rms_lx).max(0.0);
+        let alike = (2.0 * reflected / lit * read_lx / reference_lx).max(0.0);
         (reflected * reflected + alike + spread * spread).sqrt() + given_up
     };
     let bias = bias_beside(interpolation.trusted_mean_lx);
@@ -92,26 +97,66 @@ fn in_all(
         reached: root(&[statistical, discretization, bias]),
         statistical,
         discretization,
-        caustics: interpolation.caustics_lx / rms_lx,
+        caustics: interpolation.caustics_lx / reference_lx,
         bias,
-        interpolated: root(&[statistical, interpolation.total_lx / rms_lx, bias_of_bare_map]),
+        interpolated: root(&[statistical, interpolation.total_lx / reference_lx, bias_of_bare_map]),
     })
 }
 
 /// The statistical error alone, from two replicates on: not believed by anyone, but good enough to
 /// say when a run may end.
 pub(super) fn early_statistical(plan: &Plan, sums: &Accumulator) -> Option<f64> {
-    let Pooled { squared, variance, .. } = Pooled::of(plan, |k| sums.estimate(k));
-    (sums.increments >= 2 && squared > 0.0).then(|| (variance / squared).sqrt())
+    let Pooled { light, variance } = Pooled::of(plan, |k| sums.estimate(k));
+    (sums.increments >= 2 && light.squared > 0.0)
+        .then(|| (variance / light.area_m2).sqrt() / light.reference_lx())
 }
 
-/// Over the known vertices, weighted by area: squares of the light and variances of its mean.
-#[derive(Default)]
-pub(super) struct Pooled {
+/// The light of some surface: integrals over it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Light {
     area_m2: f64,
     /// Where there is light.
     lit_m2: f64,
+    flux_lm: f64,
     squared: f64,
+}
+
+impl Light {
+    /// Of a surface that is lit everywhere.
+    pub(super) const fn of(area_m2: f64, flux_lm: f64, squared: f64) -> Self {
+        Self { area_m2, lit_m2: area_m2, flux_lm, squared }
+    }
+
+    pub(super) fn add(&mut self, area_m2: f64, lx: f64) {
+        self.area_m2 += area_m2;
+        self.lit_m2 += if lx == 0.0 { 0.0 } else { area_m2 };
+        self.flux_lm += area_m2 * lx;
+        self.squared += area_m2 * lx * lx;
+    }
+
+    fn with(self, other: Self) -> Self {
+        Self {
+            area_m2: self.area_m2 + other.area_m2,
+            lit_m2: self.lit_m2 + other.lit_m2,
+            flux_lm: self.flux_lm + other.flux_lm,
+            squared: self.squared + other.squared,
+        }
+    }
+
+    /// What errors are told relative to, lx: zero where there is no light.
+    pub(super) fn reference_lx(&self) -> f64 {
+        if self.squared > 0.0 {
+            (self.squared / self.area_m2).sqrt().min(MOST_UNEVEN * self.flux_lm / self.lit_m2)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Over the known vertices, weighted by area: the light and variances of its mean.
+#[derive(Default)]
+pub(super) struct Pooled {
+    light: Light,
     variance: f64,
 }
 
@@ -134,19 +179,12 @@ impl Pooled {
     fn add(&mut self, area_m2: f64, estimate: &Estimate) {
         let mean = &estimate.mean;
         let lx = (mean.direct + mean.caustic + mean.indirect).luminance();
-        self.area_m2 += area_m2;
-        self.lit_m2 += if lx == 0.0 { 0.0 } else { area_m2 };
-        self.squared += area_m2 * lx * lx;
+        self.light.add(area_m2, lx);
         self.variance += area_m2 * estimate.variance;
     }
 
     fn with(self, other: Self) -> Self {
-        Self {
-            area_m2: self.area_m2 + other.area_m2,
-            lit_m2: self.lit_m2 + other.lit_m2,
-            squared: self.squared + other.squared,
-            variance: self.variance + other.variance,
-        }
+        Self { light: self.light.with(other.light), variance: self.variance + other.variance }
     }
 }
 
@@ -162,9 +200,9 @@ const NO_ERROR: Accuracy = Accuracy {
 
 /// The light of paths given up, relative, once all surfaces have reflected it: by the balance of
 /// light what arrives is what was sent over what is absorbed. Without bound where all is reflected.
-fn given_up_share(plan: &Plan, given_up_lx: f64, rms_lx: f64) -> f64 {
+fn given_up_share(plan: &Plan, given_up_lx: f64, reference_lx: f64) -> f64 {
     if given_up_lx > 0.0 {
-        given_up_lx / (1.0 - plan.mean_reflectance).max(0.0) / rms_lx
+        given_up_lx / (1.0 - plan.mean_reflectance).max(0.0) / reference_lx
     } else {
         0.0
     }

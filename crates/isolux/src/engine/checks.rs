@@ -236,7 +236,7 @@ impl Check {
 pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
     let sequence = |k: usize| Sequence::new(key.with(k as u64));
     // What counts is the error of the scene: in the dark a small share of its light will do.
-    let goal = Goal { lx: Goal::READING.share * plan.rms_lx, ..Goal::READING };
+    let goal = Goal { lx: Goal::READING.share * plan.reference_lx, ..Goal::READING };
     let one = |(k, check): (usize, &Check)| {
         plan.lighting.measured(&check.gatherer.surface, goal, sequence(k)).lx
     };

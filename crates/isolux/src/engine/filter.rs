@@ -34,7 +34,12 @@ pub(super) struct Filtered {
 
 /// Filters `parts`, colour quantities at the vertices that indirect light lives on, by the
 /// photometric sum of them all and its variance. The first is indirect light.
-pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: f64) -> Filtered {
+pub(super) fn filter(
+    plan: &Plan,
+    parts: &[Vec<Rgb>],
+    variance: &[f64],
+    reference_lx: f64,
+) -> Filtered {
     let (elements, areas_m2) = acts_on(plan);
     let means = Means::of(plan, elements);
     let pieces = means.pieces();
@@ -68,7 +73,7 @@ pub(super) fn filter(plan: &Plan, parts: &[Vec<Rgb>], variance: &[f64], rms_lx: 
         }
     }
     values[0].iter_mut().zip(behind).for_each(|(value, behind)| *value += behind);
-    let bias = if rms_lx > 0.0 { bias / rms_lx } else { 0.0 };
+    let bias = if reference_lx > 0.0 { bias / reference_lx } else { 0.0 };
     Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
 }
 

@@ -123,11 +123,11 @@ impl CausticNoise {
     fn wanted(
         self,
         vertices: usize,
-        (target, rms_lx): (f64, f64),
+        (target, reference_lx): (f64, f64),
         increments: u64,
         share: f64,
     ) -> Option<f64> {
-        let goal_lx2 = target * target * rms_lx * rms_lx * increments as f64;
+        let goal_lx2 = target * target * reference_lx * reference_lx * increments as f64;
         let growth = vertices as f64 / self.vertices.max(1) as f64;
         let by_noise = self.lx2 * growth / (share * NOISE_SHARE * NOISE_SHARE * goal_lx2);
         (goal_lx2 > 0.0).then(|| by_noise.max(self.doubt_lx2 / (DOUBT * goal_lx2)))

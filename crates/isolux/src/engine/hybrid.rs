@@ -182,7 +182,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             |k: usize| Sample { direct: direct[k], caustic: caustic[k], indirect: indirect[k] };
         let receivers = (0..direct.len()).map(vertex).collect();
         // Rays given up would have seen what others see.
-        let unseen_lx = operator.given_up() * plan.rms_lx;
+        let unseen_lx = operator.given_up() * plan.reference_lx;
         let effort = Effort {
             rays: operator.rays + fresh.rays + particles.rays,
             given_up_lx: particles.given_up_lx + unseen_lx + unsettled_lx,

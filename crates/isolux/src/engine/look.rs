@@ -62,7 +62,7 @@ pub(super) struct Look {
     pub(super) worst: Worst,
     /// Share of them that a fit leaves.
     pub(super) left_by_fit: f64,
-    pub(super) rms_lx: f64,
+    pub(super) reference_lx: f64,
 }
 
 /// What elements are read for.
@@ -140,12 +140,12 @@ impl Look {
                 let is_right_in_the_mean =
                     self.asks_for_means(request) || self.walls.are_resolved();
                 let bare = if is_right_in_the_mean { BARE_WITH_MEANS } else { BARE };
-                request.mesh_target.min(bare * request.target) * self.rms_lx
+                request.mesh_target.min(bare * request.target) * self.reference_lx
             }
             _ => self.goal_lx(request.target, request),
         };
         let excess = trust::error_of(&self.errors, self.is_read(what, request)) / goal_lx;
-        (excess > 1.0 && self.rms_lx > 0.0).then_some(excess)
+        (excess > 1.0 && self.reference_lx > 0.0).then_some(excess)
     }
 
     fn is_read(&self, what: Read, request: &PilotRequest) -> impl Fn(&LeafError) -> bool + use<> {
@@ -165,7 +165,7 @@ impl Look {
         let beset = self.errors.iter().filter(|e| e.is_beset && !e.is_at_wall);
         let lacking: f64 = beset.map(|e| e.area_m2 * e.excess).sum();
         let from = if self.left_by_fit < SMOOTH { MEANS_FROM_IF_SMOOTH } else { MEANS_FROM };
-        request.has_means && lacking.abs() > from * request.target * area_m2 * self.rms_lx
+        request.has_means && lacking.abs() > from * request.target * area_m2 * self.reference_lx
     }
 
     /// Whether light is so smooth that quadratic functions over its vertices are nearer than linear ones.
@@ -189,7 +189,7 @@ impl Look {
 
     /// What interpolation may err by, before it is fitted, lx.
     fn goal_lx(&self, target: f64, request: &PilotRequest) -> f64 {
-        DISCRETIZATION_SHARE * target * self.rms_lx / self.left(request)
+        DISCRETIZATION_SHARE * target * self.reference_lx / self.left(request)
     }
 
     /// What fit and quadratic functions leave of the error of elements.
@@ -204,6 +204,6 @@ impl Look {
         let limit = self.trusted_up_to_lx(request);
         let is_trusted = |e: &LeafError| e.is_at_wall || !e.is_beset && e.error <= limit;
         let error_lx = trust::error_of(&self.errors, is_trusted) * self.left(request);
-        if self.rms_lx > 0.0 { error_lx / self.rms_lx } else { 0.0 }
+        if self.reference_lx > 0.0 { error_lx / self.reference_lx } else { 0.0 }
     }
 }

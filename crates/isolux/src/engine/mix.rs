@@ -6,7 +6,7 @@
 //! independent and adds in squares; errors of interpolation and bias may agree in sign, and are added
 //! as they are: by the triangle inequality the sum is never worse than that.
 
-use super::probe::{MapReader, rms_lx};
+use super::probe::{MapReader, reference_lx};
 use crate::elements::{Elements, Split, Subdivision};
 use crate::map::{
     Accuracy, FilterReport, Fresh, Illuminance, IlluminationMap, Method, MixedPart, Provenance,
@@ -108,14 +108,14 @@ struct Part<'a> {
     map: &'a IlluminationMap,
     reader: MapReader<'a>,
     dimming: f64,
-    rms_lx: f64,
+    reference_lx: f64,
 }
 
 impl<'a> Part<'a> {
     fn new(part: &MixPart<'a>) -> Self {
         let MixPart { scene, map, dimming } = *part;
         let reader = MapReader::new(scene, map);
-        Self { scene, map, reader, dimming, rms_lx: rms_lx(map) }
+        Self { scene, map, reader, dimming, reference_lx: reference_lx(map) }
     }
 
     /// What the part has at a vertex of the sum: its own value, or, where it has no vertex, what a
@@ -136,7 +136,7 @@ impl<'a> Part<'a> {
 
     /// A relative error of the whole map as light in the sum, lx.
     fn dimmed_lx(&self, relative: f64) -> f64 {
-        self.dimming * self.rms_lx * relative
+        self.dimming * self.reference_lx * relative
     }
 }
 
@@ -266,8 +266,8 @@ fn sum(parts: &[Part<'_>], row: &[Illuminance], is_independent: bool) -> Illumin
 /// All but the accuracy.
 fn first_provenance(scene: &Scene, parts: &[Part<'_>]) -> Provenance {
     let from = || parts.iter().map(|part| &part.map.provenance);
-    let rms_lx: f64 = parts.iter().map(|part| part.dimmed_lx(1.0)).sum();
-    let share = |lx: f64| if rms_lx > 0.0 { lx / rms_lx } else { 0.0 };
+    let reference_lx: f64 = parts.iter().map(|part| part.dimmed_lx(1.0)).sum();
+    let share = |lx: f64| if reference_lx > 0.0 { lx / reference_lx } else { 0.0 };
     let with = |of: &dyn Fn(&Provenance) -> Option<f64>| {
         parts.iter().filter_map(|part| Some(part.dimmed_lx(of(&part.map.provenance)?))).sum::<f64>()
     };
@@ -351,27 +351,27 @@ fn accuracy(
 ) -> Option<Accuracy> {
     let of: Vec<Accuracy> =
         parts.iter().map(|p| p.map.provenance.accuracy).collect::<Option<_>>()?;
-    let rms_lx = rms_lx(map);
-    if rms_lx <= 0.0 {
+    let reference_lx = reference_lx(map);
+    if reference_lx <= 0.0 {
         return None;
     }
     let lx = |of_part: fn(&Accuracy) -> f64| {
         parts.iter().zip(&of).map(move |(part, a)| part.dimmed_lx(of_part(a)))
     };
     let squares = |terms: &[f64]| terms.iter().map(|t| t * t).sum::<f64>();
-    let statistical = add_noise(lx(|a| a.statistical), is_independent) / rms_lx;
+    let statistical = add_noise(lx(|a| a.statistical), is_independent) / reference_lx;
     let beside_caustics = {
         let shape = |v: &Illuminance| v.interpolation_error_lx;
-        spread(map, columns, lx(Accuracy::discretization_beside_caustics), shape) / rms_lx
+        spread(map, columns, lx(Accuracy::discretization_beside_caustics), shape) / reference_lx
     };
-    let caustics = add_noise(lx(|a| a.caustics), true) / rms_lx;
+    let caustics = add_noise(lx(|a| a.caustics), true) / reference_lx;
     let discretization = squares(&[beside_caustics, caustics]).sqrt();
-    let bias = spread(map, columns, lx(|a| a.bias), Illuminance::illuminance_lx) / rms_lx;
+    let bias = spread(map, columns, lx(|a| a.bias), Illuminance::illuminance_lx) / reference_lx;
     let reached = squares(&[statistical, discretization, bias]).sqrt();
     let beyond =
         |a: &Accuracy| (squares(&[a.interpolated]) - squares(&[a.reached])).max(0.0).sqrt();
     let direct: f64 = parts.iter().zip(&of).map(|(p, a)| p.dimmed_lx(beyond(a))).sum();
-    let interpolated = squares(&[reached, direct / rms_lx]).sqrt();
+    let interpolated = squares(&[reached, direct / reference_lx]).sqrt();
     Some(Accuracy { reached, statistical, discretization, caustics, bias, interpolated })
 }
 

@@ -55,7 +55,7 @@ pub(super) struct Plan<'s> {
     /// Those elements, by node, as triangles of the scene.
     pub(super) subdivision: Subdivision,
     /// Root mean square of the photometric illuminance over all known surfaces, lx.
-    pub(super) rms_lx: f64,
+    pub(super) reference_lx: f64,
     /// What interpolating indirect light is expected to err by where readers trust it, of all light.
     pub(super) interpolation: f64,
     /// Of the diffuse surfaces.
@@ -104,7 +104,7 @@ impl Plan<'_> {
 
     /// Particles of each of so many increments for a target, where they are not weighed against rays.
     pub(super) fn particles(&self, target: f64, increments: u64) -> u32 {
-        let (vertices, goal) = (self.indirect_vertices, (target, self.rms_lx));
+        let (vertices, goal) = (self.indirect_vertices, (target, self.reference_lx));
         let wanted = self.caustic_noise.particles(vertices, goal, increments, LEAST_SHARE);
         wanted.max(flights::particles(vertices))
     }

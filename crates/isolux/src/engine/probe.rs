@@ -7,6 +7,7 @@ mod unlit;
 mod walls;
 
 use super::accumulate::mean_and_variance;
+use super::accuracy::Light;
 use super::backdrop::Backdrop;
 use super::bright::Bright;
 use super::cuts::Cuts;
@@ -91,7 +92,7 @@ struct Gathered {
 /// Errors of what is read from vertices that replicates do not tell, lx.
 struct Unseen {
     /// Root mean square of the light.
-    rms_lx: f64,
+    reference_lx: f64,
     /// Of interpolation, root mean square over the scene.
     discretization_lx: f64,
     /// Common to all of the map.
@@ -462,15 +463,15 @@ impl<'a> MapReader<'a> {
 }
 
 impl Unseen {
-    /// As reported: shares of the root mean square of the light. (In proportion to the indirect light
+    /// As reported: shares of what errors are relative to. (In proportion to the indirect light
     /// fewer intervals hold the truth: dark edges err most.)
     fn of(map: &IlluminationMap) -> Self {
-        let rms_lx = rms_lx(map);
+        let reference_lx = reference_lx(map);
         let share = |part: fn(&Accuracy) -> f64| {
-            map.provenance.accuracy.as_ref().map_or(0.0, |accuracy| part(accuracy) * rms_lx)
+            map.provenance.accuracy.as_ref().map_or(0.0, |accuracy| part(accuracy) * reference_lx)
         };
         Self {
-            rms_lx,
+            reference_lx,
             discretization_lx: share(Accuracy::discretization_beside_caustics),
             bias_lx: share(|a| a.bias),
             reached_lx: share(|a| a.reached),
@@ -484,14 +485,12 @@ fn of_caustics(stored: &Illuminance) -> f64 {
     stored.indirect_standard_error_lx.min(stored.caustic_lx.luminance().abs())
 }
 
-/// Root mean square of the illuminance over the known surface.
-pub(super) fn rms_lx(map: &IlluminationMap) -> f64 {
-    let (mut area_m2, mut squared) = (0.0, 0.0);
+/// What the errors of a map are relative to, lx.
+pub(super) fn reference_lx(map: &IlluminationMap) -> f64 {
+    let mut light = Light::default();
     for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
         let Some(value) = value else { continue };
-        let lx = value.illuminance_lx();
-        area_m2 += vertex.area_m2;
-        squared += vertex.area_m2 * lx * lx;
+        light.add(vertex.area_m2, value.illuminance_lx());
     }
-    if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
+    light.reference_lx()
 }

@@ -2,6 +2,7 @@
 
 use crate::elements::Subdivision;
 use crate::scene::Scene;
+use crate::units::Rgb;
 use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
 
 /// A place on one side of a triangle; both normals point to that side.
@@ -84,6 +85,14 @@ impl SurfacePoint {
     /// The ray that goes through to the other side.
     pub(super) fn cross(&self, direction: Direction) -> Ray {
         self.other_side().leave(direction)
+    }
+
+    /// What it reflects diffusely; nothing where it is transparent.
+    pub(super) fn reflectance(&self, scene: &Scene) -> Rgb {
+        let finish = scene.material(self.triangle).finish(self.back);
+        finish.map_or(Rgb::BLACK, |finish| {
+            scene.diffuse_reflectance(finish, self.triangle, self.u, self.v)
+        })
     }
 
     /// The same place seen from the other side.

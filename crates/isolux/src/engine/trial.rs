@@ -63,8 +63,8 @@ pub(super) struct Trial {
 
 impl Trial {
     /// What is mostly found, as long as nothing is tried: 1.5 to 3.2 % of the light in CUBE, SPHERE and the hall.
-    pub(super) fn usual(rms_lx: f64) -> Self {
-        Self { noise_lx: 0.02 * rms_lx, rays: RAYS }
+    pub(super) fn usual(reference_lx: f64) -> Self {
+        Self { noise_lx: 0.02 * reference_lx, rays: RAYS }
     }
 
     /// Tries some receivers, each with the surface it stands for, m2, for a run of so many increments that
@@ -73,12 +73,12 @@ impl Trial {
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
         light: &[Rgb],
-        (target, rms_lx, increments, key): (f64, f64, u64, Key),
+        (target, reference_lx, increments, key): (f64, f64, u64, Key),
         known: Option<Self>,
     ) -> (Self, u64) {
-        let with = |rays: u32| Self::with(rays, gathering, some, light, (rms_lx, key));
+        let with = |rays: u32| Self::with(rays, gathering, some, light, (reference_lx, key));
         let (first, traced) = known.map_or_else(|| with(RAYS), |known| (known, 0));
-        let nearer = first.rays_for(NOISE_SHARE * target, rms_lx, increments) / NEARER;
+        let nearer = first.rays_for(NOISE_SHARE * target, reference_lx, increments) / NEARER;
         if nearer <= RAYS {
             return (first, traced);
         }
@@ -108,10 +108,10 @@ impl Trial {
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
         light: &[Rgb],
-        (rms_lx, key): (f64, Key),
+        (reference_lx, key): (f64, Key),
     ) -> (Self, u64) {
         let rows: Vec<Gatherer> = some.iter().map(|(g, _)| g.with_rays(rays)).collect();
-        let mut sums = Accumulator::new(rows.len(), rms_lx);
+        let mut sums = Accumulator::new(rows.len(), reference_lx);
         let mut traced = 0;
         for index in 0..INCREMENTS {
             let key = key.with(index);
@@ -130,19 +130,19 @@ impl Trial {
     }
 
     /// Gathering rays of a receiver with which so many increments leave no more than some noise, a power of two.
-    pub(super) fn rays_for(self, noise: f64, rms_lx: f64, increments: u64) -> u32 {
-        libm::exp2(libm::round(libm::log2(self.wanted(noise, rms_lx, increments)))) as u32
+    pub(super) fn rays_for(self, noise: f64, reference_lx: f64, increments: u64) -> u32 {
+        libm::exp2(libm::round(libm::log2(self.wanted(noise, reference_lx, increments)))) as u32
     }
 
     /// The same of receivers that may lie where walls take no noise off.
-    pub(super) fn rays_anywhere(self, noise: f64, rms_lx: f64, increments: u64) -> u32 {
-        self.rays_for(noise, rms_lx, increments).max(FEWEST_UNJUDGED)
+    pub(super) fn rays_anywhere(self, noise: f64, reference_lx: f64, increments: u64) -> u32 {
+        self.rays_for(noise, reference_lx, increments).max(FEWEST_UNJUDGED)
     }
 
     /// The same as [`Trial::rays_for`], any number: what receivers that share rays as best they can should have in the mean.
-    pub(super) fn wanted(self, noise: f64, rms_lx: f64, increments: u64) -> f64 {
+    pub(super) fn wanted(self, noise: f64, reference_lx: f64, increments: u64) -> f64 {
         let noise_lx = self.noise_lx * (OF_INTERPOLATED / increments as f64).sqrt();
-        let allowed_lx = noise * rms_lx;
+        let allowed_lx = noise * reference_lx;
         if !(noise_lx > 0.0 && allowed_lx > 0.0) {
             return FEWEST_WANTED;
         }

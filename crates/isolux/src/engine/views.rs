@@ -45,7 +45,7 @@ pub(super) struct View {
 /// What each of some places sees and shows.
 pub(super) fn views(scene: &Scene, places: &[Read]) -> Vec<View> {
     let reflected: Vec<f64> =
-        places.iter().map(|place| reflectance(scene, &place.surface)).collect();
+        places.iter().map(|place| place.surface.reflectance(scene).luminance()).collect();
     let seen = |from: usize| {
         let share = |at: &Read| share(&places[from], at);
         let of = places.iter().zip(&reflected).map(|(at, reflected)| reflected * share(at));
@@ -86,14 +86,6 @@ pub(super) fn spread<'a>(views: impl Iterator<Item = (f64, &'a View)>, errors: &
     let own: f64 = of_mean.iter().map(|error| error * error).sum();
     let squared = squared - (mean * mean - own) / whole;
     if whole > 0.0 { (squared.max(0.0) / whole).sqrt() } else { 0.0 }
-}
-
-/// What a surface reflects diffusely.
-fn reflectance(scene: &Scene, at: &SurfacePoint) -> f64 {
-    let finish = scene.material(at.triangle).finish(at.back);
-    finish.map_or(0.0, |finish| {
-        scene.diffuse_reflectance(finish, at.triangle, at.u, at.v).luminance()
-    })
 }
 
 /// The share of its surroundings that sees a place from farther away than its element is long.

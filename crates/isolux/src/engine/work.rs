@@ -89,7 +89,7 @@ impl<'p, 's> Work<'p, 's> {
         target: f64,
         halvings: u32,
     ) -> Self {
-        let reference = plan.rms_lx;
+        let reference = plan.reference_lx;
         let (goal, wanted) = match request.method {
             Method::Hybrid => (request.accuracy.unwrap_or(target), None),
             Method::Cache => (target, None),
@@ -292,7 +292,7 @@ impl<'p, 's> Work<'p, 's> {
         }
         // Elements are as fine as particles tell them to be for caustics, whatever they are made for.
         let of_caustics = self.caustics_told_lx2(Noise::TakenOff) + self.plan.caustics_beside_lx2;
-        if of_caustics.sqrt() > target * self.plan.rms_lx {
+        if of_caustics.sqrt() > target * self.plan.reference_lx {
             return false;
         }
         let count = self.sums.increments;
@@ -391,7 +391,7 @@ impl<'p, 's> Work<'p, 's> {
         }
         let is_enough = |accuracy: &Accuracy| {
             let error = libm::hypot(accuracy.statistical, accuracy.discretization);
-            let lx = [goal, error.max(OF_GOAL * goal)].map(|share| share * self.plan.rms_lx);
+            let lx = [goal, error.max(OF_GOAL * goal)].map(|share| share * self.plan.reference_lx);
             let Checks { sums, points, .. } = &self.checks;
             !checks::is_gathering_worth_while(sums, points, judged.trust, lx)
         };
@@ -451,7 +451,7 @@ impl<'p, 's> Work<'p, 's> {
     /// the light that was given up may be more than what is there; or whether radiosity was told to
     /// shoot no more.
     pub(super) fn is_vain(&self, accuracy: Option<Accuracy>) -> bool {
-        let dark = self.plan.rms_lx == 0.0;
+        let dark = self.plan.reference_lx == 0.0;
         let lost = self.given_up.sums != [Sums::default()];
         let given_up = lost || self.left.as_ref().is_some_and(|left| !left.is_bounded);
         if self.stops_at_unshot && self.left.as_ref().is_some_and(|left| left.is_shot) {
@@ -504,7 +504,7 @@ impl<'p, 's> Work<'p, 's> {
             .map(|k| self.estimate(k))
             .map(|e| if direct { e.variance } else { e.indirect_variance })
             .collect();
-        let filtered = filter(self.plan, &parts, &variance, self.plan.rms_lx);
+        let filtered = filter(self.plan, &parts, &variance, self.plan.reference_lx);
         let fine: Vec<Vec<Rgb>> =
             filtered.values.iter().map(|part| self.plan.prolongate(part)).collect();
         for (k, value) in values.iter_mut().enumerate() {
@@ -578,9 +578,10 @@ fn without_negative_light(value: &mut Illuminance) {
 
 /// Gathering rays of receivers in the mean, as they share them best, and particles of an increment.
 fn rays_and_particles(plan: &Plan, noise: f64, goal: f64, most: u32) -> (f64, u32) {
-    let rays =
-        |noise: f64| plan.trial.wanted(noise, plan.rms_lx, FEWEST_INCREMENTS).min(f64::from(most));
-    let (vertices, of_goal) = (plan.indirect_vertices, (goal, plan.rms_lx));
+    let rays = |noise: f64| {
+        plan.trial.wanted(noise, plan.reference_lx, FEWEST_INCREMENTS).min(f64::from(most))
+    };
+    let (vertices, of_goal) = (plan.indirect_vertices, (goal, plan.reference_lx));
     let all = rays(noise) * plan.carriers.count(vertices) as f64;
     let share = plan.caustic_noise.share(vertices, of_goal, FEWEST_INCREMENTS, all);
     let particles = plan.caustic_noise.particles(vertices, of_goal, FEWEST_INCREMENTS, share);

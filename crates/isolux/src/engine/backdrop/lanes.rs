@@ -117,12 +117,12 @@ impl Lanes {
     pub(super) fn ln(self) -> Self {
         // Twos in them, so that what is left is near one.
         let twos = self.map(|x| {
-            let above = (x.to_bits() - ROOT_OF_HALF + ONE) >> MANTISSA;
+            let above = x.to_bits().wrapping_sub(ROOT_OF_HALF).wrapping_add(ONE) >> MANTISSA;
             f64::from_bits(WHOLE.to_bits() | above) - WHOLE - (ONE >> MANTISSA) as f64
         });
         let left = self.map(|x| {
-            let above = (x.to_bits() - ROOT_OF_HALF) & !((1 << MANTISSA) - 1);
-            f64::from_bits(x.to_bits() - above)
+            let above = x.to_bits().wrapping_sub(ROOT_OF_HALF) & !((1 << MANTISSA) - 1);
+            f64::from_bits(x.to_bits().wrapping_sub(above))
         });
         let s = left.map(|m| (m - 1.0) / (m + 1.0));
         twos * Self::of(std::f64::consts::LN_2) + s * (s * s).polynomial(&LN)

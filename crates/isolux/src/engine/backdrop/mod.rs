@@ -74,6 +74,21 @@ struct Moments {
     left: f64,
 }
 
+impl Moments {
+    fn add(&mut self, m2: f64, light: f64, left: f64) {
+        self.area_m2 += m2;
+        self.light += m2 * light;
+        self.squared += m2 * light * light;
+        self.left += m2 * left * left;
+    }
+
+    /// The root mean square of what is left, as a share of that of the differences; all if there are none.
+    fn left_out(&self) -> f64 {
+        let spread = self.squared - self.light * self.light / self.area_m2;
+        if spread > 0.0 { (self.left / spread).sqrt() } else { 1.0 }
+    }
+}
+
 /// A wall as seen from a place.
 pub(super) struct Seen<'a> {
     wall: &'a Wall,
@@ -118,8 +133,19 @@ impl Backdrop {
             squared: all.squared + of.squared,
             left: all.left + of.left,
         });
-        let spread = all.squared - all.light * all.light / all.area_m2;
-        if spread > 0.0 { (all.left / spread).sqrt() } else { 1.0 }
+        all.left_out()
+    }
+
+    /// What it leaves out of the differences between some places, likewise: of each, its surface, m2, and what is reflected there, lx.
+    /// Those that do not lie on walls do not count.
+    pub(super) fn leaves_out(&self, places: impl Iterator<Item = (Stand, f64, f64)>) -> f64 {
+        let mut all = Moments::default();
+        for (of, m2, light) in places {
+            if let Some(told) = self.walls.iter().find_map(|wall| wall.tells(&of)) {
+                all.add(m2, light, light - told);
+            }
+        }
+        all.left_out()
     }
 
     /// Of the surface that some places stand for, the share that sees mostly walls.
@@ -197,13 +223,21 @@ impl Wall {
         let [a, b] = self.rectangle.half_m;
         let mut moments = Moments::default();
         for (at, light, weight) in places {
-            let (m2, left) = (weight * a * b, light - self.light.at(at));
-            moments.area_m2 += m2;
-            moments.light += m2 * light;
-            moments.squared += m2 * light * light;
-            moments.left += m2 * left * left;
+            moments.add(weight * a * b, light, light - self.light.at(at));
         }
         moments
+    }
+
+    /// Its light at a place on it; nothing of one elsewhere.
+    fn tells(&self, of: &Stand) -> Option<f64> {
+        let Rectangle { middle, axes, half_m } = &self.rectangle;
+        let to = of.origin - *middle;
+        let before_m = BESIDE * half_m[0].min(half_m[1]);
+        let is_on =
+            to.dot(axes[2]).abs() < before_m && of.normal.to_vector().dot(axes[2]) > 1.0 - BESIDE;
+        let place = [0, 1].map(|k| to.dot(axes[k]) / half_m[k]);
+        let is_within = place.iter().all(|c| c.abs() <= 1.0);
+        (is_on && is_within).then(|| self.light.at(place))
     }
 }
 

@@ -173,7 +173,9 @@ impl<'p, 's> Cached<'p, 's> {
         }));
         Some(Effort {
             rays: far_rays + near_rays + check_rays + particles.rays,
-            given_up_lx: particles.given_up_lx + (lost + far_lost) * plan.rms_lx + unsettled_lx,
+            given_up_lx: particles.given_up_lx
+                + (lost + far_lost) * plan.reference_lx
+                + unsettled_lx,
         })
     }
 

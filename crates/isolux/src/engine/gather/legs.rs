@@ -168,8 +168,7 @@ impl Gathering<'_> {
             }
             Some(rows)
         };
-        let chunks: Option<Vec<Rows>> =
-            gatherers.par_chunks(size).enumerate().map(chunk).collect();
+        let chunks: Option<Vec<Rows>> = gatherers.par_chunks(size).enumerate().map(chunk).collect();
         let chunks = chunks?;
         let further: u64 = chunks.iter().map(|rows| rows.further_rays).sum();
         let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum::<u64>() + further;

@@ -9,6 +9,7 @@
 use super::Pilot;
 use super::direct::MOST_REFLECTANCE;
 use crate::elements::{Elements, Subdivision};
+use crate::engine::accuracy::Light;
 use crate::engine::flights::{CausticNoise, DOUBT, Flights};
 use crate::engine::forecast::{FINE, GoOn};
 use crate::engine::gather::known_weights;
@@ -113,8 +114,8 @@ pub(super) struct CausticErrors {
 
 impl CausticErrors {
     /// Their share of light of this root mean square.
-    pub(super) fn share(&self, rms_lx: f64) -> f64 {
-        self.lx / rms_lx.max(f64::MIN_POSITIVE)
+    pub(super) fn share(&self, reference_lx: f64) -> f64 {
+        self.lx / reference_lx.max(f64::MIN_POSITIVE)
     }
 
     /// The elements that increments are to check.
@@ -138,11 +139,11 @@ impl Pilot<'_> {
             return CausticErrors::default();
         }
         self.count_caustics(look, &batches);
-        if look.rms_lx <= 0.0 {
+        if look.reference_lx <= 0.0 {
             return CausticErrors::default();
         }
         let area_m2: f64 = look.errors.iter().map(|e| e.area_m2).sum();
-        let goal = (request.goal * look.rms_lx).powi(2) * area_m2;
+        let goal = (request.goal * look.reference_lx).powi(2) * area_m2;
         let allowed = SHARE * SHARE * goal;
         let mut errors = CausticErrors::default();
         for round in 0..ROUNDS {
@@ -198,10 +199,11 @@ impl Pilot<'_> {
         }
         let reflectance = reflectance::of_all(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
         let reflected_lx = caustic_lm / area_m2 * reflectance / (1.0 - reflectance);
-        let squared = (squares + 2.0 * reflected_lx * lm) / area_m2 + reflected_lx * reflected_lx;
-        let rms_lx = squared.max(0.0).sqrt();
-        if rms_lx > MUCH * look.rms_lx {
-            look.rms_lx = rms_lx;
+        let squares = squares + 2.0 * reflected_lx * lm + reflected_lx * reflected_lx * area_m2;
+        let flux_lm = lm + reflected_lx * area_m2;
+        let reference_lx = Light::of(area_m2, flux_lm, squares.max(0.0)).reference_lx();
+        if reference_lx > MUCH * look.reference_lx {
+            look.reference_lx = reference_lx;
             // What was tried without them tells nothing.
             self.trial = None;
         }

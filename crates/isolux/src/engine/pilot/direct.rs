@@ -23,6 +23,8 @@ const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 const OF_ACCURACY: f64 = 1.0;
 /// What direct light that rays read may err by in the mean, once all surfaces have reflected that, of the accuracy asked for.
 const OF_MEAN: f64 = 0.25;
+/// A round of refinement after which more than this share of the error is left was in vain.
+const STALLED: f64 = 0.98;
 /// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
 const LOOKED_AT: usize = 512;
 pub(super) const MOST_REFLECTANCE: f64 = 0.9;
@@ -124,12 +126,16 @@ impl Pilot<'_> {
             least_edge_m: self.least_edge_m,
             max_vertices: self.most_for_direct_light(request),
         };
+        let mut before = f64::INFINITY;
         for _ in 0..MAX_ROUNDS {
-            let (errors, excess) = self.direct_excess(&look.elements, request, look.rms_lx);
+            let (errors, excess) = self.direct_excess(&look.elements, request, look.reference_lx);
             self.direct_excess = Some((self.subdivision.vertex_count(), excess));
-            if excess <= 1.0 || !self.has_time(look, request, FINE, go_on) {
+            // What errs most may lie in elements that are as small as they may be.
+            let is_vain = excess > STALLED * before;
+            if excess <= 1.0 || is_vain || !self.has_time(look, request, FINE, go_on) {
                 break;
             }
+            before = excess;
             if !refine_worst(&mut self.subdivision, &mut Carriers::all(), &errors, how_far) {
                 break;
             }
@@ -155,7 +161,7 @@ impl Pilot<'_> {
         &self,
         elements: &Elements,
         request: &PilotRequest,
-        rms_lx: f64,
+        reference_lx: f64,
     ) -> (Vec<LeafError>, f64) {
         let signal = self.direct_signal(elements);
         // All vertices have direct light of their own.
@@ -166,8 +172,8 @@ impl Pilot<'_> {
         let is_cheap = self.is_smoothed && self.direct_noise.is_none();
         let own = if is_cheap { OF_ACCURACY * request.target } else { f64::INFINITY };
         let target = request.mesh_target.min(own);
-        let excess = trust::error_of(&errors, |_| true) / (target * rms_lx);
-        let of_mean = self.mean_excess(&errors) / (OF_MEAN * request.target * rms_lx);
+        let excess = trust::error_of(&errors, |_| true) / (target * reference_lx);
+        let of_mean = self.mean_excess(&errors) / (OF_MEAN * request.target * reference_lx);
         (errors, excess.max(of_mean))
     }
 

@@ -7,12 +7,14 @@
 mod caustics;
 mod direct;
 mod finish;
+mod landing;
 mod middles;
 mod round;
 mod sharing;
 mod smoothing;
 mod walls;
 
+use super::accuracy::Light;
 use super::aim::Aim;
 use super::backdrop::Backdrop;
 use super::bright::Bright;
@@ -275,10 +277,10 @@ impl<'s> Pilot<'s> {
 
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
     fn look(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Look {
-        let elements = self.subdivision.elements();
+        let mut elements = self.subdivision.elements();
         let is_first = self.indirect.is_empty();
         self.complete_rays();
-        let gatherers = self.gatherers();
+        let mut gatherers = self.gatherers();
         if is_first {
             self.begin(&elements, &gatherers, request, go_on);
         }
@@ -286,6 +288,9 @@ impl<'s> Pilot<'s> {
         self.complete_beset();
         self.costs.looks.add(started.elapsed(), 0.0);
         self.complete_direct(&elements, &gatherers);
+        if is_first && self.resolve_what_lands((&mut elements, &mut gatherers), request) {
+            self.complete_beset();
+        }
         self.bright = Bright::of(self.scene, &elements, |k| self.direct[k as usize]);
         self.complete_indirect(&elements, &gatherers, request, go_on);
         let started = Instant::now();
@@ -298,7 +303,7 @@ impl<'s> Pilot<'s> {
         let details = self.details(&elements, &luminances);
         let hemmed = |vertex: u32, edge_m: f64| self.hemmed_in_m[vertex as usize] < HEM * edge_m;
         let errors = details.leaf_errors(middle, beset, hemmed);
-        let rms_lx = rms(&elements, &self.standings, lx);
+        let reference_lx = reference_lx(&elements, &self.standings, lx);
         let left_by_fit = details.left_by_fit(&errors);
         let carriers = self.carriers.count(gatherers.len());
         self.costs.looks.add(started.elapsed(), gatherers.len() as f64);
@@ -307,7 +312,7 @@ impl<'s> Pilot<'s> {
         }
         let worst = Worst::of(&errors);
         let walls = Walls::default();
-        let mut look = Look { carriers, elements, errors, walls, worst, left_by_fit, rms_lx };
+        let mut look = Look { carriers, elements, errors, walls, worst, left_by_fit, reference_lx };
         if look.is_smooth(request) {
             self.look_for_walls(&mut look, request, &luminances);
         }
@@ -318,7 +323,7 @@ impl<'s> Pilot<'s> {
     fn look_for_walls(&self, look: &mut Look, request: &PilotRequest, luminances: &[Option<f64>]) {
         let open: Vec<bool> = luminances.iter().map(Option::is_some).collect();
         let walls = Walls::of(self.scene, &self.subdivision, &open);
-        look.resolve(walls, &self.subdivision, luminances, request.target * look.rms_lx);
+        look.resolve(walls, &self.subdivision, luminances, request.target * look.reference_lx);
     }
 
     fn details<'a>(&'a self, elements: &'a Elements, values: &'a [Option<f64>]) -> Details<'a> {
@@ -593,14 +598,16 @@ impl<'s> Pilot<'s> {
     }
 }
 
-/// Root mean square over the known surface.
-fn rms(elements: &Elements, standings: &[Option<Standing>], value: impl Fn(usize) -> f64) -> f64 {
-    let (mut area, mut sum) = (0.0, 0.0);
-    for (k, vertex) in
-        elements.vertices().iter().enumerate().filter(|&(k, _)| standings[k].is_some())
-    {
-        area += vertex.area_m2;
-        sum += vertex.area_m2 * value(k) * value(k);
+/// What errors over the known surface are relative to.
+fn reference_lx(
+    elements: &Elements,
+    standings: &[Option<Standing>],
+    value: impl Fn(usize) -> f64,
+) -> f64 {
+    let mut light = Light::default();
+    let vertices = elements.vertices().iter().enumerate();
+    for (k, vertex) in vertices.filter(|&(k, _)| standings[k].is_some()) {
+        light.add(vertex.area_m2, value(k));
     }
-    if area > 0.0 { (sum / area).sqrt() } else { 0.0 }
+    light.reference_lx()
 }

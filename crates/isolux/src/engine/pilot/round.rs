@@ -71,8 +71,8 @@ impl Pilot<'_> {
         (excess, before): Excess,
     ) -> Round {
         let vertices = self.subdivision.vertex_count();
-        let rms_lx = look.map_or(1.0, |look| look.rms_lx);
-        let trial = self.trial.unwrap_or(Trial::usual(rms_lx));
+        let reference_lx = look.map_or(1.0, |look| look.reference_lx);
+        let trial = self.trial.unwrap_or(Trial::usual(reference_lx));
         let carriers = self.carriers.count(vertices) as f64;
         let gathered = self.gathered.iter().filter(|&&gathered| gathered).count();
         let most = self.most_for_direct_light(request) as f64;
@@ -86,10 +86,10 @@ impl Pilot<'_> {
         let measured = look.filter(|look| look.asks_for_means(request)).map_or(0.0, Look::beset);
         let is_right = measured > 0.0 || look.is_some_and(|look| look.walls.are_resolved());
         let noise = noise_for(request.target, interpolation, is_right);
-        let wanted = trial.wanted(noise, rms_lx, BELIEVED_INCREMENTS);
+        let wanted = trial.wanted(noise, reference_lx, BELIEVED_INCREMENTS);
         let areas_m2 = || areas_m2(&self.subdivision, &self.carriers);
         let rays = look.map_or(wanted, |_| mean_of(&allot(&areas_m2(), wanted)));
-        let of_goal = (request.target, rms_lx);
+        let of_goal = (request.target, reference_lx);
         let outlook = Outlook {
             carriers,
             gathered: gathered as f64,
@@ -128,7 +128,7 @@ impl Pilot<'_> {
     /// What direct light as interpolated errs by, in what is asked for, as found already or by a look.
     fn direct_excess_now(&self, look: &Look, request: &PilotRequest) -> f64 {
         let known = self.direct_excess.filter(|(of, _)| *of == self.subdivision.vertex_count());
-        let look_now = || self.direct_excess(&look.elements, request, look.rms_lx).1;
+        let look_now = || self.direct_excess(&look.elements, request, look.reference_lx).1;
         known.map_or_else(look_now, |(_, excess)| excess)
     }
 

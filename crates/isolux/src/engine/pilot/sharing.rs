@@ -47,7 +47,7 @@ impl Pilot<'_> {
             .map(|v| (self.before_walls(v as u32, gatherers[v]), vertices[v].area_m2))
             .collect();
         let gathering = self.gathering(&look.elements, u32::MAX, &self.standings);
-        let wanted = (target, look.rms_lx, BELIEVED_INCREMENTS, self.key.with(6));
+        let wanted = (target, look.reference_lx, BELIEVED_INCREMENTS, self.key.with(6));
         let (trial, rays) = Trial::of(&gathering, &some, &self.indirect, wanted, self.trial);
         self.trial = Some(trial);
         self.traced += rays;

@@ -32,7 +32,16 @@ impl Pilot<'_> {
             return;
         };
         self.indirect = vec![Rgb::BLACK; gatherers.len()];
-        if self.look_at_walls(&mut backdrop, elements) > backdrop::LEFT_OUT {
+        let left_out = self.look_at_walls(&mut backdrop, elements);
+        // What is bright may lie between the places that were looked at, but not between vertices.
+        let reflected = lit.iter().map(|&v| {
+            let (stand, m2) = (gatherers[v].stand(), elements.vertices()[v].area_m2);
+            let SurfacePoint { triangle, back, point, .. } = gatherers[v].surface;
+            let [a, b] = self.scene.triangle(triangle).barycentric(point);
+            let at = SurfacePoint::new(self.scene, triangle, back, a, b);
+            (stand, m2, (self.direct[v] * at.reflectance(self.scene)).luminance())
+        });
+        if left_out.max(backdrop.leaves_out(reflected)) > backdrop::LEFT_OUT {
             self.indirect.clear();
             return;
         }
@@ -73,7 +82,7 @@ impl Pilot<'_> {
         places: &[(Gatherer, f64)],
     ) -> Option<f64> {
         let lx = |v: usize| (self.direct[v] + self.indirect[v]).luminance();
-        let of = (super::rms(elements, &self.standings, lx), self.key.with(9));
+        let of = (super::reference_lx(elements, &self.standings, lx), self.key.with(9));
         let gathering = self.gathering(elements, u32::MAX, &self.standings);
         let (trial, left, rays) = Trial::of_walls(&gathering, places, &self.indirect, of);
         self.traced += rays;

@@ -23,7 +23,7 @@ impl MapReader<'_> {
         }
         let gathering =
             Gathering { backdrop: Some(&backdrop), ..self.gathering(self.direct_at_ends()) };
-        let of = (self.unseen.rms_lx, Key::new(self.map.provenance.seed).with(13));
+        let of = (self.unseen.reference_lx, Key::new(self.map.provenance.seed).with(13));
         let (_, left, _) = Trial::of_walls(&gathering, &places, &self.light, of);
         left.is_some_and(|left| left <= backdrop::WORTH).then_some(backdrop)
     }

@@ -81,7 +81,7 @@ pub(super) struct Radiosity<'p, 's> {
     whole_lm: f64,
     area_m2: f64,
     /// Root mean square of the light, as far as is known before the first shot, lx.
-    rms_lx: f64,
+    reference_lx: f64,
     reflectance: Rgb,
     checks: Checks,
     rays_before: u64,
@@ -122,15 +122,15 @@ impl<'p, 's> Radiosity<'p, 's> {
         let (direct, direct_variance) = direct(plan, key.with(2));
         let (caustic, caustic_variance, effort) = caustic(plan, accuracy, key.with(3));
         let checks = Checks::new(plan, points, asked.check_rays, &direct, key.with(4));
-        let rms_lx = plan.rms_lx.max(root_mean_square(plan, &direct, &caustic));
+        let reference_lx = plan.reference_lx.max(root_mean_square(plan, &direct, &caustic));
         let given_up = checks.operators.iter().map(Operator::given_up).sum::<f64>()
             / CHECKINGS as f64
             + specular.as_ref().map_or(0.0, |s| s.given_up);
         let mut engine = Self {
             limits: Limits {
-                tolerance_lx: asked.form_factor_tolerance * rms_lx,
-                noise_lx: asked.visibility_tolerance * rms_lx,
-                most_lx: asked.largest_link * rms_lx,
+                tolerance_lx: asked.form_factor_tolerance * reference_lx,
+                noise_lx: asked.visibility_tolerance * reference_lx,
+                most_lx: asked.largest_link * reference_lx,
             },
             stop_unshot: asked.unshot,
             ambient: settings.ambient,
@@ -138,12 +138,12 @@ impl<'p, 's> Radiosity<'p, 's> {
             corrections: Vec::new(),
             whole_lm: 0.0,
             area_m2: plan.area_m2(),
-            rms_lx,
+            reference_lx,
             reflectance: Rgb::BLACK,
             rays_before: effort.rays
                 + checks.operators.iter().map(|o| o.rays).sum::<u64>()
                 + specular.as_ref().map_or(0, |s| s.rays),
-            given_up_lx: effort.given_up_lx + given_up * rms_lx,
+            given_up_lx: effort.given_up_lx + given_up * reference_lx,
             plan,
             sources,
             chains,
@@ -157,8 +157,8 @@ impl<'p, 's> Radiosity<'p, 's> {
         };
         engine.corrections = engine.corrections();
         engine.reflectance = engine.mean_reflectance();
-        let nothing = Accumulator::new(engine.direct.len(), rms_lx);
-        let none_shot = Accumulator::new(engine.sources.patches.len(), rms_lx);
+        let nothing = Accumulator::new(engine.direct.len(), reference_lx);
+        let none_shot = Accumulator::new(engine.sources.patches.len(), reference_lx);
         engine.whole_lm = engine.fluxes(&nothing, &none_shot).iter().map(|f| f.size_lm).sum();
         engine
     }
@@ -170,7 +170,7 @@ impl<'p, 's> Radiosity<'p, 's> {
 
     /// What sums are in proportion to, lx.
     pub(super) fn reference_lx(&self) -> f64 {
-        self.rms_lx
+        self.reference_lx
     }
 
     /// What was left out on the way of rays and particles that were given up, in the mean, lx.
@@ -274,7 +274,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         let absorbed = 1.0 - self.reflectance.luminance();
         // Of what was expected all further reflections are known; of the rest they are a series.
         let series = if all_have_shot { 1.0 / absorbed } else { 1.0 };
-        let most_lm = self.rms_lx * self.area_m2;
+        let most_lm = self.reference_lx * self.area_m2;
         let is_bounded =
             absorbed > LEAST_ABSORBED && unshot_lm * series <= most_lm.max(self.whole_lm);
         Left { is_bounded, fluxes, unsent_lm, share, ambient_lx, all_have_shot, is_shot }
@@ -450,7 +450,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         let vertices = 0..self.direct.len();
         let indirect: Vec<Rgb> = vertices.map(|k| sums.part(k, RECEIVED) + ambient).collect();
         let light: Vec<Rgb> = indirect.iter().zip(&self.caustic).map(|(&e, &c)| e + c).collect();
-        let mut found = Accumulator::new(checks::places(points.len(), true), self.rms_lx);
+        let mut found = Accumulator::new(checks::places(points.len(), true), self.reference_lx);
         for operator in &self.checks.operators {
             let fresh = operator.apply(&light);
             let map = [self.direct.as_slice(), &self.caustic, &indirect];

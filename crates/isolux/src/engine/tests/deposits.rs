@@ -83,9 +83,9 @@ fn flux_is_kept() {
 fn forward(scene: &Scene, request: &PilotRequest) -> (Vec<f64>, Vec<f64>) {
     let lighting = Lighting::new(scene);
     let plan = pilot(scene, &lighting, request, &mut |_| true);
-    let mut lacking = Accumulator::new(plan.parts.count(), plan.rms_lx);
+    let mut lacking = Accumulator::new(plan.parts.count(), plan.reference_lx);
     let engine = Forward::new(&plan, Emission::new(scene).unwrap(), 0.05, 1);
-    let mut sums = Accumulator::new(plan.elements.vertices().len(), plan.rms_lx);
+    let mut sums = Accumulator::new(plan.elements.vertices().len(), plan.reference_lx);
     for k in 0..4 {
         engine.increment(k, &mut sums, &mut lacking);
     }

@@ -45,7 +45,7 @@ pub(super) fn check_sums(
     common: impl Fn(&Check) -> f64,
     sigma: f64,
 ) -> Accumulator {
-    let mut sums = Accumulator::new(checks::places(checks.len(), true), plan.rms_lx);
+    let mut sums = Accumulator::new(checks::places(checks.len(), true), plan.reference_lx);
     let vertices = plan.elements.vertices().len();
     let (coarse, fine) = (vec![Rgb::grey(5.0); plan.indirect_vertices], vec![Rgb::BLACK; vertices]);
     for increment in 0..16 {
@@ -200,7 +200,7 @@ fn noise_is_that_of_readings_over_the_surface() {
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
     let checks = checks::draw(&plan, 0, Key::new(2));
-    let mut sums = Accumulator::new(checks::places(checks.len(), true), plan.rms_lx);
+    let mut sums = Accumulator::new(checks::places(checks.len(), true), plan.reference_lx);
     let black = vec![Rgb::BLACK; plan.elements.vertices().len().max(checks.len())];
     for increment in 0..16 {
         let key = Key::new(5).with(increment);

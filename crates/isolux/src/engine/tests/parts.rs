@@ -144,14 +144,14 @@ fn request(target: f64) -> PilotRequest {
 /// What caustics err by on the elements of a plan, of all light, by so many particles altogether.
 fn caustic_error(plan: &Plan, particles: u32) -> f64 {
     let increments = 8;
-    let mut sums = Accumulator::new(plan.parts.count(), plan.rms_lx);
+    let mut sums = Accumulator::new(plan.parts.count(), plan.reference_lx);
     for k in 0..increments {
         sums.add(samples(
             &deposit(plan, particles / increments, Key::new(99).with(u64::from(k))).lacking,
         ));
     }
     let seen: Squared = plan.parts.errors(&sums).into_iter().sum();
-    (seen.with(Noise::TakenOff) / plan.area_m2()).sqrt() / plan.rms_lx
+    (seen.with(Noise::TakenOff) / plan.area_m2()).sqrt() / plan.reference_lx
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn elements_are_as_fine_as_a_sharp_caustic_needs() {
     let as_for_other_light = caustic_error(&Plan { parts: all_parts(&coarse), ..coarse }, 1 << 18);
     assert!(as_for_other_light > 0.03, "{as_for_other_light}");
     // Those of a pilot that was asked for 3 % are to take 0.9 % of it for caustics, and what is in doubt.
-    let told = fine.caustic_error_lx / fine.rms_lx;
+    let told = fine.caustic_error_lx / fine.reference_lx;
     let seen = caustic_error(&Plan { parts: all_parts(&fine), ..fine }, 1 << 18);
     assert!(seen < 0.015 && told < 0.02, "{seen}, {told} told");
 }

@@ -67,11 +67,11 @@ fn caustics_are_as_noisy_as_a_trial_tells() {
     let (told, _, rays) = CausticNoise::tried(of, &areas_m2, read, Key::new(3));
     assert!(rays > 0);
     // On few vertices a few, a million at most, whatever is asked; without light to compare with, a few.
-    assert_eq!(told.particles(20, (1e9, plan.rms_lx), 1, 0.1), particles(20));
-    assert_eq!(told.particles(20, (1e-9, plan.rms_lx), 1, 0.1), 1 << 20);
+    assert_eq!(told.particles(20, (1e9, plan.reference_lx), 1, 0.1), particles(20));
+    assert_eq!(told.particles(20, (1e-9, plan.reference_lx), 1, 0.1), 1 << 20);
     assert_eq!(told.particles(20, (1.0, 0.0), 1, 0.1), particles(20));
     // As many as a thousand times the vertices would need for as much error as there is light: in the middle of what may be.
-    let count = told.particles(areas_m2.len() * 1000, (1.0, plan.rms_lx), 1, 0.1);
+    let count = told.particles(areas_m2.len() * 1000, (1.0, plan.reference_lx), 1, 0.1);
     assert!(count > 1024 && count < particles(areas_m2.len() * 1000), "{count}");
     let maps: Vec<Vec<Rgb>> = (0..16).map(|k| deposit(&plan, 4096, Key::new(k)).light).collect();
     let (mut squares, mut area) = (0.0, 0.0);
@@ -82,7 +82,7 @@ fn caustics_are_as_noisy_as_a_trial_tells() {
     }
     // Noise of so many particles falls with their number, and grows with the vertices.
     let noise_lx2 = squares / area * 4096.0 * 1000.0;
-    let allowed_lx = 0.45 * plan.rms_lx;
+    let allowed_lx = 0.45 * plan.reference_lx;
     let wanted = noise_lx2 / (0.1 * allowed_lx * allowed_lx);
     // The correction of deposits doubles their noise in the square at most, particles of one sequence lie evenly, and
     // their number is the next power of two.

@@ -76,7 +76,7 @@ fn resolved(accuracy_lx: f64) -> Resolved {
         errors,
         walls: Walls::default(),
         left_by_fit: 1.0,
-        rms_lx: 100.0,
+        reference_lx: 100.0,
     };
     look.resolve(walls, &subdivision, &values, accuracy_lx);
     let leaves: Vec<u32> = subdivision.leaves().collect();

@@ -1,0 +1,143 @@
+//! Where the light of luminaires lands, and whether vertices know of it.
+//!
+//! A lamp that hangs a centimetre below a ceiling, or a beam that is a hand wide, throws much of its light between the vertices of
+//! the first mesh, or all of it on one. Nobody would send rays there then, and what few of them meet by chance is too rare to be
+//! noise. Particles come where the light does: elements to which clearly more or less of it comes than vertices tell are bisected.
+
+use super::Pilot;
+use crate::elements::{Elements, carries_map};
+use crate::engine::emission::Emission;
+use crate::engine::gather::Gatherer;
+use crate::engine::look::PilotRequest;
+use crate::engine::particle::Particle;
+use crate::sampling::Sequence;
+use rayon::prelude::*;
+
+/// Particles that tell whether there is anything, and how many more tell where it is.
+const FIRST: u32 = 1 << 11;
+const MORE: u32 = 1 << 14;
+/// They go no further than by so many mirrors.
+const SCATTERINGS: u32 = 16;
+
+/// What comes to an element differs from what vertices tell if it does by so many times its standard error: of a thousand elements
+/// none does by chance.
+const BELIEVED: f64 = 4.0;
+/// Of all light that lands, the part that is left where it is.
+const MATTERS: f64 = 0.01;
+
+/// Rounds at most, of two bisections each.
+const ROUNDS: usize = 24;
+/// The shortest edges, as a share of those for other light.
+const LEAST_EDGE: f64 = 1.0 / 64.0;
+
+/// Flux that has come to a place.
+#[derive(Clone, Copy, Debug)]
+struct Landed {
+    triangle: u32,
+    back: bool,
+    place: [f64; 2],
+    flux_lm: f64,
+}
+
+/// What comes to the places of an element.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sum {
+    flux_lm: f64,
+    squares_lm2: f64,
+}
+
+impl Pilot<'_> {
+    /// Bisects elements until their vertices tell about what light comes to them; returns whether there was anything to do. Where luminaires
+    /// are so many that they are chosen among, none of them matters alone.
+    pub(super) fn resolve_what_lands(
+        &mut self,
+        (elements, gatherers): (&mut Elements, &mut Vec<Gatherer>),
+        request: &PilotRequest,
+    ) -> bool {
+        if self.lighting.has_many() {
+            return false;
+        }
+        let first = self.landed(FIRST, 0);
+        if self.wrongly_told(elements, &first, FIRST).is_empty() {
+            return false;
+        }
+        let landed = self.landed(MORE, 1);
+        let mut any = false;
+        for _ in 0..ROUNDS {
+            let wrong = self.wrongly_told(elements, &landed, MORE);
+            let room = |pilot: &Self| pilot.subdivision.vertex_count() < request.max_vertices;
+            if wrong.is_empty() || !room(self) {
+                break;
+            }
+            for node in wrong {
+                if room(self) {
+                    self.subdivision.bisect_twice(node);
+                }
+            }
+            any = true;
+            *elements = self.subdivision.elements();
+            self.complete_rays();
+            *gatherers = self.gatherers();
+            self.complete_direct(elements, gatherers);
+        }
+        any
+    }
+
+    /// Where so many particles come straight or over plane mirrors.
+    fn landed(&mut self, count: u32, number: u64) -> Vec<Landed> {
+        let Some(emission) = Emission::new(self.scene) else { return Vec::new() };
+        let sequence = Sequence::new(self.key.with(12).with(number));
+        let one = |index: u32| {
+            let mut landed = Vec::new();
+            let particle = Particle::emit(&emission, sequence, index, count, SCATTERINGS);
+            let Some(mut particle) = particle else { return landed };
+            while !particle.is_given_up() && particle.is_covered(self.lighting) {
+                let Some(at) = particle.advance(self.scene) else { break };
+                if carries_map(self.scene, at.triangle, at.back) {
+                    let flux_lm = particle.flux_lm.luminance();
+                    let (triangle, back, place) = (at.triangle, at.back, [at.u, at.v]);
+                    landed.push(Landed { triangle, back, place, flux_lm });
+                }
+                if !particle.scatter_specular(self.scene, self.lighting) {
+                    break;
+                }
+            }
+            landed
+        };
+        self.traced += u64::from(count);
+        (0..count).into_par_iter().flat_map_iter(one).collect()
+    }
+
+    /// Elements to which clearly more or less comes than their vertices tell, if that is much.
+    fn wrongly_told(&self, elements: &Elements, landed: &[Landed], count: u32) -> Vec<u32> {
+        let mut sums = vec![Sum::default(); elements.node_count()];
+        let mut all_lm = 0.0;
+        for of in landed {
+            let place = elements.place(u32::MAX, of.triangle, of.back, of.place);
+            let Some(place) = place else { continue };
+            let sum = &mut sums[place.node() as usize];
+            sum.flux_lm += of.flux_lm;
+            sum.squares_lm2 += of.flux_lm * of.flux_lm;
+            all_lm += of.flux_lm;
+        }
+        let each_lm = all_lm / f64::from(count);
+        let least_edge_m = self.least_edge_m * LEAST_EDGE;
+        let (mut wrong, mut wrong_lm) = (Vec::new(), 0.0);
+        for node in self.subdivision.leaves() {
+            let corners = self.subdivision.node(node).0.vertices;
+            let lx: f64 = corners.iter().map(|&v| self.direct[v as usize].luminance()).sum();
+            let told_lm = self.subdivision.triangle(node).area() * lx / 3.0;
+            let Sum { flux_lm, squares_lm2 } = sums[node as usize];
+            let differs_lm = (flux_lm - told_lm).abs();
+            // Of what is told, too, as few particles tell little of their own variance; no less than one.
+            let variance_lm2 = squares_lm2.max(told_lm * each_lm).max(each_lm * each_lm);
+            if differs_lm > BELIEVED * variance_lm2.sqrt()
+                && self.subdivision.longest_edge_m(node) > 2.0 * least_edge_m
+            {
+                wrong.push(node);
+                wrong_lm += differs_lm;
+            }
+        }
+        if wrong_lm > MATTERS * all_lm { wrong } else { Vec::new() }
+    }
+}
