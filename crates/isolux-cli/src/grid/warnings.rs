@@ -73,7 +73,7 @@ pub(super) fn warn(
     let unknown = values.iter().filter(|value| value.is_none()).count();
     if unknown > 0 {
         let are = counted(all, "point is", "points are");
-        warn(format!("{unknown} of {are} left out, within something"));
+        warn(format!("{unknown} of {are} left out, within something or where no light comes"));
     }
     let is_dark = values.iter().flatten().all(|value| value.illuminance_lx() == 0.0);
     let dark = outside.count();

@@ -93,6 +93,11 @@ impl<'s> Emission<'s> {
         Some(self.sent(number, luminaire, origin, direction))
     }
 
+    /// How much of all particles lands where luminaires without surface bring so much light straight, 1/m2.
+    pub(super) fn landing(&self, direct_lx: Rgb) -> f64 {
+        direct_lx.luminance() / self.flux_lm()
+    }
+
     /// How many luminaires there are; they have numbers, emitting surfaces the last.
     pub(super) const fn count(&self) -> usize {
         self.sums_lm.len()

@@ -3,15 +3,18 @@
 //! At a place every luminaire is asked for its direct light. Indirect light is the mean of random
 //! paths (Kajiya 1986, "The rendering equation"): cosine-distributed, over specular surfaces to a
 //! diffuse one, where direct light is estimated once, and on from there with the chance of its
-//! reflectance. No map is read and there are no elements, so nothing is biased but by what is left
+//! reflectance. Where a lamp hangs close to a surface such paths seldom meet what it lights there, and are all wrong when none does; few
+//! luminaires therefore send light out as well: where it lands is looked at from every place of a path, weighted against
+//! paths that come there by chance by the balance heuristic (Veach and Guibas 1995). No map is read and there are no elements, so nothing is biased but by what is left
 //! out: light that comes to a surface only by specular ways for which there are no virtual luminaires
 //! (caustics of glass, gloss, curved mirrors and chains of more than six planar ones), at the place and
 //! at every diffuse reflection, and paths caught by more than 128 specular surfaces in a row.
 
 use super::accumulate::mean_and_variance;
 use super::direct::Lighting;
+use super::emission::Emission;
 use super::gather::Gatherer;
-use super::path::{Dice, follow};
+use super::path::{Dice, follow_on};
 use super::place::{Places, ProbePoint, place_key};
 use super::probe::ExactSettings;
 use super::surface::SurfacePoint;
@@ -31,12 +34,25 @@ pub struct PathTracer<'a> {
     scene: &'a Scene,
     lighting: Lighting<'a>,
     places: Places<'a>,
+    /// Luminaires that send out light, if they do.
+    senders: Option<Emission<'a>>,
+}
+
+/// A diffuse surface at the end of a ray.
+struct End {
+    surface: SurfacePoint,
+    /// What of its illuminance comes back along the ray.
+    share: Rgb,
+    /// How likely it was to be met, 1/m2; none of one that is met by way of mirrors.
+    density: Option<f64>,
 }
 
 impl<'a> PathTracer<'a> {
     /// Prepares the luminaires of a scene.
     pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, lighting: Lighting::new(scene), places: Places::of(scene) }
+        let lighting = Lighting::new(scene);
+        let senders = Emission::new(scene).filter(|_| lighting.are_few_points());
+        Self { scene, lighting, places: Places::of(scene), senders }
     }
 
     /// Whether there is light that paths leave out: caustics.
@@ -102,9 +118,16 @@ impl<'a> PathTracer<'a> {
         // A surface that is both diffuse and a mirror divides a path.
         let mut waiting = vec![(start, Rgb::WHITE)];
         while let Some((from, throughput)) = waiting.pop() {
-            for (surface, reflectance) in self.reflecting_ends(&from, dice) {
-                let throughput = throughput * reflectance;
-                light += throughput * self.lighting.estimate(&surface, dice);
+            if let Some(senders) = &self.senders {
+                light += throughput * self.sent(senders, &from, dice);
+            }
+            for End { surface, share, density } in self.reflecting_ends(&from, dice) {
+                let throughput = throughput * share;
+                let direct_lx = self.lighting.estimate(&surface, dice);
+                let met = self.senders.as_ref().zip(density).map_or(1.0, |(senders, by_chance)| {
+                    by_chance / (by_chance + senders.landing(direct_lx))
+                });
+                light += throughput * direct_lx * met;
                 let chance = throughput.max_channel().min(MOST_LIKELY);
                 let [survive, _] = dice.pair();
                 if survive < chance {
@@ -115,19 +138,51 @@ impl<'a> PathTracer<'a> {
         light
     }
 
-    /// The diffuse surfaces that a cosine-distributed ray meets, each with the share of its
-    /// illuminance that comes back along the ray.
-    fn reflecting_ends(&self, from: &Gatherer, dice: &mut Dice) -> Vec<(SurfacePoint, Rgb)> {
+    /// What a place gets from where a luminaire has sent some of its light, lx.
+    fn sent(&self, senders: &Emission, from: &Gatherer, dice: &mut Dice) -> Rgb {
+        let landed = senders.emit(dice).and_then(|sent| self.scene.bvh().closest_hit(&sent.ray));
+        let Some(surface) = landed.map(|hit| SurfacePoint::from_hit(self.scene, &hit)) else {
+            return Rgb::BLACK;
+        };
+        let reflectance = surface.reflectance(self.scene);
+        let by_chance = density(from, &surface);
+        let way = Ray::between(from.origin, surface.start()).skipping(from.surface.triangle);
+        let is_dark = by_chance <= 0.0 || reflectance.is_black();
+        if is_dark || self.scene.bvh().any_hit(&way) {
+            return Rgb::BLACK;
+        }
+        let direct_lx = self.lighting.estimate(&surface, dice);
+        reflectance * direct_lx * (by_chance / (by_chance + senders.landing(direct_lx)))
+    }
+
+    /// The diffuse surfaces that a cosine-distributed ray meets.
+    fn reflecting_ends(&self, from: &Gatherer, dice: &mut Dice) -> Vec<End> {
         let axis = from.normal.to_direction();
         let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
         let ray = Ray::new(from.origin, direction).skipping(from.surface.triangle);
         let mut ends = Vec::new();
-        let meet = |surface: &SurfacePoint, finish: &Finish, throughput: Rgb| {
+        let meet = |number: u32, surface: &SurfacePoint, finish: &Finish, throughput: Rgb| {
             let SurfacePoint { triangle, u, v, .. } = *surface;
             let reflectance = self.scene.diffuse_reflectance(finish, triangle, u, v);
-            ends.extend((!reflectance.is_black()).then_some((*surface, throughput * reflectance)));
+            if !reflectance.is_black() {
+                let density = (number == 0).then(|| density(from, surface));
+                ends.push(End { surface: *surface, share: throughput * reflectance, density });
+            }
         };
-        follow(self.scene, ray, direction, dice, meet);
+        follow_on(self.scene, self.scene.bvh().closest_hit(&ray), direction, dice, meet);
         ends
+    }
+}
+
+/// How likely a cosine-distributed ray is to end at a place if nothing is between, 1/m2.
+fn density(from: &Gatherer, at: &SurfacePoint) -> f64 {
+    let way = at.point - from.origin;
+    let away = way.dot(from.normal.to_vector());
+    let facing = -way.dot(at.geometric.to_vector());
+    let squared = way.length_squared();
+    if away > 0.0 && facing > 0.0 && squared > 0.0 {
+        away * facing / (std::f64::consts::PI * squared * squared)
+    } else {
+        0.0
     }
 }

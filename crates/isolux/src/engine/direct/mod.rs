@@ -251,6 +251,16 @@ impl<'s> Lighting<'s> {
         })
     }
 
+    /// Whether there are only a few luminaires without surface and nothing specular before them: all are asked wherever direct light
+    /// is, and exactly what they send out arrives.
+    pub(super) fn are_few_points(&self) -> bool {
+        let is_plain =
+            |s: &Source| matches!(s.kind, SourceKind::Point { .. }) && s.chain.is_empty();
+        self.sources.len() <= EXACT_SOURCES
+            && self.sources.iter().all(is_plain)
+            && !self.panes.exist()
+    }
+
     /// Whether there are luminaires without surface, and so few, images counted, that glossy surfaces show them.
     pub(super) fn shows_points(&self) -> bool {
         let count = self.sources.len() - self.area_sources;
