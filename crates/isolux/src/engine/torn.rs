@@ -4,10 +4,11 @@
 
 use super::surface::SurfacePoint;
 use super::trust::NEAR;
-use crate::elements::Subdivision;
+use crate::elements::{FewNumbers, Subdivision};
 use crate::scene::Scene;
 use isolux_geometry::{Normal, Point, Ray};
 use rayon::prelude::*;
+use std::collections::HashSet;
 
 /// How far above the surface it is looked for, in distances that rays start at; and, not to take for it what lies on the
 /// floor, as a share of the edge, at [`NEAR`].
@@ -78,6 +79,26 @@ impl Torn {
     /// Takes vertices that are new not to be torn: where nothing stands close.
     pub(super) fn skip(&mut self, subdivision: &Subdivision) {
         self.0.resize(subdivision.vertex_count(), false);
+    }
+
+    /// Those of them that share an element with a vertex which is of some kind: where that is hidden, nothing else of the element may be
+    /// left to be read beyond what stands there, and the light of this side would be.
+    pub(super) fn beside(
+        &self,
+        subdivision: &Subdivision,
+        is_other: impl Fn(usize) -> bool,
+    ) -> HashSet<u32, FewNumbers> {
+        let mut found = HashSet::default();
+        if !self.0.contains(&true) {
+            return found;
+        }
+        for leaf in subdivision.leaves() {
+            let corners = subdivision.node(leaf).0.vertices;
+            if corners.iter().any(|&v| is_other(v as usize)) {
+                found.extend(corners.into_iter().filter(|&v| self.has(v as usize)));
+            }
+        }
+        found
     }
 
     pub(super) fn has(&self, vertex: usize) -> bool {

@@ -410,8 +410,11 @@ impl Gathering<'_> {
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
     fn entry(&self, at: &Located, out_of_gap_m: Option<f64>) -> Option<Entry> {
         let cut = self.cuts.and_then(|cuts| cuts.of_node(at.place.node()));
-        let one_side = cut.and_then(|cut| known_on_side(at.corners, self.standings, cut));
-        let corners = one_side.or_else(|| self.known(at.corners, out_of_gap_m))?;
+        // Beyond a cut nothing of this side is seen, whether anything is known there or not.
+        let corners = match cut {
+            Some(cut) => known_on_side(at.corners, self.standings, cut),
+            None => self.known(at.corners, out_of_gap_m),
+        }?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
             weights: corners.map(|(_, weight)| weight as f32),

@@ -500,9 +500,15 @@ impl<'s> Pilot<'s> {
         // Where nobody looked, something may stand close.
         let is_beset = |node: u32| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
         self.torn.look(self.scene, &self.subdivision, is_beset);
+        let known = |vertex: usize| self.known[vertex];
+        let tells_of_dark = self.torn.beside(&self.subdivision, |vertex| !known(vertex));
         for (k, standing) in self.standings.iter_mut().enumerate() {
-            let own = standing.filter(|_| self.known[k]);
-            *standing = if self.torn.has(k) { own.and(Some(Standing::Rim)) } else { own };
+            let own = standing.filter(|_| known(k));
+            *standing = match (self.torn.has(k), tells_of_dark.contains(&(k as u32))) {
+                (false, _) => own,
+                (true, false) => own.and(Some(Standing::Rim)),
+                (true, true) => None,
+            };
         }
     }
 
