@@ -5,6 +5,9 @@ use crate::engine::cuts::{Cuts, Side};
 use crate::engine::direct::Lighting;
 use crate::engine::gather::{known_at, known_on_side};
 use crate::engine::pilot::pilot;
+use crate::engine::place::ProbePoint;
+use crate::engine::probe::{ExactSettings, MapReader};
+use crate::engine::{SolveRequest, Watch, solve};
 use crate::scene::{Body, Dielectric};
 
 /// Where no vertices are, and where bisection of rooms 3 m long makes them.
@@ -65,6 +68,26 @@ fn nobody_reads_vertices_that_a_sheet_stands_on() {
     assert_eq!(beyond, 0, "of 400");
     let low = reading_beyond(&rooms(MIDDLE_X, 0.01), MIDDLE_X);
     assert!(low > 100, "{low} of 400");
+}
+
+#[test]
+fn no_light_is_read_where_nothing_is_known_beyond_a_sheet() {
+    for x in [SHEET_X, MIDDLE_X] {
+        let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
+        shapes.push(rectangle([x, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.5], 1));
+        let paint = || painted(Rgb::grey(0.8));
+        let lamp = isotropic([0.7, 1.0, 1.5], 100.0);
+        let scene = scene(shapes, vec![paint(), paint()], vec![lamp]);
+        let map =
+            solve(&scene, &SolveRequest::default(), None, &mut |_| Watch::Continue).unwrap().map;
+        let reader = MapReader::new(&scene, &map);
+        for at in [[x + 0.1, 0.5, 0.0], [x + 0.4, 1.3, 0.0], [2.6, 1.0, 0.0]] {
+            let normal = Vector::new(0.0, 0.0, 1.0).normal().unwrap();
+            let at = ProbePoint { position: Point::from(at), normal };
+            let read = reader.estimate(at, &ExactSettings::default());
+            assert_eq!(read.indirect_lx, Rgb::BLACK, "{x}: {at:?}");
+        }
+    }
 }
 
 #[test]

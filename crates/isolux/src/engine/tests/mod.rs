@@ -19,6 +19,7 @@ mod foreseeing;
 mod glass;
 mod gloss;
 mod judging;
+mod landing;
 pub(super) mod many;
 mod means;
 mod middles;

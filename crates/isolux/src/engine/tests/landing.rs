@@ -1,0 +1,94 @@
+//! Lamps close to surfaces: their light lands between the vertices of any first mesh.
+
+use super::*;
+use crate::engine::accuracy::Light;
+use crate::engine::direct::Lighting;
+use crate::engine::pilot::pilot;
+use crate::engine::place::ProbePoint;
+use crate::engine::probe::{ExactSettings, MapReader};
+use crate::engine::reference::PathTracer;
+use crate::engine::{SolveRequest, Watch, solve};
+use std::f64::consts::PI;
+
+const ROOM_M: [f64; 3] = [4.0, 5.0, 2.8];
+const REFLECTANCE: f64 = 0.7;
+const FLUX_LM: f64 = 500.0;
+
+/// A closed room with a lamp so far below its ceiling.
+fn room(below_m: f64) -> Scene {
+    let lamp = isotropic([1.9, 2.3, ROOM_M[2] - below_m], FLUX_LM / (4.0 * PI));
+    scene(inward_box(ROOM_M, 0), vec![painted(Rgb::grey(REFLECTANCE))], vec![lamp])
+}
+
+fn area_m2() -> f64 {
+    let [x, y, z] = ROOM_M;
+    2.0 * (x * y + y * z + z * x)
+}
+
+#[test]
+fn vertices_tell_of_light_that_lands_on_a_hand_s_breadth() {
+    let scene = room(0.005);
+    let lighting = Lighting::new(&scene);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let vertices = plan.elements.vertices().iter().zip(&plan.direct);
+    let told_lm: f64 = vertices.map(|(vertex, lx)| vertex.area_m2 * lx.luminance()).sum();
+    // All of it lands; what particles leave undecided is a hundredth, and linear elements tell too much of a peak.
+    assert!((told_lm / FLUX_LM - 1.0).abs() < 0.02, "{told_lm}");
+    // Half of it on what no walls would tell.
+    assert!(plan.backdrop.is_none());
+}
+
+#[test]
+fn rooms_are_as_bright_as_the_balance_of_light_has_them() {
+    let scene = room(0.005);
+    for seed in 1..4 {
+        let request = SolveRequest { seed, ..SolveRequest::default() };
+        let solution = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap();
+        let map = solution.map;
+        let of = map.elements.vertices().iter().zip(&map.values);
+        let lm: f64 = of.map(|(v, value)| v.area_m2 * value.unwrap().indirect_lx.luminance()).sum();
+        let expected_lm = FLUX_LM * REFLECTANCE / (1.0 - REFLECTANCE);
+        let told = map.provenance.accuracy.unwrap().reached;
+        // Errors are relative to twice the mean here; their mean is no larger than their root mean square.
+        let most_lm = 2.0 * told * 2.0 * (FLUX_LM + expected_lm);
+        assert!(told < 0.01 && (lm - expected_lm).abs() < most_lm, "{seed}: {lm} {expected_lm}");
+    }
+}
+
+#[test]
+fn paths_find_what_lamps_light_close_by() {
+    // Without it they find a half of the light and tell a fiftieth as error.
+    let scene = room(0.01);
+    let tracer = PathTracer::new(&scene);
+    let request = SolveRequest { accuracy: Some(0.003), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let reader = MapReader::new(&scene, &map);
+    for (k, [x, y]) in [[0.4, 0.5], [2.0, 2.5], [3.1, 4.4], [1.0, 3.0]].into_iter().enumerate() {
+        let at = ProbePoint {
+            position: Point::new(x, y, 0.0),
+            normal: Vector::new(0.0, 0.0, 1.0).normal().unwrap(),
+        };
+        let found = tracer.estimate(at, &ExactSettings::default());
+        let read = reader.probe(at).unwrap();
+        let error = libm::hypot(found.standard_error_lx, read.standard_error_lx);
+        let apart = (found.indirect_lx - read.indirect_lx).luminance();
+        assert!(apart.abs() < 4.0 * error, "{k}: {found:?} {read:?}");
+        assert!(found.standard_error_lx < 0.02 * found.illuminance_lx(), "{k}: {found:?}");
+    }
+}
+
+#[test]
+fn errors_are_relative_to_no_more_than_twice_the_mean() {
+    let of = |parts: &[(f64, f64)]| {
+        let mut light = Light::default();
+        parts.iter().for_each(|&(m2, lx)| light.add(m2, lx));
+        light.reference_lx()
+    };
+    assert_eq!(of(&[]), 0.0);
+    assert_eq!(of(&[(2.0, 0.0)]), 0.0);
+    assert_eq!(of(&[(2.0, 5.0)]), 5.0);
+    // Half of it dark: the root mean square.
+    assert!((of(&[(2.0, 0.0), (2.0, 5.0)]) - 5.0 * 0.5_f64.sqrt()).abs() < 1e-12);
+    // A hot spot: twice the mean.
+    assert!((of(&[(99.9, 1.0), (0.1, 1e5)]) - 2.0 * 100.999).abs() < 1e-9);
+}
