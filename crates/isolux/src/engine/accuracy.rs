@@ -4,7 +4,8 @@ use super::accumulate::{Accumulator, Estimate};
 use super::checks::InterpolationErrors;
 use super::plan::Plan;
 use super::trial::OF_INTERPOLATED;
-use crate::map::Accuracy;
+use crate::elements::Elements;
+use crate::map::{Accuracy, Standing};
 use rayon::prelude::*;
 
 /// Replicates from which on their spread is believed. The scene figure pools thousands of
@@ -125,6 +126,20 @@ impl Light {
     /// Of a surface that is lit everywhere.
     pub(super) const fn of(area_m2: f64, flux_lm: f64, squared: f64) -> Self {
         Self { area_m2, lit_m2: area_m2, flux_lm, squared }
+    }
+
+    /// Of the known surface.
+    pub(super) fn of_vertices(
+        elements: &Elements,
+        standings: &[Option<Standing>],
+        lx: impl Fn(usize) -> f64,
+    ) -> Self {
+        let mut light = Self::default();
+        let vertices = elements.vertices().iter().enumerate();
+        vertices
+            .filter(|&(k, _)| standings[k].is_some())
+            .for_each(|(k, vertex)| light.add(vertex.area_m2, lx(k)));
+        light
     }
 
     pub(super) fn add(&mut self, area_m2: f64, lx: f64) {

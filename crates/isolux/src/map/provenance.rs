@@ -94,7 +94,8 @@ pub struct FilterReport {
 }
 
 /// Relative errors of the scene: area-weighted root mean squares over all surfaces, relative to the
-/// root mean square of the illuminance (the distance of Kopylov, Khodulev, Volevich 1998, 3.3).
+/// root mean square of the illuminance (the distance of Kopylov, Khodulev, Volevich 1998, 3.3), or to twice its mean where there is
+/// light, if that is less.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// The whole error of the map read with direct light evaluated afresh: root of the sum of the

@@ -34,12 +34,12 @@ impl<'s> Pilot<'s> {
         self.refine_for_direct_light(&mut look, request, go_on);
         let mut gatherers = self.measure_direct_light(&mut look, request, go_on);
         self.stand_before_walls(&mut gatherers[..indirect_vertices]);
-        let mut standings = std::mem::take(&mut self.standings);
-        forget_orphans(&look.elements, indirect_vertices, &mut standings);
+        let standings = self.final_standings(&look.elements, indirect_vertices);
         let trusted_up_to_lx = look.trusted_up_to_lx(request);
         let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();
         let means = self.means(&coarse, &look, request, (&open[..indirect_vertices], carrying));
         let cuts = self.cuts(&coarse, &look.elements);
+        let caustics_share = caustics.share(look.reference_lx);
         Plan {
             scene: self.scene,
             lighting: self.lighting,
@@ -48,10 +48,7 @@ impl<'s> Pilot<'s> {
             level: coarse.node_count() as u32,
             trusted_up_to_lx,
             reference_lx: look.reference_lx,
-            interpolation: libm::hypot(
-                look.interpolation(request),
-                caustics.share(look.reference_lx),
-            ),
+            interpolation: libm::hypot(look.interpolation(request), caustics_share),
             mean_reflectance: reflectance::of_all(self.scene, &coarse),
             means,
             resolves_walls: look.walls.are_resolved(),
@@ -79,6 +76,13 @@ impl<'s> Pilot<'s> {
             is_finest: self.is_full && self.direct_excess.is_some_and(|(_, excess)| excess > 1.0),
             rays: self.traced,
         }
+    }
+
+    /// What vertices stand for; of those for direct light alone nothing is known where both ends of their edge are hidden.
+    fn final_standings(&mut self, elements: &Elements, first: usize) -> Vec<Option<Standing>> {
+        let mut standings = std::mem::take(&mut self.standings);
+        forget_orphans(elements, first, &mut standings);
+        standings
     }
 
     /// Elements whose means increments measure, if they do.

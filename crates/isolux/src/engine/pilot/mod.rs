@@ -303,7 +303,7 @@ impl<'s> Pilot<'s> {
         let details = self.details(&elements, &luminances);
         let hemmed = |vertex: u32, edge_m: f64| self.hemmed_in_m[vertex as usize] < HEM * edge_m;
         let errors = details.leaf_errors(middle, beset, hemmed);
-        let reference_lx = reference_lx(&elements, &self.standings, lx);
+        let reference_lx = Light::of_vertices(&elements, &self.standings, lx).reference_lx();
         let left_by_fit = details.left_by_fit(&errors);
         let carriers = self.carriers.count(gatherers.len());
         self.costs.looks.add(started.elapsed(), gatherers.len() as f64);
@@ -500,15 +500,11 @@ impl<'s> Pilot<'s> {
         // Where nobody looked, something may stand close.
         let is_beset = |node: u32| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
         self.torn.look(self.scene, &self.subdivision, is_beset);
-        let known = |vertex: usize| self.known[vertex];
-        let tells_of_dark = self.torn.beside(&self.subdivision, |vertex| !known(vertex));
+        let beside_hidden = self.torn.beside(&self.subdivision, |vertex| !self.known[vertex]);
         for (k, standing) in self.standings.iter_mut().enumerate() {
-            let own = standing.filter(|_| known(k));
-            *standing = match (self.torn.has(k), tells_of_dark.contains(&(k as u32))) {
-                (false, _) => own,
-                (true, false) => own.and(Some(Standing::Rim)),
-                (true, true) => None,
-            };
+            let own = standing.filter(|_| self.known[k]);
+            let torn = own.filter(|_| !beside_hidden.contains(&(k as u32)));
+            *standing = if self.torn.has(k) { torn.and(Some(Standing::Rim)) } else { own };
         }
     }
 
@@ -602,18 +598,4 @@ impl<'s> Pilot<'s> {
         self.subdivision.longest_edge_m(node) > 2.0 * self.least_edge_m
             && corners.iter().any(|&v| !self.known[v as usize])
     }
-}
-
-/// What errors over the known surface are relative to.
-fn reference_lx(
-    elements: &Elements,
-    standings: &[Option<Standing>],
-    value: impl Fn(usize) -> f64,
-) -> f64 {
-    let mut light = Light::default();
-    let vertices = elements.vertices().iter().enumerate();
-    for (k, vertex) in vertices.filter(|&(k, _)| standings[k].is_some()) {
-        light.add(vertex.area_m2, value(k));
-    }
-    light.reference_lx()
 }

@@ -2,6 +2,7 @@
 
 use super::{PILOT_TOLERANCE, Pilot};
 use crate::elements::Elements;
+use crate::engine::accuracy::Light;
 use crate::engine::backdrop::{self, Backdrop};
 use crate::engine::gather::{Gatherer, known_at};
 use crate::engine::path::Dice;
@@ -82,7 +83,8 @@ impl Pilot<'_> {
         places: &[(Gatherer, f64)],
     ) -> Option<f64> {
         let lx = |v: usize| (self.direct[v] + self.indirect[v]).luminance();
-        let of = (super::reference_lx(elements, &self.standings, lx), self.key.with(9));
+        let of =
+            (Light::of_vertices(elements, &self.standings, lx).reference_lx(), self.key.with(9));
         let gathering = self.gathering(elements, u32::MAX, &self.standings);
         let (trial, left, rays) = Trial::of_walls(&gathering, places, &self.indirect, of);
         self.traced += rays;

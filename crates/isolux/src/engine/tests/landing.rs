@@ -20,11 +20,6 @@ fn room(below_m: f64) -> Scene {
     scene(inward_box(ROOM_M, 0), vec![painted(Rgb::grey(REFLECTANCE))], vec![lamp])
 }
 
-fn area_m2() -> f64 {
-    let [x, y, z] = ROOM_M;
-    2.0 * (x * y + y * z + z * x)
-}
-
 #[test]
 fn vertices_tell_of_light_that_lands_on_a_hand_s_breadth() {
     let scene = room(0.005);
