@@ -19,8 +19,8 @@ const MORE: u32 = 1 << 14;
 /// They go no further than by so many mirrors.
 const SCATTERINGS: u32 = 16;
 
-/// What comes to an element differs from what vertices tell if it does by so many times its standard error: of a thousand elements
-/// none does by chance.
+/// What comes to an element differs from what vertices tell if it does by so many times its standard error: of fifteen thousand
+/// elements one does by chance.
 const BELIEVED: f64 = 4.0;
 /// Of all light that lands, the part that is left where it is.
 const MATTERS: f64 = 0.01;

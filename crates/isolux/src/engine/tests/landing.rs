@@ -52,7 +52,7 @@ fn rooms_are_as_bright_as_the_balance_of_light_has_them() {
 
 #[test]
 fn paths_find_what_lamps_light_close_by() {
-    // Without it they find a half of the light and tell a fiftieth as error.
+    // Without light sent out they find two thirds of it at some places and tell a fiftieth as error.
     let scene = room(0.01);
     let tracer = PathTracer::new(&scene);
     let request = SolveRequest { accuracy: Some(0.003), ..SolveRequest::default() };
