@@ -50,6 +50,7 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
         Some(map) => (map, Outcome::Done),
         None => solved(flags, &scene)?,
     };
+    map_file::warn_of_unknown_error(&flags.source, &map);
     let reader = MapReader::new(&scene, &map);
     let results: Vec<GridResult> =
         grids.into_iter().map(|grid| GridResult::of(grid, &reader)).collect();

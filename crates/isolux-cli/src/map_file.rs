@@ -1,6 +1,7 @@
 //! Map files.
 
 use crate::failure::Failure;
+use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::source::{bad_file, check_place, show_warnings};
 use isolux::map::IlluminationMap;
@@ -19,6 +20,18 @@ pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
     show_warnings(&loaded.warnings);
     check_place(path, &loaded.value.0)?;
     Ok(loaded.value)
+}
+
+/// Says so where standard errors of readings are infinite, as the map does not know its own.
+pub(crate) fn warn_of_unknown_error(path: &Path, map: &IlluminationMap) {
+    if map.provenance.accuracy.is_none() {
+        let text = format!(
+            "{}: how wrong this map is is not known, as its run ended too early to tell, so that standard errors are infinite; \
+             give it more time, or read a scene by paths",
+            path.display()
+        );
+        note(Note::Warning, text);
+    }
 }
 
 /// The same with the texels that the file holds.

@@ -34,7 +34,7 @@ pub(crate) fn run(flags: &ProbeFlags, json: bool) -> Result<Outcome, Failure> {
     let unknown = values.iter().filter(|v| v.is_none()).count();
     if unknown > 0 {
         let text = format!(
-            "{unknown} of {} on no surface with a known value; move points onto one, or use --exact",
+            "{unknown} of {} on no surface with a known value; move points onto one that light comes to, or use --exact",
             counted(points.len(), "point lies", "points lie")
         );
         note(Note::Warning, text);
@@ -74,6 +74,9 @@ fn read_map(flags: &ProbeFlags, points: &[ProbePoint]) -> Result<(Values, f64), 
     let unused = [("--paths", flags.paths.is_some()), ("--seed", flags.seed.is_some())];
     refuse(flags, &unused, "a map, whose points are not traced; leave it out or give a scene")?;
     let (scene, map) = map_file::read(&flags.source)?;
+    if !flags.interpolated {
+        map_file::warn_of_unknown_error(&flags.source, &map);
+    }
     let reader = MapReader::new(&scene, &map);
     let read = |at: &ProbePoint| {
         if flags.exact {

@@ -5,12 +5,13 @@
 //! if it sees a place that is open; the rest is hidden, whether it lies in something solid or in a
 //! closed box that is painted inside. What a ray sees is asked of the very spot where it ends, never of
 //! an element that may reach below the wall of a box: of its vertices those count that the spot
-//! sees.
+//! sees, and of these not those that something stands on.
 
 use super::direct::Lighting;
 use super::gather::Gatherer;
 use super::path::{Dice, PathEnd, follow};
 use super::surface::SurfacePoint;
+use super::torn::Torn;
 use super::trust;
 use crate::elements::Elements;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
@@ -36,6 +37,8 @@ pub(super) struct Sight<'a> {
     pub(super) gatherers: &'a [Gatherer],
     /// Places that light comes to over specular surfaces.
     pub(super) reached: &'a [SurfacePoint],
+    /// Vertices that something stands on, which are seen from both of its sides.
+    pub(super) torn: &'a Torn,
     pub(super) key: Key,
 }
 
@@ -141,12 +144,12 @@ impl Sight<'_> {
         places.iter().any(|place| self.sees_open(place, known))
     }
 
-    /// Whether a place sees an open vertex of its element.
+    /// Whether a place sees an open vertex of its element, one that tells of its side alone.
     fn sees_open(&self, place: &SurfacePoint, known: &[bool]) -> bool {
         let SurfacePoint { triangle, back, u, v, .. } = *place;
         let corners = self.elements.locate(triangle, back, u, v);
         let mut corners = corners.iter().flatten().map(|&(vertex, _)| vertex as usize);
-        corners.any(|vertex| known[vertex] && self.sees(place, vertex))
+        corners.any(|vertex| known[vertex] && !self.torn.has(vertex) && self.sees(place, vertex))
     }
 
     /// Whether nothing stands between a place and a vertex of its element.

@@ -134,7 +134,10 @@ impl<'a> MapReader<'a> {
     pub fn by_replicates(&self, reading: Illuminance) -> Illuminance {
         let unseen = libm::hypot(reading.interpolation_error_lx, self.unseen.bias_lx);
         let unseen = unseen * unseen;
-        let less = |error: f64| (error * error - unseen).max(0.0).sqrt();
+        let less = |error: f64| match error {
+            f64::INFINITY => error,
+            _ => (error * error - unseen).max(0.0).sqrt(),
+        };
         Illuminance {
             standard_error_lx: less(reading.standard_error_lx),
             indirect_standard_error_lx: less(reading.indirect_standard_error_lx),
@@ -146,14 +149,26 @@ impl<'a> MapReader<'a> {
     /// light evaluated afresh there, caustics interpolated, indirect light interpolated where the map
     /// is to be trusted and gathered over the map where not. The standard error counts, beside that
     /// of replicates, the interpolation error expected there and the bias that the map reports for
-    /// the scene, the same everywhere. `None` where the map knows nothing.
+    /// the scene, the same everywhere; it is infinite where the map does not know its error. `None` where the map knows nothing.
     pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         self.read(SurfacePoint::new(self.scene, triangle, back, u, v))
     }
 
     fn read(&self, surface: SurfacePoint) -> Option<Illuminance> {
         let (indirect, at) = self.indirect(surface, Allowance::ANY)?;
-        Some(self.with_fresh_direct(indirect, &at))
+        Some(self.told(self.with_fresh_direct(indirect, &at)))
+    }
+
+    /// What nobody knows of the error of the map, nobody knows of a reading's.
+    fn told(&self, reading: Illuminance) -> Illuminance {
+        match self.map.provenance.accuracy {
+            Some(_) => reading,
+            None => Illuminance {
+                standard_error_lx: f64::INFINITY,
+                indirect_standard_error_lx: f64::INFINITY,
+                ..reading
+            },
+        }
     }
 
     /// What is known of the indirect light at a place, and the place to evaluate direct light at.
@@ -328,7 +343,7 @@ impl<'a> MapReader<'a> {
             let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
             let indirect =
                 self.gathered(Illuminance::NOTHING, (trial, Allowance::ANY.noise), lookup_lx);
-            Some(self.with_fresh_direct(indirect, &trial.surface))
+            Some(self.told(self.with_fresh_direct(indirect, &trial.surface)))
         })
     }
 
@@ -382,7 +397,7 @@ impl<'a> MapReader<'a> {
     /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
     /// indirect light by gathering over the map. Caustics are read from the map where the point is
     /// on a surface; in free space they are unknown and left out. The standard error counts the
-    /// interpolation error and the bias of the map as if they were the same everywhere.
+    /// interpolation error and the bias of the map as if they were the same everywhere, and is infinite where these are not known.
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
         let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
         let gatherer = on_surface
@@ -403,7 +418,7 @@ impl<'a> MapReader<'a> {
         let of_caustics = stored.map_or(0.0, |stored| of_caustics(&stored));
         let indirect_variance = variance + looked_up * looked_up + of_caustics * of_caustics;
         let (direct, direct_variance) = self.direct(&gatherer.surface);
-        Illuminance {
+        self.told(Illuminance {
             direct_lx: direct + caustic_lx,
             caustic_lx,
             indirect_lx,
@@ -412,7 +427,7 @@ impl<'a> MapReader<'a> {
             interpolation_error_lx: 0.0,
             standing: Standing::Open,
             samples: u64::from(replicates) * u64::from(settings.rays),
-        }
+        })
     }
 
     /// The surface at a point that carries the map.

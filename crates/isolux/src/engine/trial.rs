@@ -59,12 +59,14 @@ pub(super) fn stands(some: &[(Gatherer, f64)]) -> impl Iterator<Item = (Stand, f
 pub(super) struct Trial {
     noise_lx: f64,
     rays: u32,
+    /// What errors were relative to then, lx.
+    pub(super) reference_lx: f64,
 }
 
 impl Trial {
     /// What is mostly found, as long as nothing is tried: 1.5 to 3.2 % of the light in CUBE, SPHERE and the hall.
     pub(super) fn usual(reference_lx: f64) -> Self {
-        Self { noise_lx: 0.02 * reference_lx, rays: RAYS }
+        Self { noise_lx: 0.02 * reference_lx, rays: RAYS, reference_lx }
     }
 
     /// Tries some receivers, each with the surface it stands for, m2, for a run of so many increments that
@@ -126,7 +128,7 @@ impl Trial {
             of_means += own_m2 * sums.estimate(row).variance;
         }
         let variance = if area_m2 > 0.0 { INCREMENTS as f64 * of_means / area_m2 } else { 0.0 };
-        (Self { noise_lx: variance.sqrt(), rays }, traced)
+        (Self { noise_lx: variance.sqrt(), rays, reference_lx }, traced)
     }
 
     /// Gathering rays of a receiver with which so many increments leave no more than some noise, a power of two.

@@ -68,8 +68,10 @@ impl Illuminance {
             (1.0 / known().count().max(1) as f64, true)
         };
         let weighted = || known().map(|(v, w)| (v, if even { scale } else { w * scale }));
+        // What has no weight may have an error that nobody knows.
         let root_sum = |f: &dyn Fn(&Self) -> f64| {
-            weighted().map(|(v, w)| (w * f(v)) * (w * f(v))).sum::<f64>().sqrt()
+            let parts = weighted().filter(|&(_, w)| w != 0.0).map(|(v, w)| w * f(v));
+            parts.map(|part| part * part).sum::<f64>().sqrt()
         };
         let least = known().map(|(v, _)| v.interpolation_error_lx).fold(f64::INFINITY, f64::min);
         Some(Self {

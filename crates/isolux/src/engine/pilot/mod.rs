@@ -418,9 +418,11 @@ impl<'s> Pilot<'s> {
         let head = if is_first { rows.len() / FIRST_PART } else { 0 };
         let mut operator = gathering.operator(&rows[..head], |_| key);
         if is_first {
-            // How long it takes is told as soon as it is known how long a part takes.
+            // How long it takes is told as soon as it is known how long a part takes; before walls rays take little of it.
             self.costs.rays.add(started.elapsed(), operator.rays as f64);
-            go_on(&self.round(request, None, (None, None)));
+            if self.backdrop.is_none() {
+                go_on(&self.round(request, None, (None, None)));
+            }
             started = Instant::now();
         }
         let gathering = self.gathering(elements, level, &self.standings);
@@ -497,9 +499,6 @@ impl<'s> Pilot<'s> {
         before.resize(gatherers.len(), None);
         let surface = |k: usize| gatherers[k].surface;
         self.standings = self.felt.standings(self.scene, &self.subdivision, &before, surface);
-        // Where nobody looked, something may stand close.
-        let is_beset = |node: u32| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
-        self.torn.look(self.scene, &self.subdivision, is_beset);
         let beside_hidden = self.torn.beside(&self.subdivision, |vertex| !self.known[vertex]);
         for (k, standing) in self.standings.iter_mut().enumerate() {
             let own = standing.filter(|_| self.known[k]);
@@ -510,10 +509,12 @@ impl<'s> Pilot<'s> {
 
     fn sight<'a>(&'a self, elements: &'a Elements, gatherers: &'a [Gatherer]) -> Sight<'a> {
         let (scene, lighting, key) = (self.scene, self.lighting, self.key.with(3));
-        Sight { scene, lighting, elements, gatherers, reached: &self.reached, key }
+        let (reached, torn) = (&self.reached, &self.torn);
+        Sight { scene, lighting, elements, gatherers, reached, torn, key }
     }
 
     fn extend_known(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        self.look_for_torn();
         let mut known = std::mem::take(&mut self.known);
         self.sight(elements, gatherers).extend_known(&self.direct, &mut known);
         self.known = known;

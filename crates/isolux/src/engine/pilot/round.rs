@@ -71,8 +71,8 @@ impl Pilot<'_> {
         (excess, before): Excess,
     ) -> Round {
         let vertices = self.subdivision.vertex_count();
-        let reference_lx = look.map_or(1.0, |look| look.reference_lx);
-        let trial = self.trial.unwrap_or(Trial::usual(reference_lx));
+        let trial = self.trial.unwrap_or(Trial::usual(look.map_or(1.0, |look| look.reference_lx)));
+        let reference_lx = look.map_or(trial.reference_lx, |look| look.reference_lx);
         let carriers = self.carriers.count(vertices) as f64;
         let gathered = self.gathered.iter().filter(|&&gathered| gathered).count();
         let most = self.most_for_direct_light(request) as f64;

@@ -43,6 +43,12 @@ impl Pilot<'_> {
         self.costs.smoothing.add(started.elapsed(), self.subdivision.vertex_count() as f64);
     }
 
+    /// Whether something stands on vertices that were not looked at yet; where nobody looked at elements, it may stand close to them.
+    pub(super) fn look_for_torn(&mut self) {
+        let is_beset = |node: u32| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
+        self.torn.look(self.scene, &self.subdivision, is_beset);
+    }
+
     /// What new vertices that do not gather have: direct light, and indirect light from those that they wait for.
     pub(super) fn settle(&mut self, elements: &Elements) {
         let vertices = self.subdivision.vertex_count();
@@ -50,6 +56,7 @@ impl Pilot<'_> {
         self.complete_rays();
         let gatherers = self.gatherers();
         self.complete_direct(elements, &gatherers);
+        self.look_for_torn();
         self.complete_standings(&gatherers);
         self.indirect.resize(vertices, Rgb::BLACK);
         self.carriers.fill(&mut self.indirect);
