@@ -86,3 +86,17 @@ impl Illuminance {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_has_no_weight_adds_no_unknown_error() {
+        let sure = Illuminance { standard_error_lx: 2.0, ..Illuminance::NOTHING };
+        let unknown = Illuminance { standard_error_lx: f64::INFINITY, ..Illuminance::NOTHING };
+        let error = |parts| Illuminance::mix(parts).unwrap().standard_error_lx;
+        assert_eq!(error([(Some(sure), 1.0), (Some(unknown), 0.0)]), 2.0);
+        assert_eq!(error([(Some(sure), 0.5), (Some(unknown), 0.5)]), f64::INFINITY);
+    }
+}

@@ -1,6 +1,7 @@
 //! Sheets that stand across elements.
 
 use super::*;
+use crate::elements::Vertex;
 use crate::engine::cuts::{Cuts, Side};
 use crate::engine::direct::Lighting;
 use crate::engine::gather::{known_at, known_on_side};
@@ -8,6 +9,7 @@ use crate::engine::pilot::pilot;
 use crate::engine::place::ProbePoint;
 use crate::engine::probe::{ExactSettings, MapReader};
 use crate::engine::{SolveRequest, Watch, solve};
+use crate::map::Method;
 use crate::scene::{Body, Dielectric};
 
 /// Where no vertices are, and where bisection of rooms 3 m long makes them.
@@ -87,6 +89,37 @@ fn no_light_is_read_where_nothing_is_known_beyond_a_sheet() {
             let read = reader.estimate(at, &ExactSettings::default());
             assert_eq!(read.indirect_lx, Rgb::BLACK, "{x}: {at:?}");
         }
+    }
+}
+
+/// Its sides stand where bisection makes vertices of the floor.
+#[test]
+fn no_light_comes_into_a_block_that_stands_on_vertices() {
+    let mut shapes = inward_box([4.0, 4.0, 3.0], 0);
+    let up = [0.0, 0.0, 1.5];
+    for (corner, along) in [
+        ([1.0, 1.0, 0.0], [1.0, 0.0, 0.0]),
+        ([2.0, 1.0, 0.0], [0.0, 1.0, 0.0]),
+        ([2.0, 2.0, 0.0], [-1.0, 0.0, 0.0]),
+        ([1.0, 2.0, 0.0], [0.0, -1.0, 0.0]),
+    ] {
+        shapes.push(rectangle(corner, along, up, 0));
+    }
+    shapes.push(rectangle([1.0, 1.0, 1.5], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0));
+    let paint = Material::two_sided("paint", Finish::diffuse(Rgb::grey(0.8)));
+    let scene = scene(shapes, vec![paint], vec![isotropic([3.2, 2.0, 2.8], 400.0)]);
+    for method in [Method::Hybrid, Method::Radiosity] {
+        let request = SolveRequest { method, accuracy: Some(0.05), ..SolveRequest::default() };
+        let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+        let within = |p: Point| [p.x, p.y].iter().all(|&c| c > 1.0 && c < 2.0) && p.z < 1.5;
+        let vertices = map.elements.vertices().iter().zip(&map.values);
+        let is_inside = |v: &Vertex| within(v.position) && v.normal.to_vector().z > 0.0;
+        let inside = vertices.filter(|(vertex, _)| is_inside(vertex));
+        let (count, lit) = inside.fold((0, 0), |(count, lit), (_, value)| {
+            (count + 1, lit + usize::from(value.is_some()))
+        });
+        assert!(count > 0, "{method:?}: no vertex lies inside");
+        assert_eq!(lit, 0, "{method:?}: of {count} inside");
     }
 }
 

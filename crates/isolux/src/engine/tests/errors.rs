@@ -8,8 +8,11 @@ use crate::engine::direct::Lighting;
 use crate::engine::filter::filter;
 use crate::engine::noise::Noise;
 use crate::engine::pilot::{PilotRequest, pilot};
+use crate::engine::place::ProbePoint;
 use crate::engine::plan::Plan;
 use crate::engine::predict;
+use crate::engine::probe::{ExactSettings, MapReader};
+use crate::engine::{SolveRequest, Watch, solve};
 use crate::map::Accuracy;
 
 pub(super) fn room() -> Scene {
@@ -374,4 +377,27 @@ fn a_filter_takes_no_light() {
     };
     let (before, after) = (flux(&values), flux(&filtered.values[0]));
     assert!((after / before - 1.0).abs() < 1e-12, "{after} for {before}");
+}
+
+#[test]
+fn readings_of_a_map_of_unknown_error_have_none_either() {
+    let scene = room();
+    let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+    let mut map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let up = Vector::new(0.0, 0.0, 1.0).normal().unwrap();
+    let on_floor = ProbePoint { position: Point::new(1.0, 0.7, 0.0), normal: up };
+    let in_space = ProbePoint { position: Point::new(1.0, 0.7, 0.4), normal: up };
+    for is_known in [true, false] {
+        if !is_known {
+            map.provenance.accuracy = None;
+        }
+        let reader = MapReader::new(&scene, &map);
+        let probed = [reader.probe(on_floor), reader.measure(in_space)].map(Option::unwrap);
+        let exact = [on_floor, in_space].map(|at| reader.estimate(at, &ExactSettings::default()));
+        for read in probed.into_iter().chain(exact) {
+            assert_eq!(read.standard_error_lx.is_finite(), is_known, "{read:?}");
+            let own = reader.by_replicates(read).standard_error_lx;
+            assert_eq!(own.is_finite(), is_known, "by replicates {own}");
+        }
+    }
 }
