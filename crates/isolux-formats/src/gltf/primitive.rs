@@ -15,6 +15,9 @@ use isolux::geometry::{Normal, Point, Transform, Triangle, Vector};
 use isolux::scene::Shape;
 use isolux::units::Rgb;
 
+/// The set of texture coordinates that by custom is the place in a lightmap.
+const LIGHTMAP_SET: u32 = 1;
+
 /// A primitive, decoded.
 pub(super) struct Decoded {
     positions: Vec<[f64; 3]>,
@@ -147,10 +150,12 @@ impl<'a> Source<'a> {
         let glow = self.glow(surfaces, (&positions, &triangles), size, notes)?;
         let surface =
             surfaces.surface(material, (tint, glow), notes).map_err(|flaw| flaw.at("material"))?;
+        // Coordinates of a picture are no places in a lightmap.
+        let has_places = surface.texcoord.is_none_or(|of_colour| of_colour.set != LIGHTMAP_SET);
         Ok(Decoded {
             normals,
             uvs: surface.texcoord.map(|t| self.uvs(t, size, notes)).transpose()?,
-            lightmap_uvs: self.lightmap_uvs(size)?,
+            lightmap_uvs: if has_places { self.lightmap_uvs(size)? } else { None },
             positions,
             triangles,
             material: surface.material,
@@ -303,9 +308,9 @@ impl<'a> Source<'a> {
         Ok(Some(mean))
     }
 
-    /// The second set of texture coordinates, which by custom is the place in a lightmap.
+    /// The place in a lightmap.
     fn lightmap_uvs(&self, size: Size) -> Result<Option<Vec<[f32; 2]>>, Flaw> {
-        let stored = self.vectors::<2>(Semantic::TexCoords(1), size)?;
+        let stored = self.vectors::<2>(Semantic::TexCoords(LIGHTMAP_SET), size)?;
         Ok(stored.map(|list| list.into_iter().map(|uv| uv.map(|c| c as f32)).collect()))
     }
 

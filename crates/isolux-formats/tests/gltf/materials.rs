@@ -251,8 +251,10 @@ fn second_set_and_integer_coordinates() {
     file.json["accessors"][bytes]["normalized"] = json!(true);
     file.json["bufferViews"][3]["byteStride"] = json!(4);
     file.primitive()["attributes"]["TEXCOORD_1"] = json!(bytes);
+    assert!(file.shape().lightmap_uvs.is_some());
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = json!(1);
     assert_eq!(file.shape().uvs.unwrap(), [[0.0, 1.0], [1.0, 0.0], [0.2, 0.2]]);
+    assert_eq!(file.shape().lightmap_uvs, None, "they are those of the picture");
     file.primitive()["attributes"].as_object_mut().unwrap().remove("TEXCOORD_1");
     let loaded = file.load();
     assert_warns(&loaded, "meshes[0].primitives[0]", "no texture coordinates");

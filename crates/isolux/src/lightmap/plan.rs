@@ -21,6 +21,10 @@ pub const BYTES_PER_TEXEL: u64 = 128;
 /// 2.1 in all.
 const PACKED: f64 = 2.0;
 
+/// Pages as large as that of places which the file has, that all other surfaces may take: all pages are of one size, and on many small
+/// ones charts are cut short.
+const MOST_BESIDE_OWN: f64 = 4.0;
+
 /// What is asked of a lightmap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightmapSettings {
@@ -86,7 +90,8 @@ pub fn plan(
     };
     let texels = area_m2 * texels_per_m * texels_per_m * PACKED;
     check_memory(texels, settings)?;
-    let own = own_places::find(scene, (texels_per_m, settings.page, settings.padding));
+    let own = own_places::find(scene, (texels_per_m, settings.page, settings.padding))
+        .and_then(|own| own.map(|own| not_in_the_way(scene, own, area_m2)).transpose());
     let (own, own_places) = match own {
         Ok(Some(own)) => (Some(own), OwnPlaces::Kept),
         Ok(None) => (None, OwnPlaces::None),
@@ -113,6 +118,25 @@ pub fn plan(
     }
     let layout = of_true_density(scene, layout);
     Ok(Layout { own_places, asked_texels_per_m: texels_per_m, ..layout })
+}
+
+/// Places that the file has, unless their page is much too small for all other surfaces.
+fn not_in_the_way(scene: &Scene, own: Layout, area_m2: f64) -> Result<Layout, String> {
+    let own_m2: f64 = own.sides.iter().map(|side| scene.triangle(side.triangle).area()).sum();
+    let rest = (area_m2 - own_m2) * own.texels_per_m * own.texels_per_m * PACKED;
+    let page = own.texel_count() as f64;
+    if rest <= MOST_BESIDE_OWN * page {
+        return Ok(own);
+    }
+    let first = own.sides.first().map_or(0, |side| scene.shape_of(side.triangle));
+    Err(format!(
+        "the second texture coordinates of `{}` and others place {:.1} % of the surface alone, on a page of {} x {} texels, too \
+         small for the rest",
+        scene.shape_names()[first as usize],
+        100.0 * own_m2 / area_m2,
+        own.width,
+        own.height
+    ))
 }
 
 /// Some sides, laid out anew.

@@ -201,6 +201,9 @@ fn places_of_the_file_are_refused_with_a_reason() {
     assert!(near.contains("nearer than a texel"), "{near}");
     let flat = refused(vec![placed(|_| [0.5, 0.5])]);
     assert!(flat.contains("no area"), "{flat}");
+    let wide = quad("wide", [0.0, 0.0, 3.0], [[30.0, 0.0, 0.0], [0.0, 30.0, 0.0]], 1);
+    let small = refused(vec![placed(apart(0.1)), wide]);
+    assert!(small.contains("too small for the rest"), "{small}");
     let nan = refused(vec![placed(|_| [f32::NAN, 0.5])]);
     assert!(nan.contains("leave 0 to 1"), "{nan}");
 }
