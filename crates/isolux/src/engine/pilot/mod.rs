@@ -76,7 +76,7 @@ const FULL: f64 = 0.95;
 /// Bisections of elements with hidden vertices, and the places in one that are asked whether light
 /// comes there.
 const ROUNDS_FOR_HIDDEN: usize = 4;
-const PLACES_OF_HIDDEN: u32 = 4;
+const PLACES_OF_HIDDEN: u32 = 16;
 /// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
 const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
 /// Something that stands closer before a vertex than this part of an element takes light from it that the rest of the element
