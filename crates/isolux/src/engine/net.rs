@@ -24,6 +24,10 @@ const OF_ERROR: f64 = 0.5;
 const STIFFNESS: f64 = 0.1;
 /// Sum of the shares of a plane, taken as positive, beyond which it is a guess.
 const MOST_SHARES: f64 = 3.0;
+/// What is smoothed has no more noise than this share of the light, if planes through so many times as many texels will do: what is
+/// less is not to be seen.
+const QUIET: f64 = 0.005;
+const MOST_SMOOTHED: f64 = 8.0;
 /// Of the texels that a net leaves out, those that it will be refined by, as far as can be foreseen: half of them.
 const REFINED: f64 = 0.5;
 
@@ -36,8 +40,8 @@ pub struct Fineness {
     pub finest: usize,
     /// What is left may be this share of the light, if that is more than half of the error of a reading.
     pub of_light: f64,
-    /// In the end all texels, those gathered at, too, get the light of a plane through so many of those nearest: a picture
-    /// shows noise that an interval only states.
+    /// In the end all texels, those gathered at, too, get the light of a plane through so many of those nearest, or more where that is
+    /// noisy: a picture shows noise that an interval only states.
     pub smoothed_over: Option<usize>,
 }
 
@@ -416,19 +420,24 @@ impl Net {
         }
     }
 
-    /// Light of a texel by a plane through so many of the nearest that were gathered.
+    /// Light of a texel by a plane through so many of the nearest that were gathered, or more.
     fn smoothed(&self, k: usize, count: usize) -> Option<IndirectReading> {
         let mut about: Vec<Node> = self.nodes_about(k).collect();
-        let last = about.len().checked_sub(1)?.min(count);
         let squared = |node: &Node| node.off[0] * node.off[0] + node.off[1] * node.off[1];
-        about.select_nth_unstable_by(last, |a, b| squared(a).total_cmp(&squared(b)));
-        // The last one has no weight, so that who comes and goes at the rim is not to be seen.
-        let reach = squared(&about[last]) + 1.0;
-        about.truncate(last + 1);
-        for node in &mut about {
-            node.weight = (1.0 - squared(node) / reach).max(0.0).powi(2);
-        }
-        plane(&about).map(|continued| continued.reading)
+        about.sort_unstable_by(|a, b| squared(a).total_cmp(&squared(b)));
+        let mut by = |count: usize| {
+            let last = about.len().checked_sub(1)?.min(count);
+            // The last one has no weight, so that who comes and goes at the rim is not to be seen.
+            let reach = squared(&about[last]) + 1.0;
+            for node in &mut about[..=last] {
+                node.weight = (1.0 - squared(node) / reach).max(0.0).powi(2);
+            }
+            plane(&about[..=last]).map(|continued| continued.reading)
+        };
+        let first = by(count)?;
+        let noise = first.noise_lx / (QUIET * first.lx.luminance()).max(f64::MIN_POSITIVE);
+        let more = (noise * noise).clamp(1.0, MOST_SMOOTHED);
+        by((count as f64 * more) as usize)
     }
 
     /// Light of a texel by a plane through what was gathered about it; nothing if too little was.
