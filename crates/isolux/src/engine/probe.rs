@@ -41,8 +41,11 @@ const ORDER_CLOSE_BY: f64 = 0.75;
 /// inside something once in a thousand times.
 const LOOKS: u32 = 32;
 
-/// Shadow rays to every emitting surface in a reading for a picture.
+/// Shadow rays to every emitting surface in a reading for a picture; and so many where two halves of these tell light that differs
+/// by more than a share of all of it, as they do in half-shadows: noise is grain there.
 pub(super) const GLANCE_SAMPLES: usize = 4;
+const GRAINY_SAMPLES: usize = 32;
+const GRAIN: f64 = 0.05;
 
 /// How hard [`MapReader::estimate`] tries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -316,12 +319,25 @@ impl<'a> MapReader<'a> {
         let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
         let sequence = Sequence::new(place_key(at.point).with(number));
         let dice = &mut Dice::new(sequence, 0);
-        let direct = self.lighting.sampled_on(&self.patches, &at, GLANCE_SAMPLES, dice);
+        let direct = self.glanced(&at, stored.illuminance_lx(), dice);
         Some(Illuminance {
             direct_lx: direct + stored.caustic_lx,
             standard_error_lx: stored.indirect_standard_error_lx,
             ..stored
         })
+    }
+
+    /// Direct light for a picture, where there is about so much light in all.
+    fn glanced(&self, at: &SurfacePoint, about_lx: f64, dice: &mut Dice) -> Rgb {
+        let mut sampled = |samples| self.lighting.sampled_on(&self.patches, at, samples, dice);
+        if self.lighting.has_many() || self.scene.area_luminaires().is_empty() {
+            return sampled(GLANCE_SAMPLES);
+        }
+        let halves = [sampled(GLANCE_SAMPLES / 2), sampled(GLANCE_SAMPLES / 2)];
+        let mean = (halves[0] + halves[1]) * 0.5;
+        let apart_lx = (halves[0] - halves[1]).luminance().abs();
+        let is_grainy = apart_lx > GRAIN * about_lx.max(mean.luminance());
+        if is_grainy { sampled(GRAINY_SAMPLES) } else { mean }
     }
 
     /// As [`MapReader::at`] at a point on a surface, on the side that `normal` points to. `None` where no
