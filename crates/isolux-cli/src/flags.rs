@@ -350,14 +350,14 @@ pub(crate) struct LookFlags {
     /// Colours that stand for lux, with a legend
     #[arg(long, visible_alias = "false-color")]
     pub false_colour: bool,
-    /// Lux of the first and the last colour [default: from the picture]
+    /// With --false-colour: lux of the first and the last colour [default: from the picture]
     #[arg(long, visible_alias = "scale", value_name = "LOW:HIGH", value_parser = quantity::range, allow_hyphen_values = true,
           requires = "false_colour")]
     pub limits: Option<(f64, f64)>,
-    /// Spread the colours evenly over the logarithm
+    /// With --false-colour: spread the colours evenly over the logarithm
     #[arg(long, requires = "false_colour")]
     pub logarithmic: bool,
-    /// Draw lines of equal illuminance
+    /// With --false-colour: draw lines of equal illuminance
     #[arg(long, requires = "false_colour")]
     pub contours: bool,
 }

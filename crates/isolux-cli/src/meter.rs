@@ -44,7 +44,8 @@ impl Meter {
         if self.share <= 0.0 || passed_s < QUIET_S {
             return;
         }
-        let left_s = passed_s / self.share - passed_s;
+        // Nor is what is left less for it.
+        let left_s = passed_s / share.max(f64::MIN_POSITIVE) - passed_s;
         let (done, left) = (show_share(self.share), show_seconds(left_s));
         let text = format!("{}: {done} done, about {left} left", self.what);
         match &self.bar {

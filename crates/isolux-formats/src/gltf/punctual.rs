@@ -38,7 +38,8 @@ pub(super) fn resolve(
     };
     if light.range.is_some() {
         let what = "the range of a light is left out: light falls off with the square of distance";
-        notes.warn(Flaw::new(what, "nothing needs to be done").at(format!("{place}.range")));
+        let remedy = "give engines that cut it off there a longer one, or they show less light";
+        notes.warn(Flaw::new(what, remedy).at(format!("{place}.range")));
     }
     let (colour, intensity) = photometric(light.color.map(f64::from), f64::from(light.intensity))?;
     let kind = match type_ {
