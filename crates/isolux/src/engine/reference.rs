@@ -124,7 +124,9 @@ impl<'a> PathTracer<'a> {
             for End { surface, share, density } in self.reflecting_ends(&from, dice) {
                 let throughput = throughput * share;
                 let direct_lx = self.lighting.estimate(&surface, dice);
-                let met = self.senders.as_ref().zip(density).map_or(1.0, |(senders, by_chance)| {
+                // Where no light lands, a ray may end that could hardly come there, too.
+                let lit = self.senders.as_ref().filter(|_| !direct_lx.is_black());
+                let met = lit.zip(density).map_or(1.0, |(senders, by_chance)| {
                     by_chance / (by_chance + senders.landing(direct_lx))
                 });
                 light += throughput * direct_lx * met;

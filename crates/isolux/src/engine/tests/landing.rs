@@ -72,6 +72,24 @@ fn paths_find_what_lamps_light_close_by() {
     }
 }
 
+/// Where two sheets meet in a plane that single precision does not have, rays end on the wrong side of where they start.
+#[test]
+fn paths_are_finite_where_sheets_meet_in_the_dark() {
+    let mut shapes = inward_box([3.0; 3], 0);
+    shapes.push(rectangle([0.6, 1.0, 2.95], [0.6, 0.0, 0.0], [0.0, 1.0, 0.0], 0));
+    shapes.push(rectangle([1.2, 1.0, 2.8], [0.0, 1.0, 0.0], [0.0, 0.0, 0.15], 0));
+    let paint = Material::two_sided("paint", Finish::diffuse(Rgb::grey(0.85)));
+    let scene = scene(shapes, vec![paint], vec![isotropic([0.9, 1.5, 2.98], 100.0)]);
+    let tracer = PathTracer::new(&scene);
+    let down = Vector::new(0.0, 0.0, -1.0).normal().unwrap();
+    for y in [1.5, 1.9999] {
+        let at = ProbePoint { position: Point::new(1.2, y, 2.95), normal: down };
+        let found = tracer.estimate(at, &ExactSettings::default());
+        let (lx, error_lx) = (found.illuminance_lx(), found.standard_error_lx);
+        assert!(lx > 0.0 && error_lx < lx, "{y}: {lx} {error_lx}");
+    }
+}
+
 #[test]
 fn errors_are_relative_to_no_more_than_twice_the_mean() {
     let of = |parts: &[(f64, f64)]| {
