@@ -24,9 +24,8 @@ const OF_ERROR: f64 = 0.5;
 const STIFFNESS: f64 = 0.1;
 /// Sum of the shares of a plane, taken as positive, beyond which it is a guess.
 const MOST_SHARES: f64 = 3.0;
-/// What is smoothed has no more noise than this share of the light, if planes through so many times as many texels will do: what is
-/// less is not to be seen.
-const QUIET: f64 = 0.005;
+/// Texels that a plane is laid through where light is smoothed, and so many times as many at most where that is noisy.
+const SMOOTHED_OVER: f64 = 12.0;
 const MOST_SMOOTHED: f64 = 8.0;
 /// Of the texels that a net leaves out, those that it will be refined by, as far as can be foreseen: half of them.
 const REFINED: f64 = 0.5;
@@ -40,17 +39,20 @@ pub struct Fineness {
     pub finest: usize,
     /// What is left may be this share of the light, if that is more than half of the error of a reading.
     pub of_light: f64,
-    /// In the end all texels, those gathered at, too, get the light of a plane through so many of those nearest, or more where that is
-    /// noisy: a picture shows noise that an interval only states.
-    pub smoothed_over: Option<usize>,
+    /// In the end texels whose noise is more than this share of their light, those gathered at, too, get the light of a plane through
+    /// many of those nearest: a picture shows noise that an interval only states.
+    pub smoothed_above: f64,
+    /// These have no more noise than this share of the light, if planes through several times as many texels will do.
+    pub smoothed_to: f64,
 }
 
 impl Fineness {
-    /// For lightmaps: as good as readings.
-    pub const TEXELS: Self = Self { widest: 8, finest: 1, of_light: 0.0, smoothed_over: None };
+    /// For lightmaps: as good as readings, but for those that are seen as spots.
+    pub const TEXELS: Self =
+        Self { widest: 8, finest: 1, of_light: 0.0, smoothed_above: 0.05, smoothed_to: 0.02 };
     /// For pictures, in which pixels are many and steps of a few per cent are not to be seen.
     pub const PIXELS: Self =
-        Self { widest: 16, finest: 2, of_light: 0.02, smoothed_over: Some(12) };
+        Self { widest: 16, finest: 2, of_light: 0.02, smoothed_above: 0.0, smoothed_to: 0.005 };
 
     /// Texels farther away than this are not read: half as far again as the widest squares are wide.
     fn reach(&self) -> f64 {
@@ -408,9 +410,8 @@ impl Net {
         for (k, reading) in continued {
             self.light[k] = Light::Continued(reading);
         }
-        let Some(count) = self.fineness.smoothed_over else { return };
         let all = (0..self.light.len()).into_par_iter();
-        let smooth: Vec<_> = all.map(|k| self.smoothed(k, count)).collect();
+        let smooth: Vec<_> = all.map(|k| self.smoothed(k)).collect();
         for (light, smooth) in self.light.iter_mut().zip(smooth) {
             let Some(smooth) = smooth else { continue };
             match light {
@@ -420,24 +421,31 @@ impl Net {
         }
     }
 
-    /// Light of a texel by a plane through so many of the nearest that were gathered, or more.
-    fn smoothed(&self, k: usize, count: usize) -> Option<IndirectReading> {
+    /// Light of a texel by a plane through many of the nearest that were gathered; nothing where it is quiet.
+    fn smoothed(&self, k: usize) -> Option<IndirectReading> {
+        let (Light::Gathered(own, _) | Light::Continued(own)) = self.light[k] else { return None };
+        let Fineness { smoothed_above, smoothed_to, .. } = self.fineness;
+        if smoothed_above > 0.0 && own.noise_lx <= smoothed_above * own.lx.luminance() {
+            return None;
+        }
         let mut about: Vec<Node> = self.nodes_about(k).collect();
         let squared = |node: &Node| node.off[0] * node.off[0] + node.off[1] * node.off[1];
         about.sort_unstable_by(|a, b| squared(a).total_cmp(&squared(b)));
-        let mut by = |count: usize| {
-            let last = about.len().checked_sub(1)?.min(count);
+        let mut by = |count: f64| {
+            let last = about.len().checked_sub(1)?.min(count as usize);
             // The last one has no weight, so that who comes and goes at the rim is not to be seen.
             let reach = squared(&about[last]) + 1.0;
             for node in &mut about[..=last] {
                 node.weight = (1.0 - squared(node) / reach).max(0.0).powi(2);
             }
-            plane(&about[..=last]).map(|continued| continued.reading)
+            plane(&about[..=last])
         };
-        let first = by(count)?;
-        let noise = first.noise_lx / (QUIET * first.lx.luminance()).max(f64::MIN_POSITIVE);
+        let first = by(SMOOTHED_OVER)?.reading;
+        let noise = first.noise_lx / (smoothed_to * first.lx.luminance()).max(f64::MIN_POSITIVE);
         let more = (noise * noise).clamp(1.0, MOST_SMOOTHED);
-        by((count as f64 * more) as usize)
+        let Continued { reading, squared, .. } = by(SMOOTHED_OVER * more)?;
+        let error_lx = libm::hypot(reading.error_lx, SHRINK * squared.sqrt());
+        Some(IndirectReading { error_lx, ..reading })
     }
 
     /// Light of a texel by a plane through what was gathered about it; nothing if too little was.
