@@ -22,18 +22,6 @@ pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
     Ok(loaded.value)
 }
 
-/// Says so where standard errors of readings are infinite, as the map does not know its own.
-pub(crate) fn warn_of_unknown_error(path: &Path, map: &IlluminationMap) {
-    if map.provenance.accuracy.is_none() {
-        let text = format!(
-            "{}: how wrong this map is is not known, as its run ended too early to tell, so that standard errors are infinite; \
-             give it more time, or read a scene by paths",
-            path.display()
-        );
-        note(Note::Warning, text);
-    }
-}
-
 /// The same with the texels that the file holds.
 pub(crate) fn read_with_texels(path: &Path) -> Result<MapFile, Failure> {
     let loaded = map_glb::read_with_texels(path).map_err(bad_file)?;
@@ -52,4 +40,16 @@ pub(crate) fn write(
     let bytes = map_glb::write(scene, map, &preview)
         .map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
     output.write(&bytes)
+}
+
+/// Says so where standard errors of readings are infinite, as the map does not know its own.
+pub(crate) fn warn_of_unknown_error(path: &Path, map: &IlluminationMap) {
+    if map.provenance.accuracy.is_none() {
+        let text = format!(
+            "{}: how wrong this map is is not known, as its run ended too early to tell, so that standard errors are infinite; \
+             give it more time, or read a scene by paths",
+            path.display()
+        );
+        note(Note::Warning, text);
+    }
 }
