@@ -35,7 +35,11 @@ fn node(n: usize, k: usize) -> (f64, f64) {
     let mut x = libm::cos(PI * (k as f64 + 0.75) / (n as f64 + 0.5));
     for _ in 0..6 {
         let (value, slope) = legendre(n, x);
-        x -= value / slope;
+        let next = x - value / slope;
+        if next == x {
+            break;
+        }
+        x = next;
     }
     let (_, slope) = legendre(n, x);
     (x, 2.0 / ((1.0 - x * x) * slope * slope))

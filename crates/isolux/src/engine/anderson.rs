@@ -18,8 +18,9 @@ const LEAST_PIVOT: f64 = 1e-10;
 const CHUNK: usize = 4096;
 
 /// What the last sweeps have told.
-#[derive(Default)]
 pub(super) struct Anderson {
+    /// By how much changes count at every place.
+    weights: Vec<f64>,
     /// The last image of the light, and what was changed.
     before: Option<(Vec<Rgb>, Vec<Rgb>)>,
     /// From sweep to sweep, the change of the image, and that of what was changed.
@@ -27,12 +28,17 @@ pub(super) struct Anderson {
 }
 
 impl Anderson {
+    /// Changes count by these weights: one over the light has dim rooms settle as bright ones do.
+    pub(super) const fn weighted(weights: Vec<f64>) -> Self {
+        Self { weights, before: None, steps: VecDeque::new() }
+    }
+
     /// The light to go on with, after some light and its image.
     pub(super) fn next(&mut self, light: &[Rgb], image: Vec<Rgb>) -> Vec<Rgb> {
         let change = minus(&image, light);
         if let Some((image_before, change_before)) = &self.before {
-            let now = dot(&change, &change);
-            let then = dot(change_before, change_before);
+            let now = self.dot(&change, &change);
+            let then = self.dot(change_before, change_before);
             if now.luminance() > then.luminance() {
                 // It did not answer as before.
                 self.steps.clear();
@@ -54,13 +60,24 @@ impl Anderson {
         next
     }
 
+    /// The weighted sum of products, part by part in their order, whoever adds them up.
+    fn dot(&self, a: &[Rgb], b: &[Rgb]) -> Rgb {
+        let part = |((a, b), weights): ((&[Rgb], &[Rgb]), &[f64])| -> Rgb {
+            let products = a.iter().zip(b).zip(weights);
+            products.map(|((&a, &b), &weight)| a * b * (weight * weight)).sum()
+        };
+        let all = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)).zip(self.weights.par_chunks(CHUNK));
+        let parts: Vec<Rgb> = all.map(part).collect();
+        parts.into_iter().sum()
+    }
+
     /// How much of each step to take back, channel by channel, so that the least is changed: least squares by
     /// the normal equations.
     fn shares(&self, change: &[Rgb]) -> Vec<Rgb> {
         let count = self.steps.len();
         let product = |row: usize, column: usize| -> Rgb {
             let of = |k: usize| self.steps.get(k).map_or(change, |step| &step.1);
-            if row < count { dot(of(row), of(column)) } else { Rgb::BLACK }
+            if row < count { self.dot(of(row), of(column)) } else { Rgb::BLACK }
         };
         // Of the rows that there are, as many columns, and the right side next to them.
         let products: [[Rgb; DEPTH + 1]; DEPTH] = std::array::from_fn(|row| {
@@ -101,11 +118,4 @@ fn solved(mut rows: [[f64; DEPTH + 1]; DEPTH], count: usize) -> [f64; DEPTH] {
 
 fn minus(a: &[Rgb], b: &[Rgb]) -> Vec<Rgb> {
     a.par_iter().zip(b).with_min_len(CHUNK).map(|(&a, &b)| a - b).collect()
-}
-
-/// The sum of products, part by part in their order, whoever adds them up.
-fn dot(a: &[Rgb], b: &[Rgb]) -> Rgb {
-    let part = |(a, b): (&[Rgb], &[Rgb])| a.iter().zip(b).map(|(&a, &b)| a * b).sum::<Rgb>();
-    let parts: Vec<Rgb> = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)).map(part).collect();
-    parts.into_iter().sum()
 }

@@ -10,7 +10,7 @@
 use super::accumulate::{Accumulator, Sample, Sums};
 use super::detail::LeafError;
 use super::direct::Goal;
-use super::gather::{DirectAtEnds, Gatherer, Gathering, known_at};
+use super::gather::{DirectAtEnds, Gatherer, Gathering, known_at, known_on_side};
 use super::noise::Noise;
 use super::path::Dice;
 use super::plan::Plan;
@@ -44,6 +44,8 @@ pub(super) struct Check {
     coarse: [(u32, f64); 3],
     /// The same of the whole map.
     fine: [(u32, f64); 3],
+    /// What rays read of the indirect map where something stands across its element, which readers do not look for.
+    by_rays: Option<[(u32, f64); 3]>,
     /// Surface that the point stands for, m2.
     area_m2: f64,
     /// Error expected of the element, lx.
@@ -118,10 +120,16 @@ impl Checks {
     }
 }
 
-/// Places in the sums: of differences first, then of what the map reads, then of what rays read where
+/// Places in the sums: of differences first, then of what the map reads, then of differences of what rays read where
 /// that is something else.
-pub(super) const fn places(checks: usize, is_map_read_by_rays: bool) -> usize {
-    if is_map_read_by_rays { 2 * checks } else { 3 * checks }
+pub(super) fn places(checks: &[Check], is_map_read_by_rays: bool) -> usize {
+    let is_read_alike = is_map_read_by_rays && !are_cut(checks);
+    if is_read_alike { 2 * checks.len() } else { 3 * checks.len() }
+}
+
+/// Whether rays read something else than readers anywhere.
+fn are_cut(checks: &[Check]) -> bool {
+    checks.iter().any(|check| check.by_rays.is_some())
 }
 
 /// How many there are for so many vertices that carry light.
@@ -199,11 +207,19 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
     let node = plan.elements.place(plan.level, triangle, back, [u, v]).map(|place| place.node());
     let has_parts = node.is_some_and(|node| plan.parts.has(node));
+    let cut = node.and_then(|node| plan.cuts.of_node(node));
+    let by_rays = cut.and_then(|cut| {
+        let corners = plan.elements.locate_above(plan.level, triangle, back, u, v)?;
+        // Beyond a cut they read nothing where nothing is known.
+        let none = corners.map(|(vertex, _)| (vertex, 0.0));
+        Some(known_on_side(corners, &plan.standings, cut).unwrap_or(none))
+    });
     let (close, view) = (0.0, View::default());
     let place = Check {
         gatherer,
         coarse,
         fine,
+        by_rays,
         area_m2,
         expected_lx,
         may_be_trusted,
@@ -220,6 +236,11 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
 }
 
 impl Check {
+    /// The same for light that no rays read from the map.
+    pub(super) fn read_as_map(self) -> Self {
+        Self { by_rays: None, ..self }
+    }
+
     /// Whether readers with such trust interpolate there.
     fn is_trusted(&self, trust: Trust) -> bool {
         self.may_be_trusted && trust.includes(self.expected_lx, self.is_beset)
@@ -245,12 +266,12 @@ pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
 
 /// What one increment adds to the sums: `fresh` is what was gathered at the points, `direct` what luminaires give
 /// there, then the increment's map: direct light, caustics and indirect light. `lookups` is by what rays
-/// that end there would be wrong, where they read something else than the map.
+/// that end there would be wrong, where they do not read the map.
 pub(super) fn samples(
     checks: &[Check],
     (fresh, fresh_direct): (&[Rgb], &[Rgb]),
     [direct, caustic, indirect]: [&[Rgb]; 3],
-    lookups: &[Rgb],
+    lookups: Option<&[Rgb]>,
 ) -> Vec<Sample> {
     let read = |values: &[Rgb], at: &[(u32, f64); 3]| -> Rgb {
         at.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
@@ -260,19 +281,27 @@ pub(super) fn samples(
         caustic: read(caustic, &check.fine),
         indirect: read(indirect, &check.coarse),
     });
-    let differences = checks.iter().enumerate().map(|(k, check)| {
+    let difference = |k: usize, of: &[(u32, f64); 3]| {
         let hidden = fresh[k].is_black() && fresh_direct[k].is_black();
         if hidden {
             return Sample::default();
         }
         Sample {
-            direct: read(direct, &check.fine) - fresh_direct[k],
+            direct: read(direct, &checks[k].fine) - fresh_direct[k],
             caustic: Rgb::BLACK,
-            indirect: read(indirect, &check.coarse) - fresh[k],
+            indirect: read(indirect, of) - fresh[k],
         }
-    });
-    let lookups = lookups.iter().map(|&indirect| Sample { indirect, ..Sample::default() });
-    differences.chain(readings).chain(lookups).collect()
+    };
+    let differences = checks.iter().enumerate().map(|(k, check)| difference(k, &check.coarse));
+    let by_rays = |(k, check): (usize, &Check)| match lookups {
+        Some(lookups) => Sample { indirect: lookups[k], ..Sample::default() },
+        // Neither rays nor views come to what is closed in.
+        None if check.gatherer.in_gap => Sample::default(),
+        None => difference(k, check.by_rays.as_ref().unwrap_or(&check.coarse)),
+    };
+    let is_asked = lookups.is_some() || are_cut(checks);
+    let by_rays = checks.iter().enumerate().filter(|_| is_asked).map(by_rays);
+    differences.chain(readings).chain(by_rays).collect()
 }
 
 /// The errors seen so far, of readers with such trust.
@@ -314,10 +343,15 @@ pub(super) fn errors(
     }
     let root = |part: usize| noise_is.of_squared(squared[part], spread[part].sqrt()).sqrt();
     let believed = |mean: f64| noise_is.of_mean(mean, of_mean.sqrt());
-    let looked_up = |k: usize| sums.estimate(2 * checks.len() + k).mean.indirect.luminance();
     if sums.sums.len() > 2 * checks.len() {
         // All of it, whichever light is read there.
-        mean = [(0..checks.len()).map(|k| checks[k].area_m2 / area * looked_up(k)).sum::<f64>(); 2];
+        mean = [0.0; 2];
+        for (k, check) in checks.iter().enumerate() {
+            let read = sums.estimate(2 * checks.len() + k).mean;
+            let indirect = read.indirect.luminance();
+            mean[0] += check.area_m2 / area * indirect;
+            mean[1] += check.area_m2 / area * (indirect + read.direct.luminance());
+        }
     }
     let [seen_mean_lx, seen_spread_lx] = seen(sums, checks, noise_is);
     InterpolationErrors {
@@ -418,12 +452,11 @@ fn seen(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> [f64; 2] {
         let estimate = sums.estimate(place);
         let (indirect, direct) = (estimate.mean.indirect, estimate.mean.direct);
         // Neither rays nor views come to what is closed in.
-        let (error, variance) = match (reads_other_light, check.gatherer.in_gap) {
-            (false, true) => (0.0, 0.0),
-            (false, false) if check.reads_direct => {
-                ((indirect + direct).luminance(), estimate.variance)
-            }
-            _ => (indirect.luminance(), estimate.indirect_variance),
+        let is_closed_in = check.gatherer.in_gap && !reads_other_light;
+        let (error, variance) = match check.reads_direct {
+            _ if is_closed_in => (0.0, 0.0),
+            true => ((indirect + direct).luminance(), estimate.variance),
+            false => (indirect.luminance(), estimate.indirect_variance),
         };
         let share = check.area_m2 / area;
         mean += share * check.view.shown * error;

@@ -8,7 +8,7 @@
 use super::surface::SurfacePoint;
 use super::torn::{AT_END, LOW, stands_on};
 use super::trust::NEAR;
-use crate::elements::{Elements, FewNumbers};
+use crate::elements::{Elements, FewNumbers, Origin, Subdivision};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point, Ray};
@@ -17,6 +17,9 @@ use std::collections::{HashMap, HashSet};
 
 /// Light that differs by more than this share of the greatest at the corners of an element is not alike.
 const UNEVEN: f64 = 0.2;
+
+/// What stands across an edge within this part of it leaves the element nearly whole.
+const JUST_BEHIND: f64 = 0.25;
 
 /// All of them.
 #[derive(Debug, Default)]
@@ -102,6 +105,34 @@ impl Cuts {
     }
 }
 
+/// Vertices in the dark close behind what stands across their elements, like corners of a box that is sunk into a floor: all that they
+/// share elements with and has light lies beyond it, so far along the edge there that these elements are as good as all on that
+/// side. In the order of their numbers.
+pub(super) fn shaded(
+    scene: &Scene,
+    elements: &Elements,
+    sides: &[Side],
+    is_dark: impl Fn(u32) -> bool + Sync,
+) -> Vec<u32> {
+    let look = Look { scene, elements };
+    let place = |vertex: u32| elements.vertices()[vertex as usize].position;
+    // Of every dark vertex beside light, whether all of that lies beyond something.
+    let of_side = |side: &Side| {
+        let corners = elements.node(side.node).vertices;
+        let (dark, lit): (Vec<u32>, Vec<u32>) = corners.into_iter().partition(|&v| is_dark(v));
+        let above = side.above(scene);
+        let is_behind = |from: u32, to: u32| {
+            look.blocked_at(place(from), place(to), &above).is_some_and(|at| at <= JUST_BEHIND)
+        };
+        let behind = |&from: &u32| (from, lit.iter().all(|&to| is_behind(from, to)));
+        if lit.is_empty() { Vec::new() } else { dark.iter().map(behind).collect() }
+    };
+    let mut found: Vec<(u32, bool)> = sides.par_iter().flat_map_iter(of_side).collect();
+    found.par_sort_unstable();
+    let all_behind = |of: &[(u32, bool)]| of.iter().all(|(_, is_behind)| *is_behind);
+    found.chunk_by(|a, b| a.0 == b.0).filter(|of| all_behind(of)).map(|of| of[0].0).collect()
+}
+
 /// A node, and the side of a triangle that it lies on.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Side {
@@ -117,6 +148,12 @@ impl From<(u32, u32, bool)> for Side {
 }
 
 impl Side {
+    /// Of a node.
+    pub(super) fn of(subdivision: &Subdivision, node: u32) -> Self {
+        let Origin { triangle, back, .. } = subdivision.node(node).1;
+        Self { node, triangle, back }
+    }
+
     /// A place of the same triangle.
     fn above(&self, scene: &Scene) -> SurfacePoint {
         SurfacePoint::new(scene, self.triangle, self.back, 1.0 / 3.0, 1.0 / 3.0)

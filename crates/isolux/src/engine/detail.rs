@@ -41,12 +41,15 @@ pub(super) struct LeafError {
     pub(super) is_beset_afar: bool,
     /// Whether what stands close is a wall, which light is resolved towards.
     pub(super) is_at_wall: bool,
+    /// By how much more than elsewhere its error counts: dim rooms beside bright ones are to be right, too.
+    pub(super) weight: f64,
 }
 
 impl LeafError {
     /// Contribution to the squared error of the scene.
     pub(super) fn squared(&self) -> f64 {
-        self.area_m2 * self.error * self.error
+        let counted = self.weight * self.error;
+        self.area_m2 * counted * counted
     }
 }
 
@@ -105,6 +108,7 @@ impl<'a> Details<'a> {
                 is_beset: beset || is_beset_afar,
                 is_beset_afar,
                 is_at_wall: false,
+                weight: 1.0,
             }
         };
         let leaves: Vec<u32> = self.subdivision.leaves().collect();

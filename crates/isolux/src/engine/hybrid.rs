@@ -177,7 +177,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let indirect = plan.prolongate(&gathered);
         let caustic = plan.prolongate(&caustic);
         let map = [direct.as_slice(), &caustic, &indirect];
-        let checks = checks::samples(checks, (&fresh_light, &check_direct), map, &[]);
+        let checks = checks::samples(checks, (&fresh_light, &check_direct), map, None);
         let vertex =
             |k: usize| Sample { direct: direct[k], caustic: caustic[k], indirect: indirect[k] };
         let receivers = (0..direct.len()).map(vertex).collect();

@@ -25,10 +25,9 @@ impl Noise {
     pub(super) fn of_mean(self, mean: f64, standard_error: f64) -> f64 {
         match self {
             Self::Counted => mean,
-            Self::TakenOff => {
-                (mean * mean - standard_error * standard_error).max(0.0).sqrt().copysign(mean)
+            Self::TakenOff | Self::RuledOut => {
+                (mean.abs() - 2.0 * standard_error).max(0.0).copysign(mean)
             }
-            Self::RuledOut => (mean.abs() - 2.0 * standard_error).max(0.0).copysign(mean),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::lanes::{LANES, Lanes};
 use crate::quadrature::GaussRule;
 use isolux_geometry::{Vector, Vectorized, with_vectors};
 use std::f64::consts::FRAC_1_PI;
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 /// The highest power. On CUBE, whose walls are five times as bright in the middle as in a corner, polynomials of degree
 /// 0, 2, 4, 6 leave 26, 7.7, 2.3, 0.7 % of the light; nets of 64 rays then err by 1.3, 0.56, 0.19, 0.06 %.
@@ -176,7 +176,7 @@ fn along_edges(corners: &[[f64; 2]]) -> Vec<Node> {
         let (begin, end) = (begins.0[k], ends.0[k]);
         if end > begin {
             let count = (FEWEST_NODES + NODES_A_UNIT * (end - begin)).ceil() as usize;
-            let rule = RULES[count.min(MOST_NODES)].over(begin, end);
+            let rule = rule_of(count.min(MOST_NODES)).over(begin, end);
             nodes.extend(rule.map(|(place, weight)| Node { edge, place, weight: sign * weight }));
         }
     }
@@ -312,9 +312,12 @@ fn radial(to: Lanes) -> [Lanes; DEGREE + 3] {
     twice
 }
 
-/// By their number of nodes.
-static RULES: LazyLock<Vec<GaussRule>> =
-    LazyLock::new(|| (0..=MOST_NODES).map(GaussRule::new).collect());
+fn rule_of(nodes: usize) -> &'static GaussRule {
+    RULES[nodes].get_or_init(|| GaussRule::new(nodes))
+}
+
+/// By their number of nodes, each made when it is first needed.
+static RULES: [OnceLock<GaussRule>; MOST_NODES + 1] = [const { OnceLock::new() }; MOST_NODES + 1];
 
 #[cfg(test)]
 mod tests {

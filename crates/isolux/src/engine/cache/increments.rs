@@ -164,7 +164,7 @@ impl<'p, 's> Cached<'p, 's> {
         let lookups: Vec<Rgb> = (0..fresh.len()).map(lookup).collect();
         let (indirect, caustic) = (plan.prolongate(&gathered), plan.prolongate(&caustic));
         let map = [direct.as_slice(), &caustic, &indirect];
-        check_sums.add(checks::samples(checks, (&fresh, &check_direct), map, &lookups));
+        check_sums.add(checks::samples(checks, (&fresh, &check_direct), map, Some(&lookups)));
         lacking_sums.add(parts::samples(&lacking));
         receivers.add((0..direct.len()).map(|k| Sample {
             direct: direct[k],

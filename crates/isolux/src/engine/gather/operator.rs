@@ -67,6 +67,16 @@ impl Operator {
         values
     }
 
+    /// `A light` alone, one value a receiver.
+    pub(in crate::engine) fn reflected(&self, light: &[Rgb]) -> Vec<Rgb> {
+        let reflected = |rows: &Rows| {
+            let mut values = vec![Rgb::BLACK; rows.ends.len()];
+            rows.add(light, &mut values);
+            values
+        };
+        self.chunks.par_iter().flat_map_iter(reflected).collect()
+    }
+
     /// Adds the receivers of another.
     pub(in crate::engine) fn append(&mut self, other: Self) {
         self.chunks.extend(other.chunks);
@@ -132,7 +142,7 @@ impl Operator {
             }
         }
         let mut unsettled = 0.0;
-        let mut mixing = Anderson::default();
+        let mut mixing: Option<Anderson> = None;
         for _ in 0..MAX_SWEEPS {
             let mut next = apply(&with_given(&light));
             let settling = Settling::of(&next, &light);
@@ -141,6 +151,7 @@ impl Operator {
                 return (next, unsettled);
             }
             next.truncate(guess.len());
+            let mixing = mixing.get_or_insert_with(|| Anderson::weighted(weights(&next)));
             light = mixing.next(&light, next);
         }
         (apply(&with_given(&light)), unsettled)
@@ -167,12 +178,12 @@ impl Operator {
                 waiting.fill(&mut next);
                 return Ok((next, settling.rms()));
             }
-            if settling.change > before * ROUGHLY * ROUGHLY {
+            if settling.relative > before * ROUGHLY * ROUGHLY {
                 break;
             }
-            before = settling.change;
+            before = settling.relative;
             let change: Vec<Rgb> = now.iter().zip(&then).map(|(&a, &b)| a - b).collect();
-            let whole = rough.followed(change);
+            let whole = rough.followed(change, &weights(&now));
             let of = rough.carriers.iter().zip(then).zip(whole);
             of.for_each(|((&vertex, then), whole)| light[vertex as usize] = then + whole);
             waiting.fill(&mut light);
@@ -190,32 +201,61 @@ const MOST_FOLLOWED: usize = 100;
 /// Sweeps of the fixed point before giving up: at mean reflectance 0.99 the light left is e^-20.
 const MAX_SWEEPS: usize = 2000;
 
+/// Light of less than this share of the root mean square counts as that much: changes of what is next to nothing need not settle.
+const FAINT: f64 = 1e-5;
+/// What changes most may change so many times as much as all do in the root mean square: a small room beside a bright yard is to settle, too.
+const MOST_UNSETTLED: f64 = 3.0;
+
 /// How far a sweep has gone.
 struct Settling {
-    /// Sums of squares of what has changed, and of what there is.
+    /// The mean square of what has changed, lx2, and the mean and the greatest square of what has of the light there.
     change: f64,
-    size: f64,
-    count: usize,
+    relative: f64,
+    greatest: f64,
 }
 
 impl Settling {
     fn of(next: &[Rgb], light: &[Rgb]) -> Self {
-        let mut settling = Self { change: 0.0, size: 0.0, count: light.len() };
-        for (a, b) in next.iter().zip(light) {
-            let (difference, value) = ((*a - *b).luminance(), a.luminance());
-            settling.change += difference * difference;
-            settling.size += value * value;
+        let count = next.len().min(light.len());
+        let next = &next[..count];
+        let (mut change, mut relative, mut greatest) = (0.0, 0.0, 0.0_f64);
+        for ((a, b), weight) in next.iter().zip(light).zip(weights(next)) {
+            let difference = (*a - *b).luminance();
+            let of_value = (difference * weight) * (difference * weight);
+            change += difference * difference;
+            relative += of_value;
+            greatest = greatest.max(of_value);
         }
-        settling
+        let count = count.max(1) as f64;
+        Self { change: change / count, relative: relative / count, greatest }
     }
 
     fn is_within(&self, tolerance: f64) -> bool {
-        self.change <= tolerance * tolerance * self.size
+        let square = tolerance * tolerance;
+        self.relative <= square && self.greatest <= MOST_UNSETTLED * MOST_UNSETTLED * square
     }
 
     fn rms(&self) -> f64 {
-        (self.change / self.count.max(1) as f64).sqrt()
+        self.change.sqrt()
     }
+}
+
+/// One over the light at every place, as much as counts.
+fn weights(light: &[Rgb]) -> Vec<f64> {
+    let size: f64 = light.iter().map(|a| a.luminance() * a.luminance()).sum();
+    let faint = ((size / light.len().max(1) as f64).sqrt() * FAINT).max(f64::MIN_POSITIVE);
+    light.iter().map(|a| 1.0 / a.luminance().abs().max(faint)).collect()
+}
+
+/// Whether a change is followed as far as it matters, relative to the light.
+fn is_followed(next: &[Rgb], whole: &[Rgb], weights: &[f64]) -> bool {
+    let (mut change, mut size) = (0.0, 0.0);
+    for ((a, b), weight) in next.iter().zip(whole).zip(weights) {
+        let (difference, value) = ((*a - *b).luminance() * weight, a.luminance() * weight);
+        change += difference * difference;
+        size += value * value;
+    }
+    change <= FOLLOWED * FOLLOWED * size
 }
 
 /// An operator among carriers alone.
@@ -263,10 +303,10 @@ impl Rough {
         Some(Self { carriers, chunks })
     }
 
-    /// What a change comes to once it is reflected again and again.
-    fn followed(&self, change: Vec<Rgb>) -> Vec<Rgb> {
+    /// What a change comes to once it is reflected again and again; weights are one over the light.
+    fn followed(&self, change: Vec<Rgb>, weights: &[f64]) -> Vec<Rgb> {
         let mut whole = change.clone();
-        let mut mixing = Anderson::default();
+        let mut mixing = Anderson::weighted(weights.to_vec());
         for _ in 0..MOST_FOLLOWED {
             let mut next = change.clone();
             let mut left = next.as_mut_slice();
@@ -275,7 +315,7 @@ impl Rough {
                 rows.add(&whole, part);
                 left = others;
             }
-            if Settling::of(&next, &whole).is_within(FOLLOWED) {
+            if is_followed(&next, &whole, weights) {
                 return next;
             }
             whole = mixing.next(&whole, next);

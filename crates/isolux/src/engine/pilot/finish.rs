@@ -1,7 +1,7 @@
 //! The end of the pilot: what increments share is put together.
 
 use super::Pilot;
-use crate::elements::{Elements, Origin, Subdivision};
+use crate::elements::{Elements, Subdivision};
 use crate::engine::bright::Bright;
 use crate::engine::carriers::Carriers;
 use crate::engine::cuts::{Cuts, Side};
@@ -126,15 +126,9 @@ impl<'s> Pilot<'s> {
         gatherers
     }
 
-    /// Elements that something stands across; where it stands close before their middle, or nobody looked, it may.
+    /// Elements that something stands across.
     fn cuts(&self, coarse: &Subdivision, elements: &Elements) -> Cuts {
-        let nodes = coarse
-            .leaves()
-            .filter(|&node| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset))
-            .map(|node| {
-                let Origin { triangle, back, .. } = coarse.node(node).1;
-                Side { node, triangle, back }
-            });
+        let nodes = coarse.leaves().map(|node| Side::of(coarse, node));
         Cuts::of(self.scene, elements, (nodes, &self.indirect), coarse.vertex_count())
     }
 

@@ -10,6 +10,7 @@ mod finish;
 mod landing;
 mod middles;
 mod round;
+mod scale;
 mod sharing;
 mod smoothing;
 mod walls;
@@ -103,6 +104,8 @@ struct Pilot<'s> {
     /// By how much direct light as interpolated errs more than it should, with so many vertices.
     direct_excess: Option<(usize, f64)>,
     indirect: Vec<Rgb>,
+    /// The light about the vertices so far, lx.
+    surroundings_lx: Vec<f64>,
     known: Vec<bool>,
     /// Where some particles came over specular surfaces.
     reached: Vec<SurfacePoint>,
@@ -187,6 +190,9 @@ impl<'s> Pilot<'s> {
         let is_coarse = request.has_means;
         let start_m = if is_coarse { edge_m / COARSE.sqrt() } else { edge_m };
         subdivision.bisect_to(start_m, request.max_vertices);
+        if request.is_fitted {
+            scale::bisect_to_scale(scene, &mut subdivision, request.max_vertices);
+        }
         let rays = Self::shared_rays(&subdivision, request.target);
         let has_noise = request.is_fitted && lighting.has_many() && lighting.is_measured_once();
         let bounds = scene.bvh().mesh().bounds();
@@ -204,6 +210,7 @@ impl<'s> Pilot<'s> {
             direct_noise_lx: None,
             direct_excess: None,
             indirect: Vec::new(),
+            surroundings_lx: Vec::new(),
             known: Vec::new(),
             reached: Vec::new(),
             standings: Vec::new(),
@@ -302,9 +309,10 @@ impl<'s> Pilot<'s> {
         let beset = |node: u32| self.beset[node as usize];
         let details = self.details(&elements, &luminances);
         let hemmed = |vertex: u32, edge_m: f64| self.hemmed_in_m[vertex as usize] < HEM * edge_m;
-        let errors = details.leaf_errors(middle, beset, hemmed);
+        let mut errors = details.leaf_errors(middle, beset, hemmed);
         let reference_lx = Light::of_vertices(&elements, &self.standings, lx).reference_lx();
         let left_by_fit = details.left_by_fit(&errors);
+        self.weigh(&mut errors, reference_lx);
         let carriers = self.carriers.count(gatherers.len());
         self.costs.looks.add(started.elapsed(), gatherers.len() as f64);
         if is_first {
@@ -435,6 +443,7 @@ impl<'s> Pilot<'s> {
             let black = vec![Rgb::BLACK; gatherers.len()];
             self.indirect =
                 operator.solve(&black, &black, &self.carriers.waiting(), PILOT_TOLERANCE);
+            self.look_about(&operator);
             if !self.known.contains(&true) {
                 // No light at all: what is not closed in is dark.
                 self.known = operator.open();
@@ -505,6 +514,7 @@ impl<'s> Pilot<'s> {
             let torn = own.filter(|_| !beside_hidden.contains(&(k as u32)));
             *standing = if self.torn.has(k) { torn.and(Some(Standing::Rim)) } else { own };
         }
+        self.set_shaded_apart();
     }
 
     fn sight<'a>(&'a self, elements: &'a Elements, gatherers: &'a [Gatherer]) -> Sight<'a> {

@@ -2,6 +2,7 @@
 
 use super::Pilot;
 use crate::elements::Elements;
+use crate::engine::cuts::{self, Side};
 use crate::engine::look::Look;
 use crate::map::Standing;
 use crate::units::Rgb;
@@ -47,6 +48,29 @@ impl Pilot<'_> {
     pub(super) fn look_for_torn(&mut self) {
         let is_beset = |node: u32| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
         self.torn.look(self.scene, &self.subdivision, is_beset);
+    }
+
+    /// Elements that reach into the dark behind what stands across them are read from the corners before it.
+    pub(super) fn set_shaded_apart(&mut self) {
+        let is_dark = |&v: &u32| {
+            let k = v as usize;
+            let is_black = |light: &[Rgb]| light.get(k).is_some_and(|light| light.is_black());
+            self.standings[k].is_some() && is_black(&self.direct) && is_black(&self.indirect)
+        };
+        let sides: Vec<Side> = self
+            .subdivision
+            .leaves()
+            .filter(|&node| self.subdivision.node(node).0.vertices.iter().any(|v| is_dark(v)))
+            .map(|node| Side::of(&self.subdivision, node))
+            .collect();
+        if sides.is_empty() {
+            return;
+        }
+        let elements = self.subdivision.elements();
+        let shaded = cuts::shaded(self.scene, &elements, &sides, |v| is_dark(&v));
+        for vertex in shaded {
+            self.standings[vertex as usize] = Some(Standing::Rim);
+        }
     }
 
     /// What new vertices that do not gather have: direct light, and indirect light from those that they wait for.

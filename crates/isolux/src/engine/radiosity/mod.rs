@@ -450,11 +450,11 @@ impl<'p, 's> Radiosity<'p, 's> {
         let vertices = 0..self.direct.len();
         let indirect: Vec<Rgb> = vertices.map(|k| sums.part(k, RECEIVED) + ambient).collect();
         let light: Vec<Rgb> = indirect.iter().zip(&self.caustic).map(|(&e, &c)| e + c).collect();
-        let mut found = Accumulator::new(checks::places(points.len(), true), self.reference_lx);
+        let mut found = Accumulator::new(checks::places(points, true), self.reference_lx);
         for operator in &self.checks.operators {
             let fresh = operator.apply(&light);
             let map = [self.direct.as_slice(), &self.caustic, &indirect];
-            found.add(checks::samples(points, (&fresh, &self.checks.direct), map, &[]));
+            found.add(checks::samples(points, (&fresh, &self.checks.direct), map, None));
         }
         let seen = checks::errors(&found, points, (self.plan.trust(), Noise::Counted));
         InterpolationErrors { noise_lx: None, ..seen }

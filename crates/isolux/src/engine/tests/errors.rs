@@ -48,7 +48,7 @@ pub(super) fn check_sums(
     common: impl Fn(&Check) -> f64,
     sigma: f64,
 ) -> Accumulator {
-    let mut sums = Accumulator::new(checks::places(checks.len(), true), plan.reference_lx);
+    let mut sums = Accumulator::new(checks::places(checks, true), plan.reference_lx);
     let vertices = plan.elements.vertices().len();
     let (coarse, fine) = (vec![Rgb::grey(5.0); plan.indirect_vertices], vec![Rgb::BLACK; vertices]);
     for increment in 0..16 {
@@ -59,7 +59,7 @@ pub(super) fn check_sums(
             .map(|(k, c)| Rgb::grey(5.0 - common(c) + sigma * noise(key.with(k as u64))))
             .collect();
         let direct = vec![Rgb::BLACK; checks.len()];
-        sums.add(checks::samples(checks, (&fresh, &direct), [&fine, &fine, &coarse], &[]));
+        sums.add(checks::samples(checks, (&fresh, &direct), [&fine, &fine, &coarse], None));
     }
     sums
 }
@@ -203,7 +203,7 @@ fn noise_is_that_of_readings_over_the_surface() {
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
     let checks = checks::draw(&plan, 0, Key::new(2));
-    let mut sums = Accumulator::new(checks::places(checks.len(), true), plan.reference_lx);
+    let mut sums = Accumulator::new(checks::places(&checks, true), plan.reference_lx);
     let black = vec![Rgb::BLACK; plan.elements.vertices().len().max(checks.len())];
     for increment in 0..16 {
         let key = Key::new(5).with(increment);
@@ -211,7 +211,7 @@ fn noise_is_that_of_readings_over_the_surface() {
             .map(|k| Rgb::grey(5.0 + noise(key.with(k as u64))))
             .collect();
         let fresh = &black[..checks.len()];
-        sums.add(checks::samples(&checks, (fresh, fresh), [&black, &black, &coarse], &[]));
+        sums.add(checks::samples(&checks, (fresh, fresh), [&black, &black, &coarse], None));
     }
     let noise_lx = checks::errors(&sums, &checks, (plan.trust(), Noise::Counted)).noise_lx.unwrap();
     // Barycentric weights have a mean square of 1/6 each; 16 increments; some hundred vertices tell.

@@ -17,6 +17,7 @@ fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
         is_beset: false,
         is_beset_afar: false,
         is_at_wall: false,
+        weight: 1.0,
     };
     of.iter().enumerate().map(error).collect()
 }
@@ -58,6 +59,7 @@ fn errors_at_vertices_bound_those_of_elements() {
         is_beset: false,
         is_beset_afar: false,
         is_at_wall: false,
+        weight: 1.0,
     };
     let errors: Vec<LeafError> = coarse.leaves().map(error).collect();
     let mut fine = coarse.clone();

@@ -49,6 +49,7 @@ fn errors_of(subdivision: &Subdivision) -> Vec<LeafError> {
         is_beset: true,
         is_beset_afar: false,
         is_at_wall: false,
+        weight: 1.0,
     };
     subdivision.leaves().map(error).collect()
 }

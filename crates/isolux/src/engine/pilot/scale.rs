@@ -1,0 +1,118 @@
+//! What is right for every room of a scene, not for its largest or brightest alone.
+//!
+//! The size of the first elements comes of the area of the whole scene. A small room beside a large yard would be two elements a wall, and
+//! light that is interpolated between its corners lacks some per cent at every reflection. How far a surface sees tells how fast light
+//! varies over it.
+
+use super::Pilot;
+use crate::elements::{Origin, Subdivision};
+use crate::engine::detail::LeafError;
+use crate::engine::feelers::Feelers;
+use crate::engine::gather::Operator;
+use crate::engine::surface::SurfacePoint;
+use crate::sampling::Key;
+use crate::scene::Scene;
+use crate::units::Rgb;
+use rayon::prelude::*;
+use std::sync::LazyLock;
+
+/// Rays that tell how far an element sees: as far as three quarters of them do.
+const FEELERS: usize = 8;
+const COUNTED: usize = 6;
+static DIRECTIONS: LazyLock<Feelers<FEELERS>> = LazyLock::new(|| Feelers::of(Key::new(0).with(12)));
+
+/// Edges are no longer than this part of that.
+const OF_REACH: f64 = 0.3;
+
+/// Surfaces with elements so many times as long as they see far lie in a slit, not in a room.
+const SLIT: f64 = 8.0;
+
+/// So many vertices are added at most: below tables and cupboards one does not see far, either.
+const MOST_ADDED: usize = 700;
+
+/// Bisects elements that are longer than their surface sees far, the largest first.
+pub(super) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_vertices: usize) {
+    let most = (subdivision.vertex_count() + MOST_ADDED).min(max_vertices);
+    let leaves: Vec<u32> = subdivision.leaves().collect();
+    let reach = |&node: &u32| reach_m(scene, subdivision, node);
+    let reaches_m: Vec<f64> = leaves.par_iter().map(reach).collect();
+    // In corners one sees less far than from the middle of a wall, where light varies no less.
+    let side = |subdivision: &Subdivision, node: u32| {
+        let Origin { triangle, back, .. } = subdivision.node(node).1;
+        2 * triangle as usize + usize::from(back)
+    };
+    let mut farthest_m = vec![0.0_f64; 2 * scene.triangle_count() as usize];
+    for (&node, reach_m) in leaves.iter().zip(reaches_m) {
+        let of_side = &mut farthest_m[side(subdivision, node)];
+        *of_side = of_side.max(reach_m);
+    }
+    let mut asked = leaves;
+    asked.retain(|&n| subdivision.longest_edge_m(n) < SLIT * farthest_m[side(subdivision, n)]);
+    while !asked.is_empty() {
+        let allowed_m = |node: u32| OF_REACH * farthest_m[side(subdivision, node)];
+        asked.retain(|&node| subdivision.longest_edge_m(node) > allowed_m(node));
+        let area_m2 = |node: u32| subdivision.triangle(node).area();
+        asked.sort_by(|&a, &b| area_m2(b).total_cmp(&area_m2(a)).then(a.cmp(&b)));
+        let first = subdivision.node_count() as u32;
+        for node in asked {
+            if subdivision.vertex_count() >= most {
+                return;
+            }
+            subdivision.bisect(node);
+        }
+        asked = subdivision.leaves().filter(|&node| node >= first).collect();
+    }
+}
+
+/// How far an element sees from its middle, m: as far as most rays.
+fn reach_m(scene: &Scene, subdivision: &Subdivision, node: u32) -> f64 {
+    let at = SurfacePoint::amid_node(scene, subdivision, node);
+    let met = DIRECTIONS.met(scene, |k| DIRECTIONS.ray(k, (at.start(), at.shading, at.triangle)));
+    let mut distances_m = met.map(|hit| hit.map_or(f64::INFINITY, |hit| f64::from(hit.t)));
+    distances_m.sort_by(f64::total_cmp);
+    distances_m[COUNTED - 1]
+}
+
+/// Surroundings count once they have less than this part of the light of the whole scene, and no more than so many times.
+const DIM: f64 = 0.4;
+const MOST_WEIGHT: f64 = 1e3;
+/// Reflections over which light is taken to be that of the surroundings.
+const REFLECTIONS: usize = 3;
+
+impl Pilot<'_> {
+    /// Finds the light of the surroundings of every vertex, lx: of what it sees, and what is seen from there. In one room it is about
+    /// the same everywhere.
+    pub(super) fn look_about(&mut self, operator: &Operator) {
+        let waiting = self.carriers.waiting();
+        let whole = operator.reflected(&vec![Rgb::grey(1.0); self.indirect.len()]);
+        let mut seen = self.indirect.clone();
+        for reflection in 0..REFLECTIONS {
+            if reflection > 0 {
+                seen = operator.reflected(&seen);
+            }
+            for (seen, whole) in seen.iter_mut().zip(&whole) {
+                let share = whole.luminance();
+                *seen = Rgb::grey(if share > 0.0 { seen.luminance() / share } else { 0.0 });
+            }
+            waiting.fill(&mut seen);
+        }
+        self.surroundings_lx = seen.iter().map(|seen| seen.luminance()).collect();
+    }
+
+    /// Has errors in dim surroundings count by what they are there.
+    pub(super) fn weigh(&mut self, errors: &mut [LeafError], reference_lx: f64) {
+        for vertex in &self.subdivision.vertices()[self.surroundings_lx.len()..] {
+            let of = |end: u32| self.surroundings_lx[end as usize];
+            let ends = vertex.parents.map(|ends| ends.map(of));
+            self.surroundings_lx.push(ends.map_or(0.0, |[a, b]| a.max(b)));
+        }
+        for error in errors {
+            let corners = self.subdivision.node(error.node).0.vertices;
+            let about_lx = corners.map(|v| self.surroundings_lx[v as usize]);
+            let about_lx = about_lx.into_iter().fold(0.0, f64::max);
+            if about_lx > 0.0 {
+                error.weight = (DIM * reference_lx / about_lx).clamp(1.0, MOST_WEIGHT);
+            }
+        }
+    }
+}
