@@ -21,6 +21,9 @@ pub(super) const AT_END: f64 = 1e-3;
 const AROUND: f64 = 4.0 * AT_END;
 const BESIDE: f64 = 0.1;
 
+/// The cosine between normals of triangles in one plane, but for rounding in single precision.
+const FLAT: f64 = 1.0 - 1e-6;
+
 /// Whether something stands on the vertices looked at so far.
 #[derive(Debug, Default)]
 pub(super) struct Torn(Vec<bool>);
@@ -64,8 +67,9 @@ impl Torn {
         let torn_within: Vec<u32> = within.par_iter().filter_map(torn).collect();
         let mut beside: Vec<Place> = within.into_iter().flatten().collect();
         beside.par_sort_unstable_by_key(|place| (place.vertex, place.end, place.side));
+        let are_flat = |a: &Place, b: &Place| a.side == b.side || lie_in_a_plane(scene, a, b);
         let torn = |pair: &[Place]| match pair {
-            [a, b] if (a.vertex, a.end, a.side) == (b.vertex, b.end, b.side) => {
+            [a, b] if (a.vertex, a.end) == (b.vertex, b.end) && are_flat(a, b) => {
                 is_parted(a, b).then_some(a.vertex)
             }
             _ => None,
@@ -128,6 +132,15 @@ fn places(subdivision: &Subdivision, node: u32, corner: usize) -> [Place; 2] {
 fn beside(at: Point, end: Point, other: Point) -> [Point; 2] {
     let to = end.lerp(other, BESIDE) - at;
     [AROUND, NEAR].map(|share| at + to * share)
+}
+
+/// Whether the triangles of two places beside one edge lie in a plane: walls stand on edges of floors, too.
+fn lie_in_a_plane(scene: &Scene, a: &Place, b: &Place) -> bool {
+    let normal = |place: &Place| {
+        let (triangle, back) = place.side;
+        SurfacePoint::new(scene, triangle, back, 1.0 / 3.0, 1.0 / 3.0).geometric
+    };
+    normal(a).dot(normal(b)) > FLAT
 }
 
 /// Whether something stands between two places, close to the surface and well above it.

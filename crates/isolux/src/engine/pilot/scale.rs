@@ -24,8 +24,10 @@ static DIRECTIONS: LazyLock<Feelers<FEELERS>> = LazyLock::new(|| Feelers::of(Key
 /// Edges are no longer than this part of that.
 const OF_REACH: f64 = 0.3;
 
-/// Surfaces with elements so many times as long as they see far lie in a slit, not in a room.
+/// Surfaces with elements so many times as long as they see far lie in a slit, not in a room; nor is what sees less far than this a room
+/// that somebody works in, but the inside of a lamp or a cupboard, m.
 const SLIT: f64 = 8.0;
+const ROOM_M: f64 = 1.0;
 
 /// So many vertices are added at most: below tables and cupboards one does not see far, either.
 const MOST_ADDED: usize = 700;
@@ -47,7 +49,10 @@ pub(super) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_
         *of_side = of_side.max(reach_m);
     }
     let mut asked = leaves;
-    asked.retain(|&n| subdivision.longest_edge_m(n) < SLIT * farthest_m[side(subdivision, n)]);
+    asked.retain(|&node| {
+        let farthest_m = farthest_m[side(subdivision, node)];
+        farthest_m > ROOM_M && subdivision.longest_edge_m(node) < SLIT * farthest_m
+    });
     while !asked.is_empty() {
         let allowed_m = |node: u32| OF_REACH * farthest_m[side(subdivision, node)];
         asked.retain(|&node| subdivision.longest_edge_m(node) > allowed_m(node));
