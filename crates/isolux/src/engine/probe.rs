@@ -180,8 +180,7 @@ impl<'a> MapReader<'a> {
         surface: SurfacePoint,
         allowance: Allowance,
     ) -> Option<(Illuminance, SurfacePoint)> {
-        let SurfacePoint { triangle, back, u, v, .. } = surface;
-        let stored = self.map.interpolate(triangle, back, u, v)?;
+        let stored = self.stored_at(&surface)?;
         let at = self.places.pulled_in(surface);
         let Some(fresh) = self.map.provenance.fresh else {
             return Some((stored, at));

@@ -26,8 +26,9 @@ impl MapReader<'_> {
         rays: usize,
         (sequence, index): (Sequence, u32),
     ) -> Option<Rgb> {
-        let stored = self.map.interpolate(triangle, back, u, v)?;
-        let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
+        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+        let stored = self.stored_at(&surface)?;
+        let at = self.places.pulled_in(surface);
         let dice = &mut Dice::new(sequence, index);
         let direct = self.lighting.by_rays_on(&self.patches, &at, rays, dice);
         Some(direct + stored.caustic_lx)
@@ -39,8 +40,9 @@ impl MapReader<'_> {
         (triangle, back, [u, v]): (u32, bool, [f64; 2]),
         allowance: Allowance,
     ) -> Option<Told> {
-        let stored = self.map.interpolate(triangle, back, u, v)?;
-        let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
+        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+        let stored = self.stored_at(&surface)?;
+        let at = self.places.pulled_in(surface);
         if self.map.provenance.fresh.is_none() {
             return Some(Told::Light(self.reading(&stored, 0.0)));
         }
@@ -77,8 +79,7 @@ impl MapReader<'_> {
             .collect();
         let (mut told, mut trials) = (Vec::new(), Vec::new());
         for surface in &surfaces {
-            let SurfacePoint { triangle, back, u, v, .. } = *surface;
-            let Some(stored) = self.map.interpolate(triangle, back, u, v) else { continue };
+            let Some(stored) = self.stored_at(surface) else { continue };
             match self.trial(&stored, &self.places.pulled_in(*surface), Allowance::ANY) {
                 None => told.push(self.with_interpolation_error(stored)),
                 Some(trial) => trials.push((*surface, trial)),

@@ -2,12 +2,58 @@
 
 use super::{LOOKS, MapReader};
 use crate::engine::gather::Gatherer;
+use crate::engine::hidden::BEYOND;
 use crate::engine::path::{Dice, follow};
 use crate::engine::place::{ProbePoint, place_key};
+use crate::engine::surface::SurfacePoint;
+use crate::map::{Illuminance, Standing};
 use crate::sampling::{CosineHemisphere, Sequence};
 use isolux_geometry::{Point, Ray};
 
+/// Estimates of direct light that tell whether any luminaire shines on a place.
+const LOOKS_AT_LUMINAIRES: u32 = 4;
+
 impl MapReader<'_> {
+    /// What the map tells of a place; nothing where no light can come to it, like the floor below a box that stands across an
+    /// element: the corners of that lie in light, beyond something, or nothing is known of them, and the place sees none.
+    pub(super) fn stored_at(&self, at: &SurfacePoint) -> Option<Illuminance> {
+        let stored = self.map.interpolate(at.triangle, at.back, at.u, at.v)?;
+        (!self.is_closed_off(at)).then_some(stored)
+    }
+
+    fn is_closed_off(&self, at: &SurfacePoint) -> bool {
+        let Some(corners) = self.map.elements.locate(at.triangle, at.back, at.u, at.v) else {
+            return false;
+        };
+        let standing = |(vertex, _): (u32, f64)| self.standings[vertex as usize];
+        let tells = |of: Option<Standing>| of.is_some_and(|of| of != Standing::Rim);
+        if corners.into_iter().all(|corner| tells(standing(corner))) {
+            return false;
+        }
+        let at = self.places.pulled_in(*at);
+        let from = at.start();
+        let sees = |(vertex, _): (u32, f64)| {
+            let vertex = &self.map.elements.vertices()[vertex as usize];
+            let to = vertex.position + vertex.normal.to_vector() * at.away_m;
+            let to = to + (to - from) * BEYOND;
+            !self.scene.bvh().any_hit(&Ray::between(from, to).skipping(at.triangle))
+        };
+        if corners.into_iter().any(|corner| tells(standing(corner)) && sees(corner)) {
+            return false;
+        }
+        let sequence = Sequence::new(place_key(at.point).with(16));
+        let shines = |index| {
+            let dice = &mut Dice::new(sequence, index);
+            !self.lighting.estimate(&at, dice).is_black()
+        };
+        if (0..LOOKS_AT_LUMINAIRES).any(shines) {
+            return false;
+        }
+        let gatherer = Gatherer::on_surface(at, LOOKS).in_gap(true);
+        let key = place_key(at.point).with(17);
+        self.gather(gatherer, self.direct_at_ends(), (1, key)).lx.is_black()
+    }
+
     /// Whether anything that is lit, as the map tells it, is seen from a point, on a surface or not: a point in shadow sees
     /// surfaces in light, one outside of the walls of a room sees none. Best effort: a few rays look.
     pub fn sees_lit(&self, at: ProbePoint) -> bool {
