@@ -18,6 +18,9 @@ use std::collections::{HashMap, HashSet};
 /// Light that differs by more than this share of the greatest at the corners of an element is not alike.
 const UNEVEN: f64 = 0.2;
 
+/// A vertex with less than this share of the light of another of its element is in the dark beside it.
+const DARK: f64 = 0.01;
+
 /// What stands across an edge within this part of it leaves the element nearly whole.
 const JUST_BEHIND: f64 = 0.25;
 
@@ -107,25 +110,30 @@ impl Cuts {
 
 /// Vertices in the dark close behind what stands across their elements, like corners of a box that is sunk into a floor: all that they
 /// share elements with and has light lies beyond it, so far along the edge there that these elements are as good as all on that
-/// side. In the order of their numbers.
+/// side. In the order of their numbers; `light_lx` of a vertex is what is known of it.
 pub(super) fn shaded(
     scene: &Scene,
     elements: &Elements,
     sides: &[Side],
-    is_dark: impl Fn(u32) -> bool + Sync,
+    light_lx: impl Fn(u32) -> Option<f64> + Sync,
 ) -> Vec<u32> {
     let look = Look { scene, elements };
     let place = |vertex: u32| elements.vertices()[vertex as usize].position;
     // Of every dark vertex beside light, whether all of that lies beyond something.
     let of_side = |side: &Side| {
         let corners = elements.node(side.node).vertices;
-        let (dark, lit): (Vec<u32>, Vec<u32>) = corners.into_iter().partition(|&v| is_dark(v));
+        let most = corners.iter().filter_map(|&v| light_lx(v)).fold(0.0, f64::max);
+        let known = corners.into_iter().filter(|&v| light_lx(v).is_some());
+        let is_dark = |&v: &u32| light_lx(v).is_some_and(|lx| lx <= DARK * most);
+        let (dark, lit): (Vec<u32>, Vec<u32>) = known.partition(is_dark);
+        if most == 0.0 || dark.is_empty() {
+            return Vec::new();
+        }
         let above = side.above(scene);
         let is_behind = |from: u32, to: u32| {
             look.blocked_at(place(from), place(to), &above).is_some_and(|at| at <= JUST_BEHIND)
         };
-        let behind = |&from: &u32| (from, lit.iter().all(|&to| is_behind(from, to)));
-        if lit.is_empty() { Vec::new() } else { dark.iter().map(behind).collect() }
+        dark.into_iter().map(|from| (from, lit.iter().all(|&to| is_behind(from, to)))).collect()
     };
     let mut found: Vec<(u32, bool)> = sides.par_iter().flat_map_iter(of_side).collect();
     found.par_sort_unstable();

@@ -52,23 +52,19 @@ impl Pilot<'_> {
 
     /// Elements that reach into the dark behind what stands across them are read from the corners before it.
     pub(super) fn set_shaded_apart(&mut self) {
-        let is_dark = |&v: &u32| {
-            let k = v as usize;
-            let is_black = |light: &[Rgb]| light.get(k).is_some_and(|light| light.is_black());
-            self.standings[k].is_some() && is_black(&self.direct) && is_black(&self.indirect)
-        };
-        let sides: Vec<Side> = self
-            .subdivision
-            .leaves()
-            .filter(|&node| self.subdivision.node(node).0.vertices.iter().any(|v| is_dark(v)))
-            .map(|node| Side::of(&self.subdivision, node))
-            .collect();
-        if sides.is_empty() {
+        if self.indirect.is_empty() {
             return;
         }
+        let light_lx = |v: u32| {
+            let k = v as usize;
+            let indirect = self.indirect.get(k).copied().unwrap_or(Rgb::BLACK);
+            self.standings[k].map(|_| (self.direct[k] + indirect).luminance())
+        };
+        let is_beside = |node: &u32| self.beset.get(*node as usize).is_none_or(|&beset| beset);
+        let leaves = self.subdivision.leaves().filter(is_beside);
+        let sides: Vec<Side> = leaves.map(|node| Side::of(&self.subdivision, node)).collect();
         let elements = self.subdivision.elements();
-        let shaded = cuts::shaded(self.scene, &elements, &sides, |v| is_dark(&v));
-        for vertex in shaded {
+        for vertex in cuts::shaded(self.scene, &elements, &sides, light_lx) {
             self.standings[vertex as usize] = Some(Standing::Rim);
         }
     }

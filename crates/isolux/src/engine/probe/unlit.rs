@@ -10,6 +10,8 @@ use crate::map::{Illuminance, Standing};
 use crate::sampling::{CosineHemisphere, Sequence};
 use isolux_geometry::{Point, Ray};
 
+/// No more than this share of the light of an element is as good as none, where rays read some through cracks.
+const NO_LIGHT: f64 = 0.01;
 /// Estimates of direct light that tell whether any luminaire shines on a place.
 const LOOKS_AT_LUMINAIRES: u32 = 4;
 
@@ -18,10 +20,11 @@ impl MapReader<'_> {
     /// element: the corners of that lie in light, beyond something, or nothing is known of them, and the place sees none.
     pub(super) fn stored_at(&self, at: &SurfacePoint) -> Option<Illuminance> {
         let stored = self.map.interpolate(at.triangle, at.back, at.u, at.v)?;
-        (!self.is_closed_off(at)).then_some(stored)
+        (!self.is_closed_off(at, stored.illuminance_lx())).then_some(stored)
     }
 
-    fn is_closed_off(&self, at: &SurfacePoint) -> bool {
+    /// Of a place whose element has so much light.
+    fn is_closed_off(&self, at: &SurfacePoint, light_lx: f64) -> bool {
         let Some(corners) = self.map.elements.locate(at.triangle, at.back, at.u, at.v) else {
             return false;
         };
@@ -51,7 +54,8 @@ impl MapReader<'_> {
         }
         let gatherer = Gatherer::on_surface(at, LOOKS).in_gap(true);
         let key = place_key(at.point).with(17);
-        self.gather(gatherer, self.direct_at_ends(), (1, key)).lx.is_black()
+        let gathered = self.gather(gatherer, self.direct_at_ends(), (1, key));
+        gathered.lx.luminance() <= NO_LIGHT * light_lx
     }
 
     /// Whether anything that is lit, as the map tells it, is seen from a point, on a surface or not: a point in shadow sees

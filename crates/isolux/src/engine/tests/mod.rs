@@ -30,6 +30,7 @@ mod parts;
 mod reflectance;
 mod sharing;
 mod sums;
+mod sunk;
 mod trusting;
 mod walls;
 
