@@ -12,12 +12,13 @@ use crate::quantity::{show_bytes, show_count, show_seconds, show_share, signific
 use isolux::engine::Watch;
 use isolux::lightmap::{
     BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, OwnPlaces,
-    SeamReport, UvUnwrap, bake, lit_area_m2, plan,
+    SeamReport, UvUnwrap, bake, lit_area_m2, plan_without,
 };
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_formats::lightmap::{Convention, Target};
 use serde::Serialize;
+use std::collections::HashSet;
 use std::time::Instant;
 
 /// A lightmap that fits into memory and whose files can be written.
@@ -54,7 +55,9 @@ impl Planned {
         max_memory_bytes: u64,
     ) -> Result<Option<Self>, Failure> {
         match (flags.layout, flags.texels_per_meter) {
-            (LayoutName::Texels, _) => Self::new(flags, scene, max_memory_bytes).map(Some),
+            (LayoutName::Texels, _) => {
+                Self::new(flags, scene, max_memory_bytes, &HashSet::new()).map(Some)
+            }
             (LayoutName::Vertices, None) => Ok(None),
             (LayoutName::Vertices, Some(_)) => Err(Failure::bad_input(
                 "--texels-per-meter is only for --layout texels; add it, or leave the density out",
@@ -80,18 +83,19 @@ impl Planned {
         }
     }
 
-    /// Lays out all surfaces and says what comes.
+    /// Lays out all surfaces but dark ones and says what comes.
     pub(crate) fn new(
         flags: &LayoutFlags,
         scene: &Scene,
         max_memory_bytes: u64,
+        dark: &HashSet<(u32, bool)>,
     ) -> Result<Self, Failure> {
         let settings = LightmapSettings {
             texels_per_m: flags.texels_per_meter,
             max_memory_bytes,
             ..LightmapSettings::default()
         };
-        let layout = plan(scene, &settings, &UvUnwrap).map_err(failure)?;
+        let layout = plan_without(scene, &settings, &UvUnwrap, dark).map_err(failure)?;
         note(
             Note::Info,
             format!(
