@@ -204,6 +204,7 @@ impl Baked {
             texels_known: map.count(Cover::Known),
             texels_unknown: map.count(Cover::Unknown),
             texels_filled: map.count(Cover::Filled),
+            sides_without_texels: map.layout.sides.iter().filter(|side| side.is_point()).count(),
             readings: map.readings,
             taken_from_map: self.is_held,
             time_s: self.time_s,
@@ -289,6 +290,8 @@ pub(crate) struct Report {
     texels_known: usize,
     texels_unknown: usize,
     texels_filled: usize,
+    /// Dark ones, and triangles too thin to be laid out.
+    sides_without_texels: usize,
     readings: u64,
     /// Rather than baked.
     taken_from_map: bool,
@@ -380,6 +383,10 @@ impl Report {
         ];
         if !setting.is_empty() {
             all.insert(2, ("  set", format!("{}: {setting}", self.target)));
+        }
+        if self.sides_without_texels > 0 {
+            let count = show_count(self.sides_without_texels as f64);
+            all.push(("  without texels", format!("{count} sides of triangles, dark or too thin")));
         }
         if self.seams.edges > 0 {
             all.push((

@@ -25,7 +25,7 @@ const PACKED: f64 = 2.0;
 /// ones charts are cut short.
 const MOST_BESIDE_OWN: f64 = 4.0;
 /// Width of the square in the middle of which dark sides lie: with the padding about it neither bilinear lookups nor the
-/// first two mipmaps find light there.
+/// first mipmap find light there.
 const BLACK_TEXELS: f64 = 4.0;
 
 /// What is asked of a lightmap.
