@@ -28,6 +28,12 @@ impl Wanted {
         if flags.white.is_some() && !is_coloured {
             return refused("--white is for colours of vertices in a .glb; leave it out");
         }
+        let is_lightmap = is_texels || matches!(extension.as_deref(), Some("exr" | "ktx2"));
+        if flags.without_dark && !is_lightmap {
+            return refused(
+                "--without-dark is for lightmaps; add --layout texels, or leave it out",
+            );
+        }
         match extension.as_deref() {
             Some("exr") => Ok(Some(Self::Lightmap(LightmapFile::Alone(Kind::Exr)))),
             Some("ktx2") => Ok(Some(Self::Lightmap(LightmapFile::Alone(Kind::Ktx2)))),

@@ -400,6 +400,9 @@ pub(crate) struct ExportFlags {
     /// Who will show the light of a .glb or of a lightmap
     #[arg(long, value_enum, default_value = "viewer")]
     pub target: TargetName,
+    /// Give surfaces that no light of this map reaches no texels: lightmaps of other light no longer lie alike
+    #[arg(long)]
+    pub without_dark: bool,
     /// Luminance that colours of vertices show as white: 500cd/m2 [default: what 99 % of all surfaces stay below]
     #[arg(long, value_name = "LUMINANCE", value_parser = quantity::luminance_cd_m2, allow_hyphen_values = true)]
     pub white: Option<f64>,

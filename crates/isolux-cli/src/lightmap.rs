@@ -12,12 +12,13 @@ use crate::quantity::{show_bytes, show_count, show_seconds, show_share, signific
 use isolux::engine::Watch;
 use isolux::lightmap::{
     BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, OwnPlaces,
-    SeamReport, UvUnwrap, bake, lit_area_m2, plan,
+    SeamReport, UvUnwrap, bake, lit_area_m2, plan_without,
 };
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_formats::lightmap::{Convention, Target};
 use serde::Serialize;
+use std::collections::HashSet;
 use std::time::Instant;
 
 /// A lightmap that fits into memory and whose files can be written.
@@ -54,7 +55,9 @@ impl Planned {
         max_memory_bytes: u64,
     ) -> Result<Option<Self>, Failure> {
         match (flags.layout, flags.texels_per_meter) {
-            (LayoutName::Texels, _) => Self::new(flags, scene, max_memory_bytes).map(Some),
+            (LayoutName::Texels, _) => {
+                Self::new(flags, scene, max_memory_bytes, &HashSet::new()).map(Some)
+            }
             (LayoutName::Vertices, None) => Ok(None),
             (LayoutName::Vertices, Some(_)) => Err(Failure::bad_input(
                 "--texels-per-meter is only for --layout texels; add it, or leave the density out",
@@ -80,18 +83,19 @@ impl Planned {
         }
     }
 
-    /// Lays out all surfaces and says what comes.
+    /// Lays out all surfaces but dark ones and says what comes.
     pub(crate) fn new(
         flags: &LayoutFlags,
         scene: &Scene,
         max_memory_bytes: u64,
+        dark: &HashSet<(u32, bool)>,
     ) -> Result<Self, Failure> {
         let settings = LightmapSettings {
             texels_per_m: flags.texels_per_meter,
             max_memory_bytes,
             ..LightmapSettings::default()
         };
-        let layout = plan(scene, &settings, &UvUnwrap).map_err(failure)?;
+        let layout = plan_without(scene, &settings, &UvUnwrap, dark).map_err(failure)?;
         note(
             Note::Info,
             format!(
@@ -200,6 +204,7 @@ impl Baked {
             texels_known: map.count(Cover::Known),
             texels_unknown: map.count(Cover::Unknown),
             texels_filled: map.count(Cover::Filled),
+            sides_without_texels: map.layout.sides.iter().filter(|side| side.is_point()).count(),
             readings: map.readings,
             taken_from_map: self.is_held,
             time_s: self.time_s,
@@ -285,6 +290,8 @@ pub(crate) struct Report {
     texels_known: usize,
     texels_unknown: usize,
     texels_filled: usize,
+    /// Dark ones, and triangles too thin to be laid out.
+    sides_without_texels: usize,
     readings: u64,
     /// Rather than baked.
     taken_from_map: bool,
@@ -376,6 +383,10 @@ impl Report {
         ];
         if !setting.is_empty() {
             all.insert(2, ("  set", format!("{}: {setting}", self.target)));
+        }
+        if self.sides_without_texels > 0 {
+            let count = show_count(self.sides_without_texels as f64);
+            all.push(("  without texels", format!("{count} sides of triangles, dark or too thin")));
         }
         if self.seams.edges > 0 {
             all.push((

@@ -8,8 +8,10 @@ use crate::lightmap_files::{self, Kind};
 use crate::map_file;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
+use isolux::lightmap::dark_sides;
 use isolux_formats::lightmap::Target;
 use isolux_formats::map_glb::MapFile;
+use std::collections::HashSet;
 
 /// A kind of file with a lightmap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,10 +46,13 @@ pub(crate) fn run(
         }
     }
     let MapFile { scene, map, lightmap } = map_file::read_with_texels(&flags.map)?;
-    let baked = match Baked::held(&flags.layout, &map, lightmap) {
+    let held = lightmap.filter(|_| !flags.without_dark);
+    let baked = match Baked::held(&flags.layout, &map, held) {
         Some(held) => held,
         None => {
-            let planned = Planned::new(&flags.layout, &scene, flags.max_memory)?;
+            let dark =
+                if flags.without_dark { dark_sides(&scene, &map) } else { HashSet::default() };
+            let planned = Planned::new(&flags.layout, &scene, flags.max_memory, &dark)?;
             let Some(baked) = planned.bake(&scene, &map)? else {
                 note(Note::Warning, format!("{}: not written", output.path().display()));
                 return Ok(Outcome::Interrupted);

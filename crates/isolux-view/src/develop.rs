@@ -2,9 +2,9 @@
 
 use crate::error::ViewError;
 use crate::exposure::Exposure;
-use crate::image::{LuminanceImage, Seen, Sight};
-use crate::picture::{Picture, UNKNOWN};
-use crate::srgb::{codes_from_linear, linear_from_codes};
+use crate::image::{LuminanceImage, Seen};
+use crate::picture::Picture;
+use crate::srgb::codes_from_linear;
 use crate::tone::ToneCurve;
 use isolux::units::Rgb;
 use rayon::prelude::*;
@@ -19,16 +19,12 @@ pub struct Development {
 }
 
 /// Exposes and tone maps a view. Samples are mapped one by one and averaged as the display emits
-/// them, so that the outlines of luminaires stay smooth. Where the map has no value the picture is
-/// [`UNKNOWN`]; where there is no surface it is black.
+/// them, so that the outlines of luminaires stay smooth. Where there is no surface the picture is black; where the map has
+/// no value it shows what is emitted and mirrored alone: no light is known to reach the place.
 pub fn develop(image: &LuminanceImage, how: &Development) -> Result<Picture, ViewError> {
     how.tone.check()?;
     let white_cd_m2 = how.exposure.white_cd_m2(image)?;
-    let unknown = linear_from_codes(UNKNOWN);
-    let shown = |seen: &Seen| match seen.sight {
-        Sight::Unknown => unknown,
-        _ => how.tone.apply(seen.luminance() / white_cd_m2),
-    };
+    let shown = |seen: &Seen| how.tone.apply(seen.luminance() / white_cd_m2);
     let rgb = (0..image.size().pixels())
         .into_par_iter()
         .map(|pixel| {

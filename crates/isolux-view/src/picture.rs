@@ -3,7 +3,7 @@
 use crate::error::ViewError;
 use crate::image::Size;
 
-/// Drawn where a surface carries no known value: a mid grey that no colour map contains.
+/// Drawn in charts where a surface carries no known value: a mid grey that no colour map contains.
 pub const UNKNOWN: [u8; 3] = [128, 128, 128];
 
 /// Pixels in sRGB (IEC 61966-2-1), rows from the top.

@@ -149,7 +149,7 @@ fn a_white_room_stays_white_behind_glass_and_gloss() {
 }
 
 #[test]
-fn unknown_is_grey_and_nothing_is_black() {
+fn unknown_is_black_in_pictures_and_grey_in_charts() {
     let scene = scene(
         vec![rectangle(0, [-1.0, 1.0, -1.0], [1.0, 0.0, 0.0], [0.0, 0.0, 2.0])],
         vec![diffuse(0.5)],
@@ -158,7 +158,7 @@ fn unknown_is_grey_and_nothing_is_black() {
     let camera = towards_y(Point::ORIGIN);
     let image = trace(&scene, &camera, size, &TraceSettings::FINE, &|_| None).unwrap();
     let picture = develop(&image, &Development::default()).unwrap();
-    assert_eq!((picture.pixel(2, 8), picture.pixel(12, 8)), (Some(UNKNOWN), Some([0; 3])));
+    assert_eq!((picture.pixel(2, 8), picture.pixel(12, 8)), (Some([0; 3]), Some([0; 3])));
     let chart = FalseColour { limits: Some((0.0, 1.0)), legend: None, ..FalseColour::default() };
     let chart = false_colour(&image, &chart).unwrap();
     assert_eq!((chart.pixel(2, 8), chart.pixel(12, 8)), (Some(UNKNOWN), Some([0; 3])));

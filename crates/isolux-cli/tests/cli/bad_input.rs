@@ -50,6 +50,8 @@ const BAD_ARGUMENTS: &[(&[&str], &str)] = &[
     (&["solve", "builtin:cube", "-o", "taken.glb", "--layout", "texels"], "taken.exr"),
     (&["solve", "builtin:cube", "-o", "m.glb", "--layout", "texels", "--group"], "group"),
     (&["export", "text.glb", "-o", "l.glb", "--texels-per-meter", "3"], "--layout texels"),
+    (&["export", "text.glb", "-o", "l.glb", "--without-dark"], "--layout texels"),
+    (&["export", "text.glb", "-o", "l.ply", "--without-dark"], "--layout texels"),
     (&["export", "text.glb", "-o", "l.wrl", "--layout", "texels"], ".ktx2"),
     (&["export", "text.glb", "-o", "l.wrl", "--target", "three"], ".ktx2"),
     (&["export", "text.glb", "-o", "l.exr", "--target", "quake"], "godot"),

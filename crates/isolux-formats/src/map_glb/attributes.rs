@@ -16,8 +16,6 @@ const UNSIGNED_INT: u32 = 5125;
 const UNKNOWN: f32 = -1.0;
 /// Standard error where the illuminance is known but not its error.
 const NO_ESTIMATE: f32 = -2.0;
-/// Displayed colour where the illuminance is not known: half of the sRGB codes.
-pub(super) const UNKNOWN_GREY: f64 = 0.214;
 
 /// Where attributes go.
 pub(super) struct Sink<'a> {
@@ -61,10 +59,8 @@ impl Sink<'_> {
                 .collect()
         };
         let errors: Vec<[f32; 1]> = values.iter().map(|v| [shown_error(v.as_ref())]).collect();
-        let colours = values.iter().map(|v| match v {
-            None => [UNKNOWN_GREY; 3],
-            Some(value) => preview.colour(luminance_cd_m2(finish, value.total_lx())),
-        });
+        let colours =
+            values.iter().map(|v| preview.colour(luminance_cd_m2(finish, seen_lx(v.as_ref()))));
         let colour = self.colours(&colours.collect::<Vec<_>>());
         let light = LightAttributes {
             illuminance_lx: self.floats(&of(Illuminance::total_lx), "VEC3"),
@@ -128,6 +124,11 @@ struct Layout {
 /// The values of which a viewer can be told.
 pub(super) fn shown(values: &[Option<Illuminance>]) -> Vec<Option<Illuminance>> {
     values.iter().map(|value| value.and_then(storable).filter(is_shown)).collect()
+}
+
+/// The light that a surface is shown in: none where nothing is known, as what no light is known to reach must not glow.
+pub(super) fn seen_lx(value: Option<&Illuminance>) -> Rgb {
+    value.map_or(Rgb::BLACK, Illuminance::total_lx)
 }
 
 /// Whether a viewer can be given a value: attributes must be finite in 32 bits.

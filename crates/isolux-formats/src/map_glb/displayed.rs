@@ -1,6 +1,6 @@
 //! Surfaces as viewers other than those of glTF want them.
 
-use super::attributes::UNKNOWN_GREY;
+use super::attributes::seen_lx;
 use super::display::{self, Layer, Surface};
 use super::looks;
 use super::preview::{Preview, luminance_cd_m2};
@@ -44,12 +44,10 @@ fn one(
     let finish = material.finish(layer.back).filter(|_| layer.mapped);
     let texture = finish.and_then(|f| f.diffuse.texture).filter(|_| !surface.uvs.is_empty());
     let texture = texture.map_or(Rgb::WHITE, |t| textures[t as usize]);
-    let colour = |value: &Option<Illuminance>| match value.and_then(storable) {
-        None => [UNKNOWN_GREY; 3].map(srgb),
-        Some(value) => {
-            let luminance = finish.map_or(Rgb::BLACK, |f| luminance_cd_m2(f, value.total_lx()));
-            preview.colour(luminance * texture).map(srgb)
-        }
+    let colour = |value: &Option<Illuminance>| {
+        let lx = seen_lx(value.and_then(storable).as_ref());
+        let luminance = finish.map_or(Rgb::BLACK, |f| luminance_cd_m2(f, lx));
+        preview.colour(luminance * texture).map(srgb)
     };
     let [red, green, blue, opacity] =
         looks::bare_colour(&material.body, layer.back, &|l| preview.colour(l));

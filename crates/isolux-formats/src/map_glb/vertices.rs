@@ -3,7 +3,7 @@
 //! The geometry is that of the elements, as in the map itself; the map is left out. What colours stand for is up to the
 //! consumer ([`Target::vertex_convention`]).
 
-use super::attributes::{Sink, UNKNOWN_GREY, shown};
+use super::attributes::{Sink, seen_lx, shown};
 use super::bytes::Bytes;
 use super::display::{self, Layer, Surface};
 use super::document::{Objects, Primitive};
@@ -235,11 +235,7 @@ fn add_meshes(
 /// Colours of the vertices of a surface, without its texture, which the consumer multiplies them with.
 fn colours(surface: &Surface, finish: &Finish, exposure: &Exposure) -> Vec<[f64; 3]> {
     let values = shown(&surface.values).into_iter();
-    let one = values.map(|value| match value {
-        None => [UNKNOWN_GREY; 3],
-        Some(value) => exposure.colour(luminance_cd_m2(finish, value.total_lx())),
-    });
-    one.collect()
+    values.map(|v| exposure.colour(luminance_cd_m2(finish, seen_lx(v.as_ref())))).collect()
 }
 
 impl VertexColours {

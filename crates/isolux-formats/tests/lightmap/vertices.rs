@@ -179,14 +179,13 @@ fn files_hold_what_is_shown_and_no_more() {
     }
 }
 
-/// Where nothing is known there is no white to go by, and no colour but grey.
+/// Where nothing is known there is no white to go by, and no light to show.
 #[test]
-fn a_map_of_nothing_is_grey() {
+fn a_map_of_nothing_is_black() {
     let scene = card::scene();
     let mut map = card::map(&scene);
     map.values.fill(None);
     let written = Written::with((&scene, &map), (Target::Three, None));
     assert_eq!(written.made.white_cd_m2, 1.0);
-    // Half of the sRGB codes.
-    assert_all(&written.colours(&written.primitives("card")[0]), [0.214; 3], SINGLE);
+    assert_all(&written.colours(&written.primitives("card")[0]), [0.0; 3], SINGLE);
 }

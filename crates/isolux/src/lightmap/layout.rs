@@ -57,6 +57,11 @@ pub struct Side {
 }
 
 impl Side {
+    /// Whether all of it lies at one place: of dark sides, and of triangles too thin to be laid out.
+    pub fn is_point(&self) -> bool {
+        self.uvs == [self.uvs[0]; 3]
+    }
+
     /// The share of its page that it covers.
     pub(super) fn share(&self) -> f64 {
         let [a, b, c] = self.uvs.map(|uv| uv.map(f64::from));

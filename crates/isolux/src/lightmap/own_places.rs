@@ -113,7 +113,8 @@ fn corners(scene: &Scene, side: &Side) -> [Corner; 3] {
     })
 }
 
-fn root(parent: &mut [usize], mut index: usize) -> usize {
+/// The first of those that an entry has been joined with.
+pub(super) fn root(parent: &mut [usize], mut index: usize) -> usize {
     while parent[index] != index {
         parent[index] = parent[parent[index]];
         index = parent[index];

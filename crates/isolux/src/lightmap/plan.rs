@@ -1,6 +1,6 @@
 //! From a map to a layout: which sides, how dense, and whether it fits into memory.
 
-use super::charts::{Patch, UnwrapError, UnwrapRequest, Unwrapper};
+use super::charts::{Patch, UnwrapError, UnwrapRequest, Unwrapped, Unwrapper};
 use super::cover::LEAST_AREA;
 use super::layout::{Layout, OwnPlaces, ROUNDING, Side};
 use super::lit::{lit_area_m2, lit_sides};
@@ -24,6 +24,9 @@ const PACKED: f64 = 2.0;
 /// Pages as large as that of places which the file has, that all other surfaces may take: all pages are of one size, and on many small
 /// ones charts are cut short.
 const MOST_BESIDE_OWN: f64 = 4.0;
+/// Width of the square in the middle of which dark sides lie: with the padding about it neither bilinear lookups nor the
+/// first mipmap find light there.
+const BLACK_TEXELS: f64 = 4.0;
 
 /// What is asked of a lightmap.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +82,17 @@ pub fn plan(
     settings: &LightmapSettings,
     unwrapper: &impl Unwrapper,
 ) -> Result<Layout, LightmapError> {
+    plan_without(scene, settings, unwrapper, &HashSet::new())
+}
+
+/// The same, but some sides all lie at one place, which stays black. Where surfaces have places that the file gives them,
+/// or no others are left, they have texels like all.
+pub fn plan_without(
+    scene: &Scene,
+    settings: &LightmapSettings,
+    unwrapper: &impl Unwrapper,
+    dark: &HashSet<(u32, bool)>,
+) -> Result<Layout, LightmapError> {
     let area_m2 = lit_area_m2(scene);
     if area_m2 <= 0.0 {
         return Err(LightmapError::NothingLit);
@@ -98,7 +112,10 @@ pub fn plan(
         Err(why) => (None, OwnPlaces::Refused(why)),
     };
     let layout = match own {
-        None => unwrapped(scene, (texels_per_m, settings), unwrapper, |_| true)?,
+        None if dark.is_empty() || lit_sides(scene).all(|side| dark.contains(&side)) => {
+            unwrapped(scene, (texels_per_m, settings), unwrapper, |_| true)?
+        }
+        None => unwrapped_without(scene, (texels_per_m, settings), unwrapper, dark)?,
         Some(own) => {
             let kept: HashSet<(u32, bool)> =
                 own.sides.iter().map(|side| (side.triangle, side.back)).collect();
@@ -147,15 +164,70 @@ fn unwrapped(
     is_wanted: impl Fn((u32, bool)) -> bool,
 ) -> Result<Layout, LightmapError> {
     let (patches, sides) = patches(scene, is_wanted);
+    let unwrapped = unwrap(&patches, (texels_per_m, settings), unwrapper)?;
+    Ok(layout(&unwrapped, &sides, (texels_per_m, settings)))
+}
+
+/// All sides laid out anew, but dark ones at one place, in the middle of a chart that nothing covers.
+fn unwrapped_without(
+    scene: &Scene,
+    (texels_per_m, settings): (f64, &LightmapSettings),
+    unwrapper: &impl Unwrapper,
+    dark: &HashSet<(u32, bool)>,
+) -> Result<Layout, LightmapError> {
+    let (mut patches, sides) = patches(scene, |side| !dark.contains(&side));
+    patches.push(nothing(BLACK_TEXELS / texels_per_m));
+    let unwrapped = unwrap(&patches, (texels_per_m, settings), unwrapper)?;
+    let mut layout = layout(&unwrapped, &sides, (texels_per_m, settings));
+    let placed = unwrapped.placed.last().into_iter().flatten();
+    let (page, corners): (Vec<u32>, Vec<[[f32; 2]; 3]>) =
+        placed.map(|placed| (placed.page, placed.uvs)).unzip();
+    let corners = corners.as_flattened();
+    let middle = [0, 1].map(|k| corners.iter().map(|uv| uv[k]).sum::<f32>() / corners.len() as f32);
+    let all_there = |(triangle, back)| Side {
+        triangle,
+        back,
+        page: page.first().copied().unwrap_or(0),
+        uvs: [middle; 3],
+    };
+    layout.sides.extend(lit_sides(scene).filter(|side| dark.contains(side)).map(all_there));
+    layout.sides.sort_unstable_by_key(|side| (side.triangle, side.back));
+    layout.charts = layout.charts.saturating_sub(1);
+    Ok(layout)
+}
+
+/// A square without anything on it.
+fn nothing(side_m: f64) -> Patch {
+    let side = side_m as f32;
+    Patch {
+        positions: vec![[0.0; 3], [side, 0.0, 0.0], [side, side, 0.0], [0.0, side, 0.0]],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        creases: vec![[true, true, false], [false, true, true]],
+    }
+}
+
+fn unwrap(
+    patches: &[Patch],
+    (texels_per_m, settings): (f64, &LightmapSettings),
+    unwrapper: &impl Unwrapper,
+) -> Result<Unwrapped, LightmapError> {
     let LightmapSettings { page, padding, .. } = *settings;
     let request = UnwrapRequest { texels_per_m, page, padding };
-    let unwrapped = unwrapper.unwrap(&patches, &request).map_err(|error| match error {
+    unwrapper.unwrap(patches, &request).map_err(|error| match error {
         UnwrapError::TooLarge => LightmapError::Memory {
             needed: (1 << 30) * BYTES_PER_TEXEL,
             allowed: settings.max_memory_bytes,
         },
         other => LightmapError::Unwrap(other.to_string()),
-    })?;
+    })
+}
+
+/// Where the sides of the first patches lie.
+fn layout(
+    unwrapped: &Unwrapped,
+    sides: &[Vec<(u32, bool)>],
+    (texels_per_m, settings): (f64, &LightmapSettings),
+) -> Layout {
     let mut placed: Vec<Side> = sides
         .iter()
         .zip(&unwrapped.placed)
@@ -168,18 +240,18 @@ fn unwrapped(
         })
         .collect();
     placed.sort_unstable_by_key(|side| (side.triangle, side.back));
-    Ok(Layout {
+    Layout {
         width: unwrapped.width,
         height: unwrapped.height,
         pages: unwrapped.pages,
         texels_per_m,
         least_texels_per_m: unwrapped.least_texels_per_m,
         asked_texels_per_m: texels_per_m,
-        padding,
+        padding: settings.padding,
         charts: unwrapped.charts,
         own_places: OwnPlaces::None,
         sides: placed,
-    })
+    }
 }
 
 /// The pages of another layout, none larger, after those of the first.
@@ -207,7 +279,8 @@ fn of_true_density(scene: &Scene, layout: Layout) -> Layout {
     if layout.least_texels_per_m >= layout.texels_per_m * (1.0 - ROUNDING) {
         return layout;
     }
-    let area_m2: f64 = layout.sides.iter().map(|s| scene.triangle(s.triangle).area()).sum();
+    let placed = layout.sides.iter().filter(|side| !side.is_point());
+    let area_m2: f64 = placed.map(|s| scene.triangle(s.triangle).area()).sum();
     Layout { texels_per_m: (layout.covered() / area_m2).sqrt(), ..layout }
 }
 
@@ -229,10 +302,13 @@ fn turned<T: Copy>([a, b, c]: [T; 3], back: bool) -> [T; 3] {
     if back { [a, c, b] } else { [a, b, c] }
 }
 
-type Sides = Vec<Vec<(u32, bool)>>;
+pub(super) type Sides = Vec<Vec<(u32, bool)>>;
 
 /// One patch for each side of each shape, and the sides in them: those that are wanted.
-fn patches(scene: &Scene, is_wanted: impl Fn((u32, bool)) -> bool) -> (Vec<Patch>, Sides) {
+pub(super) fn patches(
+    scene: &Scene,
+    is_wanted: impl Fn((u32, bool)) -> bool,
+) -> (Vec<Patch>, Sides) {
     let mut by_shape: Sides = vec![Vec::new(); 2 * scene.shape_names().len()];
     for (triangle, back) in lit_sides(scene).filter(|&side| is_wanted(side)) {
         by_shape[2 * scene.shape_of(triangle) as usize + usize::from(back)].push((triangle, back));

@@ -13,7 +13,7 @@ pub enum Cover {
     Empty,
     /// No surface: filled from its neighbours, because lookups at the border of a chart read it.
     Filled,
-    /// A surface of which the map knows nothing; filled from its neighbours.
+    /// A surface of which the map knows nothing: filled from its neighbours within the padding of what is known, else black.
     Unknown,
     /// A surface with a known value.
     Known,

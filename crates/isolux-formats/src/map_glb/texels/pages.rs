@@ -2,13 +2,12 @@
 
 use super::file::TexelFile;
 use crate::lightmap::{LightmapFileError, Way};
-use crate::map_glb::attributes::UNKNOWN_GREY;
 use crate::map_glb::bytes::Bytes;
 use crate::map_glb::displayed::srgb;
 use crate::map_glb::document::{Image, Objects, Sampler, Texture};
 use crate::map_glb::preview::luminance_cd_m2;
 use image::{ExtendedColorType, ImageEncoder};
-use isolux::lightmap::{Cover, Side};
+use isolux::lightmap::Side;
 use isolux::scene::{Finish, Reflectance};
 use isolux::units::Rgb;
 
@@ -61,9 +60,6 @@ fn texels(file: &TexelFile<'_>, page: u32) -> Vec<Rgb> {
         match file.target.way() {
             Way::Lightmap => lx * from_lux,
             Way::Emission => luminance(file, first + k, lx),
-            Way::Preview if file.lightmap.covers[first + k] == Cover::Unknown => {
-                Rgb::grey(UNKNOWN_GREY)
-            }
             Way::Preview => Rgb(file.preview.colour(luminance(file, first + k, lx))),
         }
     };

@@ -95,3 +95,55 @@ fn whoever_watches_can_stop_it() {
     let stopped = bake(&scene, &map, &layout, &mut |_| Watch::Stop);
     assert_eq!(stopped, Err(LightmapError::Stopped));
 }
+
+#[test]
+fn what_is_far_from_all_that_is_known_is_black() {
+    // A floor that goes on below a wall, into a room of which nothing is known.
+    let scene = scene(vec![quad("floor", [0.0; 3], [[8.0, 0.0, 0.0], [0.0, 2.0, 0.0]], 4)]);
+    let map = map(&scene, |[x, ..]| (x < 3.0).then_some(200.0));
+    let lightmap = baked(&scene, &map, 8.0);
+    let Layout { width, padding, .. } = lightmap.layout;
+    let at = |texel: usize| [texel % width as usize, texel / width as usize];
+    let known: Vec<[usize; 2]> =
+        (0..lightmap.covers.len()).filter(|&t| lightmap.texel(t).is_some()).map(at).collect();
+    let (mut near, mut far) = (0, 0);
+    for texel in (0..lightmap.covers.len()).filter(|&t| lightmap.covers[t] == Cover::Unknown) {
+        let [x, y] = at(texel);
+        let distance = known.iter().map(|k| x.abs_diff(k[0]).max(y.abs_diff(k[1]))).min();
+        let shown = lightmap.shown_lx[texel][1];
+        if distance <= Some(padding as usize) {
+            near += 1;
+            assert!((shown - 200.0).abs() < 0.1, "{shown} beside what is known");
+        } else {
+            far += 1;
+            assert_eq!(shown, 0.0, "{distance:?} texels from all that is known");
+        }
+    }
+    // Elements reach 2 m: the map knows up to x = 4; of 16 texels across, two rows are near.
+    assert!((28..=38).contains(&near) && far > 400, "{near} {far}");
+}
+
+#[test]
+fn charts_of_which_nothing_is_known_take_no_light_from_those_beside_them() {
+    // Two surfaces whose places the file has, two texels apart on the page.
+    let placed = |name: &str, [x, z]: [f64; 2], u: f32| {
+        let quad = quad(name, [x, 0.0, z], [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0]], 2);
+        let place = |p: &[f64; 3]| [u + 0.099 * (p[0] - x) as f32, 0.1 + 0.1 * p[1] as f32];
+        Shape { lightmap_uvs: Some(quad.positions.iter().map(place).collect()), ..quad }
+    };
+    let scene = scene(vec![placed("lit", [0.0; 2], 0.0), placed("dark", [9.0, 0.0], 0.425)]);
+    let map = map(&scene, |[x, ..]| (x < 8.0).then_some(200.0));
+    let lightmap = baked(&scene, &map, 10.0);
+    assert_eq!(lightmap.layout.own_places, OwnPlaces::Kept);
+    let dark = lightmap.layout.sides.iter().filter(|s| scene.shape_of(s.triangle) == 1);
+    for side in dark {
+        for at in lightmap.layout.corners(side) {
+            assert_eq!(lightmap.lookup(side.page, at).luminance(), 0.0, "{at:?}");
+        }
+    }
+    let lit = lightmap.layout.sides.iter().filter(|s| scene.shape_of(s.triangle) == 0);
+    for at in lit.flat_map(|side| lightmap.layout.corners(side)) {
+        let lx = lightmap.lookup(0, at).luminance();
+        assert!((lx - 200.0).abs() < 0.1, "{lx} at {at:?}");
+    }
+}

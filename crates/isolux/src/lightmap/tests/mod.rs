@@ -2,6 +2,7 @@
 
 mod arrays;
 mod baking;
+mod dark;
 mod layouts;
 mod stitching;
 
