@@ -1,8 +1,9 @@
 //! `isolux export` of lightmaps.
 
+use crate::clock::Clock;
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
-use crate::flags::ExportFlags;
+use crate::flags::{ExportFlags, LayoutFlags};
 use crate::lightmap::{Baked, Planned};
 use crate::lightmap_files::{self, Kind};
 use crate::map_file;
@@ -44,11 +45,14 @@ pub(crate) fn run(
         }
     }
     let MapFile { scene, map, lightmap } = map_file::read_with_texels(&flags.map)?;
+    let density = lightmap.as_ref().map(|held| held.layout.asked_texels_per_m);
     let baked = match Baked::held(&flags.layout, &map, lightmap) {
         Some(held) => held,
         None => {
-            let planned = Planned::new(&flags.layout, &scene, flags.max_memory)?;
-            let Some(baked) = planned.bake(&scene, &map)? else {
+            let texels_per_meter = flags.layout.texels_per_meter.or(density);
+            let layout = LayoutFlags { texels_per_meter, ..flags.layout };
+            let planned = Planned::new(&layout, &scene, flags.max_memory)?;
+            let Some(baked) = planned.bake((&scene, &map), (Clock::ENDLESS, None))? else {
                 note(Note::Warning, format!("{}: not written", output.path().display()));
                 return Ok(Outcome::Interrupted);
             };

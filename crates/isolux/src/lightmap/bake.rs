@@ -8,10 +8,10 @@ use super::plan::LightmapError;
 use super::seam_report::SeamReport;
 use super::shadow::{self, Direct};
 use super::texels::{Cover, Lightmap};
-use super::work::{After, Work};
+use super::work::{After, Pace, Work};
 use super::{dilate, stitch};
 use crate::engine::net::{Fineness, Net, Wanted};
-use crate::engine::{IndirectReading, MapReader, Watch};
+use crate::engine::{IndirectReading, MapReader};
 use crate::map::IlluminationMap;
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -24,22 +24,26 @@ const TRIED: usize = 128;
 
 /// Reads the map over the part of the surface that each texel covers: direct light at places spread evenly over it,
 /// indirect light, too, where the map does not tell it, each as [`MapReader`] has it. Then fills the borders of charts and makes the two
-/// sides of seams agree. `watch` is told the share of the work that is done, as far as it can be foreseen.
+/// sides of seams agree. `watch` is told the share of the work that is done, as far as it can be foreseen, nothing where it cannot, and
+/// says how to go on: coarsely, what is left is read as the map interpolates it, and by the fewest shadow rays, which standard errors tell.
 pub fn bake(
     scene: &Scene,
     map: &IlluminationMap,
     layout: &Layout,
-    watch: &mut dyn FnMut(f64) -> Watch,
+    watch: &mut dyn FnMut(f64) -> Pace,
 ) -> Result<Lightmap, LightmapError> {
     let fragments = cover::fragments(scene, layout);
     let ground = Ground::of(layout, &fragments);
     let places = Places { reader: MapReader::new(scene, map), layout, seed: map.provenance.seed };
     let mut baked = empty(layout);
     let mut work = Work::new(watch);
-    let indirect = indirect(&places, &ground, &mut work)?;
-    let direct = direct(&places, (&ground, &indirect), &mut work)?;
-    for ((fragments, indirect), direct) in ground.texels.iter().zip(indirect).zip(direct) {
-        store(fragments, indirect.zip(direct), &mut baked);
+    let mut coarse = vec![false; ground.texels.len()];
+    let indirect = indirect(&places, (&ground, &mut coarse), &mut work)?;
+    let direct = direct(&places, (&ground, &indirect, &mut coarse), &mut work)?;
+    let read = indirect.into_iter().zip(direct).zip(coarse);
+    for (fragments, ((indirect, direct), coarse)) in ground.texels.iter().zip(read) {
+        let is_known = store(fragments, indirect.zip(direct), &mut baked);
+        baked.coarse += u64::from(is_known && coarse);
     }
     baked.readings = work.readings;
     drop(ground);
@@ -60,13 +64,14 @@ fn empty(layout: &Layout) -> Lightmap {
         coverage: vec![0.0; count],
         seams: SeamReport::default(),
         readings: 0,
+        coarse: 0,
     }
 }
 
-/// Indirect light of all texels: as the map tells it, or gathered on a net.
+/// Indirect light of all texels: as the map tells it, or gathered on a net; where time runs out as the map interpolates it.
 fn indirect(
     places: &Places<'_>,
-    ground: &Ground<'_>,
+    (ground, coarse): (&Ground<'_>, &mut [bool]),
     work: &mut Work<'_>,
 ) -> Result<Vec<Option<IndirectReading>>, LightmapError> {
     let all = &ground.texels;
@@ -74,6 +79,7 @@ fn indirect(
     let charts = ground.charts();
     let mut found = vec![None; all.len()];
     let mut wanted = Vec::new();
+    let mut unread: Vec<usize> = (surveys.len()..all.len()).collect();
     for (number, (survey, asked)) in surveys.into_iter().enumerate() {
         work.readings += asked;
         match survey {
@@ -85,14 +91,26 @@ fn indirect(
             }
         }
     }
-    let direct_s = foresee_direct(places, (ground, &found), work)?;
+    let direct_s = if work.is_coarse { 0.0 } else { foresee_direct(places, (ground, &found), work)? };
     let mut net = Net::new(wanted, Fineness::TEXELS);
     net.fill(|numbers, more| {
-        work.readings += numbers.len() as u64;
         let after = After { pieces: more, other_s: direct_s };
-        work.each(numbers, after, |&number| places.gathered(ground.texels[number]))
+        let gathered = work.each(numbers, after, |&number| places.gathered(all[number]))?;
+        work.readings += gathered.len() as u64;
+        Ok(gathered)
     })?;
-    net.filled().for_each(|filled| found[filled.number] = filled.reading);
+    for filled in net.filled() {
+        found[filled.number] = filled.reading;
+        coarse[filled.number] = net.is_cut_short() && !filled.is_gathered;
+        if coarse[filled.number] && filled.reading.is_none() {
+            unread.push(filled.number);
+        }
+    }
+    let read = work.each_coarsely(&unread, |&number| places.interpolated(all[number]))?;
+    work.readings += unread.len() as u64;
+    for (number, reading) in unread.into_iter().zip(read) {
+        (found[number], coarse[number]) = (reading, reading.is_some());
+    }
     Ok(found)
 }
 
@@ -127,18 +145,13 @@ fn goal_lx(indirect_error_lx: f64, value_lx: f64) -> f64 {
 /// Direct light of the texels whose indirect light is known.
 fn direct(
     places: &Places<'_>,
-    (ground, indirect): (&Ground<'_>, &[Option<IndirectReading>]),
+    (ground, indirect, coarse): (&Ground<'_>, &[Option<IndirectReading>], &mut [bool]),
     work: &mut Work<'_>,
 ) -> Result<Vec<Option<Direct>>, LightmapError> {
     let numbers: Vec<usize> =
         (0..ground.texels.len()).filter(|&number| indirect[number].is_some()).collect();
     let texel = |number: usize| ground.texels[number];
-    // As a rule one in four texels is looked at closely, with eight times the places.
-    let after = After { pieces: 2.0 * numbers.len() as f64, other_s: 0.0 };
-    let looks = work.each(&numbers, after, |&number| shadow::look(places, texel(number)))?;
-    work.readings += u64::from(shadow::FEW) * numbers.len() as u64;
-    let mut found = vec![None; ground.texels.len()];
-    numbers.iter().zip(looks).for_each(|(&number, look)| found[number] = look);
+    let mut found = looks(places, (ground, &numbers, &mut *coarse), work)?;
     let about: Vec<f64> =
         (0..found.len()).map(|number| variance_about(ground, &found, number)).collect();
     for (direct, about) in found.iter_mut().zip(&about) {
@@ -154,10 +167,31 @@ fn direct(
     let seen = work.each(&close, After::default(), |&(number, count)| {
         shadow::look_closely(places, texel(number), count)
     })?;
+    close[seen.len()..].iter().for_each(|&(number, _)| coarse[number] = true);
     for ((number, count), seen) in close.into_iter().zip(seen) {
         work.readings += u64::from(count);
         found[number] = seen.or(found[number]);
     }
+    Ok(found)
+}
+
+/// First looks at texels.
+fn looks(
+    places: &Places<'_>,
+    (ground, numbers, coarse): (&Ground<'_>, &[usize], &mut [bool]),
+    work: &mut Work<'_>,
+) -> Result<Vec<Option<Direct>>, LightmapError> {
+    let mut found = vec![None; ground.texels.len()];
+    // As a rule one in four texels is looked at closely, with eight times the places.
+    let after = After { pieces: 2.0 * numbers.len() as f64, other_s: 0.0 };
+    let texel = |number: usize| ground.texels[number];
+    let looks = work.each(numbers, after, |&number| shadow::look(places, texel(number)))?;
+    let (seen, unseen) = numbers.split_at(looks.len());
+    let glances = work.each_coarsely(unseen, |&number| shadow::glance(places, texel(number)))?;
+    work.readings += u64::from(shadow::FEW) * seen.len() as u64;
+    work.readings += u64::from(shadow::FEWEST) * unseen.len() as u64;
+    unseen.iter().for_each(|&number| coarse[number] = true);
+    numbers.iter().zip(looks.into_iter().chain(glances)).for_each(|(&number, look)| found[number] = look);
     Ok(found)
 }
 
@@ -173,20 +207,26 @@ fn variance_about(ground: &Ground<'_>, found: &[Option<Direct>], number: usize) 
     own.max(sum / count)
 }
 
-fn store(fragments: &[Fragment], known: Option<(IndirectReading, Direct)>, into: &mut Lightmap) {
+/// Puts a texel where it lies; whether its value is known.
+fn store(
+    fragments: &[Fragment],
+    known: Option<(IndirectReading, Direct)>,
+    into: &mut Lightmap,
+) -> bool {
     let texel = fragments[0].texel as usize;
     let largest = fragments.iter().max_by(|a, b| a.share.total_cmp(&b.share));
     into.owners[texel] = largest.map_or(0, |fragment| fragment.side);
     into.covers[texel] = Cover::Unknown;
-    let Some((indirect, direct)) = known else { return };
+    let Some((indirect, direct)) = known else { return false };
     let Rgb(lx) = direct.lx + indirect.lx;
     let error_lx = (indirect.error_lx * indirect.error_lx + direct.variance).sqrt();
     if !lx.iter().chain([&error_lx]).all(|c| (*c as f32).is_finite()) {
-        return;
+        return false;
     }
     let share = fragments.iter().map(|f| f64::from(f.share)).sum::<f64>().min(1.0);
     into.covers[texel] = Cover::Known;
     into.shown_lx[texel] = lx.map(|c| c as f32);
     into.standard_errors_lx[texel] = error_lx as f32;
     into.coverage[texel] = (share * direct.known) as f32;
+    true
 }

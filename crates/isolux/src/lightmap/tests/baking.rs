@@ -92,6 +92,6 @@ fn whoever_watches_can_stop_it() {
     let scene = floor();
     let map = map(&scene, |_| Some(1.0));
     let layout = plan(&scene, &settings(8.0), &UvUnwrap).unwrap();
-    let stopped = bake(&scene, &map, &layout, &mut |_| Watch::Stop);
+    let stopped = bake(&scene, &map, &layout, &mut |_| Pace::Stop);
     assert_eq!(stopped, Err(LightmapError::Stopped));
 }
