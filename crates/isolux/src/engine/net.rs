@@ -220,7 +220,7 @@ impl Net {
 
     /// How many texels are still to be gathered at, about: one of each square that has none yet, and a share of the rest, as far as it
     /// is not known yet that they can be continued.
-    fn foreseen(&self) -> f64 {
+    pub fn foreseen(&self) -> f64 {
         let parts = self.parts(self.fineness.widest / 2).into_iter();
         let (mut squares, mut waiting) = (0.0, 0.0);
         for part in parts.filter(|part| self.is_rough(part)) {
