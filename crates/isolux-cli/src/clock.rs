@@ -59,7 +59,9 @@ mod tests {
     #[test]
     fn solving_leaves_time_for_lightmaps_but_not_more_than_a_quarter() {
         let clock = Clock::start(Some(Duration::from_secs(1000)));
-        for (baking_s, expected_s) in [(0.0, 1000.0), (200.0, 800.0), (600.0, 750.0), (f64::INFINITY, 750.0)] {
+        for (baking_s, expected_s) in
+            [(0.0, 1000.0), (200.0, 800.0), (600.0, 750.0), (f64::INFINITY, 750.0)]
+        {
             let left_s = clock.for_solving(baking_s).unwrap().as_secs_f64();
             assert!((expected_s - 10.0..=expected_s).contains(&left_s), "{baking_s}: {left_s}");
         }
@@ -69,7 +71,11 @@ mod tests {
         assert!((320.0..=334.0).contains(&third_s), "{third_s}");
         assert!(clock.ahead_by(2000.0).is_up() && !clock.ahead_by(500.0).is_up());
         let over = Clock::start(Some(Duration::ZERO));
-        assert!(over.is_up() && over.next_of(2).is_up() && over.for_solving(1.0) == Some(Duration::ZERO));
+        assert!(
+            over.is_up()
+                && over.next_of(2).is_up()
+                && over.for_solving(1.0) == Some(Duration::ZERO)
+        );
         assert!(!Clock::start(Some(Duration::MAX)).is_up());
     }
 }

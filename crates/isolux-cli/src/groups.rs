@@ -127,7 +127,10 @@ pub(crate) fn run(
         groups: reports,
     };
     if lightmap.is_none() {
-        outputs.iter().chain([whole.output]).for_each(|output| lightmap::tell_of_older(output, &[]));
+        outputs
+            .iter()
+            .chain([whole.output])
+            .for_each(|output| lightmap::tell_of_older(output, &[]));
     }
     if let Some(lightmap) = lightmap {
         let lit = groups.iter().zip(&maps).map(|(group, map)| (&group.scene, map));

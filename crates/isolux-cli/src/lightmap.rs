@@ -11,8 +11,8 @@ use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::quantity::{show_bytes, show_count, show_seconds, show_share, significant};
 use isolux::lightmap::{
-    BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, OwnPlaces, Pace,
-    SeamReport, UvUnwrap, bake, lit_area_m2, plan,
+    BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, OwnPlaces,
+    Pace, SeamReport, UvUnwrap, bake, lit_area_m2, plan,
 };
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
@@ -70,11 +70,11 @@ impl Planned {
         }
     }
 
-    /// What it will be.
-    pub(crate) fn sizes(&self, scene: &Scene) -> Sizes {
+    /// What it will be, and what so many like it take.
+    pub(crate) fn sizes(&self, scene: &Scene, count: usize) -> Sizes {
         let Layout { width, height, pages, charts, texels_per_m, least_texels_per_m, .. } =
             self.layout;
-        let time_s = self.foreseen_s(scene);
+        let time_s = count as f64 * self.foreseen_s(scene);
         Sizes {
             width,
             height,
@@ -142,7 +142,12 @@ impl Planned {
     }
 
     /// What solving may take if so many lightmaps like this are to be baked before the time is up.
-    pub(crate) fn time_to_solve(&self, scene: &Scene, clock: Clock, count: usize) -> Option<Duration> {
+    pub(crate) fn time_to_solve(
+        &self,
+        scene: &Scene,
+        clock: Clock,
+        count: usize,
+    ) -> Option<Duration> {
         let foreseen_s = count as f64 * self.foreseen_s(scene);
         let limit = clock.for_solving(foreseen_s)?;
         let text = format!(

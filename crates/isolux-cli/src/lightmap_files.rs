@@ -108,10 +108,34 @@ pub(crate) fn older(glb: &Path, written: &[String]) -> Vec<String> {
 /// Whether isolux has written a picture: it says so in its header.
 fn is_ours(path: &Path) -> bool {
     let mut header = Vec::new();
-    let read = std::fs::File::open(path).and_then(|file| file.take(HEADER_BYTES).read_to_end(&mut header));
+    let read =
+        std::fs::File::open(path).and_then(|file| file.take(HEADER_BYTES).read_to_end(&mut header));
     read.is_ok() && header.windows(OURS.len()).any(|part| part == OURS)
 }
 
 fn unwritable(path: &Path, error: &LightmapFileError) -> Failure {
     Failure::Refused(format!("{}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn older_lightmaps_are_ours_and_not_written_just_now() {
+        let home = tempfile::tempdir().unwrap();
+        let path = |name: &str| home.path().join(name);
+        for (name, contents) in [
+            ("map.exr", "v/1..isolux..string"),
+            ("map-1.exr", "isolux"),
+            ("map-2.exr", "of another program"),
+            ("map.ktx2", "KTXwriter isolux 1.0"),
+            ("other.exr", "isolux"),
+        ] {
+            std::fs::write(path(name), contents).unwrap();
+        }
+        let shown = |name: &str| path(name).display().to_string();
+        let found = older(&path("map.glb"), &[shown("map.exr")]);
+        assert_eq!(found, [shown("map-1.exr"), shown("map.ktx2")]);
+    }
 }

@@ -154,7 +154,10 @@ impl State {
                 let (done, left) = (show_share(self.share), show_seconds(left_s));
                 format!("{what}: {done} done, about {left} left")
             }
-            None => format!("{what}: {} so far, what is left is not known yet", show_seconds(self.elapsed_s)),
+            None => format!(
+                "{what}: {} so far, what is left is not known yet",
+                show_seconds(self.elapsed_s)
+            ),
         }
     }
 }
@@ -182,6 +185,12 @@ mod tests {
         let report = Report { stage: "light", state };
         let json = serde_json::to_string(&report).unwrap();
         assert_eq!(json, r#"{"stage":"light","share":0.0,"elapsed_s":12.0,"left_s":null}"#);
+    }
+
+    #[test]
+    fn progress_is_shown_as_asked_for() {
+        assert!(matches!(Meter::new("light", Some(Asked::None)).shape, Shape::Silent));
+        assert!(matches!(Meter::new("light", Some(Asked::Json)).shape, Shape::Json));
     }
 
     #[test]

@@ -39,7 +39,8 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         };
         let memory_bytes = asked.request.max_memory_bytes;
         let lightmap = Planned::asked(&flags.layout, &scene, memory_bytes)?;
-        let lightmap = lightmap.map(|planned| planned.sizes(&scene));
+        let count = groups.map_or(1, |groups| groups.len() + 1);
+        let lightmap = lightmap.map(|planned| planned.sizes(&scene, count));
         return print_estimate(&DryRun { estimate, lightmap }, json);
     };
     let clock = Clock::start(asked.request.time_limit);
@@ -76,7 +77,8 @@ fn one(
 ) -> Result<Written, Failure> {
     saved_run::check_writable(output)?;
     let lightmap = Planned::ahead(&flags.layout, scene, (output, request.max_memory_bytes))?;
-    let saved = if flags.resume { saved_run::read(output, request.max_memory_bytes)? } else { None };
+    let saved =
+        if flags.resume { saved_run::read(output, request.max_memory_bytes)? } else { None };
     let mut cache = None;
     if let Some(path) = &flags.cache {
         // Samples take more memory than bytes of the file, and rays come on top.

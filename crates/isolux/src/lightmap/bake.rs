@@ -206,8 +206,12 @@ fn direct(
     let Looks { mut found, coarse_from, .. } = looks;
     let numbers: Vec<usize> =
         (0..ground.texels.len()).filter(|&number| indirect[number].is_some()).collect();
-    found.iter_mut().zip(indirect).for_each(|(found, indirect)| *found = found.filter(|_| indirect.is_some()));
-    let (looked, glanced) = numbers.split_at(numbers.partition_point(|&number| number < coarse_from));
+    found
+        .iter_mut()
+        .zip(indirect)
+        .for_each(|(found, indirect)| *found = found.filter(|_| indirect.is_some()));
+    let (looked, glanced) =
+        numbers.split_at(numbers.partition_point(|&number| number < coarse_from));
     work.readings += u64::from(shadow::FEW) * looked.len() as u64;
     work.readings += u64::from(shadow::FEWEST) * glanced.len() as u64;
     glanced.iter().for_each(|&number| coarse[number] = true);
