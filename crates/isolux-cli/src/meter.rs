@@ -20,6 +20,8 @@ const QUIET_S: f64 = 0.5;
 /// work after another tells better what is left, and one that was wrong for a moment is not to be seen.
 const BELIEVED_WITHIN_S: f64 = 1.0;
 const BELIEVED_WITHIN: f64 = 0.1;
+/// So small a share tells nothing of the rest.
+const LEAST_SHARE: f64 = 1e-4;
 
 /// Tells of one kind of work; the bar goes when this does.
 pub(crate) struct Meter {
@@ -126,7 +128,7 @@ struct Report {
 impl Foresight {
     fn learn(&mut self, elapsed_s: f64, share: f64) {
         // What is not a number, neither.
-        if !(share > 0.0 && elapsed_s > 0.0) {
+        if !(share > LEAST_SHARE && elapsed_s > 0.0) {
             return;
         }
         let told_s = elapsed_s / share.min(1.0);
@@ -203,12 +205,13 @@ mod tests {
         let left_s = foresight.at(10.05).left_s.unwrap();
         assert!((27.0..30.0).contains(&left_s), "{left_s}");
         // It lasts.
-        (1..=100).for_each(|k| foresight.learn(10.05 + 0.05 * f64::from(k), 0.8));
+        let times = |from_s: f64| (1..=100).map(move |k| from_s + 0.05 * f64::from(k));
+        times(10.05).for_each(|now_s| foresight.learn(now_s, now_s / 20.0));
         let state = foresight.at(15.05);
-        assert!((3.5..4.5).contains(&state.left_s.unwrap()), "{state:?}");
+        assert!((4.5..5.5).contains(&state.left_s.unwrap()), "{state:?}");
         // More is left than was foreseen: the share that is done stays.
         let before = state.share;
-        (1..=100).for_each(|k| foresight.learn(15.05 + 0.05 * f64::from(k), 0.3));
+        times(15.05).for_each(|now_s| foresight.learn(now_s, now_s / 60.0));
         let state = foresight.at(20.05);
         assert!(state.left_s.unwrap() > 30.0 && state.share == before, "{state:?}");
     }

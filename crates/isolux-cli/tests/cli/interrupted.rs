@@ -87,7 +87,7 @@ fn a_run_interrupted_in_baking_goes_on_with_it() {
     assert!(state["left_s"].is_null() || state["left_s"].as_f64().unwrap() >= 0.0, "{state}");
     assert!(said.contains("the texels are not baked") && said.contains("--resume"), "{said}");
     // What an earlier bake left beside the map is not of it.
-    assert!(said.contains("b.exr is of an earlier bake"), "{said}");
+    assert!(said.contains("b.exr: is of an earlier bake"), "{said}");
     assert_eq!(home.names(), ["b.checkpoint", "b.exr", "b.glb"]);
     let resumed = home.run(&[&sparse[..], &["--resume"]].concat());
     assert!(resumed.code == 0 && resumed.err.contains("is solved already"), "{resumed:?}");
