@@ -434,6 +434,17 @@ impl Seams {
 }
 
 impl Report {
+    fn texels_text(&self) -> String {
+        let coarse = match self.texels_coarse {
+            0 => String::new(),
+            count => format!(", {count} of them read coarsely"),
+        };
+        let Self { texels_known, texels_unknown, texels_filled, .. } = self;
+        format!(
+            "{texels_known} known{coarse}, {texels_unknown} unknown, {texels_filled} filled beside charts"
+        )
+    }
+
     /// For people.
     pub(crate) fn text(&self) -> String {
         let jump = |j: &JumpReport| {
@@ -463,20 +474,7 @@ impl Report {
                     self.charts
                 ),
             ),
-            (
-                "  texels",
-                format!(
-                    "{} known{}, {} unknown, {} filled beside charts",
-                    self.texels_known,
-                    if self.texels_coarse == 0 {
-                        String::new()
-                    } else {
-                        format!(", {} of them read coarsely", self.texels_coarse)
-                    },
-                    self.texels_unknown,
-                    self.texels_filled
-                ),
-            ),
+            ("  texels", self.texels_text()),
             ("  readings", show_count(self.readings as f64)),
             ("  time", show_seconds(self.time_s)),
         ];

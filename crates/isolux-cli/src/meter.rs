@@ -65,7 +65,7 @@ impl Meter {
             Shape::Silent => return,
         };
         // Lines come after a first pause, too: work that is shorter needs none.
-        let last_s = self.last_s.unwrap_or_else(|| match self.shape {
+        let last_s = self.last_s.unwrap_or(match self.shape {
             Shape::Lines => 0.0,
             _ => QUIET_S - pause_s,
         });
