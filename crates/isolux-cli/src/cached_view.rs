@@ -88,7 +88,7 @@ pub(crate) fn look(
     }
     interrupt.has_nothing_more_to_keep();
     let samples_time_s = started.elapsed().as_secs_f64();
-    let mut meter = Meter::new("view");
+    let mut meter = Meter::new("view", None);
     let read = |at: SurfacePoint| reader.glance(&place(at), 0);
     let watch = &mut |share| meter.tell(share);
     let view = trace_watched(scene, camera, size, &settings, (&read, watch));

@@ -81,7 +81,8 @@ pub(crate) struct SolveFlags {
     /// A name for an accuracy
     #[arg(long, value_enum)]
     pub quality: Option<Quality>,
-    /// Stop after this time with a valid map: 60s, 5min
+    /// Stop after this time with a valid map: 60s, 5min; with --layout texels baking is counted, and what of it is left by then
+    /// is read coarsely
     #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true)]
     pub time_limit: Option<Duration>,
     /// How to compute
@@ -99,7 +100,7 @@ pub(crate) struct SolveFlags {
     /// Leave the noise in: without it, single receivers are as far off as their standard errors say
     #[arg(long)]
     pub no_filter: bool,
-    /// Go on from where an earlier run with the same flags stopped: its state is kept beside the
+    /// Go on from where an earlier run with the same flags stopped, be it in baking: its state is kept beside the
     /// map, as MAP.checkpoint
     #[arg(long)]
     pub resume: bool,
@@ -109,7 +110,7 @@ pub(crate) struct SolveFlags {
     /// Solve every group of luminaires by itself, as MAP.GROUP.glb, and write their sum; see `mix`
     #[arg(long, conflicts_with = "cache")]
     pub group: bool,
-    /// Predict memory, receivers and time, and compute nothing
+    /// Predict memory, receivers and time, with --layout texels that of baking, too, and compute nothing
     #[arg(long)]
     pub dry_run: bool,
     /// Say on standard error what will be done and why

@@ -1,9 +1,10 @@
 //! `solve --group`: a map for every group of luminaires, and their sum.
 
+use crate::clock::Clock;
 use crate::console::{print, print_json, table};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
-use crate::flags::{LayoutName, SolveFlags};
+use crate::flags::{LayoutName, ProgressStyle, SolveFlags};
 use crate::lightmap::{self, Planned};
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
@@ -78,7 +79,7 @@ struct Turn<'a> {
 /// Solves all groups, writes their maps and the sum.
 pub(crate) fn run(
     (scene, groups): (&Scene, &[Group]),
-    whole: &Run,
+    (whole, clock): (&Run, Clock),
     flags: &SolveFlags,
     json: bool,
 ) -> Result<Outcome, Failure> {
@@ -86,11 +87,16 @@ pub(crate) fn run(
     let resume = flags.resume;
     let outputs = outputs(groups, whole.output)?;
     let lightmap = planned((scene, &outputs), whole, flags)?;
+    let mut request = whole.request.clone();
+    if let Some(lightmap) = &lightmap {
+        request.time_limit = lightmap.time_to_solve(scene, clock, groups.len() + 1);
+    }
+    let solving = Instant::now();
     let (mut maps, mut reports) = (Vec::new(), Vec::new());
     let mut outcome = Outcome::Done;
     for (number, (group, output)) in groups.iter().zip(&outputs).enumerate() {
         let left = groups.len() - number;
-        let turn = Turn { request: whole.request, resume, number, left, started };
+        let turn = Turn { request: &request, resume, number, left, started: solving };
         let reporter = &mut Reporter::new(flags.progress);
         let solved = solve_one(group, (whole.source, output), &turn, reporter)?;
         reports.push(GroupReport { group: group.name.clone(), report: solved.report });
@@ -120,13 +126,21 @@ pub(crate) fn run(
         sum: Report::of(&map, started.elapsed().as_secs_f64(), whole.output),
         groups: reports,
     };
+    if lightmap.is_none() {
+        outputs
+            .iter()
+            .chain([whole.output])
+            .for_each(|output| lightmap::tell_of_older(output, &[]));
+    }
     if let Some(lightmap) = lightmap {
         let lit = groups.iter().zip(&maps).map(|(group, map)| (&group.scene, map));
         let lit: Vec<_> = lit.zip(&outputs).chain([((&scene, &map), whole.output)]).collect();
-        match bake(&lightmap, &lit)? {
-            Some(baked) => report = report.with_lightmaps(baked),
-            None => outcome = Outcome::Interrupted,
-        }
+        let (ended, baked) = bake(&lightmap, &lit, (clock, flags.progress))?;
+        report = report.with_lightmaps(baked);
+        outcome = match (outcome, ended) {
+            (Outcome::Interrupted, _) | (_, Outcome::Done) => outcome,
+            _ => ended,
+        };
     }
     if json {
         print_json(&report)?
@@ -168,21 +182,26 @@ fn planned(
     Planned::ahead(&flags.layout, scene, (whole.output, whole.request.max_memory_bytes))
 }
 
-/// Writes all maps anew, as texels of one layout; nothing if interrupted, which leaves maps at vertices.
+/// Writes all maps anew, as texels of one layout; only the first of them if interrupted, which leaves the others at vertices.
 fn bake(
     planned: &Planned,
     lit: &[((&Scene, &IlluminationMap), &OutputPath)],
-) -> Result<Option<Vec<lightmap::Report>>, Failure> {
-    let mut reports = Vec::new();
+    (clock, progress): (Clock, Option<ProgressStyle>),
+) -> Result<(Outcome, Vec<lightmap::Report>), Failure> {
+    let (mut reports, mut outcome) = (Vec::new(), Outcome::Done);
     for (index, &((scene, map), output)) in lit.iter().enumerate() {
         note(Note::Info, format!("lightmap of {}", output.path().display()));
-        let Some(baked) = planned.bake(scene, map)? else {
+        let clock = clock.next_of(lit.len() - index);
+        let Some(baked) = planned.bake((scene, map), (clock, progress))? else {
             lit[index..].iter().for_each(|(_, output)| lightmap::tell_of_missing(output));
-            return Ok(None);
+            return Ok((Outcome::Interrupted, reports));
         };
         reports.push(baked.write(scene, map, (output, Target::Viewer, true))?);
+        if baked.is_coarse() {
+            outcome = Outcome::StoppedEarly;
+        }
     }
-    Ok(Some(reports))
+    Ok((outcome, reports))
 }
 
 struct SolvedGroup {

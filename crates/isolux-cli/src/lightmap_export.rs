@@ -1,8 +1,9 @@
 //! `isolux export` of lightmaps.
 
+use crate::clock::Clock;
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
-use crate::flags::ExportFlags;
+use crate::flags::{ExportFlags, LayoutFlags};
 use crate::lightmap::{Baked, Planned};
 use crate::lightmap_files::{self, Kind};
 use crate::map_file;
@@ -46,14 +47,17 @@ pub(crate) fn run(
         }
     }
     let MapFile { scene, map, lightmap } = map_file::read_with_texels(&flags.map)?;
+    let density = lightmap.as_ref().map(|held| held.layout.asked_texels_per_m);
     let held = lightmap.filter(|_| !flags.without_dark);
     let baked = match Baked::held(&flags.layout, &map, held) {
         Some(held) => held,
         None => {
             let dark =
                 if flags.without_dark { dark_sides(&scene, &map) } else { HashSet::default() };
-            let planned = Planned::new(&flags.layout, &scene, flags.max_memory, &dark)?;
-            let Some(baked) = planned.bake(&scene, &map)? else {
+            let texels_per_meter = flags.layout.texels_per_meter.or(density);
+            let layout = LayoutFlags { texels_per_meter, ..flags.layout };
+            let planned = Planned::new(&layout, &scene, flags.max_memory, &dark)?;
+            let Some(baked) = planned.bake((&scene, &map), (Clock::ENDLESS, None))? else {
                 note(Note::Warning, format!("{}: not written", output.path().display()));
                 return Ok(Outcome::Interrupted);
             };

@@ -7,7 +7,14 @@ use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_formats::lightmap::{LightmapFileError, Target, Way, write_exr, write_ktx2};
 use isolux_formats::map_glb::{Preview, TexelFile, write_texels};
+use std::io::Read;
 use std::path::{Path, PathBuf};
+
+/// Pages that are looked for: the largest lightmaps have a few.
+const MOST_LOOKED_FOR: u32 = 64;
+/// What stands within so many bytes of every lightmap.
+const OURS: &[u8] = b"isolux";
+const HEADER_BYTES: u64 = 8192;
 
 /// A lightmap alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,6 +93,49 @@ fn numbered(path: &Path, page: u32) -> PathBuf {
     path.with_file_name(name)
 }
 
+/// Lightmaps of an earlier bake that stay beside a `.glb`, other than those written just now.
+pub(crate) fn older(glb: &Path, written: &[String]) -> Vec<String> {
+    let kinds = [Kind::Exr, Kind::Ktx2].into_iter();
+    let pages = kinds.flat_map(|kind| {
+        let path = glb.with_extension(kind.extension());
+        // Pages are numbered without a gap, but for those that somebody has removed.
+        (0..MOST_LOOKED_FOR).map(move |page| numbered(&path, page))
+    });
+    let is_older = |path: &PathBuf| !written.contains(&path.display().to_string()) && is_ours(path);
+    pages.filter(is_older).map(|path| path.display().to_string()).collect()
+}
+
+/// Whether isolux has written a picture: it says so in its header.
+fn is_ours(path: &Path) -> bool {
+    let mut header = Vec::new();
+    let read =
+        std::fs::File::open(path).and_then(|file| file.take(HEADER_BYTES).read_to_end(&mut header));
+    read.is_ok() && header.windows(OURS.len()).any(|part| part == OURS)
+}
+
 fn unwritable(path: &Path, error: &LightmapFileError) -> Failure {
     Failure::Refused(format!("{}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn older_lightmaps_are_ours_and_not_written_just_now() {
+        let home = tempfile::tempdir().unwrap();
+        let path = |name: &str| home.path().join(name);
+        for (name, contents) in [
+            ("map.exr", "v/1..isolux..string"),
+            ("map-1.exr", "isolux"),
+            ("map-2.exr", "of another program"),
+            ("map.ktx2", "KTXwriter isolux 1.0"),
+            ("other.exr", "isolux"),
+        ] {
+            std::fs::write(path(name), contents).unwrap();
+        }
+        let shown = |name: &str| path(name).display().to_string();
+        let found = older(&path("map.glb"), &[shown("map.exr")]);
+        assert_eq!(found, [shown("map-1.exr"), shown("map.ktx2")]);
+    }
 }

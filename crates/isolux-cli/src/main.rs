@@ -3,6 +3,7 @@
 mod cache_samples;
 mod cached_view;
 mod check;
+mod clock;
 mod console;
 mod demo;
 mod dimming;

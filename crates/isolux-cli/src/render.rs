@@ -115,8 +115,8 @@ pub(crate) fn look(
     (width, height): (u32, u32),
 ) -> Result<(LuminanceImage, Gathered), Failure> {
     let size = Size::new(width, height).map_err(Failure::bad_input)?;
-    let mut gathering = Meter::new("indirect light of the view");
-    let mut looking = Meter::new("view");
+    let mut gathering = Meter::new("indirect light of the view", None);
+    let mut looking = Meter::new("view", None);
     let watch = &mut |progress| match progress {
         ViewProgress::Gathering(share) => gathering.tell(share),
         ViewProgress::Looking(share) => looking.tell(share),

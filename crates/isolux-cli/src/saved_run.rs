@@ -1,10 +1,13 @@
 //! `--resume`: the state of a run beside its map.
 
 use crate::failure::Failure;
+use crate::map_file;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::source::bad_file;
-use isolux::engine::{RunIdentity, RunState, SoFar, Sums};
+use isolux::engine::{RunIdentity, RunState, SoFar, SolveRequest, Sums};
+use isolux::map::IlluminationMap;
+use isolux::scene::Scene;
 use isolux_formats::checkpoint::{self, ArrayError, Checkpoint};
 use isolux_formats::{Problem, Problems, atomic};
 use serde::{Deserialize, Serialize};
@@ -68,6 +71,29 @@ impl<'a> Keeper<'a> {
         }
         self.due = Instant::now() + KEPT_AFTER.max(KEEPING * started.elapsed());
     }
+}
+
+/// The map that the saved run came to, if it is complete: what followed, as the baking of a lightmap, was not.
+pub(crate) fn complete_map(
+    saved: &RunState,
+    output: &OutputPath,
+    (scene, request): (&Scene, &SolveRequest),
+) -> Option<IlluminationMap> {
+    if !saved.is_of(scene, request) || !output.path().exists() {
+        return None;
+    }
+    let (_, map) = map_file::read(output.path()).ok()?;
+    let RunIdentity { scene_hash, version, method, seed, accuracy, .. } = &saved.identity;
+    let from = &map.provenance;
+    // An older map with other flags may still be there.
+    let is_of_run = from.scene_hash == *scene_hash
+        && from.version == *version
+        && from.method == *method
+        && from.seed == *seed
+        && from.accuracy_target == *accuracy
+        && (from.increments, from.rays) == (saved.increments, saved.rays)
+        && (request.filter || from.filter.is_none());
+    (from.complete && is_of_run).then_some(map)
 }
 
 /// Reads the state of an unfinished run; `None` where there is none.

@@ -1,5 +1,6 @@
 //! `isolux solve`: a scene to a map.
 
+use crate::clock::Clock;
 use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
@@ -11,6 +12,7 @@ use crate::progress::Reporter;
 use crate::report::Report;
 use crate::solving::{Run, Solved, estimate, solve};
 use crate::{cache_samples, explain, groups, map_file, request, saved_run, source};
+use isolux::engine::{IrradianceCache, RunState, Solution, SolveRequest};
 use isolux::scene::Scene;
 use isolux_formats::lightmap::Target;
 use serde::Serialize;
@@ -37,65 +39,117 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         };
         let memory_bytes = asked.request.max_memory_bytes;
         let lightmap = Planned::asked(&flags.layout, &scene, memory_bytes)?;
-        let lightmap = lightmap.map(|planned| planned.sizes(&scene));
+        let count = groups.map_or(1, |groups| groups.len() + 1);
+        let lightmap = lightmap.map(|planned| planned.sizes(&scene, count));
         return print_estimate(&DryRun { estimate, lightmap }, json);
     };
+    let clock = Clock::start(asked.request.time_limit);
     if let Some(groups) = groups {
         let run = Run { source: &flags.scene, output: &output, request: &asked.request };
-        return groups::run((&scene, &groups), &run, flags, json);
+        return groups::run((&scene, &groups), (&run, clock), flags, json);
     }
-    saved_run::check_writable(&output)?;
-    let lightmap =
-        Planned::ahead(&flags.layout, &scene, (&output, asked.request.max_memory_bytes))?;
+    one(flags, (&scene, &output), &mut asked.request, clock)?.print(json)
+}
+
+/// A map written, and how that ended.
+struct Written {
+    outcome: Outcome,
+    report: Report,
+}
+
+impl Written {
+    fn print(&self, json: bool) -> Result<Outcome, Failure> {
+        if json {
+            print_json(&self.report)?
+        } else {
+            print(&self.report.text())?
+        }
+        Ok(self.outcome)
+    }
+}
+
+/// Solves a scene, writes its map, bakes texels if asked to.
+fn one(
+    flags: &SolveFlags,
+    (scene, output): (&Scene, &OutputPath),
+    request: &mut SolveRequest,
+    clock: Clock,
+) -> Result<Written, Failure> {
+    saved_run::check_writable(output)?;
+    let lightmap = Planned::ahead(&flags.layout, scene, (output, request.max_memory_bytes))?;
     let saved =
-        if flags.resume { saved_run::read(&output, asked.request.max_memory_bytes)? } else { None };
+        if flags.resume { saved_run::read(output, request.max_memory_bytes)? } else { None };
     let mut cache = None;
     if let Some(path) = &flags.cache {
         // Samples take more memory than bytes of the file, and rays come on top.
-        let (file, samples) =
-            cache_samples::open(path, &scene, asked.request.max_memory_bytes / 4)?;
-        asked.request.cache = samples;
+        let (file, samples) = cache_samples::open(path, scene, request.max_memory_bytes / 4)?;
+        request.cache = samples;
         cache = Some(file);
     }
-    let mut reporter = Reporter::new(flags.progress);
-    let run = Run { source: &flags.scene, output: &output, request: &asked.request };
-    let solved = solve(&scene, &run, saved.as_ref(), &mut reporter)?;
-    let finished = matches!(solved.outcome, Outcome::Done);
-    map_file::write(&output, &scene, &solved.solution.map)?;
+    let earlier = saved.as_ref().and_then(|saved| earlier(saved, output, (scene, request)));
+    if let (Some(lightmap), None) = (&lightmap, &earlier) {
+        request.time_limit = lightmap.time_to_solve(scene, clock, 1);
+    }
+    let run = Run { source: &flags.scene, output, request };
+    let solved = match earlier {
+        Some(earlier) => earlier,
+        None => solve(scene, &run, saved.as_ref(), &mut Reporter::new(flags.progress))?,
+    };
+    map_file::write(output, scene, &solved.solution.map)?;
     if let Some(file) = &mut cache {
         cache_samples::keep(file, &solved.solution.cache);
     }
-    saved_run::keep(&output, &solved.solution.state, finished)?;
-    let (outcome, lightmap) = bake(&output, &scene, (&solved, lightmap))?;
-    let report = Report::of(&solved.solution.map, solved.solution.time_s, &output);
-    let report = report.with_lightmap(lightmap);
-    if json {
-        print_json(&report)?
-    } else {
-        print(&report.text())?
+    // Until a lightmap is written, too, there is something to go on with.
+    let finished = solved.outcome == Outcome::Done && lightmap.is_none();
+    saved_run::keep(output, &solved.solution.state, finished)?;
+    let (outcome, lightmap) = match &lightmap {
+        Some(planned) => bake(output, (scene, planned), &solved, (clock, flags.progress))?,
+        None => {
+            lightmap::tell_of_older(output, &[]);
+            (solved.outcome, None)
+        }
+    };
+    if outcome == Outcome::Done && !finished {
+        saved_run::keep(output, &solved.solution.state, true)?;
     }
-    Ok(outcome)
+    let report = Report::of(&solved.solution.map, solved.solution.time_s, output);
+    Ok(Written { outcome, report: report.with_lightmap(lightmap) })
 }
 
-/// Writes the map anew, as texels, if so planned. Interrupted it leaves the map at vertices, which is written
-/// already: hours of work are not lost by what follows.
+/// The map of an earlier run that was complete, and stopped only thereafter.
+fn earlier(
+    saved: &RunState,
+    output: &OutputPath,
+    (scene, request): (&Scene, &SolveRequest),
+) -> Option<Solved> {
+    let map = saved_run::complete_map(saved, output, (scene, request))?;
+    let text = format!("{}: is solved already", output.path().display());
+    note(Note::Info, text);
+    let solution =
+        Solution { map, state: saved.clone(), cache: IrradianceCache::default(), time_s: 0.0 };
+    Some(Solved { solution, outcome: Outcome::Done })
+}
+
+/// Writes the map anew, as texels. Interrupted it leaves the map at vertices, which is written already: hours of work
+/// are not lost by what follows.
 fn bake(
     output: &OutputPath,
-    scene: &Scene,
-    (solved, planned): (&Solved, Option<Planned>),
+    (scene, planned): (&Scene, &Planned),
+    solved: &Solved,
+    how: (Clock, Option<ProgressStyle>),
 ) -> Result<(Outcome, Option<lightmap::Report>), Failure> {
-    let Some(planned) = planned else { return Ok((solved.outcome, None)) };
     let map = &solved.solution.map;
     let baked = match solved.outcome {
         Outcome::Interrupted => None,
-        _ => planned.bake(scene, map)?,
+        _ => planned.bake((scene, map), how)?,
     };
     let Some(baked) = baked else {
         lightmap::tell_of_missing(output);
         return Ok((Outcome::Interrupted, None));
     };
     let report = baked.write(scene, map, (output, Target::Viewer, true))?;
-    Ok((solved.outcome, Some(report)))
+    let outcome = if baked.is_coarse() { Outcome::StoppedEarly } else { solved.outcome };
+    Ok((outcome, Some(report)))
 }
 
 /// What a run would need.
@@ -112,8 +166,11 @@ fn print_estimate(run: &DryRun, json: bool) -> Result<Outcome, Failure> {
         print_json(run)?;
     } else {
         let [receivers, memory, time] = run.estimate.shown();
-        let mut all = vec![("receivers", receivers), ("memory", memory), ("time", time)];
-        all.extend(run.lightmap.as_ref().map(|sizes| ("lightmap", sizes.text())));
+        let solving = if run.lightmap.is_some() { "time to solve" } else { "time" };
+        let mut all = vec![("receivers", receivers), ("memory", memory), (solving, time)];
+        if let Some(sizes) = &run.lightmap {
+            all.extend([("lightmap", sizes.text()), ("time to bake", sizes.time_text())]);
+        }
         print(&facts(&all))?;
     }
     Ok(Outcome::Done)

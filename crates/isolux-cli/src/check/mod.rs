@@ -116,7 +116,7 @@ impl Audit {
             ("mean illuminance", mean),
             ("receivers at 1 %", receivers),
             ("memory at 1 %", memory),
-            ("time to 1 %", time),
+            ("time to 1 %", format!("{time}; to bake lightmaps comes on top")),
         ]);
         text += "\n";
         text += &self.findings.iter().map(Finding::line).collect::<String>();

@@ -44,6 +44,80 @@ fn an_interrupted_run_says_that_texels_are_missing() {
     assert_eq!(home.names(), ["m.checkpoint", "m.glb"]);
 }
 
+/// A bake that takes more than a second.
+const BAKE: [&str; 10] = [
+    "solve",
+    "builtin:cube",
+    "-o",
+    "b.glb",
+    "--accuracy",
+    "2%",
+    "--layout",
+    "texels",
+    "--texels-per-meter",
+    "80",
+];
+
+/// Starts a bake and interrupts it; its exit code, the last it said of its progress, and what it said afterwards.
+fn interrupt_bake(home: &Home) -> (i32, serde_json::Value, String) {
+    let mut child = home.start(&[&BAKE[..], &["--progress", "json"]].concat());
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+    let state = lines
+        .by_ref()
+        .map(|line| serde_json::from_str(&line).unwrap())
+        .find(|state: &serde_json::Value| state["stage"] == "lightmap")
+        .unwrap();
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    let said = lines.collect();
+    (child.wait().unwrap().code().unwrap(), state, said)
+}
+
+#[test]
+fn a_run_interrupted_in_baking_goes_on_with_it() {
+    let home = Home::new();
+    let bytes = |name: &str| std::fs::read(home.path(name)).unwrap();
+    let sparse = [&BAKE[..9], &["2"]].concat();
+    assert_eq!(home.run(&sparse).code, 0);
+    let whole = (bytes("b.glb"), bytes("b.exr"));
+    let (code, state, said) = interrupt_bake(&home);
+    assert_eq!(code, 130, "{said}");
+    let share = state["share"].as_f64().unwrap();
+    assert!((0.0..=1.0).contains(&share) && state["elapsed_s"].as_f64().unwrap() > 0.0, "{state}");
+    assert!(state["left_s"].is_null() || state["left_s"].as_f64().unwrap() >= 0.0, "{state}");
+    assert!(said.contains("the texels are not baked") && said.contains("--resume"), "{said}");
+    // What an earlier bake left beside the map is not of it.
+    assert!(said.contains("b.exr: is of an earlier bake"), "{said}");
+    assert_eq!(home.names(), ["b.checkpoint", "b.exr", "b.glb"]);
+    let resumed = home.run(&[&sparse[..], &["--resume"]].concat());
+    assert!(resumed.code == 0 && resumed.err.contains("is solved already"), "{resumed:?}");
+    assert_eq!(home.names(), ["b.exr", "b.glb"]);
+    assert!((bytes("b.glb"), bytes("b.exr")) == whole, "the lightmaps differ");
+}
+
+#[test]
+fn a_bake_without_time_is_coarse_and_says_so() {
+    let home = Home::new();
+    assert_eq!(interrupt_bake(&home).0, 130);
+    let sparse = [&BAKE[..9], &["2", "--resume", "--json"]].concat();
+    let ran = home.run(&[&sparse[..], &["--time-limit", "1ms"]].concat());
+    assert!(ran.code == 3 && ran.err.contains("are read coarsely"), "{ran:?}");
+    let report = ran.json()["lightmap"].clone();
+    assert_eq!(report["texels_coarse"], report["texels_known"], "{report}");
+    assert!(report["texels_known"].as_u64().unwrap() > 2000, "{report}");
+    // It is not taken for what the map allows, and its density is kept.
+    let exported = home.run(&["export", "b.glb", "-o", "e.exr", "--json"]).json();
+    assert_eq!(exported["taken_from_map"], false, "{exported}");
+    assert_eq!(
+        (&exported["texels_coarse"], &exported["texels_per_meter"]),
+        (&0.into(), &2.0.into())
+    );
+    let whole = home.run(&sparse);
+    assert!(whole.code == 0 && whole.err.contains("is solved already"), "{whole:?}");
+    assert_eq!(whole.json()["lightmap"]["texels_coarse"], 0);
+    assert_eq!(home.names(), ["b.exr", "b.glb", "e.exr"]);
+}
+
 #[test]
 fn a_resumed_run_ends_with_the_bytes_of_one_that_was_never_stopped() {
     let home = Home::new();

@@ -260,6 +260,11 @@ fn a_dry_run_tells_the_size_of_a_lightmap() {
     assert_eq!(sizes["texels_of_surfaces"], 2400, "{sizes}");
     let size = |name: &str| sizes[name].as_u64().unwrap();
     assert_eq!(size("texels"), size("width") * size("height"));
+    let times =
+        ["time_earliest_s", "time_s", "time_latest_s"].map(|name| sizes[name].as_f64().unwrap());
+    assert!(0.0 < times[0] && times[0] < times[1] && times[1] < times[2], "{sizes}");
+    let text = home.run(&[&["solve", "builtin:cube", "--dry-run"], &texels[..]].concat()).out;
+    assert!(text.contains("on top of the time to solve"), "{text}");
     assert!(home.names().is_empty());
 }
 

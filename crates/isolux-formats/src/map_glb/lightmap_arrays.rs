@@ -32,6 +32,13 @@ pub(super) struct LightmapRecord {
     own_places: OwnPlaces,
     seams: SeamReport,
     readings: u64,
+    /// Left out where there are none.
+    #[serde(default, skip_serializing_if = "is_none")]
+    coarse: u64,
+}
+
+fn is_none(count: &u64) -> bool {
+    *count == 0
 }
 
 /// Writes the texels; nothing where JSON cannot hold what is known of their seams.
@@ -71,6 +78,7 @@ pub(super) fn write(
         own_places: layout.own_places,
         seams: lightmap.seams,
         readings: lightmap.readings,
+        coarse: lightmap.coarse,
     })
 }
 
@@ -117,6 +125,7 @@ pub(super) fn read(
         coverage: single(COVERAGE)?,
         seams: record.seams,
         readings: record.readings,
+        coarse: record.coarse,
     };
     Lightmap::from_arrays(arrays, scene).map_err(|error| fault(error.to_string()))
 }

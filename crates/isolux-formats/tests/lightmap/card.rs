@@ -1,9 +1,8 @@
 //! A grey card on a table, both white-lit by a known illuminance.
 
 use isolux::elements::Subdivision;
-use isolux::engine::Watch;
 use isolux::geometry::Direction;
-use isolux::lightmap::{Lightmap, LightmapSettings, UvUnwrap, bake, plan};
+use isolux::lightmap::{Lightmap, LightmapSettings, Pace, UvUnwrap, bake, plan};
 use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
 use isolux::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape};
 use isolux::units::Rgb;
@@ -77,7 +76,7 @@ pub(crate) fn map(scene: &Scene) -> IlluminationMap {
 pub(crate) fn lightmap(scene: &Scene, map: &IlluminationMap) -> Lightmap {
     let settings = LightmapSettings { texels_per_m: Some(10.0), ..LightmapSettings::default() };
     let layout = plan(scene, &settings, &UvUnwrap).unwrap();
-    bake(scene, map, &layout, &mut |_| Watch::Continue).unwrap()
+    bake(scene, map, &layout, &mut |_| Pace::Whole).unwrap()
 }
 
 /// The texel in the middle of the card.

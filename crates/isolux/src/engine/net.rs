@@ -138,6 +138,8 @@ pub struct Net {
     /// Of each square, what was gathered.
     nodes: Vec<Vec<usize>>,
     by_place: HashMap<(u64, [usize; 2]), usize>,
+    /// Whether less was gathered than was asked for.
+    is_cut_short: bool,
 }
 
 /// What comes next.
@@ -166,19 +168,24 @@ impl Net {
         let by_place = squares.iter().enumerate().map(|(k, of)| (key(&wanted[of.start]), k));
         let by_place = by_place.collect();
         let (light, nodes) = (vec![Light::Waiting; wanted.len()], vec![Vec::new(); squares.len()]);
-        Self { fineness, wanted, light, squares, nodes, by_place }
+        Self { fineness, wanted, light, squares, nodes, by_place, is_cut_short: false }
     }
 
     /// Gathers light, step by step, and continues it to all texels. `gather` is told the numbers of texels to gather at, and
-    /// how many more are expected after them.
+    /// how many more are expected after them. Where it gives readings of the first of them alone no more is asked of it: light is
+    /// continued only to where it is known how good that is.
     pub fn fill<E>(
         &mut self,
         mut gather: impl FnMut(&[usize], f64) -> Result<Vec<Option<IndirectReading>>, E>,
     ) -> Result<(), E> {
         let middles = self.squares.iter().map(|square| self.middle(square.clone())).collect();
         let mut one_step = |net: &mut Self, chosen: Vec<usize>, after: f64| {
+            if net.is_cut_short {
+                return Ok(());
+            }
             let numbers: Vec<usize> = chosen.iter().map(|&k| net.wanted[k].number).collect();
             let gathered = gather(&numbers, after)?;
+            net.is_cut_short = gathered.len() < numbers.len();
             net.store(&chosen, &gathered);
             Ok(())
         };
@@ -194,6 +201,11 @@ impl Net {
         Ok(())
     }
 
+    /// Whether less was gathered than was asked for.
+    pub fn is_cut_short(&self) -> bool {
+        self.is_cut_short
+    }
+
     /// What all texels have come to.
     pub fn filled(&self) -> impl Iterator<Item = Filled> + '_ {
         self.wanted.iter().zip(&self.light).map(|(wanted, light)| {
@@ -206,11 +218,16 @@ impl Net {
         })
     }
 
-    /// How many texels are still to be gathered at, about: one of each square that has none yet, and a share of the rest.
-    fn foreseen(&self) -> f64 {
-        let waiting = self.light.iter().filter(|light| **light == Light::Waiting).count() as f64;
-        let parts = self.parts(self.fineness.widest / 2);
-        let squares = parts.into_iter().filter(|square| !self.has_gathered(square)).count() as f64;
+    /// How many texels are still to be gathered at, about: one of each square that has none yet, and a share of the rest, as far as it
+    /// is not known yet that they can be continued.
+    pub fn foreseen(&self) -> f64 {
+        let parts = self.parts(self.fineness.widest / 2).into_iter();
+        let (mut squares, mut waiting) = (0.0, 0.0);
+        for part in parts.filter(|part| self.is_rough(part)) {
+            let light = &self.light[part.clone()];
+            waiting += light.iter().filter(|light| **light == Light::Waiting).count() as f64;
+            squares += f64::from(u8::from(!self.has_gathered(&part)));
+        }
         let finest = (self.fineness.finest * self.fineness.finest) as f64;
         squares + REFINED * (waiting - squares) / finest
     }
@@ -387,10 +404,14 @@ impl Net {
 
     /// Texels that are left and cannot be continued: they are to be gathered, too.
     fn left(&self) -> Vec<usize> {
-        let is_told =
-            |k: usize| self.continued(k).is_some_and(|c| c.beyond <= self.fineness.most_beyond());
+        let is_told = |k: usize| self.continued(k).is_some_and(|c| self.is_near(&c));
         let is_left = |&k: &usize| self.light[k] == Light::Waiting && !is_told(k);
         (0..self.light.len()).filter(is_left).collect()
+    }
+
+    /// Whether a plane is continued no farther than is allowed.
+    fn is_near(&self, continued: &Continued) -> bool {
+        continued.beyond <= self.fineness.most_beyond()
     }
 
     /// Continues light to the texels that are left.
@@ -398,9 +419,13 @@ impl Net {
         let mut continued = Vec::new();
         for part in self.parts(self.fineness.widest / 2) {
             let found = self.found_about(&part);
+            if self.is_cut_short && found.is_none() {
+                continue;
+            }
             let found = found.map_or(0.0, |found| found.squared);
             for k in part.filter(|&k| self.light[k] == Light::Waiting) {
-                if let Some(Continued { reading, squared, .. }) = self.continued(k) {
+                let told = self.continued(k).filter(|c| !self.is_cut_short || self.is_near(c));
+                if let Some(Continued { reading, squared, .. }) = told {
                     let left = SHRINK * found.max(squared).sqrt();
                     let error_lx = libm::hypot(reading.error_lx, left);
                     continued.push((k, IndirectReading { error_lx, ..reading }));

@@ -48,6 +48,13 @@ pub struct RunIdentity {
     pub radiosity: RadiositySettings,
 }
 
+impl RunState {
+    /// Whether it is of the run that a request asks for.
+    pub fn is_of(&self, scene: &Scene, request: &SolveRequest) -> bool {
+        self.identity == RunIdentity::of(scene, request)
+    }
+}
+
 impl RunIdentity {
     pub(super) fn of(scene: &Scene, request: &SolveRequest) -> Self {
         Self {

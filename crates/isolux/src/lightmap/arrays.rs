@@ -24,6 +24,8 @@ pub struct LightmapArrays {
     pub seams: SeamReport,
     /// Readings of the map behind all texels.
     pub readings: u64,
+    /// Texels read in a cheaper way than the map allows.
+    pub coarse: u64,
 }
 
 /// Why arrays are no lightmap of a scene.
@@ -59,13 +61,14 @@ impl Lightmap {
             coverage: known().map(|texel| self.coverage[texel]).collect(),
             seams: self.seams,
             readings: self.readings,
+            coarse: self.coarse,
         }
     }
 
     /// From arrays of any origin, over a scene.
     pub fn from_arrays(arrays: LightmapArrays, scene: &Scene) -> Result<Self, LightmapArraysError> {
         check(&arrays, scene)?;
-        let LightmapArrays { layout, covers, seams, readings, .. } = arrays;
+        let LightmapArrays { layout, covers, seams, readings, coarse, .. } = arrays;
         let count = covers.len();
         let mut made = Self {
             shown_lx: vec![[0.0; 3]; count],
@@ -76,6 +79,7 @@ impl Lightmap {
             covers,
             seams,
             readings,
+            coarse,
         };
         let mut filled = arrays.shown_lx.into_iter().zip(arrays.owners);
         let mut known = arrays.standard_errors_lx.into_iter().zip(arrays.coverage);

@@ -42,3 +42,4 @@ pub use plan::{BYTES_PER_TEXEL, LightmapError, LightmapSettings, plan, plan_with
 pub use seam_report::{Jump, SeamReport};
 pub use texels::{Cover, Lightmap, Texel};
 pub use unwrap::UvUnwrap;
+pub use work::Pace;

@@ -103,6 +103,16 @@ impl Places<'_> {
         (survey, asked.len() as u64)
     }
 
+    /// As the map interpolates it in the middle of the largest part that it knows, be it to be trusted there or not.
+    pub(super) fn interpolated(&self, fragments: &[Fragment]) -> Option<IndirectReading> {
+        let mut largest: Vec<&Fragment> = fragments.iter().collect();
+        largest.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
+        largest.into_iter().find_map(|fragment| {
+            let at = cover::polygon(self.layout, fragment).centroid();
+            self.reader.interpolated_at(self.on_side(Place { side: fragment.side, at }))
+        })
+    }
+
     /// So many places, evenly over the area on the surface, by random numbers of their own.
     fn spread(
         &self,

@@ -9,8 +9,11 @@ use crate::units::Rgb;
 /// Places of a first look at a texel, and of as many as one may get.
 pub(super) const FEW: u32 = 4;
 const MANY: u32 = 64;
-/// Shadow rays at a place.
+/// Places of a texel for which there is no time.
+pub(super) const FEWEST: u32 = 2;
+/// Shadow rays at a place, and where there is no time.
 const RAYS: usize = 16;
+const FEWEST_RAYS: usize = 4;
 
 /// Mean over places.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +28,12 @@ pub(super) struct Direct {
 
 /// A first look at a texel; nothing where the map knows none of the places.
 pub(super) fn look(places: &Places<'_>, fragments: &[Fragment]) -> Option<Direct> {
-    mean(places, fragments, (FEW, places.key(fragments[0].texel).with(0)))
+    mean(places, fragments, (FEW, RAYS), places.key(fragments[0].texel).with(0))
+}
+
+/// The same where there is no time.
+pub(super) fn glance(places: &Places<'_>, fragments: &[Fragment]) -> Option<Direct> {
+    mean(places, fragments, (FEWEST, FEWEST_RAYS), places.key(fragments[0].texel).with(0))
 }
 
 /// How many places it takes for an error of `goal_lx`, where a first look has this variance; nothing if that look does.
@@ -42,14 +50,19 @@ pub(super) fn look_closely(
     fragments: &[Fragment],
     count: u32,
 ) -> Option<Direct> {
-    mean(places, fragments, (count, places.key(fragments[0].texel).with(1)))
+    mean(places, fragments, (count, RAYS), places.key(fragments[0].texel).with(1))
 }
 
-fn mean(places: &Places<'_>, fragments: &[Fragment], (count, key): (u32, Key)) -> Option<Direct> {
+fn mean(
+    places: &Places<'_>,
+    fragments: &[Fragment],
+    (count, rays): (u32, usize),
+    key: Key,
+) -> Option<Direct> {
     let (over_area, of_light) = (Sequence::new(key), Sequence::new(key.with(3)));
     let read = |index: u32| {
         let place = places.place(fragments, over_area.pair(index, 0));
-        places.direct(place, RAYS, (of_light, index))
+        places.direct(place, rays, (of_light, index))
     };
     let found: Vec<Rgb> = (0..count).filter_map(read).collect();
     let n = found.len() as f64;

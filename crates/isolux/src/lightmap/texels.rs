@@ -49,6 +49,8 @@ pub struct Lightmap {
     pub seams: SeamReport,
     /// Readings of the map behind all texels.
     pub readings: u64,
+    /// Texels that were read in a cheaper way than the map allows, as time ran out.
+    pub coarse: u64,
 }
 
 impl Lightmap {

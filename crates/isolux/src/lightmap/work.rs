@@ -1,17 +1,29 @@
 //! Work on many texels, watched.
 
 use super::plan::LightmapError;
-use crate::engine::Watch;
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// Pieces of work between two looks at whether to go on.
+/// Pieces of work between two looks at how to go on.
 const BLOCK: usize = 256;
+
+/// How baking is to go on, as whoever watches says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// As well as the map allows.
+    Whole,
+    /// From now on in the cheapest way that gives every texel a value: there is no more time. What has been read stays.
+    Coarse,
+    /// Not at all.
+    Stop,
+}
 
 /// Work done so far, and whoever watches it.
 pub(super) struct Work<'a> {
-    watch: &'a mut dyn FnMut(f64) -> Watch,
+    watch: &'a mut dyn FnMut(f64) -> Pace,
     started: Instant,
+    /// Whether there is no more time: whoever has said so once is not asked whether it still holds.
+    pub(super) is_coarse: bool,
     /// Readings of the map.
     pub(super) readings: u64,
 }
@@ -32,16 +44,35 @@ impl After {
 
 impl<'a> Work<'a> {
     /// Nothing done yet.
-    pub(super) fn new(watch: &'a mut dyn FnMut(f64) -> Watch) -> Self {
-        Self { watch, started: Instant::now(), readings: 0 }
+    pub(super) fn new(watch: &'a mut dyn FnMut(f64) -> Pace) -> Self {
+        Self { watch, started: Instant::now(), is_coarse: false, readings: 0 }
     }
 
-    /// Does something to each of many, on all threads; results are in their order. Whoever watches is told the share
-    /// of all work that is done, by the time that the pieces done so far took.
+    /// Does something to each of many, on all threads; results are in their order. They are those of the first of them alone
+    /// where the time ends before all are done. Whoever watches is told the share of all work that is done, by the time that the
+    /// pieces done so far took.
     pub(super) fn each<T: Sync, R: Send>(
         &mut self,
         all: &[T],
         after: After,
+        one: impl Fn(&T) -> R + Sync,
+    ) -> Result<Vec<R>, LightmapError> {
+        self.blocks((all, after), true, one)
+    }
+
+    /// The same for what is so cheap that it is done even where the time has ended.
+    pub(super) fn each_coarsely<T: Sync, R: Send>(
+        &mut self,
+        all: &[T],
+        one: impl Fn(&T) -> R + Sync,
+    ) -> Result<Vec<R>, LightmapError> {
+        self.blocks((all, After::default()), false, one)
+    }
+
+    fn blocks<T: Sync, R: Send>(
+        &mut self,
+        (all, after): (&[T], After),
+        takes_time: bool,
         one: impl Fn(&T) -> R + Sync,
     ) -> Result<Vec<R>, LightmapError> {
         let started = Instant::now();
@@ -52,8 +83,13 @@ impl<'a> Work<'a> {
             let left_s = pieces * a_piece_s + after.other_s;
             let past_s = self.started.elapsed().as_secs_f64();
             let share = if done.is_empty() { 0.0 } else { past_s / (past_s + left_s) };
-            if (self.watch)(share) == Watch::Stop {
-                return Err(LightmapError::Stopped);
+            match (self.watch)(share) {
+                Pace::Whole => {}
+                Pace::Coarse => self.is_coarse = true,
+                Pace::Stop => return Err(LightmapError::Stopped),
+            }
+            if takes_time && self.is_coarse {
+                break;
             }
             done.par_extend(block.par_iter().map(&one));
         }
@@ -69,8 +105,8 @@ impl<'a> Work<'a> {
         let apart = all.len().div_ceil(few).max(1);
         let some: Vec<&T> = all.iter().step_by(apart).collect();
         let started = Instant::now();
-        self.each(&some, After::UNFORESEEN, |piece| one(piece))?;
-        let share = all.len() as f64 / some.len().max(1) as f64;
+        let done = self.each(&some, After::UNFORESEEN, |piece| one(piece))?;
+        let share = all.len() as f64 / done.len().max(1) as f64;
         Ok(started.elapsed().as_secs_f64() * share)
     }
 }

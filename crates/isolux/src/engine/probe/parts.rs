@@ -15,6 +15,8 @@ use crate::units::Rgb;
 /// How light differs within a surface counts as if it had been read at so many places of it: for the mean over all of it that is
 /// more than enough, for its middle just so.
 const AS_OF_PLACES: f64 = 4.0;
+/// What indirect light that is interpolated where no ray has looked whether the map is to be trusted may err by, of itself.
+const OF_UNLOOKED: f64 = 0.1;
 
 impl MapReader<'_> {
     /// One estimate of the direct light of a place, caustics of the map included, by about `rays` shadow rays: it
@@ -50,6 +52,21 @@ impl MapReader<'_> {
             None => Told::Light(self.reading(&self.with_interpolation_error(stored), 0.0)),
             Some(trial) => Told::Little { in_gap: trial.in_gap },
         })
+    }
+
+    /// Indirect light as the map interpolates it, be it to be trusted there or not: no ray looks. Its error is what a map
+    /// trusted everywhere would be told to err by and a share of the light, for what stands before the place and elements do not know.
+    /// `None` where the map knows nothing.
+    pub fn interpolated_at(
+        &self,
+        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+    ) -> Option<IndirectReading> {
+        let stored = self.map.interpolate(triangle, back, u, v)?;
+        let interpolation_error_lx = libm::hypot(
+            self.unseen.discretization_lx.max(stored.interpolation_error_lx),
+            OF_UNLOOKED * stored.indirect_lx.luminance(),
+        );
+        Some(self.reading(&Illuminance { interpolation_error_lx, ..stored }, 0.0))
     }
 
     /// Indirect light as [`MapReader::at`] reads it, but gathered also where interpolation is expected to err by more than is

@@ -46,6 +46,37 @@ fn gathered(
 }
 
 #[test]
+fn a_net_cut_short_asks_no_more_and_continues_only_what_it_knows() {
+    let lx = |[x, y]: [usize; 2]| 100.0 + 0.1 * x as f64 + 0.05 * y as f64;
+    let at = |number: usize| [number % SIZE, number / SIZE];
+    // All of the first squares and half of the second.
+    let (first, second) = (SIZE * SIZE / 64, SIZE * SIZE / 16 - SIZE * SIZE / 64);
+    for left in [first / 2, first, first + second / 2] {
+        let mut net = net(SIZE, |_| 0);
+        let (mut given, mut is_over) = (0, false);
+        let Ok(()) = net.fill(|numbers, _| -> Result<_, Infallible> {
+            assert!(!is_over, "asked again");
+            let some = &numbers[..numbers.len().min(left - given)];
+            given += some.len();
+            is_over = some.len() < numbers.len();
+            Ok(some.iter().map(|&number| Some(reading(lx(at(number))))).collect())
+        });
+        assert!(net.is_cut_short());
+        assert_eq!(net.filled().filter(|filled| filled.is_gathered).count(), left);
+        let known: Vec<(usize, IndirectReading)> =
+            net.filled().filter_map(|filled| Some((filled.number, filled.reading?))).collect();
+        let is_near = |(number, told): &(usize, IndirectReading)| {
+            (told.lx.luminance() - lx(at(*number))).abs() < told.error_lx
+        };
+        assert!(known.iter().all(is_near));
+        // The first squares alone tell a few differences; half of the second tells them for half of all.
+        let count = known.len();
+        assert!(count >= left && count < SIZE * SIZE, "{left}: {count}");
+        assert!(left <= first || count > SIZE * SIZE / 3, "{left}: {count}");
+    }
+}
+
+#[test]
 fn smooth_light_is_gathered_at_one_texel_of_sixteen() {
     // Half a lux from square to square of 4 x 4: the half of an error that is left to be continued.
     let smooth = |[x, y]: [usize; 2]| 100.0 + 0.1 * x as f64 + 0.05 * y as f64;

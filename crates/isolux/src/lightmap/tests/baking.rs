@@ -88,11 +88,39 @@ fn a_lightmap_does_not_depend_on_the_number_of_threads() {
 }
 
 #[test]
+fn who_has_no_time_gets_all_texels_coarsely() {
+    let scene = floor();
+    let map = map(&scene, |[x, y, _]| Some(100.0 + 30.0 * x * y));
+    let layout = plan(&scene, &settings(8.0), &UvUnwrap).unwrap();
+    let whole = baked(&scene, &map, 8.0);
+    assert_eq!(whole.coarse, 0);
+    let coarse = bake(&scene, &map, &layout, &mut |_| Pace::Coarse).unwrap();
+    assert_eq!(coarse.covers, whole.covers);
+    assert_eq!(coarse.coarse, whole.count(Cover::Known) as u64);
+    for texel in 0..whole.covers.len() {
+        let (Some(whole), Some(coarse)) = (whole.texel(texel), coarse.texel(texel)) else {
+            continue;
+        };
+        let off = (whole.illuminance_lx - coarse.illuminance_lx).luminance().abs();
+        assert!(off < 2.0 * coarse.standard_error_lx, "{texel}: {off} {coarse:?}");
+        assert!(coarse.standard_error_lx > whole.standard_error_lx);
+    }
+    // Time that ends on the way leaves what was read before.
+    let mut looks = 0;
+    let mut later = |_| {
+        looks += 1;
+        if looks > 1 { Pace::Coarse } else { Pace::Whole }
+    };
+    let part = bake(&scene, &map, &layout, &mut later).unwrap();
+    assert!(part.coarse > 0 && part.covers == whole.covers);
+}
+
+#[test]
 fn whoever_watches_can_stop_it() {
     let scene = floor();
     let map = map(&scene, |_| Some(1.0));
     let layout = plan(&scene, &settings(8.0), &UvUnwrap).unwrap();
-    let stopped = bake(&scene, &map, &layout, &mut |_| Watch::Stop);
+    let stopped = bake(&scene, &map, &layout, &mut |_| Pace::Stop);
     assert_eq!(stopped, Err(LightmapError::Stopped));
 }
 

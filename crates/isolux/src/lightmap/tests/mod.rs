@@ -8,7 +8,6 @@ mod stitching;
 
 use super::*;
 use crate::elements::Subdivision;
-use crate::engine::Watch;
 use crate::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
 use crate::scene::{Finish, Material, Scene, SceneParts, Shape};
 use crate::units::Rgb;
@@ -81,5 +80,5 @@ pub(super) fn settings(texels_per_m: f64) -> LightmapSettings {
 
 pub(super) fn baked(scene: &Scene, map: &IlluminationMap, texels_per_m: f64) -> Lightmap {
     let layout = plan(scene, &settings(texels_per_m), &UvUnwrap).unwrap();
-    bake(scene, map, &layout, &mut |_| Watch::Continue).unwrap()
+    bake(scene, map, &layout, &mut |_| Pace::Whole).unwrap()
 }
