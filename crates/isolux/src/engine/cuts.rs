@@ -113,15 +113,14 @@ impl Cuts {
 /// side. In the order of their numbers; `light_lx` of a vertex is what is known of it.
 pub(super) fn shaded(
     scene: &Scene,
-    elements: &Elements,
+    subdivision: &Subdivision,
     sides: &[Side],
     light_lx: impl Fn(u32) -> Option<f64> + Sync,
 ) -> Vec<u32> {
-    let look = Look { scene, elements };
-    let place = |vertex: u32| elements.vertices()[vertex as usize].position;
+    let place = |vertex: u32| subdivision.vertices()[vertex as usize].position;
     // Of every dark vertex beside light, whether all of that lies beyond something.
     let of_side = |side: &Side| {
-        let corners = elements.node(side.node).vertices;
+        let corners = subdivision.node(side.node).0.vertices;
         let most = corners.iter().filter_map(|&v| light_lx(v)).fold(0.0, f64::max);
         let known = corners.into_iter().filter(|&v| light_lx(v).is_some());
         let is_dark = |&v: &u32| light_lx(v).is_some_and(|lx| lx <= DARK * most);
@@ -131,7 +130,7 @@ pub(super) fn shaded(
         }
         let above = side.above(scene);
         let is_behind = |from: u32, to: u32| {
-            look.blocked_at(place(from), place(to), &above).is_some_and(|at| at <= JUST_BEHIND)
+            blocked_at(scene, place(from), place(to), &above).is_some_and(|at| at <= JUST_BEHIND)
         };
         dark.into_iter().map(|from| (from, lit.iter().all(|&to| is_behind(from, to)))).collect()
     };
@@ -179,7 +178,8 @@ impl Look<'_> {
         let above = side.above(self.scene);
         let vertices = self.elements.node(side.node).vertices;
         let corners = vertices.map(|v| self.elements.vertices()[v as usize].position);
-        let blocked = |k: usize| self.blocked_at(corners[k % 3], corners[(k + 1) % 3], &above);
+        let blocked =
+            |k: usize| blocked_at(self.scene, corners[k % 3], corners[(k + 1) % 3], &above);
         let edges = [0, 1, 2].map(blocked);
         if let [Some(at), None, None] | [None, Some(at), None] | [None, None, Some(at)] = edges {
             let corner = edges.iter().position(Option::is_some)?;
@@ -195,33 +195,35 @@ impl Look<'_> {
             return None;
         }
         let at = |k: usize| {
-            self.blocked_at(corners[corner], corners[(corner + k) % 3], &above).map(|t| 1.0 / t)
+            blocked_at(self.scene, corners[corner], corners[(corner + k) % 3], &above)
+                .map(|t| 1.0 / t)
         };
         Some(Cut { corner, over: [at(1)?, at(2)?] })
-    }
-
-    /// Where on the way between two places of a surface something stands, as a share of it.
-    fn blocked_at(&self, from: Point, to: Point, above: &SurfacePoint) -> Option<f64> {
-        let way = |height_m: f64| {
-            let raised = |p: Point| p + Normal::to_vector(above.geometric) * height_m;
-            Ray::between(raised(from), raised(to)).skipping(above.triangle)
-        };
-        // Panes part light, too.
-        self.scene.bvh().closest_hit(&way(NEAR * (to - from).length()))?;
-        let at = f64::from(self.scene.bvh().closest_hit(&way(LOW * above.away_m))?.t);
-        // What stands at an end may as well stand on the other side of it.
-        (at > AT_END && at < 1.0 - AT_END).then_some(at)
     }
 
     fn end_seen(&self, vertex: u32, above: &SurfacePoint) -> Option<u32> {
         let vertices = self.elements.vertices();
         let ends = vertices[vertex as usize].parents?;
         let place = |v: u32| vertices[v as usize].position;
-        let sees = ends.map(|end| self.blocked_at(place(vertex), place(end), above).is_none());
+        let sees =
+            ends.map(|end| blocked_at(self.scene, place(vertex), place(end), above).is_none());
         match sees {
             [true, false] => Some(ends[0]),
             [false, true] => Some(ends[1]),
             _ => None,
         }
     }
+}
+
+/// Where on the way between two places of a surface something stands, as a share of it.
+fn blocked_at(scene: &Scene, from: Point, to: Point, above: &SurfacePoint) -> Option<f64> {
+    let way = |height_m: f64| {
+        let raised = |p: Point| p + Normal::to_vector(above.geometric) * height_m;
+        Ray::between(raised(from), raised(to)).skipping(above.triangle)
+    };
+    // Panes part light, too.
+    scene.bvh().closest_hit(&way(NEAR * (to - from).length()))?;
+    let at = f64::from(scene.bvh().closest_hit(&way(LOW * above.away_m))?.t);
+    // What stands at an end may as well stand on the other side of it.
+    (at > AT_END && at < 1.0 - AT_END).then_some(at)
 }

@@ -202,9 +202,9 @@ const MOST_FOLLOWED: usize = 100;
 const MAX_SWEEPS: usize = 2000;
 
 /// Light of less than this share of the root mean square counts as that much: changes of what is next to nothing need not settle.
-const FAINT: f64 = 1e-5;
+const FAINT: f64 = 1e-3;
 /// What changes most may change so many times as much as all do in the root mean square: a small room beside a bright yard is to settle, too.
-const MOST_UNSETTLED: f64 = 3.0;
+const MOST_UNSETTLED: f64 = 10.0;
 
 /// How far a sweep has gone.
 struct Settling {

@@ -79,7 +79,7 @@ fn reach_m(scene: &Scene, subdivision: &Subdivision, node: u32) -> f64 {
 }
 
 /// Surroundings count once they have less than this part of the light of the whole scene, and no more than so many times.
-const DIM: f64 = 0.4;
+const DIM: f64 = 0.25;
 const MOST_WEIGHT: f64 = 1e3;
 /// Reflections over which light is taken to be that of the surroundings.
 const REFLECTIONS: usize = 3;

@@ -63,8 +63,7 @@ impl Pilot<'_> {
         let is_beside = |node: &u32| self.beset.get(*node as usize).is_none_or(|&beset| beset);
         let leaves = self.subdivision.leaves().filter(is_beside);
         let sides: Vec<Side> = leaves.map(|node| Side::of(&self.subdivision, node)).collect();
-        let elements = self.subdivision.elements();
-        for vertex in cuts::shaded(self.scene, &elements, &sides, light_lx) {
+        for vertex in cuts::shaded(self.scene, &self.subdivision, &sides, light_lx) {
             self.standings[vertex as usize] = Some(Standing::Rim);
         }
     }

@@ -111,8 +111,8 @@ fn a_dim_room_settles_beside_a_bright_one() {
         is_dim.iter().map(|&dim| if dim { Rgb::BLACK } else { shares * 1e4 }).collect();
     let solved = operator.solve(&guess, &given, &Carriers::all().waiting(), 1e-3);
     for (e, _) in solved.iter().zip(&is_dim).filter(|(_, dim)| **dim) {
-        // The last sweep may have changed it by three times the tolerance, of which nine times as much is left at 0.9.
-        assert!((0..3).all(|c| (e.0[c] / shares.0[c] - 1.0).abs() < 0.03), "{e:?} for {shares:?}");
+        // The last sweep may have changed it by ten times the tolerance, of which nine times as much is left at 0.9.
+        assert!((0..3).all(|c| (e.0[c] / shares.0[c] - 1.0).abs() < 0.09), "{e:?} for {shares:?}");
     }
 }
 
