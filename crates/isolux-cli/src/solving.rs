@@ -82,7 +82,7 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
         }
         (Some(accuracy), Some(asked)) if ends_itself && accuracy.of_elements() > asked => format!(
             "ended as more of the same would not help: with {} receivers interpolation and lookups alone err by {}{}, \
-             and {}; ask for no more than that{}",
+             and {}{}",
             map.values.len(),
             show_share(accuracy.of_elements()),
             if 2.0 * accuracy.caustics.powi(2) > accuracy.of_elements().powi(2) {
@@ -91,9 +91,11 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
                 ""
             },
             if 2 * map.values.len() > request.most_receivers() {
-                "finer elements would take more than --max-memory: raise it"
+                "finer elements would take more than --max-memory: raise it, or ask for no more than that"
+            } else if limit_s.is_finite() {
+                "finer elements would take longer than is left of --time-limit: allow more"
             } else {
-                "finer elements were not found to err by less"
+                "finer elements were not found to err by less; ask for no more than that"
             },
             if request.method == Method::Hybrid { "" } else { ", or use --method hybrid" }
         ),

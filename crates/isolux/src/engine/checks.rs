@@ -190,6 +190,12 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     checks
 }
 
+/// The same for light that no rays read from the map.
+pub(super) fn draw_for_map(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
+    let as_map = |check| Check { by_rays: None, ..check };
+    draw(plan, rays, key).into_iter().map(as_map).collect()
+}
+
 fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Option<Check> {
     let weights = |level: u32| known_at(&plan.elements, level, &plan.standings, &gatherer.surface);
     // As readers interpolate, who do not look for what stands across elements: rays, who do, err less.
@@ -236,11 +242,6 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
 }
 
 impl Check {
-    /// The same for light that no rays read from the map.
-    pub(super) fn read_as_map(self) -> Self {
-        Self { by_rays: None, ..self }
-    }
-
     /// Whether readers with such trust interpolate there.
     fn is_trusted(&self, trust: Trust) -> bool {
         self.may_be_trusted && trust.includes(self.expected_lx, self.is_beset)
@@ -344,14 +345,7 @@ pub(super) fn errors(
     let root = |part: usize| noise_is.of_squared(squared[part], spread[part].sqrt()).sqrt();
     let believed = |mean: f64| noise_is.of_mean(mean, of_mean.sqrt());
     if sums.sums.len() > 2 * checks.len() {
-        // All of it, whichever light is read there.
-        mean = [0.0; 2];
-        for (k, check) in checks.iter().enumerate() {
-            let read = sums.estimate(2 * checks.len() + k).mean;
-            let indirect = read.indirect.luminance();
-            mean[0] += check.area_m2 / area * indirect;
-            mean[1] += check.area_m2 / area * (indirect + read.direct.luminance());
-        }
+        mean = mean_by_rays(sums, checks, area);
     }
     let [seen_mean_lx, seen_spread_lx] = seen(sums, checks, noise_is);
     InterpolationErrors {
@@ -369,6 +363,19 @@ pub(super) fn errors(
         over_in_strips: over_in_strips(sums, checks, (trust, noise_is)),
         ..InterpolationErrors::default()
     }
+}
+
+/// Means of what rays read wrongly, of indirect light and of all, where that is something else than readers do: all of it, whichever
+/// light is read there.
+fn mean_by_rays(sums: &Accumulator, checks: &[Check], area_m2: f64) -> [f64; 2] {
+    let mut mean = [0.0; 2];
+    for (k, check) in checks.iter().enumerate() {
+        let read = sums.estimate(2 * checks.len() + k).mean;
+        let indirect = read.indirect.luminance();
+        mean[0] += check.area_m2 / area_m2 * indirect;
+        mean[1] += check.area_m2 / area_m2 * (indirect + read.direct.luminance());
+    }
+    mean
 }
 
 /// By how much more than expected elements err in every strip before walls, as far as readers with such trust interpolate there.

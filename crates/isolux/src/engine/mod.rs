@@ -47,6 +47,7 @@ mod reference;
 mod reflectance;
 mod request;
 mod run;
+mod scale;
 mod scatter;
 mod shrink;
 mod state;

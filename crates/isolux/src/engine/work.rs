@@ -5,7 +5,7 @@ use super::accuracy::{
     BELIEVED_INCREMENTS, FEWEST_TO_MISS, Pooled, accuracy, accuracy_of_map, early_statistical,
 };
 use super::cache::{CacheSample, Cached};
-use super::checks::{self, Check, Checks, InterpolationErrors};
+use super::checks::{self, Checks, InterpolationErrors};
 use super::deadline::Deadline;
 use super::emission::Emission;
 use super::filter::filter;
@@ -101,10 +101,10 @@ impl<'p, 's> Work<'p, 's> {
         let wanted = wanted.unwrap_or_else(by_noise);
         let most = most_rays(plan.indirect_vertices, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
-        let mut points = match request.method {
-            Method::Hybrid | Method::Cache | Method::Radiosity => {
-                checks::draw(plan, rays, Key::new(request.seed).with(3))
-            }
+        let key = Key::new(request.seed).with(3);
+        let points = match request.method {
+            Method::Hybrid | Method::Cache => checks::draw(plan, rays, key),
+            Method::Radiosity => checks::draw_for_map(plan, rays, key),
             Method::Forward => Vec::new(),
         };
         let engine = match request.method {
@@ -122,7 +122,6 @@ impl<'p, 's> Work<'p, 's> {
                 Engine::Forward(Forward::new(plan, emission, target, request.seed))
             }
             Method::Radiosity => {
-                points = points.into_iter().map(Check::read_as_map).collect();
                 let (settings, seed) = (&request.radiosity, request.seed);
                 Engine::Radiosity(Box::new(Radiosity::new(plan, &points, settings, target, seed)))
             }

@@ -10,9 +10,10 @@ mod finish;
 mod landing;
 mod middles;
 mod round;
-mod scale;
 mod sharing;
 mod smoothing;
+mod standings;
+mod surroundings;
 mod walls;
 
 use super::accuracy::Light;
@@ -30,6 +31,7 @@ pub(super) use super::look::PilotRequest;
 use super::look::{Look, Read};
 use super::path::Dice;
 use super::plan::Plan;
+use super::scale::bisect_to_scale;
 use super::surface::SurfacePoint;
 use super::torn::Torn;
 use super::trial::Trial;
@@ -177,22 +179,25 @@ pub(super) fn foresee<'s>(
     Pilot::new(scene, lighting, request).elements_for_indirect_light(request, go_on);
 }
 
+/// The elements to start with, the edges of the usual ones, m, and whether the scene has so many things that most vertices are theirs.
+fn first_mesh(scene: &Scene, request: &PilotRequest) -> (Subdivision, f64, bool) {
+    let mut subdivision = Subdivision::new(scene);
+    let area_m2: f64 = subdivision.leaves().map(|n| subdivision.triangle(n).area()).sum();
+    // Half squares of hypotenuse h have area h^2 / 4, and there are two a vertex.
+    let first = if request.is_fitted { FIRST_VERTICES } else { FIRST_UNFITTED };
+    let more = MORE_A_VERTEX * subdivision.vertex_count() as f64;
+    let edge_m = (2.0 * area_m2 / (first + more)).sqrt();
+    let start_m = if request.has_means { edge_m / COARSE.sqrt() } else { edge_m };
+    subdivision.bisect_to(start_m, request.max_vertices);
+    if request.is_fitted {
+        bisect_to_scale(scene, &mut subdivision, request.max_vertices);
+    }
+    (subdivision, edge_m, more > first)
+}
+
 impl<'s> Pilot<'s> {
     fn new(scene: &'s Scene, lighting: &'s Lighting<'s>, request: &PilotRequest) -> Self {
-        let mut subdivision = Subdivision::new(scene);
-        let area_m2: f64 = subdivision.leaves().map(|n| subdivision.triangle(n).area()).sum();
-        // Half squares of hypotenuse h have area h^2 / 4, and there are two a vertex.
-        let first = if request.is_fitted { FIRST_VERTICES } else { FIRST_UNFITTED };
-        let more = MORE_A_VERTEX * subdivision.vertex_count() as f64;
-        let has_many_things = more > first;
-        let first = first + more;
-        let edge_m = (2.0 * area_m2 / first).sqrt();
-        let is_coarse = request.has_means;
-        let start_m = if is_coarse { edge_m / COARSE.sqrt() } else { edge_m };
-        subdivision.bisect_to(start_m, request.max_vertices);
-        if request.is_fitted {
-            scale::bisect_to_scale(scene, &mut subdivision, request.max_vertices);
-        }
+        let (subdivision, edge_m, has_many_things) = first_mesh(scene, request);
         let rays = Self::shared_rays(&subdivision, request.target);
         let has_noise = request.is_fitted && lighting.has_many() && lighting.is_measured_once();
         let bounds = scene.bvh().mesh().bounds();
@@ -217,7 +222,7 @@ impl<'s> Pilot<'s> {
             felt: Felt::default(),
             torn: Torn::default(),
             carriers: Carriers::all(),
-            usual_edge_m: is_coarse.then_some(edge_m),
+            usual_edge_m: request.has_means.then_some(edge_m),
             has_many_things,
             spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
             gathered: Vec::new(),
@@ -495,26 +500,6 @@ impl<'s> Pilot<'s> {
             if rays > 0 { self.before_walls(vertex, gatherer) } else { gatherer }
         };
         vertices.par_iter().map(row).collect()
-    }
-
-    /// Photometric values of the vertices in the open.
-    fn in_the_open(&self, values: &[Rgb]) -> Vec<Option<f64>> {
-        let is_open = |k: usize| self.standings[k] == Some(Standing::Open);
-        (0..self.standings.len()).map(|k| is_open(k).then(|| values[k].luminance())).collect()
-    }
-
-    fn complete_standings(&mut self, gatherers: &[Gatherer]) {
-        let mut before = std::mem::take(&mut self.standings);
-        before.resize(gatherers.len(), None);
-        let surface = |k: usize| gatherers[k].surface;
-        self.standings = self.felt.standings(self.scene, &self.subdivision, &before, surface);
-        let beside_hidden = self.torn.beside(&self.subdivision, |vertex| !self.known[vertex]);
-        for (k, standing) in self.standings.iter_mut().enumerate() {
-            let own = standing.filter(|_| self.known[k]);
-            let torn = own.filter(|_| !beside_hidden.contains(&(k as u32)));
-            *standing = if self.torn.has(k) { torn.and(Some(Standing::Rim)) } else { own };
-        }
-        self.set_shaded_apart();
     }
 
     fn sight<'a>(&'a self, elements: &'a Elements, gatherers: &'a [Gatherer]) -> Sight<'a> {

@@ -2,7 +2,6 @@
 
 use super::Pilot;
 use crate::elements::Elements;
-use crate::engine::cuts::{self, Side};
 use crate::engine::look::Look;
 use crate::map::Standing;
 use crate::units::Rgb;
@@ -42,30 +41,6 @@ impl Pilot<'_> {
         self.settle(&look.elements);
         self.is_smoothed = true;
         self.costs.smoothing.add(started.elapsed(), self.subdivision.vertex_count() as f64);
-    }
-
-    /// Whether something stands on vertices that were not looked at yet; where nobody looked at elements, it may stand close to them.
-    pub(super) fn look_for_torn(&mut self) {
-        let is_beset = |node: u32| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
-        self.torn.look(self.scene, &self.subdivision, is_beset);
-    }
-
-    /// Elements that reach into the dark behind what stands across them are read from the corners before it.
-    pub(super) fn set_shaded_apart(&mut self) {
-        if self.indirect.is_empty() {
-            return;
-        }
-        let light_lx = |v: u32| {
-            let k = v as usize;
-            let indirect = self.indirect.get(k).copied().unwrap_or(Rgb::BLACK);
-            self.standings[k].map(|_| (self.direct[k] + indirect).luminance())
-        };
-        let is_beside = |node: &u32| self.beset.get(*node as usize).is_none_or(|&beset| beset);
-        let leaves = self.subdivision.leaves().filter(is_beside);
-        let sides: Vec<Side> = leaves.map(|node| Side::of(&self.subdivision, node)).collect();
-        for vertex in cuts::shaded(self.scene, &self.subdivision, &sides, light_lx) {
-            self.standings[vertex as usize] = Some(Standing::Rim);
-        }
     }
 
     /// What new vertices that do not gather have: direct light, and indirect light from those that they wait for.

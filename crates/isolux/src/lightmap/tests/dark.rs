@@ -49,7 +49,7 @@ fn dark_surfaces_take_no_page_and_are_black() {
     assert_eq!(layout.sides.len(), whole.sides.len());
     // Half of the surfaces, and a square of four texels in its padding.
     assert!(layout.texel_count() < whole.texel_count() * 6 / 10, "{}", layout.texel_count());
-    let lightmap = bake(&scene, &map, &layout, &mut |_| Watch::Continue).unwrap();
+    let lightmap = bake(&scene, &map, &layout, &mut |_| Pace::Whole).unwrap();
     for side in &lightmap.layout.sides {
         assert_eq!(side.is_point(), dark.contains(&(side.triangle, side.back)));
         for at in lightmap.layout.corners(side) {

@@ -1,18 +1,14 @@
-//! What is right for every room of a scene, not for its largest or brightest alone.
+//! A first mesh that knows the scale of every room.
 //!
 //! The size of the first elements comes of the area of the whole scene. A small room beside a large yard would be two elements a wall, and
 //! light that is interpolated between its corners lacks some per cent at every reflection. How far a surface sees tells how fast light
 //! varies over it.
 
-use super::Pilot;
+use super::feelers::Feelers;
+use super::surface::SurfacePoint;
 use crate::elements::{Origin, Subdivision};
-use crate::engine::detail::LeafError;
-use crate::engine::feelers::Feelers;
-use crate::engine::gather::Operator;
-use crate::engine::surface::SurfacePoint;
 use crate::sampling::Key;
 use crate::scene::Scene;
-use crate::units::Rgb;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
@@ -33,7 +29,11 @@ const ROOM_M: f64 = 1.0;
 const MOST_ADDED: usize = 700;
 
 /// Bisects elements that are longer than their surface sees far, the largest first.
-pub(super) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_vertices: usize) {
+pub(in crate::engine) fn bisect_to_scale(
+    scene: &Scene,
+    subdivision: &mut Subdivision,
+    max_vertices: usize,
+) {
     let most = (subdivision.vertex_count() + MOST_ADDED).min(max_vertices);
     let leaves: Vec<u32> = subdivision.leaves().collect();
     let reach = |&node: &u32| reach_m(scene, subdivision, node);
@@ -76,48 +76,4 @@ fn reach_m(scene: &Scene, subdivision: &Subdivision, node: u32) -> f64 {
     let mut distances_m = met.map(|hit| hit.map_or(f64::INFINITY, |hit| f64::from(hit.t)));
     distances_m.sort_by(f64::total_cmp);
     distances_m[COUNTED - 1]
-}
-
-/// Surroundings count once they have less than this part of the light of the whole scene, and no more than so many times.
-const DIM: f64 = 0.25;
-const MOST_WEIGHT: f64 = 1e3;
-/// Reflections over which light is taken to be that of the surroundings.
-const REFLECTIONS: usize = 3;
-
-impl Pilot<'_> {
-    /// Finds the light of the surroundings of every vertex, lx: of what it sees, and what is seen from there. In one room it is about
-    /// the same everywhere.
-    pub(super) fn look_about(&mut self, operator: &Operator) {
-        let waiting = self.carriers.waiting();
-        let whole = operator.reflected(&vec![Rgb::grey(1.0); self.indirect.len()]);
-        let mut seen = self.indirect.clone();
-        for reflection in 0..REFLECTIONS {
-            if reflection > 0 {
-                seen = operator.reflected(&seen);
-            }
-            for (seen, whole) in seen.iter_mut().zip(&whole) {
-                let share = whole.luminance();
-                *seen = Rgb::grey(if share > 0.0 { seen.luminance() / share } else { 0.0 });
-            }
-            waiting.fill(&mut seen);
-        }
-        self.surroundings_lx = seen.iter().map(|seen| seen.luminance()).collect();
-    }
-
-    /// Has errors in dim surroundings count by what they are there.
-    pub(super) fn weigh(&mut self, errors: &mut [LeafError], reference_lx: f64) {
-        for vertex in &self.subdivision.vertices()[self.surroundings_lx.len()..] {
-            let of = |end: u32| self.surroundings_lx[end as usize];
-            let ends = vertex.parents.map(|ends| ends.map(of));
-            self.surroundings_lx.push(ends.map_or(0.0, |[a, b]| a.max(b)));
-        }
-        for error in errors {
-            let corners = self.subdivision.node(error.node).0.vertices;
-            let about_lx = corners.map(|v| self.surroundings_lx[v as usize]);
-            let about_lx = about_lx.into_iter().fold(0.0, f64::max);
-            if about_lx > 0.0 {
-                error.weight = (DIM * reference_lx / about_lx).clamp(1.0, MOST_WEIGHT);
-            }
-        }
-    }
 }

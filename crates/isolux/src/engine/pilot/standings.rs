@@ -1,0 +1,54 @@
+//! What vertices stand for: the open, gaps, nothing.
+
+use super::Pilot;
+use crate::engine::cuts::{self, Side};
+use crate::engine::gather::Gatherer;
+use crate::map::Standing;
+use crate::units::Rgb;
+
+impl Pilot<'_> {
+    /// Photometric values of the vertices in the open.
+    pub(super) fn in_the_open(&self, values: &[Rgb]) -> Vec<Option<f64>> {
+        let is_open = |k: usize| self.standings[k] == Some(Standing::Open);
+        (0..self.standings.len()).map(|k| is_open(k).then(|| values[k].luminance())).collect()
+    }
+
+    /// Finds out what vertices stand for that are new, or whose elements are.
+    pub(super) fn complete_standings(&mut self, gatherers: &[Gatherer]) {
+        let mut before = std::mem::take(&mut self.standings);
+        before.resize(gatherers.len(), None);
+        let surface = |k: usize| gatherers[k].surface;
+        self.standings = self.felt.standings(self.scene, &self.subdivision, &before, surface);
+        let beside_hidden = self.torn.beside(&self.subdivision, |vertex| !self.known[vertex]);
+        for (k, standing) in self.standings.iter_mut().enumerate() {
+            let own = standing.filter(|_| self.known[k]);
+            let torn = own.filter(|_| !beside_hidden.contains(&(k as u32)));
+            *standing = if self.torn.has(k) { torn.and(Some(Standing::Rim)) } else { own };
+        }
+        self.set_shaded_apart();
+    }
+
+    /// Whether something stands on vertices that were not looked at yet; where nobody looked at elements, it may stand close to them.
+    pub(super) fn look_for_torn(&mut self) {
+        let is_beset = |node: u32| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
+        self.torn.look(self.scene, &self.subdivision, is_beset);
+    }
+
+    /// Elements that reach into the dark behind what stands across them are read from the corners before it.
+    fn set_shaded_apart(&mut self) {
+        if self.indirect.is_empty() {
+            return;
+        }
+        let light_lx = |v: u32| {
+            let k = v as usize;
+            let indirect = self.indirect.get(k).copied().unwrap_or(Rgb::BLACK);
+            self.standings[k].map(|_| (self.direct[k] + indirect).luminance())
+        };
+        let is_beside = |node: &u32| self.beset.get(*node as usize).is_none_or(|&beset| beset);
+        let leaves = self.subdivision.leaves().filter(is_beside);
+        let sides: Vec<Side> = leaves.map(|node| Side::of(&self.subdivision, node)).collect();
+        for vertex in cuts::shaded(self.scene, &self.subdivision, &sides, light_lx) {
+            self.standings[vertex as usize] = Some(Standing::Rim);
+        }
+    }
+}
