@@ -72,6 +72,8 @@ const PULL_IN: f64 = 2e-3;
 const LEAST_ORDER: f64 = 0.25;
 /// So often may the error rise instead.
 const MOST_RISEN: usize = 3;
+/// So many rounds in a row may be in vain: at borders of gaps as much error is found as is taken off, until elements are as narrow.
+const MOST_STALLS: usize = 1;
 /// Vertices for indirect light, unless the scene has nearly as many from the start.
 const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
 /// More than this part of the vertices there may be are all: the worst elements are bisected some at a time.
@@ -524,7 +526,7 @@ impl<'s> Pilot<'s> {
         go_on: &mut GoOn<'_>,
     ) -> Look {
         let mut before = (f64::INFINITY, look.carriers as f64);
-        let mut risen = 0;
+        let (mut risen, mut stalls) = (0, 0);
         for _ in 0..MAX_ROUNDS {
             let Some((errors, excess)) = look.excess(what, request) else { break };
             // Where bisection no longer helps, what is left is noise: the check points will tell. As long as it finds light
@@ -537,7 +539,8 @@ impl<'s> Pilot<'s> {
             let stalled = !is_excused && excess > before.0 * fallen;
             let known = Some(before).filter(|(excess, _)| excess.is_finite());
             let excesses = (Some(look.greatest_excess(request)), known);
-            if stalled || !self.has_time(&look, request, excesses, go_on) {
+            stalls = if stalled { stalls + 1 } else { 0 };
+            if stalls > MOST_STALLS || !self.has_time(&look, request, excesses, go_on) {
                 break;
             }
             before = (excess, carriers);
