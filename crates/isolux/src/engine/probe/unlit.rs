@@ -11,7 +11,7 @@ use crate::sampling::{CosineHemisphere, Sequence};
 use isolux_geometry::{Point, Ray};
 
 /// No more than this share of the light of an element is as good as none, where rays read some through cracks.
-const NO_LIGHT: f64 = 1e-3;
+const NO_LIGHT: f64 = 3e-3;
 /// Estimates of direct light that tell whether any luminaire shines on a place.
 const LOOKS_AT_LUMINAIRES: u32 = 4;
 
