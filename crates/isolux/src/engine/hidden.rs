@@ -17,7 +17,7 @@ use crate::elements::Elements;
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
 use crate::units::Rgb;
-use isolux_geometry::Ray;
+use isolux_geometry::{Point, Ray};
 use rayon::prelude::*;
 
 /// Rays that look for light at most: a place that sees it in less than a tenth of its hemisphere
@@ -26,7 +26,7 @@ const RAYS: u32 = 32;
 
 /// A vertex is looked at to this far beyond it, as a share of the distance, so that one that lies in
 /// a wall is not seen from behind it.
-pub(super) const BEYOND: f64 = 1e-3;
+const BEYOND: f64 = 1e-3;
 
 /// All that is needed to look about on the vertices of a mesh.
 pub(super) struct Sight<'a> {
@@ -154,9 +154,13 @@ impl Sight<'_> {
 
     /// Whether nothing stands between a place and a vertex of its element.
     fn sees(&self, place: &SurfacePoint, vertex: usize) -> bool {
-        let from = place.start();
-        let to = self.gatherers[vertex].origin;
-        let to = to + (to - from) * BEYOND;
-        !self.scene.bvh().any_hit(&Ray::between(from, to).skipping(place.triangle))
+        sees(self.scene, place, self.gatherers[vertex].origin)
     }
+}
+
+/// Whether nothing stands between a place and a point just above a vertex of its element.
+pub(super) fn sees(scene: &Scene, place: &SurfacePoint, vertex: Point) -> bool {
+    let from = place.start();
+    let to = vertex + (vertex - from) * BEYOND;
+    !scene.bvh().any_hit(&Ray::between(from, to).skipping(place.triangle))
 }

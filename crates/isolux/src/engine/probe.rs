@@ -13,7 +13,6 @@ use super::bright::Bright;
 use super::cuts::Cuts;
 use super::direct::{Goal, Lighting, Measured, Patches};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
-use super::hidden::BEYOND;
 use super::path::{Dice, PathEnd, follow};
 use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
@@ -382,23 +381,10 @@ impl<'a> MapReader<'a> {
                 direction,
                 &mut dice,
                 |surface, _, _| {
-                    is_known |= self.sees_known_vertex(surface);
+                    is_known |= self.sees_vertex(surface, |_| true);
                 },
             );
             is_known || end == PathEnd::Left
-        })
-    }
-
-    fn sees_known_vertex(&self, place: &SurfacePoint) -> bool {
-        let SurfacePoint { triangle, back, u, v, .. } = *place;
-        let corners = self.map.elements.locate(triangle, back, u, v);
-        corners.into_iter().flatten().any(|(vertex, _)| {
-            let at = self.map.elements.vertices()[vertex as usize];
-            let from = place.start();
-            let to = at.position + at.normal.to_vector() * place.away_m;
-            // One that lies in a wall is not to be seen from behind it.
-            let ray = Ray::between(from, to + (to - from) * BEYOND).skipping(triangle);
-            self.standings[vertex as usize].is_some() && !self.scene.bvh().any_hit(&ray)
         })
     }
 

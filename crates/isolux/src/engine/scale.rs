@@ -29,11 +29,7 @@ const ROOM_M: f64 = 1.0;
 const MOST_ADDED: usize = 700;
 
 /// Bisects elements that are longer than their surface sees far, the largest first.
-pub(in crate::engine) fn bisect_to_scale(
-    scene: &Scene,
-    subdivision: &mut Subdivision,
-    max_vertices: usize,
-) {
+pub(super) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_vertices: usize) {
     let most = (subdivision.vertex_count() + MOST_ADDED).min(max_vertices);
     let leaves: Vec<u32> = subdivision.leaves().collect();
     let reach = |&node: &u32| reach_m(scene, subdivision, node);

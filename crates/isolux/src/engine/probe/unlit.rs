@@ -2,7 +2,7 @@
 
 use super::{LOOKS, MapReader};
 use crate::engine::gather::Gatherer;
-use crate::engine::hidden::BEYOND;
+use crate::engine::hidden::sees;
 use crate::engine::path::{Dice, follow};
 use crate::engine::place::{ProbePoint, place_key};
 use crate::engine::surface::SurfacePoint;
@@ -28,20 +28,14 @@ impl MapReader<'_> {
         let Some(corners) = self.map.elements.locate(at.triangle, at.back, at.u, at.v) else {
             return false;
         };
-        let standing = |(vertex, _): (u32, f64)| self.standings[vertex as usize];
-        let tells = |of: Option<Standing>| of.is_some_and(|of| of != Standing::Rim);
-        if corners.into_iter().all(|corner| tells(standing(corner))) {
+        let tells = |of: Standing| of != Standing::Rim;
+        let is_told =
+            |&(vertex, _): &(u32, f64)| self.standings[vertex as usize].is_some_and(tells);
+        if corners.iter().all(is_told) {
             return false;
         }
         let at = self.places.pulled_in(*at);
-        let from = at.start();
-        let sees = |(vertex, _): (u32, f64)| {
-            let vertex = &self.map.elements.vertices()[vertex as usize];
-            let to = vertex.position + vertex.normal.to_vector() * at.away_m;
-            let to = to + (to - from) * BEYOND;
-            !self.scene.bvh().any_hit(&Ray::between(from, to).skipping(at.triangle))
-        };
-        if corners.into_iter().any(|corner| tells(standing(corner)) && sees(corner)) {
+        if self.sees_vertex(&at, tells) {
             return false;
         }
         let sequence = Sequence::new(place_key(at.point).with(16));
@@ -56,6 +50,20 @@ impl MapReader<'_> {
         let key = place_key(at.point).with(17);
         let gathered = self.gather(gatherer, self.direct_at_ends(), (1, key));
         gathered.lx.luminance() <= NO_LIGHT * light_lx
+    }
+
+    /// Whether a place sees a vertex of its element of which the map knows something, and that stands for what is asked.
+    pub(super) fn sees_vertex(
+        &self,
+        place: &SurfacePoint,
+        is_asked: impl Fn(Standing) -> bool,
+    ) -> bool {
+        let corners = self.map.elements.locate(place.triangle, place.back, place.u, place.v);
+        corners.into_iter().flatten().any(|(vertex, _)| {
+            let at = self.map.elements.vertices()[vertex as usize];
+            self.standings[vertex as usize].is_some_and(&is_asked)
+                && sees(self.scene, place, at.position + at.normal.to_vector() * place.away_m)
+        })
     }
 
     /// Whether anything that is lit, as the map tells it, is seen from a point, on a surface or not: a point in shadow sees
