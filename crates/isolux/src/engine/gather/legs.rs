@@ -34,6 +34,9 @@ const SENT: u64 = 0x6272_6967_6874;
 /// How often a ray goes on from surfaces that are close by. In a corner half of the rays meet the other wall close
 /// by, and half of those the first again: with usual reflectances a hundredth of the light is left.
 const REGATHERED: u32 = 3;
+/// How often at most it does where nothing is known in the gap that it may still be in: by Russian roulette, so that few come to
+/// the end of it.
+const LOST_IN_GAP: u32 = 32;
 
 /// A row while it is made.
 #[derive(Default)]
@@ -202,7 +205,7 @@ impl Gathering<'_> {
             wave.legs.extend((0..some.len() as u32).map(|ray| Leg { ray, ..first }));
             wave.dice.clear();
             wave.dice.extend(some.map(|index| Dice::new(sequence, index)));
-            for number in 0..=REGATHERED {
+            for number in 0..=LOST_IN_GAP {
                 self.trace(wave, row, rows);
                 if number == 0 {
                     row.source += backdrop::lacking(&walls, &wave.directions) * share;
@@ -297,18 +300,25 @@ impl Gathering<'_> {
                 }
                 _ => of_direct * self.direct_at(&end, receiver.place, &mut row.about, dice),
             };
+            let goes_on = |share: Rgb, in_gap: bool| Leg {
+                origin: end.surface.start(),
+                triangle: end.surface.triangle,
+                normal: end.surface.shading,
+                share,
+                in_gap,
+                ray: leg.ray,
+            };
             if end.is_close && number < REGATHERED {
-                next.push(Leg {
-                    origin: end.surface.start(),
-                    triangle: end.surface.triangle,
-                    normal: end.surface.shading,
-                    share,
-                    in_gap: leg.in_gap && self.is_in_gap(&end.surface, end.distance_m),
-                    ray: leg.ray,
-                });
+                let in_gap = leg.in_gap && self.is_in_gap(&end.surface, end.distance_m);
+                next.push(goes_on(share, in_gap));
             } else if let Some(entry) = located.and_then(|l| self.entry(&l, end.out_of_gap_m)) {
                 row.close += if end.is_close { share.luminance() } else { 0.0 };
                 rows.push(entry, share.0.map(|c| c as f32));
+            } else if self.is_lost(&end) && number < LOST_IN_GAP {
+                let survival = met.reflectance.max_channel().min(1.0);
+                if dice.pair()[0] < survival {
+                    next.push(goes_on(share / survival, true));
+                }
             }
         }
         row.source += self.lighting.answer(shadows);
@@ -368,6 +378,13 @@ impl Gathering<'_> {
         distance_m < trust::NEAR * trust::edge_at_m(self.elements, at)
     }
 
+    /// Whether nothing is known of the gap that a ray has ended in.
+    fn is_lost(&self, end: &End) -> bool {
+        let Some((from_m, located)) = end.out_of_gap_m.zip(end.located) else { return false };
+        let may_be_in_gap = from_m < trust::NEAR * self.edge_m(located.corners);
+        may_be_in_gap && weights_in_gap(located.corners, self.standings).is_none()
+    }
+
     fn direct_at(
         &self,
         end: &End,
@@ -382,10 +399,14 @@ impl Gathering<'_> {
                 corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
             })
         };
+        let is_known = !self.is_lost(end);
         match self.direct {
-            DirectAtEnds::Read { values, level } => read(values, level),
-            DirectAtEnds::ReadFarOff { values } if !end.is_close => read(values, u32::MAX),
-            DirectAtEnds::ReadFarOff { .. } => {
+            DirectAtEnds::Evaluated => self.lighting.estimate(&end.surface, dice),
+            DirectAtEnds::Read { values, level } if is_known => read(values, level),
+            DirectAtEnds::ReadFarOff { values } if is_known && !end.is_close => {
+                read(values, u32::MAX)
+            }
+            DirectAtEnds::Read { .. } | DirectAtEnds::ReadFarOff { .. } => {
                 let about = about.get_or_insert_with(|| {
                     self.lighting.about(receiver.point, trust::edge_at_m(self.elements, receiver))
                 });
@@ -394,7 +415,6 @@ impl Gathering<'_> {
                     None => self.lighting.estimate(&end.surface, dice),
                 }
             }
-            DirectAtEnds::Evaluated => self.lighting.estimate(&end.surface, dice),
         }
     }
 

@@ -228,3 +228,41 @@ fn rays_that_end_close_by_gather_again() {
     );
     assert!(again.rays > 2 * once.rays, "{} {}", again.rays, once.rays);
 }
+
+/// What rays from within a gap meet in it, where all vertices lie in the open, is not lost: they go on until they are out of it.
+#[test]
+fn rays_in_gaps_of_which_nothing_is_known_go_on() {
+    let scene = scene(inward_box([3.0, 2.0, 0.6], 0), vec![painted(Rgb::WHITE)], vec![]);
+    let subdivision = Subdivision::new(&scene);
+    let receivers = subdivision.receivers(0.01);
+    let gatherers = receivers.iter().map(|r| Gatherer::at_vertex(&scene, r, 64).in_gap(true));
+    let gatherers: Vec<Gatherer> = gatherers.collect();
+    let elements = subdivision.elements();
+    let lighting = Lighting::new(&scene);
+    let vertices = elements.vertices().len();
+    let dark = vec![Rgb::BLACK; vertices];
+    let operator = |standing: Standing| {
+        let standings = vec![Some(standing); vertices];
+        let gathering = Gathering {
+            scene: &scene,
+            lighting: &lighting,
+            elements: &elements,
+            level: u32::MAX,
+            standings: &standings,
+            direct: DirectAtEnds::Read { values: &dark, level: u32::MAX },
+            regathers: false,
+            bright: None,
+            cuts: None,
+            backdrop: None,
+        };
+        gathering.operator(&gatherers, |k| Key::new(1).with(k as u64))
+    };
+    let [open, gap] = [Standing::Open, Standing::Gap].map(operator);
+    let light = vec![Rgb::WHITE; vertices];
+    for (on, read) in open.apply(&light).iter().zip(gap.apply(&light)) {
+        // Half of the rays get out at every step; weights are stored in 32 bits.
+        assert!((*on - Rgb::WHITE).luminance().abs() < 1e-5, "{on:?}");
+        assert!((read - Rgb::WHITE).luminance().abs() < 1e-5, "{read:?}");
+    }
+    assert!(open.rays > gap.rays, "{} {}", open.rays, gap.rays);
+}
