@@ -1,5 +1,6 @@
 //! From plain parts to a scene that cannot be invalid.
 
+use super::sealed;
 use super::{
     AreaLuminaire, Body, CalculationGrid, Camera, Finish, Luminaire, LuminaireKind, Material,
     SceneParts, SceneProblem, Shape, Texture, UpAxis,
@@ -154,7 +155,23 @@ impl Scene {
                 found[index].area_m2 += self.triangle(triangle).area();
             }
         }
-        found
+        let shines = |triangle: u32, back: bool| {
+            self.material(triangle).finish(back).is_some_and(Finish::is_emitter)
+        };
+        sealed::without_insides(self.bvh.mesh(), &self.places(), shines, found)
+    }
+
+    /// Where something is asked for or shines.
+    fn places(&self) -> Vec<Point> {
+        let luminaires = self.luminaires.iter().filter_map(|luminaire| match luminaire.kind {
+            LuminaireKind::Point { position, .. } => Some(position),
+            _ => None,
+        });
+        let cameras = self.cameras.iter().map(|camera| camera.position);
+        let grids = self.grids.iter().flat_map(|&CalculationGrid { corner, u, v, .. }| {
+            [corner, corner + u, corner + v, corner + u + v]
+        });
+        luminaires.chain(cameras).chain(grids).collect()
     }
 
     /// Name of the scene.

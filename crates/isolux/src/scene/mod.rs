@@ -15,6 +15,7 @@ mod material;
 mod parts;
 mod problem;
 mod relight;
+mod sealed;
 mod texture;
 mod view;
 

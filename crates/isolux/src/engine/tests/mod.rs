@@ -28,6 +28,7 @@ mod mixing;
 mod net;
 mod parts;
 mod reflectance;
+mod sealed;
 mod sharing;
 mod sums;
 mod sunk;
