@@ -115,12 +115,29 @@ impl Means {
             corners.map_or(Rgb::BLACK, |corners| light - places.read(values, &corners))
         };
         let lacking: Vec<Rgb> = places.corners.iter().zip(gathered).map(lacking).collect();
+        let starts = || std::iter::once(0).chain(self.ends.iter().map(|&(_, end)| end));
+        let of_vertices = || {
+            let ends = starts().zip(&self.ends);
+            ends.map(|(first, &(vertex, end))| (vertex as usize, &self.shares[first..end]))
+        };
+        // In proportion to the light: where an element reaches beyond a wall, what it lacks is that of the bright side.
+        let light = |vertex: usize| values[vertex].luminance().max(0.0);
+        let mut about = vec![(0.0, 0.0); self.nodes.len()];
+        for (vertex, shares) in of_vertices() {
+            for &(k, _) in shares {
+                let (sum, count) = &mut about[k as usize];
+                *sum += light(vertex);
+                *count += 1.0;
+            }
+        }
+        let part = |vertex: usize, k: u32| match about[k as usize] {
+            (sum, count) if sum > 0.0 => light(vertex) * count / sum,
+            _ => 1.0,
+        };
         let mut moves = vec![Rgb::BLACK; self.first_smoothed];
-        let mut first = 0;
-        for &(vertex, end) in &self.ends {
-            let shares = &self.shares[first..end];
-            moves[vertex as usize] = shares.iter().map(|&(k, w)| lacking[k as usize] * w).sum();
-            first = end;
+        for (vertex, shares) in of_vertices() {
+            let of_each = shares.iter().map(|&(k, w)| lacking[k as usize] * (w * part(vertex, k)));
+            moves[vertex] = of_each.sum();
         }
         for ends in &self.between {
             moves.push((moves[ends[0] as usize] + moves[ends[1] as usize]) * 0.5);

@@ -5,7 +5,8 @@ use crate::engine::detail::LeafError;
 use crate::engine::gather::Operator;
 use crate::units::Rgb;
 
-/// Surroundings count once they have less than this part of the light of the whole scene, and no more than so many times.
+/// Surroundings count once they have less than this part of the light of the whole scene, by the square of what they lack, until they
+/// count by their own light; and no more than so many times.
 const DIM: f64 = 0.25;
 const MOST_WEIGHT: f64 = 1e3;
 /// Reflections over which light is taken to be that of the surroundings.
@@ -43,7 +44,9 @@ impl Pilot<'_> {
             let about_lx = corners.map(|v| self.surroundings_lx[v as usize]);
             let about_lx = about_lx.into_iter().fold(0.0, f64::max);
             if about_lx > 0.0 {
-                error.weight = (DIM * reference_lx / about_lx).clamp(1.0, MOST_WEIGHT);
+                let times = reference_lx / about_lx;
+                let dim = (DIM * times).max(1.0);
+                error.weight = (dim * dim).min(times.max(1.0)).min(MOST_WEIGHT);
             }
         }
     }
