@@ -9,7 +9,7 @@
 
 use super::accumulate::{Accumulator, Sample, Sums};
 use super::detail::LeafError;
-use super::direct::Goal;
+use super::direct::{Goal, Measured};
 use super::gather::{DirectAtEnds, Gatherer, Gathering, known_at, known_on_side};
 use super::noise::Noise;
 use super::path::Dice;
@@ -76,6 +76,22 @@ pub(super) struct Checks {
     pub(super) sums: Accumulator,
     /// What caustics lack in parts of elements.
     pub(super) lacking: Accumulator,
+}
+
+/// Direct light at the check points.
+pub(super) struct DirectThere {
+    pub(super) lx: Vec<Rgb>,
+    /// Variance of readings of it, in the mean over the surface, that increments do not tell, as all have the same; lx2.
+    pub(super) noise_lx2: f64,
+    /// Of the map whose readings these are.
+    accuracy: f64,
+}
+
+impl DirectThere {
+    /// The same with other random numbers.
+    pub(super) fn again(&self, plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
+        direct(plan, checks, self.accuracy, key).lx
+    }
 }
 
 /// Errors beyond noise, lx: of interpolation over the surface, root mean squares and the signed
@@ -254,15 +270,24 @@ impl Check {
     }
 }
 
-/// Direct light at the check points, as readings evaluate it; `key` only matters where it has noise.
-pub(super) fn direct(plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
+/// Direct light at the check points, as readings of a map of such an accuracy evaluate it; `key` only matters where it has noise.
+pub(super) fn direct(plan: &Plan, checks: &[Check], accuracy: f64, key: Key) -> DirectThere {
     let sequence = |k: usize| Sequence::new(key.with(k as u64));
+    let reading = Goal::reading(accuracy);
     // What counts is the error of the scene: in the dark a small share of its light will do.
-    let goal = Goal { lx: Goal::READING.share * plan.reference_lx, ..Goal::READING };
+    let goal = Goal { lx: reading.share * plan.reference_lx, ..reading };
     let one = |(k, check): (usize, &Check)| {
-        plan.lighting.measured(&check.gatherer.surface, goal, sequence(k)).lx
+        plan.lighting.measured(&check.gatherer.surface, goal, sequence(k))
     };
-    checks.par_iter().with_max_len(AT_ONCE).enumerate().map(one).collect()
+    let measured: Vec<Measured> =
+        checks.par_iter().with_max_len(AT_ONCE).enumerate().map(one).collect();
+    let is_told = plan.lighting.is_measured_once() && !checks.is_empty();
+    let noise = || {
+        let of_each = checks.iter().zip(&measured).map(|(check, m)| check.area_m2 * m.variance);
+        of_each.sum::<f64>() / area_m2(checks)
+    };
+    let noise_lx2 = if is_told { noise() } else { 0.0 };
+    DirectThere { lx: measured.iter().map(|m| m.lx).collect(), noise_lx2, accuracy }
 }
 
 /// What one increment adds to the sums: `fresh` is what was gathered at the points, `direct` what luminaires give

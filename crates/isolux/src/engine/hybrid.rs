@@ -7,7 +7,7 @@
 use super::accumulate::{Effort, Sample};
 use super::accuracy::{BELIEVED_INCREMENTS, FEWEST_TO_MISS};
 use super::caustics::{self, Caustics};
-use super::checks::{self, Check};
+use super::checks::{self, Check, DirectThere};
 use super::deadline::Deadline;
 use super::gather::{Gatherer, Gathering};
 use super::path::Dice;
@@ -37,7 +37,7 @@ const TRIED: usize = 64;
 /// The engine, ready for increments.
 pub(super) struct Hybrid<'p, 's> {
     plan: &'p Plan<'s>,
-    check_direct: Vec<Rgb>,
+    check_direct: DirectThere,
     rows: Vec<Gatherer>,
     /// Of every place where the mean of an element is measured: as many as vertices have, or there would be more noise there.
     rays_of_means: u32,
@@ -83,10 +83,15 @@ impl<'p, 's> Hybrid<'p, 's> {
         };
         let rows: Vec<Gatherer> = (0..plan.indirect_vertices).map(row).collect();
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
-        let check_direct = checks::direct(plan, checks, key.with(0));
+        let check_direct = checks::direct(plan, checks, goal, key.with(0));
         let rays_of_means = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
         let ahead = VecDeque::new();
         Self { plan, check_direct, rays_of_means, rows, check_rows, particles, goal, key, ahead }
+    }
+
+    /// Variance of direct light as readings evaluate it, lx2, that all increments have in common.
+    pub(super) const fn noise_of_direct_lx2(&self) -> f64 {
+        self.check_direct.noise_lx2
     }
 
     /// Time that an increment takes, s, roughly: a part of its receivers is tried.
@@ -144,7 +149,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let plan = self.plan;
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
-            direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
+            direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
         let Caustics { light: caustic, lacking, effort: particles } =
             caustics::deposit(plan, self.particles, key.with(1));
         let gathering = Gathering::of(plan, &direct);
@@ -194,13 +199,12 @@ impl<'p, 's> Hybrid<'p, 's> {
 /// Direct light of an increment at vertices and check points: the plan's where it is measured once.
 pub(super) fn direct_light(
     plan: &Plan,
-    check_direct: &[Rgb],
-    checks: &[Check],
+    (check_direct, checks): (&DirectThere, &[Check]),
     key: Key,
     deadline: Deadline,
 ) -> Option<(Vec<Rgb>, Vec<Rgb>)> {
     if plan.lighting.is_measured_once() {
-        return Some((plan.direct.clone(), check_direct.to_vec()));
+        return Some((plan.direct.clone(), check_direct.lx.clone()));
     }
     let vertex = |(k, gatherer): (usize, &Gatherer)| {
         let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
@@ -208,5 +212,5 @@ pub(super) fn direct_light(
         (!deadline.has_passed()).then(light)
     };
     let vertices: Option<Vec<Rgb>> = plan.gatherers.par_iter().enumerate().map(vertex).collect();
-    Some((vertices?, checks::direct(plan, checks, key.with(u64::MAX))))
+    Some((vertices?, check_direct.again(plan, checks, key.with(u64::MAX))))
 }

@@ -32,6 +32,7 @@ mod judged;
 mod look;
 mod means;
 mod mix;
+mod neighbours;
 pub mod net;
 mod noise;
 mod particle;

@@ -7,6 +7,12 @@ use crate::map::Accuracy;
 /// Two-sided 90 % of the normal distribution.
 const NORMAL_90: f64 = 1.645;
 
+/// An accuracy without noise that increments do not take away, and what that leaves of a target.
+pub(super) fn beside(noise: f64, accuracy: Accuracy, target: f64) -> (Accuracy, f64) {
+    let beside = |share: f64| (share * share - noise * noise).max(0.0).sqrt();
+    (Accuracy { statistical: beside(accuracy.statistical), ..accuracy }, beside(target))
+}
+
 /// The increments that will be needed in all for a target, from the error after `increments`: the
 /// statistical part falls as the root of their number, the rest stays. `None` where the rest alone
 /// exceeds the target.

@@ -13,6 +13,7 @@ use super::bright::Bright;
 use super::cuts::Cuts;
 use super::direct::{Goal, Lighting, Measured, Patches};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
+use super::neighbours::LEAST as LEAST_OF_NOISE;
 use super::path::{Dice, PathEnd, follow};
 use super::place::{Places, ProbePoint, place_key};
 use super::surface::SurfacePoint;
@@ -25,8 +26,8 @@ use effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, OF_FE
 use isolux_geometry::Ray;
 pub use told::{Allowance, IndirectReading, Told};
 
-/// Independent estimates of the direct light of emitting surfaces, for its standard error.
-const DIRECT_REPLICATES: u64 = 8;
+/// What emitting surfaces give dim places is known as well as where there is this share of the light that errors are relative to.
+const DIMMEST: f64 = 0.05;
 
 /// Noise of what readers gather, in errors of the map: it adds half of the square of that, and only where the map
 /// is not trusted.
@@ -101,6 +102,8 @@ struct Unseen {
     bias_lx: f64,
     /// Of the whole map.
     reached_lx: f64,
+    /// How well readings are to know direct light.
+    of_direct: Goal,
 }
 
 impl<'a> MapReader<'a> {
@@ -236,11 +239,13 @@ impl<'a> MapReader<'a> {
         let gatherer = trial.with_rays(self.rays_needed((trial, noise), key).rays);
         let Gathered { lx, variance, close } =
             self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
+        let samples = u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays);
+        let variance = variance.max(least_variance(&stored, samples));
         Illuminance {
             indirect_lx: lx,
             indirect_standard_error_lx: libm::hypot(OF_FEW * variance.sqrt(), of_caustics(&stored)),
             interpolation_error_lx: close * lookup_lx,
-            samples: u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays),
+            samples,
             ..stored
         }
     }
@@ -415,10 +420,13 @@ impl<'a> MapReader<'a> {
         // In proportion to what was read, but no less than it is elsewhere: where it is dark, what is bright may be read.
         let looked_up = (self.lookup_error() * indirect_lx.luminance()).max(self.unseen.bias_lx);
         let stored = on_surface.and_then(|s| self.map.interpolate(s.triangle, s.back, s.u, s.v));
+        let samples = u64::from(replicates) * u64::from(settings.rays);
+        let variance = variance.max(stored.map_or(0.0, |stored| least_variance(&stored, samples)));
         let caustic_lx = stored.map_or(Rgb::BLACK, |stored| stored.caustic_lx);
         let of_caustics = stored.map_or(0.0, |stored| of_caustics(&stored));
         let indirect_variance = variance + looked_up * looked_up + of_caustics * of_caustics;
-        let (direct, direct_variance) = self.direct(&gatherer.surface);
+        let about_lx = stored.map_or(0.0, |stored| stored.illuminance_lx());
+        let (direct, direct_variance) = self.direct(&gatherer.surface, about_lx);
         self.told(Illuminance {
             direct_lx: direct + caustic_lx,
             caustic_lx,
@@ -446,7 +454,7 @@ impl<'a> MapReader<'a> {
     }
 
     fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {
-        let (direct, variance) = self.direct(at);
+        let (direct, variance) = self.direct(at, stored.illuminance_lx());
         let indirect = self.indirect_error_lx(&stored);
         Illuminance {
             direct_lx: direct + stored.caustic_lx,
@@ -462,19 +470,18 @@ impl<'a> MapReader<'a> {
         libm::hypot(read.indirect_standard_error_lx, unseen)
     }
 
-    /// Direct light at a place and the variance of its mean.
-    fn direct(&self, at: &SurfacePoint) -> (Rgb, f64) {
-        let key = place_key(at.point);
-        if self.lighting.is_measured_once() {
-            let Measured { lx, variance } =
-                self.lighting.measured(at, Goal::READING, Sequence::new(key.with(0)));
-            return (lx, variance);
-        }
-        let one = |replicate| {
-            self.lighting.illuminance(at, &mut Dice::new(Sequence::new(key.with(replicate)), 0))
+    /// Direct light at a place where there is about so much in all, and the variance of its mean.
+    fn direct(&self, at: &SurfacePoint, about_lx: f64) -> (Rgb, f64) {
+        let of_direct = self.unseen.of_direct;
+        // Choosing among many luminaires goes by what these give.
+        let least_lx = match self.lighting.has_many() {
+            true => 0.0,
+            false => about_lx.max(DIMMEST * self.unseen.reference_lx),
         };
-        let values: Vec<Rgb> = (0..DIRECT_REPLICATES).map(one).collect();
-        mean_and_variance(&values)
+        let goal = Goal { lx: of_direct.share * least_lx, ..of_direct };
+        let sequence = Sequence::new(place_key(at.point).with(0));
+        let Measured { lx, variance } = self.lighting.read(at, goal, sequence);
+        (lx, variance)
     }
 }
 
@@ -483,16 +490,24 @@ impl Unseen {
     /// fewer intervals hold the truth: dark edges err most.)
     fn of(map: &IlluminationMap) -> Self {
         let reference_lx = reference_lx(map);
-        let share = |part: fn(&Accuracy) -> f64| {
-            map.provenance.accuracy.as_ref().map_or(0.0, |accuracy| part(accuracy) * reference_lx)
-        };
+        let accuracy = map.provenance.accuracy.as_ref();
+        let share = |part: fn(&Accuracy) -> f64| accuracy.map_or(0.0, |a| part(a) * reference_lx);
         Self {
             reference_lx,
             discretization_lx: share(Accuracy::discretization_beside_caustics),
             bias_lx: share(|a| a.bias),
             reached_lx: share(|a| a.reached),
+            of_direct: Goal::reading(map.provenance.accuracy_target.unwrap_or(f64::INFINITY)),
         }
     }
+}
+
+/// The least variance of what so many rays gather where the map tells a value of some noise: fewer rays may all have missed what
+/// brings most of the light.
+fn least_variance(stored: &Illuminance, samples: u64) -> f64 {
+    let [all, caustics] = [stored.indirect_standard_error_lx, of_caustics(stored)];
+    let of_map = (all * all - caustics * caustics).max(0.0);
+    LEAST_OF_NOISE * of_map * stored.samples as f64 / samples.max(1) as f64
 }
 
 /// What caustics err by where only they are read from the map: no more than the map tells of them and indirect light together, and

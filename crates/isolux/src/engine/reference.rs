@@ -11,7 +11,7 @@
 //! at every diffuse reflection, and paths caught by more than 128 specular surfaces in a row.
 
 use super::accumulate::mean_and_variance;
-use super::direct::Lighting;
+use super::direct::{Lighting, Measured};
 use super::emission::Emission;
 use super::gather::Gatherer;
 use super::path::{Dice, follow_on};
@@ -100,16 +100,10 @@ impl<'a> PathTracer<'a> {
 
     /// Direct light of all luminaires and the variance of its mean.
     fn direct(&self, at: &SurfacePoint, settings: &ExactSettings) -> (Rgb, f64) {
-        let key = place_key(at.point).with(settings.seed).with(u64::MAX);
-        let one = |replicate: u32| {
-            let sequence = Sequence::new(key.with(u64::from(replicate)));
-            self.lighting.illuminance_by_all(at, &mut Dice::new(sequence, 0))
-        };
-        if self.lighting.is_measured_once() {
-            return (one(0), 0.0);
-        }
-        let values: Vec<Rgb> = (0..settings.replicates.max(2)).map(one).collect();
-        mean_and_variance(&values)
+        let sequence = Sequence::new(place_key(at.point).with(settings.seed).with(u64::MAX));
+        let shadow_rays = u64::from(settings.replicates.max(2)) * u64::from(settings.rays);
+        let Measured { lx, variance } = self.lighting.read_by_all(at, shadow_rays, sequence);
+        (lx, variance)
     }
 
     /// What one path brings of the light that was reflected diffusely at least once, lx.

@@ -1,9 +1,9 @@
 //! The increments on one mesh: an engine, what it has summed, and the map that makes.
 
-use super::accumulate::{Accumulator, Estimate, Sample, Sums};
-use super::accuracy::{
-    BELIEVED_INCREMENTS, FEWEST_TO_MISS, Pooled, accuracy, accuracy_of_map, early_statistical,
-};
+mod outlook;
+
+use super::accumulate::{Accumulator, Estimate, Sample};
+use super::accuracy::{BELIEVED_INCREMENTS, Pooled, accuracy, accuracy_of_map};
 use super::cache::{CacheSample, Cached};
 use super::checks::{self, Checks, InterpolationErrors};
 use super::deadline::Deadline;
@@ -13,10 +13,10 @@ use super::flights;
 use super::forward::Forward;
 use super::hybrid::Hybrid;
 use super::judged::{Judged, OF_GOAL};
+use super::neighbours::lend_noise;
 use super::noise::Noise;
 use super::parts::{self, Squared};
 use super::plan::Plan;
-use super::predict;
 use super::radiosity::{Left, Radiosity};
 use super::request::{SolveError, SolveRequest};
 use super::state::{RunState, restore};
@@ -30,16 +30,6 @@ use crate::units::Rgb;
 /// Increments before a run may stop at its accuracy: as soon as it is believed. (Readings mix three
 /// vertices, whose spreads make one good enough: decision 12.)
 const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
-
-/// Increments that tell how many it will take; those of fewer were off by a factor of two.
-const FEWEST_TO_TELL: u64 = 6;
-
-/// Increments beyond which finer elements are faster, which take their pilot, as long as some ten increments of theirs, and as many
-/// increments as are believed, all on half as many vertices again or more.
-const MOST_INCREMENTS: f64 = 5.0 * BELIEVED_INCREMENTS as f64;
-
-/// Increments that a run makes at most only to be less in doubt.
-const MOST_HOPED_FOR: f64 = 32.0 * BELIEVED_INCREMENTS as f64;
 
 /// How far the light that an ambient term stands for is from it at a place, as a share of it: between
 /// none, in gaps, and twice as much.
@@ -218,7 +208,9 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Hybrid(_) | Engine::Cache(_) => {
                 let Checks { points, sums, .. } = &self.checks;
                 let errors = checks::errors(sums, points, (trust, noise_is));
-                self.with_caustics(errors, noise_is)
+                let with_direct = |lx: f64| (lx * lx + self.noise_of_direct_lx2()).sqrt();
+                let noise_lx = errors.noise_lx.map(with_direct);
+                self.with_caustics(InterpolationErrors { noise_lx, ..errors }, noise_is)
             }
             Engine::Forward(_) => {
                 self.with_caustics(tally::errors(self.plan, &self.sums), noise_is)
@@ -230,6 +222,15 @@ impl<'p, 's> Work<'p, 's> {
                     [errors.indirect_lx, errors.total_lx].map(|lx| (lx * lx + squared).sqrt());
                 InterpolationErrors { indirect_lx, total_lx, ..errors }
             }
+        }
+    }
+
+    /// Variance of direct light as it is read, lx2, that all increments have in common.
+    const fn noise_of_direct_lx2(&self) -> f64 {
+        match &self.engine {
+            Engine::Hybrid(hybrid) => hybrid.noise_of_direct_lx2(),
+            Engine::Cache(cached) => cached.noise_of_direct_lx2(),
+            Engine::Forward(_) | Engine::Radiosity(_) => 0.0,
         }
     }
 
@@ -280,68 +281,9 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// Whether a run may stop at its accuracy.
-    pub(super) fn may_end(&self) -> bool {
-        self.left.as_ref().map_or_else(|| self.is_believed(), |left| left.all_have_shot)
-    }
-
-    /// Whether finer elements will reach a target, but these will not, or much later.
-    pub(super) fn is_too_coarse(&self, accuracy: Option<Accuracy>, target: f64) -> bool {
-        if self.left.is_some() {
-            return self.is_hopeless(accuracy, Some(target));
-        }
-        // Elements are as fine as particles tell them to be for caustics, whatever they are made for.
-        let of_caustics = self.caustics_told_lx2(Noise::TakenOff) + self.plan.caustics_beside_lx2;
-        if of_caustics.sqrt() > target * self.plan.reference_lx {
-            return false;
-        }
-        let count = self.sums.increments;
-        let Some(counted) = accuracy.filter(|_| self.may_end()) else {
-            return self.misses_early(target);
-        };
-        // More increments may show that what noise could hide is none.
-        let seen = self.accuracy_if(Noise::TakenOff).unwrap_or(counted);
-        let most = if self.has_nets() { MOST_INCREMENTS } else { f64::INFINITY };
-        [counted, seen].iter().all(|a| {
-            let needed = predict::increments_needed(a, count, target);
-            needed.is_none_or(|needed| needed > most)
-        })
-    }
-
     /// Whether increments are few, each with many rays of every receiver.
     const fn has_nets(&self) -> bool {
         matches!(self.engine, Engine::Hybrid(_) | Engine::Cache(_))
-    }
-
-    /// Whether the elements alone err by more than a target: seen before all of the error is believed.
-    fn misses_early(&self, target: f64) -> bool {
-        let ruled_out = || self.accuracy_if(Noise::RuledOut);
-        self.has_nets()
-            && self.sums.increments >= FEWEST_TO_MISS
-            && ruled_out().is_some_and(|a| a.of_elements() > target)
-    }
-
-    /// What the elements err by, as far as it is seen.
-    pub(super) fn error_of_elements(&self) -> Option<f64> {
-        self.accuracy_if(Noise::TakenOff).map(|a| a.of_elements())
-    }
-
-    /// Whether no number of increments will reach a target on these elements.
-    pub(super) fn is_hopeless(&self, accuracy: Option<Accuracy>, target: Option<f64>) -> bool {
-        if let Some(left) = &self.left {
-            let misses = |a: Accuracy| target.is_none_or(|target| a.reached > target);
-            return accuracy.is_some_and(misses) && left.is_shot;
-        }
-        let wanted = accuracy.zip(target).filter(|_| self.may_end());
-        wanted.is_some_and(|(a, goal)| {
-            self.needed_beyond_doubt(a, goal).is_none_or(|needed| needed > MOST_HOPED_FOR)
-        })
-    }
-
-    fn needed_beyond_doubt(&self, accuracy: Accuracy, target: f64) -> Option<f64> {
-        let seen = self.accuracy_if(Noise::TakenOff).unwrap_or(accuracy);
-        let count = self.sums.increments;
-        predict::increments_needed_beyond_doubt(&accuracy, &seen, count, target)
     }
 
     pub(super) fn is_believed(&self) -> bool {
@@ -423,50 +365,6 @@ impl<'p, 's> Work<'p, 's> {
         accuracy(self.plan, pooled, &errors)
     }
 
-    /// The increments that a target will take in all; `None` if it cannot be reached. Until the error is
-    /// believed, by what is seen of it, as soon as that tells something; before, by noise alone; from one increment,
-    /// what elements and rays are made for.
-    pub(super) fn increments_needed(&self, accuracy: Option<Accuracy>, target: f64) -> Option<f64> {
-        let count = self.sums.increments;
-        if let (Engine::Radiosity(radiosity), Some(left)) = (&self.engine, &self.left) {
-            return radiosity.shots_needed(count, left);
-        }
-        let by_all = |a: Accuracy| predict::increments_needed(&a, count, target);
-        let by_noise = || {
-            let statistical = early_statistical(self.plan, &self.sums).unwrap_or(0.0);
-            let share = statistical / target;
-            count as f64 * share * share
-        };
-        let needed = if count < BELIEVED_INCREMENTS {
-            let is_told = self.has_nets() && count >= FEWEST_TO_TELL;
-            let seen = is_told.then(|| self.accuracy_if(Noise::TakenOff).and_then(by_all));
-            Some(seen.flatten().unwrap_or_else(by_noise))
-        } else {
-            accuracy.and_then(|a| self.needed_beyond_doubt(a, target))
-        };
-        needed.map(|needed| needed.max(FEWEST_INCREMENTS as f64))
-    }
-
-    /// Whether no number of increments will tell how good the map is: there is no light on it, or
-    /// the light that was given up may be more than what is there; or whether radiosity was told to
-    /// shoot no more.
-    pub(super) fn is_vain(&self, accuracy: Option<Accuracy>) -> bool {
-        let dark = self.plan.reference_lx == 0.0;
-        let lost = self.given_up.sums != [Sums::default()];
-        let given_up = lost || self.left.as_ref().is_some_and(|left| !left.is_bounded);
-        if self.stops_at_unshot && self.left.as_ref().is_some_and(|left| left.is_shot) {
-            return true;
-        }
-        self.may_end() && accuracy.is_none() && (dark || given_up)
-    }
-
-    /// Whether more increments, of those that are hopeless, would change little: noise is a small part
-    /// of the error.
-    pub(super) fn is_settled(&self, accuracy: Option<Accuracy>) -> bool {
-        let is_shot = matches!(self.engine, Engine::Radiosity(_));
-        is_shot || accuracy.is_some_and(|a| a.statistical <= 0.25 * a.of_elements())
-    }
-
     /// The values of the map, and what the filter did to them.
     pub(super) fn values(
         &self,
@@ -487,6 +385,9 @@ impl<'p, 's> Work<'p, 's> {
         let by_particles = matches!(self.engine, Engine::Forward(_));
         let report = filtered.then(|| self.filter(&mut values, by_particles));
         values.iter_mut().flatten().for_each(without_negative_light);
+        if self.left.is_none() {
+            lend_noise(&self.plan.elements, &mut values);
+        }
         (values, report)
     }
 

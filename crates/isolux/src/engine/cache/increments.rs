@@ -10,7 +10,7 @@ use super::record::{CACHE_REPLICATES, CacheSample, IrradianceCache};
 use super::store::{LEAST_RADIUS_AT_VERTICES, Making, Replicate, Store};
 use crate::engine::accumulate::{Accumulator, Effort, Sample};
 use crate::engine::caustics::{self, Caustics};
-use crate::engine::checks::{self, Check, Checks};
+use crate::engine::checks::{self, Check, Checks, DirectThere};
 use crate::engine::deadline::Deadline;
 use crate::engine::hybrid;
 use crate::engine::parts;
@@ -41,7 +41,7 @@ pub(in crate::engine) struct Cached<'p, 's> {
     ties: Vec<Vec<Tie>>,
     checks: Vec<Place>,
     far_ties: Vec<Vec<Tie>>,
-    check_direct: Vec<Rgb>,
+    check_direct: DirectThere,
     rays: u32,
     /// For caustics.
     particles: u32,
@@ -83,10 +83,15 @@ impl<'p, 's> Cached<'p, 's> {
         let ties = places.par_iter().map(ties).collect();
         let checked: Vec<Place> = checks.iter().map(|check| Place::from(&check.gatherer)).collect();
         let far_ties = checked.par_iter().map(|place| store.far_ties(place)).collect();
-        let check_direct = checks::direct(plan, checks, key.with(0));
+        let check_direct = checks::direct(plan, checks, target, key.with(0));
         let rays = wanted.max(FEWEST_RAYS).next_power_of_two();
         let particles = plan.particles(target, CACHE_REPLICATES as u64);
         Self { plan, store, ties, checks: checked, far_ties, check_direct, rays, particles, key }
+    }
+
+    /// Variance of direct light as readings evaluate it, lx2, that all increments have in common.
+    pub(in crate::engine) const fn noise_of_direct_lx2(&self) -> f64 {
+        self.check_direct.noise_lx2
     }
 
     /// Time that an increment takes, s, roughly: the light between samples is tried.
@@ -130,7 +135,7 @@ impl<'p, 's> Cached<'p, 's> {
         let Checks { points: checks, sums: check_sums, lacking: lacking_sums } = checks;
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
-            hybrid::direct_light(plan, &self.check_direct, checks, key.with(0), deadline)?;
+            hybrid::direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
         let Caustics { light: caustic, lacking, effort: particles } =
             caustics::deposit(plan, self.particles, key.with(1));
         let caustic_at = |at: &SurfacePoint| caustic_at(plan, &caustic, at);

@@ -1,10 +1,12 @@
 //! Light from emitting surfaces.
 
 use super::Lighting;
+use super::measured::{Measured, REPLICATES};
 use super::source::{Emitter, Source, SourceKind, Target, facing_cos};
+use crate::engine::accumulate::mean_and_variance;
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
-use crate::sampling::SphericalTriangle;
+use crate::sampling::{Sequence, SphericalTriangle};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Point, Vector};
 use std::cell::OnceCell;
@@ -12,6 +14,12 @@ use std::cell::OnceCell;
 /// Emitters of at most so many triangles a sample are sampled by solid angle, with the exact
 /// unoccluded illuminance as control; larger ones by area, which costs less and spreads more.
 const TRIANGLES_A_SAMPLE: usize = 32;
+
+/// So many times the shadow rays where those before tell too little.
+const MORE: usize = 4;
+
+/// Places of a large emitter that tell roughly what it gives.
+const LOOKED_AT: usize = 64;
 
 /// Directions drawn before one is taken as it is. Over a triangle above the horizon the mean cosine is
 /// above a quarter of the highest, so this happens once in a hundred million.
@@ -115,6 +123,46 @@ impl Lighting<'_> {
         }
     }
 
+    /// Illuminance from emitting surfaces with the variance of its mean: where that is more than asked for, by more shadow rays.
+    /// What none of them have seen may still be there: it counts as if the next one did.
+    pub(in crate::engine) fn of_surfaces(
+        &self,
+        at: &SurfacePoint,
+        goal_lx: f64,
+        [fewest, most]: [usize; 2],
+        sequence: Sequence,
+    ) -> Measured {
+        let goal = goal_lx * goal_lx / self.area_sources.max(1) as f64;
+        let mut sum = Measured { lx: Rgb::BLACK, variance: 0.0 };
+        for (k, source) in self.sources.iter().enumerate() {
+            let SourceKind::Area { emitter, triangles } = &source.kind else { continue };
+            let mut samples = fewest;
+            let measured = loop {
+                let of_each = [const { Rgb::BLACK }; REPLICATES as usize];
+                let mut replicate = 0;
+                let of_each = of_each.map(|_| {
+                    let mut dice = Dice::new(sequence.fork(k as u32, samples as u32), replicate);
+                    replicate += 1;
+                    self.lit_by_area(source, emitter, triangles, at, samples, &mut dice)
+                });
+                let (lx, mut variance) = mean_and_variance(&of_each);
+                if lx.is_black() {
+                    let whole_lx =
+                        unhidden_lx(source, (emitter, triangles), at, &mut Dice::new(sequence, 0));
+                    let unseen_lx = whole_lx / (samples as f64 * f64::from(REPLICATES));
+                    variance = unseen_lx * unseen_lx;
+                }
+                if variance <= goal || samples >= most {
+                    break Measured { lx, variance };
+                }
+                samples = (MORE * samples).min(most);
+            };
+            sum.lx += measured.lx;
+            sum.variance += measured.variance;
+        }
+        sum
+    }
+
     /// Illuminance from one emitting surface, by `samples` shadow rays.
     ///
     /// Directions are drawn in proportion to the cosine at the receiver, so the share of them that is
@@ -140,6 +188,23 @@ impl Lighting<'_> {
         };
         source.colour * mean(samples, dice, one) * shape.whole
     }
+}
+
+/// What an emitting surface gives a place that nothing hides it from, lx; roughly where places of it are drawn by area.
+fn unhidden_lx(
+    source: &Source,
+    of: (&Emitter, &[[Point; 3]]),
+    at: &SurfacePoint,
+    dice: &mut Dice,
+) -> f64 {
+    let Some(shape) = Shape::new(at, of, 1) else { return 0.0 };
+    let one = |dice: &mut Dice| {
+        let drawn = shape.place(dice);
+        let share = drawn.and_then(|(index, place)| shape.share(index, place - at.point));
+        Rgb::grey(share.unwrap_or(0.0))
+    };
+    let samples = if shape.pieces.is_some() { 1 } else { LOOKED_AT };
+    source.colour.luminance() * mean(samples, dice, one).luminance() * shape.whole
 }
 
 /// A triangle of an emitter and a place on it, evenly over its area.

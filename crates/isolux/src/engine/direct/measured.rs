@@ -9,11 +9,12 @@ use crate::sampling::Sequence;
 use crate::units::Rgb;
 
 /// Independent combs, whose spread tells the error of their mean.
-const REPLICATES: u32 = 8;
+pub(super) const REPLICATES: u32 = 8;
 
 /// Teeth of one of them.
 const FEWEST_TEETH: f64 = 4.0;
 const MOST_TEETH: f64 = 512.0;
+const MOST_MORE_TEETH: f64 = 2048.0;
 
 /// Light by combs of n teeth errs like this power of 1/n where part of it is hidden: measured on an
 /// interior of 2626 luminaires from 8 to 512 (independent rays err like 0.5).
@@ -23,8 +24,19 @@ const COMB_ORDER: f64 = 0.7;
 /// right.
 const DOUBT: f64 = 0.5;
 
+/// A measurement that errs by more than so many times what it should is followed by another.
+const MISSED: f64 = 1.25;
+
+/// Shadow rays of a reading to emitting surfaces at most, in multiples of the usual ones, and by how much more for finer readings.
+const MOST_TO_SURFACES: f64 = 64.0;
+const MOST_FINER: f64 = 10.0;
+
 /// Where light may be so many times as noisy, rough clusters will do.
 const ROUGH_FROM: f64 = 1.5;
+
+/// Noise of a reading, of the accuracy asked for, and the least and the most of it, of all light: rays grow like its power of -1.4.
+const OF_ACCURACY: f64 = 0.3;
+const OF_READINGS: [f64; 2] = [3e-4, 3e-3];
 
 /// How well light is to be known.
 #[derive(Clone, Copy, Debug)]
@@ -37,16 +49,26 @@ pub(in crate::engine) struct Goal {
     pub(in crate::engine) first_look: usize,
     /// Whether clusters may be rough.
     pub(in crate::engine) is_rough: bool,
+    /// Whether to measure again, by more rays, what turns out to be noisier.
+    pub(in crate::engine) insists: bool,
 }
 
 impl Goal {
     /// A look by the fewest rays.
     pub(in crate::engine) const ANY: Self =
-        Self { lx: 0.0, share: 0.0, first_look: 0, is_rough: true };
+        Self { lx: 0.0, share: 0.0, first_look: 0, is_rough: true, insists: false };
 
-    /// What a reading of a map is worth.
-    pub(in crate::engine) const READING: Self =
-        Self { lx: 0.0, share: 0.003, first_look: 64, is_rough: false };
+    /// What a reading of a map is worth that is to err by so much of its light.
+    pub(in crate::engine) fn reading(accuracy: f64) -> Self {
+        let [least, most] = OF_READINGS;
+        let share = (OF_ACCURACY * accuracy).clamp(least, most);
+        Self { lx: 0.0, share, first_look: 64, is_rough: false, insists: true }
+    }
+
+    /// Standard error where there is so much light, lx.
+    fn of(self, lx: f64) -> f64 {
+        self.lx.max(self.share * lx)
+    }
 
     /// With so many times the noise; where that is much, by clusters as rough as those that one luminaire is drawn from.
     pub(in crate::engine) fn relaxed(self, by: f64) -> Self {
@@ -55,7 +77,7 @@ impl Goal {
 
     /// So many lux, after a short look.
     pub(in crate::engine) const fn lux(lx: f64) -> Self {
-        Self { lx, share: 0.0, first_look: 16, is_rough: false }
+        Self { lx, share: 0.0, first_look: 16, is_rough: false, insists: false }
     }
 }
 
@@ -85,19 +107,88 @@ impl Lighting<'_> {
         }
         let cut = if goal.is_rough { self.rough_cut(at) } else { self.fine_cut(at) };
         let teeth = self.teeth(&cut, at, goal, &mut Dice::new(sequence, REPLICATES));
-        let of_each =
-            (REPLICATES as usize * teeth >= self.count(&cut)).then(|| self.lit_by_each(&cut, at));
+        let values = self.replicates(&cut, at, teeth, sequence);
+        let (lx, variance) = mean_and_variance(&values);
+        let goal_lx = goal.of(lx.luminance());
+        let over = variance.sqrt() / goal_lx;
+        if !goal.insists || variance == 0.0 || over <= MISSED {
+            return Measured { lx, variance };
+        }
+        // The first look saw less than there is, and these tell more.
+        let wanted = teeth as f64 * libm::pow(over, 1.0 / COMB_ORDER);
+        let more = wanted.min(MOST_MORE_TEETH) as usize;
+        let others = self.replicates(&cut, at, more, sequence.fork(REPLICATES, 0));
+        // What they err by, in the square, falls as the weights rise; by all of the luminaires it is nothing.
+        let weight = libm::pow(over, 2.0);
+        let of_first = if self.asks_all(&cut, more) { 0.0 } else { 1.0 / (1.0 + weight) };
+        let of_others = 1.0 - of_first;
+        let mut both = values;
+        both.iter_mut().zip(others).for_each(|(v, other)| *v = *v * of_first + other * of_others);
+        let (lx, variance) = mean_and_variance(&both);
+        Measured { lx, variance }
+    }
+
+    /// The same where emitting surfaces have as many shadow rays as it takes, too: where light comes in through a small opening few of
+    /// them see anything.
+    pub(in crate::engine) fn read(
+        &self,
+        at: &SurfacePoint,
+        goal: Goal,
+        sequence: Sequence,
+    ) -> Measured {
+        if self.has_many() || self.is_measured_once() {
+            return self.measured(at, goal, sequence);
+        }
+        let points = self.lit_by_points(at);
+        let usual = self.area_samples();
+        let first = self.of_surfaces(at, f64::INFINITY, [usual; 2], sequence);
+        let goal_lx = goal.of((points + first.lx).luminance());
+        let surfaces = if first.variance > goal_lx * goal_lx {
+            let finer = (Goal::reading(f64::INFINITY).share / goal.share).clamp(1.0, MOST_FINER);
+            let most = (MOST_TO_SURFACES * finer) as usize * usual;
+            self.of_surfaces(at, goal_lx, [usual, most], sequence)
+        } else {
+            first
+        };
+        Measured { lx: points + surfaces.lx, ..surfaces }
+    }
+
+    /// The same by so many shadow rays to every emitting surface in all, and a look at all other luminaires.
+    pub(in crate::engine) fn read_by_all(
+        &self,
+        at: &SurfacePoint,
+        shadow_rays: u64,
+        sequence: Sequence,
+    ) -> Measured {
+        let each = (shadow_rays / u64::from(REPLICATES)) as usize;
+        let samples = each.max(self.area_samples());
+        let surfaces = self.of_surfaces(at, f64::INFINITY, [samples; 2], sequence);
+        Measured { lx: self.lit_by_points(at) + surfaces.lx, ..surfaces }
+    }
+
+    /// Whether so many teeth of every replicate are enough to ask all luminaires instead.
+    fn asks_all(&self, cut: &Cut, teeth: usize) -> bool {
+        REPLICATES as usize * teeth >= self.count(cut)
+    }
+
+    /// Replicates by combs of so many teeth.
+    fn replicates(
+        &self,
+        cut: &Cut,
+        at: &SurfacePoint,
+        teeth: usize,
+        sequence: Sequence,
+    ) -> [Rgb; REPLICATES as usize] {
+        let of_each = self.asks_all(cut, teeth).then(|| self.lit_by_each(cut, at));
         let samples = self.area_samples();
         let values = [const { Rgb::BLACK }; REPLICATES as usize];
         let mut replicate = 0;
-        let values = values.map(|_| {
+        values.map(|_| {
             let mut dice = Dice::new(sequence, replicate);
             replicate += 1;
-            let points = of_each.unwrap_or_else(|| self.lit_by_many(&cut, at, teeth, &mut dice));
+            let points = of_each.unwrap_or_else(|| self.lit_by_many(cut, at, teeth, &mut dice));
             self.others().fold(points, |sum, s| sum + self.lit_by(s, at, samples, &mut dice))
-        });
-        let (lx, variance) = mean_and_variance(&values);
-        Measured { lx, variance }
+        })
     }
 
     /// Teeth of a replicate: as many as it takes by the spread of what a first look finds.
@@ -116,7 +207,7 @@ impl Lighting<'_> {
         let looks = goal.first_look as f64 + DOUBT;
         let (lx, square) = (sum / looks, squares / looks);
         let spread_lx = (square - lx * lx).max(0.0).sqrt();
-        let goal_lx = goal.lx.max(goal.share * lx);
+        let goal_lx = goal.of(lx);
         let error_lx = spread_lx / f64::from(REPLICATES).sqrt();
         libm::pow(error_lx / goal_lx, 1.0 / COMB_ORDER).clamp(FEWEST_TEETH, MOST_TEETH) as usize
     }

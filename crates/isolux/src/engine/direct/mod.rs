@@ -173,11 +173,6 @@ impl<'s> Lighting<'s> {
         self.sampled(at, self.area_samples(), dice)
     }
 
-    /// The same with a look at every source: what choosing among many is measured against.
-    pub(super) fn illuminance_by_all(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        self.by_all(at, self.area_samples(), dice)
-    }
-
     fn area_samples(&self) -> usize {
         (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES)
     }
@@ -298,6 +293,12 @@ impl<'s> Lighting<'s> {
             }
             _ => self.lit_by_point(source, at),
         }
+    }
+
+    /// Illuminance from all sources that have no surface, one by one.
+    fn lit_by_points(&self, at: &SurfacePoint) -> Rgb {
+        let is_point = |s: &&Source| !matches!(s.kind, SourceKind::Area { .. });
+        self.sources.iter().filter(is_point).map(|source| self.lit_by_point(source, at)).sum()
     }
 
     fn lit_by_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {

@@ -121,7 +121,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         let specular = is_specular.then(|| Specular::new(plan, level, &chains, rays, key.with(1)));
         let (direct, direct_variance) = direct(plan, key.with(2));
         let (caustic, caustic_variance, effort) = caustic(plan, accuracy, key.with(3));
-        let checks = Checks::new(plan, points, asked.check_rays, &direct, key.with(4));
+        let checks = Checks::new(plan, points, (asked.check_rays, accuracy), &direct, key.with(4));
         let reference_lx = plan.reference_lx.max(root_mean_square(plan, &direct, &caustic));
         let given_up = checks.operators.iter().map(Operator::given_up).sum::<f64>()
             / CHECKINGS as f64
@@ -489,7 +489,13 @@ struct Flux {
 }
 
 impl Checks {
-    fn new(plan: &Plan, points: &[Check], rays: u32, direct: &[Rgb], key: Key) -> Self {
+    fn new(
+        plan: &Plan,
+        points: &[Check],
+        (rays, accuracy): (u32, f64),
+        direct: &[Rgb],
+        key: Key,
+    ) -> Self {
         // As readers gather.
         let gathering = Gathering { regathers: true, ..Gathering::of(plan, direct) };
         let rows: Vec<Gatherer> = points.iter().map(|p| p.gatherer.with_rays(rays)).collect();
@@ -499,7 +505,7 @@ impl Checks {
         };
         Self {
             operators: (0..CHECKINGS).map(operator).collect(),
-            direct: checks::direct(plan, points, key.with(0)),
+            direct: checks::direct(plan, points, accuracy, key.with(0)).lx,
         }
     }
 }

@@ -1,9 +1,12 @@
 //! Many luminaires by few shadow rays, against all of them one by one.
 
 use super::*;
+use crate::engine::checks;
 use crate::engine::direct::{Goal, Lighting, Measured, Patches};
 use crate::engine::gather::Gatherer;
+use crate::engine::pilot::pilot;
 use crate::engine::surface::SurfacePoint;
+use crate::engine::{SolveRequest, Watch, solve};
 use crate::photometry::PhotometricWeb;
 use std::sync::Arc;
 
@@ -197,7 +200,7 @@ fn errors(scene: &Scene, goal: Goal) -> [f64; 3] {
 fn measured_light_is_as_near_as_it_says() {
     let scene = hall(3000);
     let [_, said_at_once, _] = errors(&scene, Goal::ANY);
-    let [found, said, of_means] = errors(&scene, Goal::READING);
+    let [found, said, of_means] = errors(&scene, Goal::reading(0.01));
     // Their squares at 30 places spread by the root of 2 / 30, a quarter: here of three times that.
     let expected = found / (MEASURED as f64).sqrt();
     assert!(of_means < 1.32 * expected, "{of_means} for {expected}");
@@ -209,3 +212,24 @@ fn measured_light_is_as_near_as_it_says() {
 /// Places, and measurements of each.
 const PLACES: u64 = 30;
 const MEASURED: u64 = 50;
+
+/// All increments read the same direct light, so that their spread does not tell its noise.
+#[test]
+fn noise_of_direct_light_is_part_of_the_accuracy() {
+    let floor = vec![rectangle([-9.0, -9.0, 0.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0)];
+    let scene = scene(floor, vec![painted(Rgb::grey(0.5))], lamps(700));
+    let lighting = Lighting::new(&scene);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let checks = checks::draw(&plan, 0, Key::new(2));
+    let noise = |accuracy: f64| {
+        let noise_lx2 = checks::direct(&plan, &checks, accuracy, Key::new(3)).noise_lx2;
+        noise_lx2.sqrt() / plan.reference_lx
+    };
+    let told = noise(0.01);
+    assert!(noise(0.002) < 0.6 * told && told < 0.02, "{told}");
+    let request = SolveRequest { accuracy: Some(0.01), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    // Nothing reflects on to a floor: there is no other noise.
+    let statistical = map.provenance.accuracy.unwrap().statistical;
+    assert!((0.5..2.0).contains(&(statistical / told)), "{statistical} for {told}");
+}
