@@ -404,6 +404,12 @@ pub(crate) struct ExportFlags {
     /// Give surfaces that no light of this map reaches no texels: lightmaps of other light no longer lie alike
     #[arg(long)]
     pub without_dark: bool,
+    /// The glTF scene of the map (.glb, .gltf): write it again with the lightmap, and all else as it is
+    #[arg(long, value_name = "SCENE")]
+    pub onto: Option<PathBuf>,
+    /// Leave out the luminaires of --onto, as their light is in the lightmap
+    #[arg(long)]
+    pub without_lights: bool,
     /// Luminance that colours of vertices show as white: 500cd/m2 [default: what 99 % of all surfaces stay below]
     #[arg(long, value_name = "LUMINANCE", value_parser = quantity::luminance_cd_m2, allow_hyphen_values = true)]
     pub white: Option<f64>,

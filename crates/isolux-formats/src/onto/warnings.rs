@@ -1,0 +1,47 @@
+//! What users should know of a scene with its light baked in.
+
+use super::options::Options;
+use super::references::{has_extension, list};
+use crate::gltf::{DRACO, INSTANCES, MESHOPT_NAMES, Opened};
+use crate::{Problem, counted};
+
+/// Extensions of nodes that are luminaires.
+pub(super) const LIGHTS: [&str; 2] = ["KHR_lights_punctual", "EXT_lights_ies"];
+
+/// All of it.
+pub(super) fn of(opened: &Opened, others: usize, options: Options) -> Vec<Problem> {
+    let mut found = Vec::new();
+    let mut warn = |place: &str, what: String, remedy: &str| {
+        found.push(opened.problem(place, what, remedy));
+    };
+    let nodes = || list(&opened.json, "nodes");
+    let is_light = |node: &&serde_json::Value| {
+        LIGHTS.iter().any(|name| node.get("extensions").is_some_and(|e| e.get(*name).is_some()))
+    };
+    let lights = nodes().filter(is_light).count();
+    if lights > 0 && !options.without_lights {
+        let what = format!(
+            "{}, with light that is in the lightmap, too: who shows both shows it twice",
+            counted(lights, "luminaire stays", "luminaires stay")
+        );
+        warn("", what, "switch them off there, or add --without-lights");
+    }
+    if others > 0 {
+        let what =
+            format!("{} of the map are not in this file", counted(others, "triangle", "triangles"));
+        warn("", what, "put all geometry into one file to have all of it in one");
+    }
+    if nodes().any(|node| node.get("skin").is_some()) {
+        let what = "skins keep the light of the pose in the file when they move".to_owned();
+        warn("nodes", what, "light what moves in the engine");
+    }
+    if has_extension(&opened.json, INSTANCES) {
+        let what = format!("copies of {INSTANCES} become nodes, as each has light of its own");
+        warn("nodes", what, "keep in mind that the file becomes larger");
+    }
+    if MESHOPT_NAMES.into_iter().chain([DRACO]).any(|name| has_extension(&opened.json, name)) {
+        let what = "compressed geometry is stored unpacked".to_owned();
+        warn("", what, "compress the new file again, say by `gltf-transform`");
+    }
+    found
+}

@@ -1,0 +1,1 @@
+//! Files that a `scene.toml` places.

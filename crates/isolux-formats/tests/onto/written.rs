@@ -1,0 +1,84 @@
+//! A scene, light on it, and the file that comes of both.
+
+use isolux::elements::Subdivision;
+use isolux::geometry::{Normal, Point};
+use isolux::lightmap::{Lightmap, LightmapSettings, Pace, UvUnwrap, bake, plan};
+use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
+use isolux::scene::Scene;
+use isolux::units::Rgb;
+use isolux_formats::lightmap::Target;
+use isolux_formats::map_glb::{Preview, TexelFile};
+use isolux_formats::onto::{Onto, Options};
+use isolux_formats::{Loaded, Problem, Problems};
+use std::path::Path;
+
+/// Light that tells places and sides from each other, lx: even in space, so that all texels and lookups have it.
+pub(crate) fn illuminance_lx(place: Point, normal: Normal) -> f64 {
+    let n = normal.to_vector();
+    400.0 + 20.0 * place.x + 10.0 * place.y - 15.0 * place.z + 90.0 * n.x + 120.0 * n.y + 60.0 * n.z
+}
+
+/// A scene and its lightmap.
+pub(crate) struct Lit {
+    pub(crate) scene: Scene,
+    map: IlluminationMap,
+    lightmap: Lightmap,
+}
+
+impl Lit {
+    /// A file as it is solved.
+    pub(crate) fn of(path: &Path, page: u32) -> Self {
+        let scene = Scene::assemble(isolux_formats::load(path).unwrap().value).unwrap();
+        let map = map(&scene);
+        let settings =
+            LightmapSettings { texels_per_m: Some(16.0), page, ..LightmapSettings::default() };
+        let layout = plan(&scene, &settings, &UvUnwrap).unwrap();
+        let lightmap = bake(&scene, &map, &layout, &mut |_| Pace::Whole).unwrap();
+        Self { scene, map, lightmap }
+    }
+
+    /// The same light onto a file.
+    pub(crate) fn onto(
+        &self,
+        path: &Path,
+        (target, options): (Target, Options),
+    ) -> Result<(Vec<u8>, Vec<Problem>), Problems> {
+        let Loaded { value, warnings } = Onto::open(path, &self.scene, (target, options))?;
+        let (scene, map, lightmap) = (&self.scene, &self.map, &self.lightmap);
+        let preview = Preview { exposure_m2_cd: 0.01, white_cd_m2: 400.0 };
+        let file = TexelFile { scene, map, lightmap, preview, target, with_record: false };
+        let bytes = value.write(&file).unwrap();
+        assert_eq!(bytes, value.write(&file).unwrap());
+        Ok((bytes, warnings))
+    }
+}
+
+fn map(scene: &Scene) -> IlluminationMap {
+    let elements = Subdivision::new(scene).elements();
+    let lit = |place: Point, normal: Normal| Illuminance {
+        indirect_lx: Rgb::grey(illuminance_lx(place, normal)),
+        standard_error_lx: 1e-3,
+        indirect_standard_error_lx: 1e-3,
+        standing: Standing::Open,
+        ..Illuminance::NOTHING
+    };
+    let values = elements.vertices().iter().map(|v| Some(lit(v.position, v.normal))).collect();
+    let provenance = Provenance {
+        scene: "room".into(),
+        scene_hash: scene.hash(),
+        version: "0.1.0".into(),
+        method: Method::Hybrid,
+        seed: 1,
+        increments: 8,
+        rays: 1,
+        accuracy_target: None,
+        fresh: None,
+        filter: None,
+        unshot: None,
+        diffuse_only: false,
+        mixed: Vec::new(),
+        complete: true,
+        accuracy: None,
+    };
+    IlluminationMap { elements, values, provenance }
+}
