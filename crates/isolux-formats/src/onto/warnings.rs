@@ -4,6 +4,7 @@ use super::options::Options;
 use super::references::{has_extension, list};
 use crate::gltf::{DRACO, INSTANCES, MESHOPT_NAMES, Opened};
 use crate::{Problem, counted};
+use serde_json::Value;
 
 /// Extensions of nodes that are luminaires.
 pub(super) const LIGHTS: [&str; 2] = ["KHR_lights_punctual", "EXT_lights_ies"];
@@ -15,7 +16,7 @@ pub(super) fn of(opened: &Opened, others: usize, options: Options) -> Vec<Proble
         found.push(opened.problem(place, what, remedy));
     };
     let nodes = || list(&opened.json, "nodes");
-    let is_light = |node: &&serde_json::Value| {
+    let is_light = |node: &&Value| {
         LIGHTS.iter().any(|name| node.get("extensions").is_some_and(|e| e.get(*name).is_some()))
     };
     let lights = nodes().filter(is_light).count();
@@ -30,6 +31,21 @@ pub(super) fn of(opened: &Opened, others: usize, options: Options) -> Vec<Proble
         let what =
             format!("{} of the map are not in this file", counted(others, "triangle", "triangles"));
         warn("", what, "put all geometry into one file to have all of it in one");
+    }
+    let has = |key: &str, wanted: &dyn Fn(&Value) -> bool| {
+        list(&opened.json, "materials").any(|m| m.get(key).is_some_and(wanted))
+    };
+    if has("doubleSided", &|value| value == true) {
+        let what = "surfaces of doubleSided materials are there once for each side, as each has light of its own";
+        warn(
+            "materials",
+            what.to_owned(),
+            "make those one-sided of which the back is never seen, and solve again",
+        );
+    }
+    if has("occlusionTexture", &|_| true) {
+        let what = "occlusion maps darken the lightmap, which has their shadows already";
+        warn("materials", what.to_owned(), "switch them off there (three.js: aoMapIntensity = 0)");
     }
     if nodes().any(|node| node.get("skin").is_some()) {
         let what = "skins keep the light of the pose in the file when they move".to_owned();

@@ -44,12 +44,21 @@ impl Lit {
         (target, options): (Target, Options),
     ) -> Result<(Vec<u8>, Vec<Problem>), Problems> {
         let Loaded { value, warnings } = Onto::open(path, &self.scene, (target, options))?;
+        let bytes = value.write(&self.file(target)).unwrap();
+        assert_eq!(bytes, value.write(&self.file(target)).unwrap());
+        Ok((bytes, warnings))
+    }
+
+    /// What is said of a file that is found to be wrong only when it is written.
+    pub(crate) fn refused(&self, path: &Path) -> String {
+        let opened = Onto::open(path, &self.scene, (Target::Three, Options::default())).unwrap();
+        opened.value.write(&self.file(Target::Three)).unwrap_err().to_string()
+    }
+
+    fn file(&self, target: Target) -> TexelFile<'_> {
         let (scene, map, lightmap) = (&self.scene, &self.map, &self.lightmap);
         let preview = Preview { exposure_m2_cd: 0.01, white_cd_m2: 400.0 };
-        let file = TexelFile { scene, map, lightmap, preview, target, with_record: false };
-        let bytes = value.write(&file).unwrap();
-        assert_eq!(bytes, value.write(&file).unwrap());
-        Ok((bytes, warnings))
+        TexelFile { scene, map, lightmap, preview, target, with_record: false }
     }
 }
 
