@@ -79,7 +79,8 @@ fn speaks_against_onto(
             "--onto writes a scene again with its lightmap; add --layout texels, and end the name in .glb",
         ),
         Some(_) if !has_way => Some(
-            "--onto leaves materials as they are, and of them only those for three and bevy may have a lightmap beside; add              --target three (texels in lx) or --target bevy (E / pi), or leave --onto out",
+            "--onto leaves materials as they are, and of them only those for three and bevy may have a lightmap beside; add \
+             --target three (texels in lx) or --target bevy (E / pi), or leave --onto out",
         ),
         _ => None,
     }

@@ -5,7 +5,7 @@ use super::buffers::Document;
 use super::meshes::Origin;
 use super::notes::{Flaw, Notes};
 use super::primitive::Source;
-use super::{Reading, container, instances, limits, nodes, open, or_fail, resolve};
+use super::{Reading, container, instances, limits, open, or_fail, resolve};
 use crate::source::read_bytes;
 use crate::{Problem, Problems};
 use gltf_json::accessor::ComponentType;
@@ -88,11 +88,6 @@ impl Opened {
     pub(crate) fn instances(&self, node: usize) -> Result<Vec<Transform>, Problem> {
         let found = self.told(instances::node_from_instances(&self.document, node))?;
         Ok(found.unwrap_or_default())
-    }
-
-    /// The name of a node, or its number.
-    pub(crate) fn node_name(&self, node: usize) -> String {
-        nodes::name(&self.document.root, node)
     }
 
     /// The bytes of a file that the file names.

@@ -15,7 +15,7 @@ const REMEDY: &str = "give the file that was solved, as it was then, or solve th
 /// The triangles of the scene that a file's are.
 pub(super) struct Matched {
     /// Of each shape of the file, for each of its triangles: without area they are in no scene.
-    pub(super) triangles: Vec<Vec<Option<u32>>>,
+    pub(super) triangles: Triangles,
     /// Triangles of the scene that are of other files.
     pub(super) others: usize,
 }
@@ -29,7 +29,7 @@ pub(super) fn find(opened: &Opened, scene: &Scene) -> Result<Matched, Problem> {
     }
     let runs = Runs { scene, shapes, ranges: ranges(scene) };
     let starts = || 0..(runs.ranges.len() + 1).saturating_sub(runs.shapes.len());
-    let mut found: Vec<Vec<Vec<Option<u32>>>> = Vec::new();
+    let mut found: Vec<Triangles> = Vec::new();
     let mut nearest: Option<Difference> = None;
     let mut keep = |tried: Result<_, Difference>| match tried {
         Ok(triangles) => found.push(triangles),
@@ -64,6 +64,12 @@ pub(super) fn find(opened: &Opened, scene: &Scene) -> Result<Matched, Problem> {
     }
 }
 
+/// The scene's triangle of each of the file's, shape by shape.
+type Triangles = Vec<Vec<Option<u32>>>;
+
+/// A corner of the file: shape, triangle of those with an area, corner.
+type Corner = (usize, u32, usize);
+
 /// Where a file and a scene differ.
 struct Difference {
     start: usize,
@@ -87,7 +93,7 @@ impl Runs<'_> {
         start: usize,
         scene_from_file: &Transform,
         tolerance_m: f64,
-    ) -> Result<Vec<Vec<Option<u32>>>, Difference> {
+    ) -> Result<Triangles, Difference> {
         let mut all = Vec::with_capacity(self.shapes.len());
         for (index, shape) in self.shapes.iter().enumerate() {
             let Range { start: mut next, end } = self.ranges[start + index].clone();
@@ -116,8 +122,8 @@ impl Runs<'_> {
         Ok(all)
     }
 
-    /// Points that hold the file, and whose they are: shape, triangle of those with an area, corner.
-    fn frame(&self) -> Option<(Frame, Vec<(usize, u32, usize)>)> {
+    /// Points that hold the file, and which they are.
+    fn frame(&self) -> Option<(Frame, Vec<Corner>)> {
         let (mut points, mut corners) = (Vec::new(), Vec::new());
         for (index, shape) in self.shapes.iter().enumerate() {
             let placed =
@@ -132,12 +138,7 @@ impl Runs<'_> {
     }
 
     /// The same from a shape of the scene on, wherever it was placed.
-    fn placed(
-        &self,
-        start: usize,
-        frame: &Frame,
-        corners: &[(usize, u32, usize)],
-    ) -> Option<Vec<Vec<Option<u32>>>> {
+    fn placed(&self, start: usize, frame: &Frame, corners: &[Corner]) -> Option<Triangles> {
         let of_run = &self.ranges[start..start + self.shapes.len()];
         let counts = corners.chunk_by(|a, b| a.0 == b.0).map(|c| (c[0].0, c.len() / 3));
         if counts.into_iter().any(|(shape, count)| of_run[shape].len() != count) {

@@ -29,7 +29,8 @@ pub(super) fn primitive(
     let mut new = old.clone();
     take_extension(&mut new, DRACO);
     let gather = Gather { opened, place, part };
-    let attributes = old["attributes"].as_object().cloned().unwrap_or_default();
+    let mut attributes = old["attributes"].as_object().cloned().unwrap_or_default();
+    attributes.remove(&name_of_set(set));
     let mut attributes = gather.attributes(&attributes, store)?;
     let places: Vec<u8> = part.uvs.iter().flatten().flat_map(|c| c.to_le_bytes()).collect();
     let view = store.view(&places, json!({"target": VERTICES}))?;

@@ -28,9 +28,11 @@ pub(super) fn of(opened: &Opened, others: usize, options: Options) -> Vec<Proble
         warn("", what, "switch them off there, or add --without-lights");
     }
     if others > 0 {
-        let what =
-            format!("{} of the map are not in this file", counted(others, "triangle", "triangles"));
-        warn("", what, "put all geometry into one file to have all of it in one");
+        let others = counted(others, "triangle", "triangles");
+        let what = format!(
+            "the map has {others} besides those of this file: of other files, or taken out since"
+        );
+        warn("", what, "solve the scene anew if something was taken out, as it is in the light");
     }
     let has = |key: &str, wanted: &dyn Fn(&Value) -> bool| {
         list(&opened.json, "materials").any(|m| m.get(key).is_some_and(wanted))

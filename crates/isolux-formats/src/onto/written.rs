@@ -7,7 +7,7 @@ use super::matching::Matched;
 use super::materials::{LIGHTMAP, Materials, Use, set_of};
 use super::options::Options;
 use super::origins::{place, primitive};
-use super::references::{has_extension, list, take_extension};
+use super::references::{has_extension, index, list, take_extension};
 use super::store::Store;
 use super::warnings::LIGHTS;
 use super::{links, vertices};
@@ -148,7 +148,10 @@ impl Grafted<'_> {
 
     /// Nodes in place of copies of a node's mesh.
     fn expand(&mut self, node: usize, copies: &[(usize, usize)]) -> Result<(), OntoError> {
-        let name = self.opened.node_name(node);
+        let old = &self.opened.json;
+        let of_mesh = index(&old["nodes"][node], "mesh").map(|mesh| &old["meshes"][mesh]);
+        let named = [Some(&old["nodes"][node]), of_mesh].into_iter().flatten();
+        let name = named.filter_map(|named| named.get("name")?.as_str()).next().unwrap_or("copy");
         let places = self.opened.instances(node)?;
         let weights = self.document["nodes"][node].get("weights").cloned();
         for &(copy, mesh) in copies {

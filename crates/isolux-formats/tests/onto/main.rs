@@ -7,7 +7,10 @@ mod build;
 mod grafted;
 mod kept;
 mod light;
+mod opened;
 mod placed;
 mod refused;
 mod scene;
+#[path = "../spoil/mod.rs"]
+mod spoil;
 mod written;

@@ -23,9 +23,11 @@ fn refused(change: impl Fn(&mut File), target: Target) -> String {
     }
 }
 
+type Change<'a> = &'a dyn Fn(&mut File);
+
 #[test]
 fn other_scenes_are_refused_by_the_place_where_they_differ() {
-    let cases: [(&dyn Fn(&mut File), &str); 6] = [
+    let cases: [(Change<'_>, &str); 5] = [
         (
             &|file| file.json["nodes"][3]["translation"] = json!([0, 2.001, 0]),
             "scene.glb: nodes[3], meshes[1].primitives[0]: `cloth` is not what the map was made of: triangle 0 of 2",
@@ -39,8 +41,10 @@ fn other_scenes_are_refused_by_the_place_where_they_differ() {
             &|file| file.json["nodes"][0]["children"] = json!([1, 2, 3, 4, 5, 6, 7]),
             "it has 10 surfaces, the scene of the map 8",
         ),
-        (&|file| file.json["scene"] = json!(1), "`elsewhere [0]` is not what the map was made of: triangle 0 of 2"),
-        (&|file| file.json["meshes"][0]["primitives"] = json!([]), "it has"),
+        (
+            &|file| file.json["scene"] = json!(1),
+            "`elsewhere [0]` is not what the map was made of: triangle 0 of 2",
+        ),
     ];
     for (change, words) in cases {
         let said = refused(|file| change(file), Target::Three);

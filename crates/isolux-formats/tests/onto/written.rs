@@ -49,10 +49,16 @@ impl Lit {
         Ok((bytes, warnings))
     }
 
+    /// The same for three.js, or what is said of a file that will not do.
+    pub(crate) fn written(&self, path: &Path) -> Result<Vec<u8>, String> {
+        let opened = Onto::open(path, &self.scene, (Target::Three, Options::default()));
+        let opened = opened.map_err(|problems| problems.to_string())?;
+        opened.value.write(&self.file(Target::Three)).map_err(|error| error.to_string())
+    }
+
     /// What is said of a file that is found to be wrong only when it is written.
     pub(crate) fn refused(&self, path: &Path) -> String {
-        let opened = Onto::open(path, &self.scene, (Target::Three, Options::default())).unwrap();
-        opened.value.write(&self.file(Target::Three)).unwrap_err().to_string()
+        self.written(path).unwrap_err()
     }
 
     fn file(&self, target: Target) -> TexelFile<'_> {
