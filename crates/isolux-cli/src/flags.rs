@@ -379,6 +379,7 @@ pub(crate) enum ToneName {
   isolux export map.glb -o room.vtu
   isolux export map.glb -o baked.glb --target bevy
   isolux export map.glb -o baked.glb --layout texels --target three --texels-per-meter 20
+  isolux export map.glb -o baked.glb --layout texels --target three --onto scene.glb
   isolux export map.glb -o lightmap.exr
 
 The extension tells the kind: .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row \

@@ -11,6 +11,11 @@ const ALIGNMENT: usize = 8;
 /// What 32 bits of GLB can say.
 const MOST_BYTES: usize = u32::MAX as usize;
 
+/// Bytes that copies in the JSON may take: a mesh of many places has one for each.
+const MOST_COPIED: usize = 256 << 20;
+/// What a value takes at least.
+const A_VALUE: usize = 8;
+
 /// The data of a file while it grows.
 pub(super) struct Store {
     pub(super) content: Vec<u8>,
@@ -19,6 +24,8 @@ pub(super) struct Store {
     /// Numbers that nothing refers to any more.
     free_accessors: Vec<usize>,
     free_views: Vec<usize>,
+    /// Bytes that may still be copied.
+    room: usize,
 }
 
 impl Store {
@@ -34,6 +41,7 @@ impl Store {
             views: list(document, "bufferViews").cloned().collect(),
             free_accessors: Vec::new(),
             free_views: Vec::new(),
+            room: MOST_COPIED,
         };
         let stay = Referenced::of(document, &|_| true);
         let is_free = |accessor: &usize| {
@@ -84,6 +92,17 @@ impl Store {
         Ok(start)
     }
 
+    /// A copy of a part of the document.
+    pub(super) fn copy(&mut self, opened: &Opened, part: &Value) -> Result<Value, OntoError> {
+        self.room = self.room.checked_sub(weight(part)).ok_or_else(|| {
+            let what = format!(
+                "copies for all places of its meshes take more than {MOST_COPIED} bytes of JSON"
+            );
+            opened.problem("meshes", what, "place fewer copies, or split the scene")
+        })?;
+        Ok(part.clone())
+    }
+
     /// Adds a view of bytes, of which there must be some, with more of its members.
     pub(super) fn view(&mut self, bytes: &[u8], members: Value) -> Result<usize, OntoError> {
         let mut view = members;
@@ -111,6 +130,17 @@ impl Store {
             self.views[index] = json!({"buffer": 0, "byteLength": 1});
         }
     }
+}
+
+/// About the bytes that a value takes as text.
+fn weight(value: &Value) -> usize {
+    A_VALUE
+        + match value {
+            Value::String(text) => text.len(),
+            Value::Array(values) => values.iter().map(weight).sum(),
+            Value::Object(members) => members.iter().map(|(key, v)| key.len() + weight(v)).sum(),
+            _ => 0,
+        }
 }
 
 fn put(all: &mut Vec<Value>, free: &mut Vec<usize>, value: Value) -> usize {

@@ -26,7 +26,7 @@ pub(super) fn primitive(
     (part, set): (&Part, u32),
     store: &mut Store,
 ) -> Result<Value, OntoError> {
-    let mut new = old.clone();
+    let mut new = store.copy(opened, old)?;
     take_extension(&mut new, DRACO);
     let gather = Gather { opened, place, part };
     let mut attributes = old["attributes"].as_object().cloned().unwrap_or_default();
@@ -91,7 +91,7 @@ impl Gather<'_> {
         store: &mut Store,
     ) -> Result<usize, OntoError> {
         let record = &self.opened.json["accessors"][accessor];
-        let mut new = record.clone();
+        let mut new = store.copy(self.opened, record)?;
         for member in ["sparse", "byteOffset", "bufferView", "min", "max"] {
             new.as_object_mut().and_then(|members| members.remove(member));
         }

@@ -119,10 +119,10 @@ impl Grafted<'_> {
         for (number, primitive) in list(old, "primitives").enumerate() {
             match shapes.get(&number) {
                 Some(&shape) => primitives.extend(self.lit(shape)?),
-                None => primitives.push(primitive.clone()),
+                None => primitives.push(self.store.copy(self.opened, primitive)?),
             }
         }
-        let mut mesh = old.clone();
+        let mut mesh = self.store.copy(self.opened, old)?;
         mesh["primitives"] = Value::Array(primitives);
         Ok(mesh)
     }

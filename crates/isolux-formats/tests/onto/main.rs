@@ -12,5 +12,6 @@ mod placed;
 mod refused;
 mod scene;
 #[path = "../spoil/mod.rs"]
+#[allow(dead_code, reason = "text is spoilt elsewhere")]
 mod spoil;
 mod written;

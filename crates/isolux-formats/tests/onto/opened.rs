@@ -4,12 +4,12 @@ use crate::build::{FLOAT, File, floats, png};
 use crate::grafted::Glb;
 use crate::light::ONE_PAGE;
 use crate::scene;
-use crate::spoil::{Dice, spoil};
+use crate::spoil::Dice;
 use crate::written::Lit;
 use isolux_formats::gltf;
 use isolux_formats::lightmap::Target;
 use isolux_formats::onto::Options;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::Path;
 
 fn sample(name: &str) -> std::path::PathBuf {
@@ -120,6 +120,54 @@ fn skins_keep_their_joints_and_lights_may_go() {
     }
 }
 
+/// A small file that asks for much: a mesh with a megabyte of words, in a thousand places.
+#[test]
+fn copies_of_what_is_large_are_bounded() {
+    let mut file = File::triangle();
+    file.json["meshes"][0]["extras"] = json!("x".repeat(1 << 20));
+    let places: Vec<f32> = (0..1000).flat_map(|k| [2.0 * k as f32, 0.0, 0.0]).collect();
+    let places = file.accessor(&floats(&places), "VEC3", FLOAT, 1000);
+    file.json["nodes"][0]["extensions"] =
+        json!({"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": places}}});
+    file.json["extensionsUsed"] = json!(["EXT_mesh_gpu_instancing"]);
+    let home = tempfile::tempdir().unwrap();
+    let path = home.path().join("scene.glb");
+    std::fs::write(&path, file.glb()).unwrap();
+    let said = Lit::of(&path, ONE_PAGE).refused(&path);
+    assert!(said.contains("meshes: copies for all places"), "{said}");
+}
+
+/// Puts something else in the place of some value.
+fn replace(value: &mut Value, dice: &mut Dice) {
+    let children: Vec<&mut Value> = match value {
+        Value::Array(values) => values.iter_mut().collect(),
+        Value::Object(members) => members.values_mut().collect(),
+        _ => Vec::new(),
+    };
+    let count = children.len();
+    if count > 0 && dice.below(8) > 0 {
+        let child = dice.below(count);
+        return children.into_iter().nth(child).into_iter().for_each(|c| replace(c, dice));
+    }
+    let others = [
+        json!(0),
+        json!(1),
+        json!(7),
+        json!(4_294_967_295_u32),
+        json!(-1),
+        json!(1e300),
+        json!([]),
+        json!({}),
+        json!(null),
+        json!("x"),
+        json!([0]),
+        json!([[{}]]),
+        json!({"extensions": []}),
+        json!(true),
+    ];
+    *value = others[dice.below(others.len())].clone();
+}
+
 /// Documents spoilt at random are refused, or written as files that can be opened; nothing panics.
 #[test]
 fn spoilt_documents() {
@@ -128,27 +176,14 @@ fn spoilt_documents() {
     let mut file = scene::file();
     file.json["buffers"][0]["uri"] = json!("scene.bin");
     std::fs::write(home.path().join("scene.bin"), &file.binary).unwrap();
-    let text = serde_json::to_vec_pretty(&file.json).unwrap();
-    std::fs::write(&path, &text).unwrap();
+    std::fs::write(&path, file.json.to_string()).unwrap();
     let light = Lit::of(&path, ONE_PAGE);
-    let words = [
-        "0,",
-        "4294967295,",
-        "-1,",
-        "[]",
-        "{}",
-        "null",
-        "\"POSITION\":",
-        "[[0]],",
-        "1e300,",
-        "[[{}]]",
-    ];
     let mut dice = Dice(7);
     let (mut written, mut refused) = (0, 0);
-    for _ in 0..600 {
-        let mut bytes = text.clone();
-        spoil(&mut bytes, &mut dice, &words);
-        std::fs::write(&path, &bytes).unwrap();
+    for round in 0..1000 {
+        let mut json = file.json.clone();
+        (0..=round % 3).for_each(|_| replace(&mut json, &mut dice));
+        std::fs::write(&path, json.to_string()).unwrap();
         match light.written(&path) {
             Ok(bytes) => {
                 assert!(Glb::of(&bytes).json["nodes"].is_array());
