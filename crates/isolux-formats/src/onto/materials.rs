@@ -1,10 +1,12 @@
 //! Materials with a lightmap beside all that they have.
 
+use super::origins::{place, primitive};
 use super::references::{index, list};
-use crate::gltf::Opened;
+use crate::Problem;
+use crate::gltf::{Opened, Origin};
 use crate::lightmap::Target;
 use serde_json::{Value, json};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// As Mozilla Hubs reads it.
 pub(super) const LIGHTMAP: &str = "MOZ_lightmap";
@@ -14,8 +16,6 @@ const VARIANTS: &str = "KHR_materials_variants";
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Use {
     pub(super) page: u32,
-    /// The set of texture coordinates that are places in the lightmap.
-    pub(super) set: u32,
     /// Whether its backs have a place of their own, and are surfaces of their own.
     pub(super) is_parted: bool,
 }
@@ -25,6 +25,8 @@ pub(super) struct Materials {
     pub(super) all: Vec<Value>,
     /// Texture and factor of each page.
     pages: Vec<(usize, f64)>,
+    /// The set of texture coordinates that are places in the lightmap.
+    set: u32,
     known: HashMap<(Option<usize>, Use), usize>,
     /// Those that something needs as they are, or that are changed already.
     taken: HashSet<usize>,
@@ -35,11 +37,11 @@ impl Materials {
     pub(super) fn of<'a>(
         document: &Value,
         staying: impl Iterator<Item = &'a Value>,
-        pages: Vec<(usize, f64)>,
+        (pages, set): (Vec<(usize, f64)>, u32),
     ) -> Self {
         let all = list(document, "materials").cloned().collect();
         let taken = staying.flat_map(of_primitive).flatten().collect();
-        Self { all, pages, known: HashMap::new(), taken }
+        Self { all, pages, set, known: HashMap::new(), taken }
     }
 
     /// Gives a primitive the light of a page: its material and those it may be shown with instead.
@@ -64,7 +66,7 @@ impl Materials {
         let mut new = old.unwrap_or_else(|| json!({}));
         let (texture, intensity) = self.pages[for_what.page as usize];
         new["extensions"][LIGHTMAP] =
-            json!({"index": texture, "texCoord": for_what.set, "intensity": intensity});
+            json!({"index": texture, "texCoord": self.set, "intensity": intensity});
         if for_what.is_parted {
             new["doubleSided"] = json!(false);
         }
@@ -87,22 +89,34 @@ fn of_primitive(primitive: &Value) -> Vec<Option<usize>> {
     std::iter::once(index(primitive, "material")).chain(others).collect()
 }
 
-/// The set of texture coordinates for places in the lightmap: the second, or the next that no texture of the primitive's
-/// materials is read by. What speaks against it, if it does not serve.
-pub(super) fn set_of(opened: &Opened, primitive: &Value, target: Target) -> Result<u32, String> {
-    let mut used = HashSet::new();
-    for material in of_primitive(primitive).into_iter().flatten() {
-        add_sets(&opened.json["materials"][material], &mut used);
+/// The set of texture coordinates for places in the lightmap: the second, or the next that no texture of all that is lit is read
+/// by. One for all: in three.js a texture, and so a page, has one.
+pub(super) fn set_of(
+    opened: &Opened,
+    lit: impl Iterator<Item = Origin>,
+    target: Target,
+) -> Result<u32, Problem> {
+    let mut users: BTreeMap<u32, Origin> = BTreeMap::new();
+    for origin in lit {
+        let mut used = HashSet::new();
+        for material in of_primitive(primitive(opened, origin)).into_iter().flatten() {
+            add_sets(&opened.json["materials"][material], &mut used);
+        }
+        for set in used {
+            users.entry(set).or_insert(origin);
+        }
     }
-    let free = (1..).find(|set| !used.contains(set)).unwrap_or(u32::MAX);
     let (most, why) = match target {
-        Target::Bevy => (1, "Bevy reads lightmaps by the second set (TEXCOORD_1) alone"),
-        _ => (3, "three.js knows four sets"),
+        Target::Bevy => (1, "Bevy reads lightmaps by no other set"),
+        _ => (3, "three.js knows no more sets"),
     };
-    if free <= most {
-        return Ok(free);
-    }
-    Err(format!("textures are read by TEXCOORD_1 to TEXCOORD_{}, and {why}", free - 1))
+    let free = (1..=most).find(|set| !users.contains_key(set));
+    free.ok_or_else(|| {
+        let all: Vec<String> = (1..=most).map(|set| format!("TEXCOORD_{set}")).collect();
+        let what = format!("textures are read by {}, and {why}", all.join(", "));
+        let place = users.get(&1).map_or(String::new(), |&origin| place(origin));
+        opened.problem(place, what, "read them by TEXCOORD_0, or name another --target")
+    })
 }
 
 /// The sets that textures of a material are read by, but for a lightmap that it has.

@@ -28,7 +28,6 @@ use isolux::elements::carries_map;
 use isolux::scene::Scene;
 use matching::Matched;
 pub use options::Options;
-use origins::{place, primitive};
 use references::list;
 use std::path::Path;
 
@@ -36,6 +35,8 @@ use std::path::Path;
 pub struct Onto {
     opened: Opened,
     matched: Matched,
+    /// The set of texture coordinates that is to be that of the lightmap.
+    set: u32,
     options: Options,
 }
 
@@ -51,35 +52,28 @@ impl Onto {
         let opened = Opened::open(path)?;
         check_form(&opened)?;
         let matched = matching::find(&opened, scene)?;
-        let onto = Self { opened, matched, options };
-        onto.check_sets(scene, target)?;
-        let warnings = warnings::of(&onto.opened, onto.matched.others, options);
-        Ok(Loaded { value: onto, warnings })
+        let set = set_of(&opened, &matched, (scene, target))?;
+        let warnings = warnings::of(&opened, matched.others, options);
+        Ok(Loaded { value: Self { opened, matched, set, options }, warnings })
     }
 
     /// The bytes of the `.glb`. The same file and lightmap give the same bytes.
     pub fn write(&self, file: &TexelFile<'_>) -> Result<Vec<u8>, OntoError> {
-        written::bytes((&self.opened, &self.matched, self.options), file)
+        written::bytes((&self.opened, &self.matched), (self.set, self.options), file)
     }
+}
 
-    /// Whether there is a set of texture coordinates wherever light comes.
-    fn check_sets(&self, scene: &Scene, target: Target) -> Result<(), Problems> {
-        let carries =
-            |triangle: u32| [false, true].iter().any(|&back| carries_map(scene, triangle, back));
-        let shapes = self.opened.shapes.iter().zip(&self.matched.triangles);
-        let lit = shapes.filter(|(_, triangles)| triangles.iter().flatten().any(|&t| carries(t)));
-        let mut problems: Vec<Problem> = Vec::new();
-        for ((origin, _), _) in lit {
-            if let Err(what) =
-                materials::set_of(&self.opened, primitive(&self.opened, *origin), target)
-            {
-                let remedy = "read the textures by TEXCOORD_0, or name another --target";
-                problems.push(self.opened.problem(place(*origin), what, remedy));
-            }
-        }
-        problems.dedup();
-        if problems.is_empty() { Ok(()) } else { Err(Problems(problems)) }
-    }
+/// The set of texture coordinates that is to be that of the lightmap.
+fn set_of(
+    opened: &Opened,
+    matched: &Matched,
+    (scene, target): (&Scene, Target),
+) -> Result<u32, Problem> {
+    let carries =
+        |triangle: u32| [false, true].iter().any(|&back| carries_map(scene, triangle, back));
+    let shapes = opened.shapes.iter().zip(&matched.triangles);
+    let lit = shapes.filter(|(_, triangles)| triangles.iter().flatten().any(|&t| carries(t)));
+    materials::set_of(opened, lit.map(|((origin, _), _)| *origin), target)
 }
 
 /// Whether all parts that may be changed are objects, as glTF wants: readers let lists pass for them.

@@ -9,6 +9,10 @@ use serde_json::Value;
 /// Extensions of nodes that are luminaires.
 pub(super) const LIGHTS: [&str; 2] = ["KHR_lights_punctual", "EXT_lights_ies"];
 
+/// Extensions of primitives that do not count on the order of vertices.
+const OF_PRIMITIVES: [&str; 4] =
+    [DRACO, "KHR_materials_variants", "EXT_mesh_features", "EXT_structural_metadata"];
+
 /// All of it.
 pub(super) fn of(opened: &Opened, others: usize, options: Options) -> Vec<Problem> {
     let mut found = Vec::new();
@@ -56,6 +60,15 @@ pub(super) fn of(opened: &Opened, others: usize, options: Options) -> Vec<Proble
     if has_extension(&opened.json, INSTANCES) {
         let what = format!("copies of {INSTANCES} become nodes, as each has light of its own");
         warn("nodes", what, "keep in mind that the file becomes larger");
+    }
+    let primitives = list(&opened.json, "meshes").flat_map(|mesh| list(mesh, "primitives"));
+    let extensions = primitives.filter_map(|p| p.get("extensions")?.as_object());
+    if let Some(name) =
+        extensions.flat_map(|e| e.keys()).find(|name| !OF_PRIMITIVES.contains(&name.as_str()))
+    {
+        let what =
+            format!("{name} of primitives stays as it is, though their vertices are others now");
+        warn("meshes", what, "look whether it still serves");
     }
     if MESHOPT_NAMES.into_iter().chain([DRACO]).any(|name| has_extension(&opened.json, name)) {
         let what = "compressed geometry is stored unpacked".to_owned();

@@ -4,7 +4,7 @@ use super::corners::{Sides, parts};
 use super::error::OntoError;
 use super::groups::{Group, Groups};
 use super::matching::Matched;
-use super::materials::{LIGHTMAP, Materials, Use, set_of};
+use super::materials::{LIGHTMAP, Materials, Use};
 use super::options::Options;
 use super::origins::{place, primitive};
 use super::references::{has_extension, index, list, take_extension};
@@ -20,7 +20,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// The bytes of the file.
 pub(super) fn bytes(
-    (opened, matched, options): (&Opened, &Matched, Options),
+    (opened, matched): (&Opened, &Matched),
+    (set, options): (u32, Options),
     file: &TexelFile<'_>,
 ) -> Result<Vec<u8>, OntoError> {
     let sides = Sides::of(&file.lightmap.layout);
@@ -33,8 +34,8 @@ pub(super) fn bytes(
     let light = Parts::of(file, name)?;
     let pages = add_pages(&light, &mut document, &mut store)?;
     let staying = list(&document, "meshes").flat_map(|mesh| list(mesh, "primitives"));
-    let materials = Materials::of(&document, staying, pages);
-    let mut scene = Grafted { opened, matched, sides, file, document, store, materials };
+    let materials = Materials::of(&document, staying, (pages, set));
+    let mut scene = Grafted { opened, matched, sides, set, document, store, materials };
     scene.add_meshes(&groups)?;
     let Grafted { mut document, store, materials, .. } = scene;
     document["materials"] = Value::Array(materials.all);
@@ -80,7 +81,8 @@ struct Grafted<'a> {
     opened: &'a Opened,
     matched: &'a Matched,
     sides: Sides<'a>,
-    file: &'a TexelFile<'a>,
+    /// Of texture coordinates.
+    set: u32,
     document: Value,
     store: Store,
     materials: Materials,
@@ -132,15 +134,13 @@ impl Grafted<'_> {
         let origin: Origin = self.opened.shapes[shape].0;
         let place = place(origin);
         let old = primitive(self.opened, origin);
-        let set = set_of(self.opened, old, self.file.target)
-            .map_err(|what| self.opened.problem(place.clone(), what, "name another --target"))?;
         let parts = parts(self.opened, shape, self.matched, &self.sides)?;
         let is_parted = parts.iter().any(|part| part.is_back);
         let mut primitives = Vec::new();
         for part in &parts {
             let mut new =
-                vertices::primitive((self.opened, &place), old, (part, set), &mut self.store)?;
-            self.materials.light(&mut new, Use { page: part.page, set, is_parted });
+                vertices::primitive((self.opened, &place), old, (part, self.set), &mut self.store)?;
+            self.materials.light(&mut new, Use { page: part.page, is_parted });
             primitives.push(new);
         }
         Ok(primitives)

@@ -101,6 +101,7 @@ fn skins_keep_their_joints_and_lights_may_go() {
     file.json["extensionsUsed"] = json!(["KHR_lights_punctual"]);
     let lamp = json!({"type": "point", "intensity": 1e-9});
     file.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [lamp]}});
+    file.primitive()["extensions"] = json!({"CESIUM_primitive_outline": {"indices": joints}});
     let home = tempfile::tempdir().unwrap();
     let path = home.path().join("scene.glb");
     std::fs::write(&path, file.glb()).unwrap();
@@ -110,11 +111,16 @@ fn skins_keep_their_joints_and_lights_may_go() {
             light.onto(&path, (Target::Three, Options { without_lights })).unwrap();
         let said = |words: &str| warnings.iter().any(|w| w.what.contains(words));
         assert!(said("skins keep the light of the pose"));
+        assert!(said("CESIUM_primitive_outline of primitives stays"));
         assert_eq!(said("1 luminaire stays"), !without_lights);
         let glb = Glb::of(&bytes);
         assert_eq!(glb.node("bone").get("extensions").is_some(), !without_lights);
         assert_eq!(glb.json["extensions"], file.json["extensions"]);
-        let attributes = &glb.json["meshes"][0]["primitives"][0]["attributes"];
+        let primitive = &glb.json["meshes"][0]["primitives"][0];
+        let attributes = &primitive["attributes"];
+        // What an extension may need is still there.
+        assert_eq!(primitive["extensions"]["CESIUM_primitive_outline"]["indices"], joints);
+        assert_eq!(glb.numbers(&json!(joints)), [[0.0; 4]; 3]);
         assert_eq!(glb.numbers(&attributes["JOINTS_0"]), [[0.0; 4]; 3]);
         assert_eq!(glb.numbers(&attributes["WEIGHTS_0"]), [[1.0, 0.0, 0.0, 0.0]; 3]);
     }

@@ -57,9 +57,7 @@ fn other_scenes_are_refused_by_the_place_where_they_differ() {
 fn sets_of_coordinates_that_a_target_does_not_read_are_refused() {
     let said = refused(|_| {}, Target::Bevy);
     assert!(
-        said.contains(
-            "meshes[1].primitives[0]: textures are read by TEXCOORD_1 to TEXCOORD_1, and Bevy"
-        ),
+        said.contains("meshes[1].primitives[0]: textures are read by TEXCOORD_1, and Bevy"),
         "{said}"
     );
     let crowded = |file: &mut File| {
@@ -68,7 +66,7 @@ fn sets_of_coordinates_that_a_target_does_not_read_are_refused() {
         }
     };
     let said = refused(crowded, Target::Three);
-    assert!(said.contains("three.js knows four sets"), "{said}");
+    assert!(said.contains("TEXCOORD_1, TEXCOORD_2, TEXCOORD_3, and three.js"), "{said}");
 }
 
 /// Readers of JSON take lists for objects; whoever writes them again must not.
