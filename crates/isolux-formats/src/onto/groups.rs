@@ -2,9 +2,10 @@
 
 use super::corners::{Sides, is_lit};
 use super::matching::Matched;
+use super::materials::VARIANTS;
 use super::references::{Referenced, index, list};
 use crate::gltf::{DRACO, Opened};
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// One place of a mesh.
@@ -65,10 +66,19 @@ impl Groups {
                     lost.add_primitive(primitive);
                     let draco = primitive.get("extensions").and_then(|e| e.get(DRACO));
                     lost.views.extend(draco.and_then(|draco| index(draco, "bufferView")));
-                    *primitive = Value::Null;
+                    *primitive = what_stays(primitive);
                 }
             }
         }
         lost
     }
+}
+
+/// What a new primitive has of a replaced one that may refer to data: its extensions, but for those that are replaced, too.
+fn what_stays(primitive: &Value) -> Value {
+    let extensions = primitive.get("extensions").and_then(Value::as_object);
+    let is_replaced = |name: &str| name == DRACO || name == VARIANTS;
+    let others = extensions.into_iter().flatten().filter(|(name, _)| !is_replaced(name));
+    let others: Map<String, Value> = others.map(|(k, v)| (k.clone(), v.clone())).collect();
+    json!({"extensions": others})
 }

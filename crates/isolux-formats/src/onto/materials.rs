@@ -10,7 +10,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// As Mozilla Hubs reads it.
 pub(super) const LIGHTMAP: &str = "MOZ_lightmap";
-const VARIANTS: &str = "KHR_materials_variants";
+/// Materials that a primitive may be shown with instead.
+pub(super) const VARIANTS: &str = "KHR_materials_variants";
 
 /// Which material, for what.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
