@@ -1,5 +1,6 @@
 // Inside the browser: draws the mesh `card` of a file lit by its lightmap, as embedded and from the KTX2 beside it, and
-// tells the luminance in its middle; the same of a file with colours of vertices, of which it says what white is.
+// tells the luminance in its middle; the same of a file with colours of vertices, of which it says what white is, and of
+// somebody's file that a lightmap was written onto.
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { KTX2Loader } from 'three/addons/loaders/KTX2Loader.js';
@@ -58,7 +59,8 @@ async function luminanceOfVertices(name) {
 async function run() {
   const asked = new URLSearchParams(location.search);
   const name = asked.get('file');
-  const gltf = await new GLTFLoader().register((parser) => new Lightmaps(parser)).loadAsync(`/files/${name}.glb`);
+  const load = (file) => new GLTFLoader().register((parser) => new Lightmaps(parser)).loadAsync(`/files/${file}.glb`);
+  const gltf = await load(name);
   const { material } = cardOf(gltf);
   const embedded = luminanceOf(gltf);
   const texture = await new KTX2Loader().detectSupport(renderer).loadAsync(`/files/${name}.ktx2`);
@@ -69,7 +71,8 @@ async function run() {
   material.needsUpdate = true;
   const ktx2 = luminanceOf(gltf);
   const vertices = await luminanceOfVertices(asked.get('vertices'));
-  return { embedded, ktx2, vertices, material: material.type, three: THREE.REVISION };
+  const onto = luminanceOf(await load(asked.get('onto')));
+  return { embedded, ktx2, vertices, onto, material: material.type, three: THREE.REVISION };
 }
 
 const tell = (result) => fetch('/result', { method: 'POST', body: JSON.stringify(result) });

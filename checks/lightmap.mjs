@@ -1,7 +1,7 @@
 // Judges light as three.js shows it, in a browser without a window: a card of known reflectance under a known
 // illuminance must have the luminance rho E / pi, from the lightmap in the .glb, from the .ktx2 beside it, and from colours
-// of vertices in another .glb of the same folder.
-// Usage: node lightmap.mjs CARD.glb VERTICES.glb REFLECTANCE ILLUMINANCE_LX
+// of vertices and a lightmap written onto somebody's file in other .glb of the same folder.
+// Usage: node lightmap.mjs CARD.glb VERTICES.glb ONTO.glb REFLECTANCE ILLUMINANCE_LX
 // The browser is CHROMIUM, or `chromium` of the path; exit code 77 says that there is none.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
@@ -16,11 +16,11 @@ const NO_BROWSER = 77;
 const PATIENCE_MS = 60_000;
 // Half a code of eight bits of sRGB near white is 0.5 %, half a step of nine bits 0.2 %; the card is read in the middle of
 // its texels, whose own errors are below. Colours of vertices are 32-bit floats on all their way: ten roundings.
-const TOLERANCE = { embedded: 0.01, ktx2: 0.005, vertices: 1e-6 };
+const TOLERANCE = { embedded: 0.01, ktx2: 0.005, vertices: 1e-6, onto: 0.01 };
 
-const [file, vertices, reflectance, illuminance] = process.argv.slice(2);
+const [file, vertices, onto, reflectance, illuminance] = process.argv.slice(2);
 if (!illuminance) {
-  console.error('usage: node lightmap.mjs CARD.glb VERTICES.glb REFLECTANCE ILLUMINANCE_LX');
+  console.error('usage: node lightmap.mjs CARD.glb VERTICES.glb ONTO.glb REFLECTANCE ILLUMINANCE_LX');
   process.exit(2);
 }
 
@@ -53,7 +53,8 @@ const server = createServer(async (request, response) => {
   }
 });
 await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
-const url = `http://127.0.0.1:${server.address().port}/lightmap.html?file=${basename(file, '.glb')}&vertices=${basename(vertices, '.glb')}`;
+const [name, ofVertices, written] = [file, vertices, onto].map((path) => basename(path, '.glb'));
+const url = `http://127.0.0.1:${server.address().port}/lightmap.html?file=${name}&vertices=${ofVertices}&onto=${written}`;
 const profile = await mkdtemp(join(tmpdir(), 'lightmap-'));
 const flags = ['--headless', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', `--user-data-dir=${profile}`];
 const browser = spawn(process.env.CHROMIUM ?? 'chromium', [...flags, url], { stdio: 'ignore' });

@@ -27,12 +27,12 @@ pub(crate) fn run(root: &Path, made: &Made) -> Result<String, String> {
     for judge in JUDGES {
         accept(&folder, judge, &[made.map.as_os_str()])?;
     }
-    let Card { file, vertices, reflectance, illuminance_lx } = &made.card;
-    let files = made.for_engines.iter().chain([file, vertices]);
+    let Card { file, vertices, onto, reflectance, illuminance_lx } = &made.card;
+    let files = made.for_engines.iter().chain([file, vertices, onto]);
     accept(&folder, "validate.mjs", &files.map(|file| file.as_os_str()).collect::<Vec<_>>())?;
     let [reflectance, illuminance_lx] = [reflectance, illuminance_lx].map(ToString::to_string);
     let known = [OsStr::new(&reflectance), OsStr::new(&illuminance_lx)];
-    let card = [&[file.as_os_str(), vertices.as_os_str()], &known[..]].concat();
+    let card = [&[file.as_os_str(), vertices.as_os_str(), onto.as_os_str()], &known[..]].concat();
     match node(&folder, "lightmap.mjs", &card)? {
         Some(0) => Ok("the judges accept the map and what is made of it for engines".to_owned()),
         Some(NO_BROWSER) => {

@@ -20,6 +20,8 @@ pub(crate) struct Card {
     pub file: PathBuf,
     /// The same with its light at vertices.
     pub vertices: PathBuf,
+    /// A card of the same kind as somebody's glTF file, written again with its light.
+    pub onto: PathBuf,
     pub reflectance: f64,
     pub illuminance_lx: f64,
 }
@@ -112,6 +114,7 @@ const TARGETS: [&str; 6] = ["viewer", "three", "godot", "unity", "blender", "bev
 pub(crate) const CARD: Card = Card {
     file: PathBuf::new(),
     vertices: PathBuf::new(),
+    onto: PathBuf::new(),
     reflectance: 0.8,
     illuminance_lx: 500.0,
 };
@@ -142,7 +145,59 @@ fn card(root: &Path, folder: &Path) -> Result<Card, String> {
     };
     export(&file, &["--layout", "texels", "--texels-per-meter", "16"])?;
     export(&vertices, &[])?;
-    Ok(Card { file, vertices, ..CARD })
+    Ok(Card { file, vertices, onto: card_onto(root, folder)?, ..CARD })
+}
+
+/// A card in a glTF file with data beside it, lit by a `scene.toml`, and the file that comes of both.
+fn card_onto(root: &Path, folder: &Path) -> Result<PathBuf, String> {
+    let Card { reflectance, illuminance_lx, .. } = CARD;
+    let at = |name: &str| folder.join(name);
+    let corners: [f32; 12] = [0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0];
+    let mut data: Vec<u8> = corners.iter().flat_map(|c| c.to_le_bytes()).collect();
+    data.extend([0, 1, 2, 0, 2, 3]);
+    let document = serde_json::json!({
+        "asset": {"version": "2.0"},
+        "extensionsUsed": ["KHR_materials_specular"],
+        "buffers": [{"uri": "card.bin", "byteLength": data.len()}],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": 48, "target": 34962},
+            {"buffer": 0, "byteOffset": 48, "byteLength": 6, "target": 34963},
+        ],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 4, "min": [0, 0, 0], "max": [1, 0, 1]},
+            {"bufferView": 1, "componentType": 5121, "type": "SCALAR", "count": 6},
+        ],
+        "materials": [{
+            "name": "paper",
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [reflectance, reflectance, reflectance, 1], "metallicFactor": 0,
+            },
+            "extensions": {"KHR_materials_specular": {"specularFactor": 0}},
+        }],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "nodes": [{"name": "table", "children": [1]}, {"name": "card", "mesh": 0, "translation": [5, 0, 0]}],
+        "scenes": [{"nodes": [0]}],
+        "scene": 0,
+    });
+    let lit = format!(
+        "[[geometry]]\nfile = \"card-scene.gltf\"\n[[luminaire]]\ndirection = [0, 0, -1]\n\
+         directional = {{ illuminance_lx = {illuminance_lx:?} }}\n"
+    );
+    let document = document.to_string();
+    for (name, contents) in [
+        ("card.bin", &data[..]),
+        ("card-scene.gltf", document.as_bytes()),
+        ("card-scene.toml", lit.as_bytes()),
+    ] {
+        std::fs::write(at(name), contents).map_err(|e| format!("{name}: {e}"))?;
+    }
+    let text = |name: &str| at(name).to_string_lossy().into_owned();
+    let (map, onto) = (text("card-scene-map.glb"), text("card-onto.glb"));
+    isolux(root, &["solve", &text("card-scene.toml"), "-o", &map, "--quality", "draft"])?;
+    let texels = ["--layout", "texels", "--texels-per-meter", "16", "--target", "three"];
+    let into = ["export", &map, "-o", &onto, "--onto", &text("card-scene.gltf")];
+    isolux(root, &[&into[..], &texels].concat())?;
+    Ok(at("card-onto.glb"))
 }
 
 /// Luminance at A of the published table, 892.8 cd/m2, as an illuminance: pi L / rho, rho = 2/3.

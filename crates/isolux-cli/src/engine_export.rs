@@ -5,7 +5,7 @@ use crate::flags::{ExportFlags, LayoutName, TargetName};
 use crate::lightmap_export::{self, LightmapFile};
 use crate::lightmap_files::Kind;
 use crate::vertex_export;
-use isolux_formats::lightmap::Target;
+use isolux_formats::lightmap::{Target, Way};
 
 /// A kind of file for engines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,6 +34,9 @@ impl Wanted {
                 "--without-dark is for lightmaps; add --layout texels, or leave it out",
             );
         }
+        if let Some(why) = speaks_against_onto(flags, is_coloured || !is_lightmap, &extension) {
+            return refused(why);
+        }
         match extension.as_deref() {
             Some("exr") => Ok(Some(Self::Lightmap(LightmapFile::Alone(Kind::Exr)))),
             Some("ktx2") => Ok(Some(Self::Lightmap(LightmapFile::Alone(Kind::Ktx2)))),
@@ -57,6 +60,29 @@ impl Wanted {
             Self::Vertices => vertex_export::run(flags, target, json),
             Self::Lightmap(file) => lightmap_export::run(flags, (file, target), json),
         }
+    }
+}
+
+/// What keeps a lightmap from being written onto a scene.
+fn speaks_against_onto(
+    flags: &ExportFlags,
+    is_no_lightmap: bool,
+    extension: &Option<String>,
+) -> Option<&'static str> {
+    let is_glb = extension.as_deref() == Some("glb");
+    let has_way = target(flags.target).way() == Way::Lightmap;
+    match &flags.onto {
+        None if flags.without_lights => {
+            Some("--without-lights is for --onto; add that, or leave it out")
+        }
+        Some(_) if is_no_lightmap || !is_glb => Some(
+            "--onto writes a scene again with its lightmap; add --layout texels, and end the name in .glb",
+        ),
+        Some(_) if !has_way => Some(
+            "--onto leaves materials as they are, and of them only those for three and bevy may have a lightmap beside; add \
+             --target three (texels in lx) or --target bevy (E / pi), or leave --onto out",
+        ),
+        _ => None,
     }
 }
 

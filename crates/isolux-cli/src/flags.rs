@@ -379,6 +379,7 @@ pub(crate) enum ToneName {
   isolux export map.glb -o room.vtu
   isolux export map.glb -o baked.glb --target bevy
   isolux export map.glb -o baked.glb --layout texels --target three --texels-per-meter 20
+  isolux export map.glb -o baked.glb --layout texels --target three --onto scene.glb
   isolux export map.glb -o lightmap.exr
 
 The extension tells the kind: .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row \
@@ -404,6 +405,12 @@ pub(crate) struct ExportFlags {
     /// Give surfaces that no light of this map reaches no texels: lightmaps of other light no longer lie alike
     #[arg(long)]
     pub without_dark: bool,
+    /// The glTF scene of the map (.glb, .gltf): write it again with the lightmap, and all else as it is
+    #[arg(long, value_name = "SCENE")]
+    pub onto: Option<PathBuf>,
+    /// Leave out the luminaires of --onto, as their light is in the lightmap
+    #[arg(long)]
+    pub without_lights: bool,
     /// Luminance that colours of vertices show as white: 500cd/m2 [default: what 99 % of all surfaces stay below]
     #[arg(long, value_name = "LUMINANCE", value_parser = quantity::luminance_cd_m2, allow_hyphen_values = true)]
     pub white: Option<f64>,

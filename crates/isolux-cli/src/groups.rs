@@ -6,6 +6,7 @@ use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::{LayoutName, ProgressStyle, SolveFlags};
 use crate::lightmap::{self, Planned};
+use crate::lightmap_files::Made;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
@@ -196,7 +197,7 @@ fn bake(
             lit[index..].iter().for_each(|(_, output)| lightmap::tell_of_missing(output));
             return Ok((Outcome::Interrupted, reports));
         };
-        reports.push(baked.write(scene, map, (output, Target::Viewer, true))?);
+        reports.push(baked.write(scene, map, (output, Target::Viewer, Made::Map))?);
         if baked.is_coarse() {
             outcome = Outcome::StoppedEarly;
         }

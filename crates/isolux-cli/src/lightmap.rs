@@ -5,7 +5,7 @@ use crate::console::facts;
 use crate::failure::Failure;
 use crate::flags::{LayoutFlags, LayoutName, ProgressStyle};
 use crate::interrupt::Interrupt;
-use crate::lightmap_files;
+use crate::lightmap_files::{self, Made};
 use crate::meter::Meter;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
@@ -230,10 +230,9 @@ impl Baked {
         &self,
         scene: &Scene,
         map: &IlluminationMap,
-        (output, target, with_record): (&OutputPath, Target, bool),
+        (output, target, made): (&OutputPath, Target, Made<'_>),
     ) -> Result<Report, Failure> {
-        let files =
-            lightmap_files::glb(&self.lightmap, (scene, map), (output, target, with_record))?;
+        let files = lightmap_files::glb(&self.lightmap, (scene, map), (output, target, made))?;
         self.tell_of_coarse(output);
         tell_of_older(output, &files);
         Ok(self.report(target, files))

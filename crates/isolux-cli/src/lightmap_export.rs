@@ -5,13 +5,17 @@ use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{ExportFlags, LayoutFlags};
 use crate::lightmap::{Baked, Planned};
-use crate::lightmap_files::{self, Kind};
+use crate::lightmap_files::{self, Kind, Made};
 use crate::map_file;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
+use crate::source::{bad_file, show_warnings};
 use isolux::lightmap::dark_sides;
+use isolux::scene::Scene;
+use isolux_formats::Loaded;
 use isolux_formats::lightmap::Target;
 use isolux_formats::map_glb::MapFile;
+use isolux_formats::onto::{Onto, Options};
 use std::collections::HashSet;
 
 /// A kind of file with a lightmap.
@@ -47,6 +51,7 @@ pub(crate) fn run(
         }
     }
     let MapFile { scene, map, lightmap } = map_file::read_with_texels(&flags.map)?;
+    let onto = onto(flags, &scene, (&output, target))?;
     let density = lightmap.as_ref().map(|held| held.layout.asked_texels_per_m);
     let held = lightmap.filter(|_| !flags.without_dark);
     let baked = match Baked::held(&flags.layout, &map, held) {
@@ -64,8 +69,9 @@ pub(crate) fn run(
             baked
         }
     };
+    let made = onto.as_ref().map_or(Made::Export, Made::Onto);
     let report = match file {
-        LightmapFile::Glb => baked.write(&scene, &map, (&output, target, false))?,
+        LightmapFile::Glb => baked.write(&scene, &map, (&output, target, made))?,
         LightmapFile::Alone(kind) => {
             let files = lightmap_files::pages(&baked.lightmap, output.path(), (kind, target))?;
             baked.report(target, files)
@@ -77,4 +83,19 @@ pub(crate) fn run(
         print(&report.text())?
     }
     Ok(Outcome::Done)
+}
+
+/// The scene that is to be written again, found to be that of the map.
+fn onto(
+    flags: &ExportFlags,
+    scene: &Scene,
+    (output, target): (&OutputPath, Target),
+) -> Result<Option<Onto>, Failure> {
+    let Some(path) = &flags.onto else { return Ok(None) };
+    output.differs_from(path)?;
+    let options = Options { without_lights: flags.without_lights };
+    let Loaded { value, warnings } =
+        Onto::open(path, scene, (target, options)).map_err(bad_file)?;
+    show_warnings(&warnings);
+    Ok(Some(value))
 }

@@ -2,11 +2,13 @@
 
 use crate::failure::Failure;
 use crate::output::OutputPath;
+use crate::source::bad_file;
 use isolux::lightmap::Lightmap;
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_formats::lightmap::{LightmapFileError, Target, Way, write_exr, write_ktx2};
 use isolux_formats::map_glb::{Preview, TexelFile, write_texels};
+use isolux_formats::onto::{Onto, OntoError};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -35,15 +37,35 @@ impl Kind {
     }
 }
 
+/// What a `.glb` with a lightmap is.
+#[derive(Clone, Copy)]
+pub(crate) enum Made<'a> {
+    /// A map, with all that belongs to it.
+    Map,
+    /// The geometry of the scene.
+    Export,
+    /// A scene of somebody's, with all that it has.
+    Onto(&'a Onto),
+}
+
 /// Writes a `.glb` and the lightmaps beside it.
 pub(crate) fn glb(
     lightmap: &Lightmap,
     (scene, map): (&Scene, &IlluminationMap),
-    (output, target, with_record): (&OutputPath, Target, bool),
+    (output, target, made): (&OutputPath, Target, Made<'_>),
 ) -> Result<Vec<String>, Failure> {
     let preview = Preview::automatic(scene, map);
+    let with_record = matches!(made, Made::Map);
     let file = TexelFile { scene, map, lightmap, preview, target, with_record };
-    let bytes = write_texels(&file).map_err(|error| unwritable(output.path(), &error))?;
+    let unwritable = |error| unwritable(output.path(), &error);
+    let bytes = match made {
+        Made::Map | Made::Export => write_texels(&file).map_err(unwritable)?,
+        Made::Onto(onto) => onto.write(&file).map_err(|error| match error {
+            OntoError::Scene(problems) => bad_file(problems),
+            OntoError::File(error) => unwritable(error),
+            other => Failure::Refused(other.to_string()),
+        })?,
+    };
     output.write(&bytes)?;
     let mut files = vec![output.path().display().to_string()];
     for &kind in beside(target) {

@@ -6,6 +6,7 @@ use crate::estimate::Estimate;
 use crate::failure::{Failure, Outcome};
 use crate::flags::{ProgressStyle, SolveFlags};
 use crate::lightmap::{self, Planned};
+use crate::lightmap_files::Made;
 use crate::notes::{Note, note, note_as_json};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
@@ -147,7 +148,7 @@ fn bake(
         lightmap::tell_of_missing(output);
         return Ok((Outcome::Interrupted, None));
     };
-    let report = baked.write(scene, map, (output, Target::Viewer, true))?;
+    let report = baked.write(scene, map, (output, Target::Viewer, Made::Map))?;
     let outcome = if baked.is_coarse() { Outcome::StoppedEarly } else { solved.outcome };
     Ok((outcome, Some(report)))
 }

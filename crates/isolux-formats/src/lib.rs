@@ -19,6 +19,7 @@ mod load;
 pub mod map_glb;
 pub mod mitsuba;
 pub mod obj;
+pub mod onto;
 pub mod photometric_file;
 mod picture;
 mod plain_text;

@@ -18,7 +18,7 @@ pub(super) struct Format {
 }
 
 impl Format {
-    fn element_bytes(&self) -> usize {
+    pub(super) fn element_bytes(&self) -> usize {
         self.component.size() * self.width
     }
 
@@ -147,6 +147,19 @@ pub(super) fn indices(document: &Document, index: usize) -> Result<Vec<u32>, Fla
     elements(document, index, form, 0, |bytes| unsigned_number(form.component, bytes))
 }
 
+/// The format, and the bytes of all elements as stored, one after the other.
+pub(super) fn packed(document: &Document, index: usize) -> Result<(Format, Vec<u8>), Flaw> {
+    const LONGEST: usize = 16;
+    let form = format(document, index)?;
+    let size = form.element_bytes();
+    let padded = elements(document, index, form, [0; LONGEST], |bytes| {
+        let mut element = [0; LONGEST];
+        element[..size].copy_from_slice(bytes);
+        element
+    })?;
+    Ok((form, padded.iter().flat_map(|element| &element[..size]).copied().collect()))
+}
+
 fn get<'a>(document: &'a Document, index: usize) -> Result<&'a Accessor, Flaw> {
     let all = &document.root.accessors;
     all.get(index).ok_or_else(|| no_such("accessors", index, all.len()))
@@ -272,7 +285,7 @@ fn element<const N: usize>(form: Format, bytes: &[u8]) -> [f64; N] {
 }
 
 /// One component; normalized integers become -1 to 1 or 0 to 1 (section 3.11).
-fn number(form: Format, bytes: &[u8]) -> f64 {
+pub(super) fn number(form: Format, bytes: &[u8]) -> f64 {
     let (value, full) = match *bytes {
         [a] if form.component == ComponentType::I8 => (f64::from(a as i8), 127.0),
         [a] => (f64::from(a), 255.0),

@@ -49,6 +49,13 @@ impl<'a> Document<'a> {
         Self { root, folder, unpacked: Unpacked::default(), buffers }
     }
 
+    /// The same, with bytes of its own.
+    pub(super) fn into_owned(self) -> Document<'static> {
+        let Self { root, folder, unpacked, buffers } = self;
+        let buffers = buffers.into_iter().map(|bytes| Cow::Owned(bytes.into_owned())).collect();
+        Document { root, folder, unpacked, buffers }
+    }
+
     /// The bytes of a view, found to lie inside its buffer.
     pub(super) fn view(&self, index: usize) -> Result<View<'_>, Flaw> {
         let views = &self.root.buffer_views;

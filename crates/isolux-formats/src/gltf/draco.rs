@@ -16,7 +16,7 @@ use serde::Deserialize;
 use std::collections::HashMap;
 
 /// Name of the extension.
-pub(super) const NAME: &str = "KHR_draco_mesh_compression";
+pub(crate) const NAME: &str = "KHR_draco_mesh_compression";
 
 /// The extension of a primitive.
 #[derive(Deserialize)]

@@ -7,7 +7,7 @@ use isolux::geometry::Transform;
 use serde_json::Value;
 
 /// Name of the extension.
-const NAME: &str = "EXT_mesh_gpu_instancing";
+pub(crate) const NAME: &str = "EXT_mesh_gpu_instancing";
 
 /// Where the copies of a node's mesh stand in the node, `None` for a mesh that stands there once.
 pub(super) fn node_from_instances(

@@ -11,13 +11,23 @@ use isolux::geometry::Transform;
 use isolux::scene::Shape;
 use std::collections::HashMap;
 
+/// Where a shape comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Origin {
+    pub(crate) node: usize,
+    /// Number of the copy where a node has several.
+    pub(crate) copy: Option<usize>,
+    pub(crate) mesh: usize,
+    pub(crate) primitive: usize,
+}
+
 /// All shapes of the scene, ordered by the first use of their mesh.
 pub(super) fn shapes(
     document: &Document,
     placed: &[Placed],
     surfaces: &mut Surfaces,
     notes: &mut Notes,
-) -> Vec<Shape> {
+) -> Vec<(Origin, Shape)> {
     let mut budget = Budget { vertices: limits::VERTICES, triangles: limits::TRIANGLES };
     let mut shapes = Vec::new();
     for Use { mesh, pose, copies } in uses(document, placed, notes) {
@@ -27,7 +37,8 @@ pub(super) fn shapes(
             if let Some(made) = notes.accept(made.map_err(|flaw| flaw.rooted(source.place()))) {
                 shapes.extend(made.into_iter().zip(&copies).map(|(shape, copy)| {
                     let name = shape_name(document, copy, mesh, index);
-                    Shape { name, ..shape }
+                    let (node, copy) = (copy.node, copy.number);
+                    (Origin { node, copy, mesh, primitive: index }, Shape { name, ..shape })
                 }));
             }
         }

@@ -24,6 +24,7 @@ mod meshopt;
 mod morph;
 mod nodes;
 mod notes;
+mod opened;
 mod orientation;
 mod pictures;
 mod placeholders;
@@ -43,10 +44,16 @@ use crate::extent::{IMPLAUSIBLE_EXTENT_M, largest_side_m};
 use crate::source::read_bytes;
 use crate::{Loaded, Problems};
 use buffers::Document;
+use container::Container;
+pub(crate) use draco::NAME as DRACO;
 use gltf_json::Root;
-use isolux::scene::{SceneParts, UpAxis};
+pub(crate) use instances::NAME as INSTANCES;
+use isolux::scene::{SceneParts, Shape, UpAxis};
+pub(crate) use meshes::Origin;
+pub(crate) use meshopt::NAMES as MESHOPT_NAMES;
 use nodes::Placed;
 use notes::{Flaw, Notes};
+pub(crate) use opened::{Elements, Opened};
 use std::path::Path;
 use surfaces::Surfaces;
 use uri::Folder;
@@ -70,16 +77,26 @@ pub(crate) fn read_as(path: &Path, reading: Reading) -> Result<Loaded<SceneParts
     let mut notes = Notes::new(path);
     let bytes = read_bytes(path, limits::BUFFER_BYTES)?;
     let container = or_fail(container::open(&bytes), &mut notes)?;
-    let root = or_fail(record::parse(container.json), &mut notes)?;
-    extensions::check(&root, &mut notes);
-    let placed = nodes::place(&root, &mut notes);
-    let mut document = Document::load(root, Folder::of(path), container.binary, &mut notes);
-    notes.check()?;
-    compression::unpack(&mut document, &mut notes);
-    notes.check()?;
-    let value = resolve(&document, &placed, (path, reading), &mut notes);
+    let (document, placed) = open(path, &container, &mut notes)?;
+    let (value, _) = resolve(&document, &placed, (path, reading), &mut notes);
     notes.check()?;
     Ok(Loaded { value, warnings: notes.into_warnings() })
+}
+
+/// The file as written, with its data unpacked, and the nodes of its scene.
+fn open<'a>(
+    path: &Path,
+    container: &Container<'a>,
+    notes: &mut Notes,
+) -> Result<(Document<'a>, Vec<Placed>), Problems> {
+    let root = or_fail(record::parse(container.json), notes)?;
+    extensions::check(&root, notes);
+    let placed = nodes::place(&root, notes);
+    let mut document = Document::load(root, Folder::of(path), container.binary, notes);
+    notes.check()?;
+    compression::unpack(&mut document, notes);
+    notes.check()?;
+    Ok((document, placed))
 }
 
 fn or_fail<T>(result: Result<T, Flaw>, notes: &mut Notes) -> Result<T, Problems> {
@@ -89,15 +106,16 @@ fn or_fail<T>(result: Result<T, Flaw>, notes: &mut Notes) -> Result<T, Problems>
     }
 }
 
-/// From the file as written to the scene, with what cannot be resolved noted.
+/// From the file as written to the scene and where its shapes come from, with what cannot be resolved noted.
 fn resolve(
     document: &Document,
     placed: &[Placed],
     (path, reading): (&Path, Reading),
     notes: &mut Notes,
-) -> SceneParts {
+) -> (SceneParts, Vec<Origin>) {
     let mut surfaces = Surfaces::new(document, reading.unlit_luminance_cd_m2);
-    let shapes = meshes::shapes(document, placed, &mut surfaces, notes);
+    let (origins, shapes): (Vec<Origin>, Vec<Shape>) =
+        meshes::shapes(document, placed, &mut surfaces, notes).into_iter().unzip();
     let largest_m = largest_side_m(&shapes);
     if largest_m > IMPLAUSIBLE_EXTENT_M && !reading.unit_is_known {
         notes.warn(Flaw::new(
@@ -108,7 +126,7 @@ fn resolve(
     let luminaires = luminaires::luminaires(document, placed, notes);
     let cameras = cameras::cameras(document, placed, notes);
     let (materials, textures) = surfaces.into_parts();
-    SceneParts {
+    let parts = SceneParts {
         name: scene_name(&document.root, path),
         up: UpAxis::Y,
         shapes,
@@ -118,7 +136,8 @@ fn resolve(
         groups: Vec::new(),
         cameras,
         grids: Vec::new(),
-    }
+    };
+    (parts, origins)
 }
 
 /// The name of the scene, else of the file.

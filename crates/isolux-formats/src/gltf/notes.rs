@@ -36,7 +36,7 @@ impl Flaw {
         Self { is_rooted: true, ..self.at(outer) }
     }
 
-    fn into_problem(self, file: &Path) -> Problem {
+    pub(super) fn into_problem(self, file: &Path) -> Problem {
         Problem::new(file, self.place, self.what, self.remedy)
     }
 }

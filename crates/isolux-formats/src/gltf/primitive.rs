@@ -204,7 +204,8 @@ impl<'a> Source<'a> {
         self.record.attributes.get(&Checked::Valid(semantic)).map(|index| index.value())
     }
 
-    fn triangles(&self, size: Size) -> Result<Vec<[u32; 3]>, Flaw> {
+    /// Corners of the triangles in the order of the file.
+    pub(super) fn triangles(&self, size: Size) -> Result<Vec<[u32; 3]>, Flaw> {
         let corners = match self.record.indices {
             Some(indices) => accessor::indices(self.document, indices.value())?,
             None => (0..size.vertices as u32).collect(),

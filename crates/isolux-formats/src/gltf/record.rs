@@ -5,7 +5,7 @@ use super::notes::Flaw;
 use gltf_json::Root;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
-use std::collections::HashMap;
+use serde_json::Value;
 use std::fmt;
 
 /// Reads the JSON, without judging what it refers to.
@@ -27,17 +27,26 @@ pub(super) fn parse(json: &[u8]) -> Result<Root, Flaw> {
 /// surfaces shine.
 fn refuse_map(root: &Root) -> Result<(), Flaw> {
     let extras = root.extras.as_deref().map(|raw| serde_json::from_str(raw.get()));
-    let Some(Ok::<HashMap<String, IgnoredAny>, _>(extras)) = extras else { return Ok(()) };
-    for (key, what) in [
-        ("isolux", "is an illumination map, no scene"),
-        ("isolux_lightmap", "is a scene with its light baked in, no scene to light"),
+    let Some(Ok::<Marks, _>(Marks { isolux, isolux_lightmap })) = extras else { return Ok(()) };
+    // What was baked onto a scene of somebody's is still that scene.
+    let is_baked = isolux_lightmap.is_some_and(|note| note.get("onto").is_none());
+    for (key, is_there, what) in [
+        ("isolux", isolux.is_some(), "is an illumination map, no scene"),
+        ("isolux_lightmap", is_baked, "is a scene with its light baked in, no scene to light"),
     ] {
-        if extras.contains_key(key) {
+        if is_there {
             let remedy = "give the scene that it was computed from";
             return Err(Flaw::new(what, remedy).at(format!("extras.{key}")));
         }
     }
     Ok(())
+}
+
+/// What isolux notes in files that it writes.
+#[derive(Deserialize)]
+struct Marks {
+    isolux: Option<IgnoredAny>,
+    isolux_lightmap: Option<Value>,
 }
 
 fn flaw(error: &serde_json::Error) -> Flaw {

@@ -19,7 +19,7 @@ pub(super) struct Chunks<'a> {
 }
 
 /// Packs both chunks; without bytes there is no second chunk.
-pub(super) fn pack(json: &[u8], binary: &[u8]) -> Result<Vec<u8>, MapTooLarge> {
+pub(crate) fn pack(json: &[u8], binary: &[u8]) -> Result<Vec<u8>, MapTooLarge> {
     let chunk = |length: usize| CHUNK_HEADER_BYTES + length.next_multiple_of(4);
     let second = if binary.is_empty() { 0 } else { chunk(binary.len()) };
     let total = HEADER_BYTES + chunk(json.len()) + second;

@@ -22,9 +22,11 @@ mod value_arrays;
 mod vertices;
 mod write;
 
+pub(crate) use container::pack;
 pub(crate) use displayed::{Displayed, displayed};
 pub use preview::Preview;
 pub use read::{MapFile, is_export, is_map, read, read_with_texels};
+pub(crate) use texels::Parts;
 pub use texels::{TexelFile, write_texels};
 pub use vertices::{VertexColours, VertexFile, write_vertices};
 pub use write::write;

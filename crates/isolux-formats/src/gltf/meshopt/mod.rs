@@ -16,7 +16,7 @@ use serde::Deserialize;
 use serde_json::{Map, Value};
 
 /// Names of the extension, the newer first.
-pub(super) const NAMES: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
+pub(crate) const NAMES: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
 
 /// Where the packed bytes of a view are, and how they are packed.
 #[derive(Clone, Debug, Deserialize, PartialEq)]

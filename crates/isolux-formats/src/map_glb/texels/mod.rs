@@ -18,7 +18,9 @@ use crate::lightmap::{Convention, LightmapFileError, Way};
 pub use file::TexelFile;
 use materials::Materials;
 use pages::Page;
+pub(crate) use pages::Picture;
 use serde::Serialize;
+use serde_json::Value;
 
 /// `extras` of the document.
 #[derive(Serialize)]
@@ -43,6 +45,35 @@ struct Note {
     preview: Preview,
     #[serde(flatten)]
     origin: Origin,
+    /// The scene that was written again with its light, where it is not of our making.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    onto: Option<String>,
+}
+
+/// What of a lightmap goes into files that others have made.
+pub(crate) struct Parts {
+    pub(crate) pictures: Vec<Picture>,
+    pub(crate) sampler: Value,
+    /// For `extras`, under [`Parts::NOTE`].
+    pub(crate) note: Value,
+}
+
+impl Parts {
+    /// What isolux knows such files by.
+    pub(crate) const NOTE: &str = "isolux_lightmap";
+
+    /// For a copy of the scene of that name.
+    pub(crate) fn of(file: &TexelFile<'_>, onto: String) -> Result<Self, LightmapFileError> {
+        let pictures = pages::pictures(file)?;
+        let strengths: Vec<f64> = pictures.iter().map(|picture| picture.strength).collect();
+        let note = Note { onto: Some(onto), ..note(file, strengths) };
+        let json = |value: Result<Value, _>| value.expect("plain structs with names for keys");
+        Ok(Self {
+            pictures,
+            sampler: json(serde_json::to_value(pages::sampler())),
+            note: json(serde_json::to_value(note)),
+        })
+    }
 }
 
 /// The bytes of the file. The same lightmap gives the same bytes.
@@ -64,8 +95,10 @@ pub fn write_texels(file: &TexelFile<'_>) -> Result<Vec<u8>, LightmapFileError> 
     let record = file.with_record.then(|| record((scene, map, &file.preview), texels, &mut bytes));
     // Without lights: all of theirs is in the texels, and a consumer would add it once more.
     let extensions_used = materials::extensions(&objects.materials);
-    let extras =
-        Extras { isolux: record.as_ref().map(Declared::new), isolux_lightmap: note(file, &pages) };
+    let extras = Extras {
+        isolux: record.as_ref().map(Declared::new),
+        isolux_lightmap: note(file, pages.iter().map(|page| page.strength).collect()),
+    };
     pack((objects, bytes), (extensions_used, Vec::new()), extras).map_err(too_large)
 }
 
@@ -73,7 +106,7 @@ fn too_large(MapTooLarge { bytes }: MapTooLarge) -> LightmapFileError {
     LightmapFileError::TooLarge { bytes }
 }
 
-fn note(file: &TexelFile<'_>, pages: &[Page]) -> Note {
+fn note(file: &TexelFile<'_>, strengths: Vec<f64>) -> Note {
     let layout = &file.lightmap.layout;
     let pictures = match file.target.way() {
         Way::Preview => {
@@ -86,7 +119,6 @@ fn note(file: &TexelFile<'_>, pages: &[Page]) -> Note {
             format!("MOZ_lightmap: {}, sRGB, times intensity", file.target.convention().quantity)
         }
     };
-    let strengths: Vec<f64> = pages.iter().map(|page| page.strength).collect();
     Note {
         target: file.target.name(),
         texels: file.target.convention(),
@@ -97,6 +129,7 @@ fn note(file: &TexelFile<'_>, pages: &[Page]) -> Note {
         pages: layout.pages,
         preview: file.preview,
         origin: Origin::of(file.map),
+        onto: None,
     }
 }
 

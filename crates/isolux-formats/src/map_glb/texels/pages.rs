@@ -23,6 +23,27 @@ pub(super) struct Page {
     pub(super) strength: f64,
 }
 
+/// A page as a PNG.
+pub(crate) struct Picture {
+    pub(crate) png: Vec<u8>,
+    /// What texels between 0 and 1 are multiplied by.
+    pub(crate) strength: f64,
+}
+
+/// All pages as pictures.
+pub(super) fn pictures(file: &TexelFile<'_>) -> Result<Vec<Picture>, LightmapFileError> {
+    let picture = |page| {
+        let texels = texels(file, page);
+        let strength = match file.target.way() {
+            Way::Preview => 1.0,
+            // A dark page has any strength but none.
+            _ => Some(largest(&texels)).filter(|most| *most > 0.0).unwrap_or(1.0),
+        };
+        Ok(Picture { png: png(file, &texels, strength)?, strength })
+    };
+    (0..file.lightmap.layout.pages).map(picture).collect()
+}
+
 /// Adds all pages.
 pub(super) fn add(
     file: &TexelFile<'_>,
@@ -31,23 +52,13 @@ pub(super) fn add(
 ) -> Result<Vec<Page>, LightmapFileError> {
     let sampler_index = objects.samplers.len() as u32;
     objects.samplers.push(sampler());
-    (0..file.lightmap.layout.pages)
-        .map(|page| {
-            let texels = texels(file, page);
-            let strength = match file.target.way() {
-                Way::Preview => 1.0,
-                // A dark page has any strength but none.
-                _ => Some(largest(&texels)).filter(|most| *most > 0.0).unwrap_or(1.0),
-            };
-            let png = png(file, &texels, strength)?;
-            objects
-                .images
-                .push(Image { buffer_view: bytes.view(&png, None), mime_type: "image/png" });
-            let source = objects.images.len() as u32 - 1;
-            objects.textures.push(Texture { sampler: Some(sampler_index), source });
-            Ok(Page { texture: objects.textures.len() as u32 - 1, strength })
-        })
-        .collect()
+    let add = |Picture { png, strength }| {
+        objects.images.push(Image { buffer_view: bytes.view(&png, None), mime_type: "image/png" });
+        let source = objects.images.len() as u32 - 1;
+        objects.textures.push(Texture { sampler: Some(sampler_index), source });
+        Page { texture: objects.textures.len() as u32 - 1, strength }
+    };
+    Ok(pictures(file)?.into_iter().map(add).collect())
 }
 
 /// What the texels of a page hold for the target, linear.
@@ -106,6 +117,6 @@ fn png(file: &TexelFile<'_>, texels: &[Rgb], strength: f64) -> Result<Vec<u8>, L
 }
 
 /// Lightmaps do not repeat, and have no mipmaps: those would mix charts.
-fn sampler() -> Sampler {
+pub(super) fn sampler() -> Sampler {
     Sampler { mag_filter: LINEAR, min_filter: LINEAR, wrap_s: CLAMP, wrap_t: CLAMP }
 }
