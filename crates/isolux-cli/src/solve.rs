@@ -126,8 +126,13 @@ fn earlier(
     let map = saved_run::complete_map(saved, output, (scene, request))?;
     let text = format!("{}: is solved already", output.path().display());
     note(Note::Info, text);
-    let solution =
-        Solution { map, state: saved.clone(), cache: IrradianceCache::default(), time_s: 0.0 };
+    let solution = Solution {
+        map,
+        state: saved.clone(),
+        cache: IrradianceCache::default(),
+        time_s: 0.0,
+        lacked_time: false,
+    };
     Some(Solved { solution, outcome: Outcome::Done })
 }
 

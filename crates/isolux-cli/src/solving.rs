@@ -92,7 +92,7 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
             },
             if 2 * map.values.len() > request.most_receivers() {
                 "finer elements would take more than --max-memory: raise it, or ask for no more than that"
-            } else if limit_s.is_finite() {
+            } else if solved.solution.lacked_time {
                 "finer elements would take longer than is left of --time-limit: allow more"
             } else {
                 "finer elements were not found to err by less; ask for no more than that"

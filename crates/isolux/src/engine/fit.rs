@@ -26,9 +26,6 @@ const MOST_WEIGHT: f64 = 4.0;
 /// A value is moved by no more than this share of the range of the values about it: that of a
 /// parabola at its top by a sixth. Across kinks and jumps second differences are no curvature.
 const MOST_SHIFT: f64 = 0.25;
-/// And by no more than this share of itself: what differs by more from its neighbours lies beyond a wall, and in a dim room beside a
-/// bright one nothing would be left of it.
-const MOST_OF_ITSELF: f64 = 0.25;
 
 /// Vertices of one task.
 const AT_ONCE: usize = 256;
@@ -114,8 +111,7 @@ impl Fit {
                 shift += value * weight;
                 (low, high) = (low.lesser(value), high.greater(value));
             }
-            let most = ((high - low) * MOST_SHIFT).lesser(values[k] * MOST_OF_ITSELF);
-            let most = most.greater(Rgb::BLACK);
+            let most = (high - low) * MOST_SHIFT;
             let bounded = |c: usize| shift.0[c].clamp(-most.0[c], most.0[c]);
             values[k] + Rgb([0, 1, 2].map(bounded))
         };

@@ -46,6 +46,8 @@ pub struct Solution {
     pub cache: IrradianceCache,
     /// Wall-clock time it took, s. Not part of the map, whose bits do not depend on the machine.
     pub time_s: f64,
+    /// Whether it was the time allowed that kept it from elements fine enough.
+    pub lacked_time: bool,
 }
 
 impl Solution {
@@ -62,8 +64,8 @@ impl Solution {
         };
         let before = before.filter(|before| !self.map.provenance.complete && is_better(before));
         // The clock went on.
-        let time_s = self.time_s;
-        before.map_or(self, |before| Self { time_s, ..before })
+        let Self { time_s, lacked_time, .. } = self;
+        before.map_or(self, |before| Self { time_s, lacked_time, ..before })
     }
 }
 
@@ -377,14 +379,19 @@ impl<'s, 'r> Run<'s, 'r> {
         if work.is_vain(accuracy) {
             return Some(End::InVain);
         }
-        let is_finest = self.stage == MOST_STAGES || work.plan.is_finest;
-        let finer = !is_finest && self.has_time_for_finer(work);
-        if finer && goal.is_some_and(|goal| work.is_too_coarse(accuracy, goal)) {
+        if self.too_coarse(work, accuracy) && self.has_time_for_finer(work) {
             return Some(End::TooCoarse);
         }
         // No number of increments helps where interpolation alone takes the whole error.
         let vain = work.is_hopeless(accuracy, goal) && work.is_settled(accuracy);
         vain.then_some(End::InVain)
+    }
+
+    /// Whether finer elements will reach the goal, but these will not.
+    fn too_coarse(&self, work: &Work, accuracy: Option<Accuracy>) -> bool {
+        let is_finest = self.stage == MOST_STAGES || work.plan.is_finest;
+        let goal = self.request.accuracy.filter(|_| !is_finest);
+        goal.is_some_and(|goal| work.is_too_coarse(accuracy, goal))
     }
 
     /// How many stages on elements are fine enough, if they keep what they err by in proportion.
@@ -453,7 +460,8 @@ impl<'s, 'r> Run<'s, 'r> {
         let state = self.state(whole_mesh.then_some(work));
         let time_s = self.elapsed_s();
         let cache = IrradianceCache { samples: work.made() };
-        Solution { map: self.map(work, accuracy, reached), state, cache, time_s }
+        let lacked_time = self.too_coarse(work, accuracy) && !self.has_time_for_finer(work);
+        Solution { map: self.map(work, accuracy, reached), state, cache, time_s, lacked_time }
     }
 
     /// With sums, or none: those of elements that were cut short are of no use to another run.

@@ -204,8 +204,9 @@ fn measured_light_is_as_near_as_it_says() {
     // Their squares at 30 places spread by the root of 2 / 30, a quarter: here of three times that.
     let expected = found / (MEASURED as f64).sqrt();
     assert!(of_means < 1.32 * expected, "{of_means} for {expected}");
-    // The combs of a measurement interleave: their mean is nearer than independent ones would be.
-    assert!(found < said && said < 2.0 * found, "{found}, said {said}");
+    // The combs of a measurement interleave: their mean is nearer than independent ones would be, until a second one is added. What is found
+    // spreads by three per cent.
+    assert!(found < 1.1 * said && said < 2.0 * found, "{found}, said {said}");
     assert!(said < 0.5 * said_at_once, "{said} after {said_at_once}");
 }
 

@@ -26,6 +26,7 @@ mod middles;
 mod mirrors;
 mod mixing;
 mod net;
+mod openings;
 mod parts;
 mod reflectance;
 mod sealed;

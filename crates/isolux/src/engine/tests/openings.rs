@@ -1,0 +1,141 @@
+//! Light that comes in through openings.
+
+use super::*;
+use crate::engine::direct::{Goal, Lighting};
+use crate::engine::gather::Gatherer;
+use crate::engine::neighbours::{LEAST, lend_noise};
+use crate::engine::place::ProbePoint;
+use crate::engine::probe::{ExactSettings, MapReader};
+use crate::engine::reference::PathTracer;
+use crate::engine::{SolveRequest, Watch, solve};
+use crate::map::{Illuminance, Standing};
+
+/// Half the side of a square hole, 1 m above the floor, and the luminance of what is seen through it.
+const HALF: f64 = 0.1;
+const SKY_CD_M2: f64 = 4000.0;
+
+/// A sheet with a hole below a luminous ceiling that is far larger.
+fn hole() -> Scene {
+    let (wide, out) = (30.0, 30.0 - HALF);
+    let sheet = |corner: [f64; 2], u: f64, v: f64| {
+        rectangle([corner[0], corner[1], 1.0], [0.0, v, 0.0], [u, 0.0, 0.0], 0)
+    };
+    let shapes = vec![
+        sheet([-wide, -wide], out, 2.0 * wide),
+        sheet([HALF, -wide], out, 2.0 * wide),
+        sheet([-HALF, -wide], 2.0 * HALF, out),
+        sheet([-HALF, HALF], 2.0 * HALF, out),
+        rectangle([-wide, -wide, 2.0], [0.0, 2.0 * wide, 0.0], [2.0 * wide, 0.0, 0.0], 1),
+        rectangle([-wide, -wide, 0.0], [2.0 * wide, 0.0, 0.0], [0.0, 2.0 * wide, 0.0], 0),
+    ];
+    let black = Material::two_sided("black", Finish::BLACK);
+    scene(shapes, vec![black, glowing(SKY_CD_M2)], vec![])
+}
+
+/// Luminance times the projected solid angle of the hole, by its middle points.
+fn through_hole_lx(at: Point) -> f64 {
+    const STEPS: usize = 64;
+    let step = 2.0 * HALF / STEPS as f64;
+    let place = |k: usize| (k as f64 + 0.5) * step - HALF;
+    let each = (0..STEPS * STEPS).map(|k| {
+        let to = Point::new(place(k % STEPS), place(k / STEPS), 1.0) - at;
+        let squared = to.length_squared();
+        step * step * to.z * to.z / (squared * squared)
+    });
+    SKY_CD_M2 * each.sum::<f64>()
+}
+
+#[test]
+fn light_through_a_small_hole_is_read_with_its_error() {
+    let scene = hole();
+    let lighting = Lighting::new(&scene);
+    let up = Vector::new(0.0, 0.0, 1.0).normal().unwrap();
+    let (mut squared, mut sure) = (0.0, 0);
+    let places = 24_u64;
+    for k in 0..places {
+        let at = Point::new(0.05 * k as f64, 0.02 * k as f64, 0.0);
+        let surface = Gatherer::in_space(at, up, 0).surface;
+        let goal = Goal { lx: 0.5, ..Goal::reading(0.01) };
+        let read = lighting.read(&surface, goal, Sequence::new(Key::new(4).with(k)));
+        let exact = through_hole_lx(at);
+        let (error, said) = (read.lx.luminance() - exact, read.variance.sqrt());
+        assert!(said > 0.0, "nothing is known for sure in half-shadow: {k}");
+        // By shadow rays at most this: what one of them in 32,768 brings, and as many as come through.
+        let one_lx = std::f64::consts::PI * SKY_CD_M2 / 32_768.0;
+        assert!(said < 2.0 * (exact * one_lx).sqrt() + one_lx, "{k}: {said} of {exact}");
+        squared += (error / said).powi(2);
+        sure += u64::from(error.abs() < 2.0 * said);
+    }
+    // The mean of 24 squares of Student's distribution of seven degrees of freedom, 1.4, and three times its spread.
+    assert!(squared / (places as f64) < 3.0, "{squared}");
+    assert!(sure >= places - 5, "{sure}");
+}
+
+#[test]
+fn paths_ask_for_direct_light_as_often_as_for_the_rest() {
+    let scene = hole();
+    let tracer = PathTracer::new(&scene);
+    let normal = Vector::new(0.0, 0.0, 1.0).normal().unwrap();
+    let at = ProbePoint { position: Point::new(0.4, 0.1, 0.5), normal };
+    let said = |rays: u32| {
+        let settings = ExactSettings { rays, ..ExactSettings::default() };
+        tracer.estimate(at, &settings).standard_error_lx
+    };
+    let [few, many] = [256, 16_384].map(said);
+    assert!(many > 0.0 && many < 0.3 * few, "{many} after {few}");
+}
+
+/// Two rooms of 4 x 4 x 3 m, a wall between them that leaves 80 cm open, and a lamp in the first.
+#[test]
+fn a_dim_room_keeps_what_comes_in_beside_a_wall() {
+    let mut shapes = inward_box([8.0, 4.0, 3.0], 0);
+    let (thick, deep, high) = ([0.1, 0.0, 0.0], [0.0, 3.2, 0.0], [0.0, 0.0, 3.0]);
+    shapes.push(rectangle([3.95, 0.0, 0.0], high, deep, 0));
+    shapes.push(rectangle([4.05, 0.0, 0.0], deep, high, 0));
+    shapes.push(rectangle([3.95, 3.2, 0.0], high, thick, 0));
+    let scene =
+        scene(shapes, vec![painted(Rgb::grey(0.7))], vec![isotropic([1.5, 1.0, 2.0], 800.0)]);
+    let request = SolveRequest { accuracy: Some(0.01), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let (reader, tracer) = (MapReader::new(&scene, &map), PathTracer::new(&scene));
+    let normal = Vector::new(0.0, 0.0, 1.0).normal().unwrap();
+    let (mut read_lx, mut true_lx) = (0.0, 0.0);
+    for k in 0..12 {
+        let position = Point::new(5.1 + 0.2 * f64::from(k), 0.3 + 0.3 * f64::from(k), 0.8);
+        let at = ProbePoint { position, normal };
+        let settings = ExactSettings { rays: 1024, ..ExactSettings::default() };
+        read_lx += reader.estimate(at, &settings).illuminance_lx();
+        true_lx += tracer.estimate(at, &settings).illuminance_lx();
+    }
+    // Light of the dim room is known to some per cent; a tenth of it was lost where elements reach through the wall.
+    assert!((read_lx / true_lx - 1.0).abs() < 0.05, "{read_lx} {true_lx}");
+}
+
+#[test]
+fn vertices_have_noise_as_those_about_them() {
+    let floor = rectangle([0.0; 3], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0], 0);
+    let scene = scene(vec![floor], vec![painted(Rgb::WHITE)], vec![]);
+    let mut subdivision = crate::elements::Subdivision::new(&scene);
+    subdivision.bisect_to(1.0, 1000);
+    let elements = subdivision.elements();
+    let noisy = |lx: f64| {
+        Some(Illuminance {
+            indirect_standard_error_lx: lx,
+            standard_error_lx: libm::hypot(lx, 3.0),
+            standing: Standing::Open,
+            ..Illuminance::NOTHING
+        })
+    };
+    let mut values = vec![noisy(4.0); elements.vertices().len()];
+    values[5] = noisy(0.0);
+    values[6] = None;
+    lend_noise(&elements, &mut values);
+    let told = values[5].unwrap();
+    // A third to a fifth of what its elements have is its own.
+    let [low, high] = [0.6, 1.0].map(|share| 4.0 * (share * LEAST).sqrt());
+    assert!((low..high).contains(&told.indirect_standard_error_lx), "{told:?}");
+    let whole = libm::hypot(told.indirect_standard_error_lx, 3.0);
+    assert!((told.standard_error_lx - whole).abs() < 1e-9);
+    assert!(values[6].is_none());
+    assert!(values[0].is_some_and(|v| (v.indirect_standard_error_lx - 4.0).abs() < 1e-12));
+}
