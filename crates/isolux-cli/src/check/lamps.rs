@@ -13,6 +13,9 @@ const SHUT_IN_SHARE: f64 = 0.02;
 /// One that sees backs alone, none beyond this share of the scene, is inside a solid.
 const INSIDE_SHARE: f64 = 0.1;
 
+/// Rays of parallel light each way.
+const PARALLEL: usize = 48;
+
 /// Reflections from mirror to mirror that are followed.
 const REFLECTIONS: usize = 64;
 
@@ -24,6 +27,7 @@ enum Trouble {
     LightsBlackBacks,
     LightsMirrorsAlone,
     ShutIn,
+    ShutOut,
 }
 
 /// What a luminaire sees in one direction.
@@ -49,8 +53,13 @@ pub(super) fn findings(scene: &Scene) -> Vec<Finding> {
 }
 
 fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
-    let LuminaireKind::Point { position, world_from_luminaire, intensity } = &luminaire.kind else {
-        return None;
+    let (position, world_from_luminaire, intensity) = match &luminaire.kind {
+        LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+            (position, world_from_luminaire, intensity)
+        }
+        LuminaireKind::Directional { direction, .. } => {
+            return is_shut_out(scene, *direction).then_some(Trouble::ShutOut);
+        }
     };
     if intensity.luminous_flux_lm() <= 0.0 {
         return Some(Trouble::NoFlux);
@@ -82,6 +91,29 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
     } else {
         None
     }
+}
+
+/// Whether parallel light comes to nothing but black backs and what shines itself, as a box does that stands for the sky.
+fn is_shut_out(scene: &Scene, direction: Direction) -> bool {
+    let Some((low, high)) = scene.bvh().mesh().bounds() else { return false };
+    let (centre, radius_m) = (low + (high - low) * 0.5, 0.5 * (high - low).length());
+    let at = |k: usize| ((k as f64 + 0.5) / PARALLEL as f64 * 2.0 - 1.0) * radius_m;
+    let [u, v] = [Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0)]
+        .map(|local| direction.from_local(local).to_vector());
+    let met = |k: usize| {
+        let across = u * at(k % PARALLEL) + v * at(k / PARALLEL);
+        let from = centre + across - direction.to_vector() * (2.0 * radius_m);
+        scene.bvh().closest_hit(&Ray::new(from, direction))
+    };
+    let shuts_out = |triangle: u32, back: bool| {
+        let material = scene.material(triangle);
+        let shines =
+            [false, true].map(|side| material.finish(side).is_some_and(Finish::is_emitter));
+        let is_black = material.finish(true).is_some_and(|finish| *finish == Finish::BLACK);
+        shines.contains(&true) || back && is_black
+    };
+    let mut hits = (0..PARALLEL * PARALLEL).filter_map(met).peekable();
+    hits.peek().is_some() && hits.all(|hit| shuts_out(hit.triangle, hit.back))
 }
 
 /// The first surface in a direction.
@@ -150,6 +182,10 @@ fn finding(luminaire: &Luminaire, trouble: Trouble) -> Finding {
             "what reflects light again and again lights nothing else: open the box of mirrors, or give a side of it a \
              diffuse reflectance",
         ),
+        Trouble::ShutOut => (
+            "comes to nothing but black backs and surfaces that shine themselves",
+            "what stands for the sky keeps the sun out: leave it open on that side, or away",
+        ),
         Trouble::LightsBlackBacks => (
             "lights only backs of one-sided surfaces",
             "it is inside a solid, or the surfaces around it are turned inside out: move it or \
@@ -181,6 +217,29 @@ mod tests {
                 .collect(),
             ..Shape::default()
         }
+    }
+
+    #[test]
+    fn a_sun_outside_of_a_luminous_sky_is_told_of() {
+        let sky = Finish { luminance_cd_m2: Rgb::grey(4000.0), ..Finish::BLACK };
+        let materials = vec![
+            Material::one_sided("ground", Finish::diffuse(Rgb::grey(0.2))),
+            Material::one_sided("sky", sky),
+        ];
+        let shapes =
+            |sky_half: f64| vec![cube(1.0, false), Shape { material: 1, ..cube(sky_half, true) }];
+        let direction = Vector::new(0.3, 0.2, -0.9).direction().unwrap();
+        let kind = LuminaireKind::Directional { direction, illuminance_lx: 7e4 };
+        let sun = Luminaire { name: "sun".into(), group: 0, colour: Rgb::WHITE, kind };
+        let trouble_of = |sky_half: f64| {
+            let (materials, luminaires) = (materials.clone(), vec![sun.clone()]);
+            let shapes = shapes(sky_half);
+            let parts = SceneParts { shapes, materials, luminaires, ..SceneParts::default() };
+            trouble(&Scene::assemble(parts).unwrap(), &sun)
+        };
+        assert_eq!(trouble_of(5.0), Some(Trouble::ShutOut));
+        // A luminous box inside of the other.
+        assert_eq!(trouble_of(0.5), None);
     }
 
     fn trouble_of(shapes: Vec<Shape>, intensity_cd: f64, two_sided: bool) -> Option<Trouble> {

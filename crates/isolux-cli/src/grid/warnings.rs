@@ -79,7 +79,7 @@ pub(super) fn warn(
     let dark = outside.count();
     if is_dark && unknown == 0 {
         warn(
-            "no light comes to any of its points; check its place, and that its sides `u x v` turn up"
+            "no light comes to any of its points; check its place, and that `u x v` of its sides is the way they are to face"
                 .into(),
         );
     } else if dark > 0 {
