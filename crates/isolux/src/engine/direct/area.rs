@@ -18,6 +18,10 @@ const TRIANGLES_A_SAMPLE: usize = 32;
 /// So many times the shadow rays where those before tell too little.
 const MORE: usize = 4;
 
+/// The standard error by the spread of eight replicates, so that 1.96 of it hold the truth in 95 % of cases (quantiles of Student's
+/// distribution with seven degrees of freedom and of the normal one).
+const OF_FEW: f64 = 2.365 / 1.96;
+
 /// Places of a large emitter that tell roughly what it gives.
 const LOOKED_AT: usize = 64;
 
@@ -158,7 +162,7 @@ impl Lighting<'_> {
                 samples = (MORE * samples).min(most);
             };
             sum.lx += measured.lx;
-            sum.variance += measured.variance;
+            sum.variance += OF_FEW * OF_FEW * measured.variance;
         }
         sum
     }
