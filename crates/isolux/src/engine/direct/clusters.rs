@@ -7,9 +7,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// Triangles of a leaf at most.
 const GROUP: usize = 4;
 
-/// Clusters whose radius is at most this share of their distance are known by their middle, if all of their triangles face
-/// the receiver and are above its horizon.
+/// Clusters of at most so many are known by each of their triangles, where they do not all face the receiver.
+const FEW: usize = 16;
+
+/// Clusters whose radius is at most this share of their distance are known by their middle.
 const FAR: f64 = 0.3;
+
+/// How much of a cluster that is near counts as facing the receiver for every radius that it is away.
+const NEAR: f64 = 0.25;
 
 /// How much a spread of normals counts beside a spread in place as wide as the emitter.
 const TURN: f64 = 0.25;
@@ -25,6 +30,8 @@ struct Cluster {
     /// The normals times the areas, m2.
     area_vector_m2: Vector,
     area_m2: f64,
+    /// Along each axis, to both sides: the components of the area vectors, m2.
+    sides_m2: [[f64; 2]; 3],
     /// All normals are within `spread_rad` of it; without one they may be any.
     axis: Option<Normal>,
     spread_rad: f64,
@@ -62,50 +69,47 @@ pub(super) struct Clusters {
     /// The triangles in the order of the tree, and where each is in it.
     order: Vec<u32>,
     ranks: Vec<u32>,
+    /// In the order of the tree.
+    facets: Vec<Facet>,
 }
 
-/// What the tree is built by.
+/// A triangle.
+#[derive(Clone, Copy, Debug)]
 struct Facet {
-    middle: Vector,
+    middle: Point,
+    corners: [Point; 3],
     normal: Option<Normal>,
+    area_vector_m2: Vector,
 }
 
 impl Clusters {
     /// Of triangles that emit from their counter-clockwise side.
     pub(super) fn of(triangles: &[[Point; 3]]) -> Self {
-        let facet = |&[a, b, c]: &[Point; 3]| Facet {
-            middle: (a.to_vector() + b.to_vector() + c.to_vector()) / 3.0,
-            normal: (b - a).cross(c - a).normal(),
-        };
-        let facets: Vec<Facet> = triangles.iter().map(facet).collect();
+        let facets: Vec<Facet> = triangles.iter().copied().map(Facet::of).collect();
         let order = (0..triangles.len() as u32).collect();
-        let mut tree = Self { all: Vec::new(), order, ranks: vec![0; triangles.len()] };
-        let extent = spreads(&tree.order, |k| Some(facets[k].middle));
+        let ranks = vec![0; triangles.len()];
+        let mut tree = Self { all: Vec::new(), order, ranks, facets: Vec::new() };
+        let extent = spreads(&tree.order, |k| Some(facets[k].middle.to_vector()));
         let extent = extent.into_iter().fold(f64::MIN_POSITIVE, f64::max);
         if !triangles.is_empty() {
-            tree.build(triangles, &facets, extent, (0, triangles.len()));
+            tree.build(&facets, extent, (0, triangles.len()));
         }
         for (rank, &triangle) in tree.order.iter().enumerate() {
             tree.ranks[triangle as usize] = rank as u32;
         }
+        tree.facets = tree.order.iter().map(|&k| facets[k as usize]).collect();
         tree
     }
 
     /// Appends the cluster of a range of triangles and its parts.
-    fn build(
-        &mut self,
-        triangles: &[[Point; 3]],
-        facets: &[Facet],
-        extent: f64,
-        (first, end): (usize, usize),
-    ) -> u32 {
+    fn build(&mut self, facets: &[Facet], extent: f64, (first, end): (usize, usize)) -> u32 {
         let index = self.all.len();
         let members = &mut self.order[first..end];
-        self.all.push(cluster(triangles, facets, first, members));
+        self.all.push(cluster(facets, first, members));
         if members.len() > GROUP {
             let middle = first + halve(facets, extent, members);
-            self.build(triangles, facets, extent, (first, middle));
-            self.all[index].second = Some(self.build(triangles, facets, extent, (middle, end)));
+            self.build(facets, extent, (first, middle));
+            self.all[index].second = Some(self.build(facets, extent, (middle, end)));
         }
         index as u32
     }
@@ -134,7 +138,9 @@ impl Clusters {
 
     /// What a receiver may have of a cluster.
     pub(super) fn outlook(&self, number: u32, at: &SurfacePoint) -> Outlook {
-        self.cluster(number).outlook(at)
+        let cluster = self.cluster(number);
+        let facets = &self.facets[cluster.first as usize..][..cluster.count as usize];
+        cluster.outlook(at, facets)
     }
 
     /// Which of those in doubt is to be divided first: by how much it may give at the nearest.
@@ -146,35 +152,76 @@ impl Clusters {
 }
 
 impl Cluster {
-    fn outlook(&self, at: &SurfacePoint) -> Outlook {
+    fn outlook(&self, at: &SurfacePoint, facets: &[Facet]) -> Outlook {
         let to = self.centre - at.point;
         let (distance, radius_m) = (to.length(), self.radius_m);
         let height_m = to.dot(at.shading.to_vector());
         if self.area_m2 <= 0.0 || height_m + radius_m <= 0.0 {
             return Outlook::Dark;
         }
+        let is_far = radius_m <= FAR * distance;
         let distance2 = distance.max(radius_m).max(f64::MIN_POSITIVE).powi(2);
-        let height = height_above(height_m, radius_m) / distance2.sqrt();
-        let most = self.area_m2 * height / distance2;
-        let Some(axis) = self.axis.filter(|_| distance > radius_m) else {
-            return unknown(most);
+        if let Some(axis) = self.axis.filter(|_| distance > radius_m) {
+            let off_axis = libm::acos((-axis.to_vector().dot(to) / distance).clamp(-1.0, 1.0));
+            let about = self.spread_rad + libm::asin(radius_m / distance) + ROUNDING_RAD;
+            if off_axis - about >= FRAC_PI_2 {
+                return Outlook::Dark;
+            }
+            if is_far && off_axis + about < FRAC_PI_2 && height_m > radius_m {
+                let area_m2 = -self.area_vector_m2.dot(to) / distance;
+                return Outlook::Known(area_m2 * height_m / (distance * distance2));
+            }
+        }
+        let steradians = if facets.len() <= FEW {
+            facets.iter().map(|facet| facet.steradians(at, radius_m, is_far)).sum()
+        } else {
+            let height = height_above(height_m, radius_m) / distance2.sqrt();
+            self.facing_m2(to) * height / distance2
         };
-        let off_axis = libm::acos((-axis.to_vector().dot(to) / distance).clamp(-1.0, 1.0));
-        let about = self.spread_rad + libm::asin(radius_m / distance) + ROUNDING_RAD;
-        let nearest = off_axis - about;
-        if nearest >= FRAC_PI_2 {
-            return Outlook::Dark;
-        }
-        if radius_m <= FAR * distance && off_axis + about < FRAC_PI_2 && height_m > radius_m {
-            let area_m2 = -self.area_vector_m2.dot(to) / distance;
-            return Outlook::Known(area_m2 * height_m / (distance * distance2));
-        }
-        unknown(most * libm::cos(nearest.max(0.0)))
+        let steradians = f64::max(steradians, f64::MIN_POSITIVE);
+        if is_far { Outlook::Known(steradians) } else { Outlook::Unknown(steradians) }
+    }
+
+    /// At least what faces a receiver of its area, from where all is in one direction; up to the square root of three times as much.
+    fn facing_m2(&self, to: Vector) -> f64 {
+        let distance = to.length().max(self.radius_m);
+        let along = |axis: usize| {
+            let component = -to.component(axis) / distance;
+            component.abs() * self.sides_m2[axis][usize::from(component < 0.0)]
+        };
+        along(0) + along(1) + along(2) + NEAR * self.area_m2 * self.radius_m / distance
     }
 }
 
-fn unknown(steradians: f64) -> Outlook {
-    Outlook::Unknown(steradians.max(f64::MIN_POSITIVE))
+impl Facet {
+    fn of(corners: [Point; 3]) -> Self {
+        let [a, b, c] = corners;
+        let area_vector_m2 = (b - a).cross(c - a) * 0.5;
+        let middle = a + ((b - a) + (c - a)) / 3.0;
+        Self { middle, corners, normal: area_vector_m2.normal(), area_vector_m2 }
+    }
+
+    /// Projected solid angle by its middle, or by places towards its corners too; zero only where it faces away.
+    fn steradians(&self, at: &SurfacePoint, radius_m: f64, is_far: bool) -> f64 {
+        let to = self.middle - at.point;
+        let depth = -self.area_vector_m2.dot(to);
+        // What is seen edge on may be seen after all, if rounding says so.
+        let least = ROUNDING_RAD * self.area_vector_m2.length() * to.length();
+        if depth <= -least {
+            return 0.0;
+        }
+        let depth = depth.max(least);
+        let one = |to: Vector| {
+            let distance2 = to.length_squared().max(f64::MIN_POSITIVE);
+            let height = height_above(to.dot(at.shading.to_vector()), radius_m);
+            (depth * height / (distance2 * distance2)).min(PI)
+        };
+        if is_far {
+            return one(to);
+        }
+        let others = self.corners.map(|corner| one(to + (corner - self.middle) * 0.5));
+        (one(to) + others[0] + others[1] + others[2]) / 4.0
+    }
 }
 
 /// The mean over heights between the rims of a sphere, of which those below the horizon count nothing.
@@ -182,27 +229,31 @@ fn height_above(height_m: f64, radius_m: f64) -> f64 {
     if height_m >= radius_m {
         return height_m;
     }
-    let above_m = height_m + radius_m;
+    let above_m = (height_m + radius_m).max(0.0);
     above_m * above_m / (4.0 * radius_m)
 }
 
 /// A leaf of some triangles.
-fn cluster(triangles: &[[Point; 3]], facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
+fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
+    let facet = |&k: &u32| &facets[k as usize];
+    let start = facets[members[0] as usize].middle;
     let (mut area_m2, mut area_vector_m2, mut moment) = (0.0, Vector::ZERO, Vector::ZERO);
-    for &k in members {
-        let [a, b, c] = triangles[k as usize];
-        let vector_m2 = (b - a).cross(c - a) * 0.5;
+    let mut sides_m2 = [[0.0; 2]; 3];
+    for Facet { middle, area_vector_m2: vector_m2, .. } in members.iter().map(facet) {
         let m2 = vector_m2.length();
         area_m2 += m2;
-        area_vector_m2 += vector_m2;
-        moment += (facets[k as usize].middle - facets[members[0] as usize].middle) * m2;
+        area_vector_m2 += *vector_m2;
+        moment += (*middle - start) * m2;
+        for (axis, sides) in sides_m2.iter_mut().enumerate() {
+            let component = vector_m2.component(axis);
+            sides[usize::from(component < 0.0)] += component.abs();
+        }
     }
-    let centre = Point::ORIGIN + facets[members[0] as usize].middle;
-    let centre = if area_m2 > 0.0 { centre + moment / area_m2 } else { centre };
-    let corners = members.iter().flat_map(|&k| triangles[k as usize]);
+    let centre = if area_m2 > 0.0 { start + moment / area_m2 } else { start };
+    let corners = members.iter().flat_map(|k| facet(k).corners);
     let radius_m = corners.map(|p| (p - centre).length()).fold(0.0, f64::max);
     let axis = area_vector_m2.normal();
-    let normals = || members.iter().filter_map(|&k| facets[k as usize].normal);
+    let normals = || members.iter().filter_map(|k| facet(k).normal);
     let spread_rad = axis.map_or(PI, |axis| {
         let angle = |n: Normal| libm::acos(n.to_vector().dot(axis.to_vector()).clamp(-1.0, 1.0));
         normals().map(angle).fold(0.0, f64::max)
@@ -213,6 +264,7 @@ fn cluster(triangles: &[[Point; 3]], facets: &[Facet], first: usize, members: &[
         radius_m: radius_m * (1.0 + 1e-12),
         area_vector_m2,
         area_m2,
+        sides_m2,
         axis,
         spread_rad,
         first: first as u32,
@@ -223,14 +275,14 @@ fn cluster(triangles: &[[Point; 3]], facets: &[Facet], first: usize, members: &[
 
 /// Puts the half first that is lower along the axis of the widest spread, in place or of the normals; returns how many that are.
 fn halve(facets: &[Facet], extent: f64, members: &mut [u32]) -> usize {
-    let places = spreads(members, |k| Some(facets[k].middle)).map(|m| m / extent);
+    let places = spreads(members, |k| Some(facets[k].middle.to_vector())).map(|m| m / extent);
     let turns = spreads(members, |k| facets[k].normal.map(Normal::to_vector)).map(|t| t * TURN);
     let widest = |of: [f64; 3]| (0..3).fold(0, |best, k| if of[k] > of[best] { k } else { best });
     let (place, turn) = (widest(places), widest(turns));
     let along = |&k: &u32| {
         let facet = &facets[k as usize];
         if places[place] >= turns[turn] {
-            facet.middle.component(place)
+            facet.middle.to_vector().component(place)
         } else {
             facet.normal.map_or(0.0, |n| n.to_vector().component(turn))
         }
