@@ -313,7 +313,8 @@ mod tests {
         assert!((mean - expected).abs() <= tolerance, "{what}: {mean} +- {error}, not {expected}");
     }
 
-    /// A chance that is drawn seldom shows in the density, not in the mean: all that gives light has one.
+    /// A chance that is drawn seldom shows in the density, not in the mean: all that gives light has one. The values of draws spread by 0.6
+    /// about their mean (in November 2026).
     #[test]
     fn many_triangles_are_drawn_without_bias_and_with_their_density() {
         let (mut compared, mut spread) = (0, 0.0);
@@ -351,11 +352,6 @@ mod tests {
                 check(&seen, sum, &format!("density of {what}"));
                 let square = found.iter().map(|f| (f / exact - 1.0).powi(2)).sum::<f64>();
                 if exact > 0.0 {
-                    eprintln!(
-                        "{what}: {exact:.4} of {:.4}, spread {:.3}",
-                        shape.whole,
-                        (square / f64::from(DRAWS)).sqrt()
-                    );
                     (compared, spread) = (compared + 1, spread + square / f64::from(DRAWS));
                 }
             }

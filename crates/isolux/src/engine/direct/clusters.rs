@@ -8,13 +8,16 @@ use std::f64::consts::{FRAC_PI_2, PI};
 const GROUP: usize = 4;
 
 /// Clusters of at most so many are known by each of their triangles, where they do not all face the receiver.
-const FEW: usize = 16;
+const FEW: usize = 32;
 
 /// Clusters whose radius is at most this share of their distance are known by their middle.
 const FAR: f64 = 0.3;
 
 /// How much of a cluster that is near counts as facing the receiver for every radius that it is away.
 const NEAR: f64 = 0.25;
+
+/// A cluster counts as no nearer than so many of its radii.
+const NEAREST: f64 = 0.05;
 
 /// How much a spread of normals counts beside a spread in place as wide as the emitter.
 const TURN: f64 = 0.25;
@@ -27,6 +30,8 @@ const ROUNDING_RAD: f64 = 1e-6;
 struct Cluster {
     centre: Point,
     radius_m: f64,
+    low: Point,
+    high: Point,
     /// The normals times the areas, m2.
     area_vector_m2: Vector,
     area_m2: f64,
@@ -176,10 +181,19 @@ impl Cluster {
             facets.iter().map(|facet| facet.steradians(at, radius_m, is_far)).sum()
         } else {
             let height = height_above(height_m, radius_m) / distance2.sqrt();
-            self.facing_m2(to) * height / distance2
+            // What lies along a line gives light as from between its nearest place and its ends.
+            let nearest_m = self.nearest_m(at.point).max(NEAREST * radius_m);
+            self.facing_m2(to) * height / (nearest_m * distance2.sqrt())
         };
         let steradians = f64::max(steradians, f64::MIN_POSITIVE);
         if is_far { Outlook::Known(steradians) } else { Outlook::Unknown(steradians) }
+    }
+
+    /// How far the box around it is away, m.
+    fn nearest_m(&self, from: Point) -> f64 {
+        let away = [self.low - from, from - self.high];
+        let along = |axis: usize| away.map(|v| v.component(axis)).into_iter().fold(0.0, f64::max);
+        Vector::new(along(0), along(1), along(2)).length()
     }
 
     /// At least what faces a receiver of its area, from where all is in one direction; up to the square root of three times as much.
@@ -250,8 +264,14 @@ fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
         }
     }
     let centre = if area_m2 > 0.0 { start + moment / area_m2 } else { start };
-    let corners = members.iter().flat_map(|k| facet(k).corners);
-    let radius_m = corners.map(|p| (p - centre).length()).fold(0.0, f64::max);
+    let corners = || members.iter().flat_map(|k| facet(k).corners);
+    let (low, high) = corners().fold((start, start), |(low, high), p| {
+        (
+            Point::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z)),
+            Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z)),
+        )
+    });
+    let radius_m = corners().map(|p| (p - centre).length()).fold(0.0, f64::max);
     let axis = area_vector_m2.normal();
     let normals = || members.iter().filter_map(|k| facet(k).normal);
     let spread_rad = axis.map_or(PI, |axis| {
@@ -262,6 +282,8 @@ fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
         centre,
         // The roundings of a length and of those that follow.
         radius_m: radius_m * (1.0 + 1e-12),
+        low,
+        high,
         area_vector_m2,
         area_m2,
         sides_m2,
