@@ -54,17 +54,8 @@ pub(super) enum Outlook {
     Dark,
     /// About so much, projected sr.
     Known(f64),
-    /// Perhaps so much; never zero.
-    Unknown(f64),
-}
-
-impl Outlook {
-    pub(super) fn weight(self) -> f64 {
-        match self {
-            Self::Dark => 0.0,
-            Self::Known(steradians) | Self::Unknown(steradians) => steradians,
-        }
-    }
+    /// Perhaps some.
+    Unknown,
 }
 
 /// All clusters of an emitter.
@@ -143,9 +134,21 @@ impl Clusters {
 
     /// What a receiver may have of a cluster.
     pub(super) fn outlook(&self, number: u32, at: &SurfacePoint) -> Outlook {
+        self.cluster(number).outlook(at, self.facets(number))
+    }
+
+    /// About how much a receiver may have of a cluster, projected sr; zero only if it has nothing.
+    pub(super) fn weight(&self, number: u32, at: &SurfacePoint) -> f64 {
+        match self.outlook(number, at) {
+            Outlook::Dark => 0.0,
+            Outlook::Known(steradians) => steradians,
+            Outlook::Unknown => self.cluster(number).steradians(at, self.facets(number)),
+        }
+    }
+
+    fn facets(&self, number: u32) -> &[Facet] {
         let cluster = self.cluster(number);
-        let facets = &self.facets[cluster.first as usize..][..cluster.count as usize];
-        cluster.outlook(at, facets)
+        &self.facets[cluster.first as usize..][..cluster.count as usize]
     }
 
     /// Which of those in doubt is to be divided first: by how much it may give at the nearest.
@@ -177,16 +180,23 @@ impl Cluster {
                 return Outlook::Known(area_m2 * height_m / (distance * distance2));
             }
         }
-        let steradians = if facets.len() <= FEW {
-            facets.iter().map(|facet| facet.steradians(at, radius_m, is_far)).sum()
-        } else {
-            let height = height_above(height_m, radius_m) / distance2.sqrt();
-            // What lies along a line gives light as from between its nearest place and its ends.
-            let nearest_m = self.nearest_m(at.point).max(NEAREST * radius_m);
-            self.facing_m2(to) * height / (nearest_m * distance2.sqrt())
-        };
-        let steradians = f64::max(steradians, f64::MIN_POSITIVE);
-        if is_far { Outlook::Known(steradians) } else { Outlook::Unknown(steradians) }
+        if is_far { Outlook::Known(self.steradians(at, facets)) } else { Outlook::Unknown }
+    }
+
+    /// About how much a receiver may have that is not surely in the dark; never zero.
+    fn steradians(&self, at: &SurfacePoint, facets: &[Facet]) -> f64 {
+        let to = self.centre - at.point;
+        let (distance, radius_m) = (to.length(), self.radius_m);
+        if facets.len() <= FEW {
+            let is_far = radius_m <= FAR * distance;
+            let each = facets.iter().map(|facet| facet.steradians(at, radius_m, is_far));
+            return each.sum::<f64>().max(f64::MIN_POSITIVE);
+        }
+        let distance = distance.max(radius_m).max(f64::MIN_POSITIVE);
+        let height = height_above(to.dot(at.shading.to_vector()), radius_m) / distance;
+        // What lies along a line gives light as from between its nearest place and its ends.
+        let nearest_m = self.nearest_m(at.point).max(NEAREST * radius_m);
+        (self.facing_m2(to) * height / (nearest_m * distance)).max(f64::MIN_POSITIVE)
     }
 
     /// How far the box around it is away, m.

@@ -55,7 +55,7 @@ impl<'a> Parted<'a> {
             if looked_at >= most {
                 break;
             }
-            let (cluster, _, _) = waiting.swap_remove(next);
+            let (cluster, _) = waiting.swap_remove(next);
             if let Some(halves) = self.clusters.halves(cluster) {
                 looked_at += halves.len();
                 halves.into_iter().for_each(|half| self.look(half, &mut waiting));
@@ -65,19 +65,17 @@ impl<'a> Parted<'a> {
                 self.take(cluster, whole(&pieces), Some(pieces));
             }
         }
-        for (cluster, _, weight) in waiting {
-            self.take(cluster, weight, None);
+        for (cluster, _) in waiting {
+            self.take(cluster, self.clusters.weight(cluster, &self.at), None);
         }
     }
 
-    /// Takes a cluster, or lets it wait: with its doubt and weight.
-    fn look(&mut self, cluster: u32, waiting: &mut Vec<(u32, f64, f64)>) {
+    /// Takes a cluster, or lets it wait, with its doubt.
+    fn look(&mut self, cluster: u32, waiting: &mut Vec<(u32, f64)>) {
         match self.clusters.outlook(cluster, &self.at) {
             Outlook::Dark => {}
             Outlook::Known(weight) => self.take(cluster, weight, None),
-            Outlook::Unknown(weight) => {
-                waiting.push((cluster, self.clusters.doubt(cluster, &self.at), weight));
-            }
+            Outlook::Unknown => waiting.push((cluster, self.clusters.doubt(cluster, &self.at))),
         }
     }
 
@@ -139,7 +137,7 @@ impl<'a> Parted<'a> {
     /// The halves of a cluster and the chance of the first, by what both may give.
     fn halves(&self, cluster: u32) -> Option<([u32; 2], f64)> {
         let halves = self.clusters.halves(cluster)?;
-        let [first, second] = halves.map(|half| self.clusters.outlook(half, &self.at).weight());
+        let [first, second] = halves.map(|half| self.clusters.weight(half, &self.at));
         // Where neither gives any, it does not matter.
         let of_first = if first + second > 0.0 { first / (first + second) } else { 0.5 };
         Some((halves, of_first))
