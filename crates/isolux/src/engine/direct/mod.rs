@@ -9,6 +9,7 @@
 mod about;
 mod area;
 mod chains;
+mod clusters;
 mod cut;
 mod kind;
 mod lobe;
@@ -16,7 +17,9 @@ mod many;
 mod measured;
 mod mirrors;
 mod panes;
+mod parted;
 mod patches;
+mod pieces;
 mod shadows;
 mod source;
 mod tree;

@@ -1,5 +1,6 @@
 //! Luminaires and their images in planar mirrors.
 
+use super::clusters::Clusters;
 use super::mirrors::Mirrors;
 use crate::engine::surface::SurfacePoint;
 use crate::photometry::IntensityDistribution;
@@ -47,9 +48,9 @@ pub(super) enum SourceKind {
 #[derive(Clone, Debug)]
 pub(super) struct Emitter {
     pub(super) indices: Vec<u32>,
-    /// Running sums of the areas, m2.
-    pub(super) area_sums_m2: Vec<f64>,
+    pub(super) area_m2: f64,
     pub(super) centre: Point,
+    pub(super) clusters: Clusters,
 }
 
 /// Light on its way to a surface, obstacles left out.
@@ -147,16 +148,15 @@ fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
 fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
     let area = |&[a, b, c]: &[Point; 3]| 0.5 * (b - a).cross(c - a).length();
     let (mut sum_m2, mut moment) = (0.0, Vector::ZERO);
-    let mut area_sums_m2 = Vec::with_capacity(triangles.len());
     for triangle in &triangles {
         let m2 = area(triangle);
         sum_m2 += m2;
-        area_sums_m2.push(sum_m2);
         let [a, b, c] = triangle.map(Point::to_vector);
         moment += (a + b + c) * (m2 / 3.0);
     }
     let centre = Point::ORIGIN + moment / sum_m2;
-    SourceKind::Area { emitter: Emitter { indices, area_sums_m2, centre }, triangles }
+    let clusters = Clusters::of(&triangles);
+    SourceKind::Area { emitter: Emitter { indices, area_m2: sum_m2, centre, clusters }, triangles }
 }
 
 /// The image of a source in a plane; `None` where its light cannot reach the reflecting side.
@@ -274,7 +274,7 @@ pub(super) fn importance(
 ) -> f64 {
     match &source.kind {
         SourceKind::Area { emitter, .. } => {
-            let area_m2 = emitter.area_sums_m2.last().copied().unwrap_or(0.0);
+            let area_m2 = emitter.area_m2;
             let distance_squared = (emitter.centre - at.point).length_squared();
             source.colour.luminance() * area_m2 / (distance_squared + area_m2)
         }
