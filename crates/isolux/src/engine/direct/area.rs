@@ -4,7 +4,7 @@ use super::Lighting;
 use super::measured::{Measured, REPLICATES};
 use super::parted::Parted;
 use super::pieces::{Piece, drawn, pieces, target};
-use super::source::{Emitter, Source, SourceKind, Target, facing_cos};
+use super::source::{Emitter, Source, SourceKind, TRIANGLES_A_SAMPLE, Target, facing_cos};
 use crate::engine::accumulate::mean_and_variance;
 use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
@@ -12,10 +12,6 @@ use crate::sampling::Sequence;
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Point, Vector};
 use std::borrow::Cow;
-
-/// Emitters of at most so many triangles a sample are sampled by solid angle, with the exact
-/// unoccluded illuminance as control; of larger ones only those triangles that are near.
-const TRIANGLES_A_SAMPLE: usize = 32;
 
 /// So many times the shadow rays where those before tell too little.
 const MORE: usize = 4;

@@ -59,6 +59,10 @@ pub(super) struct Arriving {
     pub(super) target: Target,
 }
 
+/// Emitters of at most so many triangles a sample are sampled by solid angle, with the exact
+/// unoccluded illuminance as control; of larger ones only those triangles that are near.
+pub(super) const TRIANGLES_A_SAMPLE: usize = 32;
+
 /// Where a source is.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Target {
@@ -155,7 +159,9 @@ fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
         moment += (a + b + c) * (m2 / 3.0);
     }
     let centre = Point::ORIGIN + moment / sum_m2;
-    let clusters = Clusters::of(&triangles);
+    // Those of few triangles are looked at one by one.
+    let is_large = triangles.len() > TRIANGLES_A_SAMPLE;
+    let clusters = if is_large { Clusters::of(&triangles) } else { Clusters::default() };
     SourceKind::Area { emitter: Emitter { indices, area_m2: sum_m2, centre, clusters }, triangles }
 }
 
