@@ -39,7 +39,7 @@ const MORE_FOR_DIRECT: f64 = 0.75;
 const FIRST_IN_ALL: f64 = 2.5;
 /// And before that: what a gathering ray and a vertex cost, as multiples of a ray that is only traced.
 const GATHERING: f64 = 1.9;
-const FIRST: f64 = 10.0;
+const FIRST: f64 = 19.0;
 
 /// Factors between what is said and what comes, in nine of ten runs: before the first look, while
 /// elements are refined, and when they are fixed.
