@@ -93,7 +93,7 @@ fn among_many_things_the_usual_mesh_is_foreseen() {
     let rays_s = 0.5e-6 * 1.9 * (carriers * 64.0 + 8.0 * carriers * 16.0);
     let direct_s = 1e-6 * (vertices - 125.0);
     // Eight looks at all there is to look at, and what is once, two and a half times as dear.
-    let first_s = 0.5e-6 * 10.0;
+    let first_s = 0.5e-6 * 19.0;
     let looks_s = first_s * (8.0 * (1000.0 + carriers) + 8.0 * 0.2 * 2.5 * vertices);
     let expected = rays_s + direct_s + looks_s;
     assert!((left_s / expected - 1.0).abs() < 1e-9, "{left_s} {expected}");
