@@ -87,10 +87,7 @@ impl TriangleMesh {
         let first = Point::from(*self.positions.first()?);
         Some(self.positions.iter().fold((first, first), |(low, high), &p| {
             let p = Point::from(p);
-            (
-                Point::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z)),
-                Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z)),
-            )
+            (low.lesser(p), high.greater(p))
         }))
     }
 }

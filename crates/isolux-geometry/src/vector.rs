@@ -55,6 +55,16 @@ impl Point {
         Vector::new(self.x, self.y, self.z)
     }
 
+    /// Component by component the lesser.
+    pub fn lesser(self, other: Self) -> Self {
+        Self::new(self.x.min(other.x), self.y.min(other.y), self.z.min(other.z))
+    }
+
+    /// Component by component the greater.
+    pub fn greater(self, other: Self) -> Self {
+        Self::new(self.x.max(other.x), self.y.max(other.y), self.z.max(other.z))
+    }
+
     /// The point `weight` of the way from here to `other`.
     pub fn lerp(self, other: Self, weight: f64) -> Self {
         self + (other - self) * weight

@@ -2,7 +2,7 @@
 
 use super::finding::Finding;
 use isolux::geometry::{Direction, Point, Ray, Vector};
-use isolux::scene::{Body, Finish, Luminaire, LuminaireKind, Scene};
+use isolux::scene::{Body, Finish, Luminaire, LuminaireKind, Material, Scene};
 
 /// Findings shown one by one; more are counted.
 const MAX_SHOWN: usize = 10;
@@ -109,8 +109,7 @@ fn is_shut_out(scene: &Scene, direction: Direction) -> bool {
         let material = scene.material(triangle);
         let shines =
             [false, true].map(|side| material.finish(side).is_some_and(Finish::is_emitter));
-        let is_black = material.finish(true).is_some_and(|finish| *finish == Finish::BLACK);
-        shines.contains(&true) || back && is_black
+        shines.contains(&true) || back && has_black_back(material)
     };
     let mut hits = (0..PARALLEL * PARALLEL).filter_map(met).peekable();
     hits.peek().is_some() && hits.all(|hit| shuts_out(hit.triangle, hit.back))
@@ -121,14 +120,17 @@ fn look(scene: &Scene, from: Point, direction: Direction) -> Option<Seen> {
     let hit = scene.bvh().closest_hit(&Ray::new(from, direction))?;
     let mirrors_alone = ends_among_mirrors(scene, from, direction);
     let material = scene.material(hit.triangle);
-    let is_black = material.finish(true).is_some_and(|back| *back == Finish::BLACK);
     Some(Seen {
         back: hit.back,
-        black_back: hit.back && is_black,
+        black_back: hit.back && has_black_back(material),
         mirrors_alone,
         clear: matches!(material.body, Body::Dielectric(_)),
         distance_m: f64::from(hit.t),
     })
+}
+
+fn has_black_back(material: &Material) -> bool {
+    material.finish(true).is_some_and(|back| *back == Finish::BLACK)
 }
 
 /// Whether light that goes that way comes to mirrors again and again.
@@ -200,7 +202,7 @@ mod tests {
     use super::*;
     use isolux::geometry::Transform;
     use isolux::photometry::IntensityDistribution;
-    use isolux::scene::{Material, SceneParts, Shape};
+    use isolux::scene::{SceneParts, Shape};
     use isolux::units::Rgb;
 
     /// A closed cube around the origin, seen from inside or outside.

@@ -2,8 +2,7 @@
 
 use super::corners::Part;
 use super::error::OntoError;
-use super::references::number;
-use super::references::take_extension;
+use super::references::{number, take_extension};
 use super::store::Store;
 use crate::gltf::{DRACO, Elements, Opened};
 use serde_json::{Map, Value, json};

@@ -1,9 +1,8 @@
 //! A grey card on a table, both white-lit by a known illuminance.
 
-use isolux::elements::Subdivision;
 use isolux::geometry::Direction;
 use isolux::lightmap::{Lightmap, LightmapSettings, Pace, UvUnwrap, bake, plan};
-use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
+use isolux::map::{Illuminance, IlluminationMap, Standing};
 use isolux::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape};
 use isolux::units::Rgb;
 
@@ -43,7 +42,6 @@ pub(crate) fn scene() -> Scene {
 
 /// The same illuminance everywhere on the card.
 pub(crate) fn map(scene: &Scene) -> IlluminationMap {
-    let elements = Subdivision::new(scene).elements();
     let lit = Illuminance {
         indirect_lx: Rgb(ILLUMINANCE_LX),
         standard_error_lx: 5.0,
@@ -51,26 +49,7 @@ pub(crate) fn map(scene: &Scene) -> IlluminationMap {
         standing: Standing::Open,
         ..Illuminance::NOTHING
     };
-    let value = |z: f64| (z > -0.5).then_some(lit);
-    let values = elements.vertices().iter().map(|v| value(v.position.z)).collect();
-    let provenance = Provenance {
-        scene: "card".into(),
-        scene_hash: scene.hash(),
-        version: "0.1.0".into(),
-        method: Method::Hybrid,
-        seed: 1,
-        increments: 8,
-        rays: 1,
-        accuracy_target: None,
-        fresh: None,
-        filter: None,
-        unshot: None,
-        diffuse_only: false,
-        mixed: Vec::new(),
-        complete: true,
-        accuracy: None,
-    };
-    IlluminationMap { elements, values, provenance }
+    crate::lit::map(scene, |at, _| (at.z > -0.5).then_some(lit))
 }
 
 pub(crate) fn lightmap(scene: &Scene, map: &IlluminationMap) -> Lightmap {

@@ -4,5 +4,7 @@
 mod card;
 mod files;
 mod glb;
+#[path = "../lit/mod.rs"]
+mod lit;
 mod targets;
 mod vertices;

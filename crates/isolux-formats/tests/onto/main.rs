@@ -7,6 +7,8 @@ mod build;
 mod grafted;
 mod kept;
 mod light;
+#[path = "../lit/mod.rs"]
+mod lit;
 mod opened;
 mod placed;
 mod refused;

@@ -1,9 +1,8 @@
 //! A scene, light on it, and the file that comes of both.
 
-use isolux::elements::Subdivision;
 use isolux::geometry::{Normal, Point};
 use isolux::lightmap::{Lightmap, LightmapSettings, Pace, UvUnwrap, bake, plan};
-use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
+use isolux::map::{Illuminance, IlluminationMap, Standing};
 use isolux::scene::Scene;
 use isolux::units::Rgb;
 use isolux_formats::lightmap::Target;
@@ -69,7 +68,6 @@ impl Lit {
 }
 
 fn map(scene: &Scene) -> IlluminationMap {
-    let elements = Subdivision::new(scene).elements();
     let lit = |place: Point, normal: Normal| Illuminance {
         indirect_lx: Rgb::grey(illuminance_lx(place, normal)),
         standard_error_lx: 1e-3,
@@ -77,23 +75,5 @@ fn map(scene: &Scene) -> IlluminationMap {
         standing: Standing::Open,
         ..Illuminance::NOTHING
     };
-    let values = elements.vertices().iter().map(|v| Some(lit(v.position, v.normal))).collect();
-    let provenance = Provenance {
-        scene: "room".into(),
-        scene_hash: scene.hash(),
-        version: "0.1.0".into(),
-        method: Method::Hybrid,
-        seed: 1,
-        increments: 8,
-        rays: 1,
-        accuracy_target: None,
-        fresh: None,
-        filter: None,
-        unshot: None,
-        diffuse_only: false,
-        mixed: Vec::new(),
-        complete: true,
-        accuracy: None,
-    };
-    IlluminationMap { elements, values, provenance }
+    crate::lit::map(scene, |place, normal| Some(lit(place, normal)))
 }

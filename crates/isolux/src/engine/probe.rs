@@ -426,12 +426,12 @@ impl<'a> MapReader<'a> {
         let of_caustics = stored.map_or(0.0, |stored| of_caustics(&stored));
         let indirect_variance = variance + looked_up * looked_up + of_caustics * of_caustics;
         let about_lx = stored.map_or(0.0, |stored| stored.illuminance_lx());
-        let (direct, direct_variance) = self.direct(&gatherer.surface, about_lx);
+        let direct = self.direct(&gatherer.surface, about_lx);
         self.told(Illuminance {
-            direct_lx: direct + caustic_lx,
+            direct_lx: direct.lx + caustic_lx,
             caustic_lx,
             indirect_lx,
-            standard_error_lx: (indirect_variance + direct_variance).sqrt(),
+            standard_error_lx: (indirect_variance + direct.variance).sqrt(),
             indirect_standard_error_lx: indirect_variance.sqrt(),
             interpolation_error_lx: 0.0,
             standing: Standing::Open,
@@ -454,11 +454,11 @@ impl<'a> MapReader<'a> {
     }
 
     fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {
-        let (direct, variance) = self.direct(at, stored.illuminance_lx());
+        let direct = self.direct(at, stored.illuminance_lx());
         let indirect = self.indirect_error_lx(&stored);
         Illuminance {
-            direct_lx: direct + stored.caustic_lx,
-            standard_error_lx: (indirect * indirect + variance).sqrt(),
+            direct_lx: direct.lx + stored.caustic_lx,
+            standard_error_lx: (indirect * indirect + direct.variance).sqrt(),
             indirect_standard_error_lx: indirect,
             ..stored
         }
@@ -471,7 +471,7 @@ impl<'a> MapReader<'a> {
     }
 
     /// Direct light at a place where there is about so much in all, and the variance of its mean.
-    fn direct(&self, at: &SurfacePoint, about_lx: f64) -> (Rgb, f64) {
+    fn direct(&self, at: &SurfacePoint, about_lx: f64) -> Measured {
         let of_direct = self.unseen.of_direct;
         // Choosing among many luminaires goes by what these give.
         let least_lx = match self.lighting.has_many() {
@@ -480,8 +480,7 @@ impl<'a> MapReader<'a> {
         };
         let goal = Goal { lx: of_direct.share * least_lx, ..of_direct };
         let sequence = Sequence::new(place_key(at.point).with(0));
-        let Measured { lx, variance } = self.lighting.read(at, goal, sequence);
-        (lx, variance)
+        self.lighting.read(at, goal, sequence)
     }
 }
 

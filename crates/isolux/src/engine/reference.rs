@@ -74,14 +74,14 @@ impl<'a> PathTracer<'a> {
         };
         let indirect: Vec<Rgb> = (0..replicates).into_par_iter().map(paths).collect();
         let (indirect_lx, indirect_variance) = mean_and_variance(&indirect);
-        let (direct_lx, direct_variance) = self.direct(&start.surface, settings);
+        let direct = self.direct(&start.surface, settings);
         Illuminance {
-            direct_lx,
+            direct_lx: direct.lx,
             caustic_lx: Rgb::BLACK,
             indirect_lx,
             interpolation_error_lx: 0.0,
             standing: Standing::Open,
-            standard_error_lx: (indirect_variance + direct_variance).sqrt(),
+            standard_error_lx: (indirect_variance + direct.variance).sqrt(),
             indirect_standard_error_lx: indirect_variance.sqrt(),
             samples: u64::from(replicates) * u64::from(settings.rays),
         }
@@ -99,11 +99,10 @@ impl<'a> PathTracer<'a> {
     }
 
     /// Direct light of all luminaires and the variance of its mean.
-    fn direct(&self, at: &SurfacePoint, settings: &ExactSettings) -> (Rgb, f64) {
+    fn direct(&self, at: &SurfacePoint, settings: &ExactSettings) -> Measured {
         let sequence = Sequence::new(place_key(at.point).with(settings.seed).with(u64::MAX));
         let shadow_rays = u64::from(settings.replicates.max(2)) * u64::from(settings.rays);
-        let Measured { lx, variance } = self.lighting.read_by_all(at, shadow_rays, sequence);
-        (lx, variance)
+        self.lighting.read_by_all(at, shadow_rays, sequence)
     }
 
     /// What one path brings of the light that was reflected diffusely at least once, lx.

@@ -82,7 +82,7 @@ impl Closed {
             let [a, b, c] = mesh.triangle(triangle).corners.map(|corner| corner - origin);
             volume += a.dot(b.cross(c));
             let (own_low, own_high) = bounds(mesh, triangle);
-            (low, high) = (least(low, own_low), greatest(high, own_high));
+            (low, high) = (low.lesser(own_low), high.greater(own_high));
         }
         let within = (high - low) * WITHIN;
         Self { triangles, back_is_inside: volume > 0.0, low: low + within, high: high - within }
@@ -157,13 +157,5 @@ fn neighbours(mesh: &TriangleMesh) -> Vec<[Option<u32>; 3]> {
 
 fn bounds(mesh: &TriangleMesh, triangle: u32) -> (Point, Point) {
     let [a, b, c] = mesh.triangle(triangle).corners;
-    (least(a, least(b, c)), greatest(a, greatest(b, c)))
-}
-
-fn least(a: Point, b: Point) -> Point {
-    Point::new(a.x.min(b.x), a.y.min(b.y), a.z.min(b.z))
-}
-
-fn greatest(a: Point, b: Point) -> Point {
-    Point::new(a.x.max(b.x), a.y.max(b.y), a.z.max(b.z))
+    (a.lesser(b).lesser(c), a.greater(b).greater(c))
 }

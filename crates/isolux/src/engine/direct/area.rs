@@ -106,44 +106,67 @@ impl Lighting<'_> {
         }
     }
 
-    /// Illuminance from emitting surfaces with the variance of its mean: where that is more than asked for, by more shadow rays.
-    /// What none of them have seen may still be there: it counts as if the next one did.
+    /// Illuminance from emitting surfaces with the variance of its mean. A first look at all of them tells which error may be left, lx;
+    /// where that is less than there is, those that err by more than their part of it have more shadow rays.
     pub(in crate::engine) fn of_surfaces(
         &self,
         at: &SurfacePoint,
-        goal_lx: f64,
+        goal_lx: impl Fn(Rgb) -> f64,
         [fewest, most]: [usize; 2],
         sequence: Sequence,
     ) -> Measured {
-        let goal = goal_lx * goal_lx / self.area_sources.max(1) as f64;
-        let mut sum = Measured { lx: Rgb::BLACK, variance: 0.0 };
-        for (k, source) in self.sources.iter().enumerate() {
-            let SourceKind::Area { emitter, triangles } = &source.kind else { continue };
-            let mut samples = fewest;
-            let measured = loop {
-                let of_each = [const { Rgb::BLACK }; REPLICATES as usize];
-                let mut replicate = 0;
-                let of_each = of_each.map(|_| {
-                    let mut dice = Dice::new(sequence.fork(k as u32, samples as u32), replicate);
-                    replicate += 1;
-                    self.lit_by_area(source, emitter, triangles, at, samples, &mut dice)
-                });
-                let (lx, mut variance) = mean_and_variance(&of_each);
-                if lx.is_black() {
-                    let whole_lx =
-                        unhidden_lx(source, (emitter, triangles), at, &mut Dice::new(sequence, 0));
-                    let unseen_lx = whole_lx / (samples as f64 * f64::from(REPLICATES));
-                    variance = unseen_lx * unseen_lx;
+        let surfaces =
+            self.sources.iter().enumerate().filter_map(|(k, source)| match &source.kind {
+                SourceKind::Area { emitter, triangles } => {
+                    Some((k as u32, (source, emitter, triangles.as_slice())))
                 }
-                if variance <= goal || samples >= most {
-                    break Measured { lx, variance };
+                _ => None,
+            });
+        let surfaces: Vec<_> = surfaces.collect();
+        let measured = |&(k, surface): &(u32, _), samples: usize| {
+            let numbers = [sequence.fork(k, samples as u32), sequence];
+            self.of_surface(surface, at, samples, numbers)
+        };
+        let mut found: Vec<Measured> = surfaces.iter().map(|of| measured(of, fewest)).collect();
+        let sum = |found: &[Measured]| Measured {
+            lx: found.iter().map(|m| m.lx).sum(),
+            variance: found.iter().map(|m| OF_FEW * OF_FEW * m.variance).sum(),
+        };
+        let first = sum(&found);
+        let goal = goal_lx(first.lx).powi(2);
+        if first.variance > goal {
+            let goal = goal / surfaces.len() as f64;
+            for (found, of) in found.iter_mut().zip(&surfaces) {
+                let mut samples = fewest;
+                while found.variance > goal && samples < most {
+                    samples = (MORE * samples).min(most);
+                    *found = measured(of, samples);
                 }
-                samples = (MORE * samples).min(most);
-            };
-            sum.lx += measured.lx;
-            sum.variance += OF_FEW * OF_FEW * measured.variance;
+            }
         }
-        sum
+        sum(&found)
+    }
+
+    /// The same from one of them, by so many shadow rays in each replicate. What none of them have seen may still be there: it counts
+    /// as if the next one did.
+    fn of_surface(
+        &self,
+        (source, emitter, triangles): (&Source, &Emitter, &[[Point; 3]]),
+        at: &SurfacePoint,
+        samples: usize,
+        [own, of_looks]: [Sequence; 2],
+    ) -> Measured {
+        let of_each: [Rgb; REPLICATES as usize] = std::array::from_fn(|replicate| {
+            let mut dice = Dice::new(own, replicate as u32);
+            self.lit_by_area(source, emitter, triangles, at, samples, &mut dice)
+        });
+        let (lx, variance) = mean_and_variance(&of_each);
+        if !lx.is_black() {
+            return Measured { lx, variance };
+        }
+        let whole_lx = unhidden_lx(source, (emitter, triangles), at, &mut Dice::new(of_looks, 0));
+        let unseen_lx = whole_lx / (samples as f64 * f64::from(REPLICATES));
+        Measured { lx, variance: unseen_lx * unseen_lx }
     }
 
     /// Illuminance from one emitting surface, by `samples` shadow rays.

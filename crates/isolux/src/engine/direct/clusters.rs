@@ -275,12 +275,8 @@ fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
     }
     let centre = if area_m2 > 0.0 { start + moment / area_m2 } else { start };
     let corners = || members.iter().flat_map(|k| facet(k).corners);
-    let (low, high) = corners().fold((start, start), |(low, high), p| {
-        (
-            Point::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z)),
-            Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z)),
-        )
-    });
+    let low = corners().fold(start, Point::lesser);
+    let high = corners().fold(start, Point::greater);
     let radius_m = corners().map(|p| (p - centre).length()).fold(0.0, f64::max);
     let axis = area_vector_m2.normal();
     let normals = || members.iter().filter_map(|k| facet(k).normal);

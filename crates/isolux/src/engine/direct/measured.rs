@@ -141,15 +141,10 @@ impl Lighting<'_> {
         }
         let points = self.lit_by_points(at);
         let usual = self.area_samples();
-        let first = self.of_surfaces(at, f64::INFINITY, [usual; 2], sequence);
-        let goal_lx = goal.of((points + first.lx).luminance());
-        let surfaces = if first.variance > goal_lx * goal_lx {
-            let finer = (Goal::reading(f64::INFINITY).share / goal.share).clamp(1.0, MOST_FINER);
-            let most = (MOST_TO_SURFACES * finer) as usize * usual;
-            self.of_surfaces(at, goal_lx, [usual, most], sequence)
-        } else {
-            first
-        };
+        let finer = (Goal::reading(f64::INFINITY).share / goal.share).clamp(1.0, MOST_FINER);
+        let most = (MOST_TO_SURFACES * finer) as usize * usual;
+        let goal_lx = |of_surfaces: Rgb| goal.of((points + of_surfaces).luminance());
+        let surfaces = self.of_surfaces(at, goal_lx, [usual, most], sequence);
         Measured { lx: points + surfaces.lx, ..surfaces }
     }
 
@@ -162,7 +157,7 @@ impl Lighting<'_> {
     ) -> Measured {
         let each = (shadow_rays / u64::from(REPLICATES)) as usize;
         let samples = each.max(self.area_samples());
-        let surfaces = self.of_surfaces(at, f64::INFINITY, [samples; 2], sequence);
+        let surfaces = self.of_surfaces(at, |_| f64::INFINITY, [samples; 2], sequence);
         Measured { lx: self.lit_by_points(at) + surfaces.lx, ..surfaces }
     }
 

@@ -66,9 +66,7 @@ impl Plane {
     fn include(&mut self, corners: &Triangle) {
         self.area_m2 += corners.area();
         for p in corners.corners {
-            let (low, high) = (self.low, self.high);
-            self.low = Point::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z));
-            self.high = Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z));
+            (self.low, self.high) = (self.low.lesser(p), self.high.greater(p));
         }
     }
 

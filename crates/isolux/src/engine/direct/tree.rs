@@ -214,13 +214,9 @@ fn divide_by_kind(lamps: &mut [Lamp]) -> Option<usize> {
 /// A sphere around lamps, and the axis along which they spread most.
 fn sphere(lamps: &[Lamp]) -> (Point, f64, usize) {
     let first = lamps[0].position;
-    let (low, high) = lamps.iter().fold((first, first), |(low, high), l| {
-        let p = l.position;
-        (
-            Point::new(low.x.min(p.x), low.y.min(p.y), low.z.min(p.z)),
-            Point::new(high.x.max(p.x), high.y.max(p.y), high.z.max(p.z)),
-        )
-    });
+    let (low, high) = lamps
+        .iter()
+        .fold((first, first), |(low, high), l| (low.lesser(l.position), high.greater(l.position)));
     let centre = low.lerp(high, 0.5);
     let radius_m = lamps.iter().map(|l| (l.position - centre).length()).fold(0.0, f64::max);
     let size = high - low;
