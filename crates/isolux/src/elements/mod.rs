@@ -14,8 +14,8 @@ mod tests;
 pub use arrays::{ElementArrays, ElementArraysError};
 pub use hash::FewNumbers;
 pub(crate) use subdivide::edge_key;
-pub(crate) use subdivide::first_vertex_count;
 pub use subdivide::{Origin, Receiver, Subdivision, carries_map};
+pub(crate) use subdivide::{first_corner_count, first_vertex_count};
 pub(crate) use walk::Place;
 
 use isolux_geometry::{Normal, Point};

@@ -342,6 +342,12 @@ fn welded(scene: &Scene) -> (Vec<Vertex>, Vec<([u32; 3], Origin)>) {
     (vertices, roots)
 }
 
+/// How many corners the sides of triangles have that carry a map: no fewer than vertices.
+pub(crate) fn first_corner_count(scene: &Scene) -> usize {
+    let sides = (0..scene.triangle_count()).flat_map(|t| [(t, false), (t, true)]);
+    3 * sides.filter(|&(triangle, back)| carries_map(scene, triangle, back)).count()
+}
+
 /// How many vertices a subdivision has before anything is bisected.
 pub(crate) fn first_vertex_count(scene: &Scene) -> usize {
     welded(scene).0.len()

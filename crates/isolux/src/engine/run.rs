@@ -183,13 +183,16 @@ fn check(scene: &Scene, request: &SolveRequest) -> Result<(), SolveError> {
     if Emission::new(scene).is_none() {
         return Err(SolveError::NoLight);
     }
-    let vertices = crate::elements::first_vertex_count(scene) as u64;
-    if vertices == 0 {
+    let corners = crate::elements::first_corner_count(scene) as u64;
+    if corners == 0 {
         return Err(SolveError::NoReceiver);
     }
-    let needed = vertices * BYTES_A_VERTEX;
-    if needed > request.max_memory_bytes {
-        return Err(SolveError::Memory { needed, allowed: request.max_memory_bytes });
+    let allowed = request.max_memory_bytes;
+    if corners * BYTES_A_VERTEX > allowed {
+        let needed = crate::elements::first_vertex_count(scene) as u64 * BYTES_A_VERTEX;
+        if needed > allowed {
+            return Err(SolveError::Memory { needed, allowed });
+        }
     }
     Ok(())
 }

@@ -31,15 +31,22 @@ const MOST_ADDED: usize = 700;
 /// Bisects elements that are longer than their surface sees far, the largest first.
 pub(super) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_vertices: usize) {
     let most = (subdivision.vertex_count() + MOST_ADDED).min(max_vertices);
-    let leaves: Vec<u32> = subdivision.leaves().collect();
-    let reach = |&node: &u32| reach_m(scene, subdivision, node);
-    let reaches_m: Vec<f64> = leaves.par_iter().map(reach).collect();
     // In corners one sees less far than from the middle of a wall, where light varies no less.
     let side = |subdivision: &Subdivision, node: u32| {
         let Origin { triangle, back, .. } = subdivision.node(node).1;
         2 * triangle as usize + usize::from(back)
     };
-    let mut farthest_m = vec![0.0_f64; 2 * scene.triangle_count() as usize];
+    let mut leaves: Vec<u32> = subdivision.leaves().collect();
+    // However far one sees from those whose edges are all shorter, they are short enough.
+    let mut is_long = vec![false; 2 * scene.triangle_count() as usize];
+    for &node in &leaves {
+        is_long[side(subdivision, node)] |= subdivision.longest_edge_m(node) > OF_REACH * ROOM_M;
+    }
+    leaves.retain(|&node| is_long[side(subdivision, node)]);
+    let reach = |&node: &u32| reach_m(scene, subdivision, node);
+    let reaches_m: Vec<f64> = leaves.par_iter().map(reach).collect();
+    let farthest = |&is_long: &bool| if is_long { 0.0_f64 } else { f64::INFINITY };
+    let mut farthest_m: Vec<f64> = is_long.iter().map(farthest).collect();
     for (&node, reach_m) in leaves.iter().zip(reaches_m) {
         let of_side = &mut farthest_m[side(subdivision, node)];
         *of_side = of_side.max(reach_m);
