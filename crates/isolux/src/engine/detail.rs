@@ -43,6 +43,8 @@ pub(super) struct LeafError {
     pub(super) is_at_wall: bool,
     /// By how much more than elsewhere its error counts: dim rooms beside bright ones are to be right, too.
     pub(super) weight: f64,
+    /// The same for those who see it from where it is dim; nothing where that is no more.
+    pub(super) seen: f64,
 }
 
 impl LeafError {
@@ -109,6 +111,7 @@ impl<'a> Details<'a> {
                 is_beset_afar,
                 is_at_wall: false,
                 weight: 1.0,
+                seen: 0.0,
             }
         };
         let leaves: Vec<u32> = self.subdivision.leaves().collect();

@@ -16,6 +16,8 @@ const MOST_FRESH: f64 = 0.5;
 const BARE: f64 = 2.0;
 /// The same where their means are measured, or light is resolved towards walls.
 const BARE_WITH_MEANS: f64 = 6.0;
+/// What elements may err by that dim places see, in accuracies asked for: it is read in the mean over many, but reflected again and again.
+const SEEN_FROM_DIM: f64 = 4.0;
 /// Means are measured where what beset elements lack in the mean over the surface is more than this, in accuracies
 /// asked for: soon in empty rooms, late among furniture, whose shadows and hollows balance.
 const MEANS_FROM: f64 = 0.5;
@@ -63,6 +65,8 @@ pub(super) struct Look {
     /// Share of them that a fit leaves.
     pub(super) left_by_fit: f64,
     pub(super) reference_lx: f64,
+    /// Surface where it is dim, m2.
+    pub(super) dim_m2: f64,
 }
 
 /// What elements are read for.
@@ -72,6 +76,13 @@ pub(super) enum Read {
     Trusted,
     /// By rays, and with the bare map.
     All,
+    /// By rays from dim places, for which errors count by the light there.
+    FromDim,
+}
+
+impl Read {
+    /// By whom gathered maps are read, in the order in which elements are refined for them.
+    pub(super) const EVERY: [Self; 3] = [Self::FromDim, Self::Trusted, Self::All];
 }
 
 impl Look {
@@ -83,13 +94,16 @@ impl Look {
     ) -> Option<(Vec<LeafError>, f64)> {
         let excess = self.excess_of(what, request)?;
         let is_read = self.is_read(what, request);
-        Some((self.errors.iter().copied().filter(is_read).collect(), excess))
+        let counted = |e: &LeafError| LeafError {
+            weight: if what == Read::FromDim { e.seen } else { e.weight },
+            ..*e
+        };
+        Some((self.errors.iter().filter(|e| is_read(e)).map(counted).collect(), excess))
     }
 
     /// The most by which errors exceed what they should be, if they do, for whatever elements are read.
     pub(super) fn greatest_excess(&self, request: &PilotRequest) -> f64 {
-        let reads = [Read::Trusted, Read::All];
-        reads.into_iter().filter_map(|what| self.excess_of(what, request)).fold(1.0, f64::max)
+        Read::EVERY.into_iter().filter_map(|what| self.excess_of(what, request)).fold(1.0, f64::max)
     }
 
     /// Finds how often elements are to be halved towards walls, and what that leaves of their errors.
@@ -142,15 +156,31 @@ impl Look {
                 let bare = if is_right_in_the_mean { BARE_WITH_MEANS } else { BARE };
                 request.mesh_target.min(bare * request.target) * self.reference_lx
             }
+            Read::FromDim => SEEN_FROM_DIM * request.target * self.reference_lx,
             _ => self.goal_lx(request.target, request),
         };
-        let excess = trust::error_of(&self.errors, self.is_read(what, request)) / goal_lx;
+        let error_lx = match what {
+            Read::FromDim => self.error_seen_from_dim(),
+            _ => trust::error_of(&self.errors, self.is_read(what, request)),
+        };
+        let excess = error_lx / goal_lx;
         (excess > 1.0 && self.reference_lx > 0.0).then_some(excess)
+    }
+
+    /// What elements err by as dim places see them, root mean square over the surface of these, lx.
+    fn error_seen_from_dim(&self) -> f64 {
+        let squared = |e: &LeafError| LeafError { weight: e.seen, ..*e }.squared();
+        let squared: f64 = self.errors.iter().map(squared).sum();
+        if squared > 0.0 { (squared / self.dim_m2).sqrt() } else { 0.0 }
     }
 
     fn is_read(&self, what: Read, request: &PilotRequest) -> impl Fn(&LeafError) -> bool + use<> {
         let limit = self.worst.limit(self.goal_lx(request.target, request), FRESH_SHARE);
-        move |e| what == Read::All || e.is_at_wall || !e.is_beset && e.error <= limit
+        move |e| match what {
+            Read::All => true,
+            Read::FromDim => e.seen > 0.0,
+            Read::Trusted => e.is_at_wall || !e.is_beset && e.error <= limit,
+        }
     }
 
     /// The error of elements up to which readers trust the map.

@@ -9,6 +9,7 @@ use super::surface::SurfacePoint;
 use crate::elements::{Origin, Subdivision};
 use crate::sampling::Key;
 use crate::scene::Scene;
+use isolux_geometry::{Normal, Point};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
@@ -43,7 +44,10 @@ pub(super) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_
         is_long[side(subdivision, node)] |= subdivision.longest_edge_m(node) > OF_REACH * ROOM_M;
     }
     leaves.retain(|&node| is_long[side(subdivision, node)]);
-    let reach = |&node: &u32| reach_m(scene, subdivision, node);
+    let reach = |&node: &u32| {
+        let at = SurfacePoint::amid_node(scene, subdivision, node);
+        reach_m(scene, (at.start(), at.shading, at.triangle))
+    };
     let reaches_m: Vec<f64> = leaves.par_iter().map(reach).collect();
     let farthest = |&is_long: &bool| if is_long { 0.0_f64 } else { f64::INFINITY };
     let mut farthest_m: Vec<f64> = is_long.iter().map(farthest).collect();
@@ -72,10 +76,14 @@ pub(super) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_
     }
 }
 
-/// How far an element sees from its middle, m: as far as most rays.
-fn reach_m(scene: &Scene, subdivision: &Subdivision, node: u32) -> f64 {
-    let at = SurfacePoint::amid_node(scene, subdivision, node);
-    let met = DIRECTIONS.met(scene, |k| DIRECTIONS.ray(k, (at.start(), at.shading, at.triangle)));
+/// Whether a place on a triangle sees as far as one in a room.
+pub(super) fn is_in_room(scene: &Scene, place: (Point, Normal, u32)) -> bool {
+    reach_m(scene, place) > ROOM_M
+}
+
+/// How far a place on a triangle sees, m: as far as most rays.
+fn reach_m(scene: &Scene, place: (Point, Normal, u32)) -> f64 {
+    let met = DIRECTIONS.met(scene, |k| DIRECTIONS.ray(k, place));
     let mut distances_m = met.map(|hit| hit.map_or(f64::INFINITY, |hit| f64::from(hit.t)));
     distances_m.sort_by(f64::total_cmp);
     distances_m[COUNTED - 1]

@@ -77,6 +77,18 @@ impl Operator {
         self.chunks.par_iter().flat_map_iter(reflected).collect()
     }
 
+    /// Of every vertex, how much of such values of receivers its light is read for: `A` transposed, of white light.
+    pub(in crate::engine) fn read_by(&self, receivers: &[f64]) -> Vec<f64> {
+        let mut read = vec![0.0; receivers.len()];
+        let mut left = receivers;
+        for rows in &self.chunks {
+            let (part, others) = left.split_at(rows.ends.len());
+            rows.add_read_by(part, &mut read);
+            left = others;
+        }
+        read
+    }
+
     /// Adds the receivers of another.
     pub(in crate::engine) fn append(&mut self, other: Self) {
         self.chunks.extend(other.chunks);
@@ -348,6 +360,22 @@ impl Rows {
     fn apply(&self, light: &[Rgb], values: &mut [Rgb]) {
         values.copy_from_slice(&self.sources);
         self.add(light, values);
+    }
+
+    /// Adds to vertices what rows of such values read of them.
+    fn add_read_by(&self, receivers: &[f64], read: &mut [f64]) {
+        let (mut run, mut entry) = (0, 0);
+        for (value, &end) in receivers.iter().zip(&self.ends) {
+            for Run { end, share } in &self.runs[run..end] {
+                let value = value * Rgb(share.map(f64::from)).luminance();
+                for of in &self.entries[entry..*end as usize] {
+                    let weights = of.vertices.iter().zip(of.weights);
+                    weights.for_each(|(&v, weight)| read[v as usize] += value * f64::from(weight));
+                }
+                entry = *end as usize;
+            }
+            run = end;
+        }
     }
 
     /// Adds what is read to the values of all rows.

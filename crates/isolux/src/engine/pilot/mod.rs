@@ -16,6 +16,7 @@ mod standings;
 mod surroundings;
 mod walls;
 
+use self::surroundings::Surroundings;
 use super::accuracy::Light;
 use super::aim::Aim;
 use super::backdrop::Backdrop;
@@ -108,8 +109,7 @@ struct Pilot<'s> {
     /// By how much direct light as interpolated errs more than it should, with so many vertices.
     direct_excess: Option<(usize, f64)>,
     indirect: Vec<Rgb>,
-    /// The light about the vertices so far, lx.
-    surroundings_lx: Vec<f64>,
+    surroundings: Surroundings,
     known: Vec<bool>,
     /// Where some particles came over specular surfaces.
     reached: Vec<SurfacePoint>,
@@ -217,7 +217,7 @@ impl<'s> Pilot<'s> {
             direct_noise_lx: None,
             direct_excess: None,
             indirect: Vec::new(),
-            surroundings_lx: Vec::new(),
+            surroundings: Surroundings::default(),
             known: Vec::new(),
             reached: Vec::new(),
             standings: Vec::new(),
@@ -275,7 +275,7 @@ impl<'s> Pilot<'s> {
             has_time = self.has_time(&look, request, excess(&look), go_on);
         }
         // Readers gather over gathered maps alone: particles blur what is close by.
-        let reads = if request.is_fitted { &[Read::Trusted, Read::All][..] } else { &[Read::All] };
+        let reads = if request.is_fitted { &Read::EVERY[..] } else { &[Read::All] };
         for &what in reads {
             look = self.refine(look, request, (what, most), go_on);
         }
@@ -319,7 +319,7 @@ impl<'s> Pilot<'s> {
         let mut errors = details.leaf_errors(middle, beset, hemmed);
         let reference_lx = Light::of_vertices(&elements, &self.standings, lx).reference_lx();
         let left_by_fit = details.left_by_fit(&errors);
-        self.weigh(&mut errors, reference_lx);
+        self.weigh(&mut errors);
         let carriers = self.carriers.count(gatherers.len());
         self.costs.looks.add(started.elapsed(), gatherers.len() as f64);
         if is_first {
@@ -327,7 +327,9 @@ impl<'s> Pilot<'s> {
         }
         let worst = Worst::of(&errors);
         let walls = Walls::default();
-        let mut look = Look { carriers, elements, errors, walls, worst, left_by_fit, reference_lx };
+        let dim_m2 = self.surroundings.dim_m2;
+        let mut look =
+            Look { carriers, elements, errors, walls, worst, left_by_fit, reference_lx, dim_m2 };
         if look.is_smooth(request) {
             self.look_for_walls(&mut look, request, &luminances);
         }
@@ -450,7 +452,6 @@ impl<'s> Pilot<'s> {
             let black = vec![Rgb::BLACK; gatherers.len()];
             self.indirect =
                 operator.solve(&black, &black, &self.carriers.waiting(), PILOT_TOLERANCE);
-            self.look_about(&operator);
             if !self.known.contains(&true) {
                 // No light at all: what is not closed in is dark.
                 self.known = operator.open();
@@ -463,6 +464,9 @@ impl<'s> Pilot<'s> {
         }
         self.costs.rays.add(started.elapsed(), rays);
         self.complete_standings(gatherers);
+        if is_first {
+            self.look_about(elements, gatherers, &operator);
+        }
         new.iter().for_each(|&v| self.gathered[v as usize] = self.carriers.is_active(v));
         self.complete_beset_carriers(gatherers);
         self.solved_nodes = self.subdivision.node_count() as u32;

@@ -1,21 +1,95 @@
-//! The light of the surroundings: errors in dim rooms beside bright ones count by what they are there.
+//! The light of the surroundings: errors in dim rooms beside bright ones count by what they are there, and so do errors of what is
+//! seen from there.
 
 use super::Pilot;
+use crate::elements::Elements;
+use crate::engine::accuracy::Light;
+use crate::engine::allot::areas_m2;
 use crate::engine::detail::LeafError;
-use crate::engine::gather::Operator;
+use crate::engine::gather::{Gatherer, Operator};
+use crate::engine::scale::is_in_room;
 use crate::units::Rgb;
+use rayon::prelude::*;
 
 /// Surroundings count once they have less than this part of the light of the whole scene, by the square of what they lack, until they
 /// count by their own light; and no more than so many times.
 const DIM: f64 = 0.25;
 const MOST_WEIGHT: f64 = 1e3;
-/// Reflections over which light is taken to be that of the surroundings.
+/// Dim places matter as if they were this part of all surfaces at least.
+const LEAST_DIM: f64 = 1.0 / 64.0;
+/// Reflections over which light is taken to be that of the surroundings, and over which an error is followed to where it is dim.
 const REFLECTIONS: usize = 3;
 
+/// What errors count by.
+#[derive(Debug, Default)]
+pub(super) struct Surroundings {
+    /// How much they count at the vertices so far: there, and for who sees them from where it is dim.
+    weights: Vec<[f64; 2]>,
+    /// Surface where it is dim, m2.
+    pub(super) dim_m2: f64,
+}
+
+/// How much errors count where there is so much light about, of so much in the whole scene.
+fn weight(about_lx: f64, reference_lx: f64) -> f64 {
+    let times = reference_lx / about_lx;
+    let dim = (DIM * times).max(1.0);
+    (dim * dim).min(times.max(1.0)).min(MOST_WEIGHT)
+}
+
 impl Pilot<'_> {
-    /// Finds the light of the surroundings of every vertex, lx: of what it sees, and what is seen from there. In one room it is about
+    /// Finds how much errors count at every vertex.
+    pub(super) fn look_about(
+        &mut self,
+        elements: &Elements,
+        gatherers: &[Gatherer],
+        operator: &Operator,
+    ) {
+        let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
+        let reference_lx = Light::of_vertices(elements, &self.standings, lx).reference_lx();
+        let about_lx = self.surroundings_lx(operator);
+        // Where no light is about, others tell.
+        let own = |&lx: &f64| if lx > 0.0 { weight(lx, reference_lx) } else { f64::INFINITY };
+        let own: Vec<f64> = about_lx.iter().map(own).collect();
+        let in_rooms = own.par_iter().zip(gatherers).map(|(&own, gatherer)| {
+            let is_dim = own > 1.0 && own.is_finite();
+            let place = (gatherer.origin, gatherer.normal, gatherer.surface.triangle);
+            if is_dim && is_in_room(self.scene, place) { own } else { 1.0 }
+        });
+        let in_rooms: Vec<f64> = in_rooms.collect();
+        let seen = self.seen_from_dim(elements, operator, in_rooms);
+        self.surroundings.weights =
+            own.into_iter().zip(seen).map(|(own, seen)| [own, seen]).collect();
+    }
+
+    /// How much errors of vertices count for who sees them from dim rooms, where they count so much.
+    fn seen_from_dim(
+        &mut self,
+        elements: &Elements,
+        operator: &Operator,
+        mut weights: Vec<f64>,
+    ) -> Vec<f64> {
+        let vertices = elements.vertices();
+        let mut seen = vec![0.0_f64; vertices.len()];
+        let (mut all_m2, mut dim_m2) = (0.0, 0.0);
+        for (vertex, weight) in vertices.iter().zip(&weights) {
+            all_m2 += vertex.area_m2;
+            dim_m2 += vertex.area_m2 * (1.0 - 1.0 / weight);
+        }
+        self.surroundings.dim_m2 = dim_m2.max(LEAST_DIM * all_m2);
+        if dim_m2 > 0.0 {
+            let areas_m2 = areas_m2(&self.subdivision, &self.carriers);
+            for _ in 0..REFLECTIONS {
+                weights = read_from_there(operator, elements, (&areas_m2, &weights));
+                let most = seen.iter_mut().zip(&weights);
+                most.for_each(|(seen, reflected)| *seen = seen.max(*reflected));
+            }
+        }
+        seen
+    }
+
+    /// The light of the surroundings of every vertex, lx: of what it sees, and what is seen from there. In one room it is about
     /// the same everywhere.
-    pub(super) fn look_about(&mut self, operator: &Operator) {
+    fn surroundings_lx(&self, operator: &Operator) -> Vec<f64> {
         let waiting = self.carriers.waiting();
         let whole = operator.reflected(&vec![Rgb::grey(1.0); self.indirect.len()]);
         let mut seen = self.indirect.clone();
@@ -29,25 +103,41 @@ impl Pilot<'_> {
             }
             waiting.fill(&mut seen);
         }
-        self.surroundings_lx = seen.iter().map(|seen| seen.luminance()).collect();
+        seen.iter().map(|seen| seen.luminance()).collect()
     }
 
-    /// Has errors in dim surroundings count by what they are there.
-    pub(super) fn weigh(&mut self, errors: &mut [LeafError], reference_lx: f64) {
-        for vertex in &self.subdivision.vertices()[self.surroundings_lx.len()..] {
-            let of = |end: u32| self.surroundings_lx[end as usize];
+    /// Has errors in dim surroundings, and of what is seen from there, count by what they are there.
+    pub(super) fn weigh(&mut self, errors: &mut [LeafError]) {
+        for vertex in &self.subdivision.vertices()[self.surroundings.weights.len()..] {
+            let of = |end: u32| self.surroundings.weights[end as usize];
             let ends = vertex.parents.map(|ends| ends.map(of));
-            self.surroundings_lx.push(ends.map_or(0.0, |[a, b]| a.max(b)));
+            self.surroundings
+                .weights
+                .push(ends.map_or([1.0, 0.0], |[a, b]| [a[0].min(b[0]), 0.5 * (a[1] + b[1])]));
         }
         for error in errors {
             let corners = self.subdivision.node(error.node).0.vertices;
-            let about_lx = corners.map(|v| self.surroundings_lx[v as usize]);
-            let about_lx = about_lx.into_iter().fold(0.0, f64::max);
-            if about_lx > 0.0 {
-                let times = reference_lx / about_lx;
-                let dim = (DIM * times).max(1.0);
-                error.weight = (dim * dim).min(times.max(1.0)).min(MOST_WEIGHT);
-            }
+            let weights = corners.map(|v| self.surroundings.weights[v as usize]);
+            let own = weights.iter().map(|w| w[0]).fold(f64::INFINITY, f64::min);
+            let seen = weights.iter().map(|w| w[1]).sum::<f64>() / 3.0;
+            error.weight = if own.is_finite() { own } else { 1.0 };
+            error.seen = if seen > error.weight { seen } else { 0.0 };
         }
     }
+}
+
+/// How much errors of vertices count that are read from where errors count so much: in the mean over those that read them, and as far as
+/// they do.
+fn read_from_there(
+    operator: &Operator,
+    elements: &Elements,
+    (areas_m2, weights): (&[f64], &[f64]),
+) -> Vec<f64> {
+    let weighted: Vec<f64> = areas_m2.iter().zip(weights).map(|(m2, weight)| m2 * weight).collect();
+    let [read, counted] = [operator.read_by(areas_m2), operator.read_by(&weighted)];
+    let weight = |v: usize| {
+        let all_m2 = elements.vertices()[v].area_m2.max(read[v]);
+        if all_m2 > 0.0 { counted[v] / all_m2 } else { 0.0 }
+    };
+    (0..weights.len()).map(weight).collect()
 }

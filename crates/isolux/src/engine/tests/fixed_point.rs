@@ -266,3 +266,20 @@ fn rays_in_gaps_of_which_nothing_is_known_go_on() {
     }
     assert!(open.rays > gap.rays, "{} {}", open.rays, gap.rays);
 }
+
+#[test]
+fn what_is_read_is_read_by_somebody() {
+    let scene = room();
+    let (elements, gatherers) = elements_of(&scene, 32);
+    let operator = operator(&scene, &elements, &gatherers);
+    let alike = |k: usize, n: usize| ((k * 7 + n) % 11) as f64;
+    let light: Vec<f64> = (0..gatherers.len()).map(|k| alike(k, 3)).collect();
+    let receivers: Vec<f64> = (0..gatherers.len()).map(|k| alike(k, 5)).collect();
+    let grey: Vec<Rgb> = light.iter().map(|&lx| Rgb::grey(lx)).collect();
+    let gathered = operator.reflected(&grey).into_iter().zip(&receivers);
+    let forward: f64 = gathered.map(|(e, of)| e.luminance() * of).sum();
+    let read = operator.read_by(&receivers);
+    let back: f64 = read.iter().zip(&light).map(|(read, lx)| read * lx).sum();
+    // The same products, added up in another order.
+    assert!((forward - back).abs() < 1e-9 * forward, "{forward} {back}");
+}

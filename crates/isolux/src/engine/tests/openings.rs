@@ -4,6 +4,7 @@ use super::*;
 use crate::engine::direct::{Goal, Lighting};
 use crate::engine::gather::Gatherer;
 use crate::engine::neighbours::{LEAST, lend_noise};
+use crate::engine::pilot::pilot;
 use crate::engine::place::ProbePoint;
 use crate::engine::probe::{ExactSettings, MapReader};
 use crate::engine::reference::PathTracer;
@@ -138,4 +139,50 @@ fn vertices_have_noise_as_those_about_them() {
     assert!((told.standard_error_lx - whole).abs() < 1e-9);
     assert!(values[6].is_none());
     assert!(values[0].is_some_and(|v| (v.indirect_standard_error_lx - 4.0).abs() < 1e-12));
+}
+
+/// A room of 4 x 4 x 3 m with a window of 1.2 x 1.2 m, in the sun, slats in the window, and what the room reflects.
+fn room_behind_slats(reflectance: f64) -> Scene {
+    let wall = |x: [f64; 2], z: [f64; 2]| {
+        let (u, w) = ([x[1] - x[0], 0.0, 0.0], [0.0, 0.0, z[1] - z[0]]);
+        rectangle([x[0], 0.0, z[0]], w, u, 1)
+    };
+    let mut shapes = inward_box([4.0, 4.0, 3.0], 1);
+    // The wall towards the yard.
+    shapes.remove(3);
+    shapes.extend([
+        wall([0.0, 1.4], [0.0, 3.0]),
+        wall([2.6, 4.0], [0.0, 3.0]),
+        wall([1.4, 2.6], [0.0, 1.0]),
+        wall([1.4, 2.6], [2.2, 3.0]),
+        rectangle([-8.0, -12.0, -0.1], [20.0, 0.0, 0.0], [0.0, 12.0, 0.0], 0),
+    ]);
+    let slat = |k: u32| {
+        rectangle([1.4, -0.1, 1.05 + 0.1 * f64::from(k)], [1.2, 0.0, 0.0], [0.0, 0.1, 0.0], 2)
+    };
+    shapes.extend((0..12).map(slat));
+    let both = |name: &str, rho: f64| Material::two_sided(name, Finish::diffuse(Rgb::grey(rho)));
+    let materials = vec![both("yard", 0.2), both("room", reflectance), both("slat", 0.7)];
+    let direction = direction([0.0, 0.6, -0.8]);
+    let kind = LuminaireKind::Directional { direction, illuminance_lx: 60_000.0 };
+    scene(shapes, materials, vec![luminaire(kind)])
+}
+
+#[test]
+fn errors_count_for_the_dim_room_that_sees_them() {
+    let most_on = |material: u32, reflectance: f64| {
+        let scene = room_behind_slats(reflectance);
+        let lighting = Lighting::new(&scene);
+        let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+        let material_of = |node: u32| {
+            let (_, origin) = plan.subdivision.node(node);
+            scene.material_index(origin.triangle)
+        };
+        let of = plan.indirect_errors.iter().filter(|e| material_of(e.node) == material);
+        of.map(|e| e.seen).fold(0.0, f64::max)
+    };
+    // By reciprocity as often as a surface reflects and sees the room: slats to a third of their hemisphere or more, and the room
+    // has less than a tenth of the light. The yard is seen by what is as bright.
+    let [yard, slats] = [0, 2].map(|material| most_on(material, 0.6));
+    assert!(slats > 0.7 / 3.0 * 10.0 && yard < 1.0, "{slats} on slats, {yard} in the yard");
 }

@@ -18,6 +18,7 @@ fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
         is_beset_afar: false,
         is_at_wall: false,
         weight: 1.0,
+        seen: 0.0,
     };
     of.iter().enumerate().map(error).collect()
 }
@@ -60,6 +61,7 @@ fn errors_at_vertices_bound_those_of_elements() {
         is_beset_afar: false,
         is_at_wall: false,
         weight: 1.0,
+        seen: 0.0,
     };
     let errors: Vec<LeafError> = coarse.leaves().map(error).collect();
     let mut fine = coarse.clone();

@@ -50,6 +50,7 @@ fn errors_of(subdivision: &Subdivision) -> Vec<LeafError> {
         is_beset_afar: false,
         is_at_wall: false,
         weight: 1.0,
+        seen: 0.0,
     };
     subdivision.leaves().map(error).collect()
 }
@@ -78,6 +79,7 @@ fn resolved(accuracy_lx: f64) -> Resolved {
         walls: Walls::default(),
         left_by_fit: 1.0,
         reference_lx: 100.0,
+        dim_m2: 0.0,
     };
     look.resolve(walls, &subdivision, &values, accuracy_lx);
     let leaves: Vec<u32> = subdivision.leaves().collect();
