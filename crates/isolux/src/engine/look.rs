@@ -52,6 +52,15 @@ pub(super) struct PilotRequest {
     pub(super) least_edge_m: Option<f64>,
 }
 
+/// What errors count by.
+#[derive(Debug, Default)]
+pub(super) struct Surroundings {
+    /// How much they count at the vertices so far: there, and for who sees them from where it is dim.
+    pub(super) weights: Vec<[f64; 2]>,
+    /// Surface where it is dim, m2.
+    pub(super) dim_m2: f64,
+}
+
 /// What a round of the pilot sees.
 pub(super) struct Look {
     pub(super) elements: Elements,

@@ -16,7 +16,6 @@ mod standings;
 mod surroundings;
 mod walls;
 
-use self::surroundings::Surroundings;
 use super::accuracy::Light;
 use super::aim::Aim;
 use super::backdrop::Backdrop;
@@ -29,7 +28,7 @@ use super::forecast::{Costs, GoOn};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::Sight;
 pub(super) use super::look::PilotRequest;
-use super::look::{Look, Read};
+use super::look::{Look, Read, Surroundings};
 use super::path::Dice;
 use super::plan::Plan;
 use super::scale::bisect_to_scale;

@@ -20,15 +20,6 @@ const LEAST_DIM: f64 = 1.0 / 64.0;
 /// Reflections over which light is taken to be that of the surroundings, and over which an error is followed to where it is dim.
 const REFLECTIONS: usize = 3;
 
-/// What errors count by.
-#[derive(Debug, Default)]
-pub(super) struct Surroundings {
-    /// How much they count at the vertices so far: there, and for who sees them from where it is dim.
-    weights: Vec<[f64; 2]>,
-    /// Surface where it is dim, m2.
-    pub(super) dim_m2: f64,
-}
-
 /// How much errors count where there is so much light about, of so much in the whole scene.
 fn weight(about_lx: f64, reference_lx: f64) -> f64 {
     let times = reference_lx / about_lx;
