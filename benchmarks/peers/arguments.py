@@ -57,6 +57,6 @@ def effort(form):
 
 
 def write(path, **record):
-    """What was found: `values_lx` at the points, `trace_s`, and `whole_s` where this process is only a
-    driver of others."""
+    """What was found: `values_lx` at the points, `trace_s`, `whole_s` where this process is only a driver of others, and `map_s`
+    where there is a map of the whole scene before points are read from it."""
     path.write_text(json.dumps(record))

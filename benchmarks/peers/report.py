@@ -13,13 +13,14 @@ COLOURS = {"isolux": "#c1121f", "radiance": "#1d6fb8", "mitsuba": "#2a8a4a", "lu
 MARKERS = {"isolux": "o", "radiance": "s", "mitsuba": "^", "luxcore": "D"}
 
 
-def pairs(result, scene, points, renderer):
-    """(median time of the whole process, root mean square error) of every effort that gave a map."""
+def pairs(result, scene, points, renderer, of="whole_s"):
+    """(median time of all processes, or of making the map alone, root mean square error) of every effort that gave a map."""
     found = []
     for run in result["runs"]:
         if (run["scene"], run["points"], run["renderer"]) == (scene, points, renderer) and run["errors"]:
             squares = statistics.fmean(error * error for error in run["errors"])
-            found.append((statistics.median(run["whole_s"]), math.sqrt(squares)))
+            if run.get(of):
+                found.append((statistics.median(run[of]), math.sqrt(squares)))
     return found
 
 
@@ -41,12 +42,15 @@ def levels(result):
             times = {r: curve.reached(pairs(result, scene, points, r), level) for r in renderers}
             peers = [t.time_s for r, t in times.items() if r != OWN and t]
             own = times.get(OWN)
+            alone = curve.reached(pairs(result, scene, points, OWN, "map_s"), level)
             rows.append({
                 "scene": scene,
                 "points": points,
                 "error": level,
                 "times": {r: t and {"time_s": t.time_s, "mark": t.mark} for r, t in times.items()},
                 "best_peer_over_isolux": min(peers) / own.time_s if peers and own else None,
+                "map_alone": alone and {"time_s": alone.time_s, "mark": alone.mark},
+                "best_peer_over_map_alone": min(peers) / alone.time_s if peers and alone else None,
             })
     return rows
 
@@ -54,14 +58,14 @@ def levels(result):
 def table(rows):
     """Of `levels`, for the terminal."""
     renderers = list(dict.fromkeys(r for row in rows for r in row["times"]))
-    lines = [["scene", "points", "error", *renderers, "best peer / isolux"]]
+    lines = [["scene", "points", "error", *renderers, "best peer / isolux", "solve alone", "best peer / solve"]]
     for row in rows:
-        ratio, own = row["best_peer_over_isolux"], row["times"].get(OWN)
-        at_least = ">" if own and own["mark"] == "<" else ""
         lines.append([
             row["scene"], row["points"], f"{100 * row['error']:g} %",
             *(shown(row["times"].get(r), r in row["times"]) for r in renderers),
-            f"{at_least}{ratio:.3g}" if ratio else "-",
+            times_faster(row["best_peer_over_isolux"], row["times"].get(OWN)),
+            shown(row["map_alone"], row["map_alone"] is not None),
+            times_faster(row["best_peer_over_map_alone"], row["map_alone"]),
         ])
     widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
     text = ["  ".join(cell.ljust(w) for cell, w in zip(line, widths)).rstrip() for line in lines]
@@ -70,9 +74,14 @@ def table(rows):
 
 NOTES = (
     "Whole-process time at which the error (root mean square of relative differences from the exact "
-    "values) is reached.\n< its cheapest run is already better, which makes the last column a bound; ~ extrapolated, at most by a factor of 2 in "
+    "values) is reached; of isolux with reading the points, and that of `isolux solve`, which writes the map of all surfaces, alone.\n< its cheapest run is already better, which makes the last column a bound; ~ extrapolated, at most by a factor of 2 in "
     "error; never: not with these efforts."
 )
+
+
+def times_faster(ratio, own):
+    at_least = ">" if own and own["mark"] == "<" else ""
+    return f"{at_least}{ratio:.3g}" if ratio else "-"
 
 
 def shown(time, was_run):

@@ -117,6 +117,7 @@ class Bench:
             "scene": ladder.scene, "points": ladder.points, "renderer": ladder.renderer, "effort": effort,
             "whole_s": [round(one["whole_s"], 4) for one in found],
             "trace_s": [round(one["trace_s"], 4) for one in found],
+            "map_s": [round(one["map_s"], 4) for one in found if one["map_s"]],
             "errors": [one["error"] for one in found if one["error"] is not None],
             "reported_errors": [one["reported_error"] for one in found if one["reported_error"]],
         }
@@ -148,6 +149,7 @@ class Bench:
         return {
             "whole_s": found.get("whole_s", whole_s),
             "trace_s": found["trace_s"],
+            "map_s": found.get("map_s"),
             "error": self.points[ladder.scene, ladder.points].error(found["values_lx"]),
             "reported_error": found.get("reported_error"),
         }

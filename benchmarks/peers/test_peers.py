@@ -161,10 +161,11 @@ class Curve(unittest.TestCase):
 
     def test_the_table_says_never_where_an_error_is_not_reached(self):
         def run(renderer, time_s, error):
-            return {"scene": "cube", "points": "map", "renderer": renderer, "whole_s": [time_s], "errors": [error]}
+            return {"scene": "cube", "points": "map", "renderer": renderer, "whole_s": [time_s], "map_s": [0.5 * time_s] if renderer == "isolux" else [], "errors": [error]}
 
         rows = report.levels({"runs": [run("isolux", 1.0, 0.002), run("mitsuba", 8.0, 0.009)]})
         self.assertEqual([row["best_peer_over_isolux"] for row in rows], [8.0, None, None])
+        self.assertEqual([row["best_peer_over_map_alone"] for row in rows], [16.0, None, None])
         lines = report.table(rows).splitlines()
         self.assertIn("never", lines[2])
         self.assertIn("<1 s", lines[1])

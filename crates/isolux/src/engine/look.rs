@@ -17,7 +17,7 @@ const BARE: f64 = 2.0;
 /// The same where their means are measured, or light is resolved towards walls.
 const BARE_WITH_MEANS: f64 = 6.0;
 /// What elements may err by that dim places see, in accuracies asked for: it is read in the mean over many, but reflected again and again.
-const SEEN_FROM_DIM: f64 = 4.0;
+const SEEN_FROM_DIM: f64 = 3.0;
 /// Means are measured where what beset elements lack in the mean over the surface is more than this, in accuracies
 /// asked for: soon in empty rooms, late among furniture, whose shadows and hollows balance.
 const MEANS_FROM: f64 = 0.5;
