@@ -18,6 +18,8 @@ pub(super) struct Emission<'s> {
     scene: &'s Scene,
     /// Running sums of the fluxes, lm: luminaires without surface, then emitting surfaces.
     sums_lm: Vec<f64>,
+    /// Running sums of the areas of the triangles of every emitting surface, m2.
+    sums_m2: Vec<Vec<f64>>,
     /// Sphere around the scene, which parallel light has to cover.
     centre: Point,
     radius_m: f64,
@@ -57,7 +59,11 @@ impl<'s> Emission<'s> {
                 sum
             })
             .collect();
-        (sum > 0.0).then(|| Self { scene, sums_lm, centre: low.lerp(high, 0.5), radius_m })
+        if sum <= 0.0 {
+            return None;
+        }
+        let sums_m2 = scene.area_luminaires().iter().map(|area| sums_m2(scene, area)).collect();
+        Some(Self { scene, sums_lm, sums_m2, centre: low.lerp(high, 0.5), radius_m })
     }
 
     /// Flux of all, lm.
@@ -74,7 +80,7 @@ impl<'s> Emission<'s> {
         let number = number.min(self.sums_lm.len() - 1);
         let luminaire = match self.luminaire(number) {
             Emitter::Surface(area) => {
-                let start = self.start(area, other, place);
+                let start = self.start(number, area, other, place);
                 let direction =
                     start.normal.to_direction().from_local(CosineHemisphere::sample(square));
                 return Some(self.leave(number, area, &start, direction));
@@ -119,7 +125,7 @@ impl<'s> Emission<'s> {
     ) -> Option<Emitted> {
         match self.luminaire(number) {
             Emitter::Surface(area) => {
-                let start = self.start(area, pick, place);
+                let start = self.start(number, area, pick, place);
                 let direction = (to - start.origin).direction()?;
                 (direction.cos(start.normal) > 0.0)
                     .then(|| self.leave(number, area, &start, direction))
@@ -165,7 +171,7 @@ impl<'s> Emission<'s> {
         let evenly = |distance2: f64| self.part(number) / (4.0 * PI) / distance2;
         let one_m2 = match self.luminaire(number) {
             Emitter::Surface(area) => {
-                let start = self.start(area, 0.5, [4.0 / 9.0, 0.5]);
+                let start = self.start(number, area, 0.5, [4.0 / 9.0, 0.5]);
                 let (direction, distance2) = from(start.origin);
                 let cos = direction.map_or(1.0, |direction| direction.cos(start.normal));
                 evenly(distance2) * (4.0 * cos).max(LEAST_INTENSITY)
@@ -246,13 +252,10 @@ impl<'s> Emission<'s> {
     }
 
     /// A place of an emitting surface, evenly over its area.
-    fn start(&self, area: &AreaLuminaire, pick: f64, [a, b]: [f64; 2]) -> Start {
-        let mut left_m2 = pick * area.area_m2;
-        let drawn = area.triangles.iter().find(|&&t| {
-            left_m2 -= self.scene.triangle(t).area();
-            left_m2 < 0.0
-        });
-        let triangle = *drawn.or(area.triangles.last()).expect("an emitting surface has triangles");
+    fn start(&self, number: usize, area: &AreaLuminaire, pick: f64, [a, b]: [f64; 2]) -> Start {
+        let sums_m2 = &self.sums_m2[number - self.scene.luminaires().len()];
+        let drawn = sums_m2.partition_point(|&sum| sum <= pick * area.area_m2);
+        let triangle = area.triangles[drawn.min(area.triangles.len() - 1)];
         let root = a.sqrt();
         let point = self.scene.triangle(triangle).point(root * (1.0 - b), root * b);
         let front = self.scene.geometric_normal(triangle);
@@ -275,6 +278,16 @@ impl<'s> Emission<'s> {
             normal: Some(start.normal),
         }
     }
+}
+
+/// Running sums of the areas of the triangles of an emitting surface, m2.
+fn sums_m2(scene: &Scene, area: &AreaLuminaire) -> Vec<f64> {
+    let mut sum = 0.0;
+    let add = |&triangle: &u32| {
+        sum += scene.triangle(triangle).area();
+        sum
+    };
+    area.triangles.iter().map(add).collect()
 }
 
 /// A luminaire of either kind.

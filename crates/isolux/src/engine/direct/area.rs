@@ -156,6 +156,9 @@ impl Lighting<'_> {
         samples: usize,
         [own, of_looks]: [Sequence; 2],
     ) -> Measured {
+        if !source.may_be_seen(emitter, at) {
+            return Measured { lx: Rgb::BLACK, variance: 0.0 };
+        }
         let of_each: [Rgb; REPLICATES as usize] = std::array::from_fn(|replicate| {
             let mut dice = Dice::new(own, replicate as u32);
             self.lit_by_area(source, emitter, triangles, at, samples, &mut dice)
@@ -184,6 +187,9 @@ impl Lighting<'_> {
         samples: usize,
         dice: &mut Dice,
     ) -> Rgb {
+        if !source.may_be_seen(emitter, at) {
+            return Rgb::BLACK;
+        }
         let Some(shape) = Shape::new(at, (emitter, triangles), samples) else {
             return Rgb::BLACK;
         };
@@ -242,6 +248,7 @@ mod tests {
             indices: (0..triangles.len() as u32).collect(),
             area_m2: 1.0,
             centre: Point::ORIGIN,
+            radius_m: 0.0,
             clusters: Clusters::of(triangles),
         }
     }

@@ -22,7 +22,7 @@ const NEAREST: f64 = 0.05;
 /// How much a spread of normals counts beside a spread in place as wide as the emitter.
 const TURN: f64 = 0.25;
 
-/// What angles may be off by rounding, rad: that of an arc cosine near its ends.
+/// What angles may be off by rounding, rad: that of a cosine near its ends.
 const ROUNDING_RAD: f64 = 1e-6;
 
 /// A cluster of triangles.
@@ -37,9 +37,10 @@ struct Cluster {
     area_m2: f64,
     /// Along each axis, to both sides: the components of the area vectors, m2.
     sides_m2: [[f64; 2]; 3],
-    /// All normals are within `spread_rad` of it; without one they may be any.
+    /// No normal is farther from it than less than a quarter turn; without one they may be any.
     axis: Option<Normal>,
-    spread_rad: f64,
+    /// How far they are from it at most: the sine and the cosine.
+    spread: [f64; 2],
     /// Its triangles, in the order of the tree.
     first: u32,
     count: u32,
@@ -76,6 +77,7 @@ struct Facet {
     corners: [Point; 3],
     normal: Option<Normal>,
     area_vector_m2: Vector,
+    area_m2: f64,
 }
 
 impl Clusters {
@@ -142,8 +144,13 @@ impl Clusters {
         match self.outlook(number, at) {
             Outlook::Dark => 0.0,
             Outlook::Known(steradians) => steradians,
-            Outlook::Unknown => self.cluster(number).steradians(at, self.facets(number)),
+            Outlook::Unknown => self.steradians(number, at),
         }
+    }
+
+    /// The same of a cluster whose outlook is unknown.
+    pub(super) fn steradians(&self, number: u32, at: &SurfacePoint) -> f64 {
+        self.cluster(number).steradians(at, self.facets(number))
     }
 
     fn facets(&self, number: u32) -> &[Facet] {
@@ -169,18 +176,30 @@ impl Cluster {
         }
         let is_far = radius_m <= FAR * distance;
         let distance2 = distance.max(radius_m).max(f64::MIN_POSITIVE).powi(2);
-        if let Some(axis) = self.axis.filter(|_| distance > radius_m) {
-            let off_axis = libm::acos((-axis.to_vector().dot(to) / distance).clamp(-1.0, 1.0));
-            let about = self.spread_rad + libm::asin(radius_m / distance) + ROUNDING_RAD;
-            if off_axis - about >= FRAC_PI_2 {
+        let about = self.axis.and_then(|axis| Some((axis, self.sine_about(radius_m / distance)?)));
+        if let Some((axis, sine)) = about {
+            let cos = -axis.to_vector().dot(to) / distance;
+            if cos <= -sine {
                 return Outlook::Dark;
             }
-            if is_far && off_axis + about < FRAC_PI_2 && height_m > radius_m {
+            if is_far && cos > sine && height_m > radius_m {
                 let area_m2 = -self.area_vector_m2.dot(to) / distance;
                 return Outlook::Known(area_m2 * height_m / (distance * distance2));
             }
         }
         if is_far { Outlook::Known(self.steradians(at, facets)) } else { Outlook::Unknown }
+    }
+
+    /// How far normals and directions to its sphere, that is seen under an angle of such a sine, are off at most: the sine of
+    /// their sum, if that is less than a quarter turn.
+    fn sine_about(&self, of_radius: f64) -> Option<f64> {
+        if of_radius.is_nan() || of_radius >= 1.0 {
+            return None;
+        }
+        let cos_of_radius = (1.0 - of_radius * of_radius).sqrt();
+        let [sine, cos] = self.spread;
+        let is_less = cos * cos_of_radius > sine * of_radius;
+        is_less.then_some(sine * cos_of_radius + cos * of_radius)
     }
 
     /// About how much a receiver may have that is not surely in the dark; never zero.
@@ -222,7 +241,8 @@ impl Facet {
         let [a, b, c] = corners;
         let area_vector_m2 = (b - a).cross(c - a) * 0.5;
         let middle = a + ((b - a) + (c - a)) / 3.0;
-        Self { middle, corners, normal: area_vector_m2.normal(), area_vector_m2 }
+        let (normal, area_m2) = (area_vector_m2.normal(), area_vector_m2.length());
+        Self { middle, corners, normal, area_vector_m2, area_m2 }
     }
 
     /// Projected solid angle by its middle, or by places towards its corners too; zero only where it faces away.
@@ -230,7 +250,7 @@ impl Facet {
         let to = self.middle - at.point;
         let depth = -self.area_vector_m2.dot(to);
         // What is seen edge on may be seen after all, if rounding says so.
-        let least = ROUNDING_RAD * self.area_vector_m2.length() * to.length();
+        let least = ROUNDING_RAD * self.area_m2 * to.length();
         if depth <= -least {
             return 0.0;
         }
@@ -263,11 +283,10 @@ fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
     let start = facets[members[0] as usize].middle;
     let (mut area_m2, mut area_vector_m2, mut moment) = (0.0, Vector::ZERO, Vector::ZERO);
     let mut sides_m2 = [[0.0; 2]; 3];
-    for Facet { middle, area_vector_m2: vector_m2, .. } in members.iter().map(facet) {
-        let m2 = vector_m2.length();
+    for Facet { middle, area_vector_m2: vector_m2, area_m2: m2, .. } in members.iter().map(facet) {
         area_m2 += m2;
         area_vector_m2 += *vector_m2;
-        moment += (*middle - start) * m2;
+        moment += (*middle - start) * *m2;
         for (axis, sides) in sides_m2.iter_mut().enumerate() {
             let component = vector_m2.component(axis);
             sides[usize::from(component < 0.0)] += component.abs();
@@ -282,7 +301,7 @@ fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
     let normals = || members.iter().filter_map(|k| facet(k).normal);
     let spread_rad = axis.map_or(PI, |axis| {
         let angle = |n: Normal| libm::acos(n.to_vector().dot(axis.to_vector()).clamp(-1.0, 1.0));
-        normals().map(angle).fold(0.0, f64::max)
+        normals().map(angle).fold(0.0, f64::max) + ROUNDING_RAD
     });
     Cluster {
         centre,
@@ -293,8 +312,8 @@ fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
         area_vector_m2,
         area_m2,
         sides_m2,
-        axis,
-        spread_rad,
+        axis: axis.filter(|_| spread_rad < FRAC_PI_2),
+        spread: [libm::sin(spread_rad), libm::cos(spread_rad)],
         first: first as u32,
         count: members.len() as u32,
         second: None,

@@ -1,5 +1,6 @@
 //! Planar mirrors.
 
+use super::windows::Ball;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point, Triangle, Vector};
@@ -10,6 +11,9 @@ const MAX_PLANES: usize = 16;
 /// Two mirror triangles lie in one plane if their normals and their distances agree to the
 /// rounding of `f32` coordinates: in units of the scene's extent.
 const PLANE_TOLERANCE: f64 = 1e-5;
+
+/// Heights that a ball around a mirror is widened by: those of [`Plane::crossing`] at right angles, once more.
+const ROUNDINGS: f64 = 8.0;
 
 /// A plane with mirror triangles in it, seen from the reflecting side.
 #[derive(Clone, Debug)]
@@ -61,6 +65,12 @@ impl Plane {
         within(self.low.x, at.x, self.high.x)
             && within(self.low.y, at.y, self.high.y)
             && within(self.low.z, at.z, self.high.z)
+    }
+
+    /// A ball around the mirror's triangles, widened by the rounding of heights.
+    pub(super) fn ball(&self, tolerance_m: f64) -> Ball {
+        let radius_m = 0.5 * (self.high - self.low).length() + ROUNDINGS * tolerance_m;
+        Ball { centre: self.low.lerp(self.high, 0.5), radius_m }
     }
 
     fn include(&mut self, corners: &Triangle) {

@@ -24,6 +24,7 @@ mod shadows;
 mod source;
 mod tree;
 mod visibility;
+mod windows;
 
 use super::path::Dice;
 use super::surface::SurfacePoint;

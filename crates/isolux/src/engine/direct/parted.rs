@@ -6,6 +6,8 @@ use super::pieces::{Piece, drawn, pieces};
 use crate::engine::surface::SurfacePoint;
 use isolux_geometry::Point;
 use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 
 /// Triangles and clusters looked at for every sample, and the samples for which more are.
 const LOOKED_AT: usize = 64;
@@ -18,6 +20,33 @@ struct Part {
     weight: f64,
     pieces: Option<Vec<Piece>>,
 }
+
+/// A cluster that may be divided: the greater, the sooner.
+struct Doubtful {
+    doubt: f64,
+    cluster: u32,
+}
+
+impl Ord for Doubtful {
+    fn cmp(&self, other: &Self) -> Ordering {
+        // Ties in the order of the clusters: the same partition on every machine.
+        self.doubt.total_cmp(&other.doubt).then(self.cluster.cmp(&other.cluster))
+    }
+}
+
+impl PartialOrd for Doubtful {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Doubtful {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Doubtful {}
 
 /// A partition of all triangles that may be seen.
 pub(super) struct Parted<'a> {
@@ -46,16 +75,10 @@ impl<'a> Parted<'a> {
 
     /// Divides what is in doubt, the most doubtful first, until as many have been looked at as may be.
     fn divide(&mut self, most: usize) {
-        let (mut waiting, mut looked_at) = (Vec::new(), 0);
+        let (mut waiting, mut looked_at) = (BinaryHeap::with_capacity(LOOKED_AT), 0);
         self.look(0, &mut waiting);
-        while let Some(next) = (0..waiting.len()).max_by(|&a, &b| {
-            let doubt = |k: usize| -> f64 { waiting[k].1 };
-            doubt(a).total_cmp(&doubt(b))
-        }) {
-            if looked_at >= most {
-                break;
-            }
-            let (cluster, _) = waiting.swap_remove(next);
+        while looked_at < most {
+            let Some(Doubtful { cluster, .. }) = waiting.pop() else { break };
             if let Some(halves) = self.clusters.halves(cluster) {
                 looked_at += halves.len();
                 halves.into_iter().for_each(|half| self.look(half, &mut waiting));
@@ -65,17 +88,20 @@ impl<'a> Parted<'a> {
                 self.take(cluster, whole(&pieces), Some(pieces));
             }
         }
-        for (cluster, _) in waiting {
-            self.take(cluster, self.clusters.weight(cluster, &self.at), None);
+        for Doubtful { cluster, .. } in waiting {
+            self.take(cluster, self.clusters.steradians(cluster, &self.at), None);
         }
     }
 
     /// Takes a cluster, or lets it wait, with its doubt.
-    fn look(&mut self, cluster: u32, waiting: &mut Vec<(u32, f64)>) {
+    fn look(&mut self, cluster: u32, waiting: &mut BinaryHeap<Doubtful>) {
         match self.clusters.outlook(cluster, &self.at) {
             Outlook::Dark => {}
             Outlook::Known(weight) => self.take(cluster, weight, None),
-            Outlook::Unknown => waiting.push((cluster, self.clusters.doubt(cluster, &self.at))),
+            Outlook::Unknown => {
+                let doubt = self.clusters.doubt(cluster, &self.at);
+                waiting.push(Doubtful { doubt, cluster });
+            }
         }
     }
 

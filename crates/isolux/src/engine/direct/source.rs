@@ -2,6 +2,7 @@
 
 use super::clusters::Clusters;
 use super::mirrors::Mirrors;
+use super::windows::{Ball, Windows};
 use crate::engine::surface::SurfacePoint;
 use crate::photometry::IntensityDistribution;
 use crate::scene::{LuminaireKind, Scene};
@@ -31,6 +32,8 @@ pub(super) struct Source {
     /// Colour of the luminaire times reflectance of the chain.
     pub(super) colour: Rgb,
     pub(super) kind: SourceKind,
+    /// What an image is seen through.
+    pub(super) windows: Windows,
 }
 
 /// What it looks like from a receiver.
@@ -50,6 +53,8 @@ pub(super) struct Emitter {
     pub(super) indices: Vec<u32>,
     pub(super) area_m2: f64,
     pub(super) centre: Point,
+    /// All of it is within so much of the centre, m.
+    pub(super) radius_m: f64,
     pub(super) clusters: Clusters,
 }
 
@@ -119,6 +124,14 @@ impl Sources {
     }
 }
 
+impl Source {
+    /// Whether something of an emitting surface may be seen through the mirrors; surely not where it does not.
+    pub(super) fn may_be_seen(&self, emitter: &Emitter, at: &SurfacePoint) -> bool {
+        let Emitter { centre, radius_m, .. } = *emitter;
+        self.windows.may_show(at.point, Ball { centre, radius_m })
+    }
+}
+
 fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
     let points = scene.luminaires().iter().enumerate().map(|(index, luminaire)| {
         let kind = match &luminaire.kind {
@@ -132,7 +145,13 @@ fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
             }
         };
         let luminaire_id = LuminaireId::Luminaire(index as u32);
-        Source { luminaire: luminaire_id, chain: Vec::new(), colour: luminaire.colour, kind }
+        Source {
+            luminaire: luminaire_id,
+            chain: Vec::new(),
+            colour: luminaire.colour,
+            kind,
+            windows: Windows::default(),
+        }
     });
     let areas = scene.area_luminaires().iter().enumerate().map(|(index, area)| {
         let triangles = area.triangles.iter().map(|&t| {
@@ -144,6 +163,7 @@ fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
             chain: Vec::new(),
             colour: area.luminance_cd_m2,
             kind: area_kind(area.triangles.clone(), triangles.collect()),
+            windows: Windows::default(),
         }
     });
     points.chain(areas)
@@ -162,7 +182,10 @@ fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
     // Those of few triangles are looked at one by one.
     let is_large = triangles.len() > TRIANGLES_A_SAMPLE;
     let clusters = if is_large { Clusters::of(&triangles) } else { Clusters::default() };
-    SourceKind::Area { emitter: Emitter { indices, area_m2: sum_m2, centre, clusters }, triangles }
+    let away_m = |corner: &Point| (*corner - centre).length();
+    let radius_m = triangles.iter().flatten().map(away_m).fold(0.0, f64::max);
+    let emitter = Emitter { indices, area_m2: sum_m2, centre, radius_m, clusters };
+    SourceKind::Area { emitter, triangles }
 }
 
 /// The image of a source in a plane; `None` where its light cannot reach the reflecting side.
@@ -207,7 +230,8 @@ fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
         }
     }?;
     let chain = source.chain.iter().copied().chain([plane]).collect();
-    Some(Source { luminaire: source.luminaire, chain, colour, kind })
+    let windows = source.windows.and(mirror, mirrors.tolerance_m);
+    Some(Source { luminaire: source.luminaire, chain, colour, kind, windows })
 }
 
 fn chain_reflectance(source: &Source, mirrors: &Mirrors) -> f64 {
@@ -279,6 +303,7 @@ pub(super) fn importance(
     is_in_view: impl Fn(Target) -> bool,
 ) -> f64 {
     match &source.kind {
+        SourceKind::Area { emitter, .. } if !source.may_be_seen(emitter, at) => 0.0,
         SourceKind::Area { emitter, .. } => {
             let area_m2 = emitter.area_m2;
             let distance_squared = (emitter.centre - at.point).length_squared();
