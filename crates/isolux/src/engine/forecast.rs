@@ -137,7 +137,7 @@ pub(super) struct Outlook {
     /// whether it is in each increment.
     pub(super) more_for_direct: f64,
     pub(super) measured_again: f64,
-    pub(super) measured_each: bool,
+    pub(super) measured_each: f64,
 }
 
 /// Time left, s, and the factor either way that holds in nine of ten runs.
@@ -209,7 +209,7 @@ impl Outlook {
         let each_s = costs.of_rays(rays)
             + EACH * first_s
             + BETWEEN * smoothing_s
-            + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
+            + costs.direct.of(self.measured_each * vertices);
         let once_s = if self.measured_again > 0.0 { ONCE * first_s } else { 0.0 };
         let once_s = once_s + FITTING * smoothing_s;
         let factor = match self.excess {

@@ -60,7 +60,7 @@ impl Sight<'_> {
         self.open_reached(first, &mut lit);
         let look = |(k, gatherer): (usize, &Gatherer)| match lit[first + k] {
             true => Seen::Light,
-            false => self.look(gatherer, (first + k) as u64, &lit),
+            false => self.look(gatherer, ((first + k) as u64, false), &lit),
         };
         let seen: Vec<Seen> = self.gatherers[first..].par_iter().enumerate().map(look).collect();
         known.extend(seen.iter().map(|s| matches!(s, Seen::Light)));
@@ -97,17 +97,24 @@ impl Sight<'_> {
     }
 
     /// Whether a place is open, but sees no open vertex of its element: what is interpolated there
-    /// comes from behind something. `number` tells places apart.
-    pub(super) fn is_cut_off(&self, place: &SurfacePoint, number: u64, known: &[bool]) -> bool {
+    /// comes from behind something. `number` tells places apart; `is_unlit` if luminaires were asked before and shine on nothing that
+    /// it sees.
+    pub(super) fn is_cut_off(
+        &self,
+        place: &SurfacePoint,
+        (number, is_unlit): (u64, bool),
+        known: &[bool],
+    ) -> bool {
         !self.sees_open(place, known)
-            && match self.look(&Gatherer::on_surface(*place, RAYS), number, known) {
+            && match self.look(&Gatherer::on_surface(*place, RAYS), (number, is_unlit), known) {
                 Seen::Light => true,
                 Seen::Places(places) => self.any_open(&places, known),
             }
     }
 
-    /// Looks for places that see a vertex known to be open, which asks no luminaires, and then for light.
-    fn look(&self, from: &Gatherer, number: u64, known: &[bool]) -> Seen {
+    /// Looks for places that see a vertex known to be open, which asks no luminaires, and then for light, unless there is known to be
+    /// none.
+    fn look(&self, from: &Gatherer, (number, is_unlit): (u64, bool), known: &[bool]) -> Seen {
         let sequence = Sequence::new(self.key.with(number));
         let axis = from.normal.to_direction();
         let mut places = Vec::new();
@@ -125,6 +132,9 @@ impl Sight<'_> {
             if end == PathEnd::Left || self.any_open(&places[before..], known) {
                 return Seen::Light;
             }
+        }
+        if is_unlit {
+            return Seen::Places(places);
         }
         let reach_m = trust::edge_at_m(self.elements, &from.surface);
         let about = self.lighting.about(from.surface.point, reach_m);

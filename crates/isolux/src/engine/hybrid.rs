@@ -106,7 +106,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             let all: Vec<_> = self.plan.gatherers.iter().step_by(TRIED).collect();
             all.par_iter().enumerate().for_each(|(k, gatherer)| {
                 let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
-                lighting.illuminance(&gatherer.surface, &mut dice);
+                lighting.sampled(&gatherer.surface, self.plan.area_samples, &mut dice);
             });
         }
         started.elapsed().as_secs_f64() * TRIED as f64
@@ -208,7 +208,7 @@ pub(super) fn direct_light(
     }
     let vertex = |(k, gatherer): (usize, &Gatherer)| {
         let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
-        let light = || plan.lighting.illuminance(&gatherer.surface, &mut dice);
+        let light = || plan.lighting.sampled(&gatherer.surface, plan.area_samples, &mut dice);
         (!deadline.has_passed()).then(light)
     };
     let vertices: Option<Vec<Rgb>> = plan.gatherers.par_iter().enumerate().map(vertex).collect();

@@ -44,6 +44,8 @@ pub(super) struct Plan<'s> {
     pub(super) direct_variance: Vec<f64>,
     /// What is far brighter than all else.
     pub(super) bright: Option<Bright>,
+    /// Shadow rays of a vertex to every emitting surface in an increment.
+    pub(super) area_samples: usize,
     /// Walls that rays are judged by.
     pub(super) backdrop: Option<Backdrop>,
     /// First guess of the indirect light.

@@ -38,11 +38,24 @@ enum Seen<'a> {
 }
 
 /// A place of an emitter that was drawn.
-struct Place {
+pub(super) struct Place {
     triangle: usize,
     point: Point,
     /// The projected solid angle that it stands for, over the whole.
     share: f64,
+}
+
+impl Place {
+    /// `None` where the surface of the receiver hides it.
+    pub(super) fn seen(
+        at: &SurfacePoint,
+        triangle: usize,
+        point: Point,
+        share: f64,
+    ) -> Option<Self> {
+        let is_seen = (point - at.point).dot(at.geometric.to_vector()) > 0.0;
+        is_seen.then_some(Self { triangle, point, share })
+    }
 }
 
 impl<'a> Shape<'a> {
@@ -73,8 +86,7 @@ impl<'a> Shape<'a> {
         };
         let triangle = piece.triangle;
         let point = target(&piece, self.triangles[triangle], &self.at, accept, dice);
-        let is_seen = (point - self.at.point).dot(self.at.geometric.to_vector()) > 0.0;
-        is_seen.then_some(Place { triangle, point, share })
+        Place::seen(&self.at, triangle, point, share)
     }
 
     /// A direction to some place of it, and its density, 1/sr.
@@ -184,14 +196,21 @@ impl Lighting<'_> {
         samples: usize,
         dice: &mut Dice,
     ) -> Rgb {
+        let seen = |place: &Place| {
+            let index = emitter.indices[place.triangle];
+            self.visibility(&source.chain, at, Target::Point(place.point), Some(index))
+        };
+        if samples == 1 && emitter.facets.are_some() {
+            let look = emitter.facets.look(at, triangles, dice);
+            return look.map_or(Rgb::BLACK, |(place, steradians)| {
+                source.colour * seen(&place) * steradians
+            });
+        }
         let Some(shape) = Shape::new(at, (emitter, triangles), samples) else {
             return Rgb::BLACK;
         };
         let one = |dice: &mut Dice| {
-            let Some(place) = shape.place(dice) else { return Rgb::BLACK };
-            let index = emitter.indices[place.triangle];
-            let target = Target::Point(place.point);
-            self.visibility(&source.chain, at, target, Some(index)) * place.share
+            shape.place(dice).map_or(Rgb::BLACK, |place| seen(&place) * place.share)
         };
         source.colour * mean(samples, dice, one) * shape.whole
     }
@@ -223,6 +242,7 @@ fn mean(samples: usize, dice: &mut Dice, mut one: impl FnMut(&mut Dice) -> Rgb) 
 #[cfg(test)]
 mod tests {
     use super::super::clusters::Clusters;
+    use super::super::glance::Facets;
     use super::*;
     use crate::sampling::Key;
     use isolux_geometry::Normal;
@@ -242,6 +262,7 @@ mod tests {
             indices: (0..triangles.len() as u32).collect(),
             area_m2: 1.0,
             centre: Point::ORIGIN,
+            facets: Facets::of(triangles),
             clusters: Clusters::of(triangles),
         }
     }

@@ -11,6 +11,7 @@ mod area;
 mod chains;
 mod clusters;
 mod cut;
+mod glance;
 mod kind;
 mod lobe;
 mod many;
@@ -64,6 +65,11 @@ const RAYS_TO_MANY: usize = 16;
 /// for one of them.
 const AREA_SAMPLES: usize = 64;
 const FEWEST_AREA_SAMPLES: usize = 4;
+
+/// An accuracy that the mean of some increments has with as many in each: half of the light in half-shadows all over errs by 0.8 %.
+/// And the power of their number by which it falls, as they are spread evenly.
+const USUAL_ACCURACY: f64 = 0.02;
+const SHADOW_ORDER: f64 = 0.75;
 
 /// All sources of a scene.
 pub(super) struct Lighting<'s> {
@@ -174,6 +180,26 @@ impl<'s> Lighting<'s> {
     /// few; sampled for emitting surfaces.
     pub(super) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
         self.sampled(at, self.area_samples(), dice)
+    }
+
+    /// Shadow rays to every emitting surface at a vertex in each of several increments whose mean is read interpolated alone, to such
+    /// an accuracy: readers with the scene at hand have rays of their own. The usual ones where gathering rays read it, too.
+    pub(super) fn area_samples_of_mean(&self, accuracy: f64) -> usize {
+        let usual = self.area_samples();
+        if self.are_read_at_ends() || accuracy <= USUAL_ACCURACY {
+            return usual;
+        }
+        let share = libm::pow(USUAL_ACCURACY / accuracy, 1.0 / SHADOW_ORDER);
+        let samples = libm::exp2(libm::round(libm::log2(usual as f64 * share))) as usize;
+        samples.clamp(FEWEST_AREA_SAMPLES.min(usual), usual)
+    }
+
+    /// The same as a part of what direct light takes where it is measured alone; nothing where it is measured once for all.
+    pub(super) fn part_measured_again(&self, accuracy: f64) -> f64 {
+        if self.is_measured_once() {
+            return 0.0;
+        }
+        self.area_samples_of_mean(accuracy) as f64 / self.area_samples() as f64
     }
 
     fn area_samples(&self) -> usize {

@@ -1,6 +1,7 @@
 //! Luminaires and their images in planar mirrors.
 
 use super::clusters::Clusters;
+use super::glance::Facets;
 use super::mirrors::Mirrors;
 use crate::engine::surface::SurfacePoint;
 use crate::photometry::IntensityDistribution;
@@ -50,6 +51,8 @@ pub(super) struct Emitter {
     pub(super) indices: Vec<u32>,
     pub(super) area_m2: f64,
     pub(super) centre: Point,
+    /// For one look, and for many where they are many.
+    pub(super) facets: Facets,
     pub(super) clusters: Clusters,
 }
 
@@ -162,7 +165,9 @@ fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
     // Those of few triangles are looked at one by one.
     let is_large = triangles.len() > TRIANGLES_A_SAMPLE;
     let clusters = if is_large { Clusters::of(&triangles) } else { Clusters::default() };
-    SourceKind::Area { emitter: Emitter { indices, area_m2: sum_m2, centre, clusters }, triangles }
+    let facets = Facets::of(&triangles);
+    let emitter = Emitter { indices, area_m2: sum_m2, centre, facets, clusters };
+    SourceKind::Area { emitter, triangles }
 }
 
 /// The image of a source in a plane; `None` where its light cannot reach the reflecting side.

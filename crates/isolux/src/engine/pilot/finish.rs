@@ -56,6 +56,7 @@ impl<'s> Pilot<'s> {
             fit: self.fit(&coarse, &open, &cuts),
             cuts,
             bright: self.bright,
+            area_samples: self.lighting.area_samples_of_mean(request.mesh_target),
             backdrop: self.backdrop,
             parts: caustics.parts(&coarse),
             direct: self.direct,

@@ -134,8 +134,9 @@ struct Pilot<'s> {
     middles: HashMap<u32, Option<f64>>,
     /// Whether there were some in gaps that luminaires shine into, at the last look.
     sees_lit_gaps: bool,
-    /// Nodes there were then.
+    /// Nodes there were then, and when it was last asked which of them are cut off.
     solved_nodes: u32,
+    opened_nodes: u32,
     /// Rays that a vertex gathers with, alike all over a surface, so that their noise is.
     rays: Vec<u32>,
     traced: u64,
@@ -234,6 +235,7 @@ impl<'s> Pilot<'s> {
             middles: HashMap::new(),
             sees_lit_gaps: false,
             solved_nodes: 0,
+            opened_nodes: 0,
             rays,
             traced: 0,
             costs: Costs::default(),
@@ -561,14 +563,18 @@ impl<'s> Pilot<'s> {
         let sight = self.sight(elements, &gatherers);
         let is_cut_off = |&node: &u32| {
             let sequence = Sequence::new(self.key.with(4).with(u64::from(node)));
+            // Those that were asked before and not bisected then.
+            let is_unlit = node < self.opened_nodes;
             (0..PLACES_OF_HIDDEN).any(|k| {
                 let square = Dice::new(sequence, k).pair();
                 let place = SurfacePoint::in_node(self.scene, &self.subdivision, node, square);
-                sight.is_cut_off(&place, u64::from(node * PLACES_OF_HIDDEN + k), &self.known)
+                let number = u64::from(node * PLACES_OF_HIDDEN + k);
+                sight.is_cut_off(&place, (number, is_unlit), &self.known)
             })
         };
         let hidden: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_hidden(n)).collect();
         let cut_off: Vec<u32> = hidden.into_par_iter().filter(is_cut_off).collect();
+        self.opened_nodes = self.subdivision.node_count() as u32;
         let rims: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_only_rim(n)).collect();
         for &node in &cut_off {
             if self.subdivision.vertex_count() < max_vertices {

@@ -115,7 +115,7 @@ impl Pilot<'_> {
             is_smooth: self.is_smoothed || look.is_some_and(|look| look.is_smooth(request)),
             more_for_direct: more,
             measured_again: if self.is_measured { 0.0 } else { MOVED },
-            measured_each: !self.lighting.is_measured_once(),
+            measured_each: self.lighting.part_measured_again(request.mesh_target),
         };
         Round {
             receivers: vertices,

@@ -28,7 +28,7 @@ fn known() -> (Outlook, Costs) {
         is_smooth: false,
         more_for_direct: 0.0,
         measured_again: 0.0,
-        measured_each: false,
+        measured_each: 0.0,
     };
     (outlook, costs)
 }
@@ -41,7 +41,7 @@ fn when_elements_are_fixed_increments_are_left() {
     assert!((left_s - 0.128).abs() < 1e-9, "{left_s}");
     let beside = Outlook { checks: 500.0, particles: 8000.0, ..outlook }.left(&costs).time_s;
     assert!((beside - 0.256).abs() < 1e-9, "half as many again to check, and as many for caustics");
-    let measured = Outlook { measured_each: true, ..outlook }.left(&costs).time_s;
+    let measured = Outlook { measured_each: 1.0, ..outlook }.left(&costs).time_s;
     assert!((measured - left_s - 8.0 * 0.002).abs() < 1e-9, "direct light in each: {measured}");
 }
 
