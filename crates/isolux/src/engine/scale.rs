@@ -76,9 +76,10 @@ pub(super) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_
     }
 }
 
-/// Whether a place on a triangle sees as far as one in a room.
+/// Whether a place on a triangle sees as far as one in a room, and walls there.
 pub(super) fn is_in_room(scene: &Scene, place: (Point, Normal, u32)) -> bool {
-    reach_m(scene, place) > ROOM_M
+    let reach_m = reach_m(scene, place);
+    reach_m > ROOM_M && reach_m.is_finite()
 }
 
 /// How far a place on a triangle sees, m: as far as most rays.

@@ -3,7 +3,7 @@
 use super::Lighting;
 use super::measured::{Measured, REPLICATES};
 use super::parted::Parted;
-use super::pieces::{Piece, drawn, pieces, target};
+use super::pieces::{Piece, Place, drawn, pieces, target};
 use super::source::{Emitter, Source, SourceKind, TRIANGLES_A_SAMPLE, Target, facing_cos};
 use crate::engine::accumulate::mean_and_variance;
 use crate::engine::path::Dice;
@@ -37,14 +37,6 @@ enum Seen<'a> {
     Parted(Parted<'a>),
 }
 
-/// A place of an emitter that was drawn.
-struct Place {
-    triangle: usize,
-    point: Point,
-    /// The projected solid angle that it stands for, over the whole.
-    share: f64,
-}
-
 impl<'a> Shape<'a> {
     /// For so many looks at it; `None` where nothing of it is above the horizon.
     fn new(
@@ -73,8 +65,7 @@ impl<'a> Shape<'a> {
         };
         let triangle = piece.triangle;
         let point = target(&piece, self.triangles[triangle], &self.at, accept, dice);
-        let is_seen = (point - self.at.point).dot(self.at.geometric.to_vector()) > 0.0;
-        is_seen.then_some(Place { triangle, point, share })
+        Place::seen(&self.at, triangle, point, share)
     }
 
     /// A direction to some place of it, and its density, 1/sr.
@@ -190,14 +181,21 @@ impl Lighting<'_> {
         if !source.may_be_seen(emitter, at) {
             return Rgb::BLACK;
         }
+        let seen = |place: &Place| {
+            let index = emitter.indices[place.triangle];
+            self.visibility(&source.chain, at, Target::Point(place.point), Some(index))
+        };
+        if samples == 1 && emitter.facets.are_some() {
+            let look = emitter.facets.look(at, triangles, dice);
+            return look.map_or(Rgb::BLACK, |(place, steradians)| {
+                source.colour * seen(&place) * steradians
+            });
+        }
         let Some(shape) = Shape::new(at, (emitter, triangles), samples) else {
             return Rgb::BLACK;
         };
         let one = |dice: &mut Dice| {
-            let Some(place) = shape.place(dice) else { return Rgb::BLACK };
-            let index = emitter.indices[place.triangle];
-            let target = Target::Point(place.point);
-            self.visibility(&source.chain, at, target, Some(index)) * place.share
+            shape.place(dice).map_or(Rgb::BLACK, |place| seen(&place) * place.share)
         };
         source.colour * mean(samples, dice, one) * shape.whole
     }
@@ -229,6 +227,7 @@ fn mean(samples: usize, dice: &mut Dice, mut one: impl FnMut(&mut Dice) -> Rgb) 
 #[cfg(test)]
 mod tests {
     use super::super::clusters::Clusters;
+    use super::super::glance::Facets;
     use super::*;
     use crate::sampling::Key;
     use isolux_geometry::Normal;
@@ -249,6 +248,7 @@ mod tests {
             area_m2: 1.0,
             centre: Point::ORIGIN,
             radius_m: 0.0,
+            facets: Facets::of(triangles),
             clusters: Clusters::of(triangles),
         }
     }
@@ -388,5 +388,28 @@ mod tests {
         }
         let spread = (spread / f64::from(compared)).sqrt();
         assert!(compared > 50 && spread < 1.0, "{compared}: {spread}");
+    }
+
+    /// As far away triangles are drawn by their middles, and near ones by all of them.
+    #[test]
+    fn one_look_has_no_bias() {
+        let mut compared = 0;
+        for (name, triangles) in shapes() {
+            let facets = Facets::of(&triangles);
+            for (k, at) in receivers().enumerate().filter(|_| facets.are_some()) {
+                let all = pieces(&at, triangles.iter().copied().enumerate());
+                let exact: f64 = all.iter().map(|p| p.steradians).sum();
+                let look = |n: u32| {
+                    let mut dice = Dice::new(Sequence::new(Key::new(5).with(k as u64)), n);
+                    facets
+                        .look(&at, &triangles, &mut dice)
+                        .map_or(0.0, |(_, steradians)| steradians)
+                };
+                let found: Vec<f64> = (0..DRAWS).map(look).collect();
+                check(&found, exact, &format!("{name} from {k}"));
+                compared += u32::from(exact > 0.0);
+            }
+        }
+        assert!(compared > 10, "{compared}");
     }
 }

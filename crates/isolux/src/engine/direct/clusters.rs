@@ -269,7 +269,7 @@ impl Facet {
 }
 
 /// The mean over heights between the rims of a sphere, of which those below the horizon count nothing.
-fn height_above(height_m: f64, radius_m: f64) -> f64 {
+pub(super) fn height_above(height_m: f64, radius_m: f64) -> f64 {
     if height_m >= radius_m {
         return height_m;
     }

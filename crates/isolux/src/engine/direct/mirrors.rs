@@ -1,6 +1,5 @@
 //! Planar mirrors.
 
-use super::windows::Ball;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point, Triangle, Vector};
@@ -14,6 +13,13 @@ const PLANE_TOLERANCE: f64 = 1e-5;
 
 /// Heights that a ball around a mirror is widened by: those of [`Plane::crossing`] at right angles, once more.
 const ROUNDINGS: f64 = 8.0;
+
+/// A ball.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ball {
+    pub(super) centre: Point,
+    pub(super) radius_m: f64,
+}
 
 /// A plane with mirror triangles in it, seen from the reflecting side.
 #[derive(Clone, Debug)]

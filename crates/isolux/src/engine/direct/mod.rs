@@ -11,6 +11,7 @@ mod area;
 mod chains;
 mod clusters;
 mod cut;
+mod glance;
 mod kind;
 mod lobe;
 mod many;

@@ -24,6 +24,27 @@ pub(super) struct Piece {
     directions: OnceCell<Option<(SphericalTriangle, f64)>>,
 }
 
+/// A place of an emitter that was drawn.
+pub(super) struct Place {
+    pub(super) triangle: usize,
+    pub(super) point: Point,
+    /// The projected solid angle that it stands for, over the whole.
+    pub(super) share: f64,
+}
+
+impl Place {
+    /// `None` where the surface of the receiver hides it.
+    pub(super) fn seen(
+        at: &SurfacePoint,
+        triangle: usize,
+        point: Point,
+        share: f64,
+    ) -> Option<Self> {
+        let is_seen = (point - at.point).dot(at.geometric.to_vector()) > 0.0;
+        is_seen.then_some(Self { triangle, point, share })
+    }
+}
+
 impl Piece {
     fn directions(&self, at: &SurfacePoint) -> Option<(SphericalTriangle, f64)> {
         *self.directions.get_or_init(|| {
@@ -98,23 +119,37 @@ pub(super) fn pieces(
     at: &SurfacePoint,
     triangles: impl Iterator<Item = (usize, [Point; 3])>,
 ) -> Vec<Piece> {
-    let normal = at.shading.to_vector();
     let mut pieces = Vec::with_capacity(triangles.size_hint().0 + 1);
-    for (triangle, [a, b, c]) in triangles {
-        if (b - a).cross(c - a).dot(at.point - a) <= 0.0 {
-            continue;
-        }
-        let (polygon, count) = above_horizon([a, b, c].map(|p| p - at.point), normal);
-        for k in 2..count {
-            let corners = [polygon[0], polygon[k - 1], polygon[k]];
-            let steradians = projected_solid_angle(&corners, normal);
-            if steradians > 0.0 {
-                let directions = OnceCell::new();
-                pieces.push(Piece { corners, triangle, steradians, directions });
-            }
-        }
+    for (triangle, corners) in triangles {
+        visit(at, corners, |corners, steradians| {
+            let directions = OnceCell::new();
+            pieces.push(Piece { corners, triangle, steradians, directions });
+        });
     }
     pieces
+}
+
+/// The projected solid angle of what a receiver sees of one of them.
+pub(super) fn steradians(at: &SurfacePoint, triangle: [Point; 3]) -> f64 {
+    let mut whole = 0.0;
+    visit(at, triangle, |_, steradians| whole += steradians);
+    whole
+}
+
+/// The parts of a triangle above the horizon, from the receiver, and the projected solid angle of each.
+fn visit(at: &SurfacePoint, [a, b, c]: [Point; 3], mut part: impl FnMut([Vector; 3], f64)) {
+    if (b - a).cross(c - a).dot(at.point - a) <= 0.0 {
+        return;
+    }
+    let normal = at.shading.to_vector();
+    let (polygon, count) = above_horizon([a, b, c].map(|p| p - at.point), normal);
+    for k in 2..count {
+        let corners = [polygon[0], polygon[k - 1], polygon[k]];
+        let steradians = projected_solid_angle(&corners, normal);
+        if steradians > 0.0 {
+            part(corners, steradians);
+        }
+    }
 }
 
 /// Projected solid angle of a triangle above the horizon that turns clockwise as seen from the

@@ -1,8 +1,9 @@
 //! Luminaires and their images in planar mirrors.
 
 use super::clusters::Clusters;
-use super::mirrors::Mirrors;
-use super::windows::{Ball, Windows};
+use super::glance::Facets;
+use super::mirrors::{Ball, Mirrors};
+use super::windows::Windows;
 use crate::engine::surface::SurfacePoint;
 use crate::photometry::IntensityDistribution;
 use crate::scene::{LuminaireKind, Scene};
@@ -55,6 +56,8 @@ pub(super) struct Emitter {
     pub(super) centre: Point,
     /// All of it is within so much of the centre, m.
     pub(super) radius_m: f64,
+    /// For one look, and for many where they are many.
+    pub(super) facets: Facets,
     pub(super) clusters: Clusters,
 }
 
@@ -182,9 +185,10 @@ fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
     // Those of few triangles are looked at one by one.
     let is_large = triangles.len() > TRIANGLES_A_SAMPLE;
     let clusters = if is_large { Clusters::of(&triangles) } else { Clusters::default() };
+    let facets = Facets::of(&triangles);
     let away_m = |corner: &Point| (*corner - centre).length();
     let radius_m = triangles.iter().flatten().map(away_m).fold(0.0, f64::max);
-    let emitter = Emitter { indices, area_m2: sum_m2, centre, radius_m, clusters };
+    let emitter = Emitter { indices, area_m2: sum_m2, centre, radius_m, facets, clusters };
     SourceKind::Area { emitter, triangles }
 }
 

@@ -1,14 +1,7 @@
 //! The mirrors that an image is seen through.
 
-use super::mirrors::Plane;
+use super::mirrors::{Ball, Plane};
 use isolux_geometry::Point;
-
-/// A ball.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Ball {
-    pub(super) centre: Point,
-    pub(super) radius_m: f64,
-}
 
 /// Balls around the mirrors of a chain where a receiver sees them: each reflected by those that light meets after it.
 #[derive(Clone, Debug, Default)]
