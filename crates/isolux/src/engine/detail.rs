@@ -53,6 +53,11 @@ impl LeafError {
         let counted = self.weight * self.error;
         self.area_m2 * counted * counted
     }
+
+    /// The same as it counts for those who see it from where it is dim.
+    pub(super) fn seen_from_dim(&self) -> Self {
+        Self { weight: self.seen, ..*self }
+    }
 }
 
 /// What is known of a function on elements: values at the vertices, `None` where they say nothing,

@@ -103,10 +103,7 @@ impl Look {
     ) -> Option<(Vec<LeafError>, f64)> {
         let excess = self.excess_of(what, request)?;
         let is_read = self.is_read(what, request);
-        let counted = |e: &LeafError| LeafError {
-            weight: if what == Read::FromDim { e.seen } else { e.weight },
-            ..*e
-        };
+        let counted = |e: &LeafError| if what == Read::FromDim { e.seen_from_dim() } else { *e };
         Some((self.errors.iter().filter(|e| is_read(e)).map(counted).collect(), excess))
     }
 
@@ -178,8 +175,7 @@ impl Look {
 
     /// What elements err by as dim places see them, root mean square over the surface of these, lx.
     fn error_seen_from_dim(&self) -> f64 {
-        let squared = |e: &LeafError| LeafError { weight: e.seen, ..*e }.squared();
-        let squared: f64 = self.errors.iter().map(squared).sum();
+        let squared: f64 = self.errors.iter().map(|e| e.seen_from_dim().squared()).sum();
         if squared > 0.0 { (squared / self.dim_m2).sqrt() } else { 0.0 }
     }
 

@@ -10,7 +10,7 @@ use isolux_geometry::{Point, Vector};
 /// Of fewer triangles every one is looked at closely, more are clustered.
 const TRIANGLES: std::ops::RangeInclusive<usize> = 5..=128;
 
-/// Triangles that reach no further than this share of their distance are known by their middle: to a fifth.
+/// Triangles that reach no further than this share of their distance are known by their middle, well enough to be drawn by it.
 const FAR: f64 = 0.5;
 
 /// The triangles of an emitter.
