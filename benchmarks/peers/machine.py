@@ -20,9 +20,10 @@ def machine():
 
 
 def versions(isolux, libllvm):
-    """Of everything that computes."""
+    """Of everything that computes; `libllvm` is its path, or None where nothing is compiled by it."""
     found = {name: importlib.metadata.version(name) for name in ("mitsuba", "drjit", "pyluxcore", "pyradiance")}
     said = subprocess.run([isolux, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout
     found["isolux"] = said.split()[-1]
-    found["libLLVM"] = os.path.basename(os.path.realpath(libllvm))
+    if libllvm:
+        found["libLLVM"] = os.path.basename(os.path.realpath(libllvm))
     return found

@@ -26,11 +26,11 @@ TOO_LONG_S = 600.0
 
 def main():
     flags = arguments()
-    libllvm = library.llvm()
-    environment = {
-        **os.environ, "ISOLUX": str(flags.isolux.resolve()), "DRJIT_LIBLLVM_PATH": libllvm,
-        "OMP_NUM_THREADS": str(flags.threads),
-    }
+    # Only Mitsuba needs it.
+    libllvm = library.llvm() if not flags.only or "mitsuba" in flags.only else None
+    environment = {**os.environ, "ISOLUX": str(flags.isolux.resolve()), "OMP_NUM_THREADS": str(flags.threads)}
+    if libllvm:
+        environment["DRJIT_LIBLLVM_PATH"] = libllvm
     result = {
         "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d"),
         "revision": flags.revision,
@@ -64,7 +64,7 @@ def arguments():
     flags.add_argument("--threads", type=int, default=2)
     flags.add_argument("--quick", action="store_true", help="only the efforts that end soon")
     flags.add_argument("--json", action="store_true", help="print the result instead of a table")
-    flags.add_argument("--only", nargs="+", metavar="RENDERER", default=[], help="leave the others out")
+    flags.add_argument("--only", nargs="+", action="extend", metavar="RENDERER", default=[], help="leave the others out")
     given = flags.parse_args()
     known = sorted({ladder.renderer for ladder in ladders.LADDERS})
     strangers = [name for name in given.only if name not in known]

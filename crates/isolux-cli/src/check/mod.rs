@@ -16,7 +16,7 @@ use crate::quantity::{flux, significant};
 use crate::shown::name;
 use crate::source;
 use finding::Finding;
-use isolux::engine::SolveRequest;
+use isolux::engine::{PathTracer, SolveRequest};
 use isolux::scene::{Scene, UpAxis};
 use serde::Serialize;
 use std::path::Path;
@@ -52,6 +52,9 @@ struct Audit {
     /// Of the places that light comes to, about.
     mean_illuminance_lx: Option<f64>,
     lit_m2: f64,
+    /// Whether there may be light that the mean leaves out: by glass, gloss, and mirrors that are curved or too many.
+    #[serde(skip)]
+    leaves_caustics: bool,
     open_edges: u64,
     /// None where the scene cannot be solved.
     estimate: Option<Estimate>,
@@ -84,9 +87,29 @@ impl Audit {
             mean_reflectance: energy.mean_reflectance,
             mean_illuminance_lx: light.map(|light| light.mean_lx),
             lit_m2: light.map_or(0.0, |light| light.lit_m2),
+            leaves_caustics: PathTracer::new(scene).leaves_caustics(),
             open_edges: borders.open,
             estimate: Estimate::of(scene, &SolveRequest::default()).ok(),
             findings,
+        }
+    }
+
+    fn mean_illuminance(&self) -> String {
+        let has_luminaires = self.luminaires + self.emitting_surfaces > 0;
+        let may_be_lit = self.leaves_caustics && has_luminaires;
+        match self.mean_illuminance_lx {
+            Some(lx) => {
+                let (lit, lx) = (significant(self.lit_m2, 3), rounded(lx));
+                let beside = match may_be_lit {
+                    true => "; light by glass, gloss or curved mirrors not counted",
+                    false => "",
+                };
+                format!("about {lx} lx on {lit} m2 that light comes to{beside}")
+            }
+            None if may_be_lit => {
+                "not told: if light comes, then by glass, gloss or curved mirrors".to_owned()
+            }
+            None => "no place is lit".to_owned(),
         }
     }
 
@@ -96,10 +119,7 @@ impl Audit {
             UpAxis::Y => "y",
             UpAxis::Z => "z",
         };
-        let mean = self.mean_illuminance_lx.map_or("no place is lit".to_owned(), |lx| {
-            let (lit, lx) = (significant(self.lit_m2, 3), rounded(lx));
-            format!("about {lx} lx on {lit} m2 that light comes to")
-        });
+        let mean = self.mean_illuminance();
         let unknown = || ["none", "none", "cannot be solved"].map(str::to_owned);
         let [receivers, memory, time] = self.estimate.map_or_else(unknown, |e| e.shown());
         let mut text = facts(&[
