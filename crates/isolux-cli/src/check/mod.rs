@@ -158,3 +158,45 @@ fn rounded(value: f64) -> String {
     let tens = 10.0_f64.powf(value.log10().floor() - 1.0);
     significant((value / tens).round() * tens, 2)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
+
+    use super::*;
+    use isolux::scene::{Body, Dielectric, Material, SceneParts, Shape};
+    use isolux::units::Rgb;
+
+    fn told(change: impl FnOnce(&mut SceneParts)) -> String {
+        let mut parts = isolux_compare::builtin("cube").unwrap();
+        change(&mut parts);
+        let scene = Scene::assemble(parts).unwrap();
+        Audit::of(&scene, Path::new("cube"), Vec::new()).mean_illuminance()
+    }
+
+    /// A tetrahedron of glass about the luminaire.
+    fn put_into_glass(parts: &mut SceneParts) {
+        let glass = Dielectric { ior: 1.5, transmittance: Rgb::WHITE, thin: false };
+        let body = Body::Dielectric(glass);
+        parts.materials.push(Material { name: "glass".to_owned(), body });
+        let corners = [[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0]];
+        parts.shapes.push(Shape {
+            positions: corners.to_vec(),
+            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+            material: parts.materials.len() as u32 - 1,
+            ..Shape::default()
+        });
+    }
+
+    #[test]
+    fn light_through_glass_is_not_taken_for_none() {
+        assert!(told(|_| {}).ends_with(" lx on 600 m2 that light comes to"));
+        let in_glass = told(put_into_glass);
+        assert_eq!(in_glass, "not told: if light comes, then by glass, gloss or curved mirrors");
+        let dark = |parts: &mut SceneParts| {
+            put_into_glass(parts);
+            parts.luminaires.clear();
+        };
+        assert_eq!(told(dark), "no place is lit");
+    }
+}
