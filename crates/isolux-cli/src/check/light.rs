@@ -1,11 +1,13 @@
 //! How bright a scene will be, about: by a few paths at places all over its surfaces.
 
+use crate::quantity::significant;
 use isolux::elements::carries_map;
 use isolux::engine::{ExactSettings, PathTracer, ProbePoint};
 use isolux::geometry::Normal;
 use isolux::sampling::{Key, Sequence};
 use isolux::scene::Scene;
 use rayon::prelude::*;
+use serde::Serialize;
 
 /// Places that are tried, and fewer where luminaires are so many that looking at each of them takes long.
 const PLACES: usize = 1024;
@@ -15,23 +17,25 @@ const MOST_LOOKS: usize = 1 << 20;
 /// Few paths: means over many places are asked for. Eight that find no light are one in a dark place.
 const SETTINGS: ExactSettings = ExactSettings { rays: 4, replicates: 2, seed: 1 };
 
-/// The light of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The light of a scene, but for what only glass, gloss and curved mirrors bring.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub(super) struct Light {
-    /// Mean illuminance of all places that light comes to, lx; light that only glass, gloss and curved mirrors bring left out.
-    pub mean_lx: f64,
+    /// Mean illuminance of the places that light comes to, lx; none where no place is lit.
+    mean_illuminance_lx: Option<f64>,
     /// Area of the sides of surfaces that light comes to, m2.
-    pub lit_m2: f64,
+    lit_m2: f64,
+    /// Whether there may be light that is left out.
+    #[serde(skip)]
+    leaves_some_out: bool,
 }
 
 impl Light {
-    /// None where no place is lit.
-    pub(super) fn of(scene: &Scene) -> Option<Self> {
+    pub(super) fn of(scene: &Scene) -> Self {
         let sides = Sides::of(scene);
         let luminaires = scene.luminaires().len() + scene.area_luminaires().len();
         let count = (MOST_LOOKS / luminaires.max(1)).clamp(FEWEST_PLACES, PLACES);
         if luminaires == 0 || sides.total_m2() <= 0.0 {
-            return None;
+            return Self::default();
         }
         let (tracer, sequence) = (PathTracer::new(scene), Sequence::new(Key::new(2)));
         let on: Vec<usize> = (0..count).map(|index| sides.at(index, count)).collect();
@@ -43,8 +47,30 @@ impl Light {
         let areas_m2 = sides.areas_m2(&on);
         let lit = || found.iter().zip(&areas_m2).filter(|(lx, _)| **lx > 0.0);
         let lit_m2: f64 = lit().map(|(_, m2)| m2).sum();
-        (lit_m2 > 0.0)
-            .then(|| Self { mean_lx: lit().map(|(lx, m2)| lx * m2).sum::<f64>() / lit_m2, lit_m2 })
+        let mean_lx = || lit().map(|(lx, m2)| lx * m2).sum::<f64>() / lit_m2;
+        Self {
+            mean_illuminance_lx: (lit_m2 > 0.0).then(mean_lx),
+            lit_m2,
+            leaves_some_out: tracer.leaves_caustics(),
+        }
+    }
+
+    /// The mean, as it is told.
+    pub(super) fn shown(&self) -> String {
+        match (self.mean_illuminance_lx, self.leaves_some_out) {
+            (Some(lx), leaves_some_out) => {
+                let (lit, lx) = (significant(self.lit_m2, 3), rounded(lx));
+                let beside = match leaves_some_out {
+                    true => "; light by glass, gloss or curved mirrors not counted",
+                    false => "",
+                };
+                format!("about {lx} lx on {lit} m2 that light comes to{beside}")
+            }
+            (None, true) => {
+                "not told: if light comes, then by glass, gloss or curved mirrors".to_owned()
+            }
+            (None, false) => "no place is lit".to_owned(),
+        }
     }
 }
 
@@ -106,15 +132,21 @@ impl Sides {
     }
 }
 
+/// To two digits: more are not known.
+fn rounded(value: f64) -> String {
+    let tens = 10.0_f64.powf(value.log10().floor() - 1.0);
+    significant((value / tens).round() * tens, 2)
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
     use super::*;
-    use isolux::scene::{Finish, Material, SceneParts, Shape};
+    use isolux::scene::{Body, Dielectric, Finish, Material, SceneParts, Shape};
     use isolux::units::Rgb;
 
-    fn light(change: impl FnOnce(&mut SceneParts)) -> Option<Light> {
+    fn light(change: impl FnOnce(&mut SceneParts)) -> Light {
         let mut parts = isolux_compare::builtin("cube").unwrap();
         change(&mut parts);
         Light::of(&Scene::assemble(parts).unwrap())
@@ -125,8 +157,9 @@ mod tests {
         // 4 pi I over the absorbing third of 600 m2. By places at random it would err by 1.3 %: illuminance in CUBE varies
         // by 40 %; paths add as much.
         let expected = 4.0 * std::f64::consts::PI * 50_000.0 / 200.0;
-        let found = light(|_| {}).unwrap();
-        assert!((found.mean_lx / expected - 1.0).abs() < 0.05, "{} lx", found.mean_lx);
+        let found = light(|_| {});
+        let mean_lx = found.mean_illuminance_lx.unwrap();
+        assert!((mean_lx / expected - 1.0).abs() < 0.05, "{mean_lx} lx");
         assert!((found.lit_m2 - 600.0).abs() < 1e-6, "{} m2", found.lit_m2);
         // As exact where as many sides again are dark.
         let two_sided = light(|parts| {
@@ -134,15 +167,14 @@ mod tests {
                 *material =
                     Material::two_sided(material.name.clone(), Finish::diffuse(Rgb::grey(0.5)));
             }
-        })
-        .unwrap();
+        });
         assert!((two_sided.lit_m2 - 600.0).abs() < 1e-6, "{} m2", two_sided.lit_m2);
-        assert_eq!(light(|parts| parts.luminaires.clear()), None);
+        assert_eq!(light(|parts| parts.luminaires.clear()).mean_illuminance_lx, None);
     }
 
     #[test]
     fn sides_without_light_and_open_sheets_leave_a_room_as_bright() {
-        let closed = light(|_| {}).unwrap();
+        let closed = light(|_| {});
         let with_more = light(|parts| {
             parts.materials.push(Material::two_sided("sheet", Finish::diffuse(Rgb::grey(0.5))));
             let material = parts.materials.len() as u32 - 1;
@@ -155,9 +187,35 @@ mod tests {
                     ..Shape::default()
                 });
             }
-        })
-        .unwrap();
-        assert!((with_more.mean_lx / closed.mean_lx - 1.0).abs() < 0.05, "{with_more:?}");
+        });
+        let [more_lx, closed_lx] = [&with_more, &closed].map(|l| l.mean_illuminance_lx.unwrap());
+        assert!((more_lx / closed_lx - 1.0).abs() < 0.05, "{with_more:?}");
         assert!((with_more.lit_m2 - 601.0).abs() < 1.5, "{with_more:?}");
+    }
+
+    /// A tetrahedron of glass about the luminaire.
+    fn put_into_glass(parts: &mut SceneParts) {
+        let glass = Dielectric { ior: 1.5, transmittance: Rgb::WHITE, thin: false };
+        let body = Body::Dielectric(glass);
+        parts.materials.push(Material { name: "glass".to_owned(), body });
+        let corners = [[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0]];
+        parts.shapes.push(Shape {
+            positions: corners.to_vec(),
+            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+            material: parts.materials.len() as u32 - 1,
+            ..Shape::default()
+        });
+    }
+
+    #[test]
+    fn light_through_glass_is_not_taken_for_none() {
+        assert!(light(|_| {}).shown().ends_with(" lx on 600 m2 that light comes to"));
+        let in_glass = light(put_into_glass).shown();
+        assert_eq!(in_glass, "not told: if light comes, then by glass, gloss or curved mirrors");
+        let dark = |parts: &mut SceneParts| {
+            put_into_glass(parts);
+            parts.luminaires.clear();
+        };
+        assert_eq!(light(dark).shown(), "no place is lit");
     }
 }

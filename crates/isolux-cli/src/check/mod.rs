@@ -16,7 +16,7 @@ use crate::quantity::{flux, significant};
 use crate::shown::name;
 use crate::source;
 use finding::Finding;
-use isolux::engine::{PathTracer, SolveRequest};
+use isolux::engine::SolveRequest;
 use isolux::scene::{Scene, UpAxis};
 use serde::Serialize;
 use std::path::Path;
@@ -49,12 +49,8 @@ struct Audit {
     emitting_surfaces: usize,
     luminous_flux_lm: f64,
     mean_reflectance: f64,
-    /// Of the places that light comes to, about.
-    mean_illuminance_lx: Option<f64>,
-    lit_m2: f64,
-    /// Whether there may be light that the mean leaves out: by glass, gloss, and mirrors that are curved or too many.
-    #[serde(skip)]
-    leaves_caustics: bool,
+    #[serde(flatten)]
+    light: light::Light,
     open_edges: u64,
     /// None where the scene cannot be solved.
     estimate: Option<Estimate>,
@@ -66,7 +62,6 @@ impl Audit {
         let extent = Extent::of(scene);
         let borders = borders::Borders::of(scene);
         let energy = energy::Energy::of(scene);
-        let light = light::Light::of(scene);
         findings.extend(match scene.triangle_count() {
             0 => without_area(),
             _ => {
@@ -85,31 +80,10 @@ impl Audit {
             emitting_surfaces: scene.area_luminaires().len(),
             luminous_flux_lm: energy.flux_lm,
             mean_reflectance: energy.mean_reflectance,
-            mean_illuminance_lx: light.map(|light| light.mean_lx),
-            lit_m2: light.map_or(0.0, |light| light.lit_m2),
-            leaves_caustics: PathTracer::new(scene).leaves_caustics(),
+            light: light::Light::of(scene),
             open_edges: borders.open,
             estimate: Estimate::of(scene, &SolveRequest::default()).ok(),
             findings,
-        }
-    }
-
-    fn mean_illuminance(&self) -> String {
-        let has_luminaires = self.luminaires + self.emitting_surfaces > 0;
-        let may_be_lit = self.leaves_caustics && has_luminaires;
-        match self.mean_illuminance_lx {
-            Some(lx) => {
-                let (lit, lx) = (significant(self.lit_m2, 3), rounded(lx));
-                let beside = match may_be_lit {
-                    true => "; light by glass, gloss or curved mirrors not counted",
-                    false => "",
-                };
-                format!("about {lx} lx on {lit} m2 that light comes to{beside}")
-            }
-            None if may_be_lit => {
-                "not told: if light comes, then by glass, gloss or curved mirrors".to_owned()
-            }
-            None => "no place is lit".to_owned(),
         }
     }
 
@@ -119,7 +93,6 @@ impl Audit {
             UpAxis::Y => "y",
             UpAxis::Z => "z",
         };
-        let mean = self.mean_illuminance();
         let unknown = || ["none", "none", "cannot be solved"].map(str::to_owned);
         let [receivers, memory, time] = self.estimate.map_or_else(unknown, |e| e.shown());
         let mut text = facts(&[
@@ -133,7 +106,7 @@ impl Audit {
             ("emitting surfaces", self.emitting_surfaces.to_string()),
             ("luminous flux", flux(self.luminous_flux_lm, self.parallel > 0)),
             ("mean reflectance", significant(self.mean_reflectance, 2)),
-            ("mean illuminance", mean),
+            ("mean illuminance", self.light.shown()),
             ("receivers at 1 %", receivers),
             ("memory at 1 %", memory),
             ("time to 1 %", format!("{time}; to bake lightmaps comes on top")),
@@ -151,52 +124,4 @@ impl Audit {
 fn without_area() -> Vec<Finding> {
     let (what, remedy) = source::NO_AREA;
     vec![Finding::warning("scene", what, remedy)]
-}
-
-/// To two digits: more are not known.
-fn rounded(value: f64) -> String {
-    let tens = 10.0_f64.powf(value.log10().floor() - 1.0);
-    significant((value / tens).round() * tens, 2)
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
-
-    use super::*;
-    use isolux::scene::{Body, Dielectric, Material, SceneParts, Shape};
-    use isolux::units::Rgb;
-
-    fn told(change: impl FnOnce(&mut SceneParts)) -> String {
-        let mut parts = isolux_compare::builtin("cube").unwrap();
-        change(&mut parts);
-        let scene = Scene::assemble(parts).unwrap();
-        Audit::of(&scene, Path::new("cube"), Vec::new()).mean_illuminance()
-    }
-
-    /// A tetrahedron of glass about the luminaire.
-    fn put_into_glass(parts: &mut SceneParts) {
-        let glass = Dielectric { ior: 1.5, transmittance: Rgb::WHITE, thin: false };
-        let body = Body::Dielectric(glass);
-        parts.materials.push(Material { name: "glass".to_owned(), body });
-        let corners = [[1.0, 1.0, 1.0], [-1.0, -1.0, 1.0], [-1.0, 1.0, -1.0], [1.0, -1.0, -1.0]];
-        parts.shapes.push(Shape {
-            positions: corners.to_vec(),
-            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
-            material: parts.materials.len() as u32 - 1,
-            ..Shape::default()
-        });
-    }
-
-    #[test]
-    fn light_through_glass_is_not_taken_for_none() {
-        assert!(told(|_| {}).ends_with(" lx on 600 m2 that light comes to"));
-        let in_glass = told(put_into_glass);
-        assert_eq!(in_glass, "not told: if light comes, then by glass, gloss or curved mirrors");
-        let dark = |parts: &mut SceneParts| {
-            put_into_glass(parts);
-            parts.luminaires.clear();
-        };
-        assert_eq!(told(dark), "no place is lit");
-    }
 }
