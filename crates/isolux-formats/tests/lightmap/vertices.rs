@@ -16,19 +16,24 @@ const LAMP_CD_M2: [f64; 3] = [9000.0, 8000.0, 5000.0];
 /// Rounding to 32-bit floats.
 const SINGLE: f64 = 1e-7;
 
-/// The card, and a lamp that is brighter than any paper.
+/// The card, and two lamps that are brighter than any paper. One reflects a little, so that it carries the map.
 fn scene() -> Scene {
     let mut parts: SceneParts = card::scene().to_parts();
     let luminance_cd_m2 = Rgb(LAMP_CD_M2);
-    let finish = Finish { luminance_cd_m2, ..Finish::BLACK };
-    parts.materials.push(Material::one_sided("lamp", finish));
-    parts.shapes.push(Shape {
-        name: "lamp".into(),
-        positions: vec![[3.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 1.0, 0.0]],
-        triangles: vec![[0, 1, 2]],
-        material: parts.materials.len() as u32 - 1,
-        ..Shape::default()
-    });
+    let reflectance = Rgb::grey(1e-9);
+    for (name, finish, y) in
+        [("lamp", Finish::BLACK, 0.0), ("grey lamp", Finish::diffuse(reflectance), 2.0)]
+    {
+        let finish = Finish { luminance_cd_m2, ..finish };
+        parts.materials.push(Material::one_sided(name, finish));
+        parts.shapes.push(Shape {
+            name: name.into(),
+            positions: vec![[3.0, y, 0.0], [4.0, y, 0.0], [4.0, y + 1.0, 0.0]],
+            triangles: vec![[0, 1, 2]],
+            material: parts.materials.len() as u32 - 1,
+            ..Shape::default()
+        });
+    }
     Scene::assemble(parts).unwrap()
 }
 
@@ -89,6 +94,16 @@ impl Written {
         found
     }
 
+    /// What is shown of a mesh that carries no map: the base colour of its material, linear.
+    fn colour_of_material(&self, mesh: &str) -> [f64; 3] {
+        let primitive = &self.primitives(mesh)[0];
+        assert!(primitive["attributes"].get("COLOR_0").is_none());
+        let material = primitive["material"].as_u64().unwrap() as usize;
+        let look = &self.json["materials"][material]["pbrMetallicRoughness"];
+        let factor = &look["baseColorFactor"];
+        [0, 1, 2].map(|k| factor[k].as_f64().unwrap())
+    }
+
     /// Of all vertices of the front of a mesh, luminance by the formula of the file, cd/m2.
     fn luminances(&self, mesh: &str) -> Vec<[f64; 3]> {
         let note = &self.json["extras"]["isolux_vertices"];
@@ -123,12 +138,15 @@ fn engines_get_luminance_in_proportion() {
         // Of the paper the brightest channel has 132.4 cd/m2: the lamp does not count, and is cut.
         assert_eq!(white, 140.0, "{target:?}");
         assert_all(&written.luminances("card"), expected(), SINGLE * white);
-        assert_all(&written.luminances("lamp"), [white; 3], SINGLE * white);
+        assert_all(&written.luminances("grey lamp"), [white; 3], SINGLE * white);
+        assert_eq!(written.colour_of_material("lamp"), [1.0; 3], "{target:?}");
         assert_eq!(written.made.above_white, 3, "{target:?}");
         assert!((written.made.largest * white / LAMP_CD_M2[0] - 1.0).abs() < SINGLE);
         let wide = Written::of(target, Some(10_000.0));
         assert_all(&wide.luminances("card"), expected(), SINGLE * 1e4);
-        assert_all(&wide.luminances("lamp"), LAMP_CD_M2, SINGLE * 1e4);
+        assert_all(&wide.luminances("grey lamp"), LAMP_CD_M2, SINGLE * 1e4);
+        let lamp = wide.colour_of_material("lamp");
+        assert_all(&[lamp.map(|c| c * 1e4)], LAMP_CD_M2, SINGLE * 1e4);
         assert_eq!((wide.made.above_white, wide.made.white_cd_m2), (0, 10_000.0));
     }
 }

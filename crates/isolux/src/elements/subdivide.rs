@@ -358,13 +358,13 @@ pub(crate) const fn edge_key(a: u32, b: u32) -> [u32; 2] {
     if a < b { [a, b] } else { [b, a] }
 }
 
-/// Whether a side of a triangle carries a map: opaque, not a pure mirror, not the black back of a
+/// Whether a side of a triangle carries a map: opaque, neither a pure mirror nor a pure emitter, not the black back of a
 /// one-sided material.
 pub fn carries_map(scene: &Scene, triangle: u32, back: bool) -> bool {
-    scene
-        .material(triangle)
-        .finish(back)
-        .is_some_and(|finish| !(finish.is_pure_mirror() || back && *finish == Finish::BLACK))
+    scene.material(triangle).finish(back).is_some_and(|finish| {
+        let shows_none = finish.is_pure_mirror() || finish.is_pure_emitter();
+        !(shows_none || back && *finish == Finish::BLACK)
+    })
 }
 
 fn corners(scene: &Scene, triangle: u32, back: bool) -> [(Point, Normal); 3] {

@@ -124,6 +124,12 @@ impl Finish {
     pub fn is_pure_mirror(&self) -> bool {
         self.diffuse.colour.is_black() && !self.is_glossy() && !self.mirror.is_black()
     }
+
+    /// Whether it shines and reflects nothing diffusely, as lamps do that are described by their luminance alone: how it
+    /// looks does not depend on an illuminance on it either.
+    pub fn is_pure_emitter(&self) -> bool {
+        self.is_emitter() && self.diffuse.colour.is_black()
+    }
 }
 
 impl Material {
