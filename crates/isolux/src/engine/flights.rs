@@ -120,6 +120,11 @@ impl CausticNoise {
         libm::exp2(libm::ceil(libm::log2(wanted))) as u32
     }
 
+    /// Particles of all increments together for a target on the vertices of which this was seen.
+    pub(super) fn needed(self, goal: (f64, f64)) -> f64 {
+        self.wanted(self.vertices, goal, 1, 1.0).unwrap_or(0.0)
+    }
+
     fn wanted(
         self,
         vertices: usize,

@@ -4,23 +4,23 @@
 //! elements as they are, each batch makes the map that an increment would make of it, and counts what came to each of the parts of
 //! every element. The product of what two batches lack is the squared error of interpolation there without any noise, in the mean;
 //! what that varies by over batches tells what is noise. Elements are bisected where the error is no noise, particles are added where noise
-//! hides it.
+//! hides it: first to those there are, which are kept and placed on every new mesh. Where increments will need far more of them, so many
+//! are sent that they are looked at once and not kept, anew for every mesh.
 
 use super::Pilot;
+use super::batches::{BATCHES, Batches, Brought};
 use super::direct::MOST_REFLECTANCE;
-use crate::elements::{Elements, Subdivision};
+use crate::elements::Subdivision;
 use crate::engine::accuracy::Light;
 use crate::engine::flights::{CausticNoise, DOUBT, Flights};
 use crate::engine::forecast::{FINE, GoOn};
-use crate::engine::gather::known_weights;
 use crate::engine::hats::Hats;
 use crate::engine::look::{Look, PilotRequest};
 use crate::engine::noise::Noise;
-use crate::engine::parts::{PARTS, Parts, Squared, part_of, read_in_parts, squared_error};
+use crate::engine::parts::{PARTS, Parts, Squared, read_in_parts, squared_error};
 use crate::engine::reflectance;
 use crate::engine::surface::SurfacePoint;
 use crate::map::Standing;
-use crate::sampling::Key;
 use rayon::prelude::*;
 use std::cell::RefCell;
 
@@ -30,11 +30,14 @@ const LET_GO: u32 = 1 << 13;
 /// Caustics are counted where all light is so many times as much with them, root mean square.
 const MUCH: f64 = 1.25;
 
-/// Batches of particles.
-const BATCHES: usize = 8;
-/// Particles of a batch to start with, and at most.
+/// Particles of a batch to start with, and of those that are kept at most.
 const FIRST_PARTICLES: u32 = 1 << 11;
-const MOST_PARTICLES: u32 = 1 << 18;
+const MOST_KEPT: u32 = 1 << 18;
+/// Particles of a batch at most, kept or not, and how many are looked at together.
+const MOST_PARTICLES: u32 = 1 << 22;
+const AT_ONCE: u32 = 1 << 15;
+/// The part of the particles that increments will need that may be sent ahead for one mesh.
+const AHEAD: f64 = 0.5;
 /// Rounds at most.
 const ROUNDS: usize = 96;
 
@@ -58,38 +61,8 @@ const UNCHECKED: f64 = 0.02;
 
 /// An error is believed that is so many times the standard error of its square.
 const BELIEVED: f64 = 2.5;
-
-/// Flux that a particle has left somewhere, if it carried all there is.
-#[derive(Clone, Copy, Debug)]
-struct Deposit {
-    triangle: u32,
-    back: bool,
-    place: [f64; 2],
-    flux_lm: f64,
-}
-
-/// Particles that share all light.
-#[derive(Debug, Default)]
-struct Batch {
-    deposits: Vec<Deposit>,
-    particles: f64,
-}
-
-/// What of a batch came to an element.
-#[derive(Clone, Copy, Debug)]
-struct Landed {
-    node: u32,
-    part: usize,
-    flux_lm: f64,
-}
-
-/// A batch on elements.
-struct OnElements {
-    /// In the order of the elements.
-    landed: Vec<Landed>,
-    /// At the vertices, as the map has it, lx.
-    light: Vec<f64>,
-}
+/// The same where every mesh takes new particles, so that there are few.
+const LIKELY: f64 = 2.0;
 
 /// What is seen of an element.
 #[derive(Clone, Copy, Debug)]
@@ -105,6 +78,8 @@ struct Seen {
 pub(super) struct CausticErrors {
     /// Root mean square over the surface, lx.
     pub(super) lx: f64,
+    /// All of them.
+    all: Squared,
     /// By element, the worst first; so many of them are to be checked.
     seen: Vec<Seen>,
     checked: usize,
@@ -112,10 +87,23 @@ pub(super) struct CausticErrors {
     pub(super) beside_lx2: f64,
 }
 
+/// What is asked of elements, lx2 m2: the square of all the error that is asked for, over the surface, and what caustics may take of it.
+#[derive(Clone, Copy)]
+struct Asked {
+    area_m2: f64,
+    goal: f64,
+    allowed: f64,
+}
+
 impl CausticErrors {
     /// Their share of light of this root mean square.
     pub(super) fn share(&self, reference_lx: f64) -> f64 {
         self.lx / reference_lx.max(f64::MIN_POSITIVE)
+    }
+
+    /// Whether no more is in doubt of them than increments will leave, or twice that.
+    fn are_told(&self, asked: Asked) -> bool {
+        self.all.variance.sqrt() <= 2.0 * DOUBT * asked.goal
     }
 
     /// The elements that increments are to check.
@@ -133,9 +121,8 @@ impl Pilot<'_> {
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) -> CausticErrors {
-        let mut batches: Vec<Batch> = (0..BATCHES).map(|_| Batch::default()).collect();
-        let mut next = FIRST_PARTICLES;
-        if !(self.lighting.leaves_caustics() && self.fly(&mut batches, next)) {
+        let mut batches = Batches::new();
+        if !(self.lighting.leaves_caustics() && self.fly_and_keep(&mut batches, FIRST_PARTICLES)) {
             return CausticErrors::default();
         }
         self.count_caustics(look, &batches);
@@ -144,46 +131,93 @@ impl Pilot<'_> {
         }
         let area_m2: f64 = look.errors.iter().map(|e| e.area_m2).sum();
         let goal = (request.goal * look.reference_lx).powi(2) * area_m2;
-        let allowed = SHARE * SHARE * goal;
+        let asked = Asked { area_m2, goal, allowed: SHARE * SHARE * goal };
         let mut errors = CausticErrors::default();
         for round in 0..ROUNDS {
             let hats = Hats::new(&self.subdivision, &self.standings);
-            let on: Vec<OnElements> = batches
-                .par_iter()
-                .map(|batch| self.on_elements(batch, &look.elements, &hats))
-                .collect();
-            let seen = self.seen(&on);
-            let mut all = Squared::default();
-            seen.iter().for_each(|s| all += s.squared);
-            self.caustic_noise = self.noise_of(&on, &hats, &batches, area_m2, all.variance.sqrt());
-            errors = errors_of(seen, all, (allowed, area_m2));
-            let is_enough = all.sum <= allowed;
-            let refined = round + 1 < ROUNDS
-                && request.refines_caustics
-                && !is_enough
-                && self.bisect_for_caustics(&errors.seen, allowed, request.max_vertices);
-            if refined {
+            let on = self.kept(&batches, &look.elements, &hats);
+            errors = self.judged(&on, &hats, asked);
+            let may_refine = round + 1 < ROUNDS && request.refines_caustics;
+            if may_refine
+                && self.bisect_for_caustics(
+                    &errors,
+                    asked,
+                    (BELIEVED, MARKED_SHARE, request.max_vertices),
+                )
+            {
                 look.elements = self.subdivision.elements();
                 self.extend_between();
                 continue;
             }
             self.settle_between(look, request.is_fitted);
-            // As much as increments will tell, or half of it.
-            let is_told = all.variance.sqrt() <= 2.0 * DOUBT * goal;
-            if is_told || next >= MOST_PARTICLES || !self.has_time(look, request, FINE, go_on) {
+            let count = batches.kept();
+            let is_enough = errors.are_told(asked)
+                || count >= MOST_KEPT && f64::from(2 * count) > self.most_ahead(look, request);
+            if is_enough || !self.has_time(look, request, FINE, go_on) {
                 break;
             }
-            self.fly(&mut batches, next);
-            next *= 2;
+            if count >= MOST_KEPT {
+                return self.refine_further(look, request, go_on, (batches, asked));
+            }
+            self.fly_and_keep(&mut batches, count);
         }
         errors
     }
 
+    /// The same by particles of which none is kept, where increments will need more than there were: twice as many for every new mesh.
+    fn refine_further(
+        &mut self,
+        look: &mut Look,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+        (mut batches, asked): (Batches, Asked),
+    ) -> CausticErrors {
+        let most = self.most_ahead(look, request);
+        let mut count = 2 * MOST_KEPT;
+        loop {
+            let hats = Hats::new(&self.subdivision, &self.standings);
+            let elements = look.elements.clone();
+            let has_time = |pilot: &mut Self| pilot.has_time(look, request, FINE, go_on);
+            let of = (&elements, &hats);
+            let on = self.brought(&mut batches, (count, AT_ONCE), of, has_time);
+            let is_whole = on[0].particles >= f64::from(count);
+            // Where time was short there may be more of those that are kept.
+            let is_less = on[0].particles < f64::from(batches.kept());
+            let on = if is_less { self.kept(&batches, &elements, &hats) } else { on };
+            let errors = self.judged(&on, &hats, asked);
+            let is_last = !is_whole || f64::from(2 * count) > most || !request.refines_caustics;
+            let refined = !is_last
+                && self.bisect_for_caustics(&errors, asked, (LIKELY, 1.0, request.max_vertices));
+            if refined {
+                look.elements = self.subdivision.elements();
+                self.extend_between();
+                self.settle_between(look, request.is_fitted);
+            } else if is_last || errors.are_told(asked) {
+                return errors;
+            }
+            count *= 2;
+        }
+    }
+
+    /// Particles of every batch that may be sent for one mesh.
+    fn most_ahead(&self, look: &Look, request: &PilotRequest) -> f64 {
+        let needed = self.caustic_noise.needed((request.goal, look.reference_lx));
+        (AHEAD * needed / BATCHES as f64).min(f64::from(MOST_PARTICLES))
+    }
+
+    /// What batches tell of the elements they were brought to; also how noisy they are.
+    fn judged(&mut self, on: &[Brought], hats: &Hats, asked: Asked) -> CausticErrors {
+        let seen = self.seen(on);
+        let mut all = Squared::default();
+        seen.iter().for_each(|s| all += s.squared);
+        self.caustic_noise = noise_of(on, hats, asked.area_m2, all.variance.sqrt());
+        errors_of(seen, all, asked)
+    }
+
     /// Counts caustics as light, and what is reflected of them, where they are much of it: all that is small is small against that.
-    fn count_caustics(&mut self, look: &mut Look, batches: &[Batch]) {
+    fn count_caustics(&mut self, look: &mut Look, batches: &Batches) {
         let hats = Hats::new(&self.subdivision, &self.standings);
-        let on: Vec<OnElements> =
-            batches.iter().map(|batch| self.on_elements(batch, &look.elements, &hats)).collect();
+        let on = self.kept(batches, &look.elements, &hats);
         let n = on.len() as f64;
         let (mut area_m2, mut squares, mut lm, mut caustic_lm) = (0.0, 0.0, 0.0, 0.0);
         for (vertex, m2) in hats.areas_m2().iter().enumerate().filter(|(_, m2)| **m2 > 0.0) {
@@ -224,53 +258,8 @@ impl Pilot<'_> {
         (0..LET_GO).into_par_iter().flat_map_iter(places_of).collect()
     }
 
-    /// Adds so many particles to every batch; returns whether any of all came to a place that counts.
-    fn fly(&mut self, batches: &mut [Batch], count: u32) -> bool {
-        let of = (self.scene, self.lighting);
-        for (k, batch) in batches.iter_mut().enumerate() {
-            let key = Key::with(self.key.with(9).with(k as u64), batch.particles as u64);
-            let Some(flights) = Flights::new(of, self.aim.as_ref(), count, key) else {
-                return false;
-            };
-            let one = |index: u32| {
-                let deposits = RefCell::new(Vec::new());
-                let (rays, _) = flights.fly(index, |at, flux_lm| {
-                    let (triangle, back, place) = (at.triangle, at.back, [at.u, at.v]);
-                    let flux_lm = flux_lm.luminance() * f64::from(count);
-                    deposits.borrow_mut().push(Deposit { triangle, back, place, flux_lm });
-                });
-                (deposits.into_inner(), rays)
-            };
-            let all: Vec<(Vec<Deposit>, u64)> = (0..count).into_par_iter().map(one).collect();
-            self.traced += all.iter().map(|(_, rays)| rays).sum::<u64>();
-            batch.deposits.extend(all.into_iter().flat_map(|(deposits, _)| deposits));
-            batch.particles += f64::from(count);
-        }
-        batches.iter().any(|batch| !batch.deposits.is_empty())
-    }
-
-    /// What the map of a batch is, and where its particles came.
-    fn on_elements(&self, batch: &Batch, elements: &Elements, hats: &Hats) -> OnElements {
-        let mut fluxes = vec![0.0; self.subdivision.vertex_count()];
-        let mut landed = Vec::with_capacity(batch.deposits.len());
-        for deposit in &batch.deposits {
-            let place = elements.place(u32::MAX, deposit.triangle, deposit.back, deposit.place);
-            let Some(place) = place else { continue };
-            let corners = elements.corners(place);
-            let Some(weights) = known_weights(corners, &self.standings) else { continue };
-            let flux_lm = deposit.flux_lm / batch.particles;
-            for ((vertex, _), weight) in corners.iter().zip(weights) {
-                fluxes[*vertex as usize] += weight * flux_lm;
-            }
-            let part = part_of(corners.map(|(_, weight)| weight));
-            landed.push(Landed { node: place.node(), part, flux_lm });
-        }
-        landed.sort_by_key(|landed| landed.node);
-        OnElements { landed, light: hats.corrected(&hats.means(fluxes.into_iter())) }
-    }
-
     /// The elements on which there is something to see.
-    fn seen(&self, on: &[OnElements]) -> Vec<Seen> {
+    fn seen(&self, on: &[Brought]) -> Vec<Seen> {
         let lit = |vertex: u32| on.iter().any(|batch| batch.light[vertex as usize] != 0.0);
         let leaves: Vec<u32> = self.subdivision.leaves().collect();
         let one = |&node: &u32| {
@@ -280,7 +269,7 @@ impl Pilot<'_> {
         leaves.par_iter().with_min_len(256).filter_map(one).collect()
     }
 
-    fn seen_of(&self, node: u32, on: &[OnElements]) -> Seen {
+    fn seen_of(&self, node: u32, on: &[Brought]) -> Seen {
         let corners = self.subdivision.node(node).0.vertices;
         let area_m2 = self.subdivision.triangle(node).area();
         let mut deposits = 0;
@@ -289,10 +278,10 @@ impl Pilot<'_> {
             let values = corners.map(|v| batch.light[v as usize]);
             // What the batch has more in each part than it says, lx.
             let mut lacking = read_in_parts(corners, values, &self.standings).map(|read| -read);
-            let start = batch.landed.partition_point(|landed| landed.node < node);
-            for landed in batch.landed[start..].iter().take_while(|landed| landed.node == node) {
-                deposits += 1;
-                lacking[landed.part] += landed.flux_lm * PARTS as f64 / area_m2;
+            let came = batch.to(node);
+            deposits += came.deposits;
+            for (lacking, lm) in lacking.iter_mut().zip(came.fluxes_lm) {
+                *lacking += lm / batch.particles * PARTS as f64 / area_m2;
             }
             for (sum, lx) in sums.iter_mut().zip(lacking) {
                 *sum = (sum.0 + lx, sum.1 + lx * lx);
@@ -305,23 +294,32 @@ impl Pilot<'_> {
         Seen { node, deposits, squared: squared_error(&means, area_m2) }
     }
 
-    /// Bisects the worst elements whose error is no noise, unless that matters little; returns whether there were any.
-    fn bisect_for_caustics(&mut self, seen: &[Seen], allowed: f64, max_vertices: usize) -> bool {
+    /// Bisects the worst elements whose error is no noise, until those are such a share of it, unless that matters little or errors are
+    /// small enough; returns whether there were any.
+    fn bisect_for_caustics(
+        &mut self,
+        errors: &CausticErrors,
+        asked: Asked,
+        (believed, share, max_vertices): (f64, f64, usize),
+    ) -> bool {
+        if errors.all.sum <= asked.allowed {
+            return false;
+        }
         let least_edge_m = self.least_edge_m * LEAST_EDGE;
         let is_seen = |s: &&Seen| {
             s.deposits >= FEWEST_DEPOSITS
-                && s.squared.is_believed(BELIEVED)
+                && s.squared.is_believed(believed)
                 && self.subdivision.longest_edge_m(s.node) > 2.0 * least_edge_m
         };
-        let mut worst: Vec<&Seen> = seen.iter().filter(is_seen).collect();
+        let mut worst: Vec<&Seen> = errors.seen.iter().filter(is_seen).collect();
         worst.sort_by(|a, b| b.squared.sum.total_cmp(&a.squared.sum).then(a.node.cmp(&b.node)));
         let all: f64 = worst.iter().map(|s| s.squared.sum).sum();
-        if all < MATTERS * allowed {
+        if all < MATTERS * asked.allowed {
             return false;
         }
         let (mut marked, mut any) = (0.0, false);
         for seen in worst {
-            if marked >= MARKED_SHARE * all || self.subdivision.vertex_count() >= max_vertices {
+            if marked >= share * all || self.subdivision.vertex_count() >= max_vertices {
                 break;
             }
             self.subdivision.bisect_twice(seen.node);
@@ -358,43 +356,40 @@ impl Pilot<'_> {
         }
         self.settle(&look.elements);
     }
+}
 
-    /// How noisy caustics are on elements, and how much is in doubt of their error.
-    fn noise_of(
-        &self,
-        on: &[OnElements],
-        hats: &Hats,
-        batches: &[Batch],
-        area_m2: f64,
-        doubt: f64,
-    ) -> CausticNoise {
-        let variance = |vertex: usize| {
-            let n = on.len() as f64;
-            let values = || on.iter().map(|batch| batch.light[vertex]);
-            let mean = values().sum::<f64>() / n;
-            values().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0)
-        };
-        let of = hats.areas_m2().iter().enumerate();
-        let sum: f64 =
-            of.filter(|(_, m2)| **m2 > 0.0).map(|(vertex, m2)| m2 * variance(vertex)).sum();
-        let each = batches[0].particles;
-        let all = BATCHES as f64 * each;
-        CausticNoise::seen(sum / area_m2 * each, hats.areas_m2().len(), doubt / area_m2 * all)
-    }
+/// How noisy caustics are on elements, and how much is in doubt of their error.
+fn noise_of(on: &[Brought], hats: &Hats, area_m2: f64, doubt: f64) -> CausticNoise {
+    let variance = |vertex: usize| {
+        let n = on.len() as f64;
+        let values = || on.iter().map(|batch| batch.light[vertex]);
+        let mean = values().sum::<f64>() / n;
+        values().map(|value| (value - mean).powi(2)).sum::<f64>() / (n - 1.0)
+    };
+    let of = hats.areas_m2().iter().enumerate();
+    let sum: f64 = of.filter(|(_, m2)| **m2 > 0.0).map(|(vertex, m2)| m2 * variance(vertex)).sum();
+    let each = on[0].particles;
+    let all = BATCHES as f64 * each;
+    CausticNoise::seen(sum / area_m2 * each, hats.areas_m2().len(), doubt / area_m2 * all)
 }
 
 /// What is seen, all of it, and what of it increments are to check.
-fn errors_of(mut seen: Vec<Seen>, all: Squared, (allowed, area_m2): (f64, f64)) -> CausticErrors {
+fn errors_of(mut seen: Vec<Seen>, all: Squared, asked: Asked) -> CausticErrors {
     let weight = |s: &Seen| s.squared.sum.max(0.0) + s.squared.variance.sqrt();
     seen.sort_by(|a, b| weight(b).total_cmp(&weight(a)).then(a.node.cmp(&b.node)));
-    let mut rest = all;
+    let (mut rest, unchecked) = (all, UNCHECKED * asked.allowed);
     let mut checked = 0;
-    while checked < seen.len().min(MOST_CHECKED) && rest.with(Noise::Counted) > UNCHECKED * allowed
-    {
+    while checked < seen.len().min(MOST_CHECKED) && rest.with(Noise::Counted) > unchecked {
         let Squared { sum, variance } = seen[checked].squared;
         rest = Squared { sum: rest.sum - sum, variance: rest.variance - variance };
         checked += 1;
     }
-    let beside_lx2 = rest.with(Noise::Counted) / area_m2;
-    CausticErrors { lx: (all.with(Noise::Counted) / area_m2).sqrt(), seen, checked, beside_lx2 }
+    let over_surface = |squared: Squared| squared.with(Noise::Counted) / asked.area_m2;
+    CausticErrors {
+        lx: over_surface(all).sqrt(),
+        beside_lx2: over_surface(rest),
+        all,
+        seen,
+        checked,
+    }
 }

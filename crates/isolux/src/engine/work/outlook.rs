@@ -36,7 +36,8 @@ impl Work<'_, '_> {
         }
         // Elements are as fine as particles tell them to be for caustics, whatever they are made for.
         let of_caustics = self.caustics_told_lx2(Noise::TakenOff) + self.plan.caustics_beside_lx2;
-        if of_caustics.sqrt() > target * self.plan.reference_lx {
+        let of_caustics = of_caustics.sqrt() / self.plan.reference_lx.max(f64::MIN_POSITIVE);
+        if of_caustics > target {
             return false;
         }
         let count = self.sums.increments;
@@ -48,8 +49,11 @@ impl Work<'_, '_> {
         let most = if self.has_nets() { MOST_INCREMENTS } else { f64::INFINITY };
         [counted, seen].into_iter().all(|a| {
             let (a, target) = self.beside_direct(a, target);
-            let needed = predict::increments_needed(&a, count, target);
-            needed.is_none_or(|needed| needed > most)
+            let are_few = |a: &Accuracy| {
+                predict::increments_needed(a, count, target).is_some_and(|needed| needed <= most)
+            };
+            let without_others = Accuracy { discretization: of_caustics, bias: 0.0, ..a };
+            !are_few(&a) && (of_caustics == 0.0 || are_few(&without_others))
         })
     }
 

@@ -1,0 +1,191 @@
+//! Particles sent ahead for caustics, in batches that share nothing random, and what they bring to elements.
+
+use super::Pilot;
+use crate::elements::Elements;
+use crate::engine::flights::Flights;
+use crate::engine::gather::known_weights;
+use crate::engine::hats::Hats;
+use crate::engine::parts::{PARTS, part_of};
+use crate::map::Standing;
+use crate::sampling::Key;
+use rayon::prelude::*;
+use std::cell::RefCell;
+
+/// How many batches there are.
+pub(super) const BATCHES: usize = 8;
+
+/// No element.
+const NONE: u32 = u32::MAX;
+
+/// Flux that a particle has left somewhere, if it carried all there is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Deposit {
+    triangle: u32,
+    back: bool,
+    place: [f64; 2],
+    flux_lm: f64,
+}
+
+/// Batches of particles, each of which shares all light.
+#[derive(Debug)]
+pub(super) struct Batches {
+    /// What is kept of them, and of how many particles of each.
+    deposits: [Vec<Deposit>; BATCHES],
+    kept: u32,
+    /// Particles of each so far, kept or not.
+    flown: u64,
+}
+
+/// What a batch brings to elements.
+pub(super) struct Brought {
+    pub(super) particles: f64,
+    /// At the vertices, as the map has it, lx.
+    pub(super) light: Vec<f64>,
+    /// By node, which of those that get any it is.
+    of_node: Vec<u32>,
+    elements: Vec<ToElement>,
+    /// What comes to the vertices, if each particle carried all there is, lm.
+    fluxes_lm: Vec<f64>,
+}
+
+/// What comes to an element.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct ToElement {
+    pub(super) deposits: usize,
+    /// To each of its parts, if each particle carried all there is, lm.
+    pub(super) fluxes_lm: [f64; PARTS],
+}
+
+impl Batches {
+    pub(super) fn new() -> Self {
+        Self { deposits: Default::default(), kept: 0, flown: 0 }
+    }
+
+    /// Particles of each of which all is kept.
+    pub(super) const fn kept(&self) -> u32 {
+        self.kept
+    }
+}
+
+impl Brought {
+    fn nothing(elements: &Elements) -> Self {
+        Self {
+            particles: 0.0,
+            light: Vec::new(),
+            of_node: vec![NONE; elements.node_count()],
+            elements: Vec::new(),
+            fluxes_lm: vec![0.0; elements.vertices().len()],
+        }
+    }
+
+    /// Adds what so many particles have left.
+    fn add(
+        &mut self,
+        deposits: &[Deposit],
+        particles: u32,
+        (elements, standings): (&Elements, &[Option<Standing>]),
+    ) {
+        self.particles += f64::from(particles);
+        for Deposit { triangle, back, place, flux_lm } in deposits {
+            let Some(place) = elements.place(u32::MAX, *triangle, *back, *place) else { continue };
+            let corners = elements.corners(place);
+            let Some(weights) = known_weights(corners, standings) else { continue };
+            for ((vertex, _), weight) in corners.iter().zip(weights) {
+                self.fluxes_lm[*vertex as usize] += weight * flux_lm;
+            }
+            let of_node = &mut self.of_node[place.node() as usize];
+            if *of_node == NONE {
+                *of_node = self.elements.len() as u32;
+                self.elements.push(ToElement::default());
+            }
+            let element = &mut self.elements[*of_node as usize];
+            element.deposits += 1;
+            element.fluxes_lm[part_of(corners.map(|(_, weight)| weight))] += flux_lm;
+        }
+    }
+
+    /// With the map that an increment would make of it.
+    fn into_map(mut self, hats: &Hats) -> Self {
+        let each = 1.0 / self.particles;
+        self.light = hats.corrected(&hats.means(self.fluxes_lm.drain(..).map(|lm| lm * each)));
+        self
+    }
+
+    /// What came to an element.
+    pub(super) fn to(&self, node: u32) -> ToElement {
+        self.elements.get(self.of_node[node as usize] as usize).copied().unwrap_or_default()
+    }
+}
+
+impl Pilot<'_> {
+    /// Adds so many particles to every batch, and keeps where they came; returns whether any of all came to a place that counts.
+    pub(super) fn fly_and_keep(&mut self, batches: &mut Batches, count: u32) -> bool {
+        for (all, new) in batches.deposits.iter_mut().zip(self.fly(batches.flown, count)) {
+            all.extend(new);
+        }
+        batches.kept += count;
+        batches.flown += u64::from(count);
+        batches.deposits.iter().any(|deposits| !deposits.is_empty())
+    }
+
+    /// What is kept, brought to elements.
+    pub(super) fn kept(&self, of: &Batches, elements: &Elements, hats: &Hats) -> Vec<Brought> {
+        let brought = |deposits: &Vec<Deposit>| {
+            let mut brought = Brought::nothing(elements);
+            brought.add(deposits, of.kept, (elements, &self.standings));
+            brought.into_map(hats)
+        };
+        of.deposits.par_iter().map(brought).collect()
+    }
+
+    /// What so many particles of every batch bring, none of which is kept, so many of them at once; of fewer if there is no time
+    /// for all of them.
+    pub(super) fn brought(
+        &mut self,
+        batches: &mut Batches,
+        (count, at_once): (u32, u32),
+        (elements, hats): (&Elements, &Hats),
+        mut has_time: impl FnMut(&mut Self) -> bool,
+    ) -> Vec<Brought> {
+        let mut brought: Vec<Brought> = (0..BATCHES).map(|_| Brought::nothing(elements)).collect();
+        for _ in 0..count / at_once {
+            let new = self.fly(batches.flown, at_once);
+            batches.flown += u64::from(at_once);
+            let standings = &self.standings;
+            brought.par_iter_mut().zip(&new).for_each(|(brought, new)| {
+                brought.add(new, at_once, (elements, standings));
+            });
+            if !has_time(self) {
+                break;
+            }
+        }
+        brought.into_par_iter().map(|brought| brought.into_map(hats)).collect()
+    }
+
+    /// Where so many new particles of every batch come, of which so many have flown.
+    fn fly(&mut self, flown: u64, count: u32) -> Vec<Vec<Deposit>> {
+        let of = (self.scene, self.lighting);
+        let mut traced = 0;
+        let of_batch = |batch: u64| {
+            let key = Key::with(self.key.with(9).with(batch), flown);
+            let Some(flights) = Flights::new(of, self.aim.as_ref(), count, key) else {
+                return Vec::new();
+            };
+            let one = |index: u32| {
+                let deposits = RefCell::new(Vec::new());
+                let (rays, _) = flights.fly(index, |at, flux_lm| {
+                    let (triangle, back, place) = (at.triangle, at.back, [at.u, at.v]);
+                    let flux_lm = flux_lm.luminance() * f64::from(count);
+                    deposits.borrow_mut().push(Deposit { triangle, back, place, flux_lm });
+                });
+                (deposits.into_inner(), rays)
+            };
+            let all: Vec<(Vec<Deposit>, u64)> = (0..count).into_par_iter().map(one).collect();
+            traced += all.iter().map(|(_, rays)| rays).sum::<u64>();
+            all.into_iter().flat_map(|(deposits, _)| deposits).collect()
+        };
+        let all = (0..BATCHES as u64).map(of_batch).collect();
+        self.traced += traced;
+        all
+    }
+}
