@@ -61,6 +61,7 @@ fn sides_carry_a_map_where_light_can_be_measured() {
     };
     let gloss = Finish { gloss: Some(Gloss { f0: Rgb::grey(0.9), alpha: 0.1 }), ..Finish::BLACK };
     let glass = Dielectric { ior: 1.5, transmittance: Rgb::WHITE, thin: true };
+    let shining = |diffuse: f64| Finish { luminance_cd_m2: Rgb::grey(1e4), ..finish(diffuse, 0.0) };
     for (name, material, expected) in [
         ("paint in front", grey(), (2, 4)),
         ("paint on both sides", Material::two_sided("m", finish(0.5, 0.0)), (4, 8)),
@@ -68,6 +69,8 @@ fn sides_carry_a_map_where_light_can_be_measured() {
         ("mirror", Material::two_sided("m", finish(0.0, 0.9)), (0, 0)),
         ("mirror that scatters a little", Material::one_sided("m", finish(0.1, 0.8)), (2, 4)),
         ("gloss", Material::one_sided("m", gloss), (2, 4)),
+        ("lamp", Material::one_sided("m", shining(0.0)), (0, 0)),
+        ("lamp that reflects a little", Material::one_sided("m", shining(0.1)), (2, 4)),
         ("glass", Material { name: "m".into(), body: Body::Dielectric(glass) }, (0, 0)),
     ] {
         assert_eq!(sides(material), expected, "{name}");

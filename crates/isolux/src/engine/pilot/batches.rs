@@ -189,3 +189,58 @@ impl Pilot<'_> {
         all
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elements::Subdivision;
+    use crate::engine::tests::{inward_box, painted, scene};
+    use crate::units::Rgb;
+
+    /// The same number of deposits everywhere: a lattice over every triangle of a box.
+    fn deposits(elements: &Elements) -> Vec<Deposit> {
+        let lattice = |triangle: u32| {
+            let places = (0..30).flat_map(|i| (0..30 - i).map(move |k| (i, k)));
+            places.map(move |(i, k)| Deposit {
+                triangle,
+                back: false,
+                place: [i, k].map(|at| (f64::from(at) + 1.0 / 3.0) / 30.0),
+                flux_lm: 1.0 + f64::from(triangle),
+            })
+        };
+        (0..elements.roots().len() as u32).flat_map(lattice).collect()
+    }
+
+    #[test]
+    fn what_is_brought_little_by_little_is_what_is_brought_at_once() {
+        let scene = scene(inward_box([3.0, 2.0, 2.5], 0), vec![painted(Rgb::grey(0.5))], vec![]);
+        let mut subdivision = Subdivision::new(&scene);
+        subdivision.bisect_to(0.7, 10_000);
+        let elements = subdivision.elements();
+        let standings = vec![Some(Standing::Open); elements.vertices().len()];
+        let hats = Hats::new(&subdivision, &standings);
+        let all = deposits(&elements);
+        let brought = |parts: &[&[Deposit]]| {
+            let mut brought = Brought::nothing(&elements);
+            parts.iter().for_each(|part| brought.add(part, 50, (&elements, &standings)));
+            brought.into_map(&hats)
+        };
+        let (once, twice) = (brought(&[&all]), brought(&[&all[..2000], &all[2000..]]));
+        assert_eq!((once.particles, twice.particles), (50.0, 100.0));
+        let (mut whole_lm, mut count) = (0.0, 0);
+        for node in subdivision.leaves() {
+            assert_eq!(once.to(node).fluxes_lm, twice.to(node).fluxes_lm);
+            whole_lm += once.to(node).fluxes_lm.iter().sum::<f64>();
+            count += once.to(node).deposits;
+        }
+        assert_eq!(count, all.len());
+        let sent_lm: f64 = all.iter().map(|deposit| deposit.flux_lm).sum();
+        assert!((whole_lm - sent_lm).abs() < 1e-9 * sent_lm);
+        // Of twice as many particles every one carries half.
+        for (once, twice) in once.light.iter().zip(&twice.light) {
+            assert!((once - 2.0 * twice).abs() <= 1e-9 * once.abs());
+        }
+        // A node that is bisected has nothing of its own.
+        assert_eq!(once.to(0).deposits, 0);
+    }
+}
