@@ -57,14 +57,16 @@ impl Pilot<'_> {
         if self.lighting.has_many() {
             return false;
         }
-        let first = self.landed(FIRST, 0);
-        if self.wrongly_told(elements, &first, FIRST).is_empty() {
+        let Some(emission) = Emission::new(self.scene) else { return false };
+        let each_lm = |count: u32| emission.flux_lm() / f64::from(count);
+        let first = self.landed(&emission, FIRST, 0);
+        if self.wrongly_told(elements, (&first, each_lm(FIRST))).is_empty() {
             return false;
         }
-        let landed = self.landed(MORE, 1);
+        let landed = self.landed(&emission, MORE, 1);
         let mut any = false;
         for _ in 0..ROUNDS {
-            let wrong = self.wrongly_told(elements, &landed, MORE);
+            let wrong = self.wrongly_told(elements, (&landed, each_lm(MORE)));
             let room = |pilot: &Self| pilot.subdivision.vertex_count() < request.max_vertices;
             if wrong.is_empty() || !room(self) {
                 break;
@@ -84,12 +86,11 @@ impl Pilot<'_> {
     }
 
     /// Where so many particles come straight or over plane mirrors.
-    fn landed(&mut self, count: u32, number: u64) -> Vec<Landed> {
-        let Some(emission) = Emission::new(self.scene) else { return Vec::new() };
+    fn landed(&mut self, emission: &Emission<'_>, count: u32, number: u64) -> Vec<Landed> {
         let sequence = Sequence::new(self.key.with(12).with(number));
         let one = |index: u32| {
             let mut landed = Vec::new();
-            let particle = Particle::emit(&emission, sequence, index, count, SCATTERINGS);
+            let particle = Particle::emit(emission, sequence, index, count, SCATTERINGS);
             let Some(mut particle) = particle else { return landed };
             while !particle.is_given_up() && particle.is_covered(self.lighting) {
                 let Some(at) = particle.advance(self.scene) else { break };
@@ -108,8 +109,9 @@ impl Pilot<'_> {
         (0..count).into_par_iter().flat_map_iter(one).collect()
     }
 
-    /// Elements to which clearly more or less comes than their vertices tell, if that is much.
-    fn wrongly_told(&self, elements: &Elements, landed: &[Landed], count: u32) -> Vec<u32> {
+    /// Elements to which clearly more or less comes than their vertices tell, if that is much: by where particles came, each of which was
+    /// sent with so much flux, though most may have come to nothing that carries a map.
+    fn wrongly_told(&self, elements: &Elements, (landed, each_lm): (&[Landed], f64)) -> Vec<u32> {
         let mut sums = vec![Sum::default(); elements.node_count()];
         let mut all_lm = 0.0;
         for of in landed {
@@ -120,7 +122,6 @@ impl Pilot<'_> {
             sum.squares_lm2 += of.flux_lm * of.flux_lm;
             all_lm += of.flux_lm;
         }
-        let each_lm = all_lm / f64::from(count);
         let least_edge_m = self.least_edge_m * LEAST_EDGE;
         let (mut wrong, mut wrong_lm) = (Vec::new(), 0.0);
         for node in self.subdivision.leaves() {
