@@ -315,7 +315,7 @@ fn failure(error: LightmapError) -> Failure {
             show_bytes(allowed)
         )),
         LightmapError::NothingLit => Failure::bad_input(
-            "no surface can carry a lightmap: all are mirrors, glass or without area",
+            "no surface can carry a lightmap: all are mirrors, glass, lamps that reflect nothing or without area",
         ),
         LightmapError::Sparse(_) => {
             Failure::bad_input(format!("{error}; ask for more --texels-per-meter"))

@@ -196,8 +196,8 @@ fn unsolvable(error: SolveError, (scene, path): (&Scene, &Path)) -> Failure {
         )),
         SolveError::NoLight => source::no_light(path, scene),
         SolveError::NoReceiver => Failure::bad_input(format!(
-            "{source}: no surface can carry a map: all are mirrors, glass or without area; give one \
-             a diffuse reflectance, and check the scales"
+            "{source}: no surface can carry a map: all are mirrors, glass, lamps that reflect nothing or \
+             without area; give one a diffuse reflectance, and check the scales"
         )),
         other => Failure::bad_input(format!("{source}: {other}")),
     }

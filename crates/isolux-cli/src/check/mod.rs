@@ -16,6 +16,7 @@ use crate::quantity::{flux, significant};
 use crate::shown::name;
 use crate::source;
 use finding::Finding;
+use isolux::elements::carries_map;
 use isolux::engine::SolveRequest;
 use isolux::scene::{Scene, UpAxis};
 use serde::Serialize;
@@ -68,6 +69,7 @@ impl Audit {
                 [extent::findings(&extent, source), borders.findings(), energy.findings()].concat()
             }
         });
+        findings.extend(without_map(scene));
         findings.extend(lamps::findings(scene));
         Self {
             scene: scene.name().to_owned(),
@@ -118,6 +120,16 @@ impl Audit {
         }
         text
     }
+}
+
+/// Whether light would come to nothing that carries a map.
+fn without_map(scene: &Scene) -> Option<Finding> {
+    let carries =
+        |triangle: u32| [false, true].iter().any(|&back| carries_map(scene, triangle, back));
+    let count = scene.triangle_count();
+    let what = "none can carry a map: all are mirrors, glass or lamps that reflect nothing";
+    let carries_none = count > 0 && !(0..count).any(carries);
+    carries_none.then(|| Finding::warning("surfaces", what, "give one a diffuse reflectance"))
 }
 
 /// Nothing else can be told of such a scene.

@@ -195,6 +195,29 @@ fn check_finds_the_cube_in_order() {
     assert_eq!(warnings.filter(|f| f["severity"] == "warning").count(), 0, "{json}");
 }
 
+#[test]
+fn lamps_that_reflect_nothing_carry_no_map() {
+    let home = Home::new();
+    let room = |diffuse: f64| {
+        format!(
+            "[materials.lamp]\nluminance_cd_m2 = 100.0\n[materials.wall]\nluminance_cd_m2 = 1.0\n\
+             diffuse = {diffuse:?}\n[[geometry]]\nname = \"room\"\nmaterial = \"wall\"\n\
+             box = {{ min = [0, 0, 0], max = [4, 4, 3], inward = true }}\n[[geometry]]\nname = \"lamp\"\n\
+             material = \"lamp\"\nbox = {{ min = [1, 1, 1], max = [1.2, 1.2, 1.2] }}\n"
+        )
+    };
+    home.file("room.toml", room(0.5));
+    assert_eq!(home.run(&["solve", "room.toml", "-o", "m.glb", "--accuracy", "5%"]).code, 0);
+    let json = home.run(&["info", "m.glb", "--json"]).json();
+    let lit = json["surfaces"].as_array().unwrap().iter();
+    let names: Vec<&str> = lit.map(|surface| surface["shape"].as_str().unwrap()).collect();
+    assert!(names.len() == 6 && names.iter().all(|name| name.starts_with("room/")), "{names:?}");
+    home.file("lamps.toml", room(0.0));
+    let refused = home.run(&["solve", "lamps.toml", "-o", "l.glb"]);
+    assert!(refused.code == 2 && refused.err.contains("lamps that reflect nothing"), "{refused:?}");
+    assert!(home.run(&["check", "lamps.toml"]).out.contains("none can carry a map"));
+}
+
 /// A room with an unknown material and a glossy one, written as an OBJ file.
 const WARNED: &str = "mtllib w.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 2 0\nv 1 2 0\nv 0 2 1\n\
                       usemtl nowhere\nf 1 3 2\nusemtl lamp\nf 4 5 6\n";

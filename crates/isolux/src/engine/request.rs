@@ -139,7 +139,9 @@ pub enum SolveError {
     #[error("the scene has no light; add a luminaire or an emitting material")]
     NoLight,
     /// No surface carries a map.
-    #[error("no surface of the scene can carry a map: all of them are mirrors or glass")]
+    #[error(
+        "no surface of the scene can carry a map: all of them are mirrors, glass or lamps that reflect nothing"
+    )]
     NoReceiver,
     /// It would take more memory than allowed.
     #[error("the map needs about {needed} bytes, more than the {allowed} allowed")]
