@@ -50,6 +50,21 @@ fn rooms_are_as_bright_as_the_balance_of_light_has_them() {
     }
 }
 
+/// Under a large sky one particle in a quarter of a million would come to a square metre: that none does tells nothing of its vertices.
+#[test]
+fn a_floor_that_no_particle_finds_below_a_large_sky_is_right_as_it_is() {
+    const LUMINANCE_CD_M2: f64 = 100.0;
+    let mut shapes = inward_box([200.0; 3], 1);
+    shapes.push(rectangle([100.0, 100.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0));
+    let materials = vec![painted(Rgb::grey(REFLECTANCE)), glowing(LUMINANCE_CD_M2)];
+    let scene = scene(shapes, materials, vec![]);
+    let lighting = Lighting::new(&scene);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    assert!(plan.elements.vertices().len() < 3000, "{}", plan.elements.vertices().len());
+    let lit = |lx: &Rgb| (lx.luminance() / (PI * LUMINANCE_CD_M2) - 1.0).abs() < 0.02;
+    assert!(plan.direct.iter().all(lit), "{:?}", plan.direct);
+}
+
 #[test]
 fn paths_find_what_lamps_light_close_by() {
     // Without light sent out they find two thirds of it at some places and tell a fiftieth as error.
