@@ -10,6 +10,7 @@ use crate::meter::Meter;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::quantity::{show_bytes, show_count, show_seconds, show_share, significant};
+use crate::source;
 use isolux::lightmap::{
     BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, OwnPlaces,
     Pace, SeamReport, UvUnwrap, bake, lit_area_m2, plan_without,
@@ -314,9 +315,10 @@ fn failure(error: LightmapError) -> Failure {
             show_bytes(needed),
             show_bytes(allowed)
         )),
-        LightmapError::NothingLit => Failure::bad_input(
-            "no surface can carry a lightmap: all are mirrors, glass, lamps that reflect nothing or without area",
-        ),
+        LightmapError::NothingLit => {
+            let (what, remedy) = source::NO_MAP;
+            Failure::bad_input(format!("{what}; {remedy}"))
+        }
         LightmapError::Sparse(_) => {
             Failure::bad_input(format!("{error}; ask for more --texels-per-meter"))
         }

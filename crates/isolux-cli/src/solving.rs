@@ -195,10 +195,10 @@ fn unsolvable(error: SolveError, (scene, path): (&Scene, &Path)) -> Failure {
             show_bytes(allowed)
         )),
         SolveError::NoLight => source::no_light(path, scene),
-        SolveError::NoReceiver => Failure::bad_input(format!(
-            "{source}: no surface can carry a map: all are mirrors, glass, lamps that reflect nothing or \
-             without area; give one a diffuse reflectance, and check the scales"
-        )),
+        SolveError::NoReceiver => {
+            let (what, remedy) = source::NO_MAP;
+            Failure::bad_input(format!("{source}: {what}; {remedy}"))
+        }
         other => Failure::bad_input(format!("{source}: {other}")),
     }
 }

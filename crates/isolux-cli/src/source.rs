@@ -85,6 +85,12 @@ pub(crate) fn no_light(source: &Path, scene: &Scene) -> Failure {
 pub(crate) const NO_AREA: (&str, &str) =
     ("no triangle of the scene has an area", "check coordinates and scales where it was made");
 
+/// What is wrong with a scene none of whose surfaces carries a map, and how to mend it.
+pub(crate) const NO_MAP: (&str, &str) = (
+    "no surface can carry a map: all are mirrors, glass, lamps that reflect nothing or without area",
+    "give one a diffuse reflectance, and check the scales",
+);
+
 /// How to, in this kind of file.
 fn add_light(source: &Path) -> &'static str {
     if source.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {

@@ -16,8 +16,7 @@ use crate::quantity::{flux, significant};
 use crate::shown::name;
 use crate::source;
 use finding::Finding;
-use isolux::elements::carries_map;
-use isolux::engine::SolveRequest;
+use isolux::engine::{SolveError, SolveRequest};
 use isolux::scene::{Scene, UpAxis};
 use serde::Serialize;
 use std::path::Path;
@@ -63,13 +62,16 @@ impl Audit {
         let extent = Extent::of(scene);
         let borders = borders::Borders::of(scene);
         let energy = energy::Energy::of(scene);
+        let estimate = Estimate::of(scene, &SolveRequest::default());
         findings.extend(match scene.triangle_count() {
-            0 => without_area(),
+            0 => of_scene(source::NO_AREA),
             _ => {
                 [extent::findings(&extent, source), borders.findings(), energy.findings()].concat()
             }
         });
-        findings.extend(without_map(scene));
+        if matches!(estimate, Err(SolveError::NoReceiver)) && scene.triangle_count() > 0 {
+            findings.extend(of_scene(source::NO_MAP));
+        }
         findings.extend(lamps::findings(scene));
         Self {
             scene: scene.name().to_owned(),
@@ -84,7 +86,7 @@ impl Audit {
             mean_reflectance: energy.mean_reflectance,
             light: light::Light::of(scene),
             open_edges: borders.open,
-            estimate: Estimate::of(scene, &SolveRequest::default()).ok(),
+            estimate: estimate.ok(),
             findings,
         }
     }
@@ -122,18 +124,6 @@ impl Audit {
     }
 }
 
-/// Whether light would come to nothing that carries a map.
-fn without_map(scene: &Scene) -> Option<Finding> {
-    let carries =
-        |triangle: u32| [false, true].iter().any(|&back| carries_map(scene, triangle, back));
-    let count = scene.triangle_count();
-    let what = "none can carry a map: all are mirrors, glass or lamps that reflect nothing";
-    let carries_none = count > 0 && !(0..count).any(carries);
-    carries_none.then(|| Finding::warning("surfaces", what, "give one a diffuse reflectance"))
-}
-
-/// Nothing else can be told of such a scene.
-fn without_area() -> Vec<Finding> {
-    let (what, remedy) = source::NO_AREA;
+fn of_scene((what, remedy): (&str, &str)) -> Vec<Finding> {
     vec![Finding::warning("scene", what, remedy)]
 }

@@ -52,6 +52,7 @@ impl Work<'_, '_> {
             let are_few = |a: &Accuracy| {
                 predict::increments_needed(a, count, target).is_some_and(|needed| needed <= most)
             };
+            // The best that finer elements make of it.
             let without_others = Accuracy { discretization: of_caustics, bias: 0.0, ..a };
             !are_few(&a) && (of_caustics == 0.0 || are_few(&without_others))
         })
