@@ -39,7 +39,7 @@ enum Seen<'a> {
 
 impl<'a> Shape<'a> {
     /// For so many looks at it; `None` where nothing of it is above the horizon.
-    fn new(
+    pub(super) fn new(
         at: &SurfacePoint,
         (emitter, triangles): (&'a Emitter, &'a [[Point; 3]]),
         samples: usize,
@@ -56,8 +56,13 @@ impl<'a> Shape<'a> {
         (whole > 0.0).then_some(Self { at: *at, triangles, seen, whole })
     }
 
+    /// Projected solid angle of what is seen, sr; where it is parted, an estimate.
+    pub(super) const fn whole(&self) -> f64 {
+        self.whole
+    }
+
     /// A place on one of its triangles; `None` where that is not seen.
-    fn place(&self, dice: &mut Dice) -> Option<Place> {
+    pub(super) fn place(&self, dice: &mut Dice) -> Option<Place> {
         let [pick, accept] = dice.pair();
         let (piece, share) = match &self.seen {
             Seen::Pieces(pieces) => (Cow::Borrowed(drawn(pieces, pick * self.whole)?), 1.0),
@@ -158,8 +163,13 @@ impl Lighting<'_> {
         if !lx.is_black() {
             return Measured { lx, variance };
         }
-        let whole_lx = unhidden_lx(source, (emitter, triangles), at, &mut Dice::new(of_looks, 0));
-        let unseen_lx = whole_lx / (samples as f64 * f64::from(REPLICATES));
+        let samples = samples as f64 * f64::from(REPLICATES);
+        let unseen_lx = match self.openings.view(source, at) {
+            Some(view) => source.colour.luminance() * view.unseen(samples),
+            None => {
+                unhidden_lx(source, (emitter, triangles), at, &mut Dice::new(of_looks, 0)) / samples
+            }
+        };
         Measured { lx, variance: unseen_lx * unseen_lx }
     }
 
@@ -180,6 +190,10 @@ impl Lighting<'_> {
     ) -> Rgb {
         if !source.may_be_seen(emitter, at) {
             return Rgb::BLACK;
+        }
+        if let Some(view) = self.openings.view(source, at) {
+            let seen = |direction| self.seen_along(&view, direction);
+            return source.colour * view.steradians(samples, dice, seen);
         }
         let seen = |place: &Place| {
             let index = emitter.indices[place.triangle];

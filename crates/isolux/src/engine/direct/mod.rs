@@ -14,9 +14,11 @@ mod cut;
 mod glance;
 mod kind;
 mod lobe;
+mod lookout;
 mod many;
 mod measured;
 mod mirrors;
+mod openings;
 mod panes;
 mod parted;
 mod patches;
@@ -37,6 +39,7 @@ pub(super) use chains::Chain;
 use isolux_geometry::Direction;
 pub(super) use measured::{Goal, Measured};
 use mirrors::Mirrors;
+use openings::Openings;
 use panes::Panes;
 pub(super) use patches::Patches;
 pub(super) use shadows::Shadows;
@@ -85,6 +88,7 @@ pub(super) struct Lighting<'s> {
     /// The ones that are not in the tree.
     others: Vec<u32>,
     points: usize,
+    openings: Openings,
 }
 
 impl<'s> Lighting<'s> {
@@ -107,7 +111,7 @@ impl<'s> Lighting<'s> {
         let images = Images::of(&tree, chains.len(), |luminaire, chain| {
             image(&sources, &starts, luminaire as usize, &chains[chain]).is_some()
         });
-        Self {
+        let mut lighting = Self {
             scene,
             mirrors,
             sources,
@@ -121,7 +125,10 @@ impl<'s> Lighting<'s> {
             images,
             others,
             points,
-        }
+            openings: Openings::default(),
+        };
+        lighting.openings = lighting.look_out();
+        lighting
     }
 
     /// Number of sources, images included.

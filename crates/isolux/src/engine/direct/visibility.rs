@@ -1,5 +1,6 @@
 //! What of a source's light reaches a receiver: along its chain of mirrors, through thin panes.
 
+use super::openings::View;
 use super::shadows::Shadows;
 use super::source::{self, Arriving, SourceKind, Target};
 use super::{EXACT_SOURCES, Lighting};
@@ -8,7 +9,7 @@ use crate::engine::scatter::pane;
 use crate::engine::surface::SurfacePoint;
 use crate::scene::Body;
 use crate::units::Rgb;
-use isolux_geometry::{Ray, Vector};
+use isolux_geometry::{Direction, Ray, Vector};
 
 /// Thin panes one behind the other that a shadow ray passes.
 const MAX_PANES: usize = 64;
@@ -125,7 +126,40 @@ impl Lighting<'_> {
         target: Target,
         plane: u32,
     ) -> Option<(Rgb, SurfacePoint)> {
-        let mut ray = segment(from, target);
+        let (share, surface) = self.met(from, |from| segment(from, target))?;
+        let is_it = self.mirrors.of(surface.triangle, surface.back) == Some(plane);
+        is_it.then_some((share, surface))
+    }
+
+    /// The first opaque thing in a direction, and what panes before it leave.
+    pub(super) fn first_opaque(
+        &self,
+        from: &SurfacePoint,
+        direction: Direction,
+    ) -> Option<(Rgb, SurfacePoint)> {
+        self.met(from, |from| from.leave(direction))
+    }
+
+    /// What comes of an emitter's light along a direction from a place: through thin panes, unless something else is met first.
+    pub(super) fn seen_along(&self, view: &View<'_>, direction: Direction) -> Rgb {
+        // Without panes nothing more needs to be known of what is met.
+        let met = if self.panes.exist() {
+            let met = self.first_opaque(&view.at, direction);
+            met.map(|(share, surface)| (share, surface.triangle, surface.back))
+        } else {
+            let hit = self.scene.bvh().closest_hit(&view.at.leave(direction));
+            hit.map(|hit| (Rgb::WHITE, hit.triangle, hit.back))
+        };
+        let emits = |&(_, triangle, back): &(Rgb, u32, bool)| view.before.emits(triangle, back);
+        met.filter(emits).map_or(Rgb::BLACK, |(share, ..)| share)
+    }
+
+    fn met(
+        &self,
+        from: &SurfacePoint,
+        onwards: impl Fn(&SurfacePoint) -> Ray,
+    ) -> Option<(Rgb, SurfacePoint)> {
+        let mut ray = onwards(from);
         let mut share = Rgb::WHITE;
         for _ in 0..MAX_PANES {
             let hit = self.scene.bvh().closest_hit(&ray)?;
@@ -133,12 +167,9 @@ impl Lighting<'_> {
             match self.pane_share(&surface, &ray) {
                 Some(passed) => {
                     share = share * passed;
-                    ray = segment(&surface.other_side(), target);
+                    ray = onwards(&surface.other_side());
                 }
-                None => {
-                    let met = self.mirrors.of(surface.triangle, surface.back) == Some(plane);
-                    return met.then_some((share, surface));
-                }
+                None => return Some((share, surface)),
             }
         }
         None
