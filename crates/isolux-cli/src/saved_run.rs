@@ -159,8 +159,8 @@ fn sums(checkpoint: &Checkpoint, name: &str) -> Result<Vec<Sums>, ArrayError> {
     let totals = checkpoint.integers::<i64>(&format!("{name}_totals"))?;
     let squares = checkpoint.integers::<i128>(&format!("{name}_squares"))?;
     let (values, _) = values.as_chunks::<9>();
-    let (totals, _) = totals.as_chunks::<2>();
-    let (squares, _) = squares.as_chunks::<2>();
+    let (totals, _) = totals.as_chunks::<3>();
+    let (squares, _) = squares.as_chunks::<3>();
     let rows = values.iter().zip(totals).zip(squares);
     Ok(rows.map(|((&values, &totals), &squares)| Sums { values, totals, squares }).collect())
 }

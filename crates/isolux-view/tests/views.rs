@@ -22,6 +22,7 @@ fn lux(total: f64) -> Option<Illuminance> {
         indirect_lx: Rgb::BLACK,
         standard_error_lx: 0.0,
         indirect_standard_error_lx: 0.0,
+        common_error_lx: 0.0,
         interpolation_error_lx: 0.0,
         standing: Standing::Open,
         samples: 1,

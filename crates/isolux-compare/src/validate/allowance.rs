@@ -143,6 +143,7 @@ mod tests {
             indirect_lx: Rgb::grey(indirect),
             standard_error_lx: 5.0,
             indirect_standard_error_lx: 5.0,
+            common_error_lx: 0.0,
             interpolation_error_lx: 0.0,
             standing: Standing::Open,
             samples: 100,

@@ -20,6 +20,7 @@ const DIRECT: &str = "direct_lx";
 const CAUSTIC: &str = "caustic_lx";
 const INDIRECT: &str = "indirect_lx";
 const ERRORS: &str = "standard_errors_lx";
+const COMMON: &str = "common_errors_lx";
 const INTERPOLATION: &str = "interpolation_errors_lx";
 
 /// Writes elements and values.
@@ -42,6 +43,8 @@ pub(super) fn write(map: &IlluminationMap, bytes: &mut Bytes, table: &mut Table)
     let errors = |v: &Illuminance| [v.standard_error_lx, v.indirect_standard_error_lx];
     let errors = values.iter().flat_map(|v| v.as_ref().map_or([0.0; 2], errors));
     floats(ERRORS, 2, &errors.collect::<Vec<_>>());
+    let common = values.iter().map(|v| v.map_or(0.0, |v| v.common_error_lx));
+    floats(COMMON, 1, &common.collect::<Vec<_>>());
     let interpolation = values.iter().map(|v| v.map_or(0.0, |v| v.interpolation_error_lx));
     floats(INTERPOLATION, 1, &interpolation.collect::<Vec<_>>());
     let mut integers = |name, columns, values: Vec<u64>| {
@@ -74,6 +77,7 @@ pub(super) fn storable(value: Illuminance) -> Option<Illuminance> {
     finite.then(|| Illuminance {
         standard_error_lx: bounded(value.standard_error_lx),
         indirect_standard_error_lx: bounded(value.indirect_standard_error_lx),
+        common_error_lx: bounded(value.common_error_lx),
         interpolation_error_lx: bounded(value.interpolation_error_lx),
         ..value
     })
@@ -108,15 +112,22 @@ pub(super) fn read_values(
     let errors = arrays.floats(ERRORS, 2)?;
     let (errors, _) = errors.as_chunks::<2>();
     let interpolation = arrays.floats(INTERPOLATION, 1)?;
+    // Maps of earlier versions do not tell it.
+    let common = if arrays.table.contains_key(COMMON) {
+        arrays.floats(COMMON, 1)?
+    } else {
+        vec![0.0; count]
+    };
     let (known, samples) = (arrays.integers(KNOWN, 1)?, arrays.integers(SAMPLES, 1)?);
-    let numbers = [errors.len(), interpolation.len(), known.len(), samples.len()];
+    let numbers = [errors.len(), common.len(), interpolation.len(), known.len(), samples.len()];
     let colours = [direct.len(), caustic.len(), indirect.len()];
-    if numbers != [count; 4] || colours != [count; 3] {
+    if numbers != [count; 5] || colours != [count; 3] {
         let lengths = (colours, numbers);
         let what = format!("hold {lengths:?} values for {count} vertices");
         return Err(Fault::new("extras.isolux.arrays", what));
     }
-    for (name, errors) in [(ERRORS, errors.as_flattened()), (INTERPOLATION, &interpolation)] {
+    let all = [(ERRORS, errors.as_flattened()), (COMMON, &common), (INTERPOLATION, &interpolation)];
+    for (name, errors) in all {
         if errors.iter().any(|e| *e < 0.0) {
             return Err(Fault::new(
                 format!("extras.isolux.arrays.{name}"),
@@ -133,6 +144,7 @@ pub(super) fn read_values(
         indirect_lx: Rgb(indirect[k]),
         standard_error_lx: errors[k][0],
         indirect_standard_error_lx: errors[k][1],
+        common_error_lx: common[k],
         interpolation_error_lx: interpolation[k],
         standing,
         samples: samples[k],

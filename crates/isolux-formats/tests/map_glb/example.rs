@@ -152,6 +152,7 @@ fn value(k: f64) -> Illuminance {
         indirect_lx: Rgb::new(5.0, 6.0, 7.0) * (1.0 + k / 7.0),
         standard_error_lx: 0.3 + 0.01 * k,
         indirect_standard_error_lx: 0.1,
+        common_error_lx: 0.05 * k,
         interpolation_error_lx: 0.2 * k,
         standing: Standing::ALL[k as usize % 3],
         samples: 1 << (k as u32 % 40),

@@ -92,7 +92,9 @@ fn false_declarations_are_refused_with_their_place() {
 #[test]
 fn an_array_that_is_missing_is_named() {
     let (json, rest) = json_and_rest(&WHOLE);
-    for name in json["extras"]["isolux"]["arrays"].as_object().unwrap().keys() {
+    let names = json["extras"]["isolux"]["arrays"].as_object().unwrap().keys();
+    // Maps of earlier versions have no such array.
+    for name in names.filter(|name| *name != "common_errors_lx") {
         let mut json = json.clone();
         json["extras"]["isolux"]["arrays"].as_object_mut().unwrap().remove(name);
         let message = refused(&repack(json, rest));

@@ -26,6 +26,8 @@ pub(super) struct Sample {
     pub(super) caustic: Rgb,
     /// After diffuse reflections.
     pub(super) indirect: Rgb,
+    /// What others read of it, photometric: as far as they have what it errs by in common.
+    pub(super) passed_on: f64,
 }
 
 /// What an increment took, and what it left out.
@@ -43,11 +45,11 @@ pub(super) struct Effort {
 pub struct Sums {
     /// Direct, caustic, indirect; three channels each.
     pub values: [i64; 9],
-    /// Photometric total, and photometric indirect and caustic part: rounded by themselves, so not
+    /// Photometric total, photometric indirect and caustic part, and what others read of it: rounded by themselves, so not
     /// quite what the channels make.
-    pub totals: [i64; 2],
+    pub totals: [i64; 3],
     /// Squares of those.
-    pub squares: [i128; 2],
+    pub squares: [i128; 3],
 }
 
 /// Sums of many receivers over increments.
@@ -66,6 +68,8 @@ pub(super) struct Estimate {
     pub(super) variance: f64,
     /// The same of the indirect part and the caustics.
     pub(super) indirect_variance: f64,
+    /// What of that comes from the surfaces that light comes from, which is common to all that see them.
+    pub(super) common_variance: f64,
 }
 
 impl Estimate {
@@ -100,7 +104,7 @@ impl Accumulator {
             }
             let indirect = (sample.indirect + sample.caustic).luminance();
             let total = indirect + sample.direct.luminance();
-            for (k, value) in [total, indirect].into_iter().enumerate() {
+            for (k, value) in [total, indirect, sample.passed_on].into_iter().enumerate() {
                 let units = fixed(value * scale);
                 sums.totals[k] += units;
                 sums.squares[k] += i128::from(units) * i128::from(units);
@@ -153,7 +157,8 @@ impl Accumulator {
         let n = self.increments as f64;
         let mean =
             |k: usize| Rgb([0, 1, 2].map(|c| values[3 * k + c] as f64 * self.lux_per_unit / n));
-        let mean = Sample { direct: mean(0), caustic: mean(1), indirect: mean(2) };
+        let passed_on = totals[2] as f64 * self.lux_per_unit / n;
+        let mean = Sample { direct: mean(0), caustic: mean(1), indirect: mean(2), passed_on };
         let variance = |k: usize| {
             if self.increments < 2 {
                 return f64::INFINITY;
@@ -166,7 +171,8 @@ impl Accumulator {
             let spread = squares.saturating_sub(total * total).max(0);
             spread as f64 / (n * n * (n - 1.0)) * self.lux_per_unit * self.lux_per_unit
         };
-        Estimate { mean, variance: variance(0), indirect_variance: variance(1) }
+        let [variance, indirect_variance, common_variance] = [0, 1, 2].map(variance);
+        Estimate { mean, variance, indirect_variance, common_variance }
     }
 }
 

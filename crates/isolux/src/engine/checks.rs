@@ -306,6 +306,7 @@ pub(super) fn samples(
         direct,
         caustic: read(caustic, &check.fine),
         indirect: read(indirect, &check.coarse),
+        passed_on: 0.0,
     });
     let difference = |k: usize, of: &[(u32, f64); 3]| {
         let hidden = fresh[k].is_black() && fresh_direct[k].is_black();
@@ -316,6 +317,7 @@ pub(super) fn samples(
             direct: read(direct, &checks[k].fine) - fresh_direct[k],
             caustic: Rgb::BLACK,
             indirect: read(indirect, of) - fresh[k],
+            passed_on: 0.0,
         }
     };
     let differences = checks.iter().enumerate().map(|(k, check)| difference(k, &check.coarse));

@@ -69,6 +69,7 @@ impl<'p, 's> Forward<'p, 's> {
             direct: direct[k],
             caustic: caustic[k],
             indirect: indirect[k],
+            passed_on: 0.0,
         }));
         // What is given up on the way of a caustic is so among these particles, too.
         Effort { rays: rays + of_caustics.effort.rays, given_up_lx: tally.given_up_lx() }

@@ -9,7 +9,8 @@ use super::accuracy::{BELIEVED_INCREMENTS, FEWEST_TO_MISS};
 use super::caustics::{self, Caustics};
 use super::checks::{self, Check, DirectThere};
 use super::deadline::Deadline;
-use super::gather::{Gatherer, Gathering};
+use super::detail::LeafError;
+use super::gather::{DirectAtEnds, Gatherer, Gathering, Operator};
 use super::path::Dice;
 use super::plan::Plan;
 use super::trial::FEWEST_UNJUDGED;
@@ -31,6 +32,10 @@ const LEAST_ABSORBED: f64 = 1e-3;
 /// Increments are made ahead of being asked for as long as they have no more rays together.
 const RAYS_AHEAD: u64 = 1 << 19;
 
+/// Rays of a vertex that tell what readings have in common, and means over the elements about it, one after the other.
+const READERS: u32 = 16;
+const SMOOTHINGS: u32 = 4;
+
 /// One receiver in so many is tried to tell how long an increment takes.
 const TRIED: usize = 64;
 
@@ -42,6 +47,10 @@ pub(super) struct Hybrid<'p, 's> {
     /// Of every place where the mean of an element is measured: as many as vertices have, or there would be more noise there.
     rays_of_means: u32,
     check_rows: Vec<Gatherer>,
+    /// Few rays of every vertex, the same for all increments.
+    reader: Operator,
+    /// Vertices of the elements that indirect light lives on.
+    corners: Vec<[u32; 3]>,
     /// For caustics.
     particles: u32,
     /// Accuracy that the increments are for.
@@ -86,7 +95,22 @@ impl<'p, 's> Hybrid<'p, 's> {
         let check_direct = checks::direct(plan, checks, goal, key.with(0));
         let rays_of_means = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
         let ahead = VecDeque::new();
-        Self { plan, check_direct, rays_of_means, rows, check_rows, particles, goal, key, ahead }
+        let reader = reader(plan, &rows, key.with(u64::MAX));
+        let corners = |error: &LeafError| plan.subdivision.node(error.node).0.vertices;
+        let corners = plan.indirect_errors.iter().map(corners).collect();
+        Self {
+            plan,
+            check_direct,
+            rays_of_means,
+            rows,
+            check_rows,
+            reader,
+            corners,
+            particles,
+            goal,
+            key,
+            ahead,
+        }
     }
 
     /// Variance of direct light as readings evaluate it, lx2, that all increments have in common.
@@ -175,6 +199,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         );
         let gathered = fit(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
+        let passed_on = self.passed_on(&light);
         // As readers gather.
         let gathering = Gathering { regathers: true, ..gathering };
         let fresh = gathering.operator(&self.check_rows, |row| key.with(3).with(row as u64));
@@ -183,8 +208,10 @@ impl<'p, 's> Hybrid<'p, 's> {
         let caustic = plan.prolongate(&caustic);
         let map = [direct.as_slice(), &caustic, &indirect];
         let checks = checks::samples(checks, (&fresh_light, &check_direct), map, None);
-        let vertex =
-            |k: usize| Sample { direct: direct[k], caustic: caustic[k], indirect: indirect[k] };
+        let vertex = |k: usize| {
+            let passed_on = passed_on[k];
+            Sample { direct: direct[k], caustic: caustic[k], indirect: indirect[k], passed_on }
+        };
         let receivers = (0..direct.len()).map(vertex).collect();
         // Rays given up would have seen what others see.
         let unseen_lx = operator.given_up() * plan.reference_lx;
@@ -194,6 +221,43 @@ impl<'p, 's> Hybrid<'p, 's> {
         };
         Some(Increment { receivers, checks, lacking, effort })
     }
+
+    /// What rays that are always the same read at the vertices of the light of an increment: as that differs from increment to
+    /// increment, so does what is read of their mean by any rays, and close by in the same way. What few rays see more of than others
+    /// is taken out by means over the elements about every vertex.
+    fn passed_on(&self, light: &[Rgb]) -> Vec<f64> {
+        let plan = self.plan;
+        let mut passed_on = self.reader.reflected(light);
+        plan.waiting.fill(&mut passed_on);
+        let mut passed_on: Vec<f64> = passed_on.iter().map(|light| light.luminance()).collect();
+        for _ in 0..SMOOTHINGS {
+            let mut sums = vec![(0.0, 0.0); passed_on.len()];
+            for element in &self.corners {
+                let mean = element.iter().map(|&v| passed_on[v as usize]).sum::<f64>() / 3.0;
+                for &vertex in element {
+                    let (sum, count) = &mut sums[vertex as usize];
+                    *sum += mean;
+                    *count += 1.0;
+                }
+            }
+            for (passed_on, (sum, count)) in passed_on.iter_mut().zip(sums) {
+                if count > 0.0 {
+                    *passed_on = sum / count;
+                }
+            }
+        }
+        let passed_on: Vec<Rgb> = passed_on.into_iter().map(Rgb::grey).collect();
+        plan.prolongate(&passed_on).iter().map(|light| light.luminance()).collect()
+    }
+}
+
+/// Rays of vertices that read indirect light alone.
+fn reader(plan: &Plan, rows: &[Gatherer], key: Key) -> Operator {
+    let dark = vec![Rgb::BLACK; plan.elements.vertices().len()];
+    let direct = DirectAtEnds::Read { values: &dark, level: u32::MAX };
+    let gathering = Gathering { direct, ..Gathering::of(plan, &plan.direct) };
+    let few: Vec<Gatherer> = rows.iter().map(|row| row.with_rays(row.rays.min(READERS))).collect();
+    gathering.operator(&few, |row| key.with(row as u64))
 }
 
 /// Direct light of an increment at vertices and check points: the plan's where it is measured once.

@@ -256,6 +256,7 @@ fn sum(parts: &[Part<'_>], row: &[Illuminance], is_independent: bool) -> Illumin
         indirect_lx: rgb(|v| v.indirect_lx),
         standard_error_lx: noise(|v| v.standard_error_lx),
         indirect_standard_error_lx: noise(|v| v.indirect_standard_error_lx),
+        common_error_lx: noise(|v| v.common_error_lx),
         interpolation_error_lx: dimmed().map(|(v, by)| v.interpolation_error_lx * by).sum(),
         // What lies in a gap for the elements of one part is not interpolated into the open.
         standing: row.iter().map(|v| v.standing).min().unwrap_or(Standing::Open),

@@ -2,6 +2,7 @@
 
 mod effort;
 mod parts;
+mod shared_noise;
 mod told;
 mod unlit;
 mod walls;
@@ -24,6 +25,7 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, OF_FEW, TRIAL_RAYS};
 use isolux_geometry::Ray;
+use shared_noise::SharedNoise;
 pub use told::{Allowance, IndirectReading, Told};
 
 /// What emitting surfaces give dim places is known as well as where there is this share of the light that errors are relative to.
@@ -81,6 +83,7 @@ pub struct MapReader<'a> {
     pub(super) backdrop: Option<Backdrop>,
     patches: Patches,
     unseen: Unseen,
+    shared_noise: SharedNoise,
 }
 
 /// What replicates have gathered.
@@ -90,6 +93,8 @@ struct Gathered {
     variance: f64,
     /// The share of a unit of light that was read close by all the same.
     close: f64,
+    /// Standard error of what it has in common with what is gathered nearby, lx.
+    common_lx: f64,
 }
 
 /// Errors of what is read from vertices that replicates do not tell, lx.
@@ -130,6 +135,7 @@ impl<'a> MapReader<'a> {
             backdrop: None,
             patches: Patches::new(),
             unseen: Unseen::of(map),
+            shared_noise: SharedNoise::default(),
         };
         Self { backdrop: reader.walls(), ..reader }
     }
@@ -237,13 +243,17 @@ impl<'a> MapReader<'a> {
         let trial = Gatherer { behind, ..trial };
         // With numbers of its own: who stopped at a small variance would report too small ones.
         let gatherer = trial.with_rays(self.rays_needed((trial, noise), key).rays);
-        let Gathered { lx, variance, close } =
+        let Gathered { lx, variance, close, common_lx } =
             self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
         let samples = u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays);
         let variance = variance.max(least_variance(&stored, samples));
         Illuminance {
             indirect_lx: lx,
-            indirect_standard_error_lx: libm::hypot(OF_FEW * variance.sqrt(), of_caustics(&stored)),
+            indirect_standard_error_lx: libm::hypot(
+                libm::hypot(OF_FEW * variance.sqrt(), of_caustics(&stored)),
+                common_lx,
+            ),
+            common_error_lx: common_lx,
             interpolation_error_lx: close * lookup_lx,
             samples,
             ..stored
@@ -301,7 +311,9 @@ impl<'a> MapReader<'a> {
         let rows = vec![gatherer; replicates as usize];
         let operator = gathering.operator(&rows, |k| key.with(k as u64));
         let (lx, variance) = mean_and_variance(&operator.apply(&self.light));
-        Gathered { lx, variance, close: operator.close().sum::<f64>() / f64::from(replicates) }
+        let close = operator.close().sum::<f64>() / f64::from(replicates);
+        let common_lx = self.shared_noise.lx(self.map, &gatherer.surface, &operator);
+        Gathered { lx, variance, close, common_lx }
     }
 
     /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
@@ -415,7 +427,7 @@ impl<'a> MapReader<'a> {
             .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);
-        let Gathered { lx: indirect_lx, variance, .. } =
+        let Gathered { lx: indirect_lx, variance, common_lx, .. } =
             self.gather(gatherer, DirectAtEnds::Evaluated, (replicates, key));
         // In proportion to what was read, but no less than it is elsewhere: where it is dark, what is bright may be read.
         let looked_up = (self.lookup_error() * indirect_lx.luminance()).max(self.unseen.bias_lx);
@@ -424,7 +436,8 @@ impl<'a> MapReader<'a> {
         let variance = variance.max(stored.map_or(0.0, |stored| least_variance(&stored, samples)));
         let caustic_lx = stored.map_or(Rgb::BLACK, |stored| stored.caustic_lx);
         let of_caustics = stored.map_or(0.0, |stored| of_caustics(&stored));
-        let indirect_variance = variance + looked_up * looked_up + of_caustics * of_caustics;
+        let beside = looked_up * looked_up + of_caustics * of_caustics + common_lx * common_lx;
+        let indirect_variance = variance + beside;
         let about_lx = stored.map_or(0.0, |stored| stored.illuminance_lx());
         let direct = self.direct(&gatherer.surface, about_lx);
         self.told(Illuminance {
@@ -433,6 +446,7 @@ impl<'a> MapReader<'a> {
             indirect_lx,
             standard_error_lx: (indirect_variance + direct.variance).sqrt(),
             indirect_standard_error_lx: indirect_variance.sqrt(),
+            common_error_lx: common_lx,
             interpolation_error_lx: 0.0,
             standing: Standing::Open,
             samples: u64::from(replicates) * u64::from(settings.rays),

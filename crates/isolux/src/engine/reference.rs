@@ -83,6 +83,7 @@ impl<'a> PathTracer<'a> {
             standing: Standing::Open,
             standard_error_lx: (indirect_variance + direct.variance).sqrt(),
             indirect_standard_error_lx: indirect_variance.sqrt(),
+            common_error_lx: 0.0,
             samples: u64::from(replicates) * u64::from(settings.rays),
         }
     }

@@ -460,6 +460,7 @@ impl<'p, 's> Work<'p, 's> {
             indirect_lx: mean.indirect,
             standard_error_lx: (estimate.variance + direct_variance + caustic_variance).sqrt(),
             indirect_standard_error_lx: (estimate.indirect_variance + caustic_variance).sqrt(),
+            common_error_lx: estimate.common_variance.min(estimate.indirect_variance).sqrt(),
             interpolation_error_lx,
             standing,
             samples: self.sums.increments * u64::from(self.samples_of(vertex)),

@@ -111,6 +111,7 @@ mod tests {
             indirect_lx: Rgb::grey(0.25 * lx),
             standard_error_lx: error_lx,
             indirect_standard_error_lx: error_lx,
+            common_error_lx: 0.0,
             interpolation_error_lx: 0.0,
             standing: Standing::Open,
             samples: 1,

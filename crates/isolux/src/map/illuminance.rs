@@ -18,6 +18,9 @@ pub struct Illuminance {
     /// Standard error of the photometric indirect part and the caustics, without the rest of the
     /// direct light, lx.
     pub indirect_standard_error_lx: f64,
+    /// What of that is noise of the surfaces that light comes from, lx: readings nearby have it in common, however many rays they
+    /// take. Zero where it is not known.
+    pub common_error_lx: f64,
     /// In a map: what interpolating the indirect part about a vertex is expected to err by, root mean
     /// square over the worst element at it, lx. In a reading: what this one is expected to err by for
     /// being interpolated, or for what rays gathered afresh have read close by.
@@ -36,6 +39,7 @@ impl Illuminance {
         indirect_lx: Rgb::BLACK,
         standard_error_lx: 0.0,
         indirect_standard_error_lx: 0.0,
+        common_error_lx: 0.0,
         interpolation_error_lx: 0.0,
         standing: Standing::Open,
         samples: 0,
@@ -52,7 +56,7 @@ impl Illuminance {
     }
 
     /// The weighted mean over the known values of the highest standing; `None` where none is known. Standard errors are
-    /// combined as of independent values, which the vertices of an element are; the interpolation error
+    /// combined as of independent values, which the vertices of an element are, but what they have in common is; the interpolation error
     /// of an element is the least of its vertices, which count all elements about them.
     pub fn mix<const N: usize>(parts: [(Option<Self>, f64); N]) -> Option<Self> {
         let standing = Standing::highest(parts.map(|(value, _)| value.map(|v| v.standing)))?;
@@ -80,6 +84,10 @@ impl Illuminance {
             indirect_lx: weighted().map(|(v, w)| v.indirect_lx * w).sum(),
             standard_error_lx: root_sum(&|v| v.standard_error_lx),
             indirect_standard_error_lx: root_sum(&|v| v.indirect_standard_error_lx),
+            common_error_lx: weighted()
+                .filter(|&(_, w)| w != 0.0)
+                .map(|(v, w)| v.common_error_lx * w)
+                .sum(),
             interpolation_error_lx: least,
             standing,
             samples: weighted().map(|(v, _)| v.samples).sum(),

@@ -175,6 +175,7 @@ impl<'p, 's> Cached<'p, 's> {
             direct: direct[k],
             caustic: caustic[k],
             indirect: indirect[k],
+            passed_on: 0.0,
         }));
         Some(Effort {
             rays: far_rays + near_rays + check_rays + particles.rays,

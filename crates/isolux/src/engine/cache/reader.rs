@@ -195,6 +195,7 @@ impl<'s> CacheReader<'s> {
             indirect_lx: indirect,
             standard_error_lx: error_lx,
             indirect_standard_error_lx: error_lx,
+            common_error_lx: 0.0,
             interpolation_error_lx: 0.0,
             standing: Standing::Open,
             samples: ties.len() as u64,

@@ -94,12 +94,15 @@ impl MapReader<'_> {
         let surfaces: Vec<SurfacePoint> = places
             .map(|(triangle, back, [u, v])| SurfacePoint::new(self.scene, triangle, back, u, v))
             .collect();
-        let (mut told, mut trials) = (Vec::new(), Vec::new());
+        let (mut told, mut trials, mut shared_lx) = (Vec::new(), Vec::new(), 0.0);
         for surface in &surfaces {
             let Some(stored) = self.stored_at(surface) else { continue };
             match self.trial(&stored, &self.places.pulled_in(*surface), Allowance::ANY) {
                 None => told.push(self.with_interpolation_error(stored)),
-                Some(trial) => trials.push((*surface, trial)),
+                Some(trial) => {
+                    shared_lx += stored.common_error_lx;
+                    trials.push((*surface, trial));
+                }
             }
         }
         if let ([], [(surface, _)]) = (&told[..], &trials[..]) {
@@ -122,7 +125,7 @@ impl MapReader<'_> {
             all => mean_and_variance(all),
         };
         let of_map = Illuminance {
-            indirect_standard_error_lx: common(|t| t.indirect_standard_error_lx),
+            indirect_standard_error_lx: common(|t| t.indirect_standard_error_lx) + shared_lx / n,
             interpolation_error_lx: common(|t| t.interpolation_error_lx) + close_lx,
             ..Illuminance::NOTHING
         };

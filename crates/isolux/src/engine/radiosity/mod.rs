@@ -434,9 +434,11 @@ impl<'p, 's> Radiosity<'p, 's> {
                 direct: self.direct[vertex],
                 caustic: self.caustic[vertex],
                 indirect: sums.part(vertex, RECEIVED),
+                passed_on: 0.0,
             },
             variance: indirect_variance + self.direct_variance[vertex],
             indirect_variance,
+            common_variance: 0.0,
         }
     }
 

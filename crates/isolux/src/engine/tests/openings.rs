@@ -1,8 +1,10 @@
 //! Light that comes in through openings.
 
 use super::*;
+use crate::engine::deadline::Deadline;
 use crate::engine::direct::{Goal, Lighting};
-use crate::engine::gather::Gatherer;
+use crate::engine::gather::{Gatherer, Gathering};
+use crate::engine::hybrid::Hybrid;
 use crate::engine::neighbours::{LEAST, lend_noise};
 use crate::engine::pilot::pilot;
 use crate::engine::place::ProbePoint;
@@ -185,4 +187,43 @@ fn errors_count_for_the_dim_room_that_sees_them() {
     // has less than a tenth of the light. The yard is seen by what is as bright.
     let [yard, slats] = [0, 2].map(|material| most_on(material, 0.6));
     assert!(slats > 0.7 / 3.0 * 10.0 && yard < 1.0, "{slats} on slats, {yard} in the yard");
+}
+
+#[test]
+fn noise_that_readings_have_in_common_is_told_at_vertices() {
+    const INCREMENTS: u64 = 48;
+    let scene = room_behind_slats(0.6);
+    let lighting = Lighting::new(&scene);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let mut hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1);
+    // Floor, a side and the back of the room, by so many rays that theirs is no noise beside that of what they read.
+    let places = [[1.9, 2.1, 0.0], [4.0, 1.7, 1.3], [1.1, 4.0, 1.6]];
+    let places = places.map(|at| front_at(&scene, Point::from(at)));
+    let gathering = Gathering::of(&plan, &plan.direct);
+    let rows = places.map(|at| Gatherer::on_surface(at, 1 << 13));
+    let operator = gathering.operator(&rows, |row| Key::new(77).with(row as u64));
+    let (mut read, mut told) = (vec![Vec::new(); 3], vec![Vec::new(); 3]);
+    for index in 0..INCREMENTS {
+        let increment = hybrid.increment(index, &[], [Deadline::NEVER; 2]).unwrap();
+        let light: Vec<Rgb> =
+            increment.receivers[..plan.indirect_vertices].iter().map(|s| s.indirect).collect();
+        for (k, lx) in operator.reflected(&light).into_iter().enumerate() {
+            read[k].push(lx.luminance());
+            let SurfacePoint { triangle, back, u, v, .. } = places[k];
+            let corners = plan.elements.locate(triangle, back, u, v).unwrap();
+            let of = |&(vertex, weight): &(u32, f64)| {
+                weight * increment.receivers[vertex as usize].passed_on
+            };
+            told[k].push(corners.iter().map(of).sum::<f64>());
+        }
+    }
+    for (read, told) in read.into_iter().zip(told) {
+        let [mean, read, told] = {
+            let [(mean, read), (_, told)] = [read, told].map(|of| mean_and_error(of.into_iter()));
+            [mean, read, told]
+        };
+        // By 48 increments either is known to a tenth; what own rays leave may be as much again as half of it.
+        assert!(read > 1e-3 * mean, "there is noise to be told: {read} of {mean}");
+        assert!(told > 0.7 * read && told < 2.0 * read, "{told} told, {read} of {mean}");
+    }
 }

@@ -13,7 +13,7 @@ fn rgb(key: Key, scale: f64) -> Rgb {
 
 fn sample(key: Key, scale: f64) -> Sample {
     let [direct, caustic, indirect] = [0, 1, 2].map(|k| rgb(key.with(10 + k), scale));
-    Sample { direct, caustic, indirect }
+    Sample { direct, caustic, indirect, passed_on: 0.5 * scale * key.with(13).uniform() }
 }
 
 fn total_lx(sample: &Sample) -> f64 {
@@ -130,14 +130,15 @@ fn as_many_increments_as_promised_do_not_overflow() {
             direct: brightest,
             caustic: brightest,
             indirect: brightest,
+            passed_on: f64::MAX,
         }));
     }
     let Sums { values, totals, squares } = sums.sums[0];
     assert_eq!(values, [1 << (47 + 15); 9]);
-    assert_eq!(totals, [1 << (47 + 15); 2]);
-    assert_eq!(squares, [1 << (94 + 15); 2]);
-    let Estimate { variance, indirect_variance, .. } = sums.estimate(0);
-    assert_eq!([variance, indirect_variance], [0.0; 2]);
+    assert_eq!(totals, [1 << (47 + 15); 3]);
+    assert_eq!(squares, [1 << (94 + 15); 3]);
+    let Estimate { variance, indirect_variance, common_variance, .. } = sums.estimate(0);
+    assert_eq!([variance, indirect_variance, common_variance], [0.0; 3]);
 }
 
 #[test]
