@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Places that look, and how often each, until enough is seen.
-const ROUNDS: [(usize, usize); 4] = [(64, 8), (512, 8), (4096, 8), (4096, 64)];
+const ROUNDS: [(usize, usize); 4] = [(64, 8), (512, 8), (4096, 8), (4096, 24)];
 
 /// Of more triangles than this, every so many tell where places are.
 const TRIANGLES: u32 = 1 << 20;
@@ -122,6 +122,12 @@ impl Finder<'_> {
         if surface.sides.is_empty() {
             return None;
         }
+        // Of small ones, as most are, no more needs to be known.
+        let places = self.looked_from(surface, (ROUNDS[0].0, 0), self.key);
+        let whole: f64 = places.iter().map(|looked| looked.whole).sum();
+        if whole <= LEAST_DARK * LEAST_SR * places.len() as f64 {
+            return None;
+        }
         let first = self.looks(surface, 0, left)?;
         let surrounds =
             first.len() == ROUNDS[0].0 && first.iter().all(|l| l.whole >= SURROUNDED * PI);
@@ -134,24 +140,28 @@ impl Finder<'_> {
         (surrounds || before.zones.are_some()).then_some(before)
     }
 
+    /// Those of a round; none after the last, and where all emitters together have taken too many.
     fn looks(&self, surface: &Surface, round: usize, left: &mut usize) -> Option<Vec<Looked>> {
-        let (places, looks) = ROUNDS[round];
-        if places * looks > *left {
-            return None;
-        }
+        let &(places, looks) =
+            ROUNDS.get(round).filter(|(places, looks)| places * looks <= *left)?;
         *left -= places * looks;
-        let key = self.key.with(round as u64);
+        Some(self.looked_from(surface, (places, looks), self.key.with(round as u64)))
+    }
+
+    fn looked_from(
+        &self,
+        surface: &Surface,
+        (places, looks): (usize, usize),
+        key: Key,
+    ) -> Vec<Looked> {
         let one = |k: usize| self.looked(surface, (k, looks), key);
-        Some((0..places).into_par_iter().filter_map(one).collect())
+        (0..places).into_par_iter().filter_map(one).collect()
     }
 
     /// Looks at the emitter from places all over the scene, after some first ones; `None` where that is not worth while.
     fn ways(&self, first: Vec<Looked>, surface: &Surface, left: &mut usize) -> Option<Vec<Looked>> {
         let mut looked = first;
-        for round in 0..ROUNDS.len() {
-            if round > 0 {
-                looked = self.looks(surface, round, left)?;
-            }
+        for round in 1.. {
             let dark = || looked.iter().filter(|looked| looked.is_dark());
             let (count, whole) = (dark().count(), dark().map(|looked| looked.whole).sum::<f64>());
             let is_dark = count > 0 && count as f64 >= LEAST_DARK * looked.len() as f64;
@@ -159,18 +169,22 @@ impl Finder<'_> {
                 return None;
             }
             let ways: usize = dark().map(|looked| looked.free.len()).sum();
-            let is_last = round + 1 == ROUNDS.len();
-            if ways >= ENOUGH || is_last && ways >= FEWEST {
-                return Some(looked);
+            if ways >= ENOUGH {
+                break;
+            }
+            match self.looks(surface, round, left) {
+                Some(more) => looked = more,
+                None if ways >= FEWEST => break,
+                None => return None,
             }
         }
-        None
+        Some(looked)
     }
 
     fn looked(&self, surface: &Surface, (k, looks): (usize, usize), key: Key) -> Option<Looked> {
         let mut dice = Dice::new(Sequence::new(key), k as u32);
         let at = surface.place(self.lighting, k, &mut dice);
-        let shape = Shape::new(&at, (self.emitter, self.triangles), looks)?;
+        let shape = Shape::new(&at, (self.emitter, self.triangles), looks.max(1))?;
         let sequence = dice.fork();
         let mut found =
             Looked { at, whole: shape.whole(), looks, free: Vec::new(), stopped: Vec::new() };
