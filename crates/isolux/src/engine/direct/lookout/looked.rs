@@ -16,6 +16,9 @@ const DARK: f64 = 0.25;
 const LOOKS: usize = 4;
 const PRIOR: f64 = 1.0;
 
+/// Openings that less than a hundredth of the looks of a part gets through are not for it.
+const LEAST_WEIGHT: f64 = 0.1;
+
 /// Rays go to openings where this leaves at most so much of the variance.
 const GAIN: f64 = 0.5;
 
@@ -74,18 +77,25 @@ impl<'a> ThroughOpenings<'a> {
             everywhere[opening as usize] = weight * weight;
         }
         let told = all.par_iter().map(|&k| {
-            let own = self.through(&[k], |opening| PRIOR * everywhere[opening]);
+            let own = self.through(&[k], |opening| everywhere[opening]);
             Told::new(&self.looked[k as usize].at, self.variances(k as usize, &own))
         });
         let told: Vec<Told> = told.collect();
-        Zones::of(&told, &|of| self.best(of))
+        Zones::of(&told, &|of| self.best(of, &everywhere))
     }
 
-    /// The openings that some places see the emitter through; `prior` of every look more.
+    /// Whether a place sees anything of the emitter: in the dark inside of a wall nothing is known, and it does not matter.
+    fn sees_any(&self, place: usize) -> bool {
+        let through = self.seen[place].iter().flatten().any(|seen| seen.looks > 0);
+        through || !self.looked[place].free.is_empty()
+    }
+
+    /// The openings that some places see the emitter through; `prior` is the share of one look more that does.
     fn through(&self, of: &[u32], prior: impl Fn(usize) -> f64) -> Vec<Through> {
         let one = |opening: usize| {
-            let all = of.iter().filter_map(|&k| self.seen[k as usize][opening]);
-            let (mut count, mut came) = (PRIOR, prior(opening));
+            let telling = of.iter().filter(|&&k| self.sees_any(k as usize));
+            let all = telling.filter_map(|&k| self.seen[k as usize][opening]);
+            let (mut count, mut came) = (PRIOR, PRIOR * prior(opening));
             for seen in all {
                 count += LOOKS as f64;
                 came += f64::from(seen.looks);
@@ -97,8 +107,9 @@ impl<'a> ThroughOpenings<'a> {
     }
 
     /// The same, if rays had better go there.
-    fn best(&self, of: &[u32]) -> Vec<Through> {
-        let through = self.through(of, |_| 0.0);
+    fn best(&self, of: &[u32], everywhere: &[f64]) -> Vec<Through> {
+        let mut through = self.through(of, |opening| everywhere[opening]);
+        through.retain(|through| through.weight >= LEAST_WEIGHT);
         let [mut to_all, mut to_openings] = [0.0; 2];
         for &k in of {
             let [all, openings] = self.variances(k as usize, &through);

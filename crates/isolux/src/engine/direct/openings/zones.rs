@@ -4,7 +4,7 @@ use crate::engine::surface::SurfacePoint;
 
 /// Places of a part at most, and at least on either side of a border that separates what rays had better do.
 const PLACES: usize = 64;
-const FEWEST: usize = 8;
+const FEWEST: usize = 2;
 
 /// Borders tried along every coordinate, and the share of the variance that is saved by one.
 const BORDERS: usize = 32;
