@@ -32,8 +32,10 @@ const LEAST_ABSORBED: f64 = 1e-3;
 /// Increments are made ahead of being asked for as long as they have no more rays together.
 const RAYS_AHEAD: u64 = 1 << 19;
 
-/// Rays of a vertex that tell what readings have in common, and means over the elements about it, one after the other.
+/// Rays of a vertex that tell what readings have in common, one of so many that memory is there for at most; and means over the
+/// elements about it, one after the other.
 const READERS: u32 = 16;
+const OF_READERS: u32 = 4;
 const SMOOTHINGS: u32 = 4;
 
 /// One receiver in so many is tried to tell how long an increment takes.
@@ -73,11 +75,12 @@ pub(super) struct Increment {
 
 impl<'p, 's> Hybrid<'p, 's> {
     /// With so many gathering rays in every increment for each vertex that is not hidden, or others that serve as well, and so
-    /// many particles; for an accuracy, and with the rays halved so many times.
+    /// many particles; for an accuracy, and with the rays halved so many times. Memory is there for `most` rays of a vertex.
     pub(super) fn new(
         plan: &'p Plan<'s>,
         checks: &[Check],
         (rays, particles, goal, halvings): (f64, u32, f64, u32),
+        most: u32,
         seed: u64,
     ) -> Self {
         let key = Key::new(seed).with(1);
@@ -95,7 +98,8 @@ impl<'p, 's> Hybrid<'p, 's> {
         let check_direct = checks::direct(plan, checks, goal, key.with(0));
         let rays_of_means = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
         let ahead = VecDeque::new();
-        let reader = reader(plan, &rows, key.with(u64::MAX));
+        let readers = READERS.min((most / OF_READERS).max(1));
+        let reader = reader(plan, &rows, (readers, key.with(u64::MAX)));
         let corners = |error: &LeafError| plan.subdivision.node(error.node).0.vertices;
         let corners = plan.indirect_errors.iter().map(corners).collect();
         Self {
@@ -252,11 +256,11 @@ impl<'p, 's> Hybrid<'p, 's> {
 }
 
 /// Rays of vertices that read indirect light alone.
-fn reader(plan: &Plan, rows: &[Gatherer], key: Key) -> Operator {
+fn reader(plan: &Plan, rows: &[Gatherer], (rays, key): (u32, Key)) -> Operator {
     let dark = vec![Rgb::BLACK; plan.elements.vertices().len()];
     let direct = DirectAtEnds::Read { values: &dark, level: u32::MAX };
     let gathering = Gathering { direct, ..Gathering::of(plan, &plan.direct) };
-    let few: Vec<Gatherer> = rows.iter().map(|row| row.with_rays(row.rays.min(READERS))).collect();
+    let few: Vec<Gatherer> = rows.iter().map(|row| row.with_rays(row.rays.min(rays))).collect();
     gathering.operator(&few, |row| key.with(row as u64))
 }
 

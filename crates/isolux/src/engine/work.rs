@@ -101,7 +101,7 @@ impl<'p, 's> Work<'p, 's> {
             Method::Hybrid => {
                 let (mean, particles) = rays_and_particles(plan, noise, goal, most);
                 let of = (mean, particles, goal, halvings);
-                Engine::Hybrid(Hybrid::new(plan, &points, of, request.seed))
+                Engine::Hybrid(Hybrid::new(plan, &points, of, most, request.seed))
             }
             Method::Cache => {
                 let wanted = (&request.cache, target);

@@ -56,8 +56,8 @@ impl Illuminance {
     }
 
     /// The weighted mean over the known values of the highest standing; `None` where none is known. Standard errors are
-    /// combined as of independent values, which the vertices of an element are, but what they have in common is; the interpolation error
-    /// of an element is the least of its vertices, which count all elements about them.
+    /// combined as of independent values, which the vertices of an element are, and what readings have in common as of one; the
+    /// interpolation error of an element is the least of its vertices, which count all elements about them.
     pub fn mix<const N: usize>(parts: [(Option<Self>, f64); N]) -> Option<Self> {
         let standing = Standing::highest(parts.map(|(value, _)| value.map(|v| v.standing)))?;
         let known = || {

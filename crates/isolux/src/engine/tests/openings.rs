@@ -195,7 +195,7 @@ fn noise_that_readings_have_in_common_is_told_at_vertices() {
     let scene = room_behind_slats(0.6);
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
-    let mut hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1);
+    let mut hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1 << 10, 1);
     // Floor, a side and the back of the room, by so many rays that theirs is no noise beside that of what they read.
     let places = [[1.9, 2.1, 0.0], [4.0, 1.7, 1.3], [1.1, 4.0, 1.6]];
     let places = places.map(|at| front_at(&scene, Point::from(at)));
