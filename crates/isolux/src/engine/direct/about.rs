@@ -66,8 +66,9 @@ impl Lighting<'_> {
                     waiting.extend([second, number + 1]);
                 } else {
                     for lamp in node.first..node.first + node.count {
-                        let Lamp { position: centre, peak_cd, .. } = self.tree.lamps[lamp as usize];
-                        let extent = Extent { centre, radius_m: 0.0, peak_cd };
+                        let of = &self.tree.lamps[lamp as usize];
+                        let &Lamp { position: centre, peak_cd, .. } = of;
+                        let extent = Extent { centre, radius_m: self.tree.radius_m(of), peak_cd };
                         about.push(chain, Part::Lamp(lamp), weight(extent));
                     }
                 }
@@ -119,7 +120,7 @@ impl Lighting<'_> {
             let (chain, lamp, chance) = candidates[k];
             let view = self.view(chain, at, 0.0)?;
             let share = CANDIDATES as f64 * chance * ratios[k] / total;
-            Some(self.lit_by_lamp(&view, lamp, at) / share)
+            Some(self.lit_by_lamp(&view, lamp, at, dice) / share)
         });
         lit.unwrap_or(Rgb::BLACK) + self.estimate_of_others(at, dice)
     }

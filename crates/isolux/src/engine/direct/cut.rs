@@ -1,10 +1,13 @@
 //! Clusters of luminaires as seen from a receiver, straight or in mirrors.
 
 use super::Lighting;
+use super::faces::Face;
 use super::lobe::turned;
 use super::mirrors::Plane;
+use super::pieces::steradians_from;
 use super::tree::{Lamp, Node, Tree};
 use crate::engine::surface::SurfacePoint;
+use crate::scene::Scene;
 use isolux_geometry::{Direction, Point, Vector};
 use std::sync::Arc;
 
@@ -28,8 +31,12 @@ impl Tightness {
 /// expected to give no less than this share of what its table says.
 const UNEVEN: f64 = 0.25;
 
+/// Faces that reach no further than this share of their distance are expected to give what they would by their middle.
+const FAR: f64 = 0.3;
+
 /// A receiver as reflected by a chain of mirrors, back to where the luminaires are.
 pub(super) struct View<'a> {
+    scene: &'a Scene,
     tree: &'a Tree,
     /// Which chain.
     pub(super) chain: usize,
@@ -126,8 +133,8 @@ impl Lighting<'_> {
             Window { plane, depth_m: (-plane.height(point)).max(0.0), tolerance_m }
         });
         let [shading, geometric] = normals;
-        let tree = &self.tree;
-        Some(View { tree, chain, point, shading, geometric, reflectance, window, reach_m })
+        let (scene, tree) = (self.scene, &self.tree);
+        Some(View { scene, tree, chain, point, shading, geometric, reflectance, window, reach_m })
     }
 }
 
@@ -225,6 +232,9 @@ impl View<'_> {
 
     /// What a lamp is expected to give.
     pub(super) fn lamp_weight(&self, lamp: &Lamp) -> f64 {
+        if let Some(face) = self.tree.face(lamp) {
+            return self.reflectance * self.face_weight(lamp, face);
+        }
         let to = lamp.position - self.point;
         let (height, reach_m) = (self.shading.dot(to), self.reach_m);
         if height + reach_m <= 0.0
@@ -243,6 +253,31 @@ impl View<'_> {
         };
         let height = height_above(height, reach_m);
         self.reflectance * lamp.peak_cd * shape * height / (distance2 * distance2.sqrt())
+    }
+
+    /// What a face is expected to give where mirrors take nothing off.
+    fn face_weight(&self, lamp: &Lamp, face: &Face) -> f64 {
+        let to = lamp.position - self.point;
+        let radius_m = face.radius_m + self.reach_m;
+        let height_m = self.shading.dot(to);
+        // Frames shine along -z.
+        let depth_m = self.tree.kinds[lamp.kind as usize].frame[2].dot(to);
+        if depth_m + self.reach_m <= 0.0
+            || height_m + radius_m <= 0.0
+            || self.geometric.dot(to) + radius_m <= 0.0
+            || self.window.as_ref().is_some_and(|w| !w.shows(self, lamp.position, face.radius_m))
+        {
+            return 0.0;
+        }
+        let distance2 = to.length_squared();
+        let is_near = radius_m * radius_m > FAR * FAR * distance2;
+        if is_near && self.reach_m == 0.0 {
+            let corners = face.corners(self.scene);
+            return lamp.colour.luminance() * steradians_from((self.point, self.shading), corners);
+        }
+        let distance2 = distance2.max(radius_m * radius_m);
+        let depth_m = height_above(depth_m, self.reach_m);
+        lamp.peak_cd * depth_m * height_above(height_m, radius_m) / (distance2 * distance2)
     }
 }
 

@@ -120,7 +120,8 @@ impl Lighting<'_> {
         let others = self.replicates(&cut, at, more, sequence.fork(REPLICATES, 0));
         // What they err by, in the square, falls as the weights rise; by all of the luminaires it is nothing.
         let weight = libm::pow(over, 2.0);
-        let of_first = if self.asks_all(&cut, more) { 0.0 } else { 1.0 / (1.0 + weight) };
+        let is_exact = self.asks_all(&cut, more) && !self.has_faces();
+        let of_first = if is_exact { 0.0 } else { 1.0 / (1.0 + weight) };
         let of_others = 1.0 - of_first;
         let mut both = values;
         both.iter_mut().zip(others).for_each(|(v, other)| *v = *v * of_first + other * of_others);
@@ -161,9 +162,11 @@ impl Lighting<'_> {
         Measured { lx: self.lit_by_points(at) + surfaces.lx, ..surfaces }
     }
 
-    /// Whether so many teeth of every replicate are enough to ask all luminaires instead.
+    /// Whether so many teeth of every replicate are enough to ask all luminaires instead: once, or where there are faces, which no
+    /// look tells all of, in every replicate.
     fn asks_all(&self, cut: &Cut, teeth: usize) -> bool {
-        REPLICATES as usize * teeth >= self.count(cut)
+        let looks = if self.has_faces() { 1 } else { REPLICATES as usize };
+        looks * teeth >= self.count(cut)
     }
 
     /// Replicates by combs of so many teeth.
@@ -174,14 +177,21 @@ impl Lighting<'_> {
         teeth: usize,
         sequence: Sequence,
     ) -> [Rgb; REPLICATES as usize] {
-        let of_each = self.asks_all(cut, teeth).then(|| self.lit_by_each(cut, at));
+        let asks_all = self.asks_all(cut, teeth);
+        let asks_once = asks_all && !self.has_faces();
+        let each = |dice: &mut Dice| self.lit_by_each(cut, at, teeth, dice);
+        let of_each = asks_once.then(|| each(&mut Dice::new(sequence, 0)));
         let samples = self.area_samples();
         let values = [const { Rgb::BLACK }; REPLICATES as usize];
         let mut replicate = 0;
         values.map(|_| {
             let mut dice = Dice::new(sequence, replicate);
             replicate += 1;
-            let points = of_each.unwrap_or_else(|| self.lit_by_many(cut, at, teeth, &mut dice));
+            let points = match of_each {
+                Some(of_each) => of_each,
+                None if asks_all => each(&mut dice),
+                None => self.lit_by_many(cut, at, teeth, &mut dice),
+            };
             self.others().fold(points, |sum, s| sum + self.lit_by(s, at, samples, &mut dice))
         })
     }

@@ -11,6 +11,7 @@ mod area;
 mod chains;
 mod clusters;
 mod cut;
+mod faces;
 mod glance;
 mod kind;
 mod lobe;
@@ -36,6 +37,7 @@ use crate::units::Rgb;
 pub(super) use about::About;
 pub(super) use area::Shape;
 pub(super) use chains::Chain;
+use faces::faces;
 use isolux_geometry::Direction;
 pub(super) use measured::{Goal, Measured};
 use mirrors::Mirrors;
@@ -45,7 +47,7 @@ pub(super) use patches::Patches;
 pub(super) use shadows::Shadows;
 pub(super) use source::LuminaireId;
 use source::{Source, SourceKind, Sources, Target};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use tree::{Images, Tree};
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
@@ -79,9 +81,10 @@ pub(super) struct Lighting<'s> {
     starts: Vec<usize>,
     leaves_chains: bool,
     left_out: f64,
+    /// Emitting surfaces that are not in the tree, and their images.
     area_sources: usize,
     panes: Panes,
-    /// The sources that are points, where they are many, by luminaire and chain.
+    /// The sources that are points and the faces of emitting surfaces, where they are many, by luminaire and chain.
     tree: Tree,
     chains: Vec<Vec<u32>>,
     images: Images,
@@ -98,19 +101,8 @@ impl<'s> Lighting<'s> {
         let Sources { all: sources, starts, leaves_chains, left_out } =
             Sources::of(scene, &mirrors);
         let panes = Panes::find(scene);
-        let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
-        let area_sources = sources.iter().filter(is_area).count();
-        let is_point = |s: &Source| matches!(s.kind, SourceKind::Point { .. });
-        let points = sources.iter().filter(|s| is_point(s)).count();
-        let tree = if points > DRAWN_AT_ENDS { Tree::of(scene) } else { Tree::default() };
-        let is_other = |&k: &u32| tree.lamps.is_empty() || !is_point(&sources[k as usize]);
-        let others = (0..sources.len() as u32).filter(is_other).collect();
-        let of_points = sources.iter().filter(|s| is_point(s)).map(|s| &s.chain);
-        let chains: BTreeSet<&Vec<u32>> = of_points.collect();
-        let chains: Vec<Vec<u32>> = chains.into_iter().cloned().collect();
-        let images = Images::of(&tree, chains.len(), |luminaire, chain| {
-            image(&sources, &starts, luminaire as usize, &chains[chain]).is_some()
-        });
+        let is_point = |s: &&Source| matches!(s.kind, SourceKind::Point { .. });
+        let points = sources.iter().filter(is_point).count();
         let mut lighting = Self {
             scene,
             mirrors,
@@ -118,17 +110,47 @@ impl<'s> Lighting<'s> {
             starts,
             leaves_chains,
             left_out,
-            area_sources,
+            area_sources: 0,
             panes,
-            tree,
-            chains,
-            images,
-            others,
+            tree: Tree::default(),
+            chains: Vec::new(),
+            images: Images::default(),
+            others: Vec::new(),
             points,
             openings: Openings::default(),
         };
         lighting.openings = lighting.look_out();
+        lighting.plant();
         lighting
+    }
+
+    /// Makes the tree of what is many.
+    fn plant(&mut self) {
+        let has_points = self.points > DRAWN_AT_ENDS;
+        let tree = Tree::of(self.scene, has_points, faces(self.scene, &self.openings));
+        let (sources, starts) = (&self.sources, &self.starts);
+        let surfaces: HashSet<u32> = tree.faces.iter().map(|face| face.surface).collect();
+        let is_in_tree = |source: &Source| match (&source.kind, source.luminaire) {
+            (SourceKind::Point { .. }, _) => has_points,
+            (SourceKind::Area { .. }, LuminaireId::Area(number)) => surfaces.contains(&number),
+            _ => false,
+        };
+        let of_tree = sources.iter().filter(|s| is_in_tree(s)).map(|s| &s.chain);
+        let chains: BTreeSet<&Vec<u32>> = of_tree.collect();
+        self.chains = chains.into_iter().cloned().collect();
+        self.images = Images::of(&tree, self.chains.len(), |lamp, chain| {
+            let before = self.scene.luminaires().len();
+            let number = match tree.face(lamp) {
+                Some(face) => before + face.surface as usize,
+                None => lamp.luminaire as usize,
+            };
+            image(sources, starts, number, &self.chains[chain]).is_some()
+        });
+        let is_other = |&k: &u32| !is_in_tree(&sources[k as usize]);
+        self.others = (0..sources.len() as u32).filter(is_other).collect();
+        let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
+        self.area_sources = self.others().filter(is_area).count();
+        self.tree = tree;
     }
 
     /// Number of sources, images included.
@@ -141,14 +163,20 @@ impl<'s> Lighting<'s> {
         self.source_count() > MOST_EVALUATED_AT_ENDS
     }
 
-    /// Whether direct light is measured once for all, exactly or with a known error: no emitting surface.
+    /// Whether direct light is measured once for all, exactly or with a known error: no emitting surface, or they are so many that
+    /// they are chosen among.
     pub(super) fn is_measured_once(&self) -> bool {
         self.area_sources == 0
     }
 
     /// Whether some luminaires are chosen to be looked at, among many.
     pub(super) fn has_many(&self) -> bool {
-        self.points > DRAWN_AT_RECEIVERS
+        self.points > DRAWN_AT_RECEIVERS || self.has_faces()
+    }
+
+    /// Whether emitting surfaces are among what is chosen from.
+    fn has_faces(&self) -> bool {
+        !self.tree.faces.is_empty()
     }
 
     /// Whether there is specular transport that the sources do not cover.
@@ -270,8 +298,8 @@ impl<'s> Lighting<'s> {
 
     /// Whether there are luminaires without surface, and so few, images counted, that glossy surfaces show them.
     pub(super) fn shows_points(&self) -> bool {
-        let count = self.sources.len() - self.area_sources;
-        count > 0 && self.points <= MOST_SHOWN
+        let is_area = |s: &Source| matches!(s.kind, SourceKind::Area { .. });
+        !self.sources.iter().all(is_area) && self.points <= MOST_SHOWN
     }
 
     /// What comes to a place from luminaires without surface and their images: where from, and the illuminance of what faces them.

@@ -121,7 +121,7 @@ pub(super) fn pieces(
 ) -> Vec<Piece> {
     let mut pieces = Vec::with_capacity(triangles.size_hint().0 + 1);
     for (triangle, corners) in triangles {
-        visit(at, corners, |corners, steradians| {
+        visit((at.point, at.shading.to_vector()), corners, |corners, steradians| {
             let directions = OnceCell::new();
             pieces.push(Piece { corners, triangle, steradians, directions });
         });
@@ -131,18 +131,26 @@ pub(super) fn pieces(
 
 /// The projected solid angle of what a receiver sees of one of them.
 pub(super) fn steradians(at: &SurfacePoint, triangle: [Point; 3]) -> f64 {
+    steradians_from((at.point, at.shading.to_vector()), triangle)
+}
+
+/// The same of a place that faces a way.
+pub(super) fn steradians_from(from: (Point, Vector), triangle: [Point; 3]) -> f64 {
     let mut whole = 0.0;
-    visit(at, triangle, |_, steradians| whole += steradians);
+    visit(from, triangle, |_, steradians| whole += steradians);
     whole
 }
 
 /// The parts of a triangle above the horizon, from the receiver, and the projected solid angle of each.
-fn visit(at: &SurfacePoint, [a, b, c]: [Point; 3], mut part: impl FnMut([Vector; 3], f64)) {
-    if (b - a).cross(c - a).dot(at.point - a) <= 0.0 {
+fn visit(
+    (point, normal): (Point, Vector),
+    [a, b, c]: [Point; 3],
+    mut part: impl FnMut([Vector; 3], f64),
+) {
+    if (b - a).cross(c - a).dot(point - a) <= 0.0 {
         return;
     }
-    let normal = at.shading.to_vector();
-    let (polygon, count) = above_horizon([a, b, c].map(|p| p - at.point), normal);
+    let (polygon, count) = above_horizon([a, b, c].map(|p| p - point), normal);
     for k in 2..count {
         let corners = [polygon[0], polygon[k - 1], polygon[k]];
         let steradians = projected_solid_angle(&corners, normal);

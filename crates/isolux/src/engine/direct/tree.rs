@@ -1,11 +1,13 @@
-//! Luminaires without surface as a tree of clusters, each with a sphere around it and a table of
-//! where its light goes.
+//! Luminaires without surface, and triangles of emitting surfaces where these are many, as a tree of clusters, each with a
+//! sphere around it and a table of where its light goes.
 
+use super::faces::{Face, middle_and_twice_m2};
 use super::kind::{Kind, Kinds};
 use super::lobe::{Lobe, Lobes};
+use crate::photometry::IntensityDistribution;
 use crate::scene::{LuminaireKind, Scene};
 use crate::units::Rgb;
-use isolux_geometry::Point;
+use isolux_geometry::{Direction, Normal, Point, Vector};
 
 /// Luminaires of a leaf at most.
 const GROUP: usize = 16;
@@ -18,12 +20,12 @@ const MEMBERS: usize = 4;
 const SMALL: usize = 128;
 const FEW: usize = 8;
 
-/// A luminaire, in a line of the cache.
+/// A luminaire or a face, in a line of the cache.
 #[derive(Clone, Debug)]
 pub(super) struct Lamp {
     pub(super) position: Point,
     pub(super) colour: Rgb,
-    /// Its number in the scene.
+    /// Its number in the scene; those of faces follow those of luminaires.
     pub(super) luminaire: u32,
     pub(super) kind: u32,
     /// Highest intensity times the luminance of its colour, cd.
@@ -57,13 +59,30 @@ pub(super) struct Tree {
     pub(super) peak_sums_cd: Vec<f64>,
     pub(super) nodes: Vec<Node>,
     pub(super) lobes: Lobes,
+    /// Faces among them, by number less that of the first.
+    pub(super) faces: Vec<Face>,
+    first_face: u32,
 }
 
 impl Tree {
-    /// The tree of a scene's luminaires; those without light are left out.
-    pub(super) fn of(scene: &Scene) -> Self {
-        let mut tree = Self::default();
+    /// The tree of a scene's luminaires, if they are wanted, and of some faces; those without light are left out.
+    pub(super) fn of(scene: &Scene, has_points: bool, faces: Vec<Face>) -> Self {
+        let first_face = scene.luminaires().len() as u32;
+        let mut tree = Self { faces, first_face, ..Self::default() };
         let mut kinds = Kinds::default();
+        if has_points {
+            tree.add_points(scene, &mut kinds);
+        }
+        tree.add_faces(scene, &mut kinds);
+        tree.kinds = kinds.all;
+        if !tree.lamps.is_empty() {
+            tree.build(0, tree.lamps.len());
+        }
+        tree.sum_up();
+        tree
+    }
+
+    fn add_points(&mut self, scene: &Scene, kinds: &mut Kinds) {
         for (index, luminaire) in scene.luminaires().iter().enumerate() {
             let LuminaireKind::Point { position, world_from_luminaire, intensity } =
                 &luminaire.kind
@@ -74,9 +93,9 @@ impl Tree {
             if peak_cd > 0.0 {
                 let luminaire_index = index as u32;
                 let frame = world_from_luminaire.columns;
-                let lobe = kinds.lobe(intensity, &mut tree.lobes);
+                let lobe = kinds.lobe(intensity, &mut self.lobes);
                 let kind = kinds.kind(intensity, Kind { frame, lobe, luminaire: luminaire_index });
-                tree.lamps.push(Lamp {
+                self.lamps.push(Lamp {
                     position: *position,
                     colour: luminaire.colour,
                     luminaire: luminaire_index,
@@ -85,12 +104,32 @@ impl Tree {
                 });
             }
         }
-        tree.kinds = kinds.all;
-        if !tree.lamps.is_empty() {
-            tree.build(0, tree.lamps.len());
+    }
+
+    /// They shine like the cosine of the angle to their normal.
+    fn add_faces(&mut self, scene: &Scene, kinds: &mut Kinds) {
+        let cosine = IntensityDistribution::CosinePower { peak_cd: 1.0, exponent: 1.0 };
+        for (index, face) in self.faces.iter().enumerate() {
+            let colour = scene.area_luminaires()[face.surface as usize].luminance_cd_m2;
+            let (position, twice_m2) = middle_and_twice_m2(face.corners(scene));
+            let peak_cd = 0.5 * twice_m2.length() * colour.luminance();
+            let Some(normal) = twice_m2.normal().filter(|_| peak_cd > 0.0) else { continue };
+            let lobe = kinds.lobe(&cosine, &mut self.lobes);
+            let luminaire = self.first_face + index as u32;
+            let kind = kinds.kind(&cosine, Kind { frame: shining_along(normal), lobe, luminaire });
+            self.lamps.push(Lamp { position, colour, luminaire, kind, peak_cd });
         }
-        tree.sum_up();
-        tree
+    }
+
+    /// The face that a lamp is, if it is none of the luminaires without surface.
+    pub(super) fn face(&self, lamp: &Lamp) -> Option<&Face> {
+        let index = lamp.luminaire.checked_sub(self.first_face)?;
+        Some(&self.faces[index as usize])
+    }
+
+    /// All of a lamp is as near to its position, m.
+    pub(super) fn radius_m(&self, lamp: &Lamp) -> f64 {
+        self.face(lamp).map_or(0.0, |face| face.radius_m)
     }
 
     /// Running sums, and the members that they tell.
@@ -119,7 +158,7 @@ impl Tree {
     /// Appends the cluster of a range of lamps and its parts.
     fn build(&mut self, first: usize, end: usize) -> u32 {
         let index = self.nodes.len();
-        let (centre, radius_m, widest) = sphere(&self.lamps[first..end]);
+        let (centre, radius_m, widest) = self.sphere(&self.lamps[first..end]);
         self.nodes.push(Node {
             centre,
             radius_m,
@@ -142,6 +181,27 @@ impl Tree {
         }
         self.find_lobe(index);
         index as u32
+    }
+
+    /// A sphere around lamps, and the axis along which they spread most.
+    fn sphere(&self, lamps: &[Lamp]) -> (Point, f64, usize) {
+        let first = lamps[0].position;
+        let (low, high) = lamps.iter().fold((first, first), |(low, high), l| {
+            (low.lesser(l.position), high.greater(l.position))
+        });
+        let centre = low.lerp(high, 0.5);
+        let reach_m = |l: &Lamp| (l.position - centre).length() + self.radius_m(l);
+        let radius_m = lamps.iter().map(reach_m).fold(0.0, f64::max);
+        let size = high - low;
+        let widest = if size.x >= size.y && size.x >= size.z {
+            0
+        } else if size.y >= size.z {
+            1
+        } else {
+            2
+        };
+        // The roundings of a length and of those that follow.
+        (centre, radius_m * (1.0 + 1e-12), widest)
     }
 
     /// The table of a cluster whose parts have theirs: one for all, if all are alike, or a mixture.
@@ -211,24 +271,11 @@ fn divide_by_kind(lamps: &mut [Lamp]) -> Option<usize> {
     Some(alike)
 }
 
-/// A sphere around lamps, and the axis along which they spread most.
-fn sphere(lamps: &[Lamp]) -> (Point, f64, usize) {
-    let first = lamps[0].position;
-    let (low, high) = lamps
-        .iter()
-        .fold((first, first), |(low, high), l| (low.lesser(l.position), high.greater(l.position)));
-    let centre = low.lerp(high, 0.5);
-    let radius_m = lamps.iter().map(|l| (l.position - centre).length()).fold(0.0, f64::max);
-    let size = high - low;
-    let widest = if size.x >= size.y && size.x >= size.z {
-        0
-    } else if size.y >= size.z {
-        1
-    } else {
-        2
-    };
-    // The roundings of a length and of those that follow.
-    (centre, radius_m * (1.0 + 1e-12), widest)
+/// The axes of a luminaire's frame, which shines along its -z, that shines along a normal.
+fn shining_along(normal: Normal) -> [Vector; 3] {
+    let back = -normal.to_direction();
+    let (x, y) = back.frame();
+    [x, y, back].map(Direction::to_vector)
 }
 
 /// Which lamps have an image by which chain of mirrors.
@@ -239,9 +286,9 @@ pub(super) struct Images {
 }
 
 impl Images {
-    /// Of all lamps of a tree, where `exists` knows it of a luminaire and chain.
-    pub(super) fn of(tree: &Tree, chains: usize, exists: impl Fn(u32, usize) -> bool) -> Self {
-        let all = tree.lamps.iter().flat_map(|l| (0..chains).map(move |c| (l.luminaire, c)));
+    /// Of all lamps of a tree, where `exists` knows it of a lamp and chain.
+    pub(super) fn of(tree: &Tree, chains: usize, exists: impl Fn(&Lamp, usize) -> bool) -> Self {
+        let all = tree.lamps.iter().flat_map(|l| (0..chains).map(move |c| (l, c)));
         Self { chains, exist: all.map(|(l, c)| exists(l, c)).collect() }
     }
 

@@ -1,6 +1,6 @@
 //! Direct light, and elements for it.
 
-use super::{MAX_ROUNDS, Pilot};
+use super::{MAX_ROUNDS, MOST_STALLS, Pilot};
 use crate::elements::Elements;
 use crate::engine::carriers::Carriers;
 use crate::engine::detail::{Details, LeafError, Refinement, refine_worst};
@@ -126,13 +126,13 @@ impl Pilot<'_> {
             least_edge_m: self.least_edge_m,
             max_vertices: self.most_for_direct_light(request),
         };
-        let mut before = f64::INFINITY;
+        let (mut before, mut stalls) = (f64::INFINITY, 0);
         for _ in 0..MAX_ROUNDS {
             let (errors, excess) = self.direct_excess(&look.elements, request, look.reference_lx);
             self.direct_excess = Some((self.subdivision.vertex_count(), excess));
             // What errs most may lie in elements that are as small as they may be.
-            let is_vain = excess > STALLED * before;
-            if excess <= 1.0 || is_vain || !self.has_time(look, request, FINE, go_on) {
+            stalls = if excess > STALLED * before { stalls + 1 } else { 0 };
+            if excess <= 1.0 || stalls > MOST_STALLS || !self.has_time(look, request, FINE, go_on) {
                 break;
             }
             before = excess;

@@ -57,6 +57,59 @@ fn lamps(count: u64) -> Vec<Luminaire> {
 
 /// A floor with screens that hide a good part of the luminaires, and two mirrors that see each other.
 pub(in crate::engine) fn hall(count: u64) -> Scene {
+    hall_of(Vec::new(), Vec::new(), lamps(count))
+}
+
+/// The same with emitting surfaces in place of some luminaires: coloured triangles turned any way, panels that see themselves in a mirror, and
+/// globes of eight triangles.
+pub(in crate::engine) fn hall_of_panels(count: u64, points: u64) -> Scene {
+    let finish =
+        |r: f64| Finish { luminance_cd_m2: Rgb::new(r, 0.7, 0.4) * 900.0, ..Finish::BLACK };
+    let glow = [0.2, 0.6, 1.0].map(|r| Material::one_sided("glow", finish(r)));
+    let shape = |k: u64| {
+        let corner = [8.0 * number(k, 0), 8.0 * number(k, 1), 2.5 + 0.2 * number(k, 2)];
+        let (u, v) = ([0.0, 0.6 + 0.5 * number(k, 3), 0.0], [0.5, 0.0, 0.0]);
+        let material = 2 + (k % 3) as u32;
+        match k % 4 {
+            0 => octahedron(corner, 0.2, material),
+            1 => rectangle(corner, u, v, material),
+            2 => rectangle(
+                [8.8, 6.0 * number(k, 0), 1.0 + number(k, 2)],
+                [0.0, 0.2, 0.0],
+                v,
+                material,
+            ),
+            _ => {
+                let any = |n: u64| [n, n + 1, n + 2].map(|n| 0.6 * number(k, n));
+                rectangle(corner, any(10), any(13), material)
+            }
+        }
+    };
+    hall_of((0..count).map(shape).collect(), glow.to_vec(), lamps(points))
+}
+
+/// A globe of eight triangles that face out.
+fn octahedron(centre: [f64; 3], radius_m: f64, material: u32) -> Shape {
+    let tip = |axis: usize, sign: f64| {
+        let mut tip = centre;
+        tip[axis] += sign * radius_m;
+        tip
+    };
+    let positions = (0..6).map(|k| tip(k / 2, if k % 2 == 0 { 1.0 } else { -1.0 })).collect();
+    let triangles = vec![
+        [0, 2, 4],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 0, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [0, 3, 5],
+    ];
+    Shape { name: "globe".into(), positions, triangles, material, ..Shape::default() }
+}
+
+fn hall_of(emitters: Vec<Shape>, glow: Vec<Material>, lamps: Vec<Luminaire>) -> Scene {
     let mirror = Material::one_sided("mirror", Finish::mirror(Rgb::new(0.8, 0.7, 0.6)));
     let mut shapes = vec![
         rectangle([-9.0, -9.0, 0.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0),
@@ -69,11 +122,12 @@ pub(in crate::engine) fn hall(count: u64) -> Scene {
         shapes.push(rectangle(corner, u, v, 0));
         shapes.push(rectangle(corner, v, u, 0));
     }
-    scene(shapes, vec![painted(Rgb::grey(0.5)), mirror], lamps(count))
+    shapes.extend(emitters);
+    scene(shapes, [vec![painted(Rgb::grey(0.5)), mirror], glow].concat(), lamps)
 }
 
 /// Receivers on the floor, on the ceiling's height looking down or aside, and tilted.
-fn receivers(count: u64) -> impl Iterator<Item = SurfacePoint> {
+pub(in crate::engine) fn receivers(count: u64) -> impl Iterator<Item = SurfacePoint> {
     (0..count).map(|k| {
         let height = if k % 3 == 0 { 1e-3 } else { 1.2 + 1.1 * number(k, 30) };
         let place = Point::new(8.5 * number(k, 31), 8.5 * number(k, 32), height);

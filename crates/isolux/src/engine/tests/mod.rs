@@ -13,6 +13,7 @@ mod direct_light;
 mod emission;
 mod errors;
 mod estimates;
+mod faces;
 mod fit;
 mod fixed_point;
 mod foreseeing;

@@ -65,6 +65,11 @@ impl Openings {
         Self(of_emitters)
     }
 
+    /// Whether there are some before an emitting surface.
+    pub(super) fn are_before(&self, number: usize) -> bool {
+        self.0.get(number).is_some_and(Option::is_some)
+    }
+
     /// Of an emitting surface, itself and no image of it; `None` where rays had better go to all of it.
     pub(super) fn view(&self, source: &Source, at: &SurfacePoint) -> Option<View<'_>> {
         let LuminaireId::Area(number) = source.luminaire else { return None };
