@@ -1,4 +1,4 @@
-//! Luminous rectangle, disc and polygon over black receivers.
+//! Luminous rectangle, disc and polygon over black receivers, and a rectangle of many tiles that shine each for itself.
 //!
 //! Nothing reflects, so the answer is the luminance times the projected solid angle: Lambert's
 //! formula for polygons, and the factors of Siegel and Howell where they are known
@@ -22,45 +22,50 @@ const LUMINANCE_CD_M2: f64 = 3000.0;
 const HEIGHT_M: f64 = 2.0;
 /// Edges of the rectangle, from the origin along x and y, m.
 const EDGES_M: [f64; 2] = [1.2, 0.6];
+const TILES: [u32; 2] = [12, 6];
 const RADIUS_M: f64 = 0.5;
 const DISC_CORNERS: u32 = 256;
 /// Where the wall is that faces +x; luminous surfaces begin beyond it.
 const WALL_X_M: f64 = -1.0;
 
-pub(super) fn cases() -> [Case; 3] {
+pub(super) fn cases() -> [Case; 4] {
     [
         Case {
             name: "emitter_rectangle",
             notes: "a luminous rectangle over a black floor and before a black wall",
-            parts: || parts("emitter_rectangle", &rectangle_corners()),
+            parts: || parts("emitter_rectangle", &[rectangle_corners()]),
+            expectations: rectangle_expectations,
+        },
+        Case {
+            name: "emitter_tiles",
+            notes: "the same rectangle, of 72 luminous tiles",
+            parts: || parts("emitter_tiles", &tiles()),
             expectations: rectangle_expectations,
         },
         Case {
             name: "emitter_disc",
             notes: "a luminous disc over a black floor and before a black wall",
-            parts: || parts("emitter_disc", &disc_corners()),
+            parts: || parts("emitter_disc", &[disc_corners()]),
             expectations: disc_expectations,
         },
         Case {
             name: "emitter_polygon",
             notes: "a luminous pentagon over a black floor and before a black wall",
-            parts: || parts("emitter_polygon", &pentagon_corners()),
+            parts: || parts("emitter_polygon", &[pentagon_corners()]),
             expectations: pentagon_expectations,
         },
     ]
 }
 
-fn parts(name: &str, luminous: &[Point]) -> SceneParts {
+fn parts(name: &str, luminous: &[Vec<Point>]) -> SceneParts {
     let floor = Rectangle::new([WALL_X_M, -3.0, 0.0], [6.0, 0.0, 0.0], [0.0, 6.0, 0.0]);
     let wall = Rectangle::new([WALL_X_M, -3.0, 0.0], [0.0, 6.0, 0.0], [0.0, 0.0, 1.9]);
     let light = Finish { luminance_cd_m2: Rgb::grey(LUMINANCE_CD_M2), ..Finish::BLACK };
+    let mut shapes = vec![floor.shape("floor", 0), wall.shape("wall", 0)];
+    shapes.extend(luminous.iter().map(|corners| polygon("luminous", corners, 1)));
     SceneParts {
         name: name.into(),
-        shapes: vec![
-            floor.shape("floor", 0),
-            wall.shape("wall", 0),
-            polygon("luminous", luminous, 1),
-        ],
+        shapes,
         materials: vec![
             Material::one_sided("black", Finish::BLACK),
             Material::one_sided("luminous", light),
@@ -71,8 +76,20 @@ fn parts(name: &str, luminous: &[Point]) -> SceneParts {
 
 /// Seen counter-clockwise from below, as every luminous surface here.
 fn rectangle_corners() -> Vec<Point> {
-    let [a, b] = EDGES_M;
-    [(0.0, 0.0), (0.0, b), (a, b), (a, 0.0)].map(|(x, y)| Point::new(x, y, HEIGHT_M)).to_vec()
+    tile([0.0; 2], EDGES_M)
+}
+
+fn tile([x, y]: [f64; 2], [a, b]: [f64; 2]) -> Vec<Point> {
+    [(0.0, 0.0), (0.0, b), (a, b), (a, 0.0)]
+        .map(|(u, v)| Point::new(x + u, y + v, HEIGHT_M))
+        .to_vec()
+}
+
+/// The rectangle in [`TILES`] along its edges.
+fn tiles() -> Vec<Vec<Point>> {
+    let edges_m = [0, 1].map(|k| EDGES_M[k] / f64::from(TILES[k]));
+    let at = |i: u32, j: u32| tile([f64::from(i) * edges_m[0], f64::from(j) * edges_m[1]], edges_m);
+    (0..TILES[0]).flat_map(|i| (0..TILES[1]).map(move |j| at(i, j))).collect()
 }
 
 fn disc_corners() -> Vec<Point> {

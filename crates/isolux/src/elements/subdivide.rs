@@ -296,9 +296,18 @@ impl Subdivision {
         border
     }
 
-    /// Edges with one element only, in any order.
+    /// Edges with elements on one side only, in any order. (Where solids touch, elements of both may lie upon each other.)
     pub(crate) fn border_edges(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
-        self.edges.iter().filter(|(_, elements)| elements.len() == 1).map(|(&ends, _)| ends)
+        let is_border = |(ends, elements): &(&[u32; 2], &Few)| {
+            let is_left = |&node: &u32| {
+                let (Node { vertices, .. }, Origin { back, .. }) = self.node(node);
+                let runs_along = (0..3).any(|k| [vertices[k], vertices[(k + 1) % 3]] == **ends);
+                runs_along != back
+            };
+            let left = elements.iter().filter(|node| is_left(node)).count();
+            !elements.is_empty() && (left == 0 || left == elements.len())
+        };
+        self.edges.iter().filter(is_border).map(|(&ends, _)| ends)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::elements::Vertex;
+use crate::scene::Body;
 use isolux_geometry::{Point, Triangle};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -165,5 +166,34 @@ fn new_vertices_are_the_middles_of_their_edges() {
             let [a, b]: [Point; 2] = [a, b].map(|v| vertices[v as usize].position);
             assert_eq!(vertex.position, a.lerp(b, 0.5), "{name}");
         }
+    }
+}
+
+/// A wall on a slab, whose lower side, seen from inside of the wall, lies upon the slab.
+#[test]
+fn where_solids_touch_borders_stay_borders() {
+    let strip = [[0.0, 0.0, 0.0], [0.2, 0.0, 0.0], [0.2, 1.0, 0.0], [0.0, 1.0, 0.0]];
+    // Its front faces down.
+    let below = mesh(&strip, &[[0, 2, 1], [0, 3, 2]]);
+    let finish = Finish::diffuse(Rgb::grey(0.5));
+    let body = Body::Opaque { front: finish.clone(), back: finish };
+    let two_sided = Material { name: "wall".into(), body };
+    let scene = scene(vec![square(), below], vec![two_sided]);
+    let mut subdivision = Subdivision::new(&scene);
+    subdivision.bisect_to(0.1, 10_000);
+    let (vertices, border) = (subdivision.vertices(), subdivision.border_vertices());
+    let is_rim = |p: Point| [p.x, p.y].iter().any(|&c| c == 0.0 || c == 1.0);
+    let of_slab = |k: usize| vertices[k].normal.to_vector().z > 0.0 && vertices[k].position.x < 0.2;
+    let some: Vec<usize> = (0..vertices.len()).filter(|&k| of_slab(k)).collect();
+    assert!(some.len() > 40, "{}", some.len());
+    for k in some {
+        let at = vertices[k].position;
+        assert!(border[k] || !is_rim(at), "{at:?}");
+    }
+    // In the middle of the slab elements are all around.
+    let inside = (0..vertices.len()).filter(|&k| vertices[k].position.x > 0.3);
+    for k in inside {
+        let at = vertices[k].position;
+        assert_eq!(border[k], is_rim(at), "{at:?}");
     }
 }

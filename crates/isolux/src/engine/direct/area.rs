@@ -1,7 +1,7 @@
 //! Light from emitting surfaces.
 
 use super::Lighting;
-use super::measured::{Measured, REPLICATES};
+use super::measured::{Measured, OF_FEW, REPLICATES};
 use super::parted::Parted;
 use super::pieces::{Piece, Place, drawn, pieces, target};
 use super::source::{Emitter, Source, SourceKind, TRIANGLES_A_SAMPLE, Target, facing_cos};
@@ -15,10 +15,6 @@ use std::borrow::Cow;
 
 /// So many times the shadow rays where those before tell too little.
 const MORE: usize = 4;
-
-/// The standard error by the spread of eight replicates, so that 1.96 of it hold the truth in 95 % of cases (quantiles of Student's
-/// distribution with seven degrees of freedom and of the normal one).
-const OF_FEW: f64 = 2.365 / 1.96;
 
 /// Places of a large emitter that tell roughly what it gives.
 const LOOKED_AT: usize = 16;
@@ -102,23 +98,26 @@ impl Lighting<'_> {
         }
     }
 
-    /// Illuminance from emitting surfaces with the variance of its mean. A first look at all of them tells which error may be left, lx;
+    /// Illuminance from those of some sources that are emitting surfaces, with the variance of its mean. A first look at all of them tells which error may be left, lx;
     /// where that is less than there is, those that err by more than their part of it have more shadow rays.
-    pub(in crate::engine) fn of_surfaces(
+    pub(super) fn of_surfaces(
         &self,
+        which: impl Iterator<Item = u32>,
         at: &SurfacePoint,
         goal_lx: impl Fn(Rgb) -> f64,
         [fewest, most]: [usize; 2],
         sequence: Sequence,
     ) -> Measured {
-        let surfaces =
-            self.sources.iter().enumerate().filter_map(|(k, source)| match &source.kind {
+        let surface = |k: u32| {
+            let source = &self.sources[k as usize];
+            match &source.kind {
                 SourceKind::Area { emitter, triangles } => {
-                    Some((k as u32, (source, emitter, triangles.as_slice())))
+                    Some((k, (source, emitter, triangles.as_slice())))
                 }
                 _ => None,
-            });
-        let surfaces: Vec<_> = surfaces.collect();
+            }
+        };
+        let surfaces: Vec<_> = which.filter_map(surface).collect();
         let measured = |&(k, surface): &(u32, _), samples: usize| {
             let numbers = [sequence.fork(k, samples as u32), sequence];
             self.of_surface(surface, at, samples, numbers)

@@ -14,7 +14,7 @@ const FEW: usize = 3;
 const LARGE: f64 = 0.25;
 
 /// Triangles that are drawn at most.
-const MOST: usize = 1 << 17;
+const MOST: usize = 1 << 18;
 
 /// A triangle that emits.
 #[derive(Clone, Copy, Debug)]

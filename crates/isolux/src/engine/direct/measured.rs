@@ -11,6 +11,10 @@ use crate::units::Rgb;
 /// Independent combs, whose spread tells the error of their mean.
 pub(super) const REPLICATES: u32 = 8;
 
+/// The standard error by the spread of eight replicates, so that 1.96 of it hold the truth in 95 % of cases (quantiles of Student's
+/// distribution with seven degrees of freedom and of the normal one).
+pub(super) const OF_FEW: f64 = 2.365 / 1.96;
+
 /// Teeth of one of them.
 const FEWEST_TEETH: f64 = 4.0;
 const MOST_TEETH: f64 = 512.0;
@@ -105,14 +109,31 @@ impl Lighting<'_> {
             let lx = self.illuminance(at, &mut Dice::new(sequence, 0));
             return Measured { lx, variance: 0.0 };
         }
+        let others = self.of_others(at, sequence.fork(REPLICATES, 1));
+        let (tree, _) = self.of_tree(at, (goal, others.lx), sequence);
+        Measured { lx: tree.lx + others.lx, variance: tree.variance + others.variance }
+    }
+
+    /// What comes from the lamps of the tree, where there is so much light of others, and what the next ray may bring where none has
+    /// seen anything, lx.
+    fn of_tree(
+        &self,
+        at: &SurfacePoint,
+        (goal, beside): (Goal, Rgb),
+        sequence: Sequence,
+    ) -> (Measured, f64) {
+        let goal_lx = |lx: f64| goal.of(lx + beside.luminance());
         let cut = if goal.is_rough { self.rough_cut(at) } else { self.fine_cut(at) };
-        let teeth = self.teeth(&cut, at, goal, &mut Dice::new(sequence, REPLICATES));
+        let look = &mut Dice::new(sequence, REPLICATES);
+        let teeth = self.teeth(&cut, at, (goal.first_look, goal_lx), look);
         let values = self.replicates(&cut, at, teeth, sequence);
+        let is_exact = |teeth: usize| self.asks_all(&cut, teeth) && !self.has_faces();
+        let rays = teeth as f64 * f64::from(REPLICATES);
+        let unseen_lx = if is_exact(teeth) { 0.0 } else { cut.parts.total / rays };
         let (lx, variance) = mean_and_variance(&values);
-        let goal_lx = goal.of(lx.luminance());
-        let over = variance.sqrt() / goal_lx;
+        let over = variance.sqrt() / goal_lx(lx.luminance());
         if !goal.insists || variance == 0.0 || over <= MISSED {
-            return Measured { lx, variance };
+            return (Measured { lx, variance }, unseen_lx);
         }
         // The first look saw less than there is, and these tell more.
         let wanted = teeth as f64 * libm::pow(over, 1.0 / COMB_ORDER);
@@ -120,33 +141,67 @@ impl Lighting<'_> {
         let others = self.replicates(&cut, at, more, sequence.fork(REPLICATES, 0));
         // What they err by, in the square, falls as the weights rise; by all of the luminaires it is nothing.
         let weight = libm::pow(over, 2.0);
-        let is_exact = self.asks_all(&cut, more) && !self.has_faces();
-        let of_first = if is_exact { 0.0 } else { 1.0 / (1.0 + weight) };
+        let of_first = if is_exact(more) { 0.0 } else { 1.0 / (1.0 + weight) };
         let of_others = 1.0 - of_first;
         let mut both = values;
         both.iter_mut().zip(others).for_each(|(v, other)| *v = *v * of_first + other * of_others);
         let (lx, variance) = mean_and_variance(&both);
+        (Measured { lx, variance }, unseen_lx)
+    }
+
+    /// What comes from all that is not in the tree, by the usual shadow rays in each replicate where surfaces are among it.
+    fn of_others(&self, at: &SurfacePoint, sequence: Sequence) -> Measured {
+        let samples = self.area_samples();
+        let all = |mut dice: Dice| -> Rgb {
+            self.others().map(|s| self.lit_by(s, at, samples, &mut dice)).sum()
+        };
+        if self.area_sources == 0 {
+            return Measured { lx: all(Dice::new(sequence, 0)), variance: 0.0 };
+        }
+        let of_each: [Rgb; REPLICATES as usize] =
+            std::array::from_fn(|replicate| all(Dice::new(sequence, replicate as u32)));
+        let (lx, variance) = mean_and_variance(&of_each);
         Measured { lx, variance }
     }
 
-    /// The same where emitting surfaces have as many shadow rays as it takes, too: where light comes in through a small opening few of
-    /// them see anything.
+    /// The same for one who relies on it: where it is told by few replicates, as errors of readings are ([`OF_FEW`]), what none of many
+    /// rays has seen counts as if the next one did, and emitting surfaces have as many of them as it takes: where light comes in through
+    /// a small opening few see anything.
     pub(in crate::engine) fn read(
         &self,
         at: &SurfacePoint,
         goal: Goal,
         sequence: Sequence,
     ) -> Measured {
-        if self.has_many() || self.is_measured_once() {
-            return self.measured(at, goal, sequence);
-        }
-        let points = self.lit_by_points(at);
+        let (points, tree) = if self.has_many() {
+            let points = self.lit_by_points(self.others(), at);
+            (points, self.read_tree(at, (goal, points), sequence))
+        } else {
+            (
+                self.lit_by_points(self.sources.iter(), at),
+                Measured { lx: Rgb::BLACK, variance: 0.0 },
+            )
+        };
+        let known = points + tree.lx;
         let usual = self.area_samples();
         let finer = (Goal::reading(f64::INFINITY).share / goal.share).clamp(1.0, MOST_FINER);
         let most = (MOST_TO_SURFACES * finer) as usize * usual;
-        let goal_lx = |of_surfaces: Rgb| goal.of((points + of_surfaces).luminance());
-        let surfaces = self.of_surfaces(at, goal_lx, [usual, most], sequence);
-        Measured { lx: points + surfaces.lx, ..surfaces }
+        let goal_lx = |of_surfaces: Rgb| goal.of((known + of_surfaces).luminance());
+        let which = self.others.iter().copied();
+        let surfaces = self.of_surfaces(which, at, goal_lx, [usual, most], sequence);
+        Measured { lx: known + surfaces.lx, variance: tree.variance + surfaces.variance }
+    }
+
+    fn read_tree(
+        &self,
+        at: &SurfacePoint,
+        (goal, beside): (Goal, Rgb),
+        sequence: Sequence,
+    ) -> Measured {
+        let (Measured { lx, variance }, unseen_lx) = self.of_tree(at, (goal, beside), sequence);
+        let variance =
+            if lx.is_black() { unseen_lx * unseen_lx } else { OF_FEW * OF_FEW * variance };
+        Measured { lx, variance }
     }
 
     /// The same by so many shadow rays to every emitting surface in all, and a look at all other luminaires.
@@ -158,8 +213,9 @@ impl Lighting<'_> {
     ) -> Measured {
         let each = (shadow_rays / u64::from(REPLICATES)) as usize;
         let samples = each.max(self.area_samples());
-        let surfaces = self.of_surfaces(at, |_| f64::INFINITY, [samples; 2], sequence);
-        Measured { lx: self.lit_by_points(at) + surfaces.lx, ..surfaces }
+        let which = 0..self.sources.len() as u32;
+        let surfaces = self.of_surfaces(which, at, |_| f64::INFINITY, [samples; 2], sequence);
+        Measured { lx: self.lit_by_points(self.sources.iter(), at) + surfaces.lx, ..surfaces }
     }
 
     /// Whether so many teeth of every replicate are enough to ask all luminaires instead: once, or where there are faces, which no
@@ -181,39 +237,42 @@ impl Lighting<'_> {
         let asks_once = asks_all && !self.has_faces();
         let each = |dice: &mut Dice| self.lit_by_each(cut, at, teeth, dice);
         let of_each = asks_once.then(|| each(&mut Dice::new(sequence, 0)));
-        let samples = self.area_samples();
         let values = [const { Rgb::BLACK }; REPLICATES as usize];
         let mut replicate = 0;
         values.map(|_| {
             let mut dice = Dice::new(sequence, replicate);
             replicate += 1;
-            let points = match of_each {
+            match of_each {
                 Some(of_each) => of_each,
                 None if asks_all => each(&mut dice),
                 None => self.lit_by_many(cut, at, teeth, &mut dice),
-            };
-            self.others().fold(points, |sum, s| sum + self.lit_by(s, at, samples, &mut dice))
+            }
         })
     }
 
     /// Teeth of a replicate: as many as it takes by the spread of what a first look finds.
-    fn teeth(&self, cut: &Cut, at: &SurfacePoint, goal: Goal, dice: &mut Dice) -> usize {
-        if goal.first_look == 0 || cut.parts.total <= 0.0 {
+    fn teeth(
+        &self,
+        cut: &Cut,
+        at: &SurfacePoint,
+        (first_look, goal_lx): (usize, impl Fn(f64) -> f64),
+        dice: &mut Dice,
+    ) -> usize {
+        if first_look == 0 || cut.parts.total <= 0.0 {
             return FEWEST_TEETH as usize;
         }
         let total = cut.parts.total;
         // Half of the doubt is dark, half as lit as it can be.
         let (mut sum, mut squares) = (0.5 * DOUBT * total, 0.5 * DOUBT * total * total);
-        self.look(cut, at, goal.first_look, dice, |found| {
+        self.look(cut, at, first_look, dice, |found| {
             let lx = found.luminance();
             sum += lx;
             squares += lx * lx;
         });
-        let looks = goal.first_look as f64 + DOUBT;
+        let looks = first_look as f64 + DOUBT;
         let (lx, square) = (sum / looks, squares / looks);
         let spread_lx = (square - lx * lx).max(0.0).sqrt();
-        let goal_lx = goal.of(lx);
         let error_lx = spread_lx / f64::from(REPLICATES).sqrt();
-        libm::pow(error_lx / goal_lx, 1.0 / COMB_ORDER).clamp(FEWEST_TEETH, MOST_TEETH) as usize
+        libm::pow(error_lx / goal_lx(lx), 1.0 / COMB_ORDER).clamp(FEWEST_TEETH, MOST_TEETH) as usize
     }
 }

@@ -148,8 +148,7 @@ impl<'s> Lighting<'s> {
         });
         let is_other = |&k: &u32| !is_in_tree(&sources[k as usize]);
         self.others = (0..sources.len() as u32).filter(is_other).collect();
-        let is_area = |s: &&Source| matches!(s.kind, SourceKind::Area { .. });
-        self.area_sources = self.others().filter(is_area).count();
+        self.area_sources = self.others().filter(|source| source.is_area()).count();
         self.tree = tree;
     }
 
@@ -298,14 +297,12 @@ impl<'s> Lighting<'s> {
 
     /// Whether there are luminaires without surface, and so few, images counted, that glossy surfaces show them.
     pub(super) fn shows_points(&self) -> bool {
-        let is_area = |s: &Source| matches!(s.kind, SourceKind::Area { .. });
-        !self.sources.iter().all(is_area) && self.points <= MOST_SHOWN
+        !self.sources.iter().all(Source::is_area) && self.points <= MOST_SHOWN
     }
 
     /// What comes to a place from luminaires without surface and their images: where from, and the illuminance of what faces them.
     pub(super) fn points_at(&self, at: &SurfacePoint, mut found: impl FnMut(Direction, Rgb)) {
-        let is_point = |s: &&Source| !matches!(s.kind, SourceKind::Area { .. });
-        for source in self.sources.iter().filter(is_point) {
+        for source in self.sources.iter().filter(|source| !source.is_area()) {
             let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
             let arriving = source::unoccluded_if(self.scene, source, at, in_view);
             let Some(arriving) = arriving else { continue };
@@ -335,10 +332,10 @@ impl<'s> Lighting<'s> {
         }
     }
 
-    /// Illuminance from all sources that have no surface, one by one.
-    fn lit_by_points(&self, at: &SurfacePoint) -> Rgb {
-        let is_point = |s: &&Source| !matches!(s.kind, SourceKind::Area { .. });
-        self.sources.iter().filter(is_point).map(|source| self.lit_by_point(source, at)).sum()
+    /// Illuminance from those of some sources that have no surface, one by one.
+    fn lit_by_points<'a>(&self, some: impl Iterator<Item = &'a Source>, at: &SurfacePoint) -> Rgb {
+        let points = some.filter(|source| !source.is_area());
+        points.map(|source| self.lit_by_point(source, at)).sum()
     }
 
     fn lit_by_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {

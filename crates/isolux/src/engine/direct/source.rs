@@ -128,6 +128,11 @@ impl Sources {
 }
 
 impl Source {
+    /// Whether it is an emitting surface.
+    pub(super) const fn is_area(&self) -> bool {
+        matches!(self.kind, SourceKind::Area { .. })
+    }
+
     /// Whether something of an emitting surface may be seen through the mirrors; surely not where it does not.
     pub(super) fn may_be_seen(&self, emitter: &Emitter, at: &SurfacePoint) -> bool {
         let Emitter { centre, radius_m, .. } = *emitter;

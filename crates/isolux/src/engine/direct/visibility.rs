@@ -2,7 +2,7 @@
 
 use super::openings::View;
 use super::shadows::Shadows;
-use super::source::{self, Arriving, SourceKind, Target};
+use super::source::{self, Arriving, Target};
 use super::{EXACT_SOURCES, Lighting};
 use crate::engine::path::Dice;
 use crate::engine::scatter::pane;
@@ -28,7 +28,7 @@ impl Lighting<'_> {
         }
         let mut sum = Rgb::BLACK;
         for source in &self.sources {
-            if !source.chain.is_empty() || matches!(source.kind, SourceKind::Area { .. }) {
+            if !source.chain.is_empty() || source.is_area() {
                 sum += share * self.lit_by(source, at, 1, dice);
             } else if let Some(arriving) = source::unoccluded_if(self.scene, source, at, |_| true) {
                 let Arriving { target, illuminance_lx } = arriving;
