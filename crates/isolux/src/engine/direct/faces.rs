@@ -62,7 +62,7 @@ pub(super) fn faces(scene: &Scene, openings: &Openings) -> Vec<Face> {
         };
         let (faces, corners): (Vec<Face>, Vec<[Point; 3]>) =
             area.triangles.iter().map(face).unzip();
-        let start = corners[0][0];
+        let &[start, ..] = corners.first()?;
         let extent_m = corners.iter().flatten().map(|&p| (p - start).length()).fold(0.0, f64::max);
         (extent_m <= most_m).then_some(faces)
     });
