@@ -173,6 +173,11 @@ impl<'s> Lighting<'s> {
         self.points > DRAWN_AT_RECEIVERS || self.has_faces()
     }
 
+    /// Whether luminaires are so many that none of them matters alone.
+    pub(super) fn are_countless(&self) -> bool {
+        self.sources.len() > DRAWN_AT_RECEIVERS
+    }
+
     /// Whether emitting surfaces are among what is chosen from.
     fn has_faces(&self) -> bool {
         !self.tree.faces.is_empty()

@@ -54,7 +54,7 @@ impl Pilot<'_> {
         (elements, gatherers): (&mut Elements, &mut Vec<Gatherer>),
         request: &PilotRequest,
     ) -> bool {
-        if self.lighting.has_many() {
+        if self.lighting.are_countless() {
             return false;
         }
         let Some(emission) = Emission::new(self.scene) else { return false };

@@ -63,7 +63,7 @@ impl Pilot<'_> {
             return false;
         }
         let mut dice = Dice::new(Sequence::new(self.key.with(11).with(u64::from(node))), 0);
-        let direct = match self.lighting.has_many() {
+        let direct = match self.lighting.are_countless() {
             // One look at what would give most.
             true => self.lighting.estimate(place, &mut dice),
             false => self.lighting.sampled(place, SAMPLES_IN_GAPS, &mut dice),
