@@ -47,6 +47,12 @@ const LOOKS: u32 = 32;
 /// by more than a share of all of it, as they do in half-shadows: noise is grain there.
 pub(super) const GLANCE_SAMPLES: usize = 4;
 const GRAINY_SAMPLES: usize = 32;
+
+/// The same to all emitting surfaces together where they are chosen among.
+const GLANCE_RAYS: usize = 16;
+const GRAINY_RAYS: usize = 128;
+
+/// Of all light.
 const GRAIN: f64 = 0.05;
 
 /// How hard [`MapReader::estimate`] tries.
@@ -344,15 +350,16 @@ impl<'a> MapReader<'a> {
 
     /// Direct light for a picture, where there is about so much light in all.
     fn glanced(&self, at: &SurfacePoint, about_lx: f64, dice: &mut Dice) -> Rgb {
-        let mut sampled = |samples| self.lighting.sampled_on(&self.patches, at, samples, dice);
-        if self.lighting.has_many() || self.scene.area_luminaires().is_empty() {
-            return sampled(GLANCE_SAMPLES);
+        let (lighting, patches) = (&self.lighting, &self.patches);
+        if lighting.has_faces() {
+            let of = |rays| lighting.by_rays_on(patches, at, rays, dice);
+            return without_grain(of, [GLANCE_RAYS, GRAINY_RAYS], about_lx);
         }
-        let halves = [sampled(GLANCE_SAMPLES / 2), sampled(GLANCE_SAMPLES / 2)];
-        let mean = (halves[0] + halves[1]) * 0.5;
-        let apart_lx = (halves[0] - halves[1]).luminance().abs();
-        let is_grainy = apart_lx > GRAIN * about_lx.max(mean.luminance());
-        if is_grainy { sampled(GRAINY_SAMPLES) } else { mean }
+        let mut of = |samples| lighting.sampled_on(patches, at, samples, dice);
+        if lighting.has_many() || self.scene.area_luminaires().is_empty() {
+            return of(GLANCE_SAMPLES);
+        }
+        without_grain(of, [GLANCE_SAMPLES, GRAINY_SAMPLES], about_lx)
     }
 
     /// As [`MapReader::at`] at a point on a surface, on the side that `normal` points to. `None` where no
@@ -513,6 +520,19 @@ impl Unseen {
             of_direct: Goal::reading(map.provenance.accuracy_target.unwrap_or(f64::INFINITY)),
         }
     }
+}
+
+/// Light by a few samples, or by more where two halves of these differ much.
+fn without_grain(
+    mut sampled: impl FnMut(usize) -> Rgb,
+    [few, many]: [usize; 2],
+    about_lx: f64,
+) -> Rgb {
+    let halves = [sampled(few / 2), sampled(few / 2)];
+    let mean = (halves[0] + halves[1]) * 0.5;
+    let apart_lx = (halves[0] - halves[1]).luminance().abs();
+    let is_grainy = apart_lx > GRAIN * about_lx.max(mean.luminance());
+    if is_grainy { sampled(many) } else { mean }
 }
 
 /// The least variance of what so many rays gather where the map tells a value of some noise: fewer rays may all have missed what

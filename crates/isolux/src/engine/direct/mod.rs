@@ -179,7 +179,7 @@ impl<'s> Lighting<'s> {
     }
 
     /// Whether emitting surfaces are among what is chosen from.
-    fn has_faces(&self) -> bool {
+    pub(super) fn has_faces(&self) -> bool {
         !self.tree.faces.is_empty()
     }
 
