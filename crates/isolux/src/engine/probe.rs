@@ -52,7 +52,7 @@ const GRAINY_SAMPLES: usize = 32;
 const GLANCE_RAYS: usize = 16;
 const GRAINY_RAYS: usize = 128;
 
-/// Of all light.
+/// The share of all light that the two halves may differ by.
 const GRAIN: f64 = 0.05;
 
 /// How hard [`MapReader::estimate`] tries.

@@ -98,8 +98,9 @@ impl Lighting<'_> {
         }
     }
 
-    /// Illuminance from those of some sources that are emitting surfaces, with the variance of its mean. A first look at all of them tells which error may be left, lx;
-    /// where that is less than there is, those that err by more than their part of it have more shadow rays.
+    /// Illuminance from those of some sources that are emitting surfaces, with the variance of its mean. A first look at all of them
+    /// tells which error may be left, lx; where that is less than there is, those that err by more than their part of it have more
+    /// shadow rays.
     pub(super) fn of_surfaces(
         &self,
         which: impl Iterator<Item = u32>,

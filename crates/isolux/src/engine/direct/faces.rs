@@ -4,6 +4,7 @@
 //! normal, they are chosen by few teeth of a comb among all.
 
 use super::openings::Openings;
+use super::source::corners_seen;
 use crate::scene::Scene;
 use isolux_geometry::{Point, Vector};
 
@@ -30,8 +31,7 @@ pub(super) struct Face {
 impl Face {
     /// Its corners, counter-clockwise as seen from where it shines.
     pub(super) fn corners(&self, scene: &Scene) -> [Point; 3] {
-        let [a, b, c] = scene.triangle(self.triangle).corners;
-        if self.back { [a, c, b] } else { [a, b, c] }
+        corners_seen(scene, self.triangle, self.back)
     }
 }
 

@@ -237,7 +237,7 @@ impl Lighting<'_> {
         colour * share * (candela * reaching.per_cd)
     }
 
-    /// An unbiased estimate of the direct illuminance from one of them by way of a chain of mirrors, by one shadow ray.
+    /// An unbiased estimate of the direct illuminance from a face by way of a chain of mirrors, by one shadow ray.
     pub(super) fn lit_by_face(
         &self,
         chain: usize,
@@ -250,9 +250,7 @@ impl Lighting<'_> {
         let mut colour = colour;
         for &plane in chain {
             let plane = &self.mirrors.planes[plane as usize];
-            // Reflection turns triangles around; swapping two corners keeps the emitting side.
-            let [a, b, c] = corners.map(|p| plane.image(p));
-            corners = [a, c, b];
+            corners = plane.image_of_triangle(corners);
             colour = colour * plane.reflectance;
         }
         let (middle, twice_m2) = middle_and_twice_m2(corners);

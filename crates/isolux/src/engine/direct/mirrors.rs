@@ -91,6 +91,11 @@ impl Plane {
         p - self.normal * (2.0 * self.height(p))
     }
 
+    /// The mirror image of a triangle. Reflection turns it around; swapping two corners keeps its sides.
+    pub(super) fn image_of_triangle(&self, [a, b, c]: [Point; 3]) -> [Point; 3] {
+        [a, c, b].map(|p| self.image(p))
+    }
+
     /// The mirror image of a free vector.
     pub(super) fn image_vector(&self, v: Vector) -> Vector {
         v - self.normal * (2.0 * v.dot(self.normal.to_vector()))

@@ -140,6 +140,12 @@ impl Source {
     }
 }
 
+/// Corners of a side of a triangle, counter-clockwise as seen from there.
+pub(super) fn corners_seen(scene: &Scene, triangle: u32, back: bool) -> [Point; 3] {
+    let [a, b, c] = scene.triangle(triangle).corners;
+    if back { [a, c, b] } else { [a, b, c] }
+}
+
 fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
     let points = scene.luminaires().iter().enumerate().map(|(index, luminaire)| {
         let kind = match &luminaire.kind {
@@ -162,10 +168,7 @@ fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
         }
     });
     let areas = scene.area_luminaires().iter().enumerate().map(|(index, area)| {
-        let triangles = area.triangles.iter().map(|&t| {
-            let [a, b, c] = scene.triangle(t).corners;
-            if area.back { [a, c, b] } else { [a, b, c] }
-        });
+        let triangles = area.triangles.iter().map(|&t| corners_seen(scene, t, area.back));
         Source {
             luminaire: LuminaireId::Area(index as u32),
             chain: Vec::new(),
@@ -230,12 +233,11 @@ fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
             // behind is told by the mirror not being met before the image.
             let in_front =
                 |t: &[Point; 3]| t.iter().any(|&p| mirror.height(p) > mirrors.tolerance_m);
-            // Reflection turns triangles around; swapping two corners keeps the emitting side.
-            let reflected = |&[a, b, c]: &[Point; 3]| [a, c, b].map(|p| mirror.image(p));
             let kept = || emitter.indices.iter().zip(triangles).filter(|(_, t)| in_front(t));
             let indices: Vec<u32> = kept().map(|(&index, _)| index).collect();
-            (!indices.is_empty())
-                .then(|| area_kind(indices, kept().map(|(_, t)| reflected(t)).collect()))
+            (!indices.is_empty()).then(|| {
+                area_kind(indices, kept().map(|(_, &t)| mirror.image_of_triangle(t)).collect())
+            })
         }
     }?;
     let chain = source.chain.iter().copied().chain([plane]).collect();

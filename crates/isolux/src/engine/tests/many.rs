@@ -60,8 +60,8 @@ pub(in crate::engine) fn hall(count: u64) -> Scene {
     hall_of(Vec::new(), Vec::new(), lamps(count))
 }
 
-/// The same with emitting surfaces in place of some luminaires: coloured triangles turned any way, panels that see themselves in a mirror, and
-/// globes of eight triangles.
+/// The same with emitting surfaces in place of some luminaires: coloured panels turned any way, panels that see themselves in a
+/// mirror, and globes of eight triangles.
 pub(in crate::engine) fn hall_of_panels(count: u64, points: u64) -> Scene {
     let finish =
         |r: f64| Finish { luminance_cd_m2: Rgb::new(r, 0.7, 0.4) * 900.0, ..Finish::BLACK };
