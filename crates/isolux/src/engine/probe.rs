@@ -500,7 +500,7 @@ impl<'a> MapReader<'a> {
             false => about_lx.max(DIMMEST * self.unseen.reference_lx),
         };
         let goal = Goal { lx: of_direct.share * least_lx, ..of_direct };
-        let sequence = Sequence::new(place_key(at.point).with(0));
+        let sequence = Sequence::new(place_key(at.point).with(0).with(self.map.provenance.seed));
         self.lighting.read(at, goal, sequence)
     }
 }
