@@ -160,7 +160,7 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let area: f64 = errors.iter().map(|e| e.area_m2).sum();
     let squared: f64 = errors.iter().map(|e| e.squared()).sum();
     let whole: f64 = errors.iter().map(|e| e.error * e.area_m2).sum();
-    let is_trusted = |e: &LeafError| e.error <= plan.trusted_up_to_lx && !e.is_beset;
+    let is_trusted = |e: &LeafError| plan.trust().includes(e.error, e.is_beset);
     let trusted = errors.iter().filter(|e| is_trusted(e)).map(|e| e.squared()).sum::<f64>();
     // Density of the draw over elements: an even mixture of area, squared error, squared error where the map
     // is trusted, and error, which tells the mean best (Kahn and Marshall 1953: with the signs unknown).
@@ -192,7 +192,7 @@ pub(super) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
         check(plan, Gatherer::on_surface(surface, rays), area_m2, &errors[k])
     };
     let mut checks: Vec<Check> = (0..count).into_par_iter().filter_map(one).collect();
-    let is_gathered = |check: &Check| !check.is_trusted(plan.trust().least());
+    let is_gathered = |check: &Check| !check.is_trusted(plan.trusts.least());
     let rows = checks.iter().filter(|check| is_gathered(check));
     let rows: Vec<Gatherer> = rows.map(|c| c.gatherer.with_rays(CLOSE_RAYS)).collect();
     // Where rays go is asked, not what comes along them.

@@ -6,13 +6,8 @@
 //! change no more than the map errs by, they gather in gaps alone.
 
 use super::checks::InterpolationErrors;
-use super::trust::Trust;
+use super::trust::{Trust, Trusts};
 use crate::map::Accuracy;
-
-/// Shares of the error up to which elements were to be trusted, one after the other: with the least, readers of the hall gather
-/// on four fifths of its surface, with all of it on three fifths.
-const SHARES: [f64; 3] = [0.7, 0.5, LEAST_SHARE];
-const LEAST_SHARE: f64 = 0.35;
 
 /// The part of the accuracy asked for that readers leave to where they would gather, however good the map is elsewhere.
 pub(super) const OF_GOAL: f64 = 0.25;
@@ -30,16 +25,10 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    /// As found by `by`, with as much trust as reaches a goal, no more than foreseen; with the least if none does.
-    pub(super) fn for_goal(goal: f64, foreseen: Trust, by: impl Fn(Trust) -> Self) -> Self {
-        let mut judged = by(foreseen);
-        for share in SHARES.into_iter().filter(|_| foreseen.up_to_lx().is_finite()) {
-            if judged.reaches(goal) {
-                break;
-            }
-            judged = by(foreseen.part(share));
-        }
-        judged
+    /// As found by `by`, with as much trust as reaches a goal, of several, the most first; with the least if none does.
+    pub(super) fn for_goal(goal: f64, trusts: Trusts, by: impl Fn(Trust) -> Self) -> Self {
+        let (least, more) = (trusts.least(), trusts.all_but_least());
+        more.map(&by).find(|judged| judged.reaches(goal)).unwrap_or_else(|| by(least))
     }
 
     /// The same, or trusting all but gaps where that is enough and a goal is still reached.
@@ -75,19 +64,4 @@ impl Judged {
 
 fn bounded(over: Option<f64>) -> f64 {
     over.map_or(1.0, |over| over.clamp(1.0 / MOST_OVER, MOST_OVER))
-}
-
-impl Trust {
-    /// Up to a share of the error.
-    const fn part(self, share: f64) -> Self {
-        match self {
-            Self::UpTo(lx) => Self::UpTo(share * lx),
-            Self::AllButGaps => self,
-        }
-    }
-
-    /// As little as readers may be left with.
-    pub(super) const fn least(self) -> Self {
-        self.part(LEAST_SHARE)
-    }
 }

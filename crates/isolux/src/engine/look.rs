@@ -1,7 +1,7 @@
 //! What a round of the pilot sees, and whether that is good enough.
 
 use super::detail::LeafError;
-use super::trust::{self, Worst};
+use super::trust::{self, Trusts, Worst};
 use super::walls::Walls;
 use crate::elements::{Elements, Subdivision};
 
@@ -192,6 +192,11 @@ impl Look {
     pub(super) fn trusted_up_to_lx(&self, request: &PilotRequest) -> f64 {
         let limit = self.worst.limit(self.goal_lx(request.target, request), MOST_FRESH);
         limit.min(trust::above_all(&self.errors))
+    }
+
+    /// The same, and less, for where more than expected is found.
+    pub(super) fn trusts(&self, request: &PilotRequest) -> Trusts {
+        Trusts::of(&self.worst, self.trusted_up_to_lx(request))
     }
 
     /// Whether rays read too much wrongly in the mean of beset elements, unless that is measured.

@@ -15,7 +15,7 @@ use super::means::{Means, Places};
 use super::parts::Parts;
 use super::surface::SurfacePoint;
 use super::trial::Trial;
-use super::trust::{self, Trust};
+use super::trust::{self, Trust, Trusts};
 use crate::elements::{Elements, Subdivision};
 use crate::map::Standing;
 use crate::sampling::Key;
@@ -50,8 +50,8 @@ pub(super) struct Plan<'s> {
     pub(super) guess: Vec<Rgb>,
     /// Errors of the elements that indirect light lives on.
     pub(super) indirect_errors: Vec<LeafError>,
-    /// Elements with larger errors are not to be trusted.
-    pub(super) trusted_up_to_lx: f64,
+    /// Elements with larger errors than these are not to be trusted.
+    pub(super) trusts: Trusts,
     /// Those elements, by node, as triangles of the scene.
     pub(super) subdivision: Subdivision,
     /// Root mean square of the photometric illuminance over all known surfaces, lx.
@@ -122,7 +122,7 @@ impl Plan<'_> {
 
     /// What readers trust, unless check points tell otherwise.
     pub(super) const fn trust(&self) -> Trust {
-        Trust::UpTo(self.trusted_up_to_lx)
+        self.trusts.foreseen()
     }
 
     /// What interpolation errs by in the elements at the vertices, lx, told to readers who trust them so far.

@@ -34,6 +34,10 @@ pub(super) const NEAR: f64 = 0.25;
 /// comes between them.
 const BESET: usize = 3;
 
+/// What elements may be left to err by, as shares of what was foreseen, where more than that is found: with the least, readers of the
+/// hall gather on four fifths of its surface, with all of it on three fifths.
+const SHARES: [f64; 3] = [0.7, 0.5, 0.35];
+
 /// Where readers interpolate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Trust {
@@ -58,6 +62,28 @@ impl Trust {
             Self::UpTo(lx) => lx,
             Self::AllButGaps => f64::INFINITY,
         }
+    }
+}
+
+/// Errors up to which elements are trusted, lx, the greatest first: as foreseen, then so that the others are expected to err by
+/// shares of that.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Trusts([f64; 1 + SHARES.len()]);
+
+impl Trusts {
+    /// What readers trust, unless check points tell otherwise.
+    pub(super) const fn foreseen(self) -> Trust {
+        Trust::UpTo(self.0[0])
+    }
+
+    /// As little as readers may be left with.
+    pub(super) const fn least(self) -> Trust {
+        Trust::UpTo(self.0[SHARES.len()])
+    }
+
+    /// All others, the most first.
+    pub(super) fn all_but_least(self) -> impl Iterator<Item = Trust> {
+        self.0.into_iter().take(SHARES.len()).map(Trust::UpTo)
     }
 }
 
@@ -100,6 +126,20 @@ impl Worst {
             worst_left_out = Some(error);
         }
         f64::INFINITY
+    }
+}
+
+impl Trusts {
+    /// Of elements that are trusted up to so much to begin with.
+    pub(super) fn of(worst: &Worst, foreseen_lx: f64) -> Self {
+        let trusted = worst.of_leaves.iter().filter(|&&(error, _)| error <= foreseen_lx);
+        let squared: f64 = trusted.map(|&(error, own_m2)| own_m2 * error * error).sum();
+        let error_lx = (squared / worst.area_m2.max(f64::MIN_POSITIVE)).sqrt();
+        let mut all = [foreseen_lx; 1 + SHARES.len()];
+        for (limit, share) in all[1..].iter_mut().zip(SHARES) {
+            *limit = worst.limit(share * error_lx, 1.0).min(foreseen_lx);
+        }
+        Self(all)
     }
 }
 

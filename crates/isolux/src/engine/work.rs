@@ -324,9 +324,10 @@ impl<'p, 's> Work<'p, 's> {
             let errors = self.interpolation(trust, noise_is);
             Judged { trust, errors, accuracy: self.accuracy_by(pooled.as_ref(), &errors) }
         };
-        let foreseen = self.plan.trust();
-        let Some(goal) = self.goal.filter(|_| self.has_nets()) else { return by(foreseen) };
-        let judged = Judged::for_goal(goal, foreseen, by);
+        let Some(goal) = self.goal.filter(|_| self.has_nets()) else {
+            return by(self.plan.trust());
+        };
+        let judged = Judged::for_goal(goal, self.plan.trusts, by);
         // Until it is believed nobody reads it.
         if noise_is != Noise::Counted || !self.is_believed() {
             return judged;

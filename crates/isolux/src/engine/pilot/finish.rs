@@ -35,7 +35,7 @@ impl<'s> Pilot<'s> {
         let mut gatherers = self.measure_direct_light(&mut look, request, go_on);
         self.stand_before_walls(&mut gatherers[..indirect_vertices]);
         let standings = self.final_standings(&look.elements, indirect_vertices);
-        let trusted_up_to_lx = look.trusted_up_to_lx(request);
+        let trusts = look.trusts(request);
         let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();
         let means = self.means(&coarse, &look, request, (&open[..indirect_vertices], carrying));
         let cuts = self.cuts(&coarse, &look.elements);
@@ -46,7 +46,7 @@ impl<'s> Pilot<'s> {
             gatherers,
             indirect_vertices,
             level: coarse.node_count() as u32,
-            trusted_up_to_lx,
+            trusts,
             reference_lx: look.reference_lx,
             interpolation: libm::hypot(look.interpolation(request), caustics_share),
             mean_reflectance: reflectance::of_all(self.scene, &coarse),

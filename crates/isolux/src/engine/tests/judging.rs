@@ -1,11 +1,12 @@
 //! How far maps are to be trusted, by what they are found to be.
 
 use super::errors::{check_sums, room, small_plan};
+use super::trusting::errors;
 use super::*;
 use crate::engine::checks::{self, InterpolationErrors};
 use crate::engine::direct::Lighting;
 use crate::engine::judged::Judged;
-use crate::engine::trust::Trust;
+use crate::engine::trust::{Trust, Trusts, Worst};
 use crate::map::Accuracy;
 
 /// A map whose error grows with trust, by a tenth of it.
@@ -17,35 +18,35 @@ fn by(trust: Trust) -> Judged {
     Judged { trust, errors: InterpolationErrors::default(), accuracy: Some(accuracy) }
 }
 
+/// Of elements that err by 8, 4, 2 and 1 lx, where readers trust those up to so much.
+fn trusts(foreseen_lx: f64) -> Trusts {
+    let elements = errors(&[(1.0, 8.0), (1.0, 4.0), (1.0, 2.0), (1.0, 1.0)]);
+    Trusts::of(&Worst::of(&elements), foreseen_lx)
+}
+
 #[test]
 fn readers_trust_as_much_as_an_accuracy_leaves() {
-    let trust = |goal: f64, foreseen: f64| {
-        let judged = Judged::for_goal(goal, Trust::UpTo(foreseen), by);
-        judged.trust.up_to_lx()
-    };
-    // What was foreseen will do, or seven tenths of it, or half, or a third.
-    assert_eq!(trust(0.21, 2.0), 2.0);
-    assert_eq!(trust(0.19, 2.0), 1.4);
-    assert_eq!(trust(0.13, 2.0), 1.0);
-    assert_eq!(trust(0.08, 2.0), 0.7);
+    let trust = |goal: f64| Judged::for_goal(goal, trusts(f64::INFINITY), by).trust.up_to_lx();
+    // What was foreseen will do, or less.
+    assert_eq!(trust(1.1), f64::INFINITY);
+    assert_eq!(trust(0.9), 6.0);
+    assert_eq!(trust(0.4), 3.0);
     // Where none will do, it is the least.
-    assert_eq!(trust(0.01, 2.0), 0.7);
-    // Where no element was to be left out, none is.
-    assert_eq!(trust(0.01, f64::INFINITY), f64::INFINITY);
+    assert_eq!(trust(0.01), 3.0);
 }
 
 #[test]
 fn all_but_gaps_are_trusted_where_that_is_enough_and_reaches_the_goal() {
     let trust = |goal: f64, is_enough: bool| {
-        let judged = Judged::for_goal(goal, Trust::UpTo(2.0), by);
+        let judged = Judged::for_goal(goal, trusts(6.0), by);
         judged.or_all_but_gaps(goal, |_| is_enough, by).trust
     };
-    // An error of 1 with all of them, of 0.2 with those foreseen.
+    // An error of 1 with all of them, of 0.6 with those foreseen.
     assert_eq!(trust(1.1, true), Trust::AllButGaps);
-    assert_eq!(trust(1.1, false), Trust::UpTo(2.0));
-    assert_eq!(trust(0.3, true), Trust::UpTo(2.0));
+    assert_eq!(trust(1.1, false), Trust::UpTo(6.0));
+    assert_eq!(trust(0.7, true), Trust::UpTo(6.0));
     // A goal that is missed anyway leaves readers with the least.
-    assert_eq!(trust(0.05, true), Trust::UpTo(0.7));
+    assert_eq!(trust(0.05, true), Trust::UpTo(1.5));
 }
 
 #[test]

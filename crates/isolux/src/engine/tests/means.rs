@@ -47,7 +47,7 @@ fn is_in(triangle: &Triangle, at: Point) -> bool {
 fn integrals(plan: &Plan, values: &[Rgb]) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for error in &plan.indirect_errors {
-        let is_trusted = !error.is_beset && error.error <= plan.trusted_up_to_lx;
+        let is_trusted = plan.trust().includes(error.error, error.is_beset);
         plan.elements.visit_below(error.node, &mut |corners| {
             let [a, b, c] = corners.map(|v| plan.elements.vertices()[v as usize].position);
             let third_m2 = (b - a).cross(c - a).length() / 6.0;

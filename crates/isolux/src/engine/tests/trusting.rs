@@ -6,9 +6,9 @@ use crate::engine::detail::LeafError;
 use crate::engine::direct::Lighting;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::surface::SurfacePoint;
-use crate::engine::trust::{self, Trust, Worst};
+use crate::engine::trust::{self, Trust, Trusts, Worst};
 
-fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
+pub(super) fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
     let error = |(node, &(area_m2, error)): (usize, &(f64, f64))| LeafError {
         node: node as u32,
         area_m2,
@@ -41,6 +41,24 @@ fn the_worst_are_left_out_until_the_rest_is_good() {
     assert_eq!(Worst::of(&[]).limit(1.0, 1.0), f64::INFINITY);
     let beset: Vec<LeafError> = all.iter().map(|&e| LeafError { is_beset: true, ..e }).collect();
     assert_eq!(Worst::of(&beset).limit(0.8, 1.0), f64::INFINITY, "nobody trusts them anyway");
+}
+
+/// Where more than foreseen is found, the worst of what was trusted are left out, however much was.
+#[test]
+fn less_is_trusted_by_what_elements_are_expected_to_err() {
+    // Squares of 64, 16, 4 and 1.
+    let worst = Worst::of(&errors(&[(1.0, 8.0), (1.0, 4.0), (1.0, 2.0), (1.0, 1.0)]));
+    let limits = |foreseen_lx: f64| {
+        let trusts = Trusts::of(&worst, foreseen_lx);
+        assert_eq!(trusts.foreseen(), Trust::UpTo(foreseen_lx));
+        trusts.all_but_least().chain([trusts.least()]).map(Trust::up_to_lx).collect::<Vec<_>>()
+    };
+    // A half and a quarter of 85 are 42 and 21.2, an eighth is 10.4; of 21 these are 10.3, 5.2 and 2.6.
+    assert_eq!(limits(f64::INFINITY), [f64::INFINITY, 6.0, 6.0, 3.0]);
+    assert_eq!(limits(6.0), [6.0, 3.0, 3.0, 1.5]);
+    // Nothing is left out of nothing.
+    assert_eq!(limits(0.5), [0.5; 4]);
+    assert_eq!(Trusts::of(&Worst::of(&[]), 1.0).least(), Trust::UpTo(1.0));
 }
 
 /// Files keep errors at vertices; the least over an element's vertices is never less than its own,
@@ -113,7 +131,7 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
     for error in beset {
         plan.elements.visit_below(error.node, &mut |corners| {
             let least = corners.iter().map(|&v| at[v as usize]).fold(f64::INFINITY, f64::min);
-            assert!(least > plan.trusted_up_to_lx, "{least} {}", plan.trusted_up_to_lx);
+            assert!(!plan.trust().includes(least, false), "{least} {:?}", plan.trust());
         });
     }
 }
@@ -156,6 +174,6 @@ fn readers_gather_beside_a_picture_on_a_wall() {
     let at = front_at(&scene, Point::new(6.85, 0.0, 1.45));
     let corners = plan.elements.locate(at.triangle, at.back, at.u, at.v).expect("it is lit");
     let expected_lx = plan.expected_lx(plan.trust());
-    let is_gathered = |&(v, _): &(u32, f64)| expected_lx[v as usize] > plan.trusted_up_to_lx;
+    let is_gathered = |&(v, _): &(u32, f64)| !plan.trust().includes(expected_lx[v as usize], false);
     assert!(corners.iter().any(is_gathered));
 }
