@@ -1,10 +1,10 @@
 //! From plain parts to a scene that cannot be invalid.
 
-use super::sealed;
 use super::{
     AreaLuminaire, Body, CalculationGrid, Camera, Finish, Luminaire, LuminaireKind, Material,
     SceneParts, SceneProblem, Shape, Texture, UpAxis,
 };
+use super::{mounted, sealed};
 use crate::units::Rgb;
 use isolux_geometry::{Bvh, Hit, Normal, Point, Triangle, TriangleMesh, Vector};
 
@@ -55,9 +55,12 @@ impl Scene {
         let normal = |triangle| {
             mesh.triangle(triangle).normal().expect("triangles without area are left out")
         };
+        let geometric_normals: Vec<Normal> = (0..mesh.len() as u32).map(normal).collect();
+        let bvh = Bvh::build(mesh, is_transparent);
+        let luminaires = mounted::before_surfaces(&bvh, &geometric_normals, parts.luminaires);
         let mut scene = Self {
-            geometric_normals: (0..mesh.len() as u32).map(normal).collect(),
-            bvh: Bvh::build(mesh, is_transparent),
+            geometric_normals,
+            bvh,
             name: parts.name,
             up: parts.up,
             corner_normals,
@@ -68,7 +71,7 @@ impl Scene {
             shape_material: parts.shapes.iter().map(|s| s.material).collect(),
             materials: parts.materials,
             textures: parts.textures,
-            luminaires: parts.luminaires,
+            luminaires,
             area_luminaires: Vec::new(),
             groups: parts.groups,
             cameras: parts.cameras,

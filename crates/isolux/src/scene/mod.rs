@@ -12,6 +12,7 @@ mod hanging;
 mod hash;
 mod luminaire;
 mod material;
+mod mounted;
 mod parts;
 mod problem;
 mod relight;
