@@ -55,8 +55,8 @@ pub(super) struct PilotRequest {
 /// What errors count by.
 #[derive(Debug, Default)]
 pub(super) struct Surroundings {
-    /// How much they count at the vertices so far: there, and for who sees them from where it is dim.
-    pub(super) weights: Vec<[f64; 2]>,
+    /// How much they count at the vertices so far: there, for who sees them from where it is dim, and there if that is a room.
+    pub(super) weights: Vec<[f64; 3]>,
     /// Surface where it is dim, m2.
     pub(super) dim_m2: f64,
 }

@@ -1,7 +1,8 @@
 //! Direct light, and elements for it.
 
+use super::surroundings::LEAST_DIM;
 use super::{MAX_ROUNDS, MOST_STALLS, Pilot};
-use crate::elements::Elements;
+use crate::elements::{Elements, Origin};
 use crate::engine::carriers::Carriers;
 use crate::engine::detail::{Details, LeafError, Refinement, refine_worst};
 use crate::engine::direct::{Goal, Measured};
@@ -13,6 +14,7 @@ use crate::engine::shrink::beyond_noise;
 use crate::engine::trust;
 use crate::sampling::Sequence;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
@@ -23,6 +25,10 @@ const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 const OF_ACCURACY: f64 = 1.0;
 /// What direct light that rays read may err by in the mean, once all surfaces have reflected that, of the accuracy asked for.
 const OF_MEAN: f64 = 0.25;
+/// The same in the mean over every triangle in dim rooms, as it counts by the light there; no coarser accuracies than this are looked at:
+/// first looks find a fraction of what is lacking.
+const OF_ROOMS: f64 = 0.5;
+const COARSEST_IN_ROOMS: f64 = 0.01;
 /// A round of refinement after which more than this share of the error is left was in vain.
 const STALLED: f64 = 0.98;
 /// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
@@ -174,7 +180,39 @@ impl Pilot<'_> {
         let target = request.mesh_target.min(own);
         let excess = trust::error_of(&errors, |_| true) / (target * reference_lx);
         let of_mean = self.mean_excess(&errors) / (OF_MEAN * request.target * reference_lx);
-        (errors, excess.max(of_mean))
+        let excess = excess.max(of_mean);
+        if !self.lighting.are_read_at_ends() {
+            return (errors, excess);
+        }
+        let Some(in_rooms) = self.weighed_in_rooms(&errors) else { return (errors, excess) };
+        let target = request.target.min(COARSEST_IN_ROOMS);
+        let of_rooms = self.mean_excess_in_rooms(&in_rooms) / (OF_ROOMS * target * reference_lx);
+        if of_rooms > excess { (in_rooms, of_rooms) } else { (errors, excess) }
+    }
+
+    /// The same in dim rooms beside bright places, as errors count there: of every triangle of the scene in the mean, as what lacks on
+    /// a ceiling is not made up for by a floor.
+    fn mean_excess_in_rooms(&self, errors: &[LeafError]) -> f64 {
+        let (mut dim_m2, mut all_m2) = (0.0, 0.0);
+        let mut lacking: BTreeMap<(u32, bool), f64> = BTreeMap::new();
+        for error in errors {
+            let Origin { triangle, back, .. } = self.subdivision.node(error.node).1;
+            let own_m2 = error.area_m2 * (1.0 - 1.0 / error.weight);
+            all_m2 += error.area_m2;
+            dim_m2 += own_m2;
+            if own_m2 > 0.0 {
+                *lacking.entry((triangle, back)).or_default() +=
+                    own_m2 * error.weight * error.excess;
+            }
+        }
+        let lacking: f64 = lacking.values().map(|lx_m2| lx_m2.abs()).sum();
+        lacking / dim_m2.max(LEAST_DIM * all_m2) * self.reflected_again()
+    }
+
+    /// What all surfaces make of light that they reflect again and again.
+    fn reflected_again(&self) -> f64 {
+        let reflectance = reflectance::of_all(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
+        reflectance / (1.0 - reflectance)
     }
 
     /// What rays lack in the mean where they read direct light of elements with such errors, and what that lacks once it is
@@ -185,7 +223,6 @@ impl Pilot<'_> {
         }
         let area_m2: f64 = errors.iter().map(|e| e.area_m2).sum();
         let lacking: f64 = errors.iter().map(|e| e.area_m2 * e.excess).sum();
-        let reflectance = reflectance::of_all(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
-        (lacking / area_m2).abs() * reflectance / (1.0 - reflectance)
+        (lacking / area_m2).abs() * self.reflected_again()
     }
 }

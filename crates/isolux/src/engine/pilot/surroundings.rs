@@ -16,7 +16,7 @@ use rayon::prelude::*;
 const DIM: f64 = 0.25;
 const MOST_WEIGHT: f64 = 1e3;
 /// Dim places matter as if they were this part of all surfaces at least.
-const LEAST_DIM: f64 = 1.0 / 64.0;
+pub(super) const LEAST_DIM: f64 = 1.0 / 64.0;
 /// Reflections over which light is taken to be that of the surroundings, and over which an error is followed to where it is dim.
 const REFLECTIONS: usize = 3;
 
@@ -47,9 +47,10 @@ impl Pilot<'_> {
             if is_dim && is_in_room(self.scene, place) { own } else { 1.0 }
         });
         let in_rooms: Vec<f64> = in_rooms.collect();
-        let seen = self.seen_from_dim(elements, operator, in_rooms);
+        let seen = self.seen_from_dim(elements, operator, in_rooms.clone());
+        let all = own.into_iter().zip(seen).zip(in_rooms);
         self.surroundings.weights =
-            own.into_iter().zip(seen).map(|(own, seen)| [own, seen]).collect();
+            all.map(|((own, seen), in_room)| [own, seen, in_room]).collect();
     }
 
     /// How much errors of vertices count for who sees them from dim rooms, where they count so much.
@@ -97,15 +98,36 @@ impl Pilot<'_> {
         seen.iter().map(|seen| seen.luminance()).collect()
     }
 
+    /// Errors of direct light, which rays read, as they count in dim rooms by the light there; `None` where there are none.
+    pub(super) fn weighed_in_rooms(&self, errors: &[LeafError]) -> Option<Vec<LeafError>> {
+        let known = &self.surroundings.weights;
+        if known.iter().all(|weights| weights[2] <= 1.0) {
+            return None;
+        }
+        let weights = self.completed_weights();
+        let weigh = |error: &LeafError| {
+            let corners = self.subdivision.node(error.node).0.vertices;
+            let weights = corners.map(|v| weights[v as usize][2]);
+            LeafError { weight: weights.into_iter().fold(f64::INFINITY, f64::min), ..*error }
+        };
+        Some(errors.iter().map(weigh).collect())
+    }
+
+    /// Vertices made since have the weights of the edges that they lie on.
+    fn completed_weights(&self) -> Vec<[f64; 3]> {
+        let mut weights = self.surroundings.weights.clone();
+        for vertex in &self.subdivision.vertices()[weights.len()..] {
+            let ends = vertex.parents.map(|ends| ends.map(|end| weights[end as usize]));
+            let between =
+                |[a, b]: [[f64; 3]; 2]| [a[0].min(b[0]), 0.5 * (a[1] + b[1]), a[2].min(b[2])];
+            weights.push(ends.map_or([1.0, 0.0, 1.0], between));
+        }
+        weights
+    }
+
     /// Has errors in dim surroundings, and of what is seen from there, count by what they are there.
     pub(super) fn weigh(&mut self, errors: &mut [LeafError]) {
-        for vertex in &self.subdivision.vertices()[self.surroundings.weights.len()..] {
-            let of = |end: u32| self.surroundings.weights[end as usize];
-            let ends = vertex.parents.map(|ends| ends.map(of));
-            self.surroundings
-                .weights
-                .push(ends.map_or([1.0, 0.0], |[a, b]| [a[0].min(b[0]), 0.5 * (a[1] + b[1])]));
-        }
+        self.surroundings.weights = self.completed_weights();
         for error in errors {
             let corners = self.subdivision.node(error.node).0.vertices;
             let weights = corners.map(|v| self.surroundings.weights[v as usize]);

@@ -120,3 +120,36 @@ fn errors_are_relative_to_no_more_than_twice_the_mean() {
     // A hot spot: twice the mean.
     assert!((of(&[(99.9, 1.0), (0.1, 1e5)]) - 2.0 * 100.999).abs() < 1e-9);
 }
+
+/// Two rooms that do not see each other, one of them a thousand times as bright. Errors are relative to its light; rays of the other
+/// read what lamps light below its ceiling all the same.
+#[test]
+fn lamps_below_the_ceiling_of_a_dim_room_are_resolved_where_rays_read_them() {
+    const DIM_M: [f64; 3] = [9.0, 7.0, 3.0];
+    let bright = isotropic([1.9, -7.3, 1.2], 1e3 * FLUX_LM);
+    // Three at each of six places.
+    let lamp = |k: usize| {
+        let (row, column) = ((k % 3) as f64, (k / 3 % 2) as f64);
+        isotropic([2.2 + 2.3 * row, 1.7 + 3.4 * column, DIM_M[2] - 0.2], FLUX_LM / 18.0)
+    };
+    let moved = |shape: Shape| {
+        let positions = shape.positions.iter().map(|&[x, y, z]| [x, y - 10.0, z]).collect();
+        Shape { positions, ..shape }
+    };
+    let rooms: Vec<Shape> = inward_box(ROOM_M, 0).into_iter().map(moved).collect();
+    let rooms = rooms.into_iter().chain(inward_box(DIM_M, 0)).collect();
+    let lamps = (0..18).map(lamp).chain([bright]).collect();
+    let scene = scene(rooms, vec![painted(Rgb::grey(REFLECTANCE))], lamps);
+    let tracer = PathTracer::new(&scene);
+    let request = SolveRequest { accuracy: Some(0.02), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let reader = MapReader::new(&scene, &map);
+    let (mut read_lx, mut true_lx) = (0.0, 0.0);
+    for [x, y] in [[0.4, 0.5], [2.0, 2.5], [3.1, 4.4], [1.0, 3.0]] {
+        let normal = Vector::new(0.0, 0.0, 1.0).normal().unwrap();
+        let at = ProbePoint { position: Point::new(x, y, 0.8), normal };
+        read_lx += reader.measure(at).unwrap().indirect_lx.luminance();
+        true_lx += tracer.estimate(at, &ExactSettings::default()).indirect_lx.luminance();
+    }
+    assert!((read_lx / true_lx - 1.0).abs() < 0.05, "{read_lx} {true_lx}");
+}
