@@ -38,6 +38,9 @@ const REGATHERED: u32 = 3;
 /// the end of it.
 const LOST_IN_GAP: u32 = 32;
 
+/// A shadow ends on an element whose vertices have light that differs by more than this share, and who reads it there errs by as much.
+const UNEVEN: f64 = 0.25;
+
 /// A row while it is made.
 #[derive(Default)]
 struct Row {
@@ -385,6 +388,15 @@ impl Gathering<'_> {
         may_be_in_gap && weights_in_gap(located.corners, self.standings).is_none()
     }
 
+    /// Whether values differ so much over the element at an end that they tell little of what is between.
+    fn is_uneven(&self, end: &End, values: &[Rgb]) -> bool {
+        let Some(located) = end.located else { return false };
+        let all = self.corners(&located, u32::MAX).map(|(v, _)| values[v as usize].luminance());
+        let high = all.into_iter().fold(0.0, f64::max);
+        let low = all.into_iter().fold(high, f64::min);
+        high - low > UNEVEN * high
+    }
+
     fn direct_at(
         &self,
         end: &End,
@@ -404,6 +416,9 @@ impl Gathering<'_> {
             DirectAtEnds::Evaluated => self.lighting.estimate(&end.surface, dice),
             DirectAtEnds::Read { values, level } if is_known => read(values, level),
             DirectAtEnds::ReadFarOff { values } if is_known && !end.is_close => {
+                if self.is_uneven(end, values) {
+                    return self.lighting.estimate(&end.surface, dice);
+                }
                 read(values, u32::MAX)
             }
             DirectAtEnds::Read { .. } | DirectAtEnds::ReadFarOff { .. } => {

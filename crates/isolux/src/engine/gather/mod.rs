@@ -126,8 +126,8 @@ pub(super) enum DirectAtEnds<'a> {
         /// As for indirect light, or finer.
         level: u32,
     },
-    /// Read, but evaluated where a ray that regathers ends nearer than the element there is long: what stands that
-    /// close may throw shadows that the map does not resolve.
+    /// Read, but evaluated where a ray that regathers ends nearer than the element there is long, as what stands that
+    /// close may throw shadows that the map does not resolve, and on elements that some shadow ends on.
     ReadFarOff {
         /// A value a vertex, lx.
         values: &'a [Rgb],

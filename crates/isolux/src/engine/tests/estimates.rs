@@ -3,6 +3,9 @@
 use super::direct_light::facing;
 use super::*;
 use crate::engine::direct::Lighting;
+use crate::engine::place::ProbePoint;
+use crate::engine::probe::MapReader;
+use crate::engine::{SolveRequest, Watch, solve};
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
@@ -78,4 +81,32 @@ fn of_surfaces_half_in_shadow_it_is_unbiased() {
     let screen = rectangle([-0.1, -9.0, 0.2], [9.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0);
     let wide = rectangle([-3.0, -3.0, 0.5], [0.0, 6.0, 0.0], [6.0, 0.0, 0.0], 1);
     check("a ceiling", &with(vec![wide, screen], vec![]), [0.0; 3], UP);
+}
+
+/// Where luminaires are many, readers take direct light from the map where rays end, but for elements whose vertices tell different
+/// light: there a shadow ends somewhere.
+#[test]
+fn readers_look_at_luminaires_again_where_the_map_is_uneven() {
+    let lamp =
+        |k: usize| isotropic([0.9 + 1.5 * (k / 4) as f64, 0.8 + 1.4 * (k % 4) as f64, 2.6], 40.0);
+    let room = inward_box([8.0, 6.0, 3.0], 0);
+    let scene = scene(room, vec![painted(Rgb::grey(0.5))], (0..20).map(lamp).collect());
+    let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    // Indirect light that comes up, read from direct light so many times what it is, by the number of a vertex.
+    let read_lx = |times: &dyn Fn(usize) -> f64| {
+        let mut told = map.clone();
+        for (k, value) in told.values.iter_mut().enumerate() {
+            let Some(value) = value else { continue };
+            value.direct_lx = value.direct_lx * times(k);
+        }
+        let normal = Vector::new(0.0, 0.0, -1.0).normal().unwrap();
+        let at = ProbePoint { position: Point::new(3.9, 3.1, 1.7), normal };
+        MapReader::new(&scene, &told).measure(at).unwrap().indirect_lx.luminance()
+    };
+    let right_lx = read_lx(&|_| 1.0);
+    assert!(read_lx(&|_| 2.0) > 1.3 * right_lx, "even light is read");
+    let uneven_lx = read_lx(&|k| if k % 2 == 0 { 5.0 } else { 1.0 });
+    // A few elements have even vertices alone.
+    assert!((uneven_lx / right_lx - 1.0).abs() < 0.3, "{uneven_lx} {right_lx}");
 }
