@@ -3,6 +3,7 @@
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::MixFlags;
+use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::report::Report;
 use crate::shown::names;
@@ -13,15 +14,20 @@ use isolux::scene::Scene;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+/// More than so many times its light nobody gives to what is there.
+const BRIGHT: f64 = 5.0;
+
 /// Runs the subcommand.
 pub(crate) fn run(flags: &MixFlags, json: bool) -> Result<Outcome, Failure> {
     let started = Instant::now();
     let output = OutputPath::check(&flags.output, "glb")?;
     let mut read = Vec::new();
     for asked in &flags.maps {
+        warn_if_bright(&asked.path.display().to_string(), asked.dimming);
         read.extend(parts_of(&asked.path, asked.dimming)?);
     }
     for (name, dimming) in &flags.dim {
+        warn_if_bright(name, *dimming);
         dim(&mut read, name, *dimming)?;
     }
     for part in &read {
@@ -40,6 +46,16 @@ pub(crate) fn run(flags: &MixFlags, json: bool) -> Result<Outcome, Failure> {
         print(&report.text())?
     }
     Ok(Outcome::Done)
+}
+
+/// Says so where light becomes so many times what it was that a per cent sign may have been forgotten.
+fn warn_if_bright(name: &str, dimming: f64) {
+    if dimming > BRIGHT {
+        let text = format!(
+            "{name} is made {dimming} times as bright; {dimming} per cent of it is written {dimming}%"
+        );
+        note(Note::Warning, text);
+    }
 }
 
 /// A map to add.

@@ -7,11 +7,17 @@ use isolux::scene::{Body, Finish, Luminaire, LuminaireKind, Material, Scene};
 /// Findings shown one by one; more are counted.
 const MAX_SHOWN: usize = 10;
 
-/// A luminaire that sees nothing beyond this share of the scene is shut in.
+/// A luminaire that sees nothing beyond this share of the scene is shut in, and nothing beyond so many metres: rooms are larger,
+/// however large what is around them.
 const SHUT_IN_SHARE: f64 = 0.02;
+const SHUT_IN_M: f64 = 0.3;
 
-/// One that sees backs alone, none beyond this share of the scene, is inside a solid.
+/// One that sees backs alone, none beyond this share of the scene, and so many metres, is inside a solid.
 const INSIDE_SHARE: f64 = 0.1;
+const INSIDE_M: f64 = 1.5;
+
+/// The share of its light that may go farther all the same.
+const LEAKS: f64 = 0.05;
 
 /// Rays of parallel light each way.
 const PARALLEL: usize = 48;
@@ -64,19 +70,22 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
     if intensity.luminous_flux_lm() <= 0.0 {
         return Some(Trouble::NoFlux);
     }
-    let is_lit = |local: &Direction| intensity.intensity_cd(*local) > 0.0;
-    let looks: Vec<Option<Seen>> = all_around()
-        .into_iter()
-        .filter(is_lit)
-        .filter_map(|local| world_from_luminaire.vector(local.to_vector()).direction())
-        .map(|direction| look(scene, *position, direction))
-        .collect();
-    let seen = || looks.iter().flatten();
+    let one = |local: Direction| {
+        let light_cd = intensity.intensity_cd(local);
+        let direction = world_from_luminaire.vector(local.to_vector()).direction()?;
+        (light_cd > 0.0).then(|| (light_cd, look(scene, *position, direction)))
+    };
+    let looks: Vec<(f64, Option<Seen>)> = all_around().into_iter().filter_map(one).collect();
+    let seen = || looks.iter().filter_map(|(_, seen)| seen.as_ref());
     let extent_m = extent_m(scene);
     let is_close = |s: &Seen| {
-        let share = if s.back { INSIDE_SHARE } else { SHUT_IN_SHARE };
-        !s.clear && s.distance_m < share * extent_m
+        let (share, most_m) =
+            if s.back { (INSIDE_SHARE, INSIDE_M) } else { (SHUT_IN_SHARE, SHUT_IN_M) };
+        !s.clear && s.distance_m < most_m.min(share * extent_m)
     };
+    let all_cd: f64 = looks.iter().map(|(light_cd, _)| light_cd).sum();
+    let far = looks.iter().filter(|(_, seen)| !seen.as_ref().is_some_and(is_close));
+    let far_cd: f64 = far.map(|(light_cd, _)| light_cd).sum();
     // A beam narrower than the directions tried is left alone.
     if looks.is_empty() {
         None
@@ -84,9 +93,9 @@ fn trouble(scene: &Scene, luminaire: &Luminaire) -> Option<Trouble> {
         Some(Trouble::LightsNothing)
     } else if seen().all(|s| s.black_back) {
         Some(Trouble::LightsBlackBacks)
-    } else if looks.iter().all(|l| l.as_ref().is_some_and(|s| s.mirrors_alone)) {
+    } else if looks.iter().all(|(_, l)| l.as_ref().is_some_and(|s| s.mirrors_alone)) {
         Some(Trouble::LightsMirrorsAlone)
-    } else if looks.iter().all(|l| l.as_ref().is_some_and(is_close)) {
+    } else if far_cd <= LEAKS * all_cd {
         Some(Trouble::ShutIn)
     } else {
         None
@@ -299,6 +308,8 @@ mod tests {
             (vec![room(), cube(0.1, false)], 1.0, true, Some(Trouble::ShutIn)),
             (vec![room(), cube(0.7, false)], 1.0, true, Some(Trouble::ShutIn)),
             (vec![room(), cube(0.7, true)], 1.0, true, None),
+            (vec![room(), cube(1e4, true)], 1.0, true, None),
+            (vec![room(), cube(1e4, false)], 1.0, true, None),
             (vec![far()], 1.0, true, Some(Trouble::LightsNothing)),
         ] {
             assert_eq!(trouble_of(shapes, intensity_cd, two_sided), expected);
