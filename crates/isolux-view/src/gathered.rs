@@ -4,7 +4,7 @@
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
 use crate::trace::{SurfacePoint, TraceSettings, trace, trace_watched};
-use isolux::engine::net::{Fineness, Net, Wanted};
+use isolux::engine::net::{Filled, Fineness, Net, Wanted};
 use isolux::engine::{Allowance, IndirectReading, MapReader, Told};
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::{Camera, Scene};
@@ -153,13 +153,15 @@ impl PixelLight {
             .map(|pixel| pixels.entries.partition_point(|entry| entry.at.pixel < pixel))
             .collect();
         let mut report = Gathered::default();
-        let mut net = Net::new(pixels.wanted(), Fineness::PIXELS);
+        let place = |number: usize| {
+            let SurfacePoint { triangle, back, u, v, .. } = pixels.entries[number].at;
+            (triangle, back, [u, v])
+        };
+        let sight = |from: usize, to: usize| reader.sees(place(from), place(to));
+        let mut net = Net::new(pixels.wanted(), Fineness::PIXELS, Box::new(sight));
         let mut done = 0.0;
         let gather = |numbers: &[usize], more: f64| -> Result<Vec<_>, Infallible> {
-            let one = |&number: &usize| {
-                let SurfacePoint { triangle, back, u, v, .. } = pixels.entries[number].at;
-                reader.indirect_at((triangle, back, [u, v]), ALLOWANCE)
-            };
+            let one = |&number: &usize| reader.indirect_at(place(number), ALLOWANCE);
             let mut found = Vec::with_capacity(numbers.len());
             for some in numbers.chunks(WATCHED) {
                 let left = (numbers.len() - found.len()) as f64 + more;
@@ -170,7 +172,9 @@ impl PixelLight {
             Ok(found)
         };
         let Ok(()) = net.fill(gather);
-        for filled in net.filled() {
+        let filled: Vec<Filled> = net.filled().collect();
+        drop(net);
+        for filled in filled {
             let light = filled.reading.map_or(Light::OfMap, Light::Gathered);
             pixels.entries[filled.number].light = light;
             match filled.is_gathered {

@@ -6,6 +6,9 @@
 //! is asked for, noise aside, squares of 2 x 2 follow, and in the end every texel. Between, a plane is laid through the
 //! texels about (moving least squares), and half of the differences that were found there, or at the texels that it leans on,
 //! counts as error: they shrink at least so much from net to net. The texels of a picture are its pixels.
+//! Light is not continued past what stands between.
+
+mod sight;
 
 use super::probe::IndirectReading;
 use crate::units::Rgb;
@@ -126,9 +129,13 @@ struct Difference {
     noise: f64,
 }
 
+/// Whether two texels see each other, by their numbers among those of the caller.
+pub type Sight<'a> = Box<dyn Fn(usize, usize) -> bool + Sync + 'a>;
+
 /// A net over the texels that are wanted.
-pub struct Net {
+pub struct Net<'a> {
     fineness: Fineness,
+    sight: Sight<'a>,
     /// In the order of squares, of each the squares within.
     wanted: Vec<Wanted>,
     /// Of each of them.
@@ -153,9 +160,9 @@ enum Step {
     Refined(usize),
 }
 
-impl Net {
+impl<'a> Net<'a> {
     /// Orders the texels.
-    pub fn new(mut wanted: Vec<Wanted>, fineness: Fineness) -> Self {
+    pub fn new(mut wanted: Vec<Wanted>, fineness: Fineness, sight: Sight<'a>) -> Self {
         let widest = fineness.widest;
         wanted.sort_unstable_by_key(|w| (w.kind, square(w.at, widest), within(w.at), w.number));
         let key = |w: &Wanted| (w.kind, square(w.at, widest));
@@ -168,7 +175,7 @@ impl Net {
         let by_place = squares.iter().enumerate().map(|(k, of)| (key(&wanted[of.start]), k));
         let by_place = by_place.collect();
         let (light, nodes) = (vec![Light::Waiting; wanted.len()], vec![Vec::new(); squares.len()]);
-        Self { fineness, wanted, light, squares, nodes, by_place, is_cut_short: false }
+        Self { fineness, sight, wanted, light, squares, nodes, by_place, is_cut_short: false }
     }
 
     /// Gathers light, step by step, and continues it to all texels. `gather` is told the numbers of texels to gather at, and
@@ -238,7 +245,7 @@ impl Net {
         match step {
             Step::Squares(size) => self.farthest(self.parts(size).into_iter().filter(is_new)),
             Step::Rims(size) => {
-                let parts = self.parts(size).into_iter();
+                let parts = self.parts(size).into_par_iter();
                 parts.filter_map(|part| self.farthest_out(part)).collect()
             }
             Step::Refined(size) => {
@@ -382,7 +389,7 @@ impl Net {
     /// Takes in what was gathered in a step: no value of it is expected from another.
     fn store(&mut self, chosen: &[usize], gathered: &[Option<IndirectReading>]) {
         let light: Vec<Light> = chosen
-            .iter()
+            .par_iter()
             .zip(gathered)
             .map(|(&k, gathered)| match gathered {
                 None => Light::Unknown,
@@ -402,11 +409,15 @@ impl Net {
         }
     }
 
-    /// Texels that are left and cannot be continued: they are to be gathered, too.
+    /// Texels that are left and cannot be continued, or see nothing that was gathered: they are to be gathered, too.
     fn left(&self) -> Vec<usize> {
-        let is_told = |k: usize| self.continued(k).is_some_and(|c| self.is_near(&c));
+        let is_told = |k: usize| {
+            let is_near = self.continued(k).is_some_and(|c| self.is_near(&c));
+            let about = || self.nodes_about(k).filter(|node| node.weight > 0.0).collect::<Vec<_>>();
+            is_near && sight::nearest_seen(&about(), self.seen_from(k)).is_some()
+        };
         let is_left = |&k: &usize| self.light[k] == Light::Waiting && !is_told(k);
-        (0..self.light.len()).filter(is_left).collect()
+        (0..self.light.len()).into_par_iter().filter(is_left).collect()
     }
 
     /// Whether a plane is continued no farther than is allowed.
@@ -416,22 +427,9 @@ impl Net {
 
     /// Continues light to the texels that are left.
     fn finish(&mut self) {
-        let mut continued = Vec::new();
-        for part in self.parts(self.fineness.widest / 2) {
-            let found = self.found_about(&part);
-            if self.is_cut_short && found.is_none() {
-                continue;
-            }
-            let found = found.map_or(0.0, |found| found.squared);
-            for k in part.filter(|&k| self.light[k] == Light::Waiting) {
-                let told = self.continued(k).filter(|c| !self.is_cut_short || self.is_near(c));
-                if let Some(Continued { reading, squared, .. }) = told {
-                    let left = SHRINK * found.max(squared).sqrt();
-                    let error_lx = libm::hypot(reading.error_lx, left);
-                    continued.push((k, IndirectReading { error_lx, ..reading }));
-                }
-            }
-        }
+        let parts = self.parts(self.fineness.widest / 2).into_par_iter();
+        let continued: Vec<(usize, IndirectReading)> =
+            parts.flat_map_iter(|part| self.told_of(part)).collect();
         for (k, reading) in continued {
             self.light[k] = Light::Continued(reading);
         }
@@ -446,6 +444,23 @@ impl Net {
         }
     }
 
+    /// Light of the texels of a part that are left, as far as it can be continued.
+    fn told_of(&self, part: Range<usize>) -> Vec<(usize, IndirectReading)> {
+        let found = self.found_about(&part);
+        if self.is_cut_short && found.is_none() {
+            return Vec::new();
+        }
+        let found = found.map_or(0.0, |found| found.squared);
+        let told = |k: usize| {
+            let told = self.continued(k).filter(|c| !self.is_cut_short || self.is_near(c));
+            let Continued { reading, squared, .. } = told?;
+            let left = SHRINK * found.max(squared).sqrt();
+            let error_lx = libm::hypot(reading.error_lx, left);
+            Some((k, IndirectReading { error_lx, ..reading }))
+        };
+        part.filter(|&k| self.light[k] == Light::Waiting).filter_map(told).collect()
+    }
+
     /// Light of a texel by a plane through many of the nearest that were gathered; nothing where it is quiet.
     fn smoothed(&self, k: usize) -> Option<IndirectReading> {
         let (Light::Gathered(own, _) | Light::Continued(own)) = self.light[k] else { return None };
@@ -454,14 +469,16 @@ impl Net {
             return None;
         }
         let mut about: Vec<Node> = self.nodes_about(k).collect();
-        let squared = |node: &Node| node.off[0] * node.off[0] + node.off[1] * node.off[1];
-        about.sort_unstable_by(|a, b| squared(a).total_cmp(&squared(b)));
+        about.sort_unstable_by(|a, b| a.away_squared().total_cmp(&b.away_squared()));
+        // Those that no plane is laid through need no look.
+        about.truncate((SMOOTHED_OVER * MOST_SMOOTHED) as usize + 1);
+        sight::keep_seen(&mut about, self.seen_from(k));
         let mut by = |count: f64| {
             let last = about.len().checked_sub(1)?.min(count as usize);
             // The last one has no weight, so that who comes and goes at the rim is not to be seen.
-            let reach = squared(&about[last]) + 1.0;
+            let reach = about[last].away_squared() + 1.0;
             for node in &mut about[..=last] {
-                node.weight = (1.0 - squared(node) / reach).max(0.0).powi(2);
+                node.weight = (1.0 - node.away_squared() / reach).max(0.0).powi(2);
             }
             plane(&about[..=last])
         };
@@ -475,8 +492,15 @@ impl Net {
 
     /// Light of a texel by a plane through what was gathered about it; nothing if too little was.
     fn continued(&self, k: usize) -> Option<Continued> {
-        let about: Vec<Node> = self.nodes_about(k).filter(|node| node.weight > 0.0).collect();
+        let mut about: Vec<Node> = self.nodes_about(k).filter(|node| node.weight > 0.0).collect();
+        sight::keep_seen(&mut about, self.seen_from(k));
         plane(&about)
+    }
+
+    /// Whether a texel sees one that was gathered.
+    fn seen_from(&self, k: usize) -> impl Fn(&Node) -> bool {
+        let own = self.wanted[k].number;
+        move |node| node.number == own || (self.sight)(own, node.number)
     }
 
     /// What was gathered about a texel.
@@ -491,7 +515,7 @@ impl Net {
             let inside = (1.0 - squared / (reach * reach)).max(0.0);
             let weight = (inside / (squared + soft * soft)).powi(2);
             let squared = difference.map_or(0.0, |difference| difference.squared);
-            Some(Node { off, weight, reading, squared })
+            Some(Node { number: self.wanted[other].number, off, weight, reading, squared })
         })
     }
 }
@@ -514,12 +538,21 @@ fn difference(found: &IndirectReading, expected: &IndirectReading) -> Difference
 
 /// A texel that was gathered, near another.
 struct Node {
+    /// Among those of the caller.
+    number: usize,
     /// From that, texels.
     off: [f64; 2],
     weight: f64,
     reading: IndirectReading,
     /// Square of how it differed from what was expected, lx2.
     squared: f64,
+}
+
+impl Node {
+    /// Square of the distance, texels squared.
+    fn away_squared(&self) -> f64 {
+        self.off[0] * self.off[0] + self.off[1] * self.off[1]
+    }
 }
 
 /// Light of a plane.
@@ -551,7 +584,7 @@ fn plane(about: &[Node]) -> Option<Continued> {
     let lean = [yy * mean[0] - xy * mean[1], xx * mean[1] - xy * mean[0]].map(|c| c / determinant);
     let (mut lx, mut error_lx, mut noise) = (Rgb::BLACK, 0.0, 0.0);
     let (mut squared, mut shares) = (0.0, 0.0);
-    for Node { off, weight, reading, squared: of_node } in about {
+    for Node { off, weight, reading, squared: of_node, .. } in about {
         let along = lean[0] * (off[0] - mean[0]) + lean[1] * (off[1] - mean[1]);
         let share = weight / total * (1.0 - along);
         lx += reading.lx * share;

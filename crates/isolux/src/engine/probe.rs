@@ -3,6 +3,7 @@
 mod effort;
 mod parts;
 mod shared_noise;
+mod sight;
 mod told;
 mod unlit;
 mod walls;

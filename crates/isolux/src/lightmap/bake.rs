@@ -73,11 +73,11 @@ fn empty(layout: &Layout) -> Lightmap {
 }
 
 /// What is known of the indirect light of texels before any of it is gathered.
-struct Surveyed {
+struct Surveyed<'a> {
     /// Of each texel, as the map tells it.
     told: Vec<Option<IndirectReading>>,
     /// Those to be gathered at.
-    net: Net,
+    net: Net<'a>,
     /// Those that there was no time to ask the map about.
     unread: Vec<usize>,
     /// The time that gathering will take, s.
@@ -94,15 +94,16 @@ struct Looks {
 }
 
 /// Asks the map about all texels.
-fn survey(
-    places: &Places<'_>,
+fn survey<'a>(
+    places: &'a Places<'_>,
     ground: &Ground<'_>,
     work: &mut Work<'_>,
-) -> Result<Surveyed, LightmapError> {
+) -> Result<Surveyed<'a>, LightmapError> {
     let all = &ground.texels;
     let surveys = work.each(all, After::UNFORESEEN, |fragments| places.survey(fragments))?;
     let charts = ground.charts();
     let mut told = vec![None; all.len()];
+    let mut standing = vec![None; all.len()];
     let (mut wanted, mut numbers) = (Vec::new(), Vec::new());
     let unread = (surveys.len()..all.len()).collect();
     for (number, (survey, asked)) in surveys.into_iter().enumerate() {
@@ -110,14 +111,19 @@ fn survey(
         match survey {
             Survey::Unknown => {}
             Survey::Told(reading) => told[number] = Some(reading),
-            Survey::Wanted(setting) => {
+            Survey::Wanted(setting, place) => {
+                standing[number] = Some(place);
                 let (at, chart) = (ground.place(number), u64::from(charts[number]));
                 wanted.push(Wanted { number, at, kind: chart << 2 | setting as u64 });
                 numbers.push(number);
             }
         }
     }
-    let net = Net::new(wanted, Fineness::TEXELS);
+    let sight = move |from: usize, to: usize| match (standing[from], standing[to]) {
+        (Some(from), Some(to)) => places.sees(from, to),
+        _ => false,
+    };
+    let net = Net::new(wanted, Fineness::TEXELS, Box::new(sight));
     let all_s = work.foresee((&numbers, TRIED), |&number| {
         places.gathered(all[number]);
     })?;
@@ -129,7 +135,7 @@ fn survey(
 /// texels have their shadows.
 fn look(
     places: &Places<'_>,
-    (ground, surveyed): (&Ground<'_>, &Surveyed),
+    (ground, surveyed): (&Ground<'_>, &Surveyed<'_>),
     work: &mut Work<'_>,
 ) -> Result<Looks, LightmapError> {
     let started = Instant::now();
@@ -154,7 +160,7 @@ fn look(
 /// Indirect light of all texels: as the map tells it, or gathered on a net; where time runs out as the map interpolates it.
 fn indirect(
     places: &Places<'_>,
-    (ground, surveyed, coarse): (&Ground<'_>, Surveyed, &mut [bool]),
+    (ground, surveyed, coarse): (&Ground<'_>, Surveyed<'_>, &mut [bool]),
     (closely_s, work): (f64, &mut Work<'_>),
 ) -> Result<Vec<Option<IndirectReading>>, LightmapError> {
     let all = &ground.texels;

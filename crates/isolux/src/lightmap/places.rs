@@ -35,8 +35,8 @@ pub(super) enum Survey {
     Unknown,
     /// The light.
     Told(IndirectReading),
-    /// Light is to be gathered.
-    Wanted(Setting),
+    /// Light is to be gathered; and a place that stands for the texel.
+    Wanted(Setting, Place),
 }
 
 /// What the places of a texel have before them.
@@ -48,6 +48,8 @@ pub(super) enum Setting {
     Gap,
     /// Some lie in a gap, or the map is to be trusted with some.
     Mixed,
+    /// Something stands across the texel: its light is a mean that is due on neither side.
+    Parted,
 }
 
 impl Setting {
@@ -87,8 +89,13 @@ impl Places<'_> {
             Told::Little { in_gap } => Some(*in_gap),
         };
         let all: Vec<Option<bool>> = told.iter().flatten().map(in_gap).collect();
-        let survey = if all.iter().any(Option::is_some) {
-            Survey::Wanted(Setting::of(&all))
+        let mut known = asked.iter().zip(&told).filter(|(_, told)| told.is_some());
+        let survey = if all.iter().any(Option::is_some)
+            && let Some(((_, place), _)) = known.next()
+        {
+            let is_parted = known.any(|((_, other), _)| !self.sees(*place, *other));
+            let setting = if is_parted { Setting::Parted } else { Setting::of(&all) };
+            Survey::Wanted(setting, *place)
         } else {
             let light = |(&(weight, _), told): (&(f64, Place), &Option<Told>)| match told {
                 Some(Told::Light(reading)) => Some((weight, *reading)),
@@ -101,6 +108,11 @@ impl Places<'_> {
             mean_of(middles).or_else(|| mean_of(spots)).map_or(Survey::Unknown, Survey::Told)
         };
         (survey, asked.len() as u64)
+    }
+
+    /// Whether nothing parts the light of two places.
+    pub(super) fn sees(&self, from: Place, to: Place) -> bool {
+        self.reader.sees(self.on_side(from), self.on_side(to))
     }
 
     /// As the map interpolates it in the middle of the largest part that it knows, be it to be trusted there or not.

@@ -32,6 +32,7 @@ mod parts;
 mod reflectance;
 mod sealed;
 mod sharing;
+mod sight;
 mod sums;
 mod sunk;
 mod trusting;

@@ -9,16 +9,23 @@ use std::convert::Infallible;
 const SIZE: usize = 48;
 
 /// A chart of so many texels squared, of which several kinds are wanted.
-fn net(size: usize, kind: impl Fn([usize; 2]) -> u64) -> Net {
+fn net(size: usize, kind: impl Fn([usize; 2]) -> u64) -> Net<'static> {
     net_of(size, kind, Fineness::TEXELS)
 }
 
-fn net_of(size: usize, kind: impl Fn([usize; 2]) -> u64, fineness: Fineness) -> Net {
+fn net_of(size: usize, kind: impl Fn([usize; 2]) -> u64, fineness: Fineness) -> Net<'static> {
     let wanted = (0..size * size).map(|number| {
         let at = [number % size, number / size];
         Wanted { number, at, kind: kind(at) }
     });
-    Net::new(wanted.collect(), fineness)
+    Net::new(wanted.collect(), fineness, Box::new(|_, _| true))
+}
+
+/// A chart with a wall across it: its first so many columns and the others do not see each other.
+fn parted(size: usize, wall: usize) -> Net<'static> {
+    let number = |number: usize| Wanted { number, at: [number % size, number / size], kind: 0 };
+    let sight = move |a: usize, b: usize| (a % size < wall) == (b % size < wall);
+    Net::new((0..size * size).map(number).collect(), Fineness::TEXELS, Box::new(sight))
 }
 
 fn reading(lx: f64) -> IndirectReading {
@@ -29,7 +36,7 @@ fn reading(lx: f64) -> IndirectReading {
 /// say.
 fn gathered(
     size: usize,
-    mut net: Net,
+    mut net: Net<'_>,
     lx: impl Fn([usize; 2]) -> f64,
 ) -> (usize, Vec<([usize; 2], f64, f64)>) {
     let at = |number: usize| [number % size, number / size];
@@ -177,4 +184,40 @@ fn pictures_show_little_of_the_noise_of_readings() {
     // One of 8 x 8 pixels is gathered. Through twelve of them 2.4 lx are left, through all that lie in nine of the widest squares
     // 1.3: halfway between.
     assert!(left < 1.8, "{left}");
+}
+
+#[test]
+fn light_is_not_continued_past_what_stands_between() {
+    // Down to a strip that no square of 4 x 4 lies in.
+    for wall in [22, 24, SIZE - 6, SIZE - 3, SIZE - 1] {
+        let room = |[x, _]: [usize; 2]| if x < wall { 500.0 } else { 0.5 };
+        let (count, texels) = gathered(SIZE, parted(SIZE, wall), room);
+        // Either room is smooth: one texel of sixteen, one more beside the wall, and all of a narrow strip.
+        assert!(count < SIZE * SIZE / 16 + 4 * SIZE, "{wall}: {count}");
+        for (at, off, _) in texels {
+            assert!(off.abs() < 1e-9, "{wall} {at:?}: {off}");
+        }
+    }
+}
+
+/// Readings of 500 and of 0.5 lx, all with a noise of 10 %, at which texels are smoothed.
+#[test]
+fn noise_is_not_smoothed_past_what_stands_between() {
+    let (wall, key) = (22, Key::new(5));
+    let mut net = parted(SIZE, wall);
+    let found = net.fill(|numbers, _| -> Result<_, Infallible> {
+        let noisy = |&number: &usize| {
+            let lx = if number % SIZE < wall { 500.0 } else { 0.5 };
+            let off = 0.2 * (key.with(number as u64).uniform() - 0.5);
+            let lx_there = Rgb::grey(lx * (1.0 + off));
+            Some(IndirectReading { lx: lx_there, error_lx: 0.1 * lx, noise_lx: 0.1 * lx })
+        };
+        Ok(numbers.iter().map(noisy).collect())
+    });
+    let Ok(()) = found;
+    for filled in net.filled() {
+        let lx = filled.reading.unwrap().lx.luminance();
+        let due = if filled.number % SIZE < wall { 500.0 } else { 0.5 };
+        assert!((lx / due - 1.0).abs() < 0.2, "{}: {lx} of {due}", filled.number);
+    }
 }

@@ -1,8 +1,11 @@
 //! Texels against what the map says.
 
 use super::*;
-use crate::engine::MapReader;
-use crate::lightmap::cover;
+use crate::engine::{MapReader, SolveRequest, Watch, solve};
+use crate::lightmap::cover::{self, Fragment};
+use crate::photometry::IntensityDistribution;
+use crate::scene::{Luminaire, LuminaireKind};
+use isolux_geometry::{Point, Transform};
 
 fn floor() -> Scene {
     scene(vec![quad("floor", [0.0; 3], [[4.0, 0.0, 0.0], [0.0, 3.0, 0.0]], 2)])
@@ -174,4 +177,78 @@ fn charts_of_which_nothing_is_known_take_no_light_from_those_beside_them() {
         let lx = lightmap.lookup(0, at).luminance();
         assert!((lx - 200.0).abs() < 0.1, "{lx} at {at:?}");
     }
+}
+
+/// Two closed rooms that share floor, ceiling and walls, parted by a sheet. A lamp of 300 cd in one, of 0.3 cd in the other.
+fn two_rooms(sheet_x: f64) -> Scene {
+    let (u, v, w) = ([3.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.5]);
+    let shapes = vec![
+        quad("floor", [0.0; 3], [u, v], 1),
+        quad("ceiling", [0.0, 0.0, 2.5], [v, u], 1),
+        quad("left", [0.0; 3], [v, w], 1),
+        quad("right", [3.0, 0.0, 0.0], [w, v], 1),
+        quad("front", [0.0; 3], [w, u], 1),
+        quad("rear", [0.0, 2.0, 0.0], [u, w], 1),
+        quad("sheet", [sheet_x, 0.0, 0.0], [v, w], 1),
+    ];
+    let lamp = |position: [f64; 3], intensity_cd| Luminaire {
+        name: "lamp".into(),
+        group: 0,
+        colour: Rgb::WHITE,
+        kind: LuminaireKind::Point {
+            position: Point::from(position),
+            world_from_luminaire: Transform::IDENTITY,
+            intensity: IntensityDistribution::Isotropic { intensity_cd },
+        },
+    };
+    Scene::assemble(SceneParts {
+        shapes,
+        materials: vec![Material::two_sided("white", Finish::diffuse(Rgb::grey(0.7)))],
+        luminaires: vec![lamp([0.7, 1.0, 1.5], 300.0), lamp([2.4, 1.0, 1.5], 0.3)],
+        ..SceneParts::default()
+    })
+    .unwrap()
+}
+
+#[test]
+fn floors_below_a_wall_carry_no_light_into_the_room_beyond() {
+    let sheet_x = 1.37;
+    let scene = two_rooms(sheet_x);
+    let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let texels_per_m = 15.0;
+    let lightmap = baked(&scene, &map, texels_per_m);
+    let fragments = cover::fragments(&scene, &lightmap.layout);
+    let (mut lit, mut dark) = (0, 0);
+    for of_texel in fragments.chunk_by(|a, b| a.texel == b.texel) {
+        let side = &lightmap.layout.sides[of_texel[0].side as usize];
+        let Some(texel) = lightmap.texel(of_texel[0].texel as usize) else { continue };
+        if side.back || scene.shape_of(side.triangle) > 1 {
+            continue;
+        }
+        let x_of = |fragment: &Fragment, of: [f64; 2]| {
+            let place = cover::polygon(&lightmap.layout, fragment).point(of);
+            let [u, v] = cover::weights(&lightmap.layout, fragment.side, place);
+            let triangle = lightmap.layout.sides[fragment.side as usize].triangle;
+            scene.triangle(triangle).point(u, v).x
+        };
+        // What it covers, but for less than a fifth of its width each way.
+        let x_of = &x_of;
+        let all = of_texel.iter().flat_map(|fragment| {
+            (0..36)
+                .map(move |k| x_of(fragment, [f64::from(k % 6), f64::from(k / 6)].map(|c| c / 5.0)))
+        });
+        let (least, most) = all.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+        let lx = texel.illuminance_lx.luminance();
+        if least > sheet_x + 0.2 / texels_per_m {
+            dark += 1;
+            // A thousandth of what is beyond the sheet.
+            // The map itself, to 5 %, tells up to 6 lx there.
+            assert!(lx < 10.0, "{lx} lx {} m behind the sheet", least - sheet_x);
+        } else if most < sheet_x - 0.2 / texels_per_m {
+            lit += 1;
+            assert!(lx > 50.0, "{lx} lx {} m before the sheet", sheet_x - most);
+        }
+    }
+    assert!(lit > 1000 && dark > 1000, "{lit} {dark}");
 }
