@@ -8,11 +8,13 @@
 //! counts as error: they shrink at least so much from net to net. The texels of a picture are its pixels.
 //! Light is not continued past what stands between.
 
+mod plane;
 mod sight;
 
 use super::probe::IndirectReading;
-use crate::units::Rgb;
+use plane::{Continued, Node, plane};
 use rayon::prelude::*;
+use sight::Parted;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -23,10 +25,6 @@ const SHRINK: f64 = 0.5;
 const OF_SQUARE: f64 = 2.0;
 /// What is left may be this share of the error that a reading has anyway.
 const OF_ERROR: f64 = 0.5;
-/// Planes lean by no more than what the spread of their places tells: this share of it is added both ways.
-const STIFFNESS: f64 = 0.1;
-/// Sum of the shares of a plane, taken as positive, beyond which it is a guess.
-const MOST_SHARES: f64 = 3.0;
 /// Texels that a plane is laid through where light is smoothed, and so many times as many at most where that is noisy.
 const SMOOTHED_OVER: f64 = 12.0;
 const MOST_SMOOTHED: f64 = 8.0;
@@ -145,6 +143,7 @@ pub struct Net<'a> {
     /// Of each square, what was gathered.
     nodes: Vec<Vec<usize>>,
     by_place: HashMap<(u64, [usize; 2]), usize>,
+    parted: Parted,
     /// Whether less was gathered than was asked for.
     is_cut_short: bool,
 }
@@ -174,8 +173,19 @@ impl<'a> Net<'a> {
         }
         let by_place = squares.iter().enumerate().map(|(k, of)| (key(&wanted[of.start]), k));
         let by_place = by_place.collect();
+        let parted = Parted::default();
         let (light, nodes) = (vec![Light::Waiting; wanted.len()], vec![Vec::new(); squares.len()]);
-        Self { fineness, sight, wanted, light, squares, nodes, by_place, is_cut_short: false }
+        Self {
+            fineness,
+            sight,
+            wanted,
+            light,
+            squares,
+            nodes,
+            by_place,
+            parted,
+            is_cut_short: false,
+        }
     }
 
     /// Gathers light, step by step, and continues it to all texels. `gather` is told the numbers of texels to gather at, and
@@ -394,7 +404,7 @@ impl<'a> Net<'a> {
             .map(|(&k, gathered)| match gathered {
                 None => Light::Unknown,
                 Some(reading) => {
-                    let expected = self.continued(k);
+                    let expected = self.continued_in_sight(k);
                     Light::Gathered(
                         *reading,
                         expected.map(|expected| difference(reading, &expected.reading)),
@@ -407,15 +417,24 @@ impl<'a> Net<'a> {
             let square = self.square_of(k);
             self.nodes[square].push(k);
         }
+        let parted: Vec<(usize, Vec<usize>)> =
+            chosen.par_iter().map(|&k| (k, self.parted_from(k))).collect();
+        for (k, others) in parted {
+            self.parted.add(k, others.into_iter());
+        }
+    }
+
+    /// What was gathered about a texel that was, too, is not like it, and not seen from there.
+    fn parted_from(&self, k: usize) -> Vec<usize> {
+        let Light::Gathered(own, _) = self.light[k] else { return Vec::new() };
+        let is_seen = self.seen_from(k);
+        let others = self.nodes_about(k).filter(|node| !sight::are_alike(&node.reading, &own));
+        others.filter(|node| !is_seen(node)).map(|node| node.index).collect()
     }
 
     /// Texels that are left and cannot be continued, or see nothing that was gathered: they are to be gathered, too.
     fn left(&self) -> Vec<usize> {
-        let is_told = |k: usize| {
-            let is_near = self.continued(k).is_some_and(|c| self.is_near(&c));
-            let about = || self.nodes_about(k).filter(|node| node.weight > 0.0).collect::<Vec<_>>();
-            is_near && sight::nearest_seen(&about(), self.seen_from(k)).is_some()
-        };
+        let is_told = |k: usize| self.continued_in_sight(k).is_some_and(|c| self.is_near(&c));
         let is_left = |&k: &usize| self.light[k] == Light::Waiting && !is_told(k);
         (0..self.light.len()).into_par_iter().filter(is_left).collect()
     }
@@ -470,9 +489,8 @@ impl<'a> Net<'a> {
         }
         let mut about: Vec<Node> = self.nodes_about(k).collect();
         about.sort_unstable_by(|a, b| a.away_squared().total_cmp(&b.away_squared()));
-        // Those that no plane is laid through need no look.
         about.truncate((SMOOTHED_OVER * MOST_SMOOTHED) as usize + 1);
-        sight::keep_seen(&mut about, self.seen_from(k));
+        self.keep_seen(k, &mut about);
         let mut by = |count: f64| {
             let last = about.len().checked_sub(1)?.min(count as usize);
             // The last one has no weight, so that who comes and goes at the rim is not to be seen.
@@ -493,14 +511,31 @@ impl<'a> Net<'a> {
     /// Light of a texel by a plane through what was gathered about it; nothing if too little was.
     fn continued(&self, k: usize) -> Option<Continued> {
         let mut about: Vec<Node> = self.nodes_about(k).filter(|node| node.weight > 0.0).collect();
-        sight::keep_seen(&mut about, self.seen_from(k));
+        self.keep_seen(k, &mut about);
         plane(&about)
+    }
+
+    /// The same; nothing if none of what lies nearest is seen.
+    fn continued_in_sight(&self, k: usize) -> Option<Continued> {
+        let about: Vec<Node> = self.nodes_about(k).filter(|node| node.weight > 0.0).collect();
+        sight::nearest_seen(&about, self.seen_from(k))?;
+        self.continued(k)
+    }
+
+    /// Keeps what nothing parts from a texel.
+    fn keep_seen(&self, k: usize, about: &mut Vec<Node>) {
+        let square = |k: usize| square(self.wanted[k].at, self.fineness.widest);
+        let are_near = |a: usize, b: usize| {
+            let (a, b) = (square(a), square(b));
+            (0..2).all(|c| a[c].abs_diff(b[c]) <= 1)
+        };
+        self.parted.keep_seen(about, self.seen_from(k), are_near);
     }
 
     /// Whether a texel sees one that was gathered.
     fn seen_from(&self, k: usize) -> impl Fn(&Node) -> bool {
         let own = self.wanted[k].number;
-        move |node| node.number == own || (self.sight)(own, node.number)
+        move |node| node.index == k || (self.sight)(own, self.wanted[node.index].number)
     }
 
     /// What was gathered about a texel.
@@ -515,7 +550,7 @@ impl<'a> Net<'a> {
             let inside = (1.0 - squared / (reach * reach)).max(0.0);
             let weight = (inside / (squared + soft * soft)).powi(2);
             let squared = difference.map_or(0.0, |difference| difference.squared);
-            Some(Node { number: self.wanted[other].number, off, weight, reading, squared })
+            Some(Node { index: other, off, weight, reading, squared })
         })
     }
 }
@@ -534,69 +569,4 @@ fn difference(found: &IndirectReading, expected: &IndirectReading) -> Difference
     let off_lx = found.lx.luminance() - expected.lx.luminance();
     let noise = found.noise_lx * found.noise_lx + expected.noise_lx * expected.noise_lx;
     Difference { squared: off_lx * off_lx, noise }
-}
-
-/// A texel that was gathered, near another.
-struct Node {
-    /// Among those of the caller.
-    number: usize,
-    /// From that, texels.
-    off: [f64; 2],
-    weight: f64,
-    reading: IndirectReading,
-    /// Square of how it differed from what was expected, lx2.
-    squared: f64,
-}
-
-impl Node {
-    /// Square of the distance, texels squared.
-    fn away_squared(&self) -> f64 {
-        self.off[0] * self.off[0] + self.off[1] * self.off[1]
-    }
-}
-
-/// Light of a plane.
-struct Continued {
-    reading: IndirectReading,
-    /// Squares of differences, each as far as the plane leans on where it was found, lx2.
-    squared: f64,
-    /// How far from the texel the middle of what it was continued from is, texels.
-    beyond: f64,
-}
-
-/// The value at nought of a plane through weighted readings.
-fn plane(about: &[Node]) -> Option<Continued> {
-    if about.len() < 2 {
-        return None;
-    }
-    let total: f64 = about.iter().map(|node| node.weight).sum();
-    let mean =
-        [0, 1].map(|k| about.iter().map(|node| node.weight * node.off[k]).sum::<f64>() / total);
-    let spread = |j: usize, k: usize| {
-        let one = |node: &Node| node.weight * (node.off[j] - mean[j]) * (node.off[k] - mean[k]);
-        about.iter().map(one).sum::<f64>() / total
-    };
-    let (xx, xy, yy) = (spread(0, 0), spread(0, 1), spread(1, 1));
-    // A row of places tells nothing of the way across: the plane is level there.
-    let stiff = STIFFNESS * (xx + yy);
-    let (xx, yy) = (xx + stiff, yy + stiff);
-    let determinant = xx * yy - xy * xy;
-    let lean = [yy * mean[0] - xy * mean[1], xx * mean[1] - xy * mean[0]].map(|c| c / determinant);
-    let (mut lx, mut error_lx, mut noise) = (Rgb::BLACK, 0.0, 0.0);
-    let (mut squared, mut shares) = (0.0, 0.0);
-    for Node { off, weight, reading, squared: of_node, .. } in about {
-        let along = lean[0] * (off[0] - mean[0]) + lean[1] * (off[1] - mean[1]);
-        let share = weight / total * (1.0 - along);
-        lx += reading.lx * share;
-        error_lx += share.abs() * reading.error_lx;
-        noise += share * share * reading.noise_lx * reading.noise_lx;
-        squared += share.abs() * of_node;
-        shares += share.abs();
-    }
-    let reading = IndirectReading { lx: lx.map(|c| c.max(0.0)), error_lx, noise_lx: noise.sqrt() };
-    (shares <= MOST_SHARES).then_some(Continued {
-        reading,
-        squared,
-        beyond: libm::hypot(mean[0], mean[1]),
-    })
 }
