@@ -13,7 +13,7 @@ use crate::quantity::{show_bytes, show_count, show_seconds, show_share, signific
 use crate::source;
 use isolux::lightmap::{
     BYTES_PER_TEXEL, Cover, Jump, Layout, Lightmap, LightmapError, LightmapSettings, OwnPlaces,
-    Pace, SeamReport, UvUnwrap, bake, lit_area_m2, plan_without,
+    Pace, SeamReport, UvUnwrap, bake, dark_share, lit_area_m2, plan_without,
 };
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
@@ -25,6 +25,8 @@ use std::time::{Duration, Instant};
 /// What texels take to bake on one thread, s, rooms of every kind and 16 to 64 texels a metre taken together: 0.4 to 0.95 ms were
 /// measured where details and contacts are many; empty rooms take less.
 const A_TEXEL_S: f64 = 3e-4;
+/// Of the area with texels, the share of dark surfaces that is told of.
+const MOSTLY_DARK: f64 = 0.75;
 /// The same of those read coarsely.
 const A_COARSE_TEXEL_S: f64 = 1e-5;
 /// It may as well be so many times less or more.
@@ -167,6 +169,20 @@ impl Planned {
         lit_area_m2(scene) * self.layout.texels_per_m * self.layout.texels_per_m
     }
 
+    /// Says where most texels lie on surfaces that no light comes to: the others are few then.
+    fn tell_of_dark(&self, scene: &Scene, map: &IlluminationMap) {
+        let share = dark_share(scene, map, &self.layout);
+        if share > MOSTLY_DARK {
+            let text = format!(
+                "lightmap: only {} of the surface with texels has light, and gets no more than {} texels a metre; \
+                 `export --without-dark` leaves the dark out",
+                show_share(1.0 - share),
+                significant(self.layout.texels_per_m, 3)
+            );
+            note(Note::Warning, text);
+        }
+    }
+
     /// Reads the map over all texels, coarsely once the time is up; nothing if interrupted.
     pub(crate) fn bake(
         &self,
@@ -174,6 +190,7 @@ impl Planned {
         (clock, progress): (Clock, Option<ProgressStyle>),
     ) -> Result<Option<Baked>, Failure> {
         let interrupt = Interrupt::install()?;
+        self.tell_of_dark(scene, map);
         let started = Instant::now();
         let a_thread = rayon::current_num_threads() as f64;
         let clock = clock.ahead_by(self.texels_of_surfaces(scene) * A_COARSE_TEXEL_S / a_thread);
@@ -311,7 +328,7 @@ fn failure(error: LightmapError) -> Failure {
     match error {
         LightmapError::Memory { needed, allowed } => Failure::Refused(format!(
             "the lightmap needs about {}, more than the {} of --max-memory; ask for fewer \
-             --texels-per-meter, or raise it",
+             --texels-per-meter, leave out what is dark (`export --without-dark`), or raise it",
             show_bytes(needed),
             show_bytes(allowed)
         )),

@@ -1,6 +1,7 @@
 //! Sides that no light comes to: they need no texels of their own.
 
 use super::charts::Patch;
+use super::layout::Layout;
 use super::own_places::root;
 use super::plan::{self, Sides};
 use crate::elements::Element;
@@ -31,6 +32,20 @@ pub fn dark_sides(scene: &Scene, map: &IlluminationMap) -> HashSet<(u32, bool)> 
         numbered().filter(|(n, _)| !bright.contains(n)).map(|(_, &side)| side).collect()
     };
     patches.iter().zip(&sides).flat_map(of_patch).collect()
+}
+
+/// The share of the area with texels that is of dark sides.
+pub fn dark_share(scene: &Scene, map: &IlluminationMap, layout: &Layout) -> f64 {
+    let dark = dark_sides(scene, map);
+    let (mut all_m2, mut dark_m2) = (0.0, 0.0);
+    for side in layout.sides.iter().filter(|side| !side.is_point()) {
+        let area_m2 = scene.triangle(side.triangle).area();
+        all_m2 += area_m2;
+        if dark.contains(&(side.triangle, side.back)) {
+            dark_m2 += area_m2;
+        }
+    }
+    if all_m2 > 0.0 { dark_m2 / all_m2 } else { 0.0 }
 }
 
 /// Whether a map has no light for an element, and no doubt about that.

@@ -35,7 +35,7 @@ mod tests;
 pub use arrays::{LightmapArrays, LightmapArraysError};
 pub use bake::bake;
 pub use charts::{Patch, Placed, UnwrapError, UnwrapRequest, Unwrapped, Unwrapper};
-pub use dark::dark_sides;
+pub use dark::{dark_share, dark_sides};
 pub use layout::{Layout, OwnPlaces, Side};
 pub use lit::lit_area_m2;
 pub use plan::{BYTES_PER_TEXEL, LightmapError, LightmapSettings, plan, plan_without};

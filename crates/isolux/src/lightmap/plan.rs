@@ -3,7 +3,7 @@
 use super::charts::{Patch, UnwrapError, UnwrapRequest, Unwrapped, Unwrapper};
 use super::cover::LEAST_AREA;
 use super::layout::{Layout, OwnPlaces, ROUNDING, Side};
-use super::lit::{lit_area_m2, lit_sides};
+use super::lit::{area_of_m2, lit_area_m2, lit_sides};
 use super::own_places;
 use crate::scene::Scene;
 use isolux_geometry::Normal;
@@ -86,7 +86,7 @@ pub fn plan(
 }
 
 /// The same, but some sides all lie at one place, which stays black. Where surfaces have places that the file gives them,
-/// or no others are left, they have texels like all.
+/// or no others are left, they have texels like all. The usual density is that at which all others have their texels.
 pub fn plan_without(
     scene: &Scene,
     settings: &LightmapSettings,
@@ -97,12 +97,16 @@ pub fn plan_without(
     if area_m2 <= 0.0 {
         return Err(LightmapError::NothingLit);
     }
+    let bright_m2 = match area_of_m2(scene, |side| !dark.contains(&side)) {
+        0.0 => area_m2,
+        bright_m2 => bright_m2,
+    };
     let texels_per_m = match settings.texels_per_m {
         Some(wish) if wish.is_finite() && wish > 0.0 => wish,
         Some(wish) => return Err(LightmapError::Density(wish)),
-        None => rounded((USUAL_TEXELS / area_m2).sqrt()),
+        None => rounded((USUAL_TEXELS / bright_m2).sqrt()),
     };
-    let texels = area_m2 * texels_per_m * texels_per_m * PACKED;
+    let texels = bright_m2 * texels_per_m * texels_per_m * PACKED;
     check_memory(texels, settings)?;
     let own = own_places::find(scene, (texels_per_m, settings.page, settings.padding))
         .and_then(|own| own.map(|own| not_in_the_way(scene, own, area_m2)).transpose());

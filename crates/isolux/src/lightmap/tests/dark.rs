@@ -77,3 +77,26 @@ fn where_all_is_dark_all_has_texels() {
     let layout = plan_without(&scene, &settings(4.0), &UvUnwrap, &dark);
     assert_eq!(layout, plan(&scene, &settings(4.0), &UvUnwrap));
 }
+
+#[test]
+fn dark_surfaces_count_for_neither_density_nor_memory() {
+    let sides = [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0]];
+    let sky = [[4000.0, 0.0, 0.0], [0.0, 4000.0, 0.0]];
+    let lit = || quad("lit", [0.0; 3], sides, 4);
+    let scene = scene(vec![lit(), quad("sky", [0.0, 0.0, 900.0], sky, 1)]);
+    let map = map(&scene, |[_, _, z]| (z < 1.0).then_some(200.0));
+    let dark = dark_sides(&scene, &map);
+    let usual = LightmapSettings::default();
+    let alone = plan(&super::scene(vec![lit()]), &usual, &UvUnwrap).unwrap();
+    let layout = plan_without(&scene, &usual, &UvUnwrap, &dark).unwrap();
+    assert_eq!(layout.asked_texels_per_m, alone.asked_texels_per_m);
+    assert!(layout.texel_count() < 2 * alone.texel_count(), "{}", layout.texel_count());
+    assert_eq!(dark_share(&scene, &map, &layout), 0.0);
+    // With the sky, 3.2 x 10^9 texels at 20 a metre squared are refused.
+    let dense = settings(20.0);
+    let whole = plan(&scene, &dense, &UvUnwrap);
+    assert!(matches!(whole, Err(LightmapError::Memory { .. })), "{whole:?}");
+    plan_without(&scene, &dense, &UvUnwrap, &dark).unwrap();
+    let sparse = plan(&scene, &settings(0.5), &UvUnwrap).unwrap();
+    assert!(dark_share(&scene, &map, &sparse) > 0.99);
+}
