@@ -507,7 +507,7 @@ impl Report {
             all.insert(2, ("  set", format!("{}: {setting}", self.target)));
         }
         if self.sides_without_texels > 0 {
-            let count = show_count(self.sides_without_texels as f64);
+            let count = self.sides_without_texels;
             all.push(("  without texels", format!("{count} sides of triangles, dark or too thin")));
         }
         if self.seams.edges > 0 {

@@ -125,16 +125,12 @@ pub(super) fn root(parent: &mut [usize], mut index: usize) -> usize {
 /// No texel is covered twice, and next to a chart lies no other: a bilinear lookup at its border would read it.
 fn check_room(scene: &Scene, layout: &Layout, charts: &[u32]) -> Result<(), String> {
     let found = fragments(scene, layout);
+    // First: what overlaps no density keeps apart.
+    check_overlap(scene, layout, &found)?;
     let mut owners: Vec<Option<u32>> = vec![None; layout.texel_count()];
     for of_texel in found.chunk_by(|a, b| a.texel == b.texel) {
-        let share: f64 = of_texel.iter().map(|f| f64::from(f.share)).sum();
         let chart = |f: &Fragment| charts[f.side as usize];
         let first = of_texel[0];
-        if share > 1.0 + OVERLAP {
-            let last = of_texel[of_texel.len() - 1];
-            let [one, other] = [first, last].map(|f| name(scene, &layout.sides[f.side as usize]));
-            return Err(format!("the second texture coordinates of `{one}` and `{other}` overlap"));
-        }
         if of_texel.iter().any(|f| chart(f) != chart(&first)) {
             return Err(too_close(layout));
         }
@@ -150,6 +146,24 @@ fn check_room(scene: &Scene, layout: &Layout, charts: &[u32]) -> Result<(), Stri
             || (right && down && (differ(at, at + width + 1) || differ(at + 1, at + width)))
     });
     if clashes { Err(too_close(layout)) } else { Ok(()) }
+}
+
+fn check_overlap(scene: &Scene, layout: &Layout, found: &[Fragment]) -> Result<(), String> {
+    let is_twice = |of_texel: &&[Fragment]| {
+        of_texel.iter().map(|f| f64::from(f.share)).sum::<f64>() > 1.0 + OVERLAP
+    };
+    let mut texels = found.chunk_by(|a, b| a.texel == b.texel);
+    let Some(of_texel) = texels.find(is_twice) else { return Ok(()) };
+    let name = |f: &Fragment| name(scene, &layout.sides[f.side as usize]);
+    let shape = |f: &Fragment| scene.shape_of(layout.sides[f.side as usize].triangle);
+    let first = &of_texel[0];
+    let one = name(first);
+    Err(match of_texel.iter().find(|f| shape(f) != shape(first)) {
+        Some(other) => {
+            format!("the second texture coordinates of `{one}` and `{}` overlap", name(other))
+        }
+        None => format!("the second texture coordinates of `{one}` overlap themselves"),
+    })
 }
 
 fn too_close(layout: &Layout) -> String {

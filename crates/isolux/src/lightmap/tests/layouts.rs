@@ -197,6 +197,13 @@ fn places_of_the_file_are_refused_with_a_reason() {
     assert!(beyond.contains("leave 0 to 1"), "{beyond}");
     let twice = refused(vec![placed(apart(0.1)), placed(apart(0.2))]);
     assert!(twice.contains("overlap"), "{twice}");
+    // Charts beside each other in a texel are met first, but more density would not help.
+    let overlapping = |name: &str, shift: f32| Shape { name: name.into(), ..placed(apart(shift)) };
+    let both = refused(vec![overlapping("a", 0.0), overlapping("b", 0.405), overlapping("c", 0.5)]);
+    assert!(both.contains("`b` and `c` overlap"), "{both}");
+    let fold = |[x, y, _]: [f64; 3]| [0.1 * (x - 2.0).abs() as f32, 0.1 * y as f32];
+    let itself = refused(vec![placed(fold)]);
+    assert!(itself.contains("overlap themselves"), "{itself}");
     let near = refused(vec![placed(apart(0.0)), placed(apart(0.405))]);
     assert!(near.contains("nearer than a texel"), "{near}");
     let flat = refused(vec![placed(|_| [0.5, 0.5])]);
