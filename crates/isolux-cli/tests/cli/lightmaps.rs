@@ -300,3 +300,22 @@ fn texels_in_the_map_are_those_that_would_be_baked() {
         assert_eq!(report["taken_from_map"], is_held, "{report}");
     }
 }
+
+#[test]
+fn below_a_dark_sky_a_room_has_few_texels_and_that_is_told() {
+    let home = Home::new();
+    let sky = "[[geometry]]\nbox = { min = [-500, -500, -500], max = [500, 500, 500], inward = true }\nmaterial = \"grey\"\n";
+    home.file("room.toml", format!("{ROOM}{sky}"));
+    home.run(&["solve", "room.toml", "--quality", "draft", "-o", "m.glb"]);
+    let whole = home.run(&["export", "m.glb", "-o", "whole.exr"]);
+    assert_eq!(whole.code, 0, "{whole:?}");
+    assert!(whole.err.contains("has light") && whole.err.contains("--without-dark"), "{whole:?}");
+    // With the sky that would be more than 10^8 texels.
+    let dense = ["--without-dark", "--texels-per-meter", "4"];
+    let left = home.run(&[&["export", "m.glb", "-o", "left.exr"], &dense[..]].concat());
+    assert_eq!(left.code, 0, "{left:?}");
+    assert!(!left.err.contains("has light"), "{left:?}");
+    let without = left.out.lines().find(|line| line.contains("without texels")).unwrap();
+    let count = without.split_whitespace().nth(2).unwrap();
+    assert!(count.parse::<u32>().unwrap() >= 12, "{without}");
+}
