@@ -39,7 +39,9 @@ const REGATHERED: u32 = 3;
 const LOST_IN_GAP: u32 = 32;
 
 /// A shadow ends on an element whose vertices have light that differs by more than this share, and who reads it there errs by as much.
+/// From farther away than so many of its edges many such are seen, and their errors balance.
 const UNEVEN: f64 = 0.25;
+const NEARBY: f64 = 4.0;
 
 /// A row while it is made.
 #[derive(Default)]
@@ -388,10 +390,14 @@ impl Gathering<'_> {
         may_be_in_gap && weights_in_gap(located.corners, self.standings).is_none()
     }
 
-    /// Whether values differ so much over the element at an end that they tell little of what is between.
+    /// Whether values differ so much over the element at an end nearby that they tell little of what is between.
     fn is_uneven(&self, end: &End, values: &[Rgb]) -> bool {
         let Some(located) = end.located else { return false };
-        let all = self.corners(&located, u32::MAX).map(|(v, _)| values[v as usize].luminance());
+        let corners = self.corners(&located, u32::MAX);
+        if end.distance_m > NEARBY * self.edge_m(corners) {
+            return false;
+        }
+        let all = corners.map(|(vertex, _)| values[vertex as usize].luminance());
         let high = all.into_iter().fold(0.0, f64::max);
         let low = all.into_iter().fold(high, f64::min);
         high - low > UNEVEN * high
