@@ -83,7 +83,7 @@ fn of_surfaces_half_in_shadow_it_is_unbiased() {
     check("a ceiling", &with(vec![wide, screen], vec![]), [0.0; 3], UP);
 }
 
-/// Where luminaires are many, readers take direct light from the map where rays end, but for elements whose vertices tell different
+/// Where luminaires are many, readers take direct light from the map where rays end, but for elements nearby whose vertices tell different
 /// light: there a shadow ends somewhere.
 #[test]
 fn readers_look_at_luminaires_again_where_the_map_is_uneven() {
@@ -107,6 +107,6 @@ fn readers_look_at_luminaires_again_where_the_map_is_uneven() {
     let right_lx = read_lx(&|_| 1.0);
     assert!(read_lx(&|_| 2.0) > 1.3 * right_lx, "even light is read");
     let uneven_lx = read_lx(&|k| if k % 2 == 0 { 5.0 } else { 1.0 });
-    // A few elements have even vertices alone.
-    assert!((uneven_lx / right_lx - 1.0).abs() < 0.3, "{uneven_lx} {right_lx}");
+    // Some elements have even vertices alone, and what lies far off is read: all of it would be 1.87 times as much.
+    assert!((uneven_lx / right_lx - 1.0).abs() < 0.5, "{uneven_lx} {right_lx}");
 }
