@@ -90,7 +90,8 @@ impl Trusts {
 /// The elements that readers may trust, worst first: those that are not beset.
 #[derive(Debug)]
 pub(super) struct Worst {
-    of_leaves: Vec<(f64, f64)>,
+    /// Error, lx, area, m2, and what that counts for in the sum of squares.
+    of_leaves: Vec<(f64, f64, f64)>,
     /// Sum of their squared errors, lx2 m2.
     squared: f64,
     /// Area of all elements, m2.
@@ -103,26 +104,26 @@ impl Worst {
         worst.par_sort_unstable_by(|a, b| b.error.total_cmp(&a.error).then(a.node.cmp(&b.node)));
         Self {
             squared: worst.iter().map(|e| e.squared()).sum(),
-            of_leaves: worst.iter().map(|e| (e.error, e.area_m2)).collect(),
+            of_leaves: worst.iter().map(|e| (e.error, e.area_m2, e.squared())).collect(),
             area_m2: errors.iter().map(|e| e.area_m2).sum(),
         }
     }
 
-    /// The error above which elements are left out, so that what the others err by in the mean square
-    /// over the surface is at most `goal`, or so that they make up no more than `most_share` of the area.
+    /// The error above which elements are left out, so that what the others err by in the mean square over the surface is at most
+    /// `goal`, what lies in dim rooms counting as much as it does, or so that they make up no more than `most_share` of the area.
     /// Infinite if none need be left out. Those that are beset are not counted: no reader trusts them.
     pub(super) fn limit(&self, goal: f64, most_share: f64) -> f64 {
         let Self { of_leaves, squared, area_m2 } = self;
         let mut left = *squared;
         let (mut out_m2, mut worst_left_out) = (0.0, None);
-        for &(error, own_m2) in of_leaves {
+        for &(error, own_m2, own_squared) in of_leaves {
             let is_enough = left <= goal * goal * area_m2;
             if is_enough || out_m2 + own_m2 > most_share * area_m2 {
                 // Between the two, so that rounding does not take one for the other.
                 return worst_left_out.map_or(f64::INFINITY, |out: f64| 0.5 * (out + error));
             }
             out_m2 += own_m2;
-            left -= own_m2 * error * error;
+            left -= own_squared;
             worst_left_out = Some(error);
         }
         f64::INFINITY
@@ -132,8 +133,8 @@ impl Worst {
 impl Trusts {
     /// Of elements that are trusted up to so much to begin with.
     pub(super) fn of(worst: &Worst, foreseen_lx: f64) -> Self {
-        let trusted = worst.of_leaves.iter().filter(|&&(error, _)| error <= foreseen_lx);
-        let squared: f64 = trusted.map(|&(error, own_m2)| own_m2 * error * error).sum();
+        let trusted = worst.of_leaves.iter().filter(|(error, ..)| *error <= foreseen_lx);
+        let squared: f64 = trusted.map(|(.., squared)| squared).sum();
         let error_lx = (squared / worst.area_m2.max(f64::MIN_POSITIVE)).sqrt();
         let mut all = [foreseen_lx; 1 + SHARES.len()];
         for (limit, share) in all[1..].iter_mut().zip(SHARES) {

@@ -43,6 +43,20 @@ fn the_worst_are_left_out_until_the_rest_is_good() {
     assert_eq!(Worst::of(&beset).limit(0.8, 1.0), f64::INFINITY, "nobody trusts them anyway");
 }
 
+/// What counts more, as it lies where it is dim, counts so in what is left out and in what remains.
+#[test]
+fn what_is_left_out_counts_as_what_remains() {
+    let mut all = errors(&[(1.0, 8.0), (1.0, 2.0), (1.0, 1.0)]);
+    all[0].weight = 4.0;
+    let worst = Worst::of(&all);
+    // Squares of 1024, 4 and 1 over 3 m2: without the first the others err by 1.29.
+    assert_eq!(worst.limit(1.5, 1.0), 0.5 * (8.0 + 2.0));
+    let trusts = Trusts::of(&worst, f64::INFINITY);
+    assert_eq!(trusts.least(), Trust::UpTo(0.5 * (8.0 + 2.0)), "a third of 18.5");
+    let less = Trusts::of(&worst, 3.0).all_but_least().nth(1);
+    assert_eq!(less, Some(Trust::UpTo(0.5 * (2.0 + 1.0))), "0.7 of 1.29");
+}
+
 /// Where more than foreseen is found, the worst of what was trusted are left out, however much was.
 #[test]
 fn less_is_trusted_by_what_elements_are_expected_to_err() {
