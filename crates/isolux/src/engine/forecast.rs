@@ -113,6 +113,8 @@ pub(super) struct Outlook {
     pub(super) carriers: f64,
     pub(super) gathered: f64,
     pub(super) vertices: f64,
+    /// All that there may be for indirect light.
+    pub(super) most: f64,
     /// Those whose direct light is measured.
     pub(super) measured: f64,
     /// Rays of each in the pilot, and in an increment.
@@ -162,7 +164,8 @@ impl Outlook {
             libm::log(excess_before / excess) / libm::log(self.carriers / carriers_before)
         });
         let order = if order.is_nan() { MOST_ORDER } else { order.clamp(LEAST_ORDER, MOST_ORDER) };
-        libm::pow(excess, 1.0 / order)
+        let allowed = 1.0 + (self.most - self.vertices).max(0.0) / self.carriers.max(1.0);
+        libm::pow(excess, 1.0 / order).min(allowed)
     }
 
     /// All that there will be as long as there are details to look at.

@@ -94,6 +94,7 @@ impl Pilot<'_> {
             carriers,
             gathered: gathered as f64,
             vertices: vertices as f64,
+            most: self.most_for_indirect_light.map_or(f64::INFINITY, |most| most as f64),
             measured: self.direct.len() as f64,
             pilot_rays: mean_of(&self.rays),
             rays,

@@ -15,6 +15,7 @@ fn known() -> (Outlook, Costs) {
         carriers: 1000.0,
         gathered: 1000.0,
         vertices: 2000.0,
+        most: f64::INFINITY,
         measured: 2000.0,
         pilot_rays: 64.0,
         rays: 16.0,
@@ -50,6 +51,11 @@ fn elements_grow_as_errors_are_seen_to_fall() {
     let (outlook, costs) = known();
     let first = Outlook { excess: Some(2.0), ..outlook };
     assert_eq!(first.vertices_then(), 3000.0, "first power");
+    assert_eq!(
+        Outlook { most: 2500.0, ..first }.vertices_then(),
+        2500.0,
+        "no more than there may be"
+    );
     // From 500 to 1000 carriers errors fell by 2^(2/3) only: it takes 2^(3/2) times as many.
     let slow = Outlook { before: Some((2.0 * 2.0_f64.powf(2.0 / 3.0), 500.0)), ..first };
     let more = 1000.0 * (2.0_f64.powf(1.5) - 1.0);
