@@ -41,8 +41,10 @@ const AHEAD: f64 = 0.5;
 /// Rounds at most.
 const ROUNDS: usize = 96;
 
-/// The part of the accuracy asked for that interpolating caustics may take.
+/// The part of the accuracy asked for that interpolating caustics may take, and what it may if to find out where more is lacking takes
+/// more particles than it takes to tell how much.
 const SHARE: f64 = 0.3;
+const MOST_SHARE: f64 = 0.5;
 
 /// Elements with fewer deposits tell nothing.
 const FEWEST_DEPOSITS: usize = 16;
@@ -106,6 +108,11 @@ impl CausticErrors {
         self.all.variance.sqrt() <= 2.0 * DOUBT * asked.goal
     }
 
+    /// Whether they leave enough of what is asked for to all else.
+    fn are_small(&self, asked: Asked) -> bool {
+        self.all.sum <= MOST_SHARE * MOST_SHARE * asked.goal
+    }
+
     /// The elements that increments are to check.
     pub(super) fn parts(&self, subdivision: &Subdivision) -> Parts {
         let nodes: Vec<u32> = self.seen[..self.checked].iter().map(|s| s.node).collect();
@@ -151,7 +158,8 @@ impl Pilot<'_> {
             }
             self.settle_between(look, request.is_fitted);
             let count = batches.kept();
-            let is_enough = errors.are_told(asked)
+            let may_find_more = count < MOST_KEPT && request.refines_caustics;
+            let is_enough = errors.are_told(asked) && (errors.are_small(asked) || !may_find_more)
                 || count >= MOST_KEPT && f64::from(2 * count) > self.most_ahead(look, request);
             if is_enough || !self.has_time(look, request, FINE, go_on) {
                 break;
