@@ -323,6 +323,9 @@ impl<'s> Pilot<'s> {
         let hemmed = |vertex: u32, edge_m: f64| self.hemmed_in_m[vertex as usize] < HEM * edge_m;
         let mut errors = details.leaf_errors(middle, beset, hemmed);
         let reference_lx = Light::of_vertices(&elements, &self.standings, lx).reference_lx();
+        for error in &mut errors {
+            error.error = error.error.max(self.error_in_lit_gap_lx(error.node, reference_lx));
+        }
         let left_by_fit = details.left_by_fit(&errors);
         self.weigh(&mut errors);
         let carriers = self.carriers.count(gatherers.len());

@@ -6,11 +6,31 @@ use crate::engine::gather::Gatherer;
 use crate::map::Standing;
 use crate::units::Rgb;
 
+/// Error of an element that is read as it is inside, as a share of what light falls by to its rim: root mean square of what falls evenly.
+const ERROR_OF_FALL: f64 = 0.4;
+
 impl Pilot<'_> {
     /// Photometric values of the vertices in the open.
     pub(super) fn in_the_open(&self, values: &[Rgb]) -> Vec<Option<f64>> {
         let is_open = |k: usize| self.standings[k] == Some(Standing::Open);
         (0..self.standings.len()).map(|k| is_open(k).then(|| values[k].luminance())).collect()
+    }
+
+    /// What an element errs by in a gap that is brighter inside than at the rim, as over a lamp that hangs close below a ceiling, and than
+    /// most of the scene, lx: all of it is read as it is inside. Nothing elsewhere: light that comes in at a rim does not reach far.
+    pub(super) fn error_in_lit_gap_lx(&self, node: u32, reference_lx: f64) -> f64 {
+        let corners = self.subdivision.node(node).0.vertices;
+        let of_standing = |standing: Standing| {
+            let is_it = move |v: &u32| self.standings[*v as usize] == Some(standing);
+            corners.into_iter().filter(is_it).map(|v| self.indirect[v as usize].luminance())
+        };
+        if of_standing(Standing::Open).next().is_some() {
+            return 0.0;
+        }
+        let inside_lx = of_standing(Standing::Gap).reduce(f64::min).filter(|&lx| lx > reference_lx);
+        let at_rim_lx = of_standing(Standing::Rim).reduce(f64::min);
+        let darker_lx = inside_lx.zip(at_rim_lx).map_or(0.0, |(inside, at_rim)| inside - at_rim);
+        ERROR_OF_FALL * darker_lx.max(0.0)
     }
 
     /// Finds out what vertices stand for that are new, or whose elements are.

@@ -40,3 +40,23 @@ fn a_panel_close_below_the_ceiling_is_seen_to_light_it() {
     // Elements as long as the gap is wide four times over may still lie across the border.
     assert!(misread < 10, "{misread} of {count}");
 }
+
+/// What hangs close below a ceiling and shines both ways is lit from above by what it lights itself: inside, and less at the rim.
+#[test]
+fn the_upper_side_of_a_lamp_below_a_ceiling_is_darker_at_its_rim() {
+    let mut shapes = inward_box([4.0, 3.0, 2.5], 0);
+    shapes.push(rectangle([1.7, 1.2, 2.47], [0.6, 0.0, 0.0], [0.0, 0.6, 0.0], 1));
+    let grey = Rgb::grey(0.75);
+    let glow = Finish { luminance_cd_m2: Rgb::grey(RADIANCE), ..Finish::diffuse(grey) };
+    let scene = scene(shapes, vec![painted(grey), Material::two_sided("lamp", glow)], vec![]);
+    let lighting = Lighting::new(&scene);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let read_lx = |x: f64| {
+        let surface = front_at(&scene, Point::new(x, 1.5, 2.47));
+        plan.read(plan.level, &plan.guess, &surface).luminance()
+    };
+    let inside_lx = read_lx(2.0);
+    // At the very rim half of what is seen is the dark room, and what is lit there is as far from being so by itself.
+    assert!(read_lx(1.71) < 0.6 * inside_lx, "{} {inside_lx}", read_lx(1.71));
+    assert!(read_lx(1.9) > 0.9 * inside_lx, "{} {inside_lx}", read_lx(1.9));
+}
