@@ -156,8 +156,8 @@ struct Pilot<'s> {
     aim: Option<Aim>,
     /// Whether there was time for all that it wanted to do.
     is_whole: bool,
-    /// Vertices that indirect light may have, once that is known.
-    most_for_indirect_light: Option<usize>,
+    /// Vertices that indirect light may have; no limit until that is known.
+    most_for_indirect_light: f64,
     /// Whether there are about as many vertices for indirect light as there may be.
     is_full: bool,
 }
@@ -248,7 +248,7 @@ impl<'s> Pilot<'s> {
             caustic_noise: CausticNoise::default(),
             aim: None,
             is_whole: true,
-            most_for_indirect_light: None,
+            most_for_indirect_light: f64::INFINITY,
             is_full: false,
             least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
         }
@@ -268,7 +268,7 @@ impl<'s> Pilot<'s> {
         let most = request.most_for_indirect_light.unwrap_or(MOST_FOR_INDIRECT_LIGHT);
         let most = most.max(look.elements.vertices().len() / 2 * 3);
         let most = request.max_vertices.min(most);
-        self.most_for_indirect_light = Some(most);
+        self.most_for_indirect_light = most as f64;
         self.try_some(&look, request.target);
         let excess = |look: &Look| (Some(look.greatest_excess(request)), None);
         let mut has_time = self.has_time(&look, request, excess(&look), go_on);

@@ -74,7 +74,6 @@ impl Pilot<'_> {
         let trial = self.trial.unwrap_or(Trial::usual(look.map_or(1.0, |look| look.reference_lx)));
         let reference_lx = look.map_or(trial.reference_lx, |look| look.reference_lx);
         let carriers = self.carriers.count(vertices) as f64;
-        let gathered = self.gathered.iter().filter(|&&gathered| gathered).count();
         let most = self.most_for_direct_light(request) as f64;
         let unmeasured = look.filter(|_| !self.is_measured);
         let more = unmeasured.map_or(0.0, |look| {
@@ -92,9 +91,9 @@ impl Pilot<'_> {
         let of_goal = (request.target, reference_lx);
         let outlook = Outlook {
             carriers,
-            gathered: gathered as f64,
+            gathered: self.gathered.iter().filter(|&&gathered| gathered).count() as f64,
             vertices: vertices as f64,
-            most: self.most_for_indirect_light.map_or(f64::INFINITY, |most| most as f64),
+            most: self.most_for_indirect_light,
             measured: self.direct.len() as f64,
             pilot_rays: mean_of(&self.rays),
             rays,
