@@ -10,6 +10,9 @@ use std::cell::OnceCell;
 /// above a quarter of the highest, so this happens once in a hundred million.
 const TRIES: usize = 64;
 
+/// How far before a triangle rounding puts points of it, as a share of how far it is away and of their coordinates.
+const ROUNDING: f64 = 1e-14;
+
 /// A triangle of an emitter, as far as it is above the horizon of a receiver.
 #[derive(Clone)]
 pub(super) struct Piece {
@@ -147,7 +150,7 @@ fn visit(
     [a, b, c]: [Point; 3],
     mut part: impl FnMut([Vector; 3], f64),
 ) {
-    if (b - a).cross(c - a).dot(point - a) <= 0.0 {
+    if !is_before(point, [a, b, c]) {
         return;
     }
     let (polygon, count) = above_horizon([a, b, c].map(|p| p - point), normal);
@@ -158,6 +161,14 @@ fn visit(
             part(corners, steradians);
         }
     }
+}
+
+/// Whether a point lies on the side of a triangle that it emits from, by more than rounding: one on its back does not.
+fn is_before(point: Point, [a, b, c]: [Point; 3]) -> bool {
+    let normal = (b - a).cross(c - a);
+    let height = normal.dot(point - a);
+    let lengths = (point - a).length_squared() + point.to_vector().length_squared();
+    height > 0.0 && height * height > ROUNDING * ROUNDING * normal.length_squared() * lengths
 }
 
 /// Projected solid angle of a triangle above the horizon that turns clockwise as seen from the

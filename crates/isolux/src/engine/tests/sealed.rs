@@ -1,7 +1,10 @@
 //! Luminous boxes, and what shines inside of them.
 
 use super::*;
+use crate::engine::direct::Lighting;
+use crate::engine::surface::SurfacePoint;
 use crate::engine::{SolveRequest, Watch, solve};
+use isolux_geometry::Vector;
 
 const ROOM: u32 = 0;
 const LAMP: u32 = 1;
@@ -69,4 +72,23 @@ fn the_inside_of_a_lamp_is_no_part_of_the_accuracy() {
     let [two, one] = [true, false].map(reference);
     // Each is good to 2 %.
     assert!((two / one - 1.0).abs() < 0.04, "{two} for {one}");
+}
+
+/// Rounding puts half of the places on an inclined surface before its plane.
+#[test]
+fn surfaces_that_shine_from_one_side_do_not_light_their_other() {
+    let glow = Finish { luminance_cd_m2: Rgb::grey(1000.0), ..Finish::diffuse(Rgb::grey(0.5)) };
+    let inclined = rectangle([0.3, 0.1, 0.7], [0.9, 0.2, 0.4], [-0.1, 0.8, 0.3], 0);
+    let scene = scene(vec![inclined], vec![Material::one_sided("glow", glow)], vec![]);
+    let lighting = Lighting::new(&scene);
+    let key = Key::new(7);
+    for k in 0..500 {
+        let [u, v] = [0, 1].map(|n| 0.5 * key.with(2 * k + n).uniform());
+        let mut at = SurfacePoint::new(&scene, 0, true, u, v);
+        // Normals between vertices are not those of triangles.
+        at.shading = (at.shading.to_vector() + Vector::new(0.05, 0.0, 0.0)).normal().unwrap();
+        // The other half of the rectangle may stand out by a rounding of its corners.
+        let lx = lighting.illuminance(&at, &mut dice(k)).luminance();
+        assert!(lx < 1e-6, "{lx} lx at {u} {v}");
+    }
 }
