@@ -176,8 +176,12 @@ impl Site {
         let shift = at - self.origin;
         let distance_m = shift.length();
         let bend = (normal.to_vector() - self.normal.to_vector()).length();
-        let below_m = -shift.dot(self.normal.to_vector());
-        let is_below = below_m > (bend + BELOW) * distance_m + 1e-5 * self.radius_m;
+        let slack_m = (bend + BELOW) * distance_m + 1e-5 * self.radius_m;
+        // The surface of the place itself hides what is below that.
+        if shift.dot(normal.to_vector()) > slack_m {
+            return false;
+        }
+        let is_below = -shift.dot(self.normal.to_vector()) > slack_m;
         if distance_m <= CLEAR * self.nearest_m && !is_below {
             return true;
         }

@@ -90,6 +90,19 @@ fn no_sample_on_the_outside_serves_the_inside() {
     assert!(!layer.covers(&scene, Point::new(18.0, 1e-4, 1.95), y));
 }
 
+/// The floor of a house, half a metre above the ground, as seen from the ground beside it: nearly in its plane, but from below.
+#[test]
+fn no_sample_serves_a_surface_that_it_lies_below() {
+    let ground = rectangle([-20.0, -20.0, 0.0], [40.0, 0.0, 0.0], [0.0, 40.0, 0.0], 0);
+    let floor = rectangle([0.0, -2.0, 0.5], [5.0, 0.0, 0.0], [0.0, 4.0, 0.0], 0);
+    let grey = painted(Rgb::grey(0.5));
+    let scene = scene(vec![ground, floor], vec![grey], vec![isotropic([0.0, 0.0, 9.0], 100.0)]);
+    let mut layer = Layer::new(&scene, 0.6);
+    layer.insert(Site { radius_m: 12.0, nearest_m: 9.0, ..floor_site(-1.0, 0.0) });
+    assert!(layer.covers(&scene, Point::new(-3.0, 0.0, 1e-4), Normal::Z));
+    assert!(!layer.covers(&scene, Point::new(1.0, 0.0, 0.5001), Normal::Z));
+}
+
 #[test]
 fn radii_differ_no_more_than_places_do() {
     let scene = room();
