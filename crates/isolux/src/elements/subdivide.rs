@@ -9,6 +9,7 @@ use super::hash::FewNumbers;
 use super::{Elements, Node, Split, Vertex};
 use crate::scene::{Finish, Scene};
 use isolux_geometry::{Normal, Point, Triangle};
+use rayon::prelude::*;
 use smallvec::SmallVec;
 use std::collections::HashMap;
 
@@ -18,6 +19,9 @@ const CREASE_COS: f64 = 0.999_847_7;
 
 /// Vertices at one place, elements on one edge: mostly one or two.
 type Few = SmallVec<[u32; 2]>;
+
+/// Elements and vertices of one task.
+const TOGETHER: usize = 4096;
 
 /// Elements that can still be bisected.
 #[derive(Clone, Debug)]
@@ -229,9 +233,11 @@ impl Subdivision {
     pub fn receivers(&self, share: f64) -> Vec<Receiver> {
         let on_border = self.border_vertices();
         let mut widest: Vec<Option<(f64, u32)>> = vec![None; self.vertices.len()];
-        for leaf in self.leaves() {
-            for (k, v) in self.nodes[leaf as usize].vertices.into_iter().enumerate() {
-                let angle = self.angle(leaf, k);
+        let leaves: Vec<u32> = self.leaves().collect();
+        let angles = |&leaf: &u32| [0, 1, 2].map(|k| self.angle(leaf, k));
+        let angles: Vec<[f64; 3]> = leaves.par_iter().with_min_len(TOGETHER).map(angles).collect();
+        for (leaf, angles) in leaves.into_iter().zip(angles) {
+            for (v, angle) in self.nodes[leaf as usize].vertices.into_iter().zip(angles) {
                 let best = &mut widest[v as usize];
                 if best.is_none_or(|(widest, _)| angle > widest) {
                     *best = Some((angle, leaf));
@@ -242,7 +248,7 @@ impl Subdivision {
             let (_, node) = widest[vertex].expect("every vertex is a corner of an element");
             self.receiver(vertex as u32, node, if on_border[vertex] { share } else { 0.0 })
         };
-        (0..self.vertices.len()).map(receiver).collect()
+        (0..self.vertices.len()).into_par_iter().with_min_len(TOGETHER).map(receiver).collect()
     }
 
     fn receiver(&self, vertex: u32, node: u32, share: f64) -> Receiver {
@@ -292,12 +298,12 @@ impl Subdivision {
     /// Which vertices elements do not surround.
     pub(crate) fn border_vertices(&self) -> Vec<bool> {
         let mut border = vec![false; self.vertices.len()];
-        self.border_edges().flatten().for_each(|end| border[end as usize] = true);
+        self.border_edges().into_iter().flatten().for_each(|end| border[end as usize] = true);
         border
     }
 
     /// Edges with elements on one side only, in any order. (Where solids touch, elements of both may lie upon each other.)
-    pub(crate) fn border_edges(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+    pub(crate) fn border_edges(&self) -> Vec<[u32; 2]> {
         let is_border = |(ends, elements): &(&[u32; 2], &Few)| {
             let is_left = |&node: &u32| {
                 let (Node { vertices, .. }, Origin { back, .. }) = self.node(node);
@@ -307,7 +313,7 @@ impl Subdivision {
             let left = elements.iter().filter(|node| is_left(node)).count();
             !elements.is_empty() && (left == 0 || left == elements.len())
         };
-        self.edges.iter().filter(is_border).map(|(&ends, _)| ends)
+        self.edges.par_iter().filter(is_border).map(|(&ends, _)| ends).collect()
     }
 }
 

@@ -56,13 +56,7 @@ impl Operator {
     pub(in crate::engine) fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
         let count = self.chunks.iter().map(|rows| rows.ends.len()).sum();
         let mut values = vec![Rgb::BLACK; count];
-        let mut left = values.as_mut_slice();
-        let mut parts = Vec::with_capacity(self.chunks.len());
-        for rows in &self.chunks {
-            let (part, others) = std::mem::take(&mut left).split_at_mut(rows.ends.len());
-            parts.push((rows, part));
-            left = others;
-        }
+        let parts = parts(&self.chunks, &mut values);
         parts.into_par_iter().for_each(|(rows, part)| rows.apply(light, part));
         values
     }
@@ -321,12 +315,8 @@ impl Rough {
         let mut mixing = Anderson::weighted(weights.to_vec());
         for _ in 0..MOST_FOLLOWED {
             let mut next = change.clone();
-            let mut left = next.as_mut_slice();
-            for rows in &self.chunks {
-                let (part, others) = std::mem::take(&mut left).split_at_mut(rows.ends.len());
-                rows.add(&whole, part);
-                left = others;
-            }
+            let parts = parts(&self.chunks, &mut next);
+            parts.into_par_iter().for_each(|(rows, part)| rows.add(&whole, part));
             if is_followed(&next, &whole, weights) {
                 return next;
             }
@@ -334,6 +324,16 @@ impl Rough {
         }
         whole
     }
+}
+
+/// Rows, each with their own of the values of all.
+fn parts<'a>(chunks: &'a [Rows], mut values: &'a mut [Rgb]) -> Vec<(&'a Rows, &'a mut [Rgb])> {
+    let part = |rows: &'a Rows| {
+        let (part, others) = std::mem::take(&mut values).split_at_mut(rows.ends.len());
+        values = others;
+        (rows, part)
+    };
+    chunks.iter().map(part).collect()
 }
 
 impl Rows {

@@ -39,7 +39,7 @@ use super::torn::Torn;
 use super::trial::Trial;
 use super::trust::{self, Felt, Worst};
 use super::walls::Walls;
-use crate::elements::{Elements, Subdivision};
+use crate::elements::{Elements, FewNumbers, Subdivision};
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
@@ -63,6 +63,8 @@ const FIRST_PART: usize = 16;
 /// How far apart the coarsest vertices that carry light may be, in edges of the first mesh: four of them, to
 /// start with two, as the details of those in between tell more than vertices twice as dense alone.
 const COARSEST: f64 = 4.0;
+/// Receivers of one task.
+const TOGETHER: usize = 4096;
 /// Rounds of refinement at most.
 const MAX_ROUNDS: usize = 16;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
@@ -126,7 +128,7 @@ struct Pilot<'s> {
     has_many_things: bool,
     gathered: Vec<bool>,
     /// By carrier, from which distance to others on something stands nearer before it than they.
-    beset_from_m: HashMap<u32, f64>,
+    beset_from_m: HashMap<u32, f64, FewNumbers>,
     /// By vertex, how close something stands before it, m, if that is less than a part of its elements.
     hemmed_in_m: Vec<f64>,
     /// By node, whether something stands close before its middle.
@@ -231,7 +233,7 @@ impl<'s> Pilot<'s> {
             has_many_things,
             spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
             gathered: Vec::new(),
-            beset_from_m: HashMap::new(),
+            beset_from_m: HashMap::default(),
             hemmed_in_m: Vec::new(),
             beset: Vec::new(),
             middles: HashMap::new(),
@@ -290,7 +292,7 @@ impl<'s> Pilot<'s> {
 
     fn gatherers(&self) -> Vec<Gatherer> {
         let receivers = self.subdivision.receivers(PULL_IN);
-        let with = receivers.iter().zip(&self.rays);
+        let with = receivers.par_iter().zip(&self.rays).with_min_len(TOGETHER);
         with.map(|(receiver, &rays)| Gatherer::at_vertex(self.scene, receiver, rays)).collect()
     }
 
