@@ -34,6 +34,8 @@ pub struct Subdivision {
     roots: Vec<[Option<u32>; 2]>,
     /// The elements on every edge, by its ends, the lower first.
     edges: HashMap<[u32; 2], Few, FewNumbers>,
+    /// Of every vertex, whether it lies on an edge with elements on one side only: bisection changes that of none.
+    on_border: Vec<bool>,
 }
 
 /// Which side of which triangle a node is part of, and its depth in the tree.
@@ -58,11 +60,15 @@ impl Subdivision {
             longest: Vec::with_capacity(roots.len()),
             roots: vec![[None; 2]; scene.triangle_count() as usize],
             edges: HashMap::with_capacity_and_hasher(3 * roots.len() / 2, FewNumbers::default()),
+            on_border: Vec::new(),
         };
         for (corners, origin) in roots {
             let root = subdivision.push(corners, origin);
             subdivision.roots[origin.triangle as usize][usize::from(origin.back)] = Some(root);
         }
+        let mut on_border = vec![false; subdivision.vertices.len()];
+        subdivision.border_edges().iter().flatten().for_each(|&end| on_border[end as usize] = true);
+        subdivision.on_border = on_border;
         subdivision
     }
 
@@ -157,8 +163,10 @@ impl Subdivision {
     }
 
     fn bisect_edge(&mut self, edge: [u32; 2]) {
+        let elements = self.edges.remove(&edge).unwrap_or_default();
         let middle = self.middle(edge);
-        for node in self.edges.remove(&edge).unwrap_or_default() {
+        self.on_border.push(self.is_border(edge, &elements));
+        for node in elements {
             self.split(node, edge, middle);
         }
     }
@@ -296,24 +304,25 @@ impl Subdivision {
     }
 
     /// Which vertices elements do not surround.
-    pub(crate) fn border_vertices(&self) -> Vec<bool> {
-        let mut border = vec![false; self.vertices.len()];
-        self.border_edges().into_iter().flatten().for_each(|end| border[end as usize] = true);
-        border
+    pub(crate) fn border_vertices(&self) -> &[bool] {
+        &self.on_border
     }
 
     /// Edges with elements on one side only, in any order. (Where solids touch, elements of both may lie upon each other.)
     pub(crate) fn border_edges(&self) -> Vec<[u32; 2]> {
-        let is_border = |(ends, elements): &(&[u32; 2], &Few)| {
-            let is_left = |&node: &u32| {
-                let (Node { vertices, .. }, Origin { back, .. }) = self.node(node);
-                let runs_along = (0..3).any(|k| [vertices[k], vertices[(k + 1) % 3]] == **ends);
-                runs_along != back
-            };
-            let left = elements.iter().filter(|node| is_left(node)).count();
-            !elements.is_empty() && (left == 0 || left == elements.len())
-        };
+        let is_border = |(ends, elements): &(&[u32; 2], &Few)| self.is_border(**ends, elements);
         self.edges.par_iter().filter(is_border).map(|(&ends, _)| ends).collect()
+    }
+
+    /// Whether these elements on an edge are on one side of it only.
+    fn is_border(&self, ends: [u32; 2], elements: &[u32]) -> bool {
+        let is_left = |node: &&u32| {
+            let (Node { vertices, .. }, Origin { back, .. }) = self.node(**node);
+            let runs_along = (0..3).any(|k| [vertices[k], vertices[(k + 1) % 3]] == ends);
+            runs_along != back
+        };
+        let left = elements.iter().filter(is_left).count();
+        !elements.is_empty() && (left == 0 || left == elements.len())
     }
 }
 

@@ -11,6 +11,7 @@ use crate::elements::Elements;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Normal, Point, Vector};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Bright is what reflects so many times as much direct light as surfaces do in the mean.
@@ -26,6 +27,9 @@ const MOST_CUBES: usize = 64;
 /// No more than this share as many rays are sent as there are others, and none where this share of the light or less comes from there.
 const MOST_SENT: f64 = 0.5;
 const FEWEST_SENT: f64 = 0.01;
+
+/// Elements of one task.
+const TOGETHER: usize = 4096;
 
 /// Of no part of the bright surfaces.
 const NONE: u8 = u8::MAX;
@@ -83,7 +87,7 @@ impl Bright {
     pub(super) fn of(
         scene: &Scene,
         elements: &Elements,
-        direct: impl Fn(u32) -> Rgb,
+        direct: impl Fn(u32) -> Rgb + Sync,
     ) -> Option<Self> {
         let leaves = leaves(scene, elements, direct);
         let total = |of: &mut dyn Iterator<Item = &Leaf>| -> [f64; 2] {
@@ -240,7 +244,7 @@ impl Seen<'_> {
 }
 
 /// All elements, each with what it reflects of direct light.
-fn leaves(scene: &Scene, elements: &Elements, direct: impl Fn(u32) -> Rgb) -> Vec<Leaf> {
+fn leaves(scene: &Scene, elements: &Elements, direct: impl Fn(u32) -> Rgb + Sync) -> Vec<Leaf> {
     let leaf = |(node, triangle, back): (u32, u32, bool)| {
         let finish = scene.material(triangle).finish(back)?;
         let vertices = elements.node(node).vertices;
@@ -259,7 +263,8 @@ fn leaves(scene: &Scene, elements: &Elements, direct: impl Fn(u32) -> Rgb) -> Ve
             reflected_lx: (of_all * reflectance).luminance() / 3.0,
         })
     };
-    elements.leaves().filter_map(leaf).collect()
+    let all: Vec<(u32, u32, bool)> = elements.leaves().collect();
+    all.into_par_iter().with_min_len(TOGETHER).filter_map(leaf).collect()
 }
 
 /// Elements by the cube of space that they lie in.

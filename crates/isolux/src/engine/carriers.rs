@@ -263,34 +263,53 @@ impl Carriers {
     pub(super) fn told(
         &self,
         values: &[Option<f64>],
-        is_beset: impl Fn(u32, f64) -> bool,
+        is_beset: impl Fn(u32, f64) -> bool + Sync,
     ) -> Vec<Option<Told>> {
         let mut told: Vec<Option<Told>> = vec![None; self.links.len()];
-        for &vertex in self.order.iter().filter(|&&v| !self.active[v as usize]) {
-            let Some(link) = &self.links[vertex as usize] else { continue };
-            let mut here = Told { error: 0.0, is_beset: false };
-            let mut any = false;
-            for &(parent, _) in &link.parents {
-                let of = told[parent as usize];
-                let error = match (&of, self.detail(values, parent)) {
-                    (Some(told), _) => Some(told.error),
-                    (None, detail) => detail.map(|(detail, _)| ERROR_OF_DETAIL * detail.abs()),
-                };
-                any |= error.is_some();
-                here.error = here.error.max(error.unwrap_or(0.0));
-                here.is_beset |=
-                    of.map_or_else(|| is_beset(parent, link.spacing_m), |told| told.is_beset);
-            }
-            if !any {
-                let known = link.parents.iter().filter_map(|&(p, _)| values[p as usize]);
-                let (low, high) = known.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
-                    (low.min(value), high.max(value))
-                });
-                here.error = 0.5 * ERROR_OF_DETAIL * (high - low.min(high));
-            }
-            told[vertex as usize] = Some(here);
+        let mut start = 0;
+        for &end in &self.ends {
+            // A level needs those before it alone.
+            let level = &self.order[start..end];
+            let waiting = level.par_iter().with_min_len(TOGETHER);
+            let waiting = waiting.filter(|&&v| !self.active[v as usize]);
+            let found: Vec<(u32, Told)> = waiting
+                .filter_map(|&v| Some((v, self.told_at(v, values, &told, &is_beset)?)))
+                .collect();
+            found.into_iter().for_each(|(v, here)| told[v as usize] = Some(here));
+            start = end;
         }
         told
+    }
+
+    fn told_at(
+        &self,
+        vertex: u32,
+        values: &[Option<f64>],
+        told: &[Option<Told>],
+        is_beset: impl Fn(u32, f64) -> bool,
+    ) -> Option<Told> {
+        let link = self.links[vertex as usize].as_ref()?;
+        let mut here = Told { error: 0.0, is_beset: false };
+        let mut any = false;
+        for &(parent, _) in &link.parents {
+            let of = told[parent as usize];
+            let error = match (&of, self.detail(values, parent)) {
+                (Some(told), _) => Some(told.error),
+                (None, detail) => detail.map(|(detail, _)| ERROR_OF_DETAIL * detail.abs()),
+            };
+            any |= error.is_some();
+            here.error = here.error.max(error.unwrap_or(0.0));
+            here.is_beset |=
+                of.map_or_else(|| is_beset(parent, link.spacing_m), |told| told.is_beset);
+        }
+        if !any {
+            let known = link.parents.iter().filter_map(|&(p, _)| values[p as usize]);
+            let (low, high) = known.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+                (low.min(value), high.max(value))
+            });
+            here.error = 0.5 * ERROR_OF_DETAIL * (high - low.min(high));
+        }
+        Some(here)
     }
 }
 

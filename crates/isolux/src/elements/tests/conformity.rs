@@ -182,6 +182,9 @@ fn where_solids_touch_borders_stay_borders() {
     let mut subdivision = Subdivision::new(&scene);
     subdivision.bisect_to(0.1, 10_000);
     let (vertices, border) = (subdivision.vertices(), subdivision.border_vertices());
+    let mut ends = vec![false; vertices.len()];
+    subdivision.border_edges().into_iter().flatten().for_each(|end| ends[end as usize] = true);
+    assert_eq!(border, ends, "bisection keeps them");
     let is_rim = |p: Point| [p.x, p.y].iter().any(|&c| c == 0.0 || c == 1.0);
     let of_slab = |k: usize| vertices[k].normal.to_vector().z > 0.0 && vertices[k].position.x < 0.2;
     let some: Vec<usize> = (0..vertices.len()).filter(|&k| of_slab(k)).collect();
