@@ -16,6 +16,9 @@ use rayon::prelude::*;
 /// Particles that tell whether there is anything, and how many more tell where it is.
 const FIRST: u32 = 1 << 11;
 const MORE: u32 = 1 << 14;
+/// So many of either for so many luminaires, and for more of them as many times as many, up to so many times.
+const OF_FEW: u32 = 8;
+const MOST_TIMES: u32 = 16;
 /// They go no further than by so many mirrors.
 const SCATTERINGS: u32 = 16;
 
@@ -47,26 +50,24 @@ struct Sum {
 }
 
 impl Pilot<'_> {
-    /// Bisects elements until their vertices tell about what light comes to them; returns whether there was anything to do. Where luminaires
-    /// are so many that they are chosen among, none of them matters alone.
+    /// Bisects elements until their vertices tell about what light comes to them; returns whether there was anything to do.
     pub(super) fn resolve_what_lands(
         &mut self,
         (elements, gatherers): (&mut Elements, &mut Vec<Gatherer>),
         request: &PilotRequest,
     ) -> bool {
-        if self.lighting.are_countless() {
-            return false;
-        }
         let Some(emission) = Emission::new(self.scene) else { return false };
+        let times = (emission.count() as u32 / OF_FEW).clamp(1, MOST_TIMES);
+        let [few, many] = [FIRST * times, MORE * times];
         let each_lm = |count: u32| emission.flux_lm() / f64::from(count);
-        let first = self.landed(&emission, FIRST, 0);
-        if self.wrongly_told(elements, (&first, each_lm(FIRST))).is_empty() {
+        let first = self.landed(&emission, few, 0);
+        if self.wrongly_told(elements, (&first, each_lm(few))).is_empty() {
             return false;
         }
-        let landed = self.landed(&emission, MORE, 1);
+        let landed = self.landed(&emission, many, 1);
         let mut any = false;
         for _ in 0..ROUNDS {
-            let wrong = self.wrongly_told(elements, (&landed, each_lm(MORE)));
+            let wrong = self.wrongly_told(elements, (&landed, each_lm(many)));
             let room = |pilot: &Self| pilot.subdivision.vertex_count() < request.max_vertices;
             if wrong.is_empty() || !room(self) {
                 break;
