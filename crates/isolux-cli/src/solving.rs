@@ -6,11 +6,11 @@ use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
-use crate::quantity::{show_bytes, show_seconds, show_share};
+use crate::quantity::{show_bytes, show_seconds, show_share, significant};
 use crate::saved_run::{self, Keeper};
 use crate::source;
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
-use isolux::map::{IlluminationMap, Method};
+use isolux::map::{HotSpots, IlluminationMap, Method};
 use isolux::scene::Scene;
 use std::path::Path;
 use std::time::Duration;
@@ -56,6 +56,7 @@ pub(crate) fn solve(
     let follower = Follower { reporter, keeper: Some(&mut keeper) };
     let solved = follow(scene, run.request, saved, follower, |error| failure(error, (scene, run)))?;
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
+    tell_of_hot_spots(&solved.solution.map);
     tell_of_time(&solved.solution, run.request.time_limit);
     tell_of_end(&solved, run.request);
     Ok(solved)
@@ -129,6 +130,27 @@ fn tell_of_bare_map(map: &IlluminationMap, hoped: f64) {
         format!(
             "the bare map, as viewers of the file see it, errs by {found}, more than the {hoped} of --mesh-accuracy: \
              shadows are finer than its elements; probe, grid and render evaluate direct light afresh"
+        ),
+    );
+}
+
+/// Errors are relative to the light of the whole scene, which may be on very little of it.
+fn tell_of_hot_spots(map: &IlluminationMap) {
+    let accuracy = map.provenance.accuracy;
+    let Some(spots) = accuracy.and_then(|_| map.hot_spots()) else { return };
+    let HotSpots { share, others_lx, brightest: (at, lx) } = spots;
+    note(
+        Note::Info,
+        format!(
+            "{} of all light lies on a hundredth of the surface, up to {} lx at ({:.3}, {:.3}, {:.3}): the error of the \
+             scene is relative to that, too, and elsewhere, where there are {} lx in the mean, errors are larger beside \
+             the light; readings tell their own: ask for a finer accuracy if those are too large",
+            show_share(share),
+            significant(lx, 3),
+            at.x,
+            at.y,
+            at.z,
+            significant(others_lx, 3)
         ),
     );
 }

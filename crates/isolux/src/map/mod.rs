@@ -1,11 +1,13 @@
 //! Illumination maps: plain values.
 
 mod grid;
+mod hot_spots;
 mod illuminance;
 mod provenance;
 mod standing;
 
 pub use grid::{Figure, GridFigures};
+pub use hot_spots::HotSpots;
 pub use illuminance::Illuminance;
 pub use provenance::{Accuracy, FilterReport, Fresh, Method, MixedPart, Provenance, Unshot};
 pub use standing::Standing;

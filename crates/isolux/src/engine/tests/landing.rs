@@ -50,6 +50,27 @@ fn rooms_are_as_bright_as_the_balance_of_light_has_them() {
     }
 }
 
+#[test]
+fn spots_that_decide_what_errors_are_relative_to_are_told() {
+    let spots = |below_m: f64, reflectance: f64| {
+        let lamp = isotropic([1.9, 2.3, ROOM_M[2] - below_m], FLUX_LM / (4.0 * PI));
+        let paint = vec![painted(Rgb::grey(reflectance))];
+        let scene = scene(inward_box(ROOM_M, 0), paint, vec![lamp]);
+        let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+        let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+        map.hot_spots()
+    };
+    // Half of the light lands on the ceiling, almost all of it within ten times as far as the lamp is away; a tenth is reflected.
+    let told = spots(0.01, 0.1).unwrap();
+    assert!(told.share > 0.42 && told.share < 0.46, "{told:?}");
+    let (at, lx) = told.brightest;
+    assert!((at - Point::new(1.9, 2.3, ROOM_M[2])).length() < 0.01 && lx > 1e5, "{told:?}");
+    let all_m2 = 2.0 * (4.0 * 5.0 + 4.0 * 2.8 + 5.0 * 2.8);
+    let others_lm = told.others_lx * all_m2 * 0.99;
+    assert!((others_lm / (FLUX_LM / 0.9 * (1.0 - told.share)) - 1.0).abs() < 0.05, "{told:?}");
+    assert_eq!(spots(0.5, 0.1), None);
+}
+
 /// Under a large sky one particle in a quarter of a million would come to a square metre: that none does tells nothing of its vertices.
 #[test]
 fn a_floor_that_no_particle_finds_below_a_large_sky_is_right_as_it_is() {
