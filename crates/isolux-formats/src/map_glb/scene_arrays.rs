@@ -5,9 +5,10 @@ use super::arrays::{self, Arrays, Table};
 use super::bytes::Bytes;
 use super::images;
 use super::record::{KindRecord, LuminaireRecord, SceneRecord, ShapeRecord, TextureRecord};
-use isolux::photometry::IntensityDistribution;
+use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux::scene::{Luminaire, LuminaireKind, SceneParts, Shape, Texture};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 const POSITIONS: &str = "scene_positions";
 const NORMALS: &str = "scene_normals";
@@ -72,6 +73,8 @@ struct Distributions {
     table: Vec<IntensityDistribution>,
     /// By their JSON, which distinguishes every bit.
     known: HashMap<String, u32>,
+    /// Tables that luminaires share, by where they are, which they keep: each is made text of once however many share it.
+    shared: HashMap<*const PhotometricWeb, (Arc<PhotometricWeb>, u32)>,
 }
 
 impl Distributions {
@@ -90,6 +93,17 @@ impl Distributions {
     }
 
     fn index(&mut self, intensity: IntensityDistribution) -> u32 {
+        let IntensityDistribution::Web(web) = &intensity else { return self.by_text(intensity) };
+        let web = Arc::clone(web);
+        if let Some((_, known)) = self.shared.get(&Arc::as_ptr(&web)) {
+            return *known;
+        }
+        let index = self.by_text(intensity);
+        self.shared.insert(Arc::as_ptr(&web), (web, index));
+        index
+    }
+
+    fn by_text(&mut self, intensity: IntensityDistribution) -> u32 {
         let json = serde_json::to_string(&intensity).unwrap_or_default();
         *self.known.entry(json).or_insert_with(|| {
             self.table.push(intensity);

@@ -2,10 +2,14 @@
 
 use super::{Body, Finish, Material, Scene};
 use crate::units::Rgb;
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// Bytes that are hashed at once, at least.
 const AT_ONCE: usize = 1 << 16;
+
+/// Luminaires that are written by one task.
+const TOGETHER: usize = 512;
 
 impl Scene {
     /// A hash (BLAKE3, hexadecimal) of everything that light depends on: geometry as the ray kernel
@@ -14,7 +18,7 @@ impl Scene {
         let mut hasher = blake3::Hasher::new();
         self.update_with_triangles(&mut hasher);
         update_json(&mut hasher, &self.materials());
-        update_json(&mut hasher, &self.luminaires());
+        update_json_of_each(&mut hasher, self.luminaires());
         update_json(&mut hasher, &self.groups());
         self.update_with_textures(&mut hasher);
         hasher.finalize().to_hex().to_string()
@@ -83,4 +87,15 @@ fn update_json(hasher: &mut blake3::Hasher, value: &impl Serialize) {
     let text = serde_json::to_vec(value).expect("plain values always have a JSON text");
     hasher.update(&(text.len() as u64).to_le_bytes());
     hasher.update(&text);
+}
+
+/// The same of many plain values, on all threads.
+fn update_json_of_each(hasher: &mut blake3::Hasher, values: &[impl Serialize + Sync]) {
+    let text = |some| serde_json::to_string(some).expect("plain values always have a JSON text");
+    let parts: Vec<String> = values.par_chunks(TOGETHER).map(text).collect();
+    // Without the brackets of the parts.
+    let inner: Vec<&str> = parts.iter().map(|part| &part[1..part.len() - 1]).collect();
+    let whole = format!("[{}]", inner.join(","));
+    hasher.update(&(whole.len() as u64).to_le_bytes());
+    hasher.update(whole.as_bytes());
 }
