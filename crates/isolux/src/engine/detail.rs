@@ -253,7 +253,8 @@ pub(super) fn refine_worst(
     };
     let mut worst: Vec<&LeafError> = errors.iter().filter(can_be).collect();
     // Ties in the order of the nodes: the same mesh on every machine.
-    worst.par_sort_unstable_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
+    worst
+        .par_sort_unstable_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
     let total: f64 = worst.iter().map(|e| e.squared()).sum();
     let (mut marked, mut any) = (0.0, false);
     let mut asked: Vec<u32> = Vec::new();

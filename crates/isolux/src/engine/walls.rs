@@ -117,7 +117,8 @@ impl Walls {
         let pieces = subdivision.least_connected();
         let mut walls =
             Self { at: vec![Vec::new(); subdivision.vertex_count()], pieces, ..Self::default() };
-        let borders: HashSet<[u32; 2], FewNumbers> = subdivision.border_edges().into_iter().collect();
+        let borders: HashSet<[u32; 2], FewNumbers> =
+            subdivision.border_edges().into_iter().collect();
         for leaf in subdivision.leaves() {
             let corners = subdivision.node(leaf).0.vertices;
             for k in 0..3 {
