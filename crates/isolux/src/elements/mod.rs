@@ -21,6 +21,9 @@ pub(crate) use walk::Place;
 use isolux_geometry::{Normal, Point};
 use walk::Walk;
 
+/// Elements or vertices of one task, where little is done for each.
+pub(crate) const TOGETHER: usize = 4096;
+
 /// The subdivided surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elements {

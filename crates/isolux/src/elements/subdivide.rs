@@ -6,7 +6,7 @@
 //! triangle of the scene locates any point of it.
 
 use super::hash::FewNumbers;
-use super::{Elements, Node, Split, Vertex};
+use super::{Elements, Node, Split, TOGETHER, Vertex};
 use crate::scene::{Finish, Scene};
 use isolux_geometry::{Normal, Point, Triangle};
 use rayon::prelude::*;
@@ -19,9 +19,6 @@ const CREASE_COS: f64 = 0.999_847_7;
 
 /// Vertices at one place, elements on one edge: mostly one or two.
 type Few = SmallVec<[u32; 2]>;
-
-/// Elements and vertices of one task.
-const TOGETHER: usize = 4096;
 
 /// Elements that can still be bisected.
 #[derive(Clone, Debug)]

@@ -7,7 +7,7 @@
 //! to the others.
 
 use super::surface::SurfacePoint;
-use crate::elements::Elements;
+use crate::elements::{Elements, TOGETHER};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Normal, Point, Vector};
@@ -27,9 +27,6 @@ const MOST_CUBES: usize = 64;
 /// No more than this share as many rays are sent as there are others, and none where this share of the light or less comes from there.
 const MOST_SENT: f64 = 0.5;
 const FEWEST_SENT: f64 = 0.01;
-
-/// Elements of one task.
-const TOGETHER: usize = 4096;
 
 /// Of no part of the bright surfaces.
 const NONE: u8 = u8::MAX;

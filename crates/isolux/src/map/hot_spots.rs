@@ -7,7 +7,8 @@ use isolux_geometry::Point;
 const BRIGHTEST: f64 = 0.01;
 const MUCH: f64 = 1.0 / 3.0;
 
-/// The brightest hundredth of the known surface, where it has a third of all light or more: three times the mean of all else is what errors are relative to then, or more.
+/// The brightest hundredth of the known surface, where it has a third of all light or more: errors are relative to three times
+/// the mean of all else then, or more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HotSpots {
     /// Share of all light on the known surface.

@@ -84,18 +84,23 @@ fn add(bytes: &mut Vec<u8>, values: &[f64]) {
 
 /// Plain values by their JSON text, whose numbers are exact.
 fn update_json(hasher: &mut blake3::Hasher, value: &impl Serialize) {
-    let text = serde_json::to_vec(value).expect("plain values always have a JSON text");
-    hasher.update(&(text.len() as u64).to_le_bytes());
-    hasher.update(&text);
+    update_text(hasher, &json(value));
 }
 
 /// The same of many plain values, on all threads.
 fn update_json_of_each(hasher: &mut blake3::Hasher, values: &[impl Serialize + Sync]) {
-    let text = |some| serde_json::to_string(some).expect("plain values always have a JSON text");
-    let parts: Vec<String> = values.par_chunks(TOGETHER).map(text).collect();
+    let parts: Vec<String> = values.par_chunks(TOGETHER).map(|some| json(&some)).collect();
     // Without the brackets of the parts.
     let inner: Vec<&str> = parts.iter().map(|part| &part[1..part.len() - 1]).collect();
-    let whole = format!("[{}]", inner.join(","));
-    hasher.update(&(whole.len() as u64).to_le_bytes());
-    hasher.update(whole.as_bytes());
+    update_text(hasher, &format!("[{}]", inner.join(",")));
+}
+
+fn json(value: &impl Serialize) -> String {
+    serde_json::to_string(value).expect("plain values always have a JSON text")
+}
+
+/// A text and before it its length, so that none runs into the next.
+fn update_text(hasher: &mut blake3::Hasher, text: &str) {
+    hasher.update(&(text.len() as u64).to_le_bytes());
+    hasher.update(text.as_bytes());
 }

@@ -39,7 +39,7 @@ use super::torn::Torn;
 use super::trial::Trial;
 use super::trust::{self, Felt, Worst};
 use super::walls::Walls;
-use crate::elements::{Elements, FewNumbers, Subdivision};
+use crate::elements::{Elements, FewNumbers, Subdivision, TOGETHER};
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
@@ -63,8 +63,6 @@ const FIRST_PART: usize = 16;
 /// How far apart the coarsest vertices that carry light may be, in edges of the first mesh: four of them, to
 /// start with two, as the details of those in between tell more than vertices twice as dense alone.
 const COARSEST: f64 = 4.0;
-/// Receivers of one task.
-const TOGETHER: usize = 4096;
 /// Rounds of refinement at most.
 const MAX_ROUNDS: usize = 16;
 /// Elements are not bisected below this share of the scene's extent: a centimetre in a room.

@@ -33,6 +33,27 @@ fn vertices_tell_of_light_that_lands_on_a_hand_s_breadth() {
     assert!(plan.backdrop.is_none());
 }
 
+/// So many that luminaires are chosen among: each lights a hand's breadth, all of them half of what light there is.
+#[test]
+fn vertices_tell_of_what_many_lamps_light_close_by() {
+    const SIDE: usize = 25;
+    let at = |k: usize, size_m: f64| size_m * (0.47 + k as f64) / SIDE as f64;
+    let each_cd = FLUX_LM / (4.0 * PI * (SIDE * SIDE) as f64);
+    let lamp = |k: usize| {
+        let [x, y] = [at(k % SIDE, ROOM_M[0]), at(k / SIDE, ROOM_M[1])];
+        isotropic([x, y, ROOM_M[2] - 0.02], each_cd)
+    };
+    let lamps = (0..SIDE * SIDE).map(lamp).collect();
+    let scene = scene(inward_box(ROOM_M, 0), vec![painted(Rgb::grey(REFLECTANCE))], lamps);
+    let lighting = Lighting::new(&scene);
+    assert!(lighting.are_countless());
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let vertices = plan.elements.vertices().iter().zip(&plan.direct);
+    let told_lm: f64 = vertices.map(|(vertex, lx)| vertex.area_m2 * lx.luminance()).sum();
+    // As for one lamp.
+    assert!((told_lm / FLUX_LM - 1.0).abs() < 0.02, "{told_lm}");
+}
+
 #[test]
 fn rooms_are_as_bright_as_the_balance_of_light_has_them() {
     let scene = room(0.005);
