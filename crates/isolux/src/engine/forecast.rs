@@ -184,15 +184,11 @@ impl Outlook {
 
     /// All vertices that there will be.
     pub(super) fn vertices_then(&self) -> f64 {
-        self.looked_at() * self.smoothed + self.added_for_direct()
-    }
-
-    /// Those that direct light alone will take.
-    fn added_for_direct(&self) -> f64 {
-        match self.usual {
+        let more_for_direct = match self.usual {
             Some(usual) => MORE_FOR_DIRECT * (usual - 1.0) * self.vertices,
             None => self.more_for_direct,
-        }
+        };
+        self.looked_at() * self.smoothed + more_for_direct
     }
 
     /// What all of it takes.
@@ -211,8 +207,8 @@ impl Outlook {
             + costs.direct.of(vertices - self.measured)
             + self.rounds() * look_s;
         let direct_s = costs.direct.of(self.measured_again * vertices);
-        // Once they are there they gather, too, unless light is so smooth that they are interpolated.
-        let added = if self.is_smooth { 0.0 } else { self.added_for_direct() };
+        // Vertices for direct light gather, too, once they are there, unless light is so smooth that they are interpolated.
+        let added = if self.is_smooth { 0.0 } else { self.more_for_direct };
         let rays = (carriers + added + self.checks) * self.rays + self.particles * growth;
         let first_s = if is_blind { FIRST_IN_ALL } else { 1.0 } * costs.of_first(vertices);
         let each_s = costs.of_rays(rays)

@@ -44,6 +44,10 @@ fn when_elements_are_fixed_increments_are_left() {
     assert!((beside - 0.256).abs() < 1e-9, "half as many again to check, and as many for caustics");
     let measured = Outlook { measured_each: true, ..outlook }.left(&costs).time_s;
     assert!((measured - left_s - 8.0 * 0.002).abs() < 1e-9, "direct light in each: {measured}");
+    let added = Outlook { more_for_direct: 500.0, ..outlook };
+    let interpolated = Outlook { is_smooth: true, ..added };
+    let gathered_s = added.left(&costs).time_s - interpolated.left(&costs).time_s;
+    assert!((gathered_s - 8e-6 * 500.0 * 16.0).abs() < 1e-9, "those gather, too: {gathered_s}");
 }
 
 #[test]
