@@ -16,10 +16,12 @@ const MOST_ORDER: f64 = 1.0;
 const USUAL_TARGET: f64 = 0.01;
 const USUAL_ORDER: f64 = 2.0;
 
-/// What an increment does for every vertex beside its rays, and what is done once before the first, in first looks
-/// at as many: measured in the hall.
-const EACH: f64 = 0.2;
-const ONCE: f64 = 1.5;
+/// What an increment does for every vertex beside its rays, and what is done once before the first, in looks at as many: measured
+/// in the hall and in offices.
+const EACH: f64 = 1.2;
+const ONCE: f64 = 7.0;
+/// A look at vertices that are known, in first looks, as long as there was none.
+const LATER: f64 = 0.1;
 
 /// Where light is smooth: what it takes to make the vertices that it has functions between, before it is known, as a multiple of
 /// first looks at as many; and what they take once more before the first increment, and in each, of that. Measured in CUBE and an empty room.
@@ -36,13 +38,17 @@ const ROUNDS_FOR_DIRECT: f64 = 3.0;
 /// adds to it, as a share of what it has more than the first (one that is fine already needs no more); and all that a vertex of it costs once, as a multiple of what it has until then. Measured in the hall.
 const GOOD_ENOUGH: f64 = 0.02;
 const MORE_FOR_DIRECT: f64 = 0.75;
-const FIRST_IN_ALL: f64 = 2.5;
+const FIRST_IN_ALL: f64 = 6.0;
+/// Among few, before the first look: what it takes in all, as a multiple of what it would if elements stayed as they are, in the
+/// middle of rooms, offices and places outside; an empty room takes a fourth of that.
+const FEW_IN_ALL: f64 = 3.0;
 /// And before that: what a gathering ray and a vertex cost, as multiples of a ray that is only traced.
 const GATHERING: f64 = 1.9;
 const FIRST: f64 = 19.0;
 
-/// Factors between what is said and what comes, in nine of ten runs: before the first look, while
+/// Factors between what is said and what comes, in nine of ten runs: before the first look among few things and among many, while
 /// elements are refined, and when they are fixed.
+const BLIND_AMONG_FEW: f64 = 6.0;
 const BLIND: f64 = 2.5;
 const REFINING: f64 = 1.7;
 const FIXED: f64 = 1.25;
@@ -97,6 +103,12 @@ impl Costs {
     fn of_first(&self, vertices: f64) -> f64 {
         let known = if self.first.things > 0.0 { self.first } else { self.traced.times(FIRST) };
         known.of(vertices)
+    }
+
+    /// What it takes to look at vertices once more.
+    fn of_looks(&self, vertices: f64) -> f64 {
+        let is_known = self.looks.things > 0.0;
+        if is_known { self.looks.of(vertices) } else { LATER * self.of_first(vertices) }
     }
 
     /// What it takes to make vertices where light is smooth.
@@ -199,7 +211,7 @@ impl Outlook {
         // Before anything was looked at.
         let is_blind = self.usual.is_some();
         let looked_at = self.looked_at();
-        let look_s = if is_blind { costs.of_first(looked_at) } else { costs.looks.of(looked_at) };
+        let look_s = if is_blind { costs.of_first(looked_at) } else { costs.of_looks(looked_at) };
         let smoothing_s = if self.is_smooth { costs.of_smoothing(vertices) } else { 0.0 };
         let smooth_now_s = if self.smoothed > 1.0 { smoothing_s } else { 0.0 };
         let pilot_s = smooth_now_s
@@ -207,22 +219,26 @@ impl Outlook {
             + costs.direct.of(vertices - self.measured)
             + self.rounds() * look_s;
         let direct_s = costs.direct.of(self.measured_again * vertices);
-        // Vertices for direct light gather, too, once they are there, unless light is so smooth that they are interpolated.
-        let added = if self.is_smooth { 0.0 } else { self.more_for_direct };
-        let rays = (carriers + added + self.checks) * self.rays + self.particles * growth;
-        let first_s = if is_blind { FIRST_IN_ALL } else { 1.0 } * costs.of_first(vertices);
+        let rays = (carriers + self.checks) * self.rays + self.particles * growth;
+        let beside_s = if is_blind {
+            FIRST_IN_ALL * LATER * costs.of_first(vertices)
+        } else {
+            costs.of_looks(vertices)
+        };
         let each_s = costs.of_rays(rays)
-            + EACH * first_s
+            + EACH * beside_s
             + BETWEEN * smoothing_s
             + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
-        let once_s = if self.measured_again > 0.0 { ONCE * first_s } else { 0.0 };
+        let once_s = if self.measured_again > 0.0 { ONCE * beside_s } else { 0.0 };
         let once_s = once_s + FITTING * smoothing_s;
-        let factor = match self.excess {
-            None => BLIND,
-            Some(excess) if excess > 1.0 => REFINING,
-            Some(_) => FIXED,
+        let (in_all, factor) = match self.excess {
+            None if is_blind => (1.0, BLIND),
+            None => (FEW_IN_ALL, BLIND_AMONG_FEW),
+            Some(excess) if excess > 1.0 => (1.0, REFINING),
+            Some(_) => (1.0, FIXED),
         };
-        Left { time_s: pilot_s + direct_s + once_s + BELIEVED_INCREMENTS as f64 * each_s, factor }
+        let time_s = pilot_s + direct_s + once_s + BELIEVED_INCREMENTS as f64 * each_s;
+        Left { time_s: in_all * time_s, factor }
     }
 }
 

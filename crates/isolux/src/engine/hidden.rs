@@ -19,6 +19,7 @@ use crate::scene::{Finish, Scene};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Ray};
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// Rays that look for light at most: a place that sees it in less than a tenth of its hemisphere
 /// is still found with a chance of 19 in 20.
@@ -40,6 +41,25 @@ pub(super) struct Sight<'a> {
     /// Vertices that something stands on, which are seen from both of its sides.
     pub(super) torn: &'a Torn,
     pub(super) key: Key,
+}
+
+/// An element: its number, which its places are drawn by, and where its corners are.
+pub(super) type Element = (u32, [[u64; 3]; 3]);
+
+/// By element, its places from which nothing was seen that luminaires shine on: vertices are found to be open later, but
+/// that stays, for later pilots of a run, too.
+#[derive(Debug, Default)]
+pub(super) struct Unlit(pub(super) HashMap<Element, u16>);
+
+/// Whether light comes to a place that sees no open vertex of its element.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum CutOff {
+    /// It does.
+    Yes,
+    /// It sees one.
+    No,
+    /// What is seen from there is neither open nor lit.
+    Unlit,
 }
 
 /// What a place sees.
@@ -97,17 +117,36 @@ impl Sight<'_> {
     }
 
     /// Whether a place is open, but sees no open vertex of its element: what is interpolated there
-    /// comes from behind something. `number` tells places apart.
-    pub(super) fn is_cut_off(&self, place: &SurfacePoint, number: u64, known: &[bool]) -> bool {
-        !self.sees_open(place, known)
-            && match self.look(&Gatherer::on_surface(*place, RAYS), number, known) {
-                Seen::Light => true,
-                Seen::Places(places) => self.any_open(&places, known),
+    /// comes from behind something. `number` tells places apart; of some it is known that what they see is unlit.
+    pub(super) fn cut_off(
+        &self,
+        (place, number): (&SurfacePoint, u64),
+        known: &[bool],
+        is_unlit: bool,
+    ) -> CutOff {
+        if self.sees_open(place, known) {
+            return CutOff::No;
+        }
+        let from = Gatherer::on_surface(*place, RAYS);
+        match self.look_for_open(&from, number, known) {
+            Seen::Light => CutOff::Yes,
+            Seen::Places(places) if !is_unlit && self.any_lit(&from, number, &places) => {
+                CutOff::Yes
             }
+            Seen::Places(_) => CutOff::Unlit,
+        }
     }
 
     /// Looks for places that see a vertex known to be open, which asks no luminaires, and then for light.
     fn look(&self, from: &Gatherer, number: u64, known: &[bool]) -> Seen {
+        match self.look_for_open(from, number, known) {
+            Seen::Places(places) if self.any_lit(from, number, &places) => Seen::Light,
+            seen => seen,
+        }
+    }
+
+    /// Looks for places that see a vertex known to be open.
+    fn look_for_open(&self, from: &Gatherer, number: u64, known: &[bool]) -> Seen {
         let sequence = Sequence::new(self.key.with(number));
         let axis = from.normal.to_direction();
         let mut places = Vec::new();
@@ -126,6 +165,11 @@ impl Sight<'_> {
                 return Seen::Light;
             }
         }
+        Seen::Places(places)
+    }
+
+    /// Whether a luminaire shines on one of the places seen from somewhere.
+    fn any_lit(&self, from: &Gatherer, number: u64, places: &[SurfacePoint]) -> bool {
         let reach_m = trust::edge_at_m(self.elements, &from.surface);
         let about = self.lighting.about(from.surface.point, reach_m);
         let sequence = Sequence::new(self.key.with(number).with(1));
@@ -137,7 +181,7 @@ impl Sight<'_> {
             };
             !light.is_black()
         };
-        if places.iter().enumerate().any(is_lit) { Seen::Light } else { Seen::Places(places) }
+        places.iter().enumerate().any(is_lit)
     }
 
     fn any_open(&self, places: &[SurfacePoint], known: &[bool]) -> bool {

@@ -7,6 +7,7 @@ use super::deadline::Deadline;
 use super::direct::Lighting;
 use super::emission::Emission;
 use super::forecast::Round;
+use super::hidden::Unlit;
 use super::pilot::{self, PilotRequest, pilot};
 use super::plan::Plan;
 use super::predict;
@@ -17,6 +18,7 @@ use super::state::{RunIdentity, RunState};
 use super::work::Work;
 use crate::map::{Accuracy, IlluminationMap, Method, Provenance};
 use crate::scene::Scene;
+use std::mem;
 use std::time::{Duration, Instant};
 
 /// Share of the time limit after which elements are refined no further.
@@ -91,8 +93,8 @@ pub fn foresee(
     patience: Duration,
 ) -> Result<Foreseen, SolveError> {
     check(scene, request)?;
-    let lighting = Lighting::new(scene);
     let run = Run::new(scene, request);
+    let lighting = Lighting::new(scene);
     let mut seen = Foreseen { receivers: 0, finish: None };
     pilot::foresee(scene, &lighting, &run.pilot_request(), &mut |round| {
         seen =
@@ -137,8 +139,8 @@ pub fn solve_looked_at(
         RunIdentity::of(scene, request).check(&state.identity)?;
     }
     let resume = resume.filter(|state| state.increments > 0);
-    let lighting = Lighting::new(scene);
     let mut run = Run::new(scene, request);
+    let lighting = Lighting::new(scene);
     if let Some(state) = resume {
         run.stage = state.stage.clamp(1, MOST_STAGES);
         run.saved_stage = run.stage;
@@ -212,6 +214,8 @@ struct Run<'s, 'r> {
     stage: u32,
     /// What the last pilot has taken, s.
     pilot_s: f64,
+    /// What pilots have found unlit.
+    unlit: Unlit,
     /// The stage that a saved run had come to; none is 0.
     saved_stage: u32,
 }
@@ -229,6 +233,7 @@ impl<'s, 'r> Run<'s, 'r> {
             cut: false,
             stage: 1,
             pilot_s: 0.0,
+            unlit: Unlit::default(),
             saved_stage: 0,
         }
     }
@@ -282,7 +287,8 @@ impl<'s, 'r> Run<'s, 'r> {
         let request = self.pilot_request();
         let (before, started_s) = (self.rays, self.elapsed_s());
         let scene = self.scene;
-        let plan = pilot(scene, lighting, &request, &mut |round| {
+        let mut unlit = mem::take(&mut self.unlit);
+        let plan = pilot(scene, lighting, &request, &mut unlit, &mut |round| {
             self.rays = before + round.rays;
             let progress = self.progress(Stage::Pilot, 0, round.receivers as u64, None);
             let progress = Progress { prediction: self.foreseen(round), ..progress };
@@ -293,6 +299,7 @@ impl<'s, 'r> Run<'s, 'r> {
             // The elements of a saved run are made again, whole, or what it has would be lost.
             self.stage == self.saved_stage || !(self.stopped || self.refined_long_enough())
         });
+        self.unlit = unlit;
         self.cut |= !plan.is_whole;
         self.rays = before + plan.rays;
         self.pilot_s = self.elapsed_s() - started_s;

@@ -2,6 +2,7 @@
 
 use super::Pilot;
 use crate::elements::{Elements, Subdivision};
+use crate::engine::allot::areas_m2;
 use crate::engine::bright::Bright;
 use crate::engine::carriers::Carriers;
 use crate::engine::cuts::{Cuts, Side};
@@ -29,7 +30,7 @@ impl<'s> Pilot<'s> {
         }
         let caustics = self.refine_for_caustics(&mut look, request, go_on);
         let indirect_vertices = self.subdivision.vertex_count();
-        let coarse = self.subdivision.clone();
+        let coarse = self.fix_for_indirect_light();
         self.look_at_walls_again(&look.elements, request.target);
         self.refine_for_direct_light(&mut look, request, go_on);
         let mut gatherers = self.measure_direct_light(&mut look, request, go_on);
@@ -76,6 +77,13 @@ impl<'s> Pilot<'s> {
             is_finest: self.is_full && self.direct_excess.is_some_and(|(_, excess)| excess > 1.0),
             rays: self.traced,
         }
+    }
+
+    /// The elements for indirect light, which are what they will be.
+    fn fix_for_indirect_light(&mut self) -> Subdivision {
+        let areas_m2 = areas_m2(&self.subdivision, &self.carriers);
+        self.for_indirect_light = Some((self.subdivision.vertex_count(), areas_m2));
+        self.subdivision.clone()
     }
 
     /// What vertices stand for; of those for direct light alone nothing is known where both ends of their edge are hidden.

@@ -11,6 +11,7 @@ mod finish;
 mod indirect;
 mod landing;
 mod middles;
+mod opening;
 mod round;
 mod sharing;
 mod smoothing;
@@ -28,10 +29,9 @@ use super::direct::Lighting;
 use super::flights::CausticNoise;
 use super::forecast::{Costs, GoOn};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
-use super::hidden::Sight;
+use super::hidden::{Sight, Unlit};
 pub(super) use super::look::PilotRequest;
 use super::look::{Look, Read, Surroundings};
-use super::path::Dice;
 use super::plan::Plan;
 use super::scale::bisect_to_scale;
 use super::surface::SurfacePoint;
@@ -41,12 +41,13 @@ use super::trust::{self, Felt, Worst};
 use super::walls::Walls;
 use crate::elements::{Elements, FewNumbers, Subdivision, TOGETHER};
 use crate::map::Standing;
-use crate::sampling::{Key, Sequence};
+use crate::sampling::Key;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::Point;
 use rayon::prelude::*;
 use std::collections::HashMap;
+use std::mem;
 use std::time::Instant;
 
 /// Vertices that the pilot starts with, unless the scene has more.
@@ -80,10 +81,8 @@ const MOST_STALLS: usize = 1;
 const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
 /// More than this part of the vertices there may be are all: the worst elements are bisected some at a time.
 const FULL: f64 = 0.95;
-/// Bisections of elements with hidden vertices, and the places in one that are asked whether light
-/// comes there.
+/// Bisections of elements with hidden vertices.
 const ROUNDS_FOR_HIDDEN: usize = 4;
-const PLACES_OF_HIDDEN: u32 = 16;
 /// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
 const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
 /// Something that stands closer before a vertex than this part of an element takes light from it that the rest of the element
@@ -112,6 +111,7 @@ struct Pilot<'s> {
     indirect: Vec<Rgb>,
     surroundings: Surroundings,
     known: Vec<bool>,
+    unlit: Unlit,
     /// Where some particles came over specular surfaces.
     reached: Vec<SurfacePoint>,
     /// What they stand for.
@@ -144,6 +144,8 @@ struct Pilot<'s> {
     costs: Costs,
     /// Whether light has quadratic functions between carriers already.
     is_smoothed: bool,
+    /// Vertices that indirect light is interpolated from, and the surface that each stands for, m2, once they are fixed.
+    for_indirect_light: Option<(usize, Vec<f64>)>,
     /// Whether direct light is what it will be.
     is_measured: bool,
     /// Walls that rays are judged by, once there is light.
@@ -162,15 +164,17 @@ struct Pilot<'s> {
     is_full: bool,
 }
 
-/// Looks and refines; `go_on` is asked after every round.
+/// Looks and refines; `go_on` is asked after every round. Adds to what earlier pilots of the run have found unlit.
 pub(super) fn pilot<'s>(
     scene: &'s Scene,
     lighting: &'s Lighting<'s>,
     request: &PilotRequest,
+    unlit: &mut Unlit,
     go_on: &mut GoOn<'_>,
 ) -> Plan<'s> {
-    let mut pilot = Pilot::new(scene, lighting, request);
+    let mut pilot = Pilot { unlit: mem::take(unlit), ..Pilot::new(scene, lighting, request) };
     let look = pilot.elements_for_indirect_light(request, go_on);
+    *unlit = mem::take(&mut pilot.unlit);
     pilot.finish(look, request, go_on)
 }
 
@@ -222,6 +226,7 @@ impl<'s> Pilot<'s> {
             indirect: Vec::new(),
             surroundings: Surroundings::default(),
             known: Vec::new(),
+            unlit: Unlit::default(),
             reached: Vec::new(),
             standings: Vec::new(),
             felt: Felt::default(),
@@ -241,6 +246,7 @@ impl<'s> Pilot<'s> {
             traced: 0,
             costs: Costs::default(),
             is_smoothed: false,
+            for_indirect_light: None,
             is_measured: false,
             trial: None,
             backdrop: None,
@@ -468,49 +474,5 @@ impl<'s> Pilot<'s> {
             look = self.look(request, go_on);
         }
         look
-    }
-
-    /// Bisects elements with hidden vertices where light comes to places that see none of the
-    /// others; returns whether there are any.
-    fn open_up(&mut self, elements: &Elements, max_vertices: usize) -> bool {
-        let gatherers = self.gatherers();
-        let sight = self.sight(elements, &gatherers);
-        let is_cut_off = |&node: &u32| {
-            let sequence = Sequence::new(self.key.with(4).with(u64::from(node)));
-            (0..PLACES_OF_HIDDEN).any(|k| {
-                let square = Dice::new(sequence, k).pair();
-                let place = SurfacePoint::in_node(self.scene, &self.subdivision, node, square);
-                sight.is_cut_off(&place, u64::from(node * PLACES_OF_HIDDEN + k), &self.known)
-            })
-        };
-        let hidden: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_hidden(n)).collect();
-        let cut_off: Vec<u32> = hidden.into_par_iter().filter(is_cut_off).collect();
-        let rims: Vec<u32> = self.subdivision.leaves().filter(|&n| self.has_only_rim(n)).collect();
-        for &node in &cut_off {
-            if self.subdivision.vertex_count() < max_vertices {
-                self.subdivision.bisect_twice(node);
-            }
-        }
-        for &node in &rims {
-            if self.subdivision.vertex_count() < max_vertices {
-                self.subdivision.bisect(node);
-            }
-        }
-        !(cut_off.is_empty() && rims.is_empty())
-    }
-
-    /// Whether an element can be bisected and lies in a gap without a vertex inside: what comes in at the
-    /// rim does not reach far.
-    fn has_only_rim(&self, node: u32) -> bool {
-        let corners = self.subdivision.node(node).0.vertices;
-        self.subdivision.longest_edge_m(node) > 2.0 * self.least_edge_m
-            && corners.iter().all(|&v| self.standings[v as usize] == Some(Standing::Rim))
-    }
-
-    /// Whether an element can be bisected and has a hidden vertex.
-    fn has_hidden(&self, node: u32) -> bool {
-        let corners = self.subdivision.node(node).0.vertices;
-        self.subdivision.longest_edge_m(node) > 2.0 * self.least_edge_m
-            && corners.iter().any(|&v| !self.known[v as usize])
     }
 }

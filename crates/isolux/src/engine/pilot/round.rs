@@ -13,6 +13,7 @@ use crate::engine::trial::{Trial, noise_for};
 use crate::sampling::{CosineHemisphere, Sequence};
 use isolux_geometry::Ray;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::time::Instant;
 
 /// Rays of each of the vertices that tell how long one takes.
@@ -73,7 +74,9 @@ impl Pilot<'_> {
         let vertices = self.subdivision.vertex_count();
         let trial = self.trial.unwrap_or(Trial::usual(look.map_or(1.0, |look| look.reference_lx)));
         let reference_lx = look.map_or(trial.reference_lx, |look| look.reference_lx);
-        let carriers = self.carriers.count(vertices) as f64;
+        let for_indirect_light = self.for_indirect_light.as_ref();
+        let carriers =
+            self.carriers.count(for_indirect_light.map_or(vertices, |(count, _)| *count));
         let most = self.most_for_direct_light(request) as f64;
         let unmeasured = look.filter(|_| !self.is_measured);
         let more = unmeasured.map_or(0.0, |look| {
@@ -86,25 +89,17 @@ impl Pilot<'_> {
         let is_right = measured > 0.0 || look.is_some_and(|look| look.walls.are_resolved());
         let noise = noise_for(request.target, interpolation, is_right);
         let wanted = trial.wanted(noise, reference_lx, BELIEVED_INCREMENTS);
-        let areas_m2 = || areas_m2(&self.subdivision, &self.carriers);
-        let rays = look.map_or(wanted, |_| mean_of(&allot(&areas_m2(), wanted)));
-        let of_goal = (request.target, reference_lx);
+        let rays = look.map_or(wanted, |_| self.mean_allotted(wanted));
         let outlook = Outlook {
-            carriers,
+            carriers: carriers as f64,
             gathered: self.gathered.iter().filter(|&&gathered| gathered).count() as f64,
             vertices: vertices as f64,
             most: self.most_for_indirect_light,
             measured: self.direct.len() as f64,
             pilot_rays: mean_of(&self.rays),
             rays,
-            checks: checks::count(self.carriers.count(vertices)) as f64 + measured,
-            particles: if self.lighting.leaves_caustics() {
-                let of = (vertices, of_goal, BELIEVED_INCREMENTS);
-                let share = self.caustic_noise.share(of.0, of.1, of.2, carriers * rays);
-                f64::from(self.caustic_noise.particles(of.0, of.1, of.2, share))
-            } else {
-                0.0
-            },
+            checks: checks::count(carriers) as f64 + measured,
+            particles: self.particles(request.target, (vertices, reference_lx), carriers, rays),
             target: request.target,
             excess,
             before,
@@ -123,6 +118,32 @@ impl Pilot<'_> {
             receivers_then: outlook.vertices_then(),
             left: outlook.left(&self.costs),
         }
+    }
+
+    /// Rays of a vertex in the mean, if each had so many.
+    fn mean_allotted(&self, rays: f64) -> f64 {
+        let areas_m2 = match &self.for_indirect_light {
+            Some((_, areas_m2)) => Cow::Borrowed(areas_m2),
+            None => Cow::Owned(areas_m2(&self.subdivision, &self.carriers)),
+        };
+        mean_of(&allot(&areas_m2, rays))
+    }
+
+    /// Particles of an increment, beside rays of so many carriers.
+    fn particles(
+        &self,
+        target: f64,
+        (vertices, reference_lx): (usize, f64),
+        carriers: usize,
+        rays: f64,
+    ) -> f64 {
+        if !self.lighting.leaves_caustics() {
+            return 0.0;
+        }
+        let (goal, increments) = ((target, reference_lx), BELIEVED_INCREMENTS);
+        let rays = carriers as f64 * rays;
+        let share = self.caustic_noise.share(vertices, goal, increments, rays);
+        f64::from(self.caustic_noise.particles(vertices, goal, increments, share))
     }
 
     /// What direct light as interpolated errs by, in what is asked for, as found already or by a look.

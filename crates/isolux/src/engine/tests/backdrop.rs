@@ -4,6 +4,7 @@ use super::*;
 use crate::engine::backdrop::{Backdrop, lacking};
 use crate::engine::direct::Lighting;
 use crate::engine::gather::{Gatherer, Gathering};
+use crate::engine::hidden::Unlit;
 use crate::engine::pilot::pilot;
 use crate::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest, Watch, solve};
 use crate::map::Fresh;
@@ -82,7 +83,7 @@ fn lit_room() -> Scene {
 fn walls_take_noise_off_and_leave_the_light() {
     let scene = lit_room();
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let gathering = Gathering::of(&plan, &plan.direct);
     let judged = plan.gatherers.iter().filter(|of| of.behind.is_some()).step_by(61);
     let judged: Vec<Gatherer> = judged.map(|of| of.with_rays(16)).collect();
@@ -114,7 +115,7 @@ fn walls_take_noise_off_and_leave_the_light() {
 fn light_settles_among_carriers_as_it_does_among_all() {
     let scene = lit_room();
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let vertices = plan.guess.len();
     assert!(2 * plan.waiting.count() >= vertices, "few carry light");
     let gathering = Gathering::of(&plan, &plan.direct);

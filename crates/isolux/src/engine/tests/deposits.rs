@@ -6,6 +6,7 @@ use crate::engine::accumulate::Accumulator;
 use crate::engine::direct::Lighting;
 use crate::engine::emission::Emission;
 use crate::engine::forward::Forward;
+use crate::engine::hidden::Unlit;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::surface::SurfacePoint;
@@ -82,7 +83,7 @@ fn flux_is_kept() {
 /// Mean of an increment of the forward engine, by vertex.
 fn forward(scene: &Scene, request: &PilotRequest) -> (Vec<f64>, Vec<f64>) {
     let lighting = Lighting::new(scene);
-    let plan = pilot(scene, &lighting, request, &mut |_| true);
+    let plan = pilot(scene, &lighting, request, &mut Unlit::default(), &mut |_| true);
     let mut lacking = Accumulator::new(plan.parts.count(), plan.reference_lx);
     let engine = Forward::new(&plan, Emission::new(scene).unwrap(), 0.05, 1);
     let mut sums = Accumulator::new(plan.elements.vertices().len(), plan.reference_lx);

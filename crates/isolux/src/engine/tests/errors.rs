@@ -6,6 +6,7 @@ use crate::engine::accuracy::{Pooled, accuracy};
 use crate::engine::checks::{self, Check, InterpolationErrors};
 use crate::engine::direct::Lighting;
 use crate::engine::filter::filter;
+use crate::engine::hidden::Unlit;
 use crate::engine::noise::Noise;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::place::ProbePoint;
@@ -33,7 +34,7 @@ pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Pl
         most_for_indirect_light: None,
         least_edge_m: None,
     };
-    pilot(scene, lighting, &request, &mut |_| true)
+    pilot(scene, lighting, &request, &mut Unlit::default(), &mut |_| true)
 }
 
 /// A number about zero with variance one, close to normal: the sum of twelve.

@@ -4,6 +4,7 @@ use super::*;
 use crate::engine::checks;
 use crate::engine::direct::{Goal, Lighting, Measured, Patches};
 use crate::engine::gather::Gatherer;
+use crate::engine::hidden::Unlit;
 use crate::engine::pilot::pilot;
 use crate::engine::surface::SurfacePoint;
 use crate::engine::{SolveRequest, Watch, solve};
@@ -274,7 +275,7 @@ fn noise_of_direct_light_is_part_of_the_accuracy() {
     let floor = vec![rectangle([-9.0, -9.0, 0.0], [18.0, 0.0, 0.0], [0.0, 18.0, 0.0], 0)];
     let scene = scene(floor, vec![painted(Rgb::grey(0.5))], lamps(700));
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let checks = checks::draw(&plan, 0, Key::new(2));
     let noise = |accuracy: f64| {
         let noise_lx2 = checks::direct(&plan, &checks, accuracy, Key::new(3)).noise_lx2;

@@ -4,6 +4,7 @@ use super::*;
 use crate::elements::Subdivision;
 use crate::engine::carriers::Carriers;
 use crate::engine::direct::Lighting;
+use crate::engine::hidden::Unlit;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::walls::Walls;
@@ -34,7 +35,7 @@ fn measured_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Plan<'s> {
         most_for_indirect_light: Some(1500),
         least_edge_m: None,
     };
-    pilot(scene, lighting, &request, &mut |_| true)
+    pilot(scene, lighting, &request, &mut Unlit::default(), &mut |_| true)
 }
 
 fn is_in(triangle: &Triangle, at: Point) -> bool {

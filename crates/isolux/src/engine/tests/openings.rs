@@ -4,6 +4,7 @@ use super::*;
 use crate::engine::deadline::Deadline;
 use crate::engine::direct::{Goal, Lighting};
 use crate::engine::gather::{Gatherer, Gathering};
+use crate::engine::hidden::Unlit;
 use crate::engine::hybrid::Hybrid;
 use crate::engine::neighbours::{LEAST, lend_noise};
 use crate::engine::pilot::pilot;
@@ -175,7 +176,7 @@ fn errors_count_for_the_dim_room_that_sees_them() {
     let most_on = |material: u32, reflectance: f64| {
         let scene = room_behind_slats(reflectance);
         let lighting = Lighting::new(&scene);
-        let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+        let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
         let material_of = |node: u32| {
             let (_, origin) = plan.subdivision.node(node);
             scene.material_index(origin.triangle)
@@ -194,7 +195,7 @@ fn noise_that_readings_have_in_common_is_told_at_vertices() {
     const INCREMENTS: u64 = 48;
     let scene = room_behind_slats(0.6);
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let mut hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1 << 10, 1);
     // Floor, a side and the back of the room, by so many rays that theirs is no noise beside that of what they read.
     let places = [[1.9, 2.1, 0.0], [4.0, 1.7, 1.3], [1.1, 4.0, 1.6]];

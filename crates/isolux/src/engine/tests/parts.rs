@@ -6,6 +6,7 @@ use crate::elements::Subdivision;
 use crate::engine::accumulate::Accumulator;
 use crate::engine::caustics::deposit;
 use crate::engine::direct::Lighting;
+use crate::engine::hidden::Unlit;
 use crate::engine::noise::Noise;
 use crate::engine::parts::{PARTS, Parts, Squared, part_of, read_in_parts, samples};
 use crate::engine::pilot::{PilotRequest, pilot};
@@ -158,8 +159,8 @@ fn caustic_error(plan: &Plan, particles: u32) -> f64 {
 fn elements_are_as_fine_as_a_sharp_caustic_needs() {
     let scene = room_with_a_lens();
     let lighting = Lighting::new(&scene);
-    let coarse = pilot(&scene, &lighting, &request(1.0), &mut |_| true);
-    let fine = pilot(&scene, &lighting, &request(0.03), &mut |_| true);
+    let coarse = pilot(&scene, &lighting, &request(1.0), &mut Unlit::default(), &mut |_| true);
+    let fine = pilot(&scene, &lighting, &request(0.03), &mut Unlit::default(), &mut |_| true);
     let all_parts = |plan: &Plan| {
         let leaves: Vec<u32> = plan.subdivision.leaves().collect();
         Parts::new(&plan.subdivision, &leaves)

@@ -4,6 +4,7 @@ use super::*;
 use crate::elements::Vertex;
 use crate::engine::checks;
 use crate::engine::direct::Lighting;
+use crate::engine::hidden::Unlit;
 use crate::engine::pilot::pilot;
 use crate::engine::place::ProbePoint;
 use crate::engine::probe::MapReader;
@@ -89,7 +90,7 @@ fn nothing_is_known_of_the_floor_below_a_box() {
 fn check_points_judge_cut_elements_as_rays_read_them() {
     let rays_only = |scene: &Scene| {
         let lighting = Lighting::new(scene);
-        let plan = pilot(scene, &lighting, &usual_request(), &mut |_| true);
+        let plan = pilot(scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
         let checks = checks::draw(&plan, 8, Key::new(2));
         checks::places(&checks, true) - 2 * checks.len()
     };
@@ -100,6 +101,22 @@ fn check_points_judge_cut_elements_as_rays_read_them() {
     let scene = |shapes: Vec<Shape>| scene(shapes, vec![painted(Rgb::grey(0.6))], lamps());
     assert!(rays_only(&scene(parted)) > 0, "no element is cut");
     assert_eq!(rays_only(&scene(room())), 0);
+}
+
+#[test]
+fn what_an_earlier_pilot_found_unlit_is_not_asked_again_and_changes_nothing() {
+    let scene = box_in_a_floor();
+    let lighting = Lighting::new(&scene);
+    let mut unlit = Unlit::default();
+    let mut plan = || {
+        let plan = pilot(&scene, &lighting, &usual_request(), &mut unlit, &mut |_| true);
+        (plan, unlit.0.clone())
+    };
+    let [(first, found), (second, found_again)] = [plan(), plan()];
+    assert!(found.values().any(|&places| places != 0), "all that is hidden sees light");
+    assert_eq!(found, found_again);
+    assert_eq!(first.elements, second.elements);
+    assert_eq!((first.direct, first.standings), (second.direct, second.standings));
 }
 
 /// Two rooms whose floors, ceilings and side walls end at the sheet between them.

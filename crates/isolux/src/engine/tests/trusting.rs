@@ -4,6 +4,7 @@ use super::*;
 use crate::elements::Subdivision;
 use crate::engine::detail::LeafError;
 use crate::engine::direct::Lighting;
+use crate::engine::hidden::Unlit;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::surface::SurfacePoint;
 use crate::engine::trust::{self, Trust, Trusts, Worst};
@@ -137,7 +138,7 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
         most_for_indirect_light: Some(200),
         least_edge_m: None,
     };
-    let plan = pilot(&scene, &lighting, &request, &mut |_| true);
+    let plan = pilot(&scene, &lighting, &request, &mut Unlit::default(), &mut |_| true);
     let at = plan.expected_lx(plan.trust());
     let split = |e: &&LeafError| e.is_beset && plan.elements.node(e.node).split.is_some();
     let beset: Vec<&LeafError> = plan.indirect_errors.iter().filter(split).collect();
@@ -184,7 +185,7 @@ fn readers_gather_beside_a_picture_on_a_wall() {
     let lamps = vec![isotropic([4.6, 1.8, 4.3], 100.0)];
     let scene = scene(shapes, vec![painted(Rgb::grey(0.6))], lamps);
     let lighting = Lighting::new(&scene);
-    let plan = pilot(&scene, &lighting, &usual_request(), &mut |_| true);
+    let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let at = front_at(&scene, Point::new(6.85, 0.0, 1.45));
     let corners = plan.elements.locate(at.triangle, at.back, at.u, at.v).expect("it is lit");
     let expected_lx = plan.expected_lx(plan.trust());
