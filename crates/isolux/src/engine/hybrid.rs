@@ -6,6 +6,7 @@
 
 use super::accumulate::{Effort, Sample};
 use super::accuracy::{BELIEVED_INCREMENTS, FEWEST_TO_MISS};
+use super::allot::{allot, allot_by_noise};
 use super::caustics::{self, Caustics};
 use super::checks::{self, Check, DirectThere};
 use super::deadline::Deadline;
@@ -13,7 +14,7 @@ use super::detail::LeafError;
 use super::gather::{DirectAtEnds, Gatherer, Gathering, Operator};
 use super::path::Dice;
 use super::plan::Plan;
-use super::trial::FEWEST_UNJUDGED;
+use super::trial::{self, FEWEST_UNJUDGED};
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
@@ -37,6 +38,11 @@ const RAYS_AHEAD: u64 = 1 << 19;
 const READERS: u32 = 16;
 const OF_READERS: u32 = 4;
 const SMOOTHINGS: u32 = 4;
+
+/// With no fewer rays a receiver it is tried where they are noisy: with so many of a net, of so many receivers first.
+const WORTH_TRYING: f64 = 32.0;
+const RAYS_TRIED: u32 = 8;
+const TRIED_FIRST: usize = 1024;
 
 /// One receiver in so many is tried to tell how long an increment takes.
 const TRIED: usize = 64;
@@ -85,7 +91,8 @@ impl<'p, 's> Hybrid<'p, 's> {
     ) -> Self {
         let key = Key::new(seed).with(1);
         let rays = rays / f64::from(1_u32 << halvings);
-        let allotted = plan.allotted(rays);
+        let areas_m2 = plan.areas_m2();
+        let allotted = allot(&areas_m2, rays);
         let fewest = FEWEST_UNJUDGED >> halvings;
         let row = |vertex: usize| {
             let in_gap = plan.standings[vertex] != Some(Standing::Open);
@@ -94,6 +101,11 @@ impl<'p, 's> Hybrid<'p, 's> {
             of.with_rays(if needs_more { own.max(fewest) } else { own }).in_gap(in_gap)
         };
         let rows: Vec<Gatherer> = (0..plan.indirect_vertices).map(row).collect();
+        let rows = if rays < WORTH_TRYING {
+            rows
+        } else {
+            shared_by_noise(plan, rows, &areas_m2, key.with(u64::MAX - 1))
+        };
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, goal, key.with(0));
         let rays_of_means = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
@@ -253,6 +265,29 @@ impl<'p, 's> Hybrid<'p, 's> {
         let passed_on: Vec<Rgb> = passed_on.into_iter().map(Rgb::grey).collect();
         plan.prolongate(&passed_on).iter().map(|light| light.luminance()).collect()
     }
+}
+
+/// Receivers with their rays shared out anew where some are far noisier than others, as inside of housings of lamps, if that leaves
+/// much less noise.
+fn shared_by_noise(plan: &Plan, rows: Vec<Gatherer>, areas_m2: &[f64], key: Key) -> Vec<Gatherer> {
+    let gathering = Gathering::of(plan, &plan.direct);
+    let shared = |every: usize| {
+        let some = || rows.iter().step_by(every);
+        let tried: Vec<Gatherer> =
+            some().map(|row| row.with_rays(row.rays.min(RAYS_TRIED))).collect();
+        let with = (plan.reference_lx, key);
+        let (variances_lx2, _) = trial::variances_lx2(&gathering, &tried, &plan.guess, with);
+        let areas_m2: Vec<f64> = areas_m2.iter().step_by(every).copied().collect();
+        let rays: Vec<u32> = some().map(|row| row.rays).collect();
+        allot_by_noise(&areas_m2, &variances_lx2, &rays)
+    };
+    let every = rows.len().div_ceil(TRIED_FIRST).max(1);
+    let shared =
+        shared(every).and_then(|of_some| if every == 1 { Some(of_some) } else { shared(1) });
+    let Some(shared) = shared else { return rows };
+    let with =
+        |(row, rays): (Gatherer, u32)| row.with_rays(rays.max(row.rays.min(FEWEST_UNJUDGED)));
+    rows.into_iter().zip(shared).map(with).collect()
 }
 
 /// Rays of vertices that read indirect light alone.

@@ -1,7 +1,7 @@
 //! What the pilot has fixed: the elements, and all that increments over them share.
 
 use super::aim::Aim;
-use super::allot::{allot, areas_m2};
+use super::allot::areas_m2;
 use super::backdrop::Backdrop;
 use super::bright::Bright;
 use super::carriers::{Carriers, Waiting};
@@ -94,12 +94,12 @@ impl Plan<'_> {
         [self.indirect_vertices, all, self.carriers.count(all)]
     }
 
-    /// Rays of the vertices for indirect light in an increment, that serve as well as so many of each.
-    pub(super) fn allotted(&self, mean: f64) -> Vec<u32> {
+    /// Surface that the light of every vertex for indirect light stands for, m2; none where it is hidden.
+    pub(super) fn areas_m2(&self) -> Vec<f64> {
         let mut areas_m2 = areas_m2(&self.subdivision, &self.carriers);
         let hidden = areas_m2.iter_mut().zip(&self.standings).filter(|(_, of)| of.is_none());
         hidden.for_each(|(m2, _)| *m2 = 0.0);
-        allot(&areas_m2, mean)
+        areas_m2
     }
 
     /// Particles of each of so many increments for a target, where they are not weighed against rays.

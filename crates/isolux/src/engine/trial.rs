@@ -54,6 +54,26 @@ pub(super) fn stands(some: &[(Gatherer, f64)]) -> impl Iterator<Item = (Stand, f
     some.iter().map(|(of, m2)| (of.stand(), *m2))
 }
 
+/// Variance of nets of receivers, each with its rays, lx2; also returns the rays traced.
+pub(super) fn variances_lx2(
+    gathering: &Gathering,
+    rows: &[Gatherer],
+    light: &[Rgb],
+    (reference_lx, key): (f64, Key),
+) -> (Vec<f64>, u64) {
+    let mut sums = Accumulator::new(rows.len(), reference_lx);
+    let mut traced = 0;
+    for index in 0..INCREMENTS {
+        let key = key.with(index);
+        let operator = gathering.operator(rows, |row| key.with(row as u64));
+        traced += operator.rays;
+        let gathered = operator.apply(light).into_iter();
+        sums.add(gathered.map(|indirect| Sample { indirect, ..Sample::default() }));
+    }
+    let of_one = |row| INCREMENTS as f64 * sums.estimate(row).variance;
+    ((0..rows.len()).map(of_one).collect(), traced)
+}
+
 /// What a trial has found: the noise of one net of so many rays, root mean square over the surface, lx.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trial {
@@ -113,21 +133,13 @@ impl Trial {
         (reference_lx, key): (f64, Key),
     ) -> (Self, u64) {
         let rows: Vec<Gatherer> = some.iter().map(|(g, _)| g.with_rays(rays)).collect();
-        let mut sums = Accumulator::new(rows.len(), reference_lx);
-        let mut traced = 0;
-        for index in 0..INCREMENTS {
-            let key = key.with(index);
-            let operator = gathering.operator(&rows, |row| key.with(row as u64));
-            traced += operator.rays;
-            let gathered = operator.apply(light).into_iter();
-            sums.add(gathered.map(|indirect| Sample { indirect, ..Sample::default() }));
-        }
-        let (mut area_m2, mut of_means) = (0.0, 0.0);
-        for (row, (_, own_m2)) in some.iter().enumerate() {
+        let (variances_lx2, traced) = variances_lx2(gathering, &rows, light, (reference_lx, key));
+        let (mut area_m2, mut of_all) = (0.0, 0.0);
+        for (variance_lx2, (_, own_m2)) in variances_lx2.iter().zip(some) {
             area_m2 += own_m2;
-            of_means += own_m2 * sums.estimate(row).variance;
+            of_all += own_m2 * variance_lx2;
         }
-        let variance = if area_m2 > 0.0 { INCREMENTS as f64 * of_means / area_m2 } else { 0.0 };
+        let variance = if area_m2 > 0.0 { of_all / area_m2 } else { 0.0 };
         (Self { noise_lx: variance.sqrt(), rays, reference_lx }, traced)
     }
 

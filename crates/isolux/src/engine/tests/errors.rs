@@ -38,7 +38,7 @@ pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Pl
 }
 
 /// A number about zero with variance one, close to normal: the sum of twelve.
-fn noise(key: Key) -> f64 {
+pub(super) fn noise(key: Key) -> f64 {
     (0..12).map(|k| key.with(k).uniform()).sum::<f64>() - 6.0
 }
 

@@ -1,12 +1,13 @@
 //! Who gets how many rays and particles.
 
-use super::errors::small_plan;
+use super::errors::{noise as normal, small_plan};
 use super::*;
-use crate::engine::allot::{allot, mean_of};
+use crate::engine::allot::{allot, allot_by_noise, mean_of};
 use crate::engine::caustics::deposit;
 use crate::engine::direct::Lighting;
 use crate::engine::flights::{CausticNoise, particles};
 use crate::engine::gather::known_weights;
+use crate::engine::hybrid::Hybrid;
 use crate::engine::surface::SurfacePoint;
 use crate::scene::Gloss;
 
@@ -37,6 +38,78 @@ fn small_receivers_get_fewer_and_the_noise_is_no_more() {
         assert!(mean_of(&rays) < 0.85 * mean, "{} of {mean}", mean_of(&rays));
     }
     assert_eq!(mean_of(&[4, 0, 8]), 6.0, "of those that have any");
+}
+
+#[test]
+fn noisy_receivers_get_more_if_that_leaves_much_less_noise() {
+    const COUNT: usize = 1000;
+    let (areas_m2, allotted) = (vec![0.3; COUNT], vec![64; COUNT]);
+    let share = |variances: &[f64]| allot_by_noise(&areas_m2, variances, &allotted);
+    assert_eq!(share(&[2.0; COUNT]), None);
+    assert_eq!(share(&[0.0; COUNT]), None, "no noise to share by");
+    // Variances of four samples each, alike but for chance: sums of three squares of normal deviates.
+    let square = |k: u64| normal(Key::new(k)).powi(2);
+    let by_chance: Vec<f64> =
+        (0..COUNT as u64).map(|k| square(3 * k) + square(3 * k + 1) + square(3 * k + 2)).collect();
+    assert_eq!(share(&by_chance), None);
+    // Every fiftieth has a hundred times the noise, as in housings of lamps.
+    let mut uneven = by_chance.clone();
+    uneven.iter_mut().step_by(50).for_each(|v| *v *= 1e4);
+    let rays = share(&uneven).expect("most of the noise is on a fiftieth of them");
+    let noise = |rays: &dyn Fn(usize) -> f64| -> f64 {
+        uneven.iter().enumerate().map(|(k, v)| v * rays(k).powf(-1.7)).sum()
+    };
+    let left = (noise(&|k| f64::from(rays[k])) / noise(&|_| 64.0)).sqrt();
+    assert!(left < 0.3, "{left}");
+    assert!(rays.iter().all(|&n| n.is_power_of_two() && (32..=1024).contains(&n)));
+    let all: u32 = rays.iter().sum();
+    assert!((48_000..80_000).contains(&all), "as many in all: {all}");
+    // Who had none has none.
+    let but_first = |k: usize| if k == 0 { 0 } else { 64 };
+    let allotted: Vec<u32> = (0..COUNT).map(but_first).collect();
+    assert_eq!(allot_by_noise(&areas_m2, &uneven, &allotted).unwrap()[0], 0);
+}
+
+/// A room with a lamp in a box of 20 cm that is open below.
+fn room_with_a_can() -> Scene {
+    let mut shapes = inward_box([3.0, 2.0, 2.5], 0);
+    let (low, high) = ([1.4, 0.9, 2.2], [1.6, 1.1, 2.4]);
+    let size = 0.2;
+    for (corner, u) in [
+        (low, [size, 0.0, 0.0]),
+        ([high[0], low[1], low[2]], [0.0, size, 0.0]),
+        ([high[0], high[1], low[2]], [-size, 0.0, 0.0]),
+        ([low[0], high[1], low[2]], [0.0, -size, 0.0]),
+    ] {
+        shapes.push(rectangle(corner, u, [0.0, 0.0, size], 0));
+    }
+    shapes.push(rectangle([low[0], low[1], high[2]], [size, 0.0, 0.0], [0.0, size, 0.0], 0));
+    let both = Material::two_sided("paint", Finish::diffuse(Rgb::grey(0.7)));
+    scene(shapes, vec![both], vec![isotropic([1.5, 1.0, 2.35], 100.0)])
+}
+
+#[test]
+fn housings_of_lamps_get_more_rays_than_their_area_is_worth() {
+    let rays_of = |scene: &Scene| {
+        let lighting = Lighting::new(scene);
+        let plan = small_plan(scene, &lighting);
+        let hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1 << 10, 1);
+        let by_area = allot(&plan.areas_m2(), 64.0);
+        let places: Vec<Point> = plan.elements.vertices().iter().map(|v| v.position).collect();
+        let rays = (0..plan.indirect_vertices).map(|v| (places[v], hybrid.rays_of(v), by_area[v]));
+        rays.collect::<Vec<(Point, u32, u32)>>()
+    };
+    let is_in_can = |at: Point| (at - Point::new(1.5, 1.0, 2.3)).length() < 0.2;
+    let mean = |of: &[(Point, u32, u32)], in_can: bool| {
+        let some = of.iter().filter(|(at, ..)| is_in_can(*at) == in_can);
+        let (own, by_area) = some.fold((0, 0), |(a, b), &(_, own, by_area)| (a + own, b + by_area));
+        f64::from(own) / f64::from(by_area)
+    };
+    let can = rays_of(&room_with_a_can());
+    assert!(mean(&can, true) > 2.0, "{} in the can", mean(&can, true));
+    assert!(mean(&can, false) > 0.4, "{} elsewhere", mean(&can, false));
+    let plain = rays_of(&polished_room());
+    assert!(plain.iter().all(|(_, own, by_area)| own == by_area), "an ordinary room");
 }
 
 /// A room of which one wall is polished metal.
