@@ -76,12 +76,13 @@ const MOST_TIMES: f64 = 16.0;
 const WORTH_IT: f64 = 0.7;
 
 /// As many rays in all for receivers of such variances, lx2 with as many rays each, as they have been allotted by area: half of
-/// them as they were, half where they leave the least noise. Nothing where that does not leave much less.
+/// them as they were, half where they leave the least noise; and what that is, lx, if it falls with the rays as that of one does
+/// from one on. Nothing where that does not leave much less.
 pub(super) fn allot_by_noise(
     areas_m2: &[f64],
     variances_lx2: &[f64],
     allotted: &[u32],
-) -> Option<Vec<u32>> {
+) -> Option<(Vec<u32>, f64)> {
     let weights: Vec<f64> = areas_m2.iter().zip(variances_lx2).map(|(m2, lx2)| m2 * lx2).collect();
     let shares = weights.iter().map(|w| libm::pow(*w, 1.0 / (1.0 + 2.0 * NET_ORDER)));
     let shares: Vec<f64> = shares.collect();
@@ -97,7 +98,10 @@ pub(super) fn allot_by_noise(
         let with = weights.iter().zip(rays).filter(|(_, rays)| **rays > 0);
         with.map(|(w, &rays)| w * libm::pow(f64::from(rays), -2.0 * NET_ORDER)).sum()
     };
-    (noise(&given) < WORTH_IT * WORTH_IT * noise(allotted)).then_some(given)
+    let left = noise(&given);
+    let is_worth_it = left < WORTH_IT * WORTH_IT * noise(allotted);
+    let area_m2: f64 = areas_m2.iter().sum();
+    is_worth_it.then(|| (given, (left / area_m2).sqrt()))
 }
 
 /// How many rays that is for each receiver in the mean.

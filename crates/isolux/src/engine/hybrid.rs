@@ -6,7 +6,7 @@
 
 use super::accumulate::{Effort, Sample};
 use super::accuracy::{BELIEVED_INCREMENTS, FEWEST_TO_MISS};
-use super::allot::{allot, allot_by_noise};
+use super::allot::{allot, allot_by_noise, mean_of};
 use super::caustics::{self, Caustics};
 use super::checks::{self, Check, DirectThere};
 use super::deadline::Deadline;
@@ -14,7 +14,7 @@ use super::detail::LeafError;
 use super::gather::{DirectAtEnds, Gatherer, Gathering, Operator};
 use super::path::Dice;
 use super::plan::Plan;
-use super::trial::{self, FEWEST_UNJUDGED};
+use super::trial::{self, FEWEST_UNJUDGED, NET_ORDER};
 use crate::map::Standing;
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
@@ -39,10 +39,14 @@ const READERS: u32 = 16;
 const OF_READERS: u32 = 4;
 const SMOOTHINGS: u32 = 4;
 
-/// With no fewer rays a receiver it is tried where they are noisy: with so many of a net, of so many receivers first.
+/// With no fewer rays a receiver, or in all, it is tried where they are noisy: with so many of a net, of so many receivers first.
 const WORTH_TRYING: f64 = 32.0;
+const WORTH_TRYING_ANY: f64 = 262_144.0;
 const RAYS_TRIED: u32 = 8;
 const TRIED_FIRST: usize = 1024;
+/// Powers of two that rays are multiplied by at most, if that shows more noise than was thought. If less, they stay: what housings
+/// of lamps err by is passed on, so that there is more than receivers alone tell.
+const MORE: f64 = 4.0;
 
 /// One receiver in so many is tried to tell how long an increment takes.
 const TRIED: usize = 64;
@@ -101,10 +105,11 @@ impl<'p, 's> Hybrid<'p, 's> {
             of.with_rays(if needs_more { own.max(fewest) } else { own }).in_gap(in_gap)
         };
         let rows: Vec<Gatherer> = (0..plan.indirect_vertices).map(row).collect();
-        let rows = if rays < WORTH_TRYING {
-            rows
+        let is_worth_trying = rays >= WORTH_TRYING || rays * rows.len() as f64 >= WORTH_TRYING_ANY;
+        let rows = if is_worth_trying {
+            shared_by_noise(plan, rows, (&areas_m2, rays, most), key.with(u64::MAX - 1))
         } else {
-            shared_by_noise(plan, rows, &areas_m2, key.with(u64::MAX - 1))
+            rows
         };
         let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, goal, key.with(0));
@@ -268,8 +273,13 @@ impl<'p, 's> Hybrid<'p, 's> {
 }
 
 /// Receivers with their rays shared out anew where some are far noisier than others, as inside of housings of lamps, if that leaves
-/// much less noise.
-fn shared_by_noise(plan: &Plan, rows: Vec<Gatherer>, areas_m2: &[f64], key: Key) -> Vec<Gatherer> {
+/// much less noise; and more in all if that is still more than what the pilot thought that so many of each would leave.
+fn shared_by_noise(
+    plan: &Plan,
+    rows: Vec<Gatherer>,
+    (areas_m2, rays, most): (&[f64], f64, u32),
+    key: Key,
+) -> Vec<Gatherer> {
     let gathering = Gathering::of(plan, &plan.direct);
     let shared = |every: usize| {
         let some = || rows.iter().step_by(every);
@@ -282,11 +292,17 @@ fn shared_by_noise(plan: &Plan, rows: Vec<Gatherer>, areas_m2: &[f64], key: Key)
         allot_by_noise(&areas_m2, &variances_lx2, &rays)
     };
     let every = rows.len().div_ceil(TRIED_FIRST).max(1);
-    let shared =
-        shared(every).and_then(|of_some| if every == 1 { Some(of_some) } else { shared(1) });
-    let Some(shared) = shared else { return rows };
-    let with =
-        |(row, rays): (Gatherer, u32)| row.with_rays(rays.max(row.rays.min(FEWEST_UNJUDGED)));
+    let of_some = shared(every);
+    let of_all = if every > 1 && of_some.is_some() { shared(1) } else { of_some };
+    let Some((shared, noise_of_one_lx)) = of_all else { return rows };
+    let noise_lx = noise_of_one_lx * libm::pow(f64::from(RAYS_TRIED), NET_ORDER);
+    let wanted = libm::log2(noise_lx / plan.trial.noise_lx(rays)) / NET_ORDER;
+    let allowed = libm::log2(f64::from(most) / mean_of(&shared)).floor();
+    let steps = wanted.round().min(MORE).min(allowed).max(0.0);
+    let with = |(row, rays): (Gatherer, u32)| {
+        let rays = (f64::from(rays) * libm::exp2(steps)) as u32;
+        row.with_rays(rays.max(row.rays.min(FEWEST_UNJUDGED)))
+    };
     rows.into_iter().zip(shared).map(with).collect()
 }
 

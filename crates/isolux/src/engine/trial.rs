@@ -143,6 +143,11 @@ impl Trial {
         (Self { noise_lx: variance.sqrt(), rays, reference_lx }, traced)
     }
 
+    /// The noise of one net of so many rays, lx.
+    pub(super) fn noise_lx(self, rays: f64) -> f64 {
+        self.noise_lx * libm::pow(f64::from(self.rays) / rays, NET_ORDER)
+    }
+
     /// Gathering rays of a receiver with which so many increments leave no more than some noise, a power of two.
     pub(super) fn rays_for(self, noise: f64, reference_lx: f64, increments: u64) -> u32 {
         libm::exp2(libm::round(libm::log2(self.wanted(noise, reference_lx, increments)))) as u32

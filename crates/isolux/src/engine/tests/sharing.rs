@@ -55,11 +55,13 @@ fn noisy_receivers_get_more_if_that_leaves_much_less_noise() {
     // Every fiftieth has a hundred times the noise, as in housings of lamps.
     let mut uneven = by_chance.clone();
     uneven.iter_mut().step_by(50).for_each(|v| *v *= 1e4);
-    let rays = share(&uneven).expect("most of the noise is on a fiftieth of them");
+    let (rays, left_lx) = share(&uneven).expect("most of the noise is on a fiftieth of them");
     let noise = |rays: &dyn Fn(usize) -> f64| -> f64 {
         uneven.iter().enumerate().map(|(k, v)| v * rays(k).powf(-1.7)).sum()
     };
     let left = (noise(&|k| f64::from(rays[k])) / noise(&|_| 64.0)).sqrt();
+    let mean_lx2 = noise(&|k| f64::from(rays[k])) / COUNT as f64;
+    assert!((left_lx * left_lx / mean_lx2 - 1.0).abs() < 1e-9, "{left_lx}");
     assert!(left < 0.3, "{left}");
     assert!(rays.iter().all(|&n| n.is_power_of_two() && (32..=1024).contains(&n)));
     let all: u32 = rays.iter().sum();
@@ -67,7 +69,7 @@ fn noisy_receivers_get_more_if_that_leaves_much_less_noise() {
     // Who had none has none.
     let but_first = |k: usize| if k == 0 { 0 } else { 64 };
     let allotted: Vec<u32> = (0..COUNT).map(but_first).collect();
-    assert_eq!(allot_by_noise(&areas_m2, &uneven, &allotted).unwrap()[0], 0);
+    assert_eq!(allot_by_noise(&areas_m2, &uneven, &allotted).unwrap().0[0], 0);
 }
 
 /// A room with a lamp in a box of 20 cm that is open below.
