@@ -18,8 +18,8 @@ const USUAL_ORDER: f64 = 2.0;
 
 /// What an increment does for every vertex beside its rays, and what is done once before the first, in looks at as many: measured
 /// in the hall and in offices.
-const EACH: f64 = 1.2;
-const ONCE: f64 = 7.0;
+const EACH: f64 = 1.6;
+const ONCE: f64 = 8.0;
 /// A look at vertices that are known, in first looks, as long as there was none.
 const LATER: f64 = 0.1;
 
@@ -38,7 +38,7 @@ const ROUNDS_FOR_DIRECT: f64 = 3.0;
 /// adds to it, as a share of what it has more than the first (one that is fine already needs no more); and all that a vertex of it costs once, as a multiple of what it has until then. Measured in the hall.
 const GOOD_ENOUGH: f64 = 0.02;
 const MORE_FOR_DIRECT: f64 = 0.75;
-const FIRST_IN_ALL: f64 = 6.0;
+const FIRST_IN_ALL: f64 = 5.5;
 /// Among few, before the first look: what it takes in all, as a multiple of what it would if elements stayed as they are, in the
 /// middle of rooms, offices and places outside; an empty room takes a fourth of that.
 const FEW_IN_ALL: f64 = 3.0;
