@@ -27,7 +27,7 @@ use super::carriers::Carriers;
 use super::detail::{Details, Refinement, refine_worst};
 use super::direct::Lighting;
 use super::flights::CausticNoise;
-use super::forecast::{Costs, GoOn};
+use super::forecast::{Costs, GoOn, LONGER};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
 use super::hidden::{Sight, Unlit};
 pub(super) use super::look::PilotRequest;
@@ -335,7 +335,8 @@ impl<'s> Pilot<'s> {
         let left_by_fit = details.left_by_fit(&errors);
         self.weigh(&mut errors);
         let carriers = self.carriers.count(gatherers.len());
-        self.costs.looks.add(started.elapsed(), gatherers.len() as f64);
+        let longer = if is_first { LONGER } else { 1.0 };
+        self.costs.looks.add(started.elapsed().div_f64(longer), gatherers.len() as f64);
         if is_first {
             self.costs.first.add(started.elapsed(), 0.0);
         }
