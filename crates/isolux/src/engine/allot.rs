@@ -71,8 +71,8 @@ pub(super) fn allot(areas_m2: &[f64], mean: f64) -> Vec<u32> {
 
 /// What others may have at most where noise differs, in multiples of the mean.
 const MOST_TIMES: f64 = 16.0;
-/// Noise that is left, of what there was, at most, or it is not worth it: three variances of four samples each, alike but for
-/// chance, seem to leave nine tenths.
+/// Noise that is left, of what there was, at most, or it is not worth it: variances of four samples each that are alike but for
+/// chance seem to leave nine tenths.
 const WORTH_IT: f64 = 0.7;
 
 /// As many rays in all for receivers of such variances, lx2 with as many rays each, as they have been allotted by area: half of

@@ -222,11 +222,7 @@ impl Outlook {
             + self.rounds() * look_s;
         let direct_s = costs.direct.of(self.measured_again * vertices);
         let rays = (carriers + self.checks) * self.rays + self.particles * growth;
-        let beside_s = if is_blind {
-            FIRST_IN_ALL * LATER * costs.of_first(vertices)
-        } else {
-            costs.of_looks(vertices)
-        };
+        let beside_s = if is_blind { FIRST_IN_ALL } else { 1.0 } * costs.of_looks(vertices);
         let each_s = costs.of_rays(rays)
             + EACH * beside_s
             + BETWEEN * smoothing_s

@@ -51,10 +51,10 @@ pub(super) type Element = (u32, [[u64; 3]; 3]);
 #[derive(Debug, Default)]
 pub(super) struct Unlit(pub(super) HashMap<Element, u16>);
 
-/// Whether light comes to a place that sees no open vertex of its element.
+/// Whether a place is cut off from the light of its element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum CutOff {
-    /// It does.
+    /// Light comes there, but it sees no open vertex of its element.
     Yes,
     /// It sees one.
     No,
