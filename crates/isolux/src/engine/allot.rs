@@ -75,33 +75,39 @@ const MOST_TIMES: f64 = 16.0;
 /// chance seem to leave nine tenths.
 const WORTH_IT: f64 = 0.7;
 
+/// Rays shared out anew, and what noise that leaves, lx, if it falls with the rays as that of one does from one on; and what there was.
+pub(super) struct Shared {
+    pub(super) rays: Vec<u32>,
+    pub(super) left_lx: f64,
+    pub(super) before_lx: f64,
+}
+
 /// As many rays in all for receivers of such variances, lx2 with as many rays each, as they have been allotted by area: half of
-/// them as they were, half where they leave the least noise; and what that is, lx, if it falls with the rays as that of one does
-/// from one on. Nothing where that does not leave much less.
+/// them as they were, half where they leave the least noise. Nothing where that does not leave much less.
 pub(super) fn allot_by_noise(
     areas_m2: &[f64],
     variances_lx2: &[f64],
     allotted: &[u32],
-) -> Option<(Vec<u32>, f64)> {
+) -> Option<Shared> {
     let weights: Vec<f64> = areas_m2.iter().zip(variances_lx2).map(|(m2, lx2)| m2 * lx2).collect();
     let shares = weights.iter().map(|w| libm::pow(*w, 1.0 / (1.0 + 2.0 * NET_ORDER)));
     let shares: Vec<f64> = shares.collect();
     let all: f64 = shares.iter().sum();
-    let rays: f64 = allotted.iter().map(|&rays| f64::from(rays)).sum();
+    let in_all: f64 = allotted.iter().map(|&rays| f64::from(rays)).sum();
     let most = MOST_TIMES * mean_of(allotted);
     let one = |(&rays_then, share): (&u32, &f64)| {
-        let wanted = 0.5 * (f64::from(rays_then) + (rays * share / all).min(most));
+        let wanted = 0.5 * (f64::from(rays_then) + (in_all * share / all).min(most));
         if rays_then == 0 { 0 } else { libm::exp2(libm::round(libm::log2(wanted))) as u32 }
     };
-    let given: Vec<u32> = allotted.iter().zip(&shares).map(one).collect();
-    let noise = |rays: &[u32]| -> f64 {
-        let with = weights.iter().zip(rays).filter(|(_, rays)| **rays > 0);
-        with.map(|(w, &rays)| w * libm::pow(f64::from(rays), -2.0 * NET_ORDER)).sum()
-    };
-    let left = noise(&given);
-    let is_worth_it = left < WORTH_IT * WORTH_IT * noise(allotted);
+    let rays: Vec<u32> = allotted.iter().zip(&shares).map(one).collect();
     let area_m2: f64 = areas_m2.iter().sum();
-    is_worth_it.then(|| (given, (left / area_m2).sqrt()))
+    let noise_lx = |rays: &[u32]| -> f64 {
+        let with = weights.iter().zip(rays).filter(|(_, rays)| **rays > 0);
+        let squared = with.map(|(w, &rays)| w * libm::pow(f64::from(rays), -2.0 * NET_ORDER));
+        (squared.sum::<f64>() / area_m2).sqrt()
+    };
+    let (left_lx, before_lx) = (noise_lx(&rays), noise_lx(allotted));
+    (left_lx < WORTH_IT * before_lx).then_some(Shared { rays, left_lx, before_lx })
 }
 
 /// How many rays that is for each receiver in the mean.

@@ -16,20 +16,29 @@ const MOST_ORDER: f64 = 1.0;
 const USUAL_TARGET: f64 = 0.01;
 const USUAL_ORDER: f64 = 2.0;
 
-/// What an increment does for every vertex beside its rays, and what is done once before the first, in looks at as many: measured
-/// in the hall and in offices.
-const EACH: f64 = 2.0;
-const ONCE: f64 = 9.0;
+/// What an increment does beside its rays: the fixed point over what they have found, as a share of what they take, and all that is
+/// done for every vertex, in rays. Measured in the hall, CUBE, SPHERE and offices, as is what follows.
+const SOLVED: f64 = 0.3;
+const EVERY: f64 = 1.0;
+/// What is done once before the first increment: in looks at the vertices; rays of each that tell what readings have in common; and
+/// direct light of a check point, in vertices.
+const ONCE: f64 = 2.0;
+const READ: f64 = 16.0;
+const CHECKED: f64 = 6.5;
+/// Direct light of a vertex that is made for it alone, where shadows end, in others.
+const IN_SHADOWS: f64 = 2.3;
 /// How much longer the first look takes than those after it.
 pub(super) const LONGER: f64 = 1.4;
 /// A look at vertices that are known, in first looks, as long as there was none.
 const LATER: f64 = 0.1;
 
 /// Where light is smooth: what it takes to make the vertices that it has functions between, before it is known, as a multiple of
-/// first looks at as many; and what they take once more before the first increment, and in each, of that. Measured in CUBE and an empty room.
+/// first looks at as many; and what they take once more before the first increment, of that. Measured in CUBE and an empty room.
 const SMOOTHING: f64 = 1.5;
 const FITTING: f64 = 1.3;
-const BETWEEN: f64 = 0.25;
+
+/// Increments: most runs end as soon as their error is believed, some after twice as many.
+const INCREMENTS: f64 = BELIEVED_INCREMENTS as f64 + 0.5;
 
 /// Rounds in which elements are mostly refined for indirect light once they are to be, and those for direct light
 /// after them: each looks at all vertices.
@@ -37,10 +46,11 @@ const ROUNDS: f64 = 5.0;
 const ROUNDS_FOR_DIRECT: f64 = 3.0;
 
 /// Among many things, before the first look: the accuracy that the usual first mesh is good enough for; vertices that direct light
-/// adds to it, as a share of what it has more than the first (one that is fine already needs no more); and all that a vertex of it costs once, as a multiple of what it has until then. Measured in the hall.
+/// adds to it, as a share of what it has more than the first (one that is fine already needs no more); and what it takes in all, as a
+/// multiple of what is known then. Measured in the hall.
 const GOOD_ENOUGH: f64 = 0.02;
 const MORE_FOR_DIRECT: f64 = 0.75;
-const FIRST_IN_ALL: f64 = 5.5;
+const MANY_IN_ALL: f64 = 1.2;
 /// Among few, before the first look: what it takes in all, as a multiple of what it would if elements stayed as they are, in the
 /// middle of rooms, offices and places outside; an empty room takes a fourth of that.
 const FEW_IN_ALL: f64 = 3.0;
@@ -82,8 +92,13 @@ impl Cost {
 pub(super) struct Costs {
     /// Rays that gather, sweeps included.
     pub(super) rays: Cost,
-    /// Places where direct light is measured.
+    /// The same in trials, without.
+    pub(super) tried: Cost,
+    /// Places where direct light is measured, and those of them that are made for it alone.
     pub(super) direct: Cost,
+    pub(super) in_shadows: Cost,
+    /// The same as increments do it that measure it again.
+    pub(super) again: Cost,
     /// All else, by vertices that are looked at.
     pub(super) looks: Cost,
     /// The same of the first mesh, where all of them are new.
@@ -99,6 +114,22 @@ impl Costs {
     fn of_rays(&self, rays: f64) -> f64 {
         let known = if self.rays.things > 0.0 { self.rays } else { self.traced.times(GATHERING) };
         known.of(rays)
+    }
+
+    /// The same in an increment.
+    fn of_rays_then(&self, rays: f64) -> f64 {
+        if self.tried.things > 0.0 { self.tried.of(rays) } else { self.of_rays(rays) }
+    }
+
+    /// Direct light of vertices that are made for it alone.
+    fn in_shadows(&self, vertices: f64) -> f64 {
+        let is_known = self.in_shadows.things > 0.0;
+        if is_known { self.in_shadows.of(vertices) } else { IN_SHADOWS * self.direct.of(vertices) }
+    }
+
+    /// Direct light of an increment that measures it.
+    fn again(&self, vertices: f64) -> f64 {
+        if self.again.things > 0.0 { self.again.of(vertices) } else { self.direct.of(vertices) }
     }
 
     /// What vertices take once.
@@ -134,9 +165,12 @@ pub(super) struct Outlook {
     /// Rays of each in the pilot, and in an increment.
     pub(super) pilot_rays: f64,
     pub(super) rays: f64,
-    /// Check points and places where means are measured, which take as many rays, and particles of an increment.
+    /// Check points, and their rays and those of places where means are measured, together; and particles of an increment.
     pub(super) checks: f64,
+    pub(super) check_rays: f64,
     pub(super) particles: f64,
+    /// Rays of trials before the first increment.
+    pub(super) trials: f64,
     /// Accuracy asked for.
     pub(super) target: f64,
     /// By how much errors exceed what they should be, and what that was with how many carriers a
@@ -196,13 +230,17 @@ impl Outlook {
         indirect + if self.more_for_direct > 0.0 { ROUNDS_FOR_DIRECT } else { 0.0 }
     }
 
-    /// All vertices that there will be.
-    pub(super) fn vertices_then(&self) -> f64 {
-        let more_for_direct = match self.usual {
+    /// Those of them that direct light alone will take.
+    fn more_for_direct(&self) -> f64 {
+        match self.usual {
             Some(usual) => MORE_FOR_DIRECT * (usual - 1.0) * self.vertices,
             None => self.more_for_direct,
-        };
-        self.looked_at() * self.smoothed + more_for_direct
+        }
+    }
+
+    /// All vertices that there will be.
+    pub(super) fn vertices_then(&self) -> f64 {
+        self.looked_at() * self.smoothed + self.more_for_direct()
     }
 
     /// What all of it takes.
@@ -210,32 +248,35 @@ impl Outlook {
         let growth = self.growth();
         let carriers = self.carriers * growth;
         let vertices = self.vertices_then();
+        let for_direct = self.more_for_direct();
         // Before anything was looked at.
         let is_blind = self.usual.is_some();
-        let looked_at = self.looked_at();
+        // Where light is smooth, vertices between those that carry it are not looked at.
+        let looked_at = if self.is_smooth { carriers } else { self.looked_at() };
         let look_s = if is_blind { costs.of_first(looked_at) } else { costs.of_looks(looked_at) };
         let smoothing_s = if self.is_smooth { costs.of_smoothing(vertices) } else { 0.0 };
         let smooth_now_s = if self.smoothed > 1.0 { smoothing_s } else { 0.0 };
         let pilot_s = smooth_now_s
             + costs.of_rays((carriers - self.gathered) * self.pilot_rays)
-            + costs.direct.of(vertices - self.measured)
+            + costs.direct.of(vertices - for_direct - self.measured)
+            + costs.in_shadows(for_direct)
             + self.rounds() * look_s;
         let direct_s = costs.direct.of(self.measured_again * vertices);
-        let rays = (carriers + self.checks) * self.rays + self.particles * growth;
-        let beside_s = if is_blind { FIRST_IN_ALL } else { 1.0 } * costs.of_looks(vertices);
-        let each_s = costs.of_rays(rays)
-            + EACH * beside_s
-            + BETWEEN * smoothing_s
-            + if self.measured_each { costs.direct.of(vertices) } else { 0.0 };
-        let once_s = if self.measured_again > 0.0 { ONCE * beside_s } else { 0.0 };
-        let once_s = once_s + FITTING * smoothing_s;
+        let (own, others) = (carriers * self.rays, self.check_rays + self.particles * growth);
+        let each_s = costs.of_rays_then(own * (1.0 + SOLVED) + others + vertices * EVERY)
+            + if self.measured_each { costs.again(vertices) } else { 0.0 };
+        let looks = if self.is_smooth { carriers } else { vertices };
+        let once_s = ONCE * costs.of_looks(looks)
+            + FITTING * smoothing_s
+            + costs.of_rays_then(carriers * self.rays.min(READ) + self.trials)
+            + CHECKED * costs.direct.of(self.checks);
         let (in_all, factor) = match self.excess {
-            None if is_blind => (1.0, BLIND),
+            None if is_blind => (MANY_IN_ALL, BLIND),
             None => (FEW_IN_ALL, BLIND_AMONG_FEW),
             Some(excess) if excess > 1.0 => (1.0, REFINING),
             Some(_) => (1.0, FIXED),
         };
-        let time_s = pilot_s + direct_s + once_s + BELIEVED_INCREMENTS as f64 * each_s;
+        let time_s = pilot_s + direct_s + once_s + INCREMENTS * each_s;
         Left { time_s: in_all * time_s, factor }
     }
 }

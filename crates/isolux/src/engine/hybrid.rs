@@ -44,6 +44,9 @@ const WORTH_TRYING: f64 = 32.0;
 const WORTH_TRYING_ANY: f64 = 262_144.0;
 const RAYS_TRIED: u32 = 8;
 const TRIED_FIRST: usize = 1024;
+const TRIED_NEXT: usize = 4;
+/// Noise, of what was thought, from which on it is worth it: the run will not end when it should.
+const MORE_THAN_THOUGHT: f64 = 1.5;
 /// Powers of two that rays are multiplied by at most, if that shows more noise than was thought. If less, they stay: what housings
 /// of lamps err by is passed on, so that there is more than receivers alone tell.
 const MORE: f64 = 4.0;
@@ -105,8 +108,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             of.with_rays(if needs_more { own.max(fewest) } else { own }).in_gap(in_gap)
         };
         let rows: Vec<Gatherer> = (0..plan.indirect_vertices).map(row).collect();
-        let is_worth_trying = rays >= WORTH_TRYING || rays * rows.len() as f64 >= WORTH_TRYING_ANY;
-        let rows = if is_worth_trying {
+        let rows = if is_worth_trying(rows.len(), rays) {
             shared_by_noise(plan, rows, (&areas_m2, rays, most), key.with(u64::MAX - 1))
         } else {
             rows
@@ -272,8 +274,19 @@ impl<'p, 's> Hybrid<'p, 's> {
     }
 }
 
-/// Receivers with their rays shared out anew where some are far noisier than others, as inside of housings of lamps, if that leaves
-/// much less noise; and more in all if that is still more than what the pilot thought that so many of each would leave.
+/// Whether it is tried where so many rays of so many receivers are noisy.
+fn is_worth_trying(rows: usize, rays: f64) -> bool {
+    rays >= WORTH_TRYING || rays * rows as f64 >= WORTH_TRYING_ANY
+}
+
+/// Rays that tell that of some of so many receivers.
+pub(super) fn rays_tried(rows: usize, rays: f64) -> f64 {
+    let tried = if is_worth_trying(rows, rays) { rows.min(TRIED_FIRST) } else { 0 };
+    (tried as u32 * RAYS_TRIED * trial::INCREMENTS as u32).into()
+}
+
+/// Receivers with their rays shared out anew where some are far noisier than others, as inside of housings of lamps, if there is more
+/// noise than the pilot thought and that leaves much less; and more in all if that is still more than so many of each should leave.
 fn shared_by_noise(
     plan: &Plan,
     rows: Vec<Gatherer>,
@@ -281,6 +294,8 @@ fn shared_by_noise(
     key: Key,
 ) -> Vec<Gatherer> {
     let gathering = Gathering::of(plan, &plan.direct);
+    let thought_lx = plan.trial.noise_lx(rays);
+    let of_one = libm::pow(f64::from(RAYS_TRIED), NET_ORDER);
     let shared = |every: usize| {
         let some = || rows.iter().step_by(every);
         let tried: Vec<Gatherer> =
@@ -290,20 +305,24 @@ fn shared_by_noise(
         let areas_m2: Vec<f64> = areas_m2.iter().step_by(every).copied().collect();
         let rays: Vec<u32> = some().map(|row| row.rays).collect();
         allot_by_noise(&areas_m2, &variances_lx2, &rays)
+            .filter(|shared| of_one * shared.before_lx > MORE_THAN_THOUGHT * thought_lx)
     };
-    let every = rows.len().div_ceil(TRIED_FIRST).max(1);
-    let of_some = shared(every);
-    let of_all = if every > 1 && of_some.is_some() { shared(1) } else { of_some };
-    let Some((shared, noise_of_one_lx)) = of_all else { return rows };
-    let noise_lx = noise_of_one_lx * libm::pow(f64::from(RAYS_TRIED), NET_ORDER);
-    let wanted = libm::log2(noise_lx / plan.trial.noise_lx(rays)) / NET_ORDER;
-    let allowed = libm::log2(f64::from(most) / mean_of(&shared)).floor();
+    // Where few tell that it may be worth it, more are asked before all are.
+    let mut every = rows.len().div_ceil(TRIED_FIRST).max(1);
+    let mut found = shared(every);
+    while every > 1 && found.is_some() {
+        every = (every / TRIED_NEXT).max(1);
+        found = shared(every);
+    }
+    let Some(shared) = found else { return rows };
+    let wanted = libm::log2(of_one * shared.left_lx / thought_lx) / NET_ORDER;
+    let allowed = libm::log2(f64::from(most) / mean_of(&shared.rays)).floor();
     let steps = wanted.round().min(MORE).min(allowed).max(0.0);
     let with = |(row, rays): (Gatherer, u32)| {
         let rays = (f64::from(rays) * libm::exp2(steps)) as u32;
         row.with_rays(rays.max(row.rays.min(FEWEST_UNJUDGED)))
     };
-    rows.into_iter().zip(shared).map(with).collect()
+    rows.into_iter().zip(shared.rays).map(with).collect()
 }
 
 /// Rays of vertices that read indirect light alone.

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 /// Receivers, increments and rays of a trial.
 pub(super) const RECEIVERS: usize = 128;
-const INCREMENTS: u64 = 4;
+pub(super) const INCREMENTS: u64 = 4;
 const RAYS: u32 = 16;
 
 /// Where more rays than that times this are wanted, the trial is made again with so many: what is left is a step of

@@ -51,7 +51,10 @@ impl Pilot<'_> {
         let started = Instant::now();
         let new = self.direct.len()..gatherers.len();
         let measured = self.measured(elements, gatherers, new.collect());
-        self.costs.direct.add(started.elapsed(), measured.len() as f64);
+        let is_for_it_alone = self.for_indirect_light.is_some();
+        let costs = &mut self.costs;
+        let cost = if is_for_it_alone { &mut costs.in_shadows } else { &mut costs.direct };
+        cost.add(started.elapsed(), measured.len() as f64);
         self.direct.extend(measured.iter().map(|m| m.lx));
         self.direct_variance.extend(measured.iter().map(|m| m.variance));
         self.measured_at.extend(gatherers[self.measured_at.len()..].iter().map(|g| g.origin));

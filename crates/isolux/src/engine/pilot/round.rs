@@ -7,9 +7,10 @@ use crate::engine::allot::{allot, areas_m2, mean_of};
 use crate::engine::checks;
 use crate::engine::forecast::{Excess, GoOn, Outlook, Round};
 use crate::engine::gather::Gatherer;
+use crate::engine::hybrid;
 use crate::engine::look::{Look, PilotRequest};
 use crate::engine::path::Dice;
-use crate::engine::trial::{Trial, noise_for};
+use crate::engine::trial::{FEWEST_UNJUDGED, Trial, noise_for};
 use crate::sampling::{CosineHemisphere, Sequence};
 use isolux_geometry::Ray;
 use rayon::prelude::*;
@@ -90,6 +91,8 @@ impl Pilot<'_> {
         let noise = noise_for(request.target, interpolation, is_right);
         let wanted = trial.wanted(noise, reference_lx, BELIEVED_INCREMENTS);
         let rays = look.map_or(wanted, |_| self.mean_allotted(wanted));
+        let of_one = f64::from(trial.rays_anywhere(noise, reference_lx, BELIEVED_INCREMENTS));
+        let checks = checks::count(carriers) as f64;
         let outlook = Outlook {
             carriers: carriers as f64,
             gathered: self.gathered.iter().filter(|&&gathered| gathered).count() as f64,
@@ -98,7 +101,9 @@ impl Pilot<'_> {
             measured: self.direct.len() as f64,
             pilot_rays: mean_of(&self.rays),
             rays,
-            checks: checks::count(carriers) as f64 + measured,
+            checks,
+            check_rays: (checks + measured) * of_one,
+            trials: hybrid::rays_tried(carriers, rays),
             particles: self.particles(request.target, (vertices, reference_lx), carriers, rays),
             target: request.target,
             excess,
@@ -120,13 +125,18 @@ impl Pilot<'_> {
         }
     }
 
-    /// Rays of a vertex in the mean, if each had so many.
+    /// Rays of a vertex in the mean, if each had so many, and more where they are not judged by walls.
     fn mean_allotted(&self, rays: f64) -> f64 {
         let areas_m2 = match &self.for_indirect_light {
             Some((_, areas_m2)) => Cow::Borrowed(areas_m2),
             None => Cow::Owned(areas_m2(&self.subdivision, &self.carriers)),
         };
-        mean_of(&allot(&areas_m2, rays))
+        let mut allotted = allot(&areas_m2, rays);
+        for (vertex, rays) in allotted.iter_mut().enumerate().filter(|(_, rays)| **rays > 0) {
+            let behind = self.behind.get(&(vertex as u32)).and_then(|(_, light)| light.as_ref());
+            *rays = if behind.is_none() { (*rays).max(FEWEST_UNJUDGED) } else { *rays };
+        }
+        mean_of(&allotted)
     }
 
     /// Particles of an increment, beside rays of so many carriers.

@@ -7,8 +7,12 @@ use crate::engine::allot::allot;
 use crate::engine::flights::CausticNoise;
 use crate::engine::gather::{Gatherer, known_at};
 use crate::engine::look::Look;
+use crate::engine::path::Dice;
 use crate::engine::surface::SurfacePoint;
 use crate::engine::trial::{self, Trial};
+use crate::sampling::Sequence;
+use rayon::prelude::*;
+use std::time::{Duration, Instant};
 
 impl Pilot<'_> {
     /// Rays of the vertices in the pilot: so many where a surface has no more vertices than others for its area, fewer where it
@@ -48,7 +52,12 @@ impl Pilot<'_> {
             .collect();
         let gathering = self.gathering(&look.elements, u32::MAX, &self.standings);
         let wanted = (target, look.reference_lx, BELIEVED_INCREMENTS, self.key.with(6));
+        let started = Instant::now();
         let (trial, rays) = Trial::of(&gathering, &some, &self.indirect, wanted, self.trial);
+        self.costs.tried.add(started.elapsed(), rays as f64);
+        if !self.lighting.is_measured_once() {
+            self.costs.again.add(self.measures_again(&some), some.len() as f64);
+        }
         self.trial = Some(trial);
         self.traced += rays;
         let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();
@@ -58,6 +67,17 @@ impl Pilot<'_> {
         self.caustic_noise = noise;
         self.aim = aim;
         self.traced += rays;
+    }
+
+    /// How long it takes to measure direct light of some vertices once more.
+    fn measures_again(&self, some: &[(Gatherer, f64)]) -> Duration {
+        let (started, sequence) = (Instant::now(), Sequence::new(self.key.with(1)));
+        some.par_iter().for_each(|(of, _)| {
+            std::hint::black_box(
+                self.lighting.illuminance(&of.surface, &mut Dice::new(sequence, 0)),
+            );
+        });
+        started.elapsed()
     }
 
     /// New vertices gather as their parents do.

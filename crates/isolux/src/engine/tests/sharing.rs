@@ -2,13 +2,14 @@
 
 use super::errors::{noise as normal, small_plan};
 use super::*;
-use crate::engine::allot::{allot, allot_by_noise, mean_of};
+use crate::engine::allot::{Shared, allot, allot_by_noise, mean_of};
 use crate::engine::caustics::deposit;
 use crate::engine::direct::Lighting;
 use crate::engine::flights::{CausticNoise, particles};
 use crate::engine::gather::known_weights;
 use crate::engine::hybrid::Hybrid;
 use crate::engine::surface::SurfacePoint;
+use crate::engine::trial::Trial;
 use crate::scene::Gloss;
 
 /// Noise over all areas of nets of n rays, in the square.
@@ -45,31 +46,32 @@ fn noisy_receivers_get_more_if_that_leaves_much_less_noise() {
     const COUNT: usize = 1000;
     let (areas_m2, allotted) = (vec![0.3; COUNT], vec![64; COUNT]);
     let share = |variances: &[f64]| allot_by_noise(&areas_m2, variances, &allotted);
-    assert_eq!(share(&[2.0; COUNT]), None);
-    assert_eq!(share(&[0.0; COUNT]), None, "no noise to share by");
+    assert!(share(&[2.0; COUNT]).is_none());
+    assert!(share(&[0.0; COUNT]).is_none(), "no noise to share by");
     // Variances of four samples each, alike but for chance: sums of three squares of normal deviates.
     let square = |k: u64| normal(Key::new(k)).powi(2);
     let by_chance: Vec<f64> =
         (0..COUNT as u64).map(|k| square(3 * k) + square(3 * k + 1) + square(3 * k + 2)).collect();
-    assert_eq!(share(&by_chance), None);
+    assert!(share(&by_chance).is_none());
     // Every fiftieth has a hundred times the noise, as in housings of lamps.
     let mut uneven = by_chance.clone();
     uneven.iter_mut().step_by(50).for_each(|v| *v *= 1e4);
-    let (rays, left_lx) = share(&uneven).expect("most of the noise is on a fiftieth of them");
+    let Shared { rays, left_lx, before_lx } =
+        share(&uneven).expect("most of the noise is on a fiftieth of them");
     let noise = |rays: &dyn Fn(usize) -> f64| -> f64 {
         uneven.iter().enumerate().map(|(k, v)| v * rays(k).powf(-1.7)).sum()
     };
-    let left = (noise(&|k| f64::from(rays[k])) / noise(&|_| 64.0)).sqrt();
-    let mean_lx2 = noise(&|k| f64::from(rays[k])) / COUNT as f64;
-    assert!((left_lx * left_lx / mean_lx2 - 1.0).abs() < 1e-9, "{left_lx}");
-    assert!(left < 0.3, "{left}");
+    let mean_lx = |rays: &dyn Fn(usize) -> f64| (noise(rays) / COUNT as f64).sqrt();
+    assert!((left_lx / mean_lx(&|k| f64::from(rays[k])) - 1.0).abs() < 1e-9, "{left_lx}");
+    assert!((before_lx / mean_lx(&|_| 64.0) - 1.0).abs() < 1e-9, "{before_lx}");
+    assert!(left_lx < 0.3 * before_lx, "{left_lx} {before_lx}");
     assert!(rays.iter().all(|&n| n.is_power_of_two() && (32..=1024).contains(&n)));
     let all: u32 = rays.iter().sum();
     assert!((48_000..80_000).contains(&all), "as many in all: {all}");
     // Who had none has none.
     let but_first = |k: usize| if k == 0 { 0 } else { 64 };
     let allotted: Vec<u32> = (0..COUNT).map(but_first).collect();
-    assert_eq!(allot_by_noise(&areas_m2, &uneven, &allotted).unwrap().0[0], 0);
+    assert_eq!(allot_by_noise(&areas_m2, &uneven, &allotted).unwrap().rays[0], 0);
 }
 
 /// A room with a lamp in a box of 20 cm that is open below.
@@ -92,9 +94,12 @@ fn room_with_a_can() -> Scene {
 
 #[test]
 fn housings_of_lamps_get_more_rays_than_their_area_is_worth() {
-    let rays_of = |scene: &Scene| {
+    let rays_of = |scene: &Scene, has_met_it: bool| {
         let lighting = Lighting::new(scene);
-        let plan = small_plan(scene, &lighting);
+        let mut plan = small_plan(scene, &lighting);
+        if !has_met_it {
+            plan.trial = Trial::usual(plan.reference_lx);
+        }
         let hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1 << 10, 1);
         let by_area = allot(&plan.areas_m2(), 64.0);
         let places: Vec<Point> = plan.elements.vertices().iter().map(|v| v.position).collect();
@@ -107,11 +112,13 @@ fn housings_of_lamps_get_more_rays_than_their_area_is_worth() {
         let (own, by_area) = some.fold((0, 0), |(a, b), &(_, own, by_area)| (a + own, b + by_area));
         f64::from(own) / f64::from(by_area)
     };
-    let can = rays_of(&room_with_a_can());
+    // A trial of a few receivers out of many, none of them in the can.
+    let can = rays_of(&room_with_a_can(), false);
     assert!(mean(&can, true) > 2.0, "{} in the can", mean(&can, true));
     assert!(mean(&can, false) > 0.4, "{} elsewhere", mean(&can, false));
-    let plain = rays_of(&polished_room());
-    assert!(plain.iter().all(|(_, own, by_area)| own == by_area), "an ordinary room");
+    let are_by_area = |of: &[(Point, u32, u32)]| of.iter().all(|(_, own, by_area)| own == by_area);
+    assert!(are_by_area(&rays_of(&polished_room(), true)), "an ordinary room");
+    assert!(are_by_area(&rays_of(&room_with_a_can(), true)), "rays are enough for it");
 }
 
 /// A room of which one wall is polished metal.
