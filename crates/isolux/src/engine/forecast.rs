@@ -18,7 +18,7 @@ const USUAL_ORDER: f64 = 2.0;
 
 /// What an increment does beside its rays: the fixed point over what they have found, as a share of what they take, and all that is
 /// done for every vertex, in rays. Measured in the hall, CUBE, SPHERE and offices, as is what follows.
-const SOLVED: f64 = 0.3;
+const SOLVED: f64 = 0.4;
 const EVERY: f64 = 1.0;
 /// What is done once before the first increment: in looks at the vertices; rays of each that tell what readings have in common; and
 /// direct light of a check point, in vertices.

@@ -149,6 +149,7 @@ impl Pilot<'_> {
                 break;
             }
             look.elements = self.subdivision.elements();
+            self.added_for_direct = look.elements.vertices().len() - self.direct.len();
             self.complete_rays();
             let gatherers = self.gatherers();
             self.complete_direct(&look.elements, &gatherers);

@@ -108,6 +108,8 @@ struct Pilot<'s> {
     direct_noise_lx: Option<f64>,
     /// By how much direct light as interpolated errs more than it should, with so many vertices.
     direct_excess: Option<(usize, f64)>,
+    /// Vertices that the last round of refinement for it has added.
+    added_for_direct: usize,
     indirect: Vec<Rgb>,
     surroundings: Surroundings,
     known: Vec<bool>,
@@ -223,6 +225,7 @@ impl<'s> Pilot<'s> {
             direct_noise: has_noise.then_some(NOISE_OF_DIRECT_LIGHT * request.mesh_target),
             direct_noise_lx: None,
             direct_excess: None,
+            added_for_direct: 0,
             indirect: Vec::new(),
             surroundings: Surroundings::default(),
             known: Vec::new(),

@@ -20,6 +20,9 @@ use std::time::Instant;
 /// Rays of each of the vertices that tell how long one takes.
 const TRACED: u32 = 16;
 
+/// Vertices that a round for direct light adds, in those that the last one did.
+const NEXT: f64 = 1.5;
+
 /// The part of the vertices that bisection moves, as a guess.
 const MOVED: f64 = 0.1;
 
@@ -83,7 +86,9 @@ impl Pilot<'_> {
         let more = unmeasured.map_or(0.0, |look| {
             let excess = self.direct_excess_now(look, request);
             let then = vertices as f64 * excess.max(1.0).sqrt();
-            (then.min(most) - vertices as f64).max(0.0)
+            // Rounds that are not the last add more and more.
+            let another = if excess > 1.0 { NEXT * self.added_for_direct as f64 } else { 0.0 };
+            (then.max(vertices as f64 + another).min(most) - vertices as f64).max(0.0)
         });
         let interpolation = look.map_or(request.target, |look| look.interpolation(request));
         let measured = look.filter(|look| look.asks_for_means(request)).map_or(0.0, Look::beset);
