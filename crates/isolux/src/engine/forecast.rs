@@ -82,7 +82,7 @@ impl Cost {
         Self { time_s: factor * self.time_s, ..self }
     }
 
-    fn of(self, things: f64) -> f64 {
+    pub(super) fn of(self, things: f64) -> f64 {
         if self.things > 0.0 { self.time_s * things / self.things } else { 0.0 }
     }
 }
@@ -122,7 +122,7 @@ impl Costs {
     }
 
     /// Direct light of vertices that are made for it alone.
-    fn in_shadows(&self, vertices: f64) -> f64 {
+    pub(super) fn in_shadows(&self, vertices: f64) -> f64 {
         let is_known = self.in_shadows.things > 0.0;
         if is_known { self.in_shadows.of(vertices) } else { IN_SHADOWS * self.direct.of(vertices) }
     }
@@ -300,6 +300,8 @@ pub(super) struct Round {
     pub(super) rays: u64,
     /// Vertices that there will be.
     pub(super) receivers_then: f64,
+    /// Time of the next step, which is made whole, s, as far as it measures direct light.
+    pub(super) step_s: f64,
     /// Time to the accuracy asked for.
     pub(super) left: Left,
 }

@@ -246,9 +246,10 @@ impl<'s, 'r> Run<'s, 'r> {
         self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
     }
 
-    /// Whether what is left of the time is better spent on increments than on finer elements.
-    fn refined_long_enough(&self) -> bool {
-        let is_over = |limit: Duration| self.elapsed_s() >= PILOT_SHARE * limit.as_secs_f64();
+    /// Whether what is left of the time is better spent on increments than on finer elements, the next of which take so long.
+    fn refined_long_enough(&self, step_s: f64) -> bool {
+        let is_over =
+            |limit: Duration| self.elapsed_s() + step_s >= PILOT_SHARE * limit.as_secs_f64();
         self.request.time_limit.is_some_and(is_over)
     }
 
@@ -297,7 +298,8 @@ impl<'s, 'r> Run<'s, 'r> {
                 || watch(&progress, &SoFar::NOTHING) == Watch::Stop
                 || self.out_of_time();
             // The elements of a saved run are made again, whole, or what it has would be lost.
-            self.stage == self.saved_stage || !(self.stopped || self.refined_long_enough())
+            self.stage == self.saved_stage
+                || !(self.stopped || self.refined_long_enough(round.step_s))
         });
         self.unlit = unlit;
         self.cut |= !plan.is_whole;

@@ -25,7 +25,7 @@ impl<'s> Pilot<'s> {
         go_on: &mut GoOn<'_>,
     ) -> Plan<'s> {
         let carrying = self.subdivision.vertex_count();
-        if look.is_smooth(request) {
+        if look.is_smooth(request) && self.has_time(&look, request, FINE, go_on) {
             self.smooth(&mut look, request.max_vertices);
         }
         let caustics = self.refine_for_caustics(&mut look, request, go_on);

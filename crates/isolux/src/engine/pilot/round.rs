@@ -5,7 +5,7 @@ use crate::elements::Elements;
 use crate::engine::accuracy::BELIEVED_INCREMENTS;
 use crate::engine::allot::{allot, areas_m2, mean_of};
 use crate::engine::checks;
-use crate::engine::forecast::{Excess, GoOn, Outlook, Round};
+use crate::engine::forecast::{Excess, FINE, GoOn, Outlook, Round};
 use crate::engine::gather::Gatherer;
 use crate::engine::hybrid;
 use crate::engine::look::{Look, PilotRequest};
@@ -81,15 +81,10 @@ impl Pilot<'_> {
         let for_indirect_light = self.for_indirect_light.as_ref();
         let carriers =
             self.carriers.count(for_indirect_light.map_or(vertices, |(count, _)| *count));
-        let most = self.most_for_direct_light(request) as f64;
+        // Rounds that are not the last add more and more.
+        let another = NEXT * self.added_for_direct as f64;
         let unmeasured = look.filter(|_| !self.is_measured);
-        let more = unmeasured.map_or(0.0, |look| {
-            let excess = self.direct_excess_now(look, request);
-            let then = vertices as f64 * excess.max(1.0).sqrt();
-            // Rounds that are not the last add more and more.
-            let another = if excess > 1.0 { NEXT * self.added_for_direct as f64 } else { 0.0 };
-            (then.max(vertices as f64 + another).min(most) - vertices as f64).max(0.0)
-        });
+        let more = unmeasured.map_or(0.0, |look| self.more_for_direct(look, request, another));
         let interpolation = look.map_or(request.target, |look| look.interpolation(request));
         let measured = look.filter(|look| look.asks_for_means(request)).map_or(0.0, Look::beset);
         let is_right = measured > 0.0 || look.is_some_and(|look| look.walls.are_resolved());
@@ -98,6 +93,9 @@ impl Pilot<'_> {
         let rays = look.map_or(wanted, |_| self.mean_allotted(wanted));
         let of_one = f64::from(trial.rays_anywhere(noise, reference_lx, BELIEVED_INCREMENTS));
         let checks = checks::count(carriers) as f64;
+        let smoothed = look
+            .filter(|look| !self.is_smoothed && look.is_smooth(request))
+            .map_or(1.0, Look::smoothed);
         let outlook = Outlook {
             carriers: carriers as f64,
             gathered: self.gathered.iter().filter(|&&gathered| gathered).count() as f64,
@@ -114,20 +112,32 @@ impl Pilot<'_> {
             excess,
             before,
             usual: if look.is_none() && !self.is_measured { self.usual() } else { None },
-            smoothed: look
-                .filter(|look| !self.is_smoothed && look.is_smooth(request))
-                .map_or(1.0, Look::smoothed),
+            smoothed,
             is_smooth: self.is_smoothed || look.is_some_and(|look| look.is_smooth(request)),
             more_for_direct: more,
             measured_again: if self.is_measured { 0.0 } else { MOVED },
             measured_each: !self.lighting.is_measured_once(),
         };
+        // Elements are made smooth once they are fine enough.
+        let made_smooth = if (excess, before) == FINE { smoothed - 1.0 } else { 0.0 };
         Round {
             receivers: vertices,
             rays: self.traced,
             receivers_then: outlook.vertices_then(),
+            step_s: self.costs.in_shadows(another)
+                + self.costs.direct.of(made_smooth * vertices as f64),
             left: outlook.left(&self.costs),
         }
+    }
+
+    /// Vertices that direct light alone will take, of which the next round will add so many, if there is one.
+    fn more_for_direct(&self, look: &Look, request: &PilotRequest, another: f64) -> f64 {
+        let vertices = self.subdivision.vertex_count() as f64;
+        let excess = self.direct_excess_now(look, request);
+        let then = vertices * excess.max(1.0).sqrt();
+        let least = if excess > 1.0 { vertices + another } else { vertices };
+        let most = self.most_for_direct_light(request) as f64;
+        (then.max(least).min(most) - vertices).max(0.0)
     }
 
     /// Rays of a vertex in the mean, if each had so many, and more where they are not judged by walls.
