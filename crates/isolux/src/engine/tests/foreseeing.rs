@@ -1,7 +1,12 @@
 //! What a run says of itself before it is done.
 
 use super::errors::room;
-use crate::engine::forecast::{Costs, Outlook};
+use super::usual_request;
+use crate::engine::direct::Lighting;
+use crate::engine::forecast::{Costs, GoOn, Outlook, Round};
+use crate::engine::hidden::Unlit;
+use crate::engine::pilot::pilot;
+use crate::engine::plan::Plan;
 use crate::engine::{SolveRequest, Stage, Watch, foresee, solve};
 use std::time::Duration;
 
@@ -144,6 +149,28 @@ fn among_many_things_the_usual_mesh_is_foreseen() {
         Outlook { usual: Some(1.5), ..outlook }.left(&costs).factor,
         outlook.left(&costs).factor
     );
+}
+
+#[test]
+fn a_step_that_takes_too_long_is_told_before_it_is_begun() {
+    let scene = room();
+    let lighting = Lighting::new(&scene);
+    let with = |go_on: &mut GoOn<'_>| {
+        pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), go_on)
+    };
+    let mut longest = (0.0, 0);
+    let whole = with(&mut |round: &Round| {
+        if round.step_s > longest.0 {
+            longest = (round.step_s, round.receivers);
+        }
+        true
+    });
+    let size = |plan: &Plan| plan.elements.vertices().len();
+    // Light is smooth there: most vertices are made in one step, and have direct light.
+    assert!(longest.0 > 0.0 && size(&whole) > 2 * longest.1, "{longest:?} {}", size(&whole));
+    let cut = with(&mut |round: &Round| round.step_s == 0.0);
+    assert!(whole.is_whole && !cut.is_whole);
+    assert_eq!(size(&cut), longest.1, "what there was before");
 }
 
 #[test]
