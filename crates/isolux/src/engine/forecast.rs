@@ -6,6 +6,7 @@
 //! to. None of this enters a map.
 
 use super::accuracy::BELIEVED_INCREMENTS;
+use super::hybrid::READERS;
 use std::time::Duration;
 
 /// Error of the elements against the number of vertices: a power between these is believed.
@@ -20,10 +21,8 @@ const USUAL_ORDER: f64 = 2.0;
 /// done for every vertex, in rays. Measured in the hall, CUBE, SPHERE and offices, as is what follows.
 const SOLVED: f64 = 0.4;
 const EVERY: f64 = 1.0;
-/// What is done once before the first increment: in looks at the vertices; rays of each that tell what readings have in common; and
-/// direct light of a check point, in vertices.
+/// What is done once before the first increment, in looks at the vertices; and direct light of a check point, in vertices.
 const ONCE: f64 = 2.0;
-const READ: f64 = 16.0;
 const CHECKED: f64 = 6.5;
 /// Direct light of a vertex that is made for it alone, where shadows end, in others.
 const IN_SHADOWS: f64 = 2.3;
@@ -268,7 +267,7 @@ impl Outlook {
         let looks = if self.is_smooth { carriers } else { vertices };
         let once_s = ONCE * costs.of_looks(looks)
             + FITTING * smoothing_s
-            + costs.of_rays_then(carriers * self.rays.min(READ) + self.trials)
+            + costs.of_rays_then(carriers * self.rays.min(READERS.into()) + self.trials)
             + CHECKED * costs.direct.of(self.checks);
         let (in_all, factor) = match self.excess {
             None if is_blind => (MANY_IN_ALL, BLIND),

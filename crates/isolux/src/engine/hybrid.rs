@@ -35,7 +35,7 @@ const RAYS_AHEAD: u64 = 1 << 19;
 
 /// Rays of a vertex that tell what readings have in common, one of so many that memory is there for at most; and means over the
 /// elements about it, one after the other.
-const READERS: u32 = 16;
+pub(super) const READERS: u32 = 16;
 const OF_READERS: u32 = 4;
 const SMOOTHINGS: u32 = 4;
 

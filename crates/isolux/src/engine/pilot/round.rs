@@ -124,7 +124,7 @@ impl Pilot<'_> {
             receivers: vertices,
             rays: self.traced,
             receivers_then: outlook.vertices_then(),
-            step_s: self.costs.in_shadows(another)
+            step_s: self.costs.in_shadows(another.min(more))
                 + self.costs.direct.of(made_smooth * vertices as f64),
             left: outlook.left(&self.costs),
         }

@@ -103,10 +103,13 @@ fn elements_grow_as_errors_are_seen_to_fall() {
     let left = slow.left(&costs);
     // So many gather in the pilot, with 64 rays each, and with the thousand in increments.
     let rays_s = 1e-6 * (least * 64.0 + (8.5 * 1.4 + 1.0) * (1000.0 + least) * 16.0);
-    // And rounds to come look at all there are, 2 microseconds each, and measure direct light at the new ones.
-    let looks_s = 2e-6 * slow.vertices_then();
-    let beside_s = left.time_s - rays_s;
-    assert!(beside_s > 7.0 * looks_s && beside_s < 15.0 * looks_s, "{beside_s} {looks_s}");
+    // And five rounds to come, and increments before they begin, look at all there are, 2 microseconds each; direct light is measured
+    // at the new ones, and increments take a ray's time for every vertex.
+    let vertices = slow.vertices_then();
+    let looks_s = 2e-6 * (5.0 + 2.0) * vertices;
+    let beside_s = looks_s + 1e-6 * (vertices - 2000.0) + 1e-6 * 8.5 * vertices;
+    let expected_s = rays_s + beside_s;
+    assert!((left.time_s - expected_s).abs() < 1e-9, "{} {expected_s}", left.time_s);
     // Where light is smooth, more vertices lie between those that carry it, at no rays.
     let smooth = Outlook { smoothed: 3.0, ..first };
     // They are made once, at a microsecond each, and put together before the first increment; nobody looks at them.
