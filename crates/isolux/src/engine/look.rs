@@ -28,6 +28,8 @@ const MEANS_FROM_IF_SMOOTH: f64 = 0.15;
 const SMOOTH: f64 = 0.7;
 /// What quadratic functions leave of the error of linear ones there.
 const LEFT_BY_SMOOTHING: f64 = 0.5;
+/// Vertices made so at most where direct light has noise: each then takes up to half a millisecond for its direct light alone.
+const MOST_SMOOTHED_IF_NOISY: usize = 12_000;
 
 /// What functions that fall off towards walls leave of the error of linear ones, along the edges of CUBE, beside what is left elsewhere.
 const LEFT_AT_WALLS: f64 = 0.5;
@@ -76,6 +78,8 @@ pub(super) struct Look {
     pub(super) reference_lx: f64,
     /// Surface where it is dim, m2.
     pub(super) dim_m2: f64,
+    /// Whether direct light at a vertex has noise, and so costs much.
+    pub(super) is_noisy: bool,
 }
 
 /// What elements are read for.
@@ -211,7 +215,8 @@ impl Look {
     /// Whether light is so smooth that quadratic functions over its vertices are nearer than linear ones.
     pub(super) fn is_smooth(&self, request: &PilotRequest) -> bool {
         // Twice as many elements as vertices, four of each.
-        let has_room = 2 * self.errors.len() <= request.max_vertices;
+        let most = if self.is_noisy { MOST_SMOOTHED_IF_NOISY } else { usize::MAX };
+        let has_room = 2 * self.errors.len() <= request.max_vertices.min(most);
         request.has_means && self.left_by_fit < SMOOTH && has_room
     }
 

@@ -345,9 +345,17 @@ impl<'s> Pilot<'s> {
         }
         let worst = Worst::of(&errors);
         let walls = Walls::default();
-        let dim_m2 = self.surroundings.dim_m2;
-        let mut look =
-            Look { carriers, elements, errors, walls, worst, left_by_fit, reference_lx, dim_m2 };
+        let mut look = Look {
+            carriers,
+            elements,
+            errors,
+            walls,
+            worst,
+            left_by_fit,
+            reference_lx,
+            dim_m2: self.surroundings.dim_m2,
+            is_noisy: self.direct_noise.is_some(),
+        };
         if look.is_smooth(request) {
             self.look_for_walls(&mut look, request, &luminances);
         }

@@ -80,6 +80,7 @@ fn resolved(accuracy_lx: f64) -> Resolved {
         left_by_fit: 1.0,
         reference_lx: 100.0,
         dim_m2: 0.0,
+        is_noisy: false,
     };
     look.resolve(walls, &subdivision, &values, accuracy_lx);
     let leaves: Vec<u32> = subdivision.leaves().collect();
