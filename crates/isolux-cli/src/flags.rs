@@ -12,7 +12,6 @@ use std::time::Duration;
 #[command(
     name = "isolux",
     version,
-    disable_help_subcommand = true,
     after_help = "Exit codes: 0 done, 1 a check failed, 2 bad input, 3 stopped early with a valid map, \
                   4 refused (memory, space), 130 interrupted with a valid map."
 )]

@@ -214,11 +214,13 @@ fn bad_input_is_refused_with_a_reason() {
 #[test]
 fn every_subcommand_has_help_with_an_example() {
     let home = Home::new();
-    for subcommand in ["solve", "info", "probe", "render", "check", "validate", "demo"] {
+    let all = "solve info probe grid render export mix check lint validate scene demo";
+    for subcommand in all.split(' ') {
         let ran = home.run(&[subcommand, "--help"]);
         assert_eq!(ran.code, 0, "{ran:?}");
         assert!(ran.out.contains("Example"), "{subcommand}: {}", ran.out);
         assert!(ran.out.contains("--json"), "{subcommand}: {}", ran.out);
+        assert_eq!(home.run(&["help", subcommand]).out, ran.out);
     }
     assert_eq!(home.run(&["--version"]).code, 0);
 }

@@ -91,6 +91,20 @@ fn resolved(accuracy_lx: f64) -> Resolved {
 }
 
 #[test]
+fn noisy_direct_light_leaves_large_meshes_without_smooth_elements() {
+    let mut look = resolved(1.0).look;
+    look.left_by_fit = 0.1;
+    let few = look.errors.clone();
+    let many: Vec<LeafError> = few.iter().cycle().take(100_000).copied().collect();
+    let mut is_smooth = |errors: &[LeafError], is_noisy: bool| {
+        (look.errors, look.is_noisy) = (errors.to_vec(), is_noisy);
+        look.is_smooth(&usual_request())
+    };
+    assert!(is_smooth(&few, false) && is_smooth(&few, true) && is_smooth(&many, false));
+    assert!(!is_smooth(&many, true));
+}
+
+#[test]
 fn every_face_of_a_room_ends_before_four_walls() {
     let of = |scene: &Scene| {
         let subdivision = subdivided(scene);
