@@ -3,13 +3,12 @@
 use crate::rooms::{
     clear_glass, glowing, inward_box, lamp, mirror, outward_box, painted, rectangle, scene,
 };
-use crate::runs::{METHODS, assert_valid, coarse, run, within};
+use crate::runs::{METHODS, assert_valid, coarse, ends, run};
 use isolux::engine::{MapReader, ProbePoint};
 use isolux::geometry::{Normal, Point};
 use isolux::map::{IlluminationMap, Method, Provenance};
 use isolux::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, Shape};
 use isolux::units::Rgb;
-use std::time::Duration;
 
 fn floor(size: f64) -> Shape {
     rectangle([0.0; 3], [size, 0.0, 0.0], [0.0, size, 0.0], 0)
@@ -151,13 +150,13 @@ fn size_changes_light_by_the_inverse_square_alone() {
     }
 }
 
-/// Maps by every method of a scene that must be solved in time.
-fn solved_in_time(make: fn() -> Scene) -> Vec<IlluminationMap> {
+/// Maps by every method of a scene.
+fn solved(make: fn() -> Scene) -> Vec<IlluminationMap> {
     let one = |method: Method| {
         // On threads of their own, which a run that does not end keeps to itself.
         let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
         let solve = move || threads.install(|| run(&make(), &coarse(method, 150), 9));
-        let solution = within(Duration::from_secs(20), solve);
+        let solution = ends(solve);
         solution.unwrap_or_else(|| panic!("{method:?} does not end")).expect("a map").map
     };
     METHODS.into_iter().map(one).collect()
@@ -165,7 +164,7 @@ fn solved_in_time(make: fn() -> Scene) -> Vec<IlluminationMap> {
 
 /// The same, where so much light is given up that nothing is known.
 fn check_given_up(make: fn() -> Scene) {
-    for map in solved_in_time(make) {
+    for map in solved(make) {
         let Provenance { method, accuracy, complete, .. } = map.provenance;
         assert!(accuracy.is_none() && !complete, "{method:?}: {accuracy:?}");
     }
@@ -192,7 +191,7 @@ fn lamp_in_glass() -> Scene {
 #[test]
 
 fn light_caught_in_glass_is_given_up() {
-    for map in solved_in_time(lamp_in_glass) {
+    for map in solved(lamp_in_glass) {
         // Total reflection beyond 41.8 degrees keeps 1 - 3 (1 - cos 41.8) of all rays: a quarter.
         assert!(map.provenance.accuracy.is_none_or(|a| a.bias > 0.1), "{:?}", map.provenance);
     }

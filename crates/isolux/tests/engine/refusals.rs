@@ -1,7 +1,7 @@
 //! What cannot be solved is said, and what is stopped is still a map.
 
 use crate::rooms::{clear_glass, inward_box, lamp, mirror, painted, rectangle, room, scene};
-use crate::runs::{METHODS, assert_valid, coarse, run, within};
+use crate::runs::{METHODS, assert_valid, coarse, ends, run};
 use isolux::engine::{RunState, SolveError, SolveRequest, Watch, solve};
 use isolux::map::Method;
 use isolux::scene::{Luminaire, Material, Scene};
@@ -99,7 +99,7 @@ fn runs_that_reach_their_accuracy_end_by_themselves() {
 
 /// Runs to their end; `None` if that does not come.
 fn increments_to_the_end(scene: Scene, method: Method) -> Option<u64> {
-    within(Duration::from_secs(20), move || {
+    ends(move || {
         let request = SolveRequest { accuracy: Some(0.05), ..coarse(method, 150) };
         // Far more than the receivers of these scenes ask for.
         run(&scene, &request, 2000).expect("a map").map.provenance.increments

@@ -45,12 +45,12 @@ pub(crate) fn assert_valid(name: &str, map: &IlluminationMap) {
     }
 }
 
-/// The result of work that must be done in time; a run that hangs fails its test instead of all.
-pub(crate) fn within<T: Send + 'static>(
-    limit: Duration,
-    work: impl FnOnce() -> T + Send + 'static,
-) -> Option<T> {
+/// Far longer than anything takes, on a slow machine too: what takes longer does not end.
+const PATIENCE: Duration = Duration::from_secs(300);
+
+/// The result of work that must end; a run that hangs fails its test instead of all.
+pub(crate) fn ends<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Option<T> {
     let (sender, receiver) = channel();
     std::thread::spawn(move || sender.send(work()));
-    receiver.recv_timeout(limit).ok()
+    receiver.recv_timeout(PATIENCE).ok()
 }
