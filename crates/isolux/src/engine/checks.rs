@@ -41,7 +41,7 @@ const CLOSE_RAYS: u32 = 16;
 pub(super) struct Check {
     pub(super) gatherer: Gatherer,
     /// Vertices and weights of the indirect map there, over the known ones.
-    coarse: [(u32, f64); 3],
+    read: [(u32, f64); 3],
     /// The same of the whole map.
     fine: [(u32, f64); 3],
     /// What rays read of the indirect map where something stands across its element, which readers do not look for.
@@ -230,16 +230,20 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let node = plan.elements.place(plan.level, triangle, back, [u, v]).map(|place| place.node());
     let has_parts = node.is_some_and(|node| plan.parts.has(node));
     let cut = node.and_then(|node| plan.cuts.of_node(node));
-    let by_rays = cut.and_then(|cut| {
+    let on_side = cut.and_then(|cut| {
         let corners = plan.elements.locate_above(plan.level, triangle, back, u, v)?;
         // Beyond a cut they read nothing where nothing is known.
         let none = corners.map(|(vertex, _)| (vertex, 0.0));
         Some(known_on_side(corners, &plan.standings, cut).unwrap_or(none))
     });
+    // Readers read what vertices have gathered for the bare map, rays do not.
+    let is_alike = plan.gathering_for_bare.is_empty();
+    let (by_rays, read) =
+        if is_alike { (on_side, coarse) } else { (on_side.or(Some(coarse)), fine) };
     let (close, view) = (0.0, View::default());
     let place = Check {
         gatherer,
-        coarse,
+        read,
         fine,
         by_rays,
         area_m2,
@@ -305,7 +309,7 @@ pub(super) fn samples(
     let readings = checks.iter().zip(fresh_direct).map(|(check, &direct)| Sample {
         direct,
         caustic: read(caustic, &check.fine),
-        indirect: read(indirect, &check.coarse),
+        indirect: read(indirect, &check.read),
         passed_on: 0.0,
     });
     let difference = |k: usize, of: &[(u32, f64); 3]| {
@@ -320,12 +324,12 @@ pub(super) fn samples(
             passed_on: 0.0,
         }
     };
-    let differences = checks.iter().enumerate().map(|(k, check)| difference(k, &check.coarse));
+    let differences = checks.iter().enumerate().map(|(k, check)| difference(k, &check.read));
     let by_rays = |(k, check): (usize, &Check)| match lookups {
         Some(lookups) => Sample { indirect: lookups[k], ..Sample::default() },
         // Neither rays nor views come to what is closed in.
         None if check.gatherer.in_gap => Sample::default(),
-        None => difference(k, check.by_rays.as_ref().unwrap_or(&check.coarse)),
+        None => difference(k, check.by_rays.as_ref().unwrap_or(&check.read)),
     };
     let is_asked = lookups.is_some() || are_cut(checks);
     let by_rays = checks.iter().enumerate().filter(|_| is_asked).map(by_rays);

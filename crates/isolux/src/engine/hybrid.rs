@@ -61,7 +61,8 @@ pub(super) struct Hybrid<'p, 's> {
     rows: Vec<Gatherer>,
     /// Of every place where the mean of an element is measured: as many as vertices have, or there would be more noise there.
     rays_of_means: u32,
-    check_rows: Vec<Gatherer>,
+    /// Check points, then the vertices that gather for the bare map.
+    fresh_rows: Vec<Gatherer>,
     /// Few rays of every vertex, the same for all increments.
     reader: Operator,
     /// Vertices of the elements that indirect light lives on.
@@ -113,9 +114,11 @@ impl<'p, 's> Hybrid<'p, 's> {
         } else {
             rows
         };
-        let check_rows = checks.iter().map(|check| check.gatherer).collect();
         let check_direct = checks::direct(plan, checks, goal, key.with(0));
         let rays_of_means = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
+        let for_bare = plan.gathering_for_bare.iter();
+        let for_bare = for_bare.map(|&v| plan.gatherers[v as usize].with_rays(rays_of_means));
+        let fresh_rows = checks.iter().map(|check| check.gatherer).chain(for_bare).collect();
         let ahead = VecDeque::new();
         let readers = READERS.min((most / OF_READERS).max(1));
         let reader = reader(plan, &rows, (readers, key.with(u64::MAX)));
@@ -126,7 +129,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             check_direct,
             rays_of_means,
             rows,
-            check_rows,
+            fresh_rows,
             reader,
             corners,
             particles,
@@ -161,7 +164,9 @@ impl<'p, 's> Hybrid<'p, 's> {
 
     /// Rays of a vertex in an increment; none where it does not gather.
     pub(super) fn rays_of(&self, vertex: usize) -> u32 {
-        self.rows.get(vertex).map_or(0, |row| row.rays)
+        let is_for_bare = || self.plan.gathering_for_bare.binary_search(&(vertex as u32)).is_ok();
+        let beyond = || if is_for_bare() { self.rays_of_means } else { 0 };
+        self.rows.get(vertex).map_or_else(beyond, |row| row.rays)
     }
 
     /// Increment `index`; `None` if its deadline passes meanwhile. Where increments are small, those that will be asked for
@@ -176,7 +181,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         if self.ahead.is_empty() {
             let next = (index + 1).next_multiple_of(FEWEST_TO_MISS);
             let until = if next <= BELIEVED_INCREMENTS { next } else { index + 1 };
-            let rows = self.rows.iter().chain(&self.check_rows);
+            let rows = self.rows.iter().chain(&self.fresh_rows);
             let rays = rows.map(|row| u64::from(row.rays)).sum::<u64>() + u64::from(self.particles);
             let count = (until - index).min((RAYS_AHEAD / rays.max(1)).max(1)) as usize;
             let deadline = |k: usize| if k == 0 { own } else { of_others };
@@ -225,12 +230,13 @@ impl<'p, 's> Hybrid<'p, 's> {
         let passed_on = self.passed_on(&light);
         // As readers gather.
         let gathering = Gathering { regathers: true, ..gathering };
-        let fresh = gathering.operator(&self.check_rows, |row| key.with(3).with(row as u64));
+        let fresh = gathering.operator(&self.fresh_rows, |row| key.with(3).with(row as u64));
         let fresh_light = fresh.apply(&light);
-        let indirect = plan.prolongate(&gathered);
+        let (fresh_light, for_bare) = fresh_light.split_at(checks.len());
+        let indirect = plan.prolongate_beside(&gathered, for_bare);
         let caustic = plan.prolongate(&caustic);
         let map = [direct.as_slice(), &caustic, &indirect];
-        let checks = checks::samples(checks, (&fresh_light, &check_direct), map, None);
+        let checks = checks::samples(checks, (fresh_light, &check_direct), map, None);
         let vertex = |k: usize| {
             let passed_on = passed_on[k];
             Sample { direct: direct[k], caustic: caustic[k], indirect: indirect[k], passed_on }

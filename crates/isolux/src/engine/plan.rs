@@ -31,6 +31,8 @@ pub(super) struct Plan<'s> {
     /// Indirect light lives on the first so many vertices and the nodes below `level`.
     pub(super) indirect_vertices: usize,
     pub(super) level: u32,
+    /// Vertices beyond those that gather all the same, in order, for the bare map alone.
+    pub(super) gathering_for_bare: Vec<u32>,
     /// Which of them carry it; the others are interpolated.
     pub(super) carriers: Carriers,
     pub(super) waiting: Waiting,
@@ -151,8 +153,18 @@ impl Plan<'_> {
 
     /// Values for the vertices that only direct light needs: interpolated from their parents.
     pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
+        self.prolongate_beside(coarse, &[])
+    }
+
+    /// The same beside what those have that gather for the bare map, if that is given.
+    pub(super) fn prolongate_beside(&self, coarse: &[Rgb], own: &[Rgb]) -> Vec<Rgb> {
+        let mut own = self.gathering_for_bare.iter().zip(own).peekable();
         let mut values = coarse.to_vec();
         for (k, vertex) in self.elements.vertices().iter().enumerate().skip(coarse.len()) {
+            if let Some((_, &value)) = own.next_if(|(vertex, _)| **vertex as usize == k) {
+                values.push(value);
+                continue;
+            }
             let ends = vertex.parents.expect("vertices beyond the input are made by bisection");
             let of = ends.map(|end| self.standings[end as usize]);
             // From what stands as it does, if it can be, else as elements do.

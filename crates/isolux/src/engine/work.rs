@@ -89,7 +89,8 @@ impl<'p, 's> Work<'p, 's> {
         let noise = noise(plan, goal, target);
         let by_noise = || plan.trial.rays_anywhere(noise, reference, FEWEST_INCREMENTS);
         let wanted = wanted.unwrap_or_else(by_noise);
-        let most = most_rays(plan.indirect_vertices, request.max_memory_bytes);
+        let gathering = plan.indirect_vertices + plan.gathering_for_bare.len();
+        let most = most_rays(gathering, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
         let key = Key::new(request.seed).with(3);
         let points = match request.method {
@@ -407,8 +408,13 @@ impl<'p, 's> Work<'p, 's> {
             .map(|e| if direct { e.variance } else { e.indirect_variance })
             .collect();
         let filtered = filter(self.plan, &parts, &variance, self.plan.reference_lx);
-        let fine: Vec<Vec<Rgb>> =
-            filtered.values.iter().map(|part| self.plan.prolongate(part)).collect();
+        let for_bare = self.plan.gathering_for_bare.iter();
+        let for_bare = for_bare.map(|&v| values[v as usize].map_or(Rgb::BLACK, |v| v.indirect_lx));
+        let for_bare: Vec<Rgb> = for_bare.collect();
+        let fine = |(part, values): (usize, &Vec<Rgb>)| {
+            self.plan.prolongate_beside(values, if part == 0 { &for_bare } else { &[] })
+        };
+        let fine: Vec<Vec<Rgb>> = filtered.values.iter().enumerate().map(fine).collect();
         for (k, value) in values.iter_mut().enumerate() {
             let Some(value) = value else { continue };
             let own_direct = value.direct_lx - value.caustic_lx;

@@ -19,7 +19,9 @@ use std::time::Instant;
 
 /// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
 /// many are cheap anyway.
-const MOST_FOR_DIRECT_LIGHT: usize = 4;
+const MOST_FOR_DIRECT_LIGHT: f64 = 4.0;
+/// For an accuracy of the mesh that is finer than this, more by as much.
+pub(super) const USUAL_MESH: f64 = 0.05;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 /// What direct light as interpolated may err by where it is smooth, of the accuracy asked for: details tell three times what it is in CUBE.
 const OF_ACCURACY: f64 = 1.0;
@@ -36,6 +38,11 @@ const LOOKED_AT: usize = 512;
 pub(super) const MOST_REFLECTANCE: f64 = 0.9;
 /// Vertices of one task: some take a hundred times as long as others.
 const AT_ONCE: usize = 32;
+/// How much noisier light may be at vertices that are made where shadows end. Where interpolation errs like n^-0.5 of n vertices, and
+/// rays as told below, a given number of rays does most if noise has two fifths of the squared error; more than so many times the
+/// noise of others is seen as blotches, for all that.
+const NOISIER_IN_SHADOWS: f64 = 2.5;
+const MOST_IN_SHADOWS: f64 = 6.0;
 /// The most of the noise of others that light may have at vertices of little area.
 const MOST_RELIEF: f64 = 4.0;
 
@@ -81,11 +88,14 @@ impl Pilot<'_> {
     ) -> Vec<Measured> {
         let vertices = elements.vertices();
         let mean_m2 = vertices.iter().map(|v| v.area_m2).sum::<f64>() / vertices.len() as f64;
+        let first = self.for_indirect_light.as_ref().map_or(usize::MAX, |(count, _)| *count);
         let alike = Sequence::new(self.key.with(1));
         let measured = |k: usize| {
             let (goal, sequence) = match self.direct_noise_lx {
                 Some(lx) => {
-                    let goal = Goal::lux(lx).relaxed(relief(vertices[k].area_m2 / mean_m2));
+                    let relief = relief(vertices[k].area_m2 / mean_m2);
+                    let more = if k >= first { NOISIER_IN_SHADOWS } else { 1.0 };
+                    let goal = Goal::lux(lx).relaxed((relief * more).min(MOST_IN_SHADOWS));
                     (goal, Sequence::new(self.key.with(5).with(k as u64)))
                 }
                 None => (Goal::ANY, alike),
@@ -135,6 +145,7 @@ impl Pilot<'_> {
             least_edge_m: self.least_edge_m,
             max_vertices: self.most_for_direct_light(request),
         };
+        self.look_at_bare(look, request);
         let (mut before, mut stalls) = (f64::INFINITY, 0);
         for _ in 0..MAX_ROUNDS {
             let (errors, excess) = self.direct_excess(&look.elements, request, look.reference_lx);
@@ -155,18 +166,20 @@ impl Pilot<'_> {
             self.complete_direct(&look.elements, &gatherers);
             self.extend_known(&look.elements, &gatherers);
             self.complete_standings(&gatherers);
+            self.complete_bare(&look.elements, &gatherers);
         }
     }
 
     /// Vertices for direct light. Best effort: sharp shadow borders would take elements without end, and of
     /// emitting surfaces refinement cannot tell noise from borders.
     pub(super) fn most_for_direct_light(&self, request: &PilotRequest) -> usize {
-        let most = MOST_FOR_DIRECT_LIGHT * self.gathered.len();
+        let finer = (USUAL_MESH / request.mesh_target).max(1.0);
+        let most = (MOST_FOR_DIRECT_LIGHT * finer * self.gathered.len() as f64) as usize;
         most.max(ALWAYS_FOR_DIRECT_LIGHT).min(request.max_vertices)
     }
 
-    /// What interpolation of direct light errs by in every element, and by how much that exceeds what is
-    /// asked for.
+    /// What interpolation of direct light errs by in every element, that of all light where it is gathered for the bare map, and by
+    /// how much that exceeds what is asked for.
     pub(super) fn direct_excess(
         &self,
         elements: &Elements,
@@ -182,16 +195,17 @@ impl Pilot<'_> {
         let is_cheap = self.is_smoothed && self.direct_noise.is_none();
         let own = if is_cheap { OF_ACCURACY * request.target } else { f64::INFINITY };
         let target = request.mesh_target.min(own);
-        let excess = trust::error_of(&errors, |_| true) / (target * reference_lx);
+        let bare = self.bare_errors(elements, &signal);
+        let seen = bare.as_ref().unwrap_or(&errors);
+        let excess = trust::error_of(seen, |_| true) / (target * reference_lx);
         let of_mean = self.mean_excess(&errors) / (OF_MEAN * request.target * reference_lx);
         let excess = excess.max(of_mean);
-        if !self.lighting.are_read_at_ends() {
-            return (errors, excess);
-        }
-        let Some(in_rooms) = self.weighed_in_rooms(&errors) else { return (errors, excess) };
+        let in_rooms = self.lighting.are_read_at_ends().then(|| self.weighed_in_rooms(&errors));
+        let Some(in_rooms) = in_rooms.flatten() else { return (bare.unwrap_or(errors), excess) };
         let target = request.target.min(COARSEST_IN_ROOMS);
         let of_rooms = self.mean_excess_in_rooms(&in_rooms) / (OF_ROOMS * target * reference_lx);
-        if of_rooms > excess { (in_rooms, of_rooms) } else { (errors, excess) }
+        let whole = bare.unwrap_or(errors);
+        if of_rooms > excess { (in_rooms, of_rooms) } else { (whole, excess) }
     }
 
     /// The same in dim rooms beside bright places, as errors count there: of every triangle of the scene in the mean, as what lacks on

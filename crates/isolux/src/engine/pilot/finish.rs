@@ -40,12 +40,15 @@ impl<'s> Pilot<'s> {
         let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();
         let means = self.means(&coarse, &look, request, (&open[..indirect_vertices], carrying));
         let cuts = self.cuts(&coarse, &look.elements);
+        let bare_lx = request.mesh_target * look.reference_lx;
+        let gathering_for_bare = self.gathering_for_bare(&look.elements, &standings, bare_lx);
         let caustics_share = caustics.share(look.reference_lx);
         Plan {
             scene: self.scene,
             lighting: self.lighting,
             gatherers,
             indirect_vertices,
+            gathering_for_bare,
             level: coarse.node_count() as u32,
             trusts,
             reference_lx: look.reference_lx,

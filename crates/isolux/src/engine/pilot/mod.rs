@@ -4,6 +4,7 @@
 //! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
 //! noise is smooth over surfaces and does not pass for detail.
 
+mod bare;
 mod batches;
 mod caustics;
 mod direct;
@@ -19,6 +20,7 @@ mod standings;
 mod surroundings;
 mod walls;
 
+use self::bare::Bare;
 use super::accuracy::Light;
 use super::aim::Aim;
 use super::backdrop::Backdrop;
@@ -148,6 +150,8 @@ struct Pilot<'s> {
     is_smoothed: bool,
     /// Vertices that indirect light is interpolated from, and the surface that each stands for, m2, once they are fixed.
     for_indirect_light: Option<(usize, Vec<f64>)>,
+    /// Indirect light of the bare map, where that is not resolved.
+    bare: Option<Bare>,
     /// Whether direct light is what it will be.
     is_measured: bool,
     /// Walls that rays are judged by, once there is light.
@@ -250,6 +254,7 @@ impl<'s> Pilot<'s> {
             costs: Costs::default(),
             is_smoothed: false,
             for_indirect_light: None,
+            bare: None,
             is_measured: false,
             trial: None,
             backdrop: None,

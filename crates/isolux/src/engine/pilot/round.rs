@@ -20,6 +20,11 @@ use std::time::Instant;
 /// Rays of each of the vertices that tell how long one takes.
 const TRACED: u32 = 16;
 
+/// Vertices that direct light alone takes grow like this power of what it errs by too much, and where indirect light is gathered for
+/// the bare map, too. Measured in the hall.
+const ORDER_FOR_DIRECT: f64 = 0.5;
+const ORDER_FOR_BARE: f64 = 1.3;
+
 /// Vertices that a round for direct light adds, in those that the last one did.
 const NEXT: f64 = 1.5;
 
@@ -85,6 +90,7 @@ impl Pilot<'_> {
         let another = NEXT * self.added_for_direct as f64;
         let unmeasured = look.filter(|_| !self.is_measured);
         let more = unmeasured.map_or(0.0, |look| self.more_for_direct(look, request, another));
+        let for_bare = look.map_or(0.0, |look| self.rows_for_bare(look, request, more));
         let interpolation = look.map_or(request.target, |look| look.interpolation(request));
         let measured = look.filter(|look| look.asks_for_means(request)).map_or(0.0, Look::beset);
         let is_right = measured > 0.0 || look.is_some_and(|look| look.walls.are_resolved());
@@ -105,7 +111,7 @@ impl Pilot<'_> {
             pilot_rays: mean_of(&self.rays),
             rays,
             checks,
-            check_rays: (checks + measured) * of_one,
+            check_rays: (checks + measured + for_bare) * of_one,
             trials: hybrid::rays_tried(carriers, rays),
             particles: self.particles(request.target, (vertices, reference_lx), carriers, rays),
             target: request.target,
@@ -134,7 +140,9 @@ impl Pilot<'_> {
     fn more_for_direct(&self, look: &Look, request: &PilotRequest, another: f64) -> f64 {
         let vertices = self.subdivision.vertex_count() as f64;
         let excess = self.direct_excess_now(look, request);
-        let then = vertices * excess.max(1.0).sqrt();
+        let gathers = self.gathers_for_bare(look, request);
+        let order = if gathers { ORDER_FOR_BARE } else { ORDER_FOR_DIRECT };
+        let then = vertices * libm::pow(excess.max(1.0), order);
         let least = if excess > 1.0 { vertices + another } else { vertices };
         let most = self.most_for_direct_light(request) as f64;
         (then.max(least).min(most) - vertices).max(0.0)

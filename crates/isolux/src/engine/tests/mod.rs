@@ -3,6 +3,7 @@
 mod aiming;
 mod anderson;
 mod backdrop;
+mod bare;
 mod bright;
 mod carrying;
 mod coat;
