@@ -89,8 +89,7 @@ impl<'p, 's> Work<'p, 's> {
         let noise = noise(plan, goal, target);
         let by_noise = || plan.trial.rays_anywhere(noise, reference, FEWEST_INCREMENTS);
         let wanted = wanted.unwrap_or_else(by_noise);
-        let gathering = plan.indirect_vertices + plan.gathering_for_bare.len();
-        let most = most_rays(gathering, request.max_memory_bytes);
+        let most = most_rays(plan, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
         let key = Key::new(request.seed).with(3);
         let points = match request.method {
@@ -507,7 +506,8 @@ fn noise(plan: &Plan, goal: f64, target: f64) -> f64 {
 
 /// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,
 /// 40 bytes an entry, a fifth more for gloss.
-fn most_rays(vertices: usize, max_memory_bytes: u64) -> u32 {
+fn most_rays(plan: &Plan, max_memory_bytes: u64) -> u32 {
+    let vertices = plan.indirect_vertices + plan.gathering_for_bare.len();
     let most = (max_memory_bytes / 2 / 48 / vertices.max(1) as u64).clamp(8, 1 << 20) as u32;
     if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 }
 }

@@ -5,8 +5,8 @@
 //! for direct light gather, too, over the light that is known already. Nothing reads them to gather: they cost rays of their own,
 //! and no more.
 
-use super::Pilot;
 use super::direct::USUAL_MESH;
+use super::{Bare, Pilot};
 use crate::elements::Elements;
 use crate::engine::bright::Bright;
 use crate::engine::carriers::Carriers;
@@ -26,15 +26,6 @@ const WORTH: f64 = 1.0;
 
 /// The part of the vertices for direct light for which that is so, roughly.
 const OF_MADE: f64 = 0.3;
-
-/// What the vertices for direct light have gathered.
-pub(super) struct Bare {
-    /// The first of them, and the light of all from there on.
-    first: usize,
-    indirect: Vec<Rgb>,
-    /// Elements that something stands close before, on which they gather.
-    beset: Vec<u32>,
-}
 
 impl Bare {
     /// What lies between the ends of an edge; `coarse` is the light of the vertices before the first.
@@ -125,17 +116,19 @@ impl Pilot<'_> {
     /// The vertices that increments are to gather at for the bare map: where light is not what is interpolated there.
     pub(super) fn gathering_for_bare(
         &self,
-        elements: &Elements,
+        look: &Look,
+        request: &PilotRequest,
         standings: &[Option<Standing>],
-        may_be_lx: f64,
     ) -> Vec<u32> {
         let Some(bare) = &self.bare else { return Vec::new() };
+        let (vertices, may_be_lx) =
+            (look.elements.vertices(), request.mesh_target * look.reference_lx);
         let luminance = |light: &Rgb| light.luminance();
         let mut light_lx: Vec<f64> = self.indirect[..bare.first].iter().map(luminance).collect();
         let mut gathering = Vec::new();
         for (k, light) in bare.indirect.iter().enumerate() {
             let vertex = bare.first + k;
-            let ends = elements.vertices()[vertex].parents.expect("made by bisection");
+            let ends = vertices[vertex].parents.expect("made by bisection");
             let between_lx = 0.5 * ends.map(|end| light_lx[end as usize]).iter().sum::<f64>();
             let differs = (light.luminance() - between_lx).abs() > WORTH * may_be_lx;
             let gathers = differs && standings[vertex] == Some(Standing::Open);

@@ -32,16 +32,13 @@ impl<'s> Pilot<'s> {
         let indirect_vertices = self.subdivision.vertex_count();
         let coarse = self.fix_for_indirect_light();
         self.look_at_walls_again(&look.elements, request.target);
-        self.refine_for_direct_light(&mut look, request, go_on);
         let mut gatherers = self.measure_direct_light(&mut look, request, go_on);
         self.stand_before_walls(&mut gatherers[..indirect_vertices]);
         let standings = self.final_standings(&look.elements, indirect_vertices);
-        let trusts = look.trusts(request);
         let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();
         let means = self.means(&coarse, &look, request, (&open[..indirect_vertices], carrying));
         let cuts = self.cuts(&coarse, &look.elements);
-        let bare_lx = request.mesh_target * look.reference_lx;
-        let gathering_for_bare = self.gathering_for_bare(&look.elements, &standings, bare_lx);
+        let gathering_for_bare = self.gathering_for_bare(&look, request, &standings);
         let caustics_share = caustics.share(look.reference_lx);
         Plan {
             scene: self.scene,
@@ -50,7 +47,7 @@ impl<'s> Pilot<'s> {
             indirect_vertices,
             gathering_for_bare,
             level: coarse.node_count() as u32,
-            trusts,
+            trusts: look.trusts(request),
             reference_lx: look.reference_lx,
             interpolation: libm::hypot(look.interpolation(request), caustics_share),
             mean_reflectance: reflectance::of_all(self.scene, &coarse),
@@ -111,14 +108,15 @@ impl<'s> Pilot<'s> {
         Means::new((self.scene, coarse), &look.errors, up_to_lx, open, carrying)
     }
 
-    /// Direct light on the final elements, and the receivers there; without time for it, light from where receivers were before
-    /// has to do.
+    /// Elements as fine as direct light takes, that light on them, and the receivers there; without time for it, light from where
+    /// receivers were before has to do.
     fn measure_direct_light(
         &mut self,
         look: &mut Look,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) -> Vec<Gatherer> {
+        self.refine_for_direct_light(look, request, go_on);
         // Readers see elements for direct light alone.
         for error in look.errors.iter_mut().filter(|e| e.is_beset) {
             error.is_beset_afar |= self.subdivision.node(error.node).0.split.is_some();

@@ -20,7 +20,6 @@ mod standings;
 mod surroundings;
 mod walls;
 
-use self::bare::Bare;
 use super::accuracy::Light;
 use super::aim::Aim;
 use super::backdrop::Backdrop;
@@ -168,6 +167,15 @@ struct Pilot<'s> {
     most_for_indirect_light: f64,
     /// Whether there are about as many vertices for indirect light as there may be.
     is_full: bool,
+}
+
+/// What the vertices for direct light have gathered for the bare map.
+struct Bare {
+    /// The first of them, and the light of all from there on.
+    first: usize,
+    indirect: Vec<Rgb>,
+    /// Elements that something stands close before, on which they gather.
+    beset: Vec<u32>,
 }
 
 /// Looks and refines; `go_on` is asked after every round. Adds to what earlier pilots of the run have found unlit.

@@ -83,9 +83,8 @@ impl Pilot<'_> {
         let vertices = self.subdivision.vertex_count();
         let trial = self.trial.unwrap_or(Trial::usual(look.map_or(1.0, |look| look.reference_lx)));
         let reference_lx = look.map_or(trial.reference_lx, |look| look.reference_lx);
-        let for_indirect_light = self.for_indirect_light.as_ref();
-        let carriers =
-            self.carriers.count(for_indirect_light.map_or(vertices, |(count, _)| *count));
+        let fixed = self.for_indirect_light.as_ref().map(|(count, _)| *count);
+        let carriers = self.carriers.count(fixed.unwrap_or(vertices));
         // Rounds that are not the last add more and more.
         let another = NEXT * self.added_for_direct as f64;
         let unmeasured = look.filter(|_| !self.is_measured);
