@@ -44,7 +44,8 @@ pub(super) struct Check {
     read: [(u32, f64); 3],
     /// The same of the whole map.
     fine: [(u32, f64); 3],
-    /// What rays read of the indirect map where something stands across its element, which readers do not look for.
+    /// What rays read of the indirect map where that differs: where something stands across its element, which readers do not look for,
+    /// and where vertices gather for the bare map.
     by_rays: Option<[(u32, f64); 3]>,
     /// Surface that the point stands for, m2.
     area_m2: f64,

@@ -44,7 +44,7 @@ pub(super) struct PilotRequest {
     pub(super) seed: u64,
     /// Whether the map will be fitted to the light over elements.
     pub(super) is_fitted: bool,
-    /// Whether increments measure means of elements, and smooth walls are interpolated for them.
+    /// Whether increments measure means of elements and gather for the bare map, and smooth walls are interpolated for them.
     pub(super) has_means: bool,
     /// Whether elements become finer for caustics: radiosity would shoot all of them.
     pub(super) refines_caustics: bool,

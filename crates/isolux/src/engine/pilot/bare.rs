@@ -2,8 +2,8 @@
 //!
 //! Close to what stands on a surface indirect light changes over less than the elements that it lives on. Readers and rays gather
 //! there afresh; a viewer of the bare map shows what the vertices say. Where that is worse than asked for, vertices that are made
-//! for direct light gather, too, over the light that is known already. Nothing reads them to gather: they cost rays of their own,
-//! and no more.
+//! for direct light gather, too, over the light that is known already. No ray of an increment reads them: they cost rays of their
+//! own, and no more.
 
 use super::direct::USUAL_MESH;
 use super::{Bare, Pilot};
@@ -38,8 +38,12 @@ impl Bare {
 }
 
 impl Pilot<'_> {
-    /// Whether vertices gather for it: if a finer bare map than usual is asked for, and indirect light has much of what it may err by.
+    /// Whether vertices gather for it, or will: if a finer bare map than usual is asked for, and indirect light has much of what it may
+    /// err by.
     pub(super) fn gathers_for_bare(&self, look: &Look, request: &PilotRequest) -> bool {
+        if self.bare.is_some() {
+            return true;
+        }
         let is_asked_for = request.has_means && request.mesh_target < USUAL_MESH;
         if !is_asked_for || self.is_smoothed {
             return false;
@@ -108,9 +112,9 @@ impl Pilot<'_> {
 
     /// How many vertices increments will gather at for the bare map, if so many more are made for direct light.
     pub(super) fn rows_for_bare(&self, look: &Look, request: &PilotRequest, more: f64) -> f64 {
-        let made = self.bare.as_ref().map(|bare| bare.indirect.len() as f64);
-        let gathers = made.is_some() || self.gathers_for_bare(look, request);
-        if gathers { OF_MADE * (made.unwrap_or(0.0) + more) } else { 0.0 }
+        let made = self.bare.as_ref().map_or(0, |bare| bare.indirect.len());
+        let gathers = self.gathers_for_bare(look, request);
+        if gathers { OF_MADE * (made as f64 + more) } else { 0.0 }
     }
 
     /// The vertices that increments are to gather at for the bare map: where light is not what is interpolated there.

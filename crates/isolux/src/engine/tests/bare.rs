@@ -62,8 +62,8 @@ fn vertices_gather_for_the_bare_map_where_it_is_coarse() {
         light += true_lx * true_lx;
     }
     let [own, between] = [of_own, of_between].map(|squares: f64| (squares / light).sqrt());
-    // Paths err by a twentieth.
-    assert!(own < 0.1 && own < 0.4 * between, "{own} gathered, {between} interpolated");
+    // They err by 1.7 and 7.6 %, what paths do included: half as much again for other random numbers.
+    assert!(own < 0.026 && own < 0.34 * between, "{own} gathered, {between} interpolated");
 }
 
 /// All else is the same: rays read what they did, and readers of other vertices.
