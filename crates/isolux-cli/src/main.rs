@@ -1,5 +1,6 @@
 //! The isolux command: a table of contents.
 
+mod audit;
 mod cache_samples;
 mod cached_view;
 mod check;
@@ -75,6 +76,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Probe(flags) => probe::run(flags, json),
         Command::Grid(flags) => grid::run(flags, json),
         Command::Export(flags) => export::run(flags, json),
+        Command::Audit(flags) => audit::run(flags, json),
         Command::Check(flags) => check::run(flags, json),
         Command::Lint(flags) => lint::run(flags, json),
         Command::Render(flags) => render::run(flags, json),

@@ -56,6 +56,11 @@ pub(crate) fn paths(text: &str) -> Result<u32, String> {
     whole(text, 32, u32::MAX)
 }
 
+/// A number of places of an audit.
+pub(crate) fn places(text: &str) -> Result<u64, String> {
+    whole(text, 16, 10_000_000)
+}
+
 /// A number of receivers.
 pub(crate) fn receivers(text: &str) -> Result<u32, String> {
     whole(text, 1, u32::MAX)

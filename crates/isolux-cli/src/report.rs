@@ -1,11 +1,12 @@
 //! How good a map is and what it took.
 
+use crate::audit;
 use crate::console::facts;
 use crate::lightmap;
 use crate::output::OutputPath;
 use crate::quantity::{show_count, show_seconds, show_share};
 use crate::request::method_name;
-use isolux::map::IlluminationMap;
+use isolux::map::{Audit, IlluminationMap};
 use serde::Serialize;
 
 /// What `solve --json` prints.
@@ -20,6 +21,12 @@ pub(crate) struct Report {
     accuracy_discretization: Option<f64>,
     accuracy_bias: Option<f64>,
     accuracy_interpolated: Option<f64>,
+    accuracy_audited: Option<f64>,
+    accuracy_audited_low: Option<f64>,
+    accuracy_audited_high: Option<f64>,
+    audit_places: Option<u64>,
+    audit_paths: Option<u64>,
+    audit: Option<Audit>,
     #[serde(skip_serializing_if = "Option::is_none")]
     unshot: Option<f64>,
     pub(crate) time_s: f64,
@@ -47,6 +54,12 @@ impl Report {
             accuracy_discretization: from.accuracy.map(|a| a.discretization),
             accuracy_bias: from.accuracy.map(|a| a.bias),
             accuracy_interpolated: from.accuracy.map(|a| a.interpolated),
+            accuracy_audited: from.audit.as_ref().map(|a| a.error.value),
+            accuracy_audited_low: from.audit.as_ref().map(|a| a.error.low),
+            accuracy_audited_high: from.audit.as_ref().map(|a| a.error.high),
+            audit_places: from.audit.as_ref().map(|a| a.places),
+            audit_paths: from.audit.as_ref().map(|a| a.paths),
+            audit: from.audit.clone(),
             unshot: from.unshot.map(|unshot| unshot.share),
             time_s,
             increments: from.increments,
@@ -78,6 +91,7 @@ impl Report {
             ("  from noise", share(self.accuracy_statistical)),
             ("  from interpolation", share(self.accuracy_discretization)),
             ("  from lookups and light given up", share(self.accuracy_bias)),
+            ("  audited", self.audit.as_ref().map_or("no".to_owned(), audit::line)),
             ("error of the bare map", share(self.accuracy_interpolated)),
             ("time", show_seconds(self.time_s)),
             ("receivers", self.receivers.to_string()),

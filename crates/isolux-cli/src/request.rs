@@ -72,6 +72,7 @@ fn request(flags: &SolveFlags) -> SolveRequest {
         time_limit: flags.time_limit,
         seed: flags.seed,
         filter: !flags.no_filter,
+        audit: !flags.no_audit,
         max_memory_bytes: flags.max_memory,
         cache: IrradianceCache::default(),
         radiosity: radiosity(&flags.radiosity),

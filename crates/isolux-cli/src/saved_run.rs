@@ -5,7 +5,7 @@ use crate::map_file;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::source::bad_file;
-use isolux::engine::{RunIdentity, RunState, SoFar, SolveRequest, Sums};
+use isolux::engine::{Audited, RunIdentity, RunState, SoFar, SolveRequest, Sums};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_formats::checkpoint::{self, ArrayError, Checkpoint};
@@ -30,6 +30,8 @@ struct Header {
     stage: u32,
     rays: u64,
     increments: u64,
+    #[serde(default)]
+    audited: Audited,
 }
 
 /// Keeps the state of an unfinished run, and removes that of a finished one.
@@ -123,6 +125,7 @@ fn to_checkpoint(state: &RunState) -> Checkpoint {
         stage: state.stage,
         rays: state.rays,
         increments: state.increments,
+        audited: state.audited.clone(),
     };
     let header = serde_json::to_value(&header).expect("plain values always have a JSON value");
     let mut checkpoint = Checkpoint::new(header);
@@ -148,6 +151,7 @@ fn from_checkpoint(checkpoint: &Checkpoint) -> Result<RunState, String> {
         stage: header.stage,
         rays: header.rays,
         increments: header.increments,
+        audited: header.audited,
         receivers: sums("receivers")?,
         checks: sums("checks")?,
         given_up: sums("given_up")?,

@@ -8,6 +8,7 @@ use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::{show_bytes, show_seconds, show_share, significant};
 use crate::saved_run::{self, Keeper};
+use crate::shown;
 use crate::source;
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
 use isolux::map::{HotSpots, IlluminationMap, Method};
@@ -58,6 +59,7 @@ pub(crate) fn solve(
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
     tell_of_hot_spots(&solved.solution.map);
     tell_of_time(&solved.solution, run.request.time_limit);
+    tell_of_audit(&solved.solution.map);
     tell_of_end(&solved, run.request);
     Ok(solved)
 }
@@ -69,7 +71,8 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
     let is_dark = || map.values.iter().flatten().all(|value| value.illuminance_lx() == 0.0);
     let ends_itself = matches!(solved.outcome, Outcome::StoppedEarly)
         && request.radiosity.unshot.is_none()
-        && solved.solution.time_s < limit_s;
+        && solved.solution.time_s < limit_s
+        && !map.provenance.audit.as_ref().is_some_and(|audit| audit.contradicts);
     let what = match (map.provenance.accuracy, request.accuracy) {
         (Some(_), _) if map.provenance.complete && is_dark() => {
             let what = "no light comes to any surface; `isolux check` names luminaires that light nothing";
@@ -103,6 +106,25 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
         _ => return,
     };
     note(Note::Info, what);
+}
+
+/// A claim that was withdrawn.
+fn tell_of_audit(map: &IlluminationMap) {
+    let audit = map.provenance.audit.as_ref().filter(|audit| audit.contradicts);
+    let Some(audit) = audit else { return };
+    let [told, found] = [audit.told, audit.error.value].map(show_share);
+    let surfaces = shown::names(audit.surfaces.iter().map(|of| of.shape.as_str()));
+    let where_ = match audit.surfaces.is_empty() {
+        true => String::new(),
+        false => format!(", most of it on {surfaces}"),
+    };
+    note(
+        Note::Warning,
+        format!(
+            "the map is not as good as it was told: complete paths that know nothing of it find {found} where {told} was \
+             told{where_}; `isolux audit` tells more"
+        ),
+    );
 }
 
 /// The least that makes a map may take longer than allowed.

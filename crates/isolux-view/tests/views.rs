@@ -232,6 +232,7 @@ fn rising_map(scene: &Scene) -> IlluminationMap {
             filter: None,
             unshot: None,
             diffuse_only: false,
+            audit: None,
             mixed: Vec::new(),
             complete: true,
             accuracy: None,

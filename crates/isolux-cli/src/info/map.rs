@@ -1,6 +1,7 @@
 //! What a map holds.
 
 use super::scene::list;
+use crate::audit;
 use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
 use crate::quantity::{show_count, show_share, significant};
@@ -50,6 +51,7 @@ impl Contents<'_> {
             ("seed", from.seed.to_string()),
             ("error", share(from.accuracy.map(|a| a.reached))),
             ("error asked for", format!("{target}, {reached}")),
+            ("error audited", from.audit.as_ref().map_or("not audited".to_owned(), audit::line)),
             ("error of the bare map", share(from.accuracy.map(|a| a.interpolated))),
             ("increments", from.increments.to_string()),
             ("rays", show_count(from.rays as f64)),
@@ -70,7 +72,8 @@ impl Contents<'_> {
         if from.diffuse_only {
             all.push(("left out", "mirrors, gloss and refraction (--diffuse-only)".to_owned()));
         }
-        format!("{}\n{}", facts(&all), summary::text(&self.surfaces))
+        let checks = from.audit.as_ref().map(|a| format!("\n{}", audit::checks(a)));
+        format!("{}{}\n{}", facts(&all), checks.unwrap_or_default(), summary::text(&self.surfaces))
     }
 }
 

@@ -185,6 +185,8 @@ fn runs(
             accuracy: Some(settings.accuracy),
             time_limit: Some(settings.time_limit),
             max_memory_bytes: settings.max_memory_bytes / threads as u64,
+            // Runs go on where an audit would end them; the maps looked at are audited by themselves.
+            audit: false,
             ..SolveRequest::default()
         };
         observe(&scene, &request, &places, fixed_work)

@@ -25,6 +25,7 @@ pub(crate) fn map(
         filter: None,
         unshot: None,
         diffuse_only: false,
+        audit: None,
         mixed: Vec::new(),
         complete: true,
         accuracy: None,

@@ -173,6 +173,7 @@ fn provenance() -> Provenance {
         filter: None,
         unshot: None,
         diffuse_only: false,
+        audit: None,
         mixed: Vec::new(),
         complete: true,
         accuracy: Some(Accuracy {

@@ -25,6 +25,13 @@ pub(super) struct Emission<'s> {
     radius_m: f64,
 }
 
+impl Emitted {
+    /// Whether it has left an emitting surface.
+    pub(super) const fn is_of_surface(&self) -> bool {
+        self.normal.is_some()
+    }
+}
+
 /// A particle as it leaves.
 pub(super) struct Emitted {
     pub(super) ray: Ray,
@@ -97,6 +104,20 @@ impl<'s> Emission<'s> {
             }
         };
         Some(self.sent(number, luminaire, origin, direction))
+    }
+
+    /// A ray from a place of an emitting surface, told by its number among all luminaires, cosine-distributed.
+    pub(super) fn leaving(
+        &self,
+        number: usize,
+        pick: f64,
+        place: [f64; 2],
+        square: [f64; 2],
+    ) -> Option<Ray> {
+        let Emitter::Surface(area) = self.luminaire(number) else { return None };
+        let start = self.start(number, area, pick, place);
+        let direction = start.normal.to_direction().from_local(CosineHemisphere::sample(square));
+        Some(self.leave(number, area, &start, direction).ray)
     }
 
     /// How much of all particles lands where luminaires without surface bring so much light straight, 1/m2.

@@ -289,6 +289,7 @@ fn first_provenance(scene: &Scene, parts: &[Part<'_>]) -> Provenance {
         accuracy_target: targets.map(|all| all.into_iter().fold(0.0, f64::max)),
         complete: from().all(|p| p.complete),
         accuracy: None,
+        audit: None,
         fresh: fresh(parts),
         filter,
         unshot,

@@ -5,6 +5,7 @@ mod accuracy;
 mod aim;
 mod allot;
 mod anderson;
+mod audit;
 mod backdrop;
 mod bright;
 mod cache;
@@ -31,6 +32,7 @@ mod hybrid;
 mod judged;
 mod look;
 mod means;
+mod mirror_chain;
 mod mix;
 mod neighbours;
 pub mod net;
@@ -65,6 +67,7 @@ mod work;
 mod tests;
 
 pub use accumulate::Sums;
+pub use audit::{AuditSettings, audit};
 pub use cache::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
     IrradianceCache, SampleKind, Served,
@@ -77,4 +80,4 @@ pub use radiosity::{RadiosityLimits, RadiositySettings};
 pub use reference::PathTracer;
 pub use request::{Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
 pub use run::{SoFar, Solution, Watcher, foresee, solve, solve_looked_at};
-pub use state::{RunIdentity, RunState};
+pub use state::{Audited, RunIdentity, RunState};

@@ -2,6 +2,7 @@
 
 use super::direct::{Lighting, LuminaireId};
 use super::emission::{Emission, Emitted};
+use super::mirror_chain::MirrorChain;
 use super::path::{Dice, specular_step};
 use super::scatter::Scattered;
 use super::surface::SurfacePoint;
@@ -39,8 +40,7 @@ pub(super) struct Particle {
     direction: Direction,
     pub(super) flux_lm: Rgb,
     luminaire: LuminaireId,
-    /// Planar mirrors met so far, while nothing else was.
-    chain: Option<Vec<u32>>,
+    chain: MirrorChain,
     dice: Dice,
     at: Option<SurfacePoint>,
     scatterings_left: u32,
@@ -71,7 +71,7 @@ impl Particle {
             direction: emitted.direction,
             flux_lm: emitted.colour * flux_lm,
             luminaire: emitted.luminaire,
-            chain: Some(Vec::new()),
+            chain: MirrorChain::default(),
             dice,
             at: None,
             scatterings_left: scatterings,
@@ -89,8 +89,7 @@ impl Particle {
 
     /// Whether its light is part of direct light as evaluated at points.
     pub(super) fn is_covered(&self, lighting: &Lighting) -> bool {
-        let covers = |chain: &Vec<u32>| lighting.covers(self.luminaire, chain);
-        !self.diffused && self.chain.as_ref().is_some_and(covers)
+        !self.diffused && self.chain.is_covered(lighting, self.luminaire)
     }
 
     /// Goes on without diffuse reflection; `false` when it is absorbed.
@@ -101,7 +100,7 @@ impl Particle {
         let unit = self.flux_lm * (1.0 / self.flux_lm.max_channel().max(f64::MIN_POSITIVE));
         match specular_step(body, &at, self.direction, unit, &mut self.dice) {
             Some(next) => {
-                self.remember(&at, body, lighting, &next);
+                self.chain.pass((&at, self.direction), body, lighting, &next);
                 self.go(next);
                 true
             }
@@ -157,24 +156,6 @@ impl Particle {
         self.ray = next.ray;
         self.direction = next.direction;
         self.flux_lm = self.flux_lm * next.weight;
-    }
-
-    /// Keeps the chain of planar mirrors, as long as it is one. Passing straight through a pane
-    /// leaves it as it is.
-    fn remember(&mut self, at: &SurfacePoint, body: &Body, lighting: &Lighting, next: &Scattered) {
-        let straight = next.direction == self.direction
-            && matches!(body, Body::Dielectric(glass) if glass.thin);
-        if straight {
-            return;
-        }
-        let plane = if next.mirrored { lighting.mirror_of(at.triangle, at.back) } else { None };
-        self.chain = match (self.chain.take(), plane) {
-            (Some(mut chain), Some(plane)) => {
-                chain.push(plane);
-                Some(chain)
-            }
-            _ => None,
-        };
     }
 }
 

@@ -9,7 +9,7 @@ use isolux_geometry::{Direction, Hit, Ray};
 
 /// Specular reflections after which a path is given up. Mirrors of a room lose the light long
 /// before; only light caught in lossless glass gets here.
-const MAX_SPECULAR: u32 = 128;
+pub(super) const MAX_SPECULAR: u32 = 128;
 
 /// Numbers for one path, in order.
 pub(super) struct Dice {

@@ -27,6 +27,8 @@ use crate::units::Rgb;
 use effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, OF_FEW, TRIAL_RAYS};
 use isolux_geometry::Ray;
 use shared_noise::SharedNoise;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 pub use told::{Allowance, IndirectReading, Told};
 
 /// What emitting surfaces give dim places is known as well as where there is this share of the light that errors are relative to.
@@ -77,7 +79,7 @@ impl Default for ExactSettings {
 pub struct MapReader<'a> {
     scene: &'a Scene,
     map: &'a IlluminationMap,
-    lighting: Lighting<'a>,
+    lighting: Arc<Lighting<'a>>,
     standings: Vec<Option<Standing>>,
     light: Vec<Rgb>,
     /// Direct light at the vertices, where sources are many: there rays read it.
@@ -91,6 +93,8 @@ pub struct MapReader<'a> {
     patches: Patches,
     unseen: Unseen,
     shared_noise: SharedNoise,
+    /// Rays that readings have gathered by.
+    rays: AtomicU64,
 }
 
 /// What replicates have gathered.
@@ -121,11 +125,18 @@ struct Unseen {
 impl<'a> MapReader<'a> {
     /// Prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
+        Self::with_lighting((scene, map), Arc::new(Lighting::new(scene)))
+    }
+
+    /// The same with luminaires that are prepared already.
+    pub(super) fn with_lighting(
+        (scene, map): (&'a Scene, &'a IlluminationMap),
+        lighting: Arc<Lighting<'a>>,
+    ) -> Self {
         let ambient = map.ambient_lx();
         let reflected = |v: &Option<Illuminance>| {
             v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx + ambient)
         };
-        let lighting = Lighting::new(scene);
         let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
         let are_read = lighting.are_read_at_ends();
         let light: Vec<Rgb> = map.values.iter().map(reflected).collect();
@@ -143,6 +154,7 @@ impl<'a> MapReader<'a> {
             patches: Patches::new(),
             unseen: Unseen::of(map),
             shared_noise: SharedNoise::default(),
+            rays: AtomicU64::new(0),
         };
         Self { backdrop: reader.walls(), ..reader }
     }
@@ -267,6 +279,11 @@ impl<'a> MapReader<'a> {
         }
     }
 
+    /// Rays that its readings have gathered by so far.
+    pub(super) fn rays(&self) -> u64 {
+        self.rays.load(Ordering::Relaxed)
+    }
+
     /// Random numbers of a place; other ones for every seed of the map: readings of several maps have errors of their own.
     fn gathering_key(&self, at: &Gatherer) -> Key {
         place_key(at.surface.point).with(7).with(self.map.provenance.seed)
@@ -317,6 +334,7 @@ impl<'a> MapReader<'a> {
         let gathering = self.gathering(direct);
         let rows = vec![gatherer; replicates as usize];
         let operator = gathering.operator(&rows, |k| key.with(k as u64));
+        self.rays.fetch_add(operator.rays, Ordering::Relaxed);
         let (lx, variance) = mean_and_variance(&operator.apply(&self.light));
         let close = operator.close().sum::<f64>() / f64::from(replicates);
         let common_lx = self.shared_noise.lx(self.map, &gatherer.surface, &operator);

@@ -21,6 +21,8 @@ pub struct SolveRequest {
     pub seed: u64,
     /// Whether to take noise off where the map shows nothing else.
     pub filter: bool,
+    /// Whether an independent test of the map decides, too, whether its accuracy is reached.
+    pub audit: bool,
     /// Refuse to need more memory than this, bytes.
     pub max_memory_bytes: u64,
     /// Samples that the `cache` method starts from.
@@ -50,6 +52,7 @@ impl Default for SolveRequest {
             time_limit: None,
             seed: 1,
             filter: true,
+            audit: true,
             max_memory_bytes: 8 << 30,
             cache: IrradianceCache::default(),
             radiosity: RadiositySettings::default(),

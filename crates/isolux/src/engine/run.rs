@@ -2,6 +2,7 @@
 
 use super::accumulate::{MAX_INCREMENTS, Sums};
 use super::accuracy::BELIEVED_INCREMENTS;
+use super::audit::{AuditSettings, MOST_AUDITS, audit_with, trend};
 use super::cache::IrradianceCache;
 use super::deadline::Deadline;
 use super::direct::Lighting;
@@ -14,11 +15,12 @@ use super::predict;
 use super::request::{
     BYTES_A_VERTEX, Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch,
 };
-use super::state::{RunIdentity, RunState};
+use super::state::{Audited, RunIdentity, RunState};
 use super::work::Work;
-use crate::map::{Accuracy, IlluminationMap, Method, Provenance};
+use crate::map::{Accuracy, Audit, IlluminationMap, Method, Provenance};
 use crate::scene::Scene;
 use std::mem;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Share of the time limit after which elements are refined no further.
@@ -33,6 +35,14 @@ const MOST_STAGES: u32 = 3 * STAGES_TO_HALF + 1;
 const FEWEST_STAGES: u32 = 2;
 /// What elements too coarse at first are to err by, as a share of the error asked for: noise needs the rest.
 const LEFT_TO_ELEMENTS: f64 = 0.8;
+/// What an audit takes, as a share of the rays of the run, and rays that it may take at least: some hundredths of a second.
+const AUDIT_SHARE: f64 = 0.1;
+const FEWEST_AUDIT_RAYS: u64 = 1 << 15;
+/// Paths of a place in the audit of a run.
+const PATHS_OF_AUDIT: u32 = 32;
+/// A claim that is wrong by more than this is not mended by going on: as errors fall like the root of the work, that would take more than four
+/// times what was done.
+const MOST_MENDED: f64 = 2.0;
 /// Accuracy that elements are made for where none is asked.
 const DEFAULT_ACCURACY: f64 = 0.01;
 
@@ -139,9 +149,10 @@ pub fn solve_looked_at(
         RunIdentity::of(scene, request).check(&state.identity)?;
     }
     let resume = resume.filter(|state| state.increments > 0);
-    let mut run = Run::new(scene, request);
-    let lighting = Lighting::new(scene);
+    let lighting = Arc::new(Lighting::new(scene));
+    let mut run = Run { lighting: Some(Arc::clone(&lighting)), ..Run::new(scene, request) };
     if let Some(state) = resume {
+        run.audited = state.audited.clone();
         run.stage = state.stage.clamp(1, MOST_STAGES);
         run.saved_stage = run.stage;
     }
@@ -218,6 +229,12 @@ struct Run<'s, 'r> {
     unlit: Unlit,
     /// The stage that a saved run had come to; none is 0.
     saved_stage: u32,
+    /// For audits; none where there is no map to be made.
+    lighting: Option<Arc<Lighting<'s>>>,
+    /// What audits have come to.
+    audited: Audited,
+    /// The audit of the map as it is now.
+    audit: Option<Audit>,
 }
 
 impl<'s, 'r> Run<'s, 'r> {
@@ -235,7 +252,15 @@ impl<'s, 'r> Run<'s, 'r> {
             pilot_s: 0.0,
             unlit: Unlit::default(),
             saved_stage: 0,
+            lighting: None,
+            audited: Audited::default(),
+            audit: None,
         }
+    }
+
+    /// The error told that is enough: what is asked for, or less once an audit has found told errors too small.
+    fn goal(&self) -> Option<f64> {
+        self.request.accuracy.map(|goal| goal / self.audited.true_over_told)
     }
 
     fn elapsed_s(&self) -> f64 {
@@ -358,7 +383,7 @@ impl<'s, 'r> Run<'s, 'r> {
         loop {
             self.stopped |= !self.advance(&mut work);
             let accuracy = work.accuracy();
-            let end = self.end(&work, accuracy);
+            let end = self.audited_end(&work, accuracy);
             let progress = self.report(&work, accuracy, pace, end);
             let reached = end == Some(End::Reached);
             let so_far = SoFar {
@@ -382,9 +407,62 @@ impl<'s, 'r> Run<'s, 'r> {
         }
     }
 
+    /// Whether and why these increments should end here, once the map has been audited if it is to be the last.
+    fn audited_end(&mut self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
+        self.audit = None;
+        let count = work.sums.increments;
+        if let Some(told) = accuracy.filter(|_| count.is_power_of_two()) {
+            self.audited.noise.push((count, told.statistical));
+        }
+        let end = self.end(work, accuracy);
+        let is_last = matches!(end, Some(End::Reached | End::InVain)) && !self.stopped;
+        let audit = self.request.audit && is_last;
+        let Some(audit) = audit.then(|| self.audit(work, accuracy)).flatten() else { return end };
+        self.audited.audits = audit.number;
+        if !audit.contradicts {
+            self.audit = Some(audit);
+            return end;
+        }
+        let times = audit.error.value / audit.told;
+        let goes_on = end == Some(End::Reached)
+            && audit.number < MOST_AUDITS
+            && times * self.audited.true_over_told <= MOST_MENDED;
+        if !goes_on {
+            self.audit = Some(audit);
+            return Some(End::Contradicted);
+        }
+        self.audited.true_over_told *= times;
+        self.end(work, accuracy)
+    }
+
+    /// An independent test of the map as it is now.
+    fn audit(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<Audit> {
+        let lighting = self.lighting.as_ref()?;
+        let map = self.map(work, accuracy, true);
+        let settings = AuditSettings {
+            paths: PATHS_OF_AUDIT,
+            most_rays: ((AUDIT_SHARE * self.all_rays(work)) as u64).max(FEWEST_AUDIT_RAYS),
+            seed: self.request.seed,
+            number: self.audited.audits + 1,
+            ..AuditSettings::default()
+        };
+        let mut audit = audit_with((self.scene, &map), Arc::clone(lighting), &settings)?;
+        audit.trust.trend = trend(&self.audited.noise);
+        Some(audit)
+    }
+
+    /// The rays of the run, those of direct light at its receivers counted, too, about.
+    fn all_rays(&self, work: &Work) -> f64 {
+        let lighting = work.plan.lighting;
+        let looks = if lighting.samples_exactly() { 1 } else { work.sums.increments };
+        let receivers = work.sums.sums.len() as u64;
+        let shadow_rays = looks * receivers * lighting.rays_of_sampled(1);
+        (self.rays + shadow_rays) as f64
+    }
+
     /// Whether and why these increments should end here.
     fn end(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
-        let goal = self.request.accuracy;
+        let goal = self.goal();
         if work.may_end() && accuracy.zip(goal).is_some_and(|(a, goal)| a.reached <= goal) {
             return Some(End::Reached);
         }
@@ -402,13 +480,13 @@ impl<'s, 'r> Run<'s, 'r> {
     /// Whether finer elements will reach the goal, but these will not.
     fn too_coarse(&self, work: &Work, accuracy: Option<Accuracy>) -> bool {
         let is_finest = self.stage == MOST_STAGES || work.plan.is_finest;
-        let goal = self.request.accuracy.filter(|_| !is_finest);
+        let goal = self.goal().filter(|_| !is_finest);
         goal.is_some_and(|goal| work.is_too_coarse(accuracy, goal))
     }
 
     /// How many stages on elements are fine enough, if they keep what they err by in proportion.
     fn stages_missing(&self, errs: Option<f64>) -> u32 {
-        let missed = errs.zip(self.request.accuracy).map_or(1.0, |(errs, goal)| errs / goal);
+        let missed = errs.zip(self.goal()).map_or(1.0, |(errs, goal)| errs / goal);
         let halvings = libm::log2(missed.max(LEFT_TO_ELEMENTS) / LEFT_TO_ELEMENTS);
         ((f64::from(STAGES_TO_HALF) * halvings).ceil() as u32).max(FEWEST_STAGES)
     }
@@ -449,7 +527,7 @@ impl<'s, 'r> Run<'s, 'r> {
         let count = work.sums.increments;
         let receivers = work.sums.sums.len() as u64;
         let progress = self.progress(Stage::Increments, count, receivers, accuracy);
-        let goal = self.request.accuracy;
+        let goal = self.goal();
         let needed = goal.and_then(|goal| work.increments_needed(accuracy, goal));
         let made = count + work.ahead();
         // Who has made none here does not know what one takes.
@@ -484,6 +562,7 @@ impl<'s, 'r> Run<'s, 'r> {
             stage: self.stage,
             rays: self.rays,
             increments: sums.map_or(0, |work| work.sums.increments),
+            audited: self.audited.clone(),
             receivers: some(&|work| work.sums.sums.clone()),
             checks: some(&|work| work.checks.all()),
             given_up: some(&|work| work.given_up.sums.clone()),
@@ -492,6 +571,7 @@ impl<'s, 'r> Run<'s, 'r> {
 
     fn map(&self, work: &Work, accuracy: Option<Accuracy>, reached: bool) -> IlluminationMap {
         let (values, filter) = work.values(self.request.filter && work.is_believed());
+        let accuracy = accuracy.map(|told| self.without_false_claims(told));
         IlluminationMap {
             elements: work.plan.elements.clone(),
             values,
@@ -510,8 +590,24 @@ impl<'s, 'r> Run<'s, 'r> {
                 filter,
                 unshot: work.unshot(),
                 diffuse_only: self.request.radiosity.diffuse_only,
+                audit: self.audit.clone(),
                 mixed: Vec::new(),
             },
+        }
+    }
+
+    /// Errors as told, or as audits have found them where these contradict: what is found beyond is common to all of the map.
+    fn without_false_claims(&self, told: Accuracy) -> Accuracy {
+        let found = match &self.audit {
+            Some(audit) if audit.contradicts => audit.error.value,
+            _ => told.reached * self.audited.true_over_told,
+        };
+        let beyond = (found * found - told.reached * told.reached).max(0.0);
+        Accuracy {
+            reached: found.max(told.reached),
+            bias: (told.bias * told.bias + beyond).sqrt(),
+            interpolated: (told.interpolated * told.interpolated + beyond).sqrt(),
+            ..told
         }
     }
 }
@@ -525,6 +621,8 @@ enum End {
     InVain,
     /// The elements are too coarse for the accuracy asked for.
     TooCoarse,
+    /// An audit has found the error larger than it was told, and more of the same would not mend it.
+    Contradicted,
 }
 
 /// Since when, and since which increment, the pace of a run is taken.

@@ -18,12 +18,32 @@ pub struct RunState {
     pub rays: u64,
     /// Increments summed; none if the run was stopped before its mesh was complete.
     pub increments: u64,
+    /// What audits have found on the way.
+    pub audited: Audited,
     /// Sums of the receivers.
     pub receivers: Vec<Sums>,
     /// Sums of the check points.
     pub checks: Vec<Sums>,
     /// Sum of the light on paths that were given up: one, or none where there are no increments.
     pub given_up: Vec<Sums>,
+}
+
+/// What the audits of a run have come to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Audited {
+    /// How many there were.
+    pub audits: u32,
+    /// How many times the error told the true one is; one until an audit has contradicted a claim.
+    pub true_over_told: f64,
+    /// The noise that was told after so many increments, powers of two, relative.
+    pub noise: Vec<(u64, f64)>,
+}
+
+impl Default for Audited {
+    /// No audit yet.
+    fn default() -> Self {
+        Self { audits: 0, true_over_told: 1.0, noise: Vec::new() }
+    }
 }
 
 /// Everything that decides what an increment of a run is.
@@ -46,6 +66,9 @@ pub struct RunIdentity {
     /// How finely radiosity works.
     #[serde(default)]
     pub radiosity: RadiositySettings,
+    /// Whether audits decide when it is done.
+    #[serde(default)]
+    pub audit: bool,
 }
 
 impl RunState {
@@ -66,6 +89,7 @@ impl RunIdentity {
             mesh_accuracy: request.mesh_accuracy,
             max_memory_bytes: request.max_memory_bytes,
             radiosity: request.radiosity,
+            audit: request.audit,
         }
     }
 
@@ -80,6 +104,7 @@ impl RunIdentity {
             ("the mesh accuracy", self.mesh_accuracy == saved.mesh_accuracy),
             ("the memory allowed", self.max_memory_bytes == saved.max_memory_bytes),
             ("the limits of radiosity", self.radiosity == saved.radiosity),
+            ("whether it is audited", self.audit == saved.audit),
         ];
         match differs.iter().find(|(_, same)| !same) {
             Some((what, _)) => Err(SolveError::OtherRun(what)),

@@ -1,11 +1,13 @@
 //! Illumination maps: plain values.
 
+mod audit;
 mod grid;
 mod hot_spots;
 mod illuminance;
 mod provenance;
 mod standing;
 
+pub use audit::{Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface};
 pub use grid::{Figure, GridFigures};
 pub use hot_spots::HotSpots;
 pub use illuminance::Illuminance;

@@ -1,5 +1,6 @@
 //! Where a map came from and how good it is.
 
+use super::audit::Audit;
 use crate::units::Rgb;
 use serde::{Deserialize, Serialize};
 
@@ -37,6 +38,9 @@ pub struct Provenance {
     /// Whether mirrors, gloss and glass were left out, for comparison.
     #[serde(default, skip_serializing_if = "is_false")]
     pub diffuse_only: bool,
+    /// What an independent test of the error has found; `None` where there was none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub audit: Option<Audit>,
     /// Of which maps it is the sum, where it is one: then the seed is that of the first, rays are those of
     /// all, and increments the fewest.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

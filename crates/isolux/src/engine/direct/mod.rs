@@ -217,6 +217,22 @@ impl<'s> Lighting<'s> {
         self.sampled(at, self.area_samples(), dice)
     }
 
+    /// Whether [`Lighting::sampled`] is free of noise: few luminaires, none of which is an emitting surface.
+    pub(super) fn samples_exactly(&self) -> bool {
+        self.area_sources == 0 && !self.has_many()
+    }
+
+    /// Shadow rays that [`Lighting::sampled`] takes with so many to every emitting surface, about.
+    pub(super) fn rays_of_sampled(&self, samples: usize) -> u64 {
+        let points = if self.has_many() { RAYS_TO_MANY } else { self.points };
+        (points + self.area_sources * samples) as u64
+    }
+
+    /// Shadow rays that [`Lighting::estimate`] takes at most.
+    pub(super) fn rays_of_estimate(&self) -> u64 {
+        self.sources.len().min(EXACT_SOURCES) as u64
+    }
+
     fn area_samples(&self) -> usize {
         (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES)
     }

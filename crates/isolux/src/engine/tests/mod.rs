@@ -2,6 +2,7 @@
 
 mod aiming;
 mod anderson;
+mod audit;
 mod backdrop;
 mod bare;
 mod bright;

@@ -1,0 +1,197 @@
+//! `isolux audit`: an independent test of what a map claims.
+
+use crate::console::{facts, print, print_json, table};
+use crate::failure::{Failure, Outcome};
+use crate::flags::AuditFlags;
+use crate::map_file;
+use crate::quantity::{show_count, show_share, significant};
+use crate::shown::name;
+use isolux::engine::{self, AuditSettings};
+use isolux::map::{Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface};
+use serde::Serialize;
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &AuditFlags, json: bool) -> Result<Outcome, Failure> {
+    let (scene, map) = map_file::read(&flags.map)?;
+    let default = AuditSettings::default();
+    let settings = AuditSettings {
+        places: flags.places.unwrap_or(default.places),
+        paths: flags.paths.unwrap_or(default.paths),
+        seed: flags.seed.unwrap_or(map.provenance.seed),
+        // The audits of the run itself have other places.
+        number: u32::MAX,
+        ..default
+    };
+    let audit = engine::audit(&scene, &map, &settings).ok_or_else(|| {
+        let path = flags.map.display();
+        Failure::bad_input(format!(
+            "{path}: the map tells no error that could be tested, as its run ended too early; solve with more time"
+        ))
+    })?;
+    let outcome = if audit.contradicts { Outcome::CheckFailed } else { Outcome::Done };
+    if json {
+        print_json(&Report { map: flags.map.display().to_string(), audit: &audit })?;
+    } else {
+        print(&text(&audit))?;
+    }
+    Ok(outcome)
+}
+
+/// What `audit --json` prints.
+#[derive(Serialize)]
+struct Report<'a> {
+    map: String,
+    #[serde(flatten)]
+    audit: &'a Audit,
+}
+
+/// An audit for people: the verdict, the table of checks, where readings and paths differ most.
+pub(crate) fn text(audit: &Audit) -> String {
+    let mut all = vec![
+        ("error told", show_share(audit.told)),
+        ("error found", interval(&audit.error)),
+        ("  of the bare map", interval(&audit.interpolated)),
+        (
+            "  in the mean",
+            format!(
+                "{} +- {}",
+                show_share(audit.mean_error),
+                show_share(audit.mean_error_standard_error)
+            ),
+        ),
+        ("would have found", would_find(audit)),
+        ("places", places(audit)),
+        ("paths", show_count(audit.paths as f64)),
+        ("verdict", verdict(audit).to_owned()),
+    ];
+    if audit.untested > 0.0 {
+        all.push((
+            "not tested",
+            format!(
+                "caustics of luminaires without surface, {} of all light",
+                show_share(audit.untested)
+            ),
+        ));
+    }
+    let findings =
+        if audit.worst.is_empty() { String::new() } else { format!("\n{}", findings(audit)) };
+    format!("{}\n{}{findings}", facts(&all), checks(audit))
+}
+
+/// One line for the report of a run.
+pub(crate) fn line(audit: &Audit) -> String {
+    let found = interval(&audit.error);
+    let places = audit.places;
+    match audit.contradicts {
+        false => format!(
+            "{found}, by {places} places; {} would have been found",
+            show_share(audit.would_find)
+        ),
+        true => format!("{found}, by {places} places, where {} was told", show_share(audit.told)),
+    }
+}
+
+fn would_find(audit: &Audit) -> String {
+    let [any, alike] = [audit.would_find, audit.would_find_alike].map(show_share);
+    format!("errors from {any} on, {alike} where they are alike everywhere")
+}
+
+fn interval(error: &AuditedError) -> String {
+    let AuditedError { value, low, high } = *error;
+    format!("{} ({} to {})", show_share(value), show_share(low), show_share(high))
+}
+
+fn places(audit: &Audit) -> String {
+    let hard = audit.hard_readings.places;
+    let unknown = match audit.unknown_places {
+        0 => String::new(),
+        some => format!("; {some} of which the map knows nothing left out"),
+    };
+    format!("{} by area, {hard} where trouble is likely{unknown}", audit.places)
+}
+
+const fn verdict(audit: &Audit) -> &'static str {
+    match audit.contradicts {
+        true => "contradicted: the error is larger than told",
+        false => "not contradicted",
+    }
+}
+
+/// What may be believed and why, one line each.
+pub(crate) fn checks(audit: &Audit) -> String {
+    let AuditTrust { variance_of_variance, tail_index, trend } = audit.trust;
+    let row = |what: &str, value: String, asked: String, passes: bool| {
+        vec![what.to_owned(), value, asked, if passes { "passed" } else { "not passed" }.to_owned()]
+    };
+    let ratio =
+        |of: &AuditedReadings| of.true_over_told.map_or("-".to_owned(), |r| significant(r, 2));
+    let rows = [
+        row(
+            "error of the scene, beyond doubt",
+            show_share(audit.at_least),
+            format!("at most {}", show_share(audit.told)),
+            !audit.contradicts,
+        ),
+        row(
+            "readings: true over told error",
+            ratio(&audit.readings),
+            "not beyond 1.5 without doubt".to_owned(),
+            audit.readings.at_least <= Audit::MOST_UNTOLD,
+        ),
+        row(
+            "the same where trouble is likely",
+            ratio(&audit.hard_readings),
+            "not beyond 1.5 without doubt".to_owned(),
+            audit.hard_readings.at_least <= Audit::MOST_UNTOLD,
+        ),
+        row(
+            "variance of the variance",
+            significant(variance_of_variance, 2),
+            format!("at most {}", AuditTrust::MOST_VARIANCE),
+            variance_of_variance <= AuditTrust::MOST_VARIANCE,
+        ),
+        row(
+            "tail of the brightest paths",
+            tail_index.map_or("none".to_owned(), |index| significant(index, 2)),
+            format!("at least {}", AuditTrust::LEAST_INDEX),
+            tail_index.is_none_or(|index| index >= AuditTrust::LEAST_INDEX),
+        ),
+        row(
+            "power that noise falls with",
+            trend.map_or("too few increments".to_owned(), |power| significant(power, 2)),
+            format!("at most {}", AuditTrust::MOST_TREND),
+            trend.is_none_or(|power| power <= AuditTrust::MOST_TREND),
+        ),
+    ];
+    table(&["check", "value", "asked", "result"], &rows)
+}
+
+/// Where the map is wrong, as far as that is beyond doubt.
+fn findings(audit: &Audit) -> String {
+    let with = |lx: f64, error: f64| format!("{} +- {}", significant(lx, 4), significant(error, 2));
+    let mut found = String::new();
+    if !audit.surfaces.is_empty() {
+        let row = |of: &AuditedSurface| {
+            let [read, traced] = [of.read_lx, of.traced_lx].map(|lx| significant(lx, 4));
+            let apart = with(of.read_lx - of.traced_lx, of.standard_error_lx);
+            vec![name(&of.shape), of.places.to_string(), read, traced, apart]
+        };
+        let rows: Vec<_> = audit.surfaces.iter().map(row).collect();
+        let header = ["wrong in the mean", "places", "map, lx", "paths, lx", "apart, lx"];
+        found += &format!("\n{}", table(&header, &rows));
+    }
+    if !audit.worst.is_empty() {
+        let row = |of: &AuditedPlace| {
+            let [x, y, z] = of.position.map(|c| significant(c, 4));
+            vec![
+                name(&of.shape),
+                format!("{x} {y} {z}"),
+                with(of.read_lx, of.standard_error_lx),
+                with(of.traced_lx, of.traced_standard_error_lx),
+            ]
+        };
+        let rows: Vec<_> = audit.worst.iter().map(row).collect();
+        found += &format!("\n{}", table(&["wrong places", "at", "map, lx", "paths, lx"], &rows));
+    }
+    found
+}

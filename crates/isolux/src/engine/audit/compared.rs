@@ -1,0 +1,103 @@
+//! A place read and estimated afresh.
+
+use super::AuditSettings;
+use super::places::{Drawn, Where};
+use crate::engine::probe::MapReader;
+use crate::engine::reference::{PathTracer, Traced};
+use crate::engine::surface::SurfacePoint;
+use crate::map::{Illuminance, IlluminationMap};
+use crate::sampling::Key;
+
+/// How far a place may differ from paths in 95 % of cases, in standard errors.
+const IN_95_OF_100: f64 = 1.96;
+
+/// What was read at a place and what paths have found there, photometric.
+pub(super) struct Compared {
+    pub(super) at: SurfacePoint,
+    pub(super) drawn: Where,
+    pub(super) read_lx: f64,
+    /// As the reading tells.
+    pub(super) standard_error_lx: f64,
+    pub(super) traced_lx: f64,
+    pub(super) traced_variance: f64,
+    /// Estimate of the squared error of the reading, free of bias, lx2; it may be negative.
+    pub(super) squared_lx2: f64,
+    /// The same of the bare map.
+    pub(super) interpolated_lx2: f64,
+    /// The brightest paths, as multiples of the mean of the place.
+    pub(super) brightest: Vec<f64>,
+}
+
+impl Compared {
+    /// What is read beyond what paths find, lx.
+    pub(super) const fn apart_lx(&self) -> f64 {
+        self.read_lx - self.traced_lx
+    }
+
+    /// The difference in standard errors of both together.
+    pub(super) fn in_errors(&self) -> f64 {
+        let error = libm::hypot(self.standard_error_lx, self.traced_variance.sqrt());
+        let apart = self.apart_lx();
+        if apart == 0.0 { 0.0 } else { apart / error }
+    }
+
+    /// Whether it lies outside of the interval of 95 %.
+    pub(super) fn is_outside(&self) -> bool {
+        self.in_errors().abs() > IN_95_OF_100
+    }
+}
+
+/// Reads a map at a place, and traces paths from there; `None` for what the map knows nothing of. Also, whether the place was drawn by area, and the
+/// rays of the paths.
+pub(super) fn compare(
+    (map, reader, tracer): (&IlluminationMap, &MapReader, &PathTracer),
+    place: &Drawn,
+    paths: u32,
+    key: Key,
+) -> (Option<Compared>, bool, u64) {
+    let by_area = place.drawn == Where::ByArea;
+    let SurfacePoint { triangle, back, u, v, .. } = place.at;
+    let Some(read) = reader.at(triangle, back, u, v) else { return (None, by_area, 0) };
+    let replicates = AuditSettings::REPLICATES;
+    let traced = tracer.traced(&place.at, (replicates, paths.div_ceil(replicates)), key.with(3));
+    let rays = traced.rays;
+    // What paths leave out is taken off what they are compared with.
+    let left_out = |of: &Illuminance| match tracer.leaves_caustics() {
+        true => of.caustic_lx.luminance(),
+        false => 0.0,
+    };
+    let read_lx = read.illuminance_lx() - left_out(&read);
+    let bare = map.interpolate(triangle, back, u, v);
+    let bare_lx = bare.map_or(read_lx, |bare| bare.illuminance_lx() - left_out(&bare));
+    (Some(compared(place, (read_lx, read.standard_error_lx), bare_lx, &traced)), by_area, rays)
+}
+
+fn compared(
+    place: &Drawn,
+    (read_lx, standard_error_lx): (f64, f64),
+    bare_lx: f64,
+    traced: &Traced,
+) -> Compared {
+    let values: Vec<f64> = traced.replicates.iter().map(|[a, b]| (*a + *b).luminance()).collect();
+    let n = values.len() as f64;
+    let traced_lx = values.iter().sum::<f64>() / n;
+    let squares: f64 = values.iter().map(|v| (v - traced_lx) * (v - traced_lx)).sum();
+    let traced_variance = squares / (n * (n - 1.0));
+    // The mean of the products of the differences of two replicates.
+    let squared = |lx: f64| (lx - traced_lx) * (lx - traced_lx) - traced_variance;
+    let brightest = match traced_lx > 0.0 {
+        true => traced.brightest.iter().map(|lx| lx / traced_lx).collect(),
+        false => Vec::new(),
+    };
+    Compared {
+        at: place.at,
+        drawn: place.drawn,
+        read_lx,
+        standard_error_lx,
+        traced_lx,
+        traced_variance,
+        squared_lx2: squared(read_lx),
+        interpolated_lx2: squared(bare_lx),
+        brightest,
+    }
+}

@@ -1,0 +1,219 @@
+//! An independent, unbiased test of what a map claims.
+//!
+//! Whatever judges a map while it is made shares elements, rays and rules with what it judges. The audit shares none of them:
+//! places are drawn on the surfaces, the map is read there as users read it, and the illuminance is estimated afresh by complete
+//! paths ([`super::PathTracer`]). With independent replicates p_r of the paths at a place, the reading m gives
+//! the estimate (sum over r != s of (m - p_r)(m - p_s)) / (R (R - 1)) of the squared error there, which is free of bias
+//! however noisy paths are. Its mean over places drawn by area estimates the squared error of the scene, and its spread over the places
+//! the standard error of that.
+//!
+//! The mean square of an error is no less than the square of its mean, nor than the mean of the squares of its means over any parts of the surface.
+//! Noise averages out in such means, so that light that is lost is found by far fewer paths than the mean square takes. The three bounds share the
+//! false alarms that are allowed.
+//!
+//! A claim is contradicted where the error told lies below one of these one-sided bounds. A run that goes on after a contradiction may
+//! be audited again, [`MOST_AUDITS`] times in all, with places and paths of its own each time; the false alarms that are allowed are shared out evenly
+//! among these, so that repeating an audit cannot make a wrong claim pass by luck more often than it is told.
+
+mod compared;
+mod figures;
+mod places;
+
+use super::direct::Lighting;
+use super::probe::{MapReader, reference_lx};
+use super::reference::PathTracer;
+use crate::map::{Audit, AuditTrust, AuditedPlace, AuditedSurface, IlluminationMap};
+use crate::sampling::Key;
+use crate::scene::Scene;
+use compared::{Compared, compare};
+pub(super) use figures::trend;
+use figures::{Figures, readings, share, tail_index};
+use places::{Places, Where};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Audits of a run at most.
+pub(super) const MOST_AUDITS: u32 = 3;
+
+/// Places that are compared together, before the rays they took are counted.
+const BATCH: u64 = 64;
+/// The worst surfaces and places that are told.
+const FINDINGS: usize = 8;
+
+/// How much an audit does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AuditSettings {
+    /// Places at most; a quarter of them where trouble is likely.
+    pub places: u64,
+    /// Paths of a place, in [`AuditSettings::REPLICATES`] independent replicates.
+    pub paths: u32,
+    /// No more places are compared once so many rays were traced.
+    pub most_rays: u64,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Which audit of its run this is, counted from one.
+    pub number: u32,
+}
+
+impl AuditSettings {
+    /// Independent replicates of the paths of a place.
+    pub const REPLICATES: u32 = 16;
+}
+
+impl Default for AuditSettings {
+    /// A thousand places by 64 paths tell 2 % from 1 % in a room.
+    fn default() -> Self {
+        Self { places: 1024, paths: 64, most_rays: u64::MAX, seed: 1, number: 1 }
+    }
+}
+
+/// Audits a map of a scene; `None` where it tells no error that could be tested, or nothing of it is known.
+pub fn audit(scene: &Scene, map: &IlluminationMap, settings: &AuditSettings) -> Option<Audit> {
+    audit_with((scene, map), Arc::new(Lighting::new(scene)), settings)
+}
+
+/// The same with luminaires that are prepared already.
+pub(super) fn audit_with<'a>(
+    (scene, map): (&'a Scene, &'a IlluminationMap),
+    lighting: Arc<Lighting<'a>>,
+    settings: &AuditSettings,
+) -> Option<Audit> {
+    let told = map.provenance.accuracy?.reached;
+    let reader = MapReader::with_lighting((scene, map), Arc::clone(&lighting));
+    let tracer = PathTracer::with_lighting(scene, lighting);
+    let key = Key::new(settings.seed).with(u64::from(settings.number)).with(0x0a0d);
+    let places = Places::new(scene, map, key)?;
+    let (mut all, mut unknown, mut rays) = (Vec::new(), 0, 0);
+    let mut next = 0;
+    while next < settings.places && (next == 0 || rays + reader.rays() < settings.most_rays) {
+        let batch = next..settings.places.min(next + BATCH);
+        next = batch.end;
+        let one = |number: u64| {
+            compare((map, &reader, &tracer), &places.draw(number), settings.paths, key.with(number))
+        };
+        let compared: Vec<_> = batch.into_par_iter().map(one).collect();
+        for (known, by_area, traced_rays) in compared {
+            rays += traced_rays;
+            unknown += u64::from(known.is_none() && by_area);
+            all.extend(known);
+        }
+    }
+    let rays = rays + reader.rays();
+    let found = Found { scene, map, told, all, unknown, rays, settings: *settings };
+    Some(found.audit(tracer.leaves_caustics()))
+}
+
+/// Everything that an audit has compared.
+struct Found<'a> {
+    scene: &'a Scene,
+    map: &'a IlluminationMap,
+    told: f64,
+    all: Vec<Compared>,
+    unknown: u64,
+    rays: u64,
+    settings: AuditSettings,
+}
+
+impl Found<'_> {
+    fn of(&self, which: Where) -> impl Iterator<Item = &Compared> {
+        self.all.iter().filter(move |c| c.drawn == which)
+    }
+
+    fn audit(self, leaves_caustics: bool) -> Audit {
+        let reference_lx = reference_lx(self.map);
+        let values =
+            |of: fn(&Compared) -> f64| -> Vec<f64> { self.of(Where::ByArea).map(of).collect() };
+        let errors = Figures::of(&values(|c| c.squared_lx2));
+        let interpolated = Figures::of(&values(|c| c.interpolated_lx2));
+        let common = Figures::of(&values(Compared::apart_lx));
+        let bounds = [
+            errors.at_least(),
+            common.square_at_least(),
+            figures::parts_at_least(self.by_shape().iter().map(|(_, places)| places.as_slice())),
+        ];
+        let at_least_lx2 = bounds.into_iter().fold(0.0, f64::max);
+        let at_least = share(at_least_lx2.sqrt(), reference_lx);
+        let paths = self.all.len() as u64 * u64::from(self.settings.paths);
+        Audit {
+            number: self.settings.number,
+            places: self.of(Where::ByArea).count() as u64,
+            unknown_places: self.unknown,
+            paths,
+            rays: self.rays,
+            told: self.told,
+            error: errors.relative(reference_lx),
+            interpolated: interpolated.relative(reference_lx),
+            at_least,
+            would_find: errors.would_find(self.told, reference_lx),
+            would_find_alike: common.would_find_alike(self.told, reference_lx),
+            mean_error: share(common.mean, reference_lx),
+            mean_error_standard_error: share(common.error, reference_lx),
+            readings: readings(self.of(Where::ByArea)),
+            hard_readings: readings(self.of(Where::Hard)),
+            untested: if leaves_caustics { self.map.caustic_share() } else { 0.0 },
+            trust: AuditTrust {
+                variance_of_variance: errors.variance_of_variance,
+                tail_index: tail_index(self.all.iter().flat_map(|c| c.brightest.iter().copied())),
+                // Known of the run alone.
+                trend: self.map.provenance.audit.as_ref().and_then(|audit| audit.trust.trend),
+            },
+            contradicts: at_least > self.told,
+            surfaces: self.surfaces(),
+            worst: self.worst(),
+        }
+    }
+
+    /// Places drawn by area, by shape.
+    fn by_shape(&self) -> Vec<(u32, Vec<&Compared>)> {
+        let mut shapes: BTreeMap<u32, Vec<&Compared>> = BTreeMap::new();
+        for compared in self.of(Where::ByArea) {
+            shapes.entry(self.scene.shape_of(compared.at.triangle)).or_default().push(compared);
+        }
+        shapes.into_iter().collect()
+    }
+
+    /// Shapes that are wrong in the mean beyond doubt.
+    fn surfaces(&self) -> Vec<AuditedSurface> {
+        let mean = |places: &[&Compared], of: fn(&Compared) -> f64| {
+            Figures::of(&places.iter().map(|c| of(c)).collect::<Vec<_>>())
+        };
+        let surface = |(shape, places): (u32, Vec<&Compared>)| {
+            let apart = mean(&places, Compared::apart_lx);
+            let surface = AuditedSurface {
+                shape: self.scene.shape_names()[shape as usize].clone(),
+                places: places.len() as u64,
+                read_lx: mean(&places, |c| c.read_lx).mean,
+                traced_lx: mean(&places, |c| c.traced_lx).mean,
+                standard_error_lx: apart.error,
+            };
+            (apart.is_beyond_doubt() && places.len() >= figures::FEWEST_OF_PART)
+                .then_some((places.len() as f64 * apart.mean * apart.mean, surface))
+        };
+        let mut wrong: Vec<_> = self.by_shape().into_iter().filter_map(surface).collect();
+        wrong.sort_by(|a, b| b.0.total_cmp(&a.0));
+        wrong.truncate(FINDINGS);
+        wrong.into_iter().map(|(_, surface)| surface).collect()
+    }
+
+    /// The places that differ most beyond what both sides tell.
+    fn worst(&self) -> Vec<AuditedPlace> {
+        let is_far = |c: &&Compared| c.in_errors().abs() > Audit::FAR;
+        let mut far: Vec<&Compared> = self.all.iter().filter(is_far).collect();
+        far.sort_by(|a, b| b.in_errors().abs().total_cmp(&a.in_errors().abs()));
+        far.truncate(FINDINGS);
+        far.into_iter().map(|c| self.place(c)).collect()
+    }
+
+    fn place(&self, of: &Compared) -> AuditedPlace {
+        let shape = self.scene.shape_of(of.at.triangle);
+        AuditedPlace {
+            shape: self.scene.shape_names()[shape as usize].clone(),
+            position: of.at.point.into(),
+            read_lx: of.read_lx,
+            standard_error_lx: of.standard_error_lx,
+            traced_lx: of.traced_lx,
+            traced_standard_error_lx: of.traced_variance.sqrt(),
+        }
+    }
+}
