@@ -96,7 +96,8 @@ fn would_find(audit: &Audit) -> String {
     format!("errors from {any} on, {alike} where they are alike everywhere")
 }
 
-fn interval(error: &AuditedError) -> String {
+/// An error with its interval.
+pub(crate) fn interval(error: &AuditedError) -> String {
     let AuditedError { value, low, high } = *error;
     format!("{} ({} to {})", show_share(value), show_share(low), show_share(high))
 }

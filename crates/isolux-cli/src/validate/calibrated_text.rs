@@ -107,6 +107,8 @@ fn scene_table(cases: &[CalibratedCase]) -> String {
         "9 in 10 below",
         "covered %",
         "mean error",
+        "audited",
+        "contradicted %",
     ];
     let rows = cases.iter().flat_map(|case| {
         let stages = case.stages.iter();
@@ -120,6 +122,8 @@ fn scene_table(cases: &[CalibratedCase]) -> String {
                 significant(scene.ninth_decile_ratio, 2),
                 format!("{:.0}", 100.0 * scene.covered),
                 format!("{sign}{}", show_share(scene.mean_error.abs())),
+                scene.audited.map_or("-".to_owned(), show_share),
+                scene.contradicted.map_or("-".to_owned(), |s| format!("{:.1}", 100.0 * s)),
             ]);
             row
         })

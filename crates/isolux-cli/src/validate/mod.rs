@@ -4,6 +4,7 @@ mod calibrate;
 mod calibrated_text;
 mod chosen;
 
+use crate::audit;
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::{MethodName, ValidateFlags};
@@ -70,8 +71,8 @@ fn verdict(row: &ValidateRow) -> String {
 
 fn text(table_of_cases: &ValidateTable) -> String {
     let header = [
-        "case", "method", "seed", "error", "readings", "outliers", "allowed", "worst", "time",
-        "verdict",
+        "case", "method", "seed", "error", "audited", "readings", "outliers", "allowed", "worst",
+        "time", "verdict",
     ];
     let rows: Vec<Vec<String>> = table_of_cases.rows.iter().map(row).collect();
     let calibrations = table_of_cases.calibrations.iter().map(calibration);
@@ -88,6 +89,7 @@ fn row(row: &ValidateRow) -> Vec<String> {
         request::method_name(row.method).to_owned(),
         row.seed.to_string(),
         row.accuracy.map_or("-".to_owned(), |a| show_share(a.reached)),
+        row.audit.as_ref().map_or("-".to_owned(), |a| audit::interval(&a.error)),
         row.readings.to_string(),
         row.outliers.to_string(),
         row.accepted_outliers.to_string(),

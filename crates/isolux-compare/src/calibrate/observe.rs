@@ -4,10 +4,15 @@ use super::places::Place;
 use crate::expectation::Quantity;
 use crate::statistics::student_two_sided;
 use crate::tolerance::RAY_KERNEL_POSITION;
-use isolux::engine::{MapReader, Progress, SolveError, SolveRequest, Watch, solve_looked_at};
-use isolux::map::{Accuracy, Illuminance, IlluminationMap};
+use isolux::engine::{
+    AuditSettings, MapReader, Progress, SolveError, SolveRequest, Watch, audit, solve_looked_at,
+};
+use isolux::map::{Accuracy, Audit, Illuminance, IlluminationMap};
 use isolux::scene::Scene;
 use serde::Serialize;
+
+/// Places of the audit of one run, of which there are many.
+const AUDIT_PLACES: u64 = 256;
 
 /// When a run is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -83,6 +88,8 @@ pub struct Observation {
     pub readings: Vec<Option<Interval>>,
     /// Root mean square of the exact light at the places, lx.
     pub rms_lx: f64,
+    /// What an independent test finds of the map where its run ends.
+    pub audit: Option<Audit>,
 }
 
 impl Observation {
@@ -143,7 +150,8 @@ pub(super) fn observe(
         if let (false, Some(map)) = (due.is_empty(), due.first().and_then(|_| so_far.map())) {
             let ends = due.contains(&Stage::AtStop);
             observed.reached |= ends && map.provenance.complete;
-            if let Some(observation) = look(scene, &map, places) {
+            if let Some(mut observation) = look(scene, &map, places) {
+                observation.audit = ends.then(|| audited(scene, &map)).flatten();
                 due.into_iter().for_each(|stage| observed.set(stage, observation.clone()));
             }
         }
@@ -197,7 +205,18 @@ fn look(scene: &Scene, map: &IlluminationMap, places: &[Place]) -> Option<Observ
         })
     };
     let readings = places.iter().map(reading).collect();
-    Some(Observation { increments: map.provenance.increments, accuracy, readings, rms_lx })
+    Some(Observation {
+        increments: map.provenance.increments,
+        accuracy,
+        readings,
+        rms_lx,
+        audit: None,
+    })
+}
+
+fn audited(scene: &Scene, map: &IlluminationMap) -> Option<Audit> {
+    let seed = map.provenance.seed;
+    audit(scene, map, &AuditSettings { places: AUDIT_PLACES, seed, ..AuditSettings::default() })
 }
 
 fn value_lx(quantity: Quantity, found: &Illuminance) -> f64 {

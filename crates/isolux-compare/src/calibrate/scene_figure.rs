@@ -1,6 +1,7 @@
 //! The error of the scene: as reported, over as made.
 
 use super::observe::Observation;
+use isolux::map::Audit;
 use serde::Serialize;
 
 /// True error over reported error of the scene, over seeds.
@@ -20,6 +21,10 @@ pub struct SceneFigure {
     pub covered: f64,
     /// Mean signed error over runs and places, relative.
     pub mean_error: f64,
+    /// Root mean square over the runs of what audits find; `None` where there are none, as at stages on the way.
+    pub audited: Option<f64>,
+    /// Share of the runs whose audit contradicts what is reported.
+    pub contradicted: Option<f64>,
 }
 
 impl SceneFigure {
@@ -33,7 +38,14 @@ impl SceneFigure {
         let rms = |value: &dyn Fn(&Observation) -> f64| {
             (runs.iter().map(|o| value(o) * value(o)).sum::<f64>() / n).sqrt()
         };
+        let audits: Vec<&Audit> = runs.iter().filter_map(|o| o.audit.as_ref()).collect();
+        let of_audits = |value: &dyn Fn(&Audit) -> f64| {
+            let sum = audits.iter().map(|audit| value(audit)).sum::<f64>();
+            (!audits.is_empty()).then(|| sum / audits.len() as f64)
+        };
         Some(Self {
+            audited: of_audits(&|a| a.error.value * a.error.value).map(f64::sqrt),
+            contradicted: of_audits(&|a| f64::from(u8::from(a.contradicts))),
             runs: runs.len() as u64,
             reported: rms(&|o| o.accuracy.reached),
             measured: rms(&|o| o.true_error()),
@@ -84,7 +96,13 @@ mod tests {
             bias: 0.0,
             interpolated: reached,
         };
-        Observation { increments: 16, accuracy, readings: vec![Some(reading); 3], rms_lx: 100.0 }
+        Observation {
+            increments: 16,
+            accuracy,
+            readings: vec![Some(reading); 3],
+            rms_lx: 100.0,
+            audit: None,
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use crate::expectation::Quantity;
 use crate::statistics::{student_quantile, student_two_sided};
 use crate::tolerance::{COVERAGE, SIGNIFICANCE, STANDARD_ERRORS};
-use isolux::map::{Accuracy, Method};
+use isolux::map::{Accuracy, Audit, Method};
 use serde::Serialize;
 
 /// One case through one engine from one seed.
@@ -29,6 +29,8 @@ pub struct ValidateRow {
     pub worst: Option<Reading>,
     /// What the map says of itself.
     pub accuracy: Option<Accuracy>,
+    /// What the independent test of the run has found.
+    pub audit: Option<Audit>,
     /// Independent replicates.
     pub increments: u64,
     /// Rays traced.

@@ -28,7 +28,6 @@ use crate::map::{Illuminance, Standing};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use paths::Brought;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -133,10 +132,9 @@ impl<'a> PathTracer<'a> {
         let (mut brightest, mut rays, mut found) = (Vec::new(), 0, Vec::new());
         for number in 0..u64::from(replicates) {
             let of_paths = self.replicate(start, key.with(number).with(0), paths);
-            let Brought { caustic, indirect } = of_paths.sum;
             let share = 1.0 / f64::from(paths.max(1));
             let direct_lx = once.unwrap_or_else(|| direct(number));
-            found.push([direct_lx + caustic * share, indirect * share]);
+            found.push([direct_lx + of_paths.sum.caustic * share, of_paths.sum.indirect * share]);
             brightest.extend(of_paths.brightest);
             rays += of_paths.rays;
         }

@@ -1,8 +1,9 @@
 //! A run: pilot, increments, stop, map.
 
+mod audited;
+
 use super::accumulate::{MAX_INCREMENTS, Sums};
 use super::accuracy::BELIEVED_INCREMENTS;
-use super::audit::{AuditSettings, MOST_AUDITS, audit_with, trend};
 use super::cache::IrradianceCache;
 use super::deadline::Deadline;
 use super::direct::Lighting;
@@ -35,14 +36,6 @@ const MOST_STAGES: u32 = 3 * STAGES_TO_HALF + 1;
 const FEWEST_STAGES: u32 = 2;
 /// What elements too coarse at first are to err by, as a share of the error asked for: noise needs the rest.
 const LEFT_TO_ELEMENTS: f64 = 0.8;
-/// What an audit takes, as a share of the rays of the run, and rays that it may take at least: some hundredths of a second.
-const AUDIT_SHARE: f64 = 0.1;
-const FEWEST_AUDIT_RAYS: u64 = 1 << 15;
-/// Paths of a place in the audit of a run.
-const PATHS_OF_AUDIT: u32 = 32;
-/// A claim that is wrong by more than this is not mended by going on: as errors fall like the root of the work, that would take more than four
-/// times what was done.
-const MOST_MENDED: f64 = 2.0;
 /// Accuracy that elements are made for where none is asked.
 const DEFAULT_ACCURACY: f64 = 0.01;
 
@@ -258,11 +251,6 @@ impl<'s, 'r> Run<'s, 'r> {
         }
     }
 
-    /// The error told that is enough: what is asked for, or less once an audit has found told errors too small.
-    fn goal(&self) -> Option<f64> {
-        self.request.accuracy.map(|goal| goal / self.audited.true_over_told)
-    }
-
     fn elapsed_s(&self) -> f64 {
         self.started.elapsed().as_secs_f64()
     }
@@ -407,59 +395,6 @@ impl<'s, 'r> Run<'s, 'r> {
         }
     }
 
-    /// Whether and why these increments should end here, once the map has been audited if it is to be the last.
-    fn audited_end(&mut self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
-        self.audit = None;
-        let count = work.sums.increments;
-        if let Some(told) = accuracy.filter(|_| count.is_power_of_two()) {
-            self.audited.noise.push((count, told.statistical));
-        }
-        let end = self.end(work, accuracy);
-        let is_last = matches!(end, Some(End::Reached | End::InVain)) && !self.stopped;
-        let audit = self.request.audit && is_last;
-        let Some(audit) = audit.then(|| self.audit(work, accuracy)).flatten() else { return end };
-        self.audited.audits = audit.number;
-        if !audit.contradicts {
-            self.audit = Some(audit);
-            return end;
-        }
-        let times = audit.error.value / audit.told;
-        let goes_on = end == Some(End::Reached)
-            && audit.number < MOST_AUDITS
-            && times * self.audited.true_over_told <= MOST_MENDED;
-        if !goes_on {
-            self.audit = Some(audit);
-            return Some(End::Contradicted);
-        }
-        self.audited.true_over_told *= times;
-        self.end(work, accuracy)
-    }
-
-    /// An independent test of the map as it is now.
-    fn audit(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<Audit> {
-        let lighting = self.lighting.as_ref()?;
-        let map = self.map(work, accuracy, true);
-        let settings = AuditSettings {
-            paths: PATHS_OF_AUDIT,
-            most_rays: ((AUDIT_SHARE * self.all_rays(work)) as u64).max(FEWEST_AUDIT_RAYS),
-            seed: self.request.seed,
-            number: self.audited.audits + 1,
-            ..AuditSettings::default()
-        };
-        let mut audit = audit_with((self.scene, &map), Arc::clone(lighting), &settings)?;
-        audit.trust.trend = trend(&self.audited.noise);
-        Some(audit)
-    }
-
-    /// The rays of the run, those of direct light at its receivers counted, too, about.
-    fn all_rays(&self, work: &Work) -> f64 {
-        let lighting = work.plan.lighting;
-        let looks = if lighting.samples_exactly() { 1 } else { work.sums.increments };
-        let receivers = work.sums.sums.len() as u64;
-        let shadow_rays = looks * receivers * lighting.rays_of_sampled(1);
-        (self.rays + shadow_rays) as f64
-    }
-
     /// Whether and why these increments should end here.
     fn end(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
         let goal = self.goal();
@@ -593,21 +528,6 @@ impl<'s, 'r> Run<'s, 'r> {
                 audit: self.audit.clone(),
                 mixed: Vec::new(),
             },
-        }
-    }
-
-    /// Errors as told, or as audits have found them where these contradict: what is found beyond is common to all of the map.
-    fn without_false_claims(&self, told: Accuracy) -> Accuracy {
-        let found = match &self.audit {
-            Some(audit) if audit.contradicts => audit.error.value,
-            _ => told.reached * self.audited.true_over_told,
-        };
-        let beyond = (found * found - told.reached * told.reached).max(0.0);
-        Accuracy {
-            reached: found.max(told.reached),
-            bias: (told.bias * told.bias + beyond).sqrt(),
-            interpolated: (told.interpolated * told.interpolated + beyond).sqrt(),
-            ..told
         }
     }
 }

@@ -1,6 +1,5 @@
 //! A place read and estimated afresh.
 
-use super::AuditSettings;
 use super::places::{Drawn, Where};
 use crate::engine::probe::MapReader;
 use crate::engine::reference::{PathTracer, Traced};
@@ -47,18 +46,17 @@ impl Compared {
     }
 }
 
-/// Reads a map at a place, and traces paths from there; `None` for what the map knows nothing of. Also, whether the place was drawn by area, and the
+/// Reads a map at a place, and traces so many paths from there in so many replicates; `None` for what the map knows nothing of. Also, whether the place was drawn by area, and the
 /// rays of the paths.
 pub(super) fn compare(
     (map, reader, tracer): (&IlluminationMap, &MapReader, &PathTracer),
     place: &Drawn,
-    paths: u32,
+    (replicates, paths): (u32, u32),
     key: Key,
 ) -> (Option<Compared>, bool, u64) {
     let by_area = place.drawn == Where::ByArea;
     let SurfacePoint { triangle, back, u, v, .. } = place.at;
     let Some(read) = reader.at(triangle, back, u, v) else { return (None, by_area, 0) };
-    let replicates = AuditSettings::REPLICATES;
     let traced = tracer.traced(&place.at, (replicates, paths.div_ceil(replicates)), key.with(3));
     let rays = traced.rays;
     // What paths leave out is taken off what they are compared with.

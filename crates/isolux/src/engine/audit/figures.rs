@@ -1,8 +1,10 @@
 //! The statistics of an audit.
 
-use super::MOST_AUDITS;
 use super::compared::Compared;
 use crate::map::{Audit, AuditedError, AuditedReadings};
+
+/// Audits of a run at most.
+pub(in crate::engine) const MOST_AUDITS: u32 = 3;
 
 /// Quantile of the normal distribution for intervals of 95 %.
 const TWO_SIDED: f64 = 1.96;
@@ -127,7 +129,7 @@ pub(super) fn readings<'a>(some: impl Iterator<Item = &'a Compared>) -> AuditedR
 /// The least c for which the mean of what squared errors exceed c2 times those told by is beyond doubt not above zero: by linearization of the
 /// ratio of two means.
 fn ratio_at_least(all: &[&Compared], told: f64) -> f64 {
-    if !(told > 0.0) {
+    if told <= 0.0 {
         return 0.0;
     }
     let found: f64 = all.iter().map(|c| c.squared_lx2).sum();

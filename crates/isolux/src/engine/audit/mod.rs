@@ -26,15 +26,12 @@ use crate::map::{Audit, AuditTrust, AuditedPlace, AuditedSurface, IlluminationMa
 use crate::sampling::Key;
 use crate::scene::Scene;
 use compared::{Compared, compare};
-pub(super) use figures::trend;
 use figures::{Figures, readings, share, tail_index};
+pub(super) use figures::{MOST_AUDITS, trend};
 use places::{Places, Where};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-
-/// Audits of a run at most.
-pub(super) const MOST_AUDITS: u32 = 3;
 
 /// Places that are compared together, before the rays they took are counted.
 const BATCH: u64 = 64;
@@ -85,12 +82,13 @@ pub(super) fn audit_with<'a>(
     let key = Key::new(settings.seed).with(u64::from(settings.number)).with(0x0a0d);
     let places = Places::new(scene, map, key)?;
     let (mut all, mut unknown, mut rays) = (Vec::new(), 0, 0);
+    let paths_of_place = (AuditSettings::REPLICATES, settings.paths);
     let mut next = 0;
     while next < settings.places && (next == 0 || rays + reader.rays() < settings.most_rays) {
         let batch = next..settings.places.min(next + BATCH);
         next = batch.end;
         let one = |number: u64| {
-            compare((map, &reader, &tracer), &places.draw(number), settings.paths, key.with(number))
+            compare((map, &reader, &tracer), &places.draw(number), paths_of_place, key.with(number))
         };
         let compared: Vec<_> = batch.into_par_iter().map(one).collect();
         for (known, by_area, traced_rays) in compared {
