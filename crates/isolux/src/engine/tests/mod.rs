@@ -31,6 +31,7 @@ mod mixing;
 mod net;
 mod openings;
 mod parts;
+mod paths;
 mod reflectance;
 mod sealed;
 mod sharing;
