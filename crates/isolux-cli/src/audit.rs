@@ -25,7 +25,7 @@ pub(crate) fn run(flags: &AuditFlags, json: bool) -> Result<Outcome, Failure> {
     let audit = engine::audit(&scene, &map, &settings).ok_or_else(|| {
         let path = flags.map.display();
         Failure::bad_input(format!(
-            "{path}: the map tells no error that could be tested, as its run ended too early; solve with more time"
+            "{path}: there is nothing to audit: the map tells no error, knows next to none of its surfaces, or has no light; solve it with more time"
         ))
     })?;
     let outcome = if audit.contradicts { Outcome::CheckFailed } else { Outcome::Done };

@@ -65,7 +65,8 @@ impl Default for AuditSettings {
     }
 }
 
-/// Audits a map of a scene; `None` where it tells no error that could be tested, or nothing of it is known.
+/// Audits a map of a scene; `None` where it tells no error that could be tested, where next to nothing of it is known, and where neither map nor paths
+/// have any light.
 pub fn audit(scene: &Scene, map: &IlluminationMap, settings: &AuditSettings) -> Option<Audit> {
     audit_with((scene, map), Arc::new(Lighting::new(scene)), settings)
 }
@@ -99,7 +100,7 @@ pub(super) fn audit_with<'a>(
     }
     let rays = rays + reader.rays();
     let found = Found { scene, map, told, all, unknown, rays, settings: *settings };
-    Some(found.audit(tracer.leaves_caustics()))
+    found.audit(tracer.leaves_caustics())
 }
 
 /// Everything that an audit has compared.
@@ -118,8 +119,17 @@ impl Found<'_> {
         self.all.iter().filter(move |c| c.drawn == which)
     }
 
-    fn audit(self, leaves_caustics: bool) -> Audit {
-        let reference_lx = reference_lx(self.map);
+    /// What errors are relative to: the light of the map, or of paths where the map has none, lx. `None` where neither has, or places are few.
+    fn reference_lx(&self) -> Option<f64> {
+        let traced: Vec<f64> = self.of(Where::ByArea).map(|c| c.traced_lx * c.traced_lx).collect();
+        let by_paths = (traced.iter().sum::<f64>() / traced.len().max(1) as f64).sqrt();
+        let of_map = reference_lx(self.map);
+        let lx = if of_map > 0.0 { of_map } else { by_paths };
+        (traced.len() >= figures::FEWEST_OF_PART && lx > 0.0).then_some(lx)
+    }
+
+    fn audit(self, leaves_caustics: bool) -> Option<Audit> {
+        let reference_lx = self.reference_lx()?;
         let values =
             |of: fn(&Compared) -> f64| -> Vec<f64> { self.of(Where::ByArea).map(of).collect() };
         let errors = Figures::of(&values(|c| c.squared_lx2));
@@ -133,7 +143,7 @@ impl Found<'_> {
         let at_least_lx2 = bounds.into_iter().fold(0.0, f64::max);
         let at_least = share(at_least_lx2.sqrt(), reference_lx);
         let paths = self.all.len() as u64 * u64::from(self.settings.paths);
-        Audit {
+        Some(Audit {
             number: self.settings.number,
             places: self.of(Where::ByArea).count() as u64,
             unknown_places: self.unknown,
@@ -159,7 +169,7 @@ impl Found<'_> {
             contradicts: at_least > self.told,
             surfaces: self.surfaces(),
             worst: self.worst(),
-        }
+        })
     }
 
     /// Places drawn by area, by shape.
