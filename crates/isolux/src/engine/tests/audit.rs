@@ -79,7 +79,7 @@ fn the_squared_error_found_has_no_bias() {
     };
     // So few paths have ten times the noise of what is looked for, which the mean over audits does not see.
     let (mean, error) = super::mean_and_error((0..64).map(few));
-    let many = AuditSettings { places: 2048, paths: 1024, ..AuditSettings::default() };
+    let many = AuditSettings { places: 1024, paths: 256, ..AuditSettings::default() };
     let truth = audit(&scene, &map, &many).unwrap().error.value;
     // Squares below zero count as none, which half of the audits of a true map would have; of this one hardly any.
     assert!((mean - truth * truth).abs() < super::SIGMAS * error, "{mean} +- {error}, {truth}");
