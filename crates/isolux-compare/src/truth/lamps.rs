@@ -62,7 +62,7 @@ pub(super) fn many_below_ceiling(stage: &mut Stage) {
     let size = [20.0, 14.0, 3.0].map(|side| side * stage.draw.between(0.8, 1.4));
     stage.room(size);
     stage.furnish(size);
-    let counts = [stage.draw.count(8, 25), stage.draw.count(8, 20)];
+    let counts = [stage.draw.count(16, 25), stage.draw.count(12, 20)];
     let below_m = stage.draw.pick(&[0.02, 0.1, 0.1, 0.4]);
     let cd = 60.0 * size[0] * size[1] / f64::from(counts[0] * counts[1]);
     for i in 0..counts[0] {
