@@ -11,6 +11,7 @@ mod peers;
 mod smoke;
 mod test;
 mod tidy;
+mod truth;
 mod worlds;
 
 use std::path::Path;
@@ -28,7 +29,10 @@ cargo xtask bench hall    time to an accuracy against triangles and luminaires, 
                           [--json] [--quick | --standard] [--accuracy 1%] [--time-limit 600s] [--threads 2]
 cargo xtask bench hall --reference   make the reference of true errors anew
 cargo xtask bench peers   error against time beside Radiance, Mitsuba and LuxCore
-                          [--json] [--quick] [--only NAME ...] [--save]";
+                          [--json] [--quick] [--only NAME ...] [--save]
+cargo xtask bench truth   maps of sixty unknown scenes beside long paths [--only NAME ...] [--half tuning|judging]
+                          [--seeds 1,2,3] [--methods hybrid,cache,forward,radiosity] [--accuracy 2%]
+                          [--time-limit 60s] [--isolux PATH] [--fresh] [--json] [--save]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -43,6 +47,7 @@ fn main() -> ExitCode {
         ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),
         ["bench", "rays", ref arguments @ ..] => bench::rays(root, arguments),
         ["bench", "peers", ref arguments @ ..] => peers::run(root, arguments),
+        ["bench", "truth", ref arguments @ ..] => truth::run(root, arguments),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

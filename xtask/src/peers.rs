@@ -77,14 +77,15 @@ fn export(root: &Path, folder: &Path) -> Result<(), String> {
 }
 
 /// The commit measured, marked where files differ from it.
-fn revision(root: &Path) -> String {
+pub(crate) fn revision(root: &Path) -> String {
     let describe = ["describe", "--always", "--dirty"];
     let said = Command::new("git").args(describe).current_dir(root).output();
     let said = said.ok().filter(|output| output.status.success());
     said.map_or("unknown".to_owned(), |s| String::from_utf8_lossy(&s.stdout).trim().to_owned())
 }
 
-fn cargo() -> Command {
+/// The cargo that runs this.
+pub(crate) fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 

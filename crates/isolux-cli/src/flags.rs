@@ -56,7 +56,7 @@ pub(crate) enum Command {
 }
 
 const SCENE_HELP: &str = "Path of a scene (.gltf, .glb, .obj, .ply, .rad, .stl, .xml, scene.toml), builtin:cube, builtin:sphere, builtin:hall or a \
-     variant of it (builtin:hall,triangles=1e6,luminaires=100)";
+     variant of it (builtin:hall,triangles=1e6,luminaires=100), builtin:truth-00 to builtin:truth-59";
 
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
@@ -550,6 +550,7 @@ pub(crate) struct ValidateFlags {
 #[command(after_help = "Examples:
   isolux scene builtin:hall -o hall
   isolux scene builtin:hall,triangles=1e5,luminaires=500 -o hall-fine
+  isolux scene builtin:truth-07 -o rooms
 
 The folder gets scene.toml, scene.gltf with scene.bin, and photometric files. Reading scene.toml gives \
 the scene again, with the same hash if its geometry is flat.")]

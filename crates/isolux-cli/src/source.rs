@@ -105,7 +105,7 @@ fn built_in(name: &str) -> Result<SceneParts, Failure> {
         let names = BUILTIN_NAMES.map(|known| format!("{BUILTIN}{known}")).join(", ");
         Failure::bad_input(match error {
             BuiltinError::Unknown => {
-                format!("there is no scene `{BUILTIN}{name}`; choose one of {names}")
+                format!("there is no scene `{BUILTIN}{name}`; choose one of {names}, or {BUILTIN}truth-00 to {BUILTIN}truth-59")
             }
             BuiltinError::Variant(error) => format!("{BUILTIN}{name}: {error}"),
         })

@@ -2,9 +2,10 @@
 
 use crate::case::{cube, sphere};
 use crate::hall::{self, Variant, VariantError};
+use crate::truth::TruthScene;
 use isolux::scene::SceneParts;
 
-/// Names that [`builtin`] knows.
+/// Names that [`builtin`] knows beside those of [`TruthScene`].
 pub const BUILTIN_NAMES: [&str; 3] = ["cube", "sphere", "hall"];
 
 /// Why there is no scene of a name.
@@ -18,12 +19,15 @@ pub enum BuiltinError {
     Variant(#[from] VariantError),
 }
 
-/// A scene by its name: `cube`, `sphere`, `hall` or a [`Variant`] of it.
+/// A scene by its name: `cube`, `sphere`, `hall` or a [`Variant`] of it, or a [`TruthScene`].
 pub fn builtin(name: &str) -> Result<SceneParts, BuiltinError> {
     match name {
         "cube" => Ok(cube::parts()),
         "sphere" => Ok(sphere::parts()),
         _ => {
+            if let Some(scene) = TruthScene::parse(name) {
+                return Ok(scene.parts());
+            }
             let settings = name.strip_prefix("hall").ok_or(BuiltinError::Unknown)?;
             if !settings.is_empty() && !settings.starts_with(',') {
                 return Err(BuiltinError::Unknown);
@@ -39,10 +43,14 @@ mod tests {
 
     #[test]
     fn knows_its_names_and_no_others() {
-        for name in BUILTIN_NAMES.into_iter().chain(["hall,triangles=20000,luminaires=100"]) {
+        for name in BUILTIN_NAMES.into_iter().chain([
+            "hall,triangles=20000,luminaires=100",
+            "truth-07",
+            "truth-07,seed=3",
+        ]) {
             assert_eq!(builtin(name).unwrap().name, name);
         }
-        for name in ["teapot", "hallway", "cube,triangles=9", ""] {
+        for name in ["teapot", "hallway", "cube,triangles=9", "truth-60", ""] {
             assert_eq!(builtin(name), Err(BuiltinError::Unknown), "{name}");
         }
         assert!(matches!(builtin("hall,luminaires=1"), Err(BuiltinError::Variant(_))));

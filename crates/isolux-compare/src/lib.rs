@@ -15,6 +15,7 @@ pub mod metric;
 pub mod model;
 pub mod statistics;
 pub mod tolerance;
+pub mod truth;
 mod validate;
 
 pub use builtin::{BUILTIN_NAMES, BuiltinError, builtin};

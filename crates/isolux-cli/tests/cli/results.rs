@@ -32,6 +32,22 @@ fn solve_ends_with_one_object_that_says_how_good_it_is() {
     assert_eq!(home.names(), ["cube.glb"]);
 }
 
+/// Few of the sixty, of as many kinds: all are assembled where they are made.
+#[test]
+fn scenes_to_be_judged_are_checked() {
+    let home = Home::new();
+    for number in ["04", "32", "40", "52", "57"] {
+        let scene = format!("builtin:truth-{number}");
+        let ran = home.run(&["check", &scene, "--json"]);
+        assert_eq!(ran.code, 0, "{scene}: {ran:?}");
+        let found = ran.json();
+        assert!(found["mean_illuminance_lx"].as_f64().unwrap() > 1.0, "{scene}: {found}");
+        assert!(found["triangles"].as_u64().unwrap() > 0, "{scene}");
+    }
+    let unknown = home.run(&["check", "builtin:truth-60"]);
+    assert!(unknown.code == 2 && unknown.err.contains("truth-59"), "{unknown:?}");
+}
+
 #[test]
 fn radiosity_says_what_is_unshot() {
     let home = Home::new();
