@@ -36,6 +36,7 @@ mod sharing;
 mod sight;
 mod sums;
 mod sunk;
+mod ties;
 mod trusting;
 mod walls;
 
