@@ -5,6 +5,7 @@ mod accuracy;
 mod aim;
 mod allot;
 mod anderson;
+mod arrivals;
 mod backdrop;
 mod bright;
 mod cache;
@@ -65,6 +66,7 @@ mod work;
 mod tests;
 
 pub use accumulate::Sums;
+pub use arrivals::{Arrival, arrivals};
 pub use cache::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
     IrradianceCache, SampleKind, Served,

@@ -2,6 +2,7 @@
 
 mod aiming;
 mod anderson;
+mod arrivals;
 mod backdrop;
 mod bare;
 mod bright;
