@@ -1,5 +1,6 @@
 //! `solve --group`: a map for every group of luminaires, and their sum.
 
+use crate::arriving::FluxLost;
 use crate::clock::Clock;
 use crate::console::{print, print_json, table};
 use crate::estimate::Estimate;
@@ -92,6 +93,7 @@ pub(crate) fn run(
     if let Some(lightmap) = &lightmap {
         request.time_limit = lightmap.time_to_solve(scene, clock, groups.len() + 1);
     }
+    let flux_lost = FluxLost::told(scene);
     let solving = Instant::now();
     let (mut maps, mut reports) = (Vec::new(), Vec::new());
     let mut outcome = Outcome::Done;
@@ -124,7 +126,8 @@ pub(crate) fn run(
     let (scene, map) = mix(&parts).map_err(|error| Failure::Refused(error.to_string()))?;
     map_file::write(whole.output, &scene, &map)?;
     let mut report = Reports {
-        sum: Report::of(&map, started.elapsed().as_secs_f64(), whole.output),
+        sum: Report::of(&map, started.elapsed().as_secs_f64(), whole.output)
+            .with_flux_lost(flux_lost),
         groups: reports,
     };
     if lightmap.is_none() {

@@ -1,5 +1,6 @@
 //! The isolux command: a table of contents.
 
+mod arriving;
 mod audit;
 mod cache_samples;
 mod cached_view;

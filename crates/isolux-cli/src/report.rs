@@ -1,5 +1,6 @@
 //! How good a map is and what it took.
 
+use crate::arriving::FluxLost;
 use crate::audit;
 use crate::console::facts;
 use crate::lightmap;
@@ -35,6 +36,9 @@ pub(crate) struct Report {
     receivers: usize,
     seed: u64,
     pub(crate) map: String,
+    /// Light that does not come to the scene, where that was looked at.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    flux_lost: Option<FluxLost>,
     /// Of a map as texels.
     #[serde(skip_serializing_if = "Option::is_none")]
     lightmap: Option<lightmap::Report>,
@@ -67,6 +71,7 @@ impl Report {
             receivers: map.values.len(),
             seed: from.seed,
             map: output.path().display().to_string(),
+            flux_lost: None,
             lightmap: None,
         }
     }
@@ -74,6 +79,11 @@ impl Report {
     /// The same with a lightmap, if there is one.
     pub(crate) fn with_lightmap(self, lightmap: Option<lightmap::Report>) -> Self {
         Self { lightmap, ..self }
+    }
+
+    /// The same with what of the light does not come to the scene.
+    pub(crate) fn with_flux_lost(self, lost: FluxLost) -> Self {
+        Self { flux_lost: Some(lost), ..self }
     }
 
     /// For people.
@@ -100,6 +110,9 @@ impl Report {
         ];
         if let Some(unshot) = self.unshot {
             all.push(("light unshot", show_share(unshot)));
+        }
+        if let Some(lost) = self.flux_lost.as_ref().and_then(FluxLost::text) {
+            all.push(("light that comes to no surface", lost));
         }
         let lightmap = self.lightmap.as_ref().map(lightmap::Report::text);
         facts(&all) + &lightmap.unwrap_or_default()

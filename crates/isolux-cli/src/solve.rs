@@ -1,5 +1,6 @@
 //! `isolux solve`: a scene to a map.
 
+use crate::arriving::FluxLost;
 use crate::clock::Clock;
 use crate::console::{facts, print, print_json};
 use crate::estimate::Estimate;
@@ -91,6 +92,7 @@ fn one(
     if let (Some(lightmap), None) = (&lightmap, &earlier) {
         request.time_limit = lightmap.time_to_solve(scene, clock, 1);
     }
+    let flux_lost = FluxLost::told(scene);
     let run = Run { source: &flags.scene, output, request };
     let solved = match earlier {
         Some(earlier) => earlier,
@@ -114,6 +116,7 @@ fn one(
         saved_run::keep(output, &solved.solution.state, true)?;
     }
     let report = Report::of(&solved.solution.map, solved.solution.time_s, output);
+    let report = report.with_flux_lost(flux_lost);
     Ok(Written { outcome, report: report.with_lightmap(lightmap) })
 }
 

@@ -47,6 +47,13 @@ impl Triangle {
         [u, v]
     }
 
+    /// The largest coordinate of a corner without its sign, metres: what is computed of the triangle is
+    /// rounded in proportion to it, wherever on the triangle it lies.
+    pub fn largest_coordinate_m(&self) -> f64 {
+        let coordinates = self.corners.into_iter().flat_map(|c| [c.x, c.y, c.z]);
+        coordinates.fold(0.0, |largest: f64, x| largest.max(x.abs()))
+    }
+
     /// The centroid.
     pub fn centroid(&self) -> Point {
         self.point(1.0 / 3.0, 1.0 / 3.0)
@@ -107,6 +114,7 @@ mod tests {
         let triangle = right_angled();
         assert_eq!(triangle.area(), 6.0);
         assert_eq!(triangle.normal(), Some(Normal::Z));
+        assert_eq!(triangle.largest_coordinate_m(), 5.0);
         assert_eq!(triangle.point(0.0, 0.0), triangle.corners[0]);
         assert_eq!(triangle.point(1.0, 0.0), triangle.corners[1]);
         assert_eq!(triangle.point(0.0, 1.0), triangle.corners[2]);

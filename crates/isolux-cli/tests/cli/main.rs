@@ -1,6 +1,7 @@
 //! The command as a user runs it: exit codes, messages, and the shape of what it prints.
 #![allow(clippy::unwrap_used, reason = "tests may stop at the first surprise")]
 
+mod arriving;
 mod bad_input;
 #[cfg(unix)]
 mod caches;

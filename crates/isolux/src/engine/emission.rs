@@ -84,7 +84,17 @@ impl<'s> Emission<'s> {
         let square = dice.pair();
         let place = dice.pair();
         let number = self.sums_lm.partition_point(|&sum| sum <= pick * self.flux_lm());
-        let number = number.min(self.sums_lm.len() - 1);
+        self.emit_from(number.min(self.sums_lm.len() - 1), other, square, place)
+    }
+
+    /// One particle of a luminaire: from a part of it, and for points of the unit square a direction and a place.
+    pub(super) fn emit_from(
+        &self,
+        number: usize,
+        other: f64,
+        square: [f64; 2],
+        place: [f64; 2],
+    ) -> Option<Emitted> {
         let luminaire = match self.luminaire(number) {
             Emitter::Surface(area) => {
                 let start = self.start(number, area, other, place);

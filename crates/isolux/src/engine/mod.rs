@@ -5,6 +5,7 @@ mod accuracy;
 mod aim;
 mod allot;
 mod anderson;
+mod arrivals;
 mod audit;
 mod backdrop;
 mod bright;
@@ -67,6 +68,7 @@ mod work;
 mod tests;
 
 pub use accumulate::Sums;
+pub use arrivals::{Arrival, arrivals};
 pub use audit::{AuditSettings, audit};
 pub use cache::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,

@@ -8,6 +8,10 @@ use isolux_geometry::{Direction, Normal, Point, Ray, Vector};
 /// A point counts as on a surface within this share of the scene's extent.
 const REACH_SHARE: f64 = 1e-4;
 
+/// Roundings of coordinates that places on the rim of a triangle are moved inwards by. The nearest wall is nearer than that by
+/// the sine of the angle between it and the way to the middle: by more than one rounding down to a degree.
+pub(super) const INWARDS: f64 = 64.0;
+
 /// A place and the way a luxmeter faces there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProbePoint {
@@ -61,13 +65,13 @@ impl<'a> Places<'a> {
     }
 
     /// A place on the rim of a triangle, moved inwards beyond the rounding of coordinates, so that
-    /// it does not lie in the wall that meets it there.
+    /// it does not lie in the wall that meets it there. Rounding is that of the corners, which a wall may share: that of the place
+    /// is nothing where its coordinates are zero. Of a triangle that is hardly larger than that, half the way to its middle is left.
     pub(super) fn pulled_in(&self, at: SurfacePoint) -> SurfacePoint {
         let triangle = self.scene.triangle(at.triangle);
         let inwards = triangle.centroid() - at.point;
-        let largest = at.point.to_vector();
-        let largest = largest.x.abs().max(largest.y.abs()).max(largest.z.abs());
-        let distance_m = 64.0 * f64::from(f32::EPSILON) * largest;
+        let rounding_m = f64::from(f32::EPSILON) * triangle.largest_coordinate_m();
+        let distance_m = (INWARDS * rounding_m).min(0.5 * inwards.length());
         let near_rim = at.u.min(at.v).min(1.0 - at.u - at.v) * inwards.length() < distance_m;
         match inwards.direction() {
             Some(direction) if near_rim => {

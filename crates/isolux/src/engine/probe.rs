@@ -393,7 +393,7 @@ impl<'a> MapReader<'a> {
     /// seen.
     pub fn measure(&self, at: ProbePoint) -> Option<Illuminance> {
         self.probe(at).or_else(|| {
-            let trial = Gatherer::in_space(at.position, at.normal, TRIAL_RAYS);
+            let trial = Gatherer::in_space(self.scene, at.position, at.normal, TRIAL_RAYS);
             if !self.sees_light(&trial) {
                 return None;
             }
@@ -450,7 +450,9 @@ impl<'a> MapReader<'a> {
                 let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
                 Gatherer::on_surface(at, settings.rays).in_gap(in_gap)
             })
-            .unwrap_or_else(|| Gatherer::in_space(at.position, at.normal, settings.rays));
+            .unwrap_or_else(|| {
+                Gatherer::in_space(self.scene, at.position, at.normal, settings.rays)
+            });
         let key = Key::new(settings.seed).with(4);
         let replicates = settings.replicates.max(2);
         let Gathered { lx: indirect_lx, variance, common_lx, .. } =

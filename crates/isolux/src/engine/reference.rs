@@ -151,7 +151,7 @@ impl<'a> PathTracer<'a> {
             carries_map(self.scene, triangle, back)
         };
         self.places.surface_at(at, carries).map_or_else(
-            || Gatherer::in_space(at.position, at.normal, 1),
+            || Gatherer::in_space(self.scene, at.position, at.normal, 1),
             |surface| Gatherer::on_surface(self.places.pulled_in(surface), 1),
         )
     }

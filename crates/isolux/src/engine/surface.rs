@@ -64,10 +64,8 @@ impl SurfacePoint {
         Self::in_node(scene, subdivision, node, [4.0 / 9.0, 0.5])
     }
 
-    /// A place in space that faces a way.
-    pub(super) fn in_space(point: Point, normal: Normal) -> Self {
-        // As coordinates of that size are rounded.
-        let away_m = 8.0 * f64::from(f32::EPSILON) * (point - Point::ORIGIN).length();
+    /// A place in space that faces a way, and the rounding of the scene there, m.
+    pub(super) fn in_space(point: Point, normal: Normal, away_m: f64) -> Self {
         let (geometric, shading) = (normal, normal);
         Self { triangle: u32::MAX, back: false, u: 0.0, v: 0.0, point, geometric, shading, away_m }
     }

@@ -37,7 +37,7 @@ fn common(a: &Edge, b: &Edge) -> Option<Seam> {
     }
     let is_beside = (0..2).all(|end| {
         let off = short.ends[end] - at(long.ends, along[end]);
-        off.length() <= beside_m(short.ends[end])
+        off.length() <= beside_m(long, short)
     });
     // As shares of the short edge, which may reach beyond the long one.
     let of_short = [from, to].map(|place| (place - along[0]) / (along[1] - along[0]));
@@ -80,7 +80,8 @@ fn share_along(edge: &Edge, point: Point) -> f64 {
     (point - edge.ends[0]).dot(whole) / whole.length_squared()
 }
 
-fn beside_m(point: Point) -> f64 {
-    let Vector { x, y, z } = point.to_vector();
-    BESIDE * x.abs().max(y.abs()).max(z.abs())
+/// Of all ends: where the coordinates of one are zero, those of the others are rounded all the same.
+fn beside_m(a: &Edge, b: &Edge) -> f64 {
+    let coordinates = a.ends.iter().chain(&b.ends).flat_map(|end| [end.x, end.y, end.z]);
+    BESIDE * coordinates.fold(0.0, |largest: f64, x| largest.max(x.abs()))
 }

@@ -2,6 +2,7 @@
 
 mod balance;
 mod calibration;
+mod corners;
 mod degenerate;
 mod hidden;
 mod radiosity;

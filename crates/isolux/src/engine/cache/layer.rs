@@ -154,7 +154,8 @@ impl Layer {
 impl Site {
     /// The place for direct light.
     pub(super) fn surface(&self) -> SurfacePoint {
-        let surface = SurfacePoint::in_space(self.origin, self.normal);
+        // The origin is clear of the surface.
+        let surface = SurfacePoint::in_space(self.origin, self.normal, 0.0);
         SurfacePoint { triangle: self.triangle, ..surface }
     }
 

@@ -337,7 +337,7 @@ mod tests {
                 _ => Point::new(2.5 * c(0), 2.5 * c(1), 1.5 * c(2)),
             };
             let normal = if k < 5 { up() } else { Vector::new(c(3), c(4), c(5)) };
-            SurfacePoint::in_space(point, normal.normal().unwrap())
+            SurfacePoint::in_space(point, normal.normal().unwrap(), 0.0)
         };
         (0..16).map(place)
     }

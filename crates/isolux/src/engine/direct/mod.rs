@@ -26,6 +26,7 @@ mod patches;
 mod pieces;
 mod shadows;
 mod source;
+mod ties;
 mod tree;
 mod visibility;
 mod windows;
@@ -48,6 +49,7 @@ pub(super) use shadows::Shadows;
 pub(super) use source::LuminaireId;
 use source::{Source, SourceKind, Sources, Target};
 use std::collections::{BTreeSet, HashSet};
+use ties::Twins;
 use tree::{Images, Tree};
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
@@ -76,6 +78,7 @@ const FEWEST_AREA_SAMPLES: usize = 4;
 pub(super) struct Lighting<'s> {
     scene: &'s Scene,
     mirrors: Mirrors,
+    twins: Twins,
     sources: Vec<Source>,
     /// Where those of every luminaire start.
     starts: Vec<usize>,
@@ -106,6 +109,7 @@ impl<'s> Lighting<'s> {
         let mut lighting = Self {
             scene,
             mirrors,
+            twins: Twins::default(),
             sources,
             starts,
             leaves_chains,
@@ -119,6 +123,7 @@ impl<'s> Lighting<'s> {
             points,
             openings: Openings::default(),
         };
+        lighting.twins = lighting.find_twins();
         lighting.openings = lighting.look_out();
         lighting.plant();
         lighting

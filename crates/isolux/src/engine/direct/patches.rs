@@ -8,6 +8,7 @@
 use super::Lighting;
 use super::cut::{Cut, Parts};
 use super::tree::Tree;
+use crate::engine::place::INWARDS;
 use crate::engine::surface::SurfacePoint;
 use isolux_geometry::Point;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,9 +16,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Cells are up to so long, as a share of the distance to the nearest luminaire: what these give differs by as much over
 /// half of one.
 const SHARE: f64 = 0.1;
-
-/// Coordinates that places on the rim of a triangle are moved inwards by at most, as a share of the largest.
-const INWARDS: f64 = 1e-5;
 
 /// Cosine between the normals of a surface and of its shading from which on they are the same, but for rounding.
 const FLAT: f64 = 1.0 - 1e-12;
@@ -115,8 +113,7 @@ impl Patch {
         let along = along.map(|(share, of)| (share * of).floor().clamp(0.0, of - 1.0));
         let [u, v] = std::array::from_fn(|k| (along[k] + 0.5) / of[k]);
         let point = triangle.point(u, v);
-        let largest_m = point.to_vector();
-        let largest_m = largest_m.x.abs().max(largest_m.y.abs()).max(largest_m.z.abs());
+        let inwards_m = INWARDS * f64::from(f32::EPSILON) * triangle.largest_coordinate_m();
         let half_m = 0.5 * (edges_m[0] / of[0] + edges_m[1] / of[1]);
         Some(Self {
             cell: Cell {
@@ -126,7 +123,7 @@ impl Patch {
                 of: of.map(|k| k as u32),
             },
             middle: SurfacePoint { u, v, point, shading: at.geometric, ..*at },
-            reach_m: half_m + INWARDS * (largest_m + half_m),
+            reach_m: half_m + inwards_m,
         })
     }
 }

@@ -217,7 +217,7 @@ mod tests {
     /// Triangles in all places about a receiver, as pieces above its horizon.
     fn random_pieces(count: u64) -> Vec<Piece> {
         let floor = Point::new(0.0, 0.0, 0.0);
-        let at = SurfacePoint::in_space(floor, Normal::Z);
+        let at = SurfacePoint::in_space(floor, Normal::Z, 0.0);
         let triangle = |k: u64| {
             let key = Key::new(5).with(k);
             // Three shapes in turn: any, flat, thin.

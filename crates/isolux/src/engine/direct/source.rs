@@ -78,6 +78,16 @@ pub(super) enum Target {
     Infinity(Direction),
 }
 
+impl Target {
+    /// The way to it.
+    pub(super) fn towards(self, from: Point) -> Vector {
+        match self {
+            Self::Point(place) => place - from,
+            Self::Infinity(direction) => direction.to_vector(),
+        }
+    }
+}
+
 /// All sources of a scene.
 #[derive(Debug, Default)]
 pub(super) struct Sources {

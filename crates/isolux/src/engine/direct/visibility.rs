@@ -12,7 +12,7 @@ use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray, Vector};
 
 /// Thin panes one behind the other that a shadow ray passes.
-const MAX_PANES: usize = 64;
+pub(super) const MAX_PANES: usize = 64;
 
 impl Lighting<'_> {
     /// Such an estimate, a share of it: what it needs to know of shadows is asked later, with what others do.
@@ -60,7 +60,8 @@ impl Lighting<'_> {
         self.visibility_in_view(chain, at, target, emitter)
     }
 
-    /// The same where the chain is known to be in view.
+    /// The same where the chain is known to be in view. What comes by several chains, through an edge where mirrors meet, counts
+    /// once: by the first.
     pub(super) fn visibility_in_view(
         &self,
         chain: &[u32],
@@ -68,22 +69,38 @@ impl Lighting<'_> {
         target: Target,
         emitter: Option<u32>,
     ) -> Rgb {
-        let mut from = *at;
-        let mut target = target;
+        let share = |chain: &[u32]| self.share_by(chain, at, target, emitter);
+        let is_open = |twin: &Vec<u32>| {
+            self.chain_is_in_view(twin, at, target) && share(twin).is_some_and(|s| !s.is_black())
+        };
+        let counts =
+            |share: &Rgb| share.is_black() || !self.twins.before(chain).iter().any(is_open);
+        share(chain).filter(counts).unwrap_or(Rgb::BLACK)
+    }
+
+    fn share_by(
+        &self,
+        chain: &[u32],
+        at: &SurfacePoint,
+        mut target: Target,
+        emitter: Option<u32>,
+    ) -> Option<Rgb> {
+        let (mut from, mut reflected) = (*at, false);
         let mut share = Rgb::WHITE;
         for &plane in chain.iter().rev() {
-            let Some((passed, on_mirror)) = self.meet_mirror(&from, target, plane) else {
-                return Rgb::BLACK;
-            };
+            let met = self.meet_mirror(&from, target, plane);
+            let (passed, on_mirror) =
+                met.or_else(|| self.meet_at_edge((&from, reflected), target, plane))?;
             share = share * passed;
-            from = on_mirror;
+            (from, reflected) = (on_mirror, true);
             target = self.unreflected(target, plane);
         }
         let ray = last_segment(&from, target, emitter);
-        if self.scene.bvh().any_hit(&ray) {
-            return Rgb::BLACK;
+        if !self.scene.bvh().any_hit(&ray) {
+            return Some(share * self.through_glass(ray, target));
         }
-        share * self.through_glass(ray, target)
+        let passed = reflected.then(|| self.leave_edge(&from, target, emitter))??;
+        Some(share * passed)
     }
 
     /// Whether the way to an image goes through its mirrors, obstacles left out: without rays, and
@@ -97,10 +114,7 @@ impl Lighting<'_> {
         let mut from = at.point;
         for &plane in chain.iter().rev() {
             let mirror = &self.mirrors.planes[plane as usize];
-            let towards = match target {
-                Target::Point(image) => image - from,
-                Target::Infinity(direction) => direction.to_vector(),
-            };
+            let towards = target.towards(from);
             let Some(crossing) = mirror.crossing(from, towards, self.mirrors.tolerance_m) else {
                 return false;
             };
@@ -190,7 +204,7 @@ impl Lighting<'_> {
     }
 
     /// What a surface lets straight through, if it is a thin pane.
-    fn pane_share(&self, surface: &SurfacePoint, ray: &Ray) -> Option<Rgb> {
+    pub(super) fn pane_share(&self, surface: &SurfacePoint, ray: &Ray) -> Option<Rgb> {
         let Body::Dielectric(glass) = &self.scene.material(surface.triangle).body else {
             return None;
         };
@@ -206,7 +220,7 @@ fn last_segment(from: &SurfacePoint, target: Target, emitter: Option<u32>) -> Ra
     emitter.map_or(ray, |index| ray.skipping(index))
 }
 
-fn segment(from: &SurfacePoint, target: Target) -> Ray {
+pub(super) fn segment(from: &SurfacePoint, target: Target) -> Ray {
     match target {
         Target::Point(p) => Ray::between(from.start(), p).skipping(from.triangle),
         Target::Infinity(direction) => from.leave(direction),

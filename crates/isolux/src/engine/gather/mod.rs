@@ -81,11 +81,11 @@ impl Gatherer {
     }
 
     /// A place in space that faces a way.
-    pub(super) fn in_space(point: Point, normal: Normal, rays: u32) -> Self {
+    pub(super) fn in_space(scene: &Scene, point: Point, normal: Normal, rays: u32) -> Self {
         Self {
             origin: point,
             normal,
-            surface: SurfacePoint::in_space(point, normal),
+            surface: SurfacePoint::in_space(point, normal, scene.bvh().offset_m(point)),
             rays,
             in_gap: false,
             behind: None,

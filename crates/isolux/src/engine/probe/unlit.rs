@@ -71,7 +71,7 @@ impl MapReader<'_> {
     pub fn sees_lit(&self, at: ProbePoint) -> bool {
         let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
         let from = on_surface.map_or_else(
-            || Gatherer::in_space(at.position, at.normal, LOOKS),
+            || Gatherer::in_space(self.scene, at.position, at.normal, LOOKS),
             |at| Gatherer::on_surface(at, LOOKS),
         );
         let sequence = Sequence::new(place_key(from.surface.point).with(15));

@@ -3,7 +3,6 @@
 use super::fixed_point::corner_form_factor;
 use super::*;
 use crate::engine::direct::Lighting;
-use crate::engine::gather::Gatherer;
 use crate::engine::surface::SurfacePoint;
 use crate::photometry::PhotometricWeb;
 use isolux_geometry::Normal;
@@ -12,7 +11,7 @@ use std::sync::Arc;
 
 pub(super) fn facing(point: [f64; 3], normal: [f64; 3]) -> SurfacePoint {
     let normal = Vector::from(normal).normal().unwrap();
-    Gatherer::in_space(Point::from(point), normal, 0).surface
+    SurfacePoint::in_space(Point::from(point), normal, 0.0)
 }
 
 /// Direct illuminance at a place in space, lx.

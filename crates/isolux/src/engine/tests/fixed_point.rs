@@ -135,7 +135,7 @@ fn what_leaves_through_an_opening_is_its_form_factor() {
     let scene = scene(shapes, vec![painted(Rgb::WHITE)], vec![]);
     let (elements, _) = elements_of(&scene, 32);
     let (up, rays) = (isolux_geometry::Normal::Z, 4096);
-    let gatherer = Gatherer::in_space(Point::new(1.5, 1.0, 1e-6), up, rays);
+    let gatherer = Gatherer::in_space(&scene, Point::new(1.5, 1.0, 1e-6), up, rays);
     let operator = operator(&scene, &elements, &[gatherer]);
     let found = operator.apply(&vec![Rgb::WHITE; elements.vertices().len()])[0].luminance();
     let expected = 1.0 - 4.0 * corner_form_factor(1.5, 1.0, 2.5);
@@ -152,8 +152,10 @@ fn receivers_shut_in_by_black_backs_are_not_open() {
     shapes.iter_mut().flat_map(|s| &mut s.triangles).for_each(|t| t.swap(1, 2));
     let scene = scene(shapes, vec![painted(REFLECTANCE)], vec![]);
     let (elements, _) = elements_of(&scene, 32);
-    let inside = Gatherer::in_space(Point::new(1.0, 1.0, 1.0), isolux_geometry::Normal::Z, 64);
-    let outside = Gatherer::in_space(Point::new(1.0, 1.0, 9.0), isolux_geometry::Normal::Z, 64);
+    let inside =
+        Gatherer::in_space(&scene, Point::new(1.0, 1.0, 1.0), isolux_geometry::Normal::Z, 64);
+    let outside =
+        Gatherer::in_space(&scene, Point::new(1.0, 1.0, 9.0), isolux_geometry::Normal::Z, 64);
     let operator = operator(&scene, &elements, &[inside, outside]);
     assert_eq!(operator.open(), [false, true]);
     let light = vec![Rgb::WHITE; elements.vertices().len()];

@@ -3,7 +3,6 @@
 use super::*;
 use crate::engine::checks;
 use crate::engine::direct::{Goal, Lighting, Measured, Patches};
-use crate::engine::gather::Gatherer;
 use crate::engine::hidden::Unlit;
 use crate::engine::pilot::pilot;
 use crate::engine::surface::SurfacePoint;
@@ -134,7 +133,7 @@ pub(in crate::engine) fn receivers(count: u64) -> impl Iterator<Item = SurfacePo
         let place = Point::new(8.5 * number(k, 31), 8.5 * number(k, 32), height);
         let tilt = if k % 3 == 0 { 0.0 } else { 1.0 };
         let normal = Vector::new(tilt * number(k, 33), tilt * number(k, 34), 0.5);
-        Gatherer::in_space(place, normal.normal().unwrap(), 0).surface
+        SurfacePoint::in_space(place, normal.normal().unwrap(), 0.0)
     })
 }
 

@@ -2,6 +2,7 @@
 
 mod aiming;
 mod anderson;
+mod arrivals;
 mod audit;
 mod backdrop;
 mod bare;
@@ -38,6 +39,7 @@ mod sharing;
 mod sight;
 mod sums;
 mod sunk;
+mod ties;
 mod trusting;
 mod walls;
 

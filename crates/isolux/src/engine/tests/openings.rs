@@ -58,7 +58,7 @@ fn light_through_a_small_hole_is_read_with_its_error() {
     let places = 24_u64;
     for k in 0..places {
         let at = Point::new(0.05 * k as f64, 0.02 * k as f64, 0.0);
-        let surface = Gatherer::in_space(at, up, 0).surface;
+        let surface = SurfacePoint::in_space(at, up, 0.0);
         let goal = Goal { lx: 0.5, ..Goal::reading(0.01) };
         let read = lighting.read(&surface, goal, Sequence::new(Key::new(4).with(k)));
         let exact = through_hole_lx(at);
