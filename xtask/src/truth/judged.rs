@@ -26,6 +26,13 @@ struct Compared<'a> {
     z: f64,
 }
 
+impl Compared<'_> {
+    /// Squared error without that of the paths.
+    fn excess_lx2(&self) -> f64 {
+        (self.reading.lx - self.truth.lx).powi(2) - self.truth.variance
+    }
+}
+
 /// What a row says of a map, added to what its run said of itself.
 pub(super) fn row(
     scene: &TruthScene,
@@ -70,6 +77,9 @@ pub(super) fn row(
     row["negative"] = json!(compared.iter().filter(|c| c.reading.lx < 0.0).count());
     compared.sort_by(|a, b| b.z.abs().total_cmp(&a.z.abs()));
     row["worst"] = compared.iter().take(WORST).map(listed).collect();
+    compared.retain(|c| is_area(c.place));
+    compared.sort_by(|a, b| b.excess_lx2().total_cmp(&a.excess_lx2()));
+    row["costliest"] = compared.iter().take(WORST).map(listed).collect();
     row
 }
 
@@ -90,8 +100,7 @@ fn own_noise(light: &[Truth], reference_lx: f64) -> f64 {
 /// The error without that of the paths, between the ends of an interval of 95 %. An estimate without bias of a square
 /// may be below zero: then the error is too small to be seen.
 fn true_error(area: &[&Compared], reference_lx: f64) -> [f64; 3] {
-    let squares: Vec<f64> =
-        area.iter().map(|c| (c.reading.lx - c.truth.lx).powi(2) - c.truth.variance).collect();
+    let squares: Vec<f64> = area.iter().map(|c| c.excess_lx2()).collect();
     let count = squares.len().max(2) as f64;
     let mean = squares.iter().sum::<f64>() / count;
     let variance = squares.iter().map(|s| (s - mean).powi(2)).sum::<f64>() / (count - 1.0);

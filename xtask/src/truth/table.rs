@@ -4,6 +4,10 @@ use super::judged::{MOST_OUTSIDE, MOST_OVER_TOLD};
 use serde_json::Value;
 use std::cmp::Ordering;
 
+/// Noise of the paths, in errors told, up to which they tell a true error of 1.5 times the one told: 1.96 times
+/// `noise^2 sqrt(2 / 400)`, the noise of a mean of squares over 400 places, is less than `1.5^2 - 1`.
+const MOST_NOISE: f64 = 3.0;
+
 /// What a row comes to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Verdict {
@@ -13,6 +17,8 @@ enum Verdict {
     Broken,
     /// Wrong beyond what is told as far as the places tell, within their chance.
     Doubtful,
+    /// Paths are too noisy to tell.
+    Untold,
     /// Paths leave light out that is there: nothing follows.
     Unjudged,
     /// It says itself that it is not done.
@@ -28,8 +34,12 @@ fn verdict(row: &Value) -> Verdict {
     // One-sided 95 % of so many readings.
     let chance = 1.645 * (MOST_OUTSIDE * (1.0 - MOST_OUTSIDE) / places).sqrt();
     let is_negative = row["negative"].as_u64() != Some(0);
+    let [noise, told] = ["paths_noise", "told"].map(|key| row[key].as_f64().unwrap_or(0.0));
+    let is_untold = noise > MOST_NOISE * told;
     if row["leaves_caustics"] == true {
         Verdict::Unjudged
+    } else if is_untold && outside <= MOST_OUTSIDE && !is_negative {
+        Verdict::Untold
     } else if over_low > MOST_OVER_TOLD || outside > MOST_OUTSIDE + chance || is_negative {
         Verdict::Broken
     } else if over > MOST_OVER_TOLD || outside > MOST_OUTSIDE {
@@ -47,6 +57,7 @@ const fn name(verdict: Verdict, is_done: bool) -> &'static str {
         (Verdict::Broken, true) => "BROKEN",
         (Verdict::Broken, false) => "broken, not done",
         (Verdict::Doubtful, _) => "doubtful",
+        (Verdict::Untold, _) => "paths too noisy",
         (Verdict::Unjudged, _) => "paths leave caustics",
         (Verdict::Unfinished, _) => "not done",
         (Verdict::Right, _) => "right",
@@ -175,6 +186,9 @@ mod tests {
         let verdicts = rows.each_ref().map(verdict);
         use Verdict::{Broken, Doubtful, Failed, Right};
         assert_eq!(verdicts, [Failed, Broken, Broken, Doubtful, Right]);
+        let mut noisy = row(4.0, 3.0, 0.05);
+        (noisy["told"], noisy["paths_noise"]) = (json!(0.01), json!(0.04));
+        assert_eq!(verdict(&noisy), Verdict::Untold);
         // 8.5 % of 400 may be chance.
         assert_eq!(verdict(&row(0.9, 0.8, 0.085)), Doubtful);
     }
