@@ -29,6 +29,8 @@ mod hidden;
 mod highlights;
 mod hybrid;
 mod judged;
+mod kept;
+mod landed;
 mod look;
 mod means;
 mod mix;
