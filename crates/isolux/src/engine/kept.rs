@@ -41,12 +41,15 @@ pub(super) struct Over<'a> {
 /// Elements that samples are taken of.
 pub(super) struct Kept {
     leaves: Vec<Leaf>,
+    /// Whether they are, by node.
+    pub(super) varying: Vec<bool>,
     /// Integrals of the functions that vertices stand for where rays read, m2.
     hats_m2: Vec<f64>,
 }
 
 #[derive(Clone, Copy)]
 struct Leaf {
+    node: u32,
     triangle: u32,
     back: bool,
     vertices: [u32; 3],
@@ -73,7 +76,7 @@ impl Kept {
             let vertices = over.elements.node(node).vertices;
             let thirds = vertices.map(|vertex| (vertex, 1.0 / 3.0));
             let Some(weights) = known_weights(thirds, over.standings) else { continue };
-            let leaf = over.leaf(vertices, triangle, back);
+            let leaf = over.leaf((node, vertices), triangle, back);
             vertices
                 .iter()
                 .zip(weights)
@@ -93,9 +96,10 @@ impl Kept {
             is_left
         };
         let count = leaves.iter().position(is_left).unwrap_or(leaves.len());
-        if std::env::var("KEPT").is_ok() { eprintln!("KEPT {count} of {} allowed {allowed_lx} varies {}", leaves.len(), leaves.iter().map(needs).sum::<f64>() / lit_m2); }
         leaves.truncate(count);
-        (count > 0).then_some(Self { leaves, hats_m2 })
+        let mut varying = vec![false; over.elements.node_count()];
+        leaves.iter().for_each(|leaf| varying[leaf.node as usize] = true);
+        (count > 0).then_some(Self { leaves, varying, hats_m2 })
     }
 
     /// Direct light at vertices as rays are to read it, by so many samples of an element.
@@ -123,7 +127,7 @@ impl Over<'_> {
         vertices.map(|vertex| self.elements.vertices()[vertex as usize].position)
     }
 
-    fn leaf(&self, vertices: [u32; 3], triangle: u32, back: bool) -> Leaf {
+    fn leaf(&self, (node, vertices): (u32, [u32; 3]), triangle: u32, back: bool) -> Leaf {
         let [a, b, c] = self.corners(vertices);
         let area_m2 = 0.5 * (b - a).cross(c - a).length();
         let lx = vertices.map(|v| self.direct[v as usize].luminance());
@@ -131,7 +135,7 @@ impl Over<'_> {
             [lx.into_iter().fold(f64::MIN, f64::max), lx.into_iter().fold(f64::MAX, f64::min)];
         let middle = self.place(vertices, (triangle, back), [1.0 / 3.0; 3]);
         let reflectance = middle.reflectance(self.scene).luminance();
-        Leaf { triangle, back, vertices, area_m2, varies_lx: reflectance * (high - low) }
+        Leaf { node, triangle, back, vertices, area_m2, varies_lx: reflectance * (high - low) }
     }
 
     fn place(
@@ -209,7 +213,7 @@ impl Over<'_> {
         let Some((at, corners)) = self.somewhere_on(leaf, dice) else {
             return Lacking { lx_m2: Rgb::BLACK, corners: leaf.vertices.map(|v| (v, 0.0)) };
         };
-        let lacking = self.lighting.illuminance(&at, dice) - self.told(corners);
+        let lacking = self.lighting.estimate(&at, dice) - self.told(corners);
         Lacking { lx_m2: lacking * leaf.area_m2, corners }
     }
 }

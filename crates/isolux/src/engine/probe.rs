@@ -87,6 +87,8 @@ pub struct MapReader<'a> {
     light: Vec<Rgb>,
     /// Direct light at the vertices, where sources are many: there rays read it.
     direct_values: Option<Vec<Rgb>>,
+    /// Elements on which it varies between vertices, by node.
+    varying: Option<Vec<bool>>,
     bright: Option<Bright>,
     /// Elements that something stands across.
     cuts: Cuts,
@@ -140,6 +142,7 @@ impl<'a> MapReader<'a> {
             map,
             lighting,
             bright,
+            varying: None,
             direct_values: are_read.then(|| map.values.iter().map(direct).collect()),
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             cuts: Cuts::of_map(scene, &map.elements, &light),
@@ -150,24 +153,24 @@ impl<'a> MapReader<'a> {
             unseen: Unseen::of(map),
             shared_noise: SharedNoise::default(),
         };
-        let direct_values = reader.kept();
-        Self { backdrop: reader.walls(), direct_values, ..reader }
+        let (direct_values, varying) = reader.kept().unzip();
+        let direct_values = direct_values.or(reader.direct_values.clone());
+        Self { backdrop: reader.walls(), direct_values, varying, ..reader }
     }
 
-    /// Direct light at the vertices as rays read it, with what is lacking between them.
-    fn kept(&self) -> Option<Vec<Rgb>> {
-        let direct = self.direct_values.as_deref()?;
+    /// Direct light at the vertices as rays read it, with what is lacking between them, and where; `None` where nothing is.
+    fn kept(&self) -> Option<(Vec<Rgb>, Vec<bool>)> {
         let over = Over {
             scene: self.scene,
             lighting: &self.lighting,
             elements: &self.map.elements,
             standings: &self.standings,
-            direct,
+            direct: self.direct_values.as_deref()?,
             bright: self.bright.as_ref(),
         };
         let key = Key::new(self.map.provenance.seed).with(14);
-        let kept = Kept::of(&over, self.unseen.reached_lx, key.with(0));
-        Some(kept.map_or_else(|| direct.to_vec(), |kept| kept.read(&over, (KEPT, key.with(1)))))
+        let kept = Kept::of(&over, self.unseen.reached_lx, key.with(0))?;
+        Some((kept.read(&over, (KEPT, key.with(1))), kept.varying))
     }
 
     /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
@@ -297,7 +300,7 @@ impl<'a> MapReader<'a> {
 
     fn direct_at_ends(&self) -> DirectAtEnds<'_> {
         match &self.direct_values {
-            Some(values) => DirectAtEnds::ReadFarOff { values },
+            Some(values) => DirectAtEnds::ReadFarOff { values, varying: self.varying.as_deref() },
             None => DirectAtEnds::Evaluated,
         }
     }

@@ -399,12 +399,15 @@ impl Gathering<'_> {
         may_be_in_gap && weights_in_gap(located.corners, self.standings).is_none()
     }
 
-    /// Whether values differ so much over the element at an end nearby that they tell little of what is between.
-    fn is_uneven(&self, end: &End, values: &[Rgb]) -> bool {
+    /// Whether values differ so much over the element at an end nearby that they tell little of what is between, or may.
+    fn is_uneven(&self, end: &End, values: &[Rgb], varying: Option<&[bool]>) -> bool {
         let Some(located) = end.located else { return false };
         let corners = self.corners(&located, u32::MAX);
         if end.distance_m > NEARBY * self.edge_m(corners) {
             return false;
+        }
+        if varying.is_some_and(|varying| varying[located.place.node() as usize]) {
+            return true;
         }
         let all = corners.map(|(vertex, _)| values[vertex as usize].luminance());
         let high = all.into_iter().fold(0.0, f64::max);
@@ -430,8 +433,8 @@ impl Gathering<'_> {
         match self.direct {
             DirectAtEnds::Evaluated => self.lighting.estimate(&end.surface, dice),
             DirectAtEnds::Read { values, level } if is_known => read(values, level),
-            DirectAtEnds::ReadFarOff { values } if is_known && !end.is_close => {
-                if self.is_uneven(end, values) {
+            DirectAtEnds::ReadFarOff { values, varying } if is_known && !end.is_close => {
+                if self.is_uneven(end, values, varying) {
                     return self.lighting.estimate(&end.surface, dice);
                 }
                 read(values, u32::MAX)
