@@ -12,6 +12,7 @@ use super::checks::{self, Check, DirectThere};
 use super::deadline::Deadline;
 use super::detail::LeafError;
 use super::gather::{DirectAtEnds, Gatherer, Gathering, Operator};
+use super::kept::Kept;
 use super::path::Dice;
 use super::plan::Plan;
 use super::trial::{self, FEWEST_UNJUDGED, NET_ORDER};
@@ -67,6 +68,8 @@ pub(super) struct Hybrid<'p, 's> {
     reader: Operator,
     /// Vertices of the elements that indirect light lives on.
     corners: Vec<[u32; 3]>,
+    /// What rays read of direct light, where they read it.
+    kept: Option<Kept>,
     /// For caustics.
     particles: u32,
     /// Accuracy that the increments are for.
@@ -119,6 +122,9 @@ impl<'p, 's> Hybrid<'p, 's> {
         let for_bare = plan.gathering_for_bare.iter();
         let for_bare = for_bare.map(|&v| plan.gatherers[v as usize].with_rays(rays_of_means));
         let fresh_rows = checks.iter().map(|check| check.gatherer).chain(for_bare).collect();
+        let absorbed = (1.0 - plan.mean_reflectance).max(LEAST_ABSORBED);
+        let allowed_lx = goal * plan.reference_lx * absorbed;
+        let kept = Kept::of(&plan.over(&plan.direct), allowed_lx, key.with(u64::MAX - 2));
         let ahead = VecDeque::new();
         let readers = READERS.min((most / OF_READERS).max(1));
         let reader = reader(plan, &rows, (readers, key.with(u64::MAX)));
@@ -132,6 +138,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             fresh_rows,
             reader,
             corners,
+            kept,
             particles,
             goal,
             key,
@@ -204,10 +211,13 @@ impl<'p, 's> Hybrid<'p, 's> {
             direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
         let Caustics { light: caustic, lacking, effort: particles } =
             caustics::deposit(plan, self.particles, key.with(1));
-        let gathering = Gathering::of(plan, &direct);
+        let kept = self.kept.as_ref();
+        let kept = kept.map(|kept| kept.read(&plan.over(&direct), (1, key.with(6))));
+        let at_ends = kept.as_deref().unwrap_or(&direct);
+        let gathering = Gathering::of(plan, at_ends);
         let mut operator =
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
-        let as_read = Gathering { regathers: true, ..Gathering::of(plan, &direct) };
+        let as_read = Gathering { regathers: true, ..Gathering::of(plan, at_ends) };
         let places = plan.places_of_means(self.rays_of_means, key.with(4));
         let mut guess = plan.guess.clone();
         let measured = |row: usize| key.with(5).with(row as u64);

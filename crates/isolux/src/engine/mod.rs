@@ -31,6 +31,8 @@ mod hidden;
 mod highlights;
 mod hybrid;
 mod judged;
+mod kept;
+mod landed;
 mod look;
 mod means;
 mod mirror_chain;

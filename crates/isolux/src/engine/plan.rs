@@ -11,6 +11,7 @@ use super::direct::Lighting;
 use super::fit::Fit;
 use super::flights::{self, CausticNoise, LEAST_SHARE};
 use super::gather::{DirectAtEnds, Gatherer, Gathering, known_at};
+use super::kept::Over;
 use super::means::{Means, Places};
 use super::parts::Parts;
 use super::surface::SurfacePoint;
@@ -138,6 +139,18 @@ impl Plan<'_> {
         corners.map_or(Rgb::BLACK, |corners| {
             corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
         })
+    }
+
+    /// Direct light, for what is lacking between vertices.
+    pub(super) fn over<'a>(&'a self, direct: &'a [Rgb]) -> Over<'a> {
+        Over {
+            scene: self.scene,
+            lighting: self.lighting,
+            elements: &self.elements,
+            standings: &self.standings,
+            direct,
+            bright: self.bright.as_ref(),
+        }
     }
 
     /// Where an increment measures means of elements, with so many rays each.

@@ -15,6 +15,7 @@ use super::bright::Bright;
 use super::cuts::Cuts;
 use super::direct::{Goal, Lighting, Measured, Patches};
 use super::gather::{DirectAtEnds, Gatherer, Gathering};
+use super::kept::{Kept, Over};
 use super::neighbours::LEAST as LEAST_OF_NOISE;
 use super::path::{Dice, PathEnd, follow};
 use super::place::{Places, ProbePoint, place_key};
@@ -58,6 +59,10 @@ const GRAINY_RAYS: usize = 128;
 /// The share of all light that the two halves may differ by.
 const GRAIN: f64 = 0.05;
 
+/// Samples of an element that tell readers what direct light lacks between vertices: all readings have their noise in common, so it is
+/// to be half of that of one.
+const KEPT: u64 = 4;
+
 /// How hard [`MapReader::estimate`] tries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ExactSettings {
@@ -84,6 +89,8 @@ pub struct MapReader<'a> {
     light: Vec<Rgb>,
     /// Direct light at the vertices, where sources are many: there rays read it.
     direct_values: Option<Vec<Rgb>>,
+    /// Elements on which it varies between vertices, by node.
+    varying: Option<Vec<bool>>,
     bright: Option<Bright>,
     /// Elements that something stands across.
     cuts: Cuts,
@@ -140,11 +147,13 @@ impl<'a> MapReader<'a> {
         let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
         let are_read = lighting.are_read_at_ends();
         let light: Vec<Rgb> = map.values.iter().map(reflected).collect();
+        let (bright, _) = Bright::of(scene, &lighting, Key::new(map.provenance.seed).with(8));
         let reader = Self {
             scene,
             map,
             lighting,
-            bright: Bright::of(scene, &map.elements, |k| direct(&map.values[k as usize])),
+            bright,
+            varying: None,
             direct_values: are_read.then(|| map.values.iter().map(direct).collect()),
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             cuts: Cuts::of_map(scene, &map.elements, &light),
@@ -156,7 +165,24 @@ impl<'a> MapReader<'a> {
             shared_noise: SharedNoise::default(),
             rays: AtomicU64::new(0),
         };
-        Self { backdrop: reader.walls(), ..reader }
+        let (direct_values, varying) = reader.kept().unzip();
+        let direct_values = direct_values.or(reader.direct_values.clone());
+        Self { backdrop: reader.walls(), direct_values, varying, ..reader }
+    }
+
+    /// Direct light at the vertices as rays read it, with what is lacking between them, and where; `None` where nothing is.
+    fn kept(&self) -> Option<(Vec<Rgb>, Vec<bool>)> {
+        let over = Over {
+            scene: self.scene,
+            lighting: &self.lighting,
+            elements: &self.map.elements,
+            standings: &self.standings,
+            direct: self.direct_values.as_deref()?,
+            bright: self.bright.as_ref(),
+        };
+        let key = Key::new(self.map.provenance.seed).with(14);
+        let kept = Kept::of(&over, self.unseen.reached_lx, key.with(0))?;
+        Some((kept.read(&over, (KEPT, key.with(1))), kept.varying))
     }
 
     /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
@@ -291,7 +317,7 @@ impl<'a> MapReader<'a> {
 
     fn direct_at_ends(&self) -> DirectAtEnds<'_> {
         match &self.direct_values {
-            Some(values) => DirectAtEnds::ReadFarOff { values },
+            Some(values) => DirectAtEnds::ReadFarOff { values, varying: self.varying.as_deref() },
             None => DirectAtEnds::Evaluated,
         }
     }

@@ -7,8 +7,9 @@
 //! evaluated at once and the light of further reflections is left open, as ties to other samples.
 
 use super::layer::{Layer, Site, Tie};
+use crate::engine::bright::{Bright, Seen};
 use crate::engine::direct::Lighting;
-use crate::engine::path::{Dice, PathEnd, follow};
+use crate::engine::path::{Dice, PathEnd, follow_on};
 use crate::engine::surface::SurfacePoint;
 use crate::sampling::Sequence;
 use crate::scene::{Finish, Scene};
@@ -62,6 +63,8 @@ pub(super) struct Surroundings<'a> {
     pub(super) far: &'a Layer,
     /// Evaluated there, unless it is read from the samples with the rest.
     pub(super) lighting: Option<&'a Lighting<'a>>,
+    /// What is so bright that rays are sent there, where direct light is evaluated.
+    pub(super) bright: Option<&'a Bright>,
     /// Caustics.
     pub(super) caustic: Caustic<'a>,
 }
@@ -74,6 +77,9 @@ pub(super) struct Hemisphere {
     ties: Vec<Tie>,
     /// Light from luminaires here, where it is read with the rest.
     pub(super) own: Rgb,
+    /// What rays have brought that were sent to what is bright, and how many those were.
+    of_sent: Light,
+    sent: u32,
     /// Share of the rays that were given up on their way over specular surfaces, or that ended where
     /// no sample is.
     pub(super) lost: f64,
@@ -103,12 +109,14 @@ impl Hemisphere {
         let grid = Grid::of(rays);
         let axis = from.normal.to_direction();
         let mut seen = Self::default();
+        let bright = of.bright.and_then(|all| all.seen_from(from.origin, from.normal, rays));
         let mut cells = vec![(0, 0.0); rays as usize];
         for index in 0..rays {
             let mut dice = Dice::new(sequence, index);
             let square = dice.pair();
             let direction = axis.from_local(polar(square));
-            let nearness = seen.ray(of, from, direction, &mut dice, 1.0 / f64::from(rays));
+            let share = 1.0 / f64::from(rays);
+            let nearness = seen.ray((of, bright.as_ref()), from, (direction, share), &mut dice);
             cells[grid.cell(square)] = (index, nearness.min(1.0 / (NEAREST_EDGE * from.radius_m)));
         }
         let gradients = grid.gradients(&cells, axis);
@@ -116,34 +124,66 @@ impl Hemisphere {
             let adds = [along.x, along.y, along.z, turning.x, turning.y, turning.z];
             ray.adds[1..].copy_from_slice(&adds);
         }
+        if let Some((bright, all)) = bright.as_ref().zip(of.lighting) {
+            seen.sent = bright.sent;
+            for index in 0..bright.sent {
+                let dice = &mut Dice::new(sequence, rays + index);
+                seen.send((of, all), from, (bright, rays), dice);
+            }
+        }
         seen
+    }
+
+    /// Sends a ray to what is bright, for the light there that comes straight from luminaires.
+    fn send(
+        &mut self,
+        (of, lighting): (&Surroundings, &Lighting),
+        from: &Site,
+        (bright, rays): (&Seen, u32),
+        dice: &mut Dice,
+    ) {
+        let [pick, within] = [dice.pair(), dice.pair()];
+        let Some((to, spot)) = bright.draw(of.scene, pick, within) else { return };
+        let way = Ray::between(from.origin, to.start()).skipping(from.triangle);
+        let reflectance = to.reflectance(of.scene);
+        if reflectance.is_black() || of.scene.bvh().any_hit(&way) {
+            return;
+        }
+        let share = bright.share(spot, &to) / f64::from(rays);
+        let light = reflectance * lighting.estimate(&to, dice) * share;
+        let [along, turning] = gradients_of_patch(from, &to);
+        let adds = [1.0, along.x, along.y, along.z, turning.x, turning.y, turning.z];
+        for (part, adds) in self.of_sent.0.iter_mut().zip(adds) {
+            part.iter_mut().zip(light.0).for_each(|(part, channel)| *part += adds * channel);
+        }
     }
 
     /// Adds a ray; returns the inverse of the distance of what it meets, 1/m.
     fn ray(
         &mut self,
-        of: &Surroundings,
+        (of, bright): (&Surroundings, Option<&Seen>),
         from: &Site,
-        direction: Direction,
+        (direction, share): (Direction, f64),
         dice: &mut Dice,
-        share: f64,
     ) -> f64 {
-        let mut met: Vec<(SurfacePoint, Rgb)> = Vec::new();
+        let mut met: Vec<(SurfacePoint, Rgb, bool)> = Vec::new();
         let mut nearness = 0.0;
         let ray = Ray::new(from.origin, direction).skipping(from.triangle);
-        let end = follow(of.scene, ray, direction, dice, |surface, finish, throughput| {
-            if nearness == 0.0 {
-                nearness = 1.0 / (surface.point - from.origin).length().max(1e-12);
-            }
-            let reflectance = reflected(of.scene, surface, finish);
-            if !reflectance.is_black() {
-                met.push((*surface, throughput * reflectance));
-            }
-        });
+        let hit = of.scene.bvh().closest_hit(&ray);
+        let end =
+            follow_on(of.scene, hit, direction, dice, |number, surface, finish, throughput| {
+                if nearness == 0.0 {
+                    nearness = 1.0 / (surface.point - from.origin).length().max(1e-12);
+                }
+                let reflectance = reflected(of.scene, surface, finish);
+                if !reflectance.is_black() {
+                    met.push((*surface, throughput * reflectance, number == 0));
+                }
+            });
         if let PathEnd::GivenUp(lost) = end {
             self.lost += lost * share;
         }
-        for (surface, reflectance) in met {
+        for (surface, reflectance, straight) in met {
             let before = self.ties.len();
             let place = (surface.start(), surface.shading);
             of.far.ties(of.scene, place, TIES_OF_RAY, &mut self.ties);
@@ -151,7 +191,9 @@ impl Hemisphere {
                 self.lost += share * reflectance.luminance();
             }
             let direct = of.lighting.map_or(Rgb::BLACK, |all| all.estimate(&surface, dice));
-            let given = direct + (of.caustic)(&surface);
+            let spot = bright.filter(|_| straight).zip(of.bright.and_then(|all| all.at(&surface)));
+            let met = spot.map_or(1.0, |(bright, spot)| bright.share(spot, &surface));
+            let given = direct * met + (of.caustic)(&surface);
             self.ends.push(End { share: reflectance, given, ties: self.ties.len() as u32 });
         }
         let ends = self.ends.len() as u32;
@@ -161,8 +203,8 @@ impl Hemisphere {
 
     /// The light here, with so much on the samples that it is tied to.
     pub(super) fn light(&self, far: &[Light]) -> Light {
-        let mut light = Light::default();
-        light.0[0] = self.own.0;
+        let mut light = self.of_sent;
+        light.0[0].iter_mut().zip(self.own.0).for_each(|(part, own)| *part += own);
         let (mut end, mut tie) = (0, 0);
         for ray in &self.rays {
             let mut of_ray = [0.0; 3];
@@ -184,8 +226,20 @@ impl Hemisphere {
     }
 
     pub(super) fn ray_count(&self) -> u64 {
-        self.rays.len() as u64
+        self.rays.len() as u64 + u64::from(self.sent)
     }
+}
+
+/// By which parts what a place gets from a small patch changes as it moves, 1/m, and turns, 1/rad.
+fn gradients_of_patch(from: &Site, to: &SurfacePoint) -> [Vector; 2] {
+    let way = to.point - from.origin;
+    let (normal, facing) = (from.normal.to_vector(), to.geometric.to_vector());
+    let rises = way.dot(normal);
+    let along = way * (4.0 / way.length_squared())
+        - normal * (1.0 / rises)
+        - facing * (1.0 / way.dot(facing));
+    // As of the other rays: along the surface alone.
+    [along - normal * along.dot(normal), normal.cross(way) * (1.0 / rises)]
 }
 
 /// What a surface reflects diffusely; nothing where it is the black back of something.

@@ -76,6 +76,7 @@ impl<'p, 's> Cached<'p, 's> {
             rays: FEWEST_FAR_RAYS,
             key: key.with(0),
             lighting: plan.lighting,
+            bright: plan.bright.as_ref(),
             caustic: &|_| Rgb::BLACK,
             deadline: Deadline::NEVER,
         });
@@ -102,6 +103,7 @@ impl<'p, 's> Cached<'p, 's> {
             rays: FEWEST_RAYS,
             key: self.key.with(u64::MAX),
             lighting: self.plan.lighting,
+            bright: self.plan.bright.as_ref(),
             caustic: &|_| Rgb::BLACK,
             deadline: Deadline::NEVER,
         };
@@ -144,6 +146,7 @@ impl<'p, 's> Cached<'p, 's> {
             rays,
             key: self.key.with(u64::MAX - part),
             lighting: plan.lighting,
+            bright: plan.bright.as_ref(),
             caustic: &caustic_at,
             deadline,
         };

@@ -6,6 +6,7 @@ use super::placing::Place;
 use super::record::{CACHE_REPLICATES, CacheError, CacheSample, IrradianceCache};
 use super::store::{LEAST_RADIUS_IN_VIEWS, Making, Store};
 use crate::elements::carries_map;
+use crate::engine::bright::Bright;
 use crate::engine::deadline::Deadline;
 use crate::engine::direct::{Lighting, Patches};
 use crate::engine::path::Dice;
@@ -73,6 +74,7 @@ pub struct CachedPlace {
 pub struct CacheReader<'s> {
     scene: &'s Scene,
     lighting: Lighting<'s>,
+    bright: Option<Bright>,
     patches: Patches,
     places: Places<'s>,
     store: Store<'s>,
@@ -90,9 +92,12 @@ impl<'s> CacheReader<'s> {
         settings: CacheSettings,
     ) -> Result<Self, CacheError> {
         cache.check(scene)?;
+        let lighting = Lighting::new(scene);
+        let (bright, _) = Bright::of(scene, &lighting, Key::new(settings.seed).with(8));
         let mut reader = Self {
             scene,
-            lighting: Lighting::new(scene),
+            lighting,
+            bright,
             patches: Patches::new(),
             places: Places::of(scene),
             store: Store::new(scene, cache, (settings.allowed, LEAST_RADIUS_IN_VIEWS)),
@@ -119,7 +124,7 @@ impl<'s> CacheReader<'s> {
     /// The same, until it is over: then those made so far are the first of them, each as it would be otherwise, and the
     /// reader tells nothing any more.
     pub fn serve_until(&mut self, places: &[CachedPlace], is_over: &dyn Fn() -> bool) -> Served {
-        let Self { scene, lighting, store, settings, .. } = self;
+        let Self { scene, lighting, bright, store, settings, .. } = self;
         let places = places.iter().filter_map(|at| place(scene, &self.places, at));
         let mut served = Served {
             rays: store.serve(places.map(|at| Place::from(&at)).collect()),
@@ -131,6 +136,7 @@ impl<'s> CacheReader<'s> {
             rays,
             key: key.with(part),
             lighting,
+            bright: bright.as_ref(),
             caustic: &|_| Rgb::BLACK,
             deadline: Deadline::NEVER,
         };

@@ -4,6 +4,7 @@ use super::hemisphere::{Caustic, Hemisphere, Light, Surroundings, TIES_OF_RAY};
 use super::layer::{Layer, Site, Tie};
 use super::placing::{Place, Radii, serve, serve_all_seen, typical_radius_m};
 use super::record::{CACHE_REPLICATES, CacheSample, IrradianceCache, SampleKind, Sum};
+use crate::engine::bright::Bright;
 use crate::engine::deadline::Deadline;
 use crate::engine::direct::Lighting;
 use crate::engine::path::Dice;
@@ -69,6 +70,7 @@ pub(super) struct Making<'a> {
     pub(super) key: Key,
     /// Where sources are many, rays read their light from samples, too; else they evaluate it.
     pub(super) lighting: &'a Lighting<'a>,
+    pub(super) bright: Option<&'a Bright>,
     pub(super) caustic: Caustic<'a>,
     pub(super) deadline: Deadline,
 }
@@ -211,9 +213,11 @@ impl<'s> Store<'s> {
     }
 
     fn look(&self, sites: &[Site], making: &Making) -> Option<Vec<Hemisphere>> {
-        let Making { lighting, caustic, .. } = *making;
+        let Making { lighting, bright, caustic, .. } = *making;
         let lighting = (!lighting.are_read_at_ends()).then_some(lighting);
-        let of = Surroundings { scene: self.scene, far: &self.far.layer, lighting, caustic };
+        let bright = bright.filter(|_| lighting.is_some());
+        let far = &self.far.layer;
+        let of = Surroundings { scene: self.scene, far, lighting, bright, caustic };
         let one = |site: &Site| {
             let key = place_key(site.origin).with(making.key.with(making.index).bits());
             let one = || Hemisphere::look(&of, site, making.rays, Sequence::new(key));

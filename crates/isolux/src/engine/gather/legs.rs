@@ -194,9 +194,7 @@ impl Gathering<'_> {
         let sequence = Sequence::new(key);
         let Gatherer { origin, normal, rays, in_gap, .. } = *gatherer;
         let behind = gatherer.behind.filter(|_| rays > 0).zip(self.backdrop);
-        // Rays that are judged by walls know what is bright there.
-        let bright = self.bright.filter(|_| behind.is_none());
-        let bright = bright.and_then(|bright| bright.seen_from(origin, normal, rays));
+        let bright = self.bright.and_then(|bright| bright.seen_from(origin, normal, rays));
         let receiver = Receiver { place: &gatherer.surface, bright: bright.as_ref() };
         let share = Rgb::WHITE / f64::from(rays.max(1));
         let walls =
@@ -225,7 +223,7 @@ impl Gathering<'_> {
         if let Some(bright) = &bright {
             let sequence = Sequence::new(key.with(SENT));
             for index in 0..bright.sent {
-                self.send(&first, bright, &mut Dice::new(sequence, index), &receiver, row);
+                row.source += self.sent(&first, bright, &mut Dice::new(sequence, index));
             }
             rows.further_rays += u64::from(bright.sent);
         }
@@ -295,15 +293,19 @@ impl Gathering<'_> {
             let share = met.reflectance * leg.share;
             let end = self.end(leg, met.surface, located);
             let dice = &mut dice[leg.ray as usize];
-            let of_direct = match receiver.bright.filter(|_| number == 0 && met.straight) {
-                Some(bright) => met.reflectance * bright.share(self.elements, &met.surface),
-                None => share,
-            };
-            row.source += match self.direct {
-                DirectAtEnds::Evaluated => {
-                    self.lighting.estimate_later(&end.surface, of_direct, dice, shadows)
-                }
-                _ => of_direct * self.direct_at(&end, receiver.place, &mut row.about, dice),
+            let spot = self.bright.and_then(|bright| bright.at(&end.surface));
+            let is_evaluated = spot.is_some() || matches!(self.direct, DirectAtEnds::Evaluated);
+            let of_sent = spot.filter(|_| met.straight);
+            let of_direct = share
+                * of_sent.map_or(1.0, |spot| {
+                    let seen = if number == 0 { None } else { self.bright_from(leg) };
+                    let seen = if number == 0 { receiver.bright } else { seen.as_ref() };
+                    seen.map_or(1.0, |seen| seen.share(spot, &end.surface))
+                });
+            row.source += if is_evaluated {
+                self.lighting.estimate_later(&end.surface, of_direct, dice, shadows)
+            } else {
+                of_direct * self.direct_at(&end, receiver.place, &mut row.about, dice)
             };
             let goes_on = |share: Rgb, in_gap: bool| Leg {
                 origin: end.surface.start(),
@@ -315,14 +317,18 @@ impl Gathering<'_> {
             };
             if end.is_close && number < REGATHERED {
                 let in_gap = leg.in_gap && self.is_in_gap(&end.surface, end.distance_m);
-                next.push(goes_on(share, in_gap));
+                let leg = goes_on(share, in_gap);
+                row.source += self.sent_on(&leg, dice, rows);
+                next.push(leg);
             } else if let Some(entry) = located.and_then(|l| self.entry(&l, end.out_of_gap_m)) {
                 row.close += if end.is_close { share.luminance() } else { 0.0 };
                 rows.push(entry, share.0.map(|c| c as f32));
             } else if self.is_lost(&end) && number < LOST_IN_GAP {
                 let survival = met.reflectance.max_channel().min(1.0);
                 if dice.pair()[0] < survival {
-                    next.push(goes_on(share / survival, true));
+                    let leg = goes_on(share / survival, true);
+                    row.source += self.sent_on(&leg, dice, rows);
+                    next.push(leg);
                 }
             }
         }
@@ -331,29 +337,32 @@ impl Gathering<'_> {
         std::mem::swap(legs, next);
     }
 
+    /// What is bright as seen from where a ray goes on.
+    fn bright_from(&self, leg: &Leg) -> Option<bright::Seen<'_>> {
+        self.bright.and_then(|bright| bright.seen_from(leg.origin, leg.normal, 1))
+    }
+
+    /// What is found of it from there.
+    fn sent_on(&self, leg: &Leg, dice: &mut Dice, rows: &mut Rows) -> Rgb {
+        let Some(bright) = self.bright_from(leg) else { return Rgb::BLACK };
+        rows.further_rays += u64::from(bright.sent);
+        (0..bright.sent).map(|_| self.sent(leg, &bright, dice)).sum()
+    }
+
     /// A ray to what is bright: of the light there, what comes straight from luminaires alone.
-    fn send(
-        &self,
-        leg: &Leg,
-        bright: &bright::Seen<'_>,
-        dice: &mut Dice,
-        receiver: &Receiver<'_>,
-        row: &mut Row,
-    ) {
+    fn sent(&self, leg: &Leg, bright: &bright::Seen<'_>, dice: &mut Dice) -> Rgb {
         let [pick, within] = [dice.pair(), dice.pair()];
-        let Some((to, direction)) = bright.draw(self.scene, pick, within) else { return };
-        let ray = Ray::new(leg.origin, direction).skipping(leg.triangle);
-        let hit = self.scene.bvh().closest_hit(&ray);
-        if hit.is_none_or(|hit| hit.triangle != to.triangle || hit.back != to.back) {
-            return;
+        let Some((to, spot)) = bright.draw(self.scene, pick, within) else { return Rgb::BLACK };
+        let way = Ray::between(leg.origin, to.start()).skipping(leg.triangle);
+        if self.scene.bvh().any_hit(&way) {
+            return Rgb::BLACK;
         }
-        let Some(finish) = self.scene.material(to.triangle).finish(to.back) else { return };
-        if let Side::Lit(reflectance) = self.side(&to, finish, Rgb::WHITE) {
-            let share = reflectance * bright.share(self.elements, &to);
-            let place = self.elements.place(self.level, to.triangle, to.back, [to.u, to.v]);
-            let end = self.end(leg, to, place.map(|place| self.located(place)));
-            row.source += share * self.direct_at(&end, receiver.place, &mut row.about, dice);
-        }
+        let Some(finish) = self.scene.material(to.triangle).finish(to.back) else {
+            return Rgb::BLACK;
+        };
+        let Side::Lit(reflectance) = self.side(&to, finish, Rgb::WHITE) else { return Rgb::BLACK };
+        let share = leg.share * reflectance * bright.share(spot, &to);
+        share * self.lighting.estimate(&to, dice)
     }
 
     /// The end of a ray at a place.
@@ -390,12 +399,15 @@ impl Gathering<'_> {
         may_be_in_gap && weights_in_gap(located.corners, self.standings).is_none()
     }
 
-    /// Whether values differ so much over the element at an end nearby that they tell little of what is between.
-    fn is_uneven(&self, end: &End, values: &[Rgb]) -> bool {
+    /// Whether values differ so much over the element at an end nearby that they tell little of what is between, or may.
+    fn is_uneven(&self, end: &End, values: &[Rgb], varying: Option<&[bool]>) -> bool {
         let Some(located) = end.located else { return false };
         let corners = self.corners(&located, u32::MAX);
         if end.distance_m > NEARBY * self.edge_m(corners) {
             return false;
+        }
+        if varying.is_some_and(|varying| varying[located.place.node() as usize]) {
+            return true;
         }
         let all = corners.map(|(vertex, _)| values[vertex as usize].luminance());
         let high = all.into_iter().fold(0.0, f64::max);
@@ -421,8 +433,8 @@ impl Gathering<'_> {
         match self.direct {
             DirectAtEnds::Evaluated => self.lighting.estimate(&end.surface, dice),
             DirectAtEnds::Read { values, level } if is_known => read(values, level),
-            DirectAtEnds::ReadFarOff { values } if is_known && !end.is_close => {
-                if self.is_uneven(end, values) {
+            DirectAtEnds::ReadFarOff { values, varying } if is_known && !end.is_close => {
+                if self.is_uneven(end, values, varying) {
                     return self.lighting.estimate(&end.surface, dice);
                 }
                 read(values, u32::MAX)

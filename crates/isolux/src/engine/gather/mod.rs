@@ -131,6 +131,9 @@ pub(super) enum DirectAtEnds<'a> {
     ReadFarOff {
         /// A value a vertex, lx.
         values: &'a [Rgb],
+        /// Elements that light may vary on whatever their vertices tell, by node: who evaluated it only where vertices differ would
+        /// read it where all of them lie in the dark.
+        varying: Option<&'a [bool]>,
     },
 }
 

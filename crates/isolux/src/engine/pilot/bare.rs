@@ -8,7 +8,6 @@
 use super::direct::USUAL_MESH;
 use super::{Bare, Pilot};
 use crate::elements::Elements;
-use crate::engine::bright::Bright;
 use crate::engine::carriers::Carriers;
 use crate::engine::detail::{Details, LeafError};
 use crate::engine::gather::{Gatherer, Gathering};
@@ -78,7 +77,6 @@ impl Pilot<'_> {
         };
         let new = bare.first + bare.indirect.len()..gatherers.len();
         let rows: Vec<Gatherer> = new.clone().map(row).collect();
-        self.bright = Bright::of(self.scene, elements, |k| self.direct[k as usize]);
         let gathering = self.gathering(elements, self.solved_nodes, &self.standings);
         let gathering = Gathering { regathers: true, ..gathering };
         let key = self.key.with(2);

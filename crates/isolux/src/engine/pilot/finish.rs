@@ -3,7 +3,6 @@
 use super::Pilot;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::allot::areas_m2;
-use crate::engine::bright::Bright;
 use crate::engine::carriers::Carriers;
 use crate::engine::cuts::{Cuts, Side};
 use crate::engine::fit::Fit;
@@ -129,7 +128,6 @@ impl<'s> Pilot<'s> {
             self.direct_variance.fill(0.0);
         }
         self.is_measured = true;
-        self.bright = Bright::of(self.scene, &look.elements, |k| self.direct[k as usize]);
         go_on(&self.round(request, Some(look), FINE));
         self.complete_standings(&gatherers);
         gatherers

@@ -5,26 +5,13 @@
 //! noise. Particles come where the light does: elements to which clearly more or less of it comes than vertices tell are bisected.
 
 use super::Pilot;
-use crate::elements::{Elements, carries_map};
+use crate::elements::Elements;
 use crate::engine::emission::Emission;
 use crate::engine::gather::Gatherer;
+use crate::engine::landed::{self, BELIEVED, FIRST, Landed, MORE, Sum};
 use crate::engine::look::PilotRequest;
-use crate::engine::particle::Particle;
 use crate::sampling::Sequence;
-use rayon::prelude::*;
 
-/// Particles that tell whether there is anything, and how many more tell where it is.
-const FIRST: u32 = 1 << 11;
-const MORE: u32 = 1 << 14;
-/// So many of either for so many luminaires, and for more of them as many times as many, up to so many times.
-const OF_FEW: u32 = 8;
-const MOST_TIMES: u32 = 16;
-/// They go no further than by so many mirrors.
-const SCATTERINGS: u32 = 16;
-
-/// What comes to an element differs from what vertices tell if it does by so many times its standard error: of fifteen thousand
-/// elements one does by chance.
-const BELIEVED: f64 = 4.0;
 /// Of all light that lands, the part that is left where it is.
 const MATTERS: f64 = 0.01;
 
@@ -32,22 +19,6 @@ const MATTERS: f64 = 0.01;
 const ROUNDS: usize = 24;
 /// The shortest edges, as a share of those for other light.
 const LEAST_EDGE: f64 = 1.0 / 64.0;
-
-/// Flux that has come to a place.
-#[derive(Clone, Copy, Debug)]
-struct Landed {
-    triangle: u32,
-    back: bool,
-    place: [f64; 2],
-    flux_lm: f64,
-}
-
-/// What comes to the places of an element.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sum {
-    flux_lm: f64,
-    squares_lm2: f64,
-}
 
 impl Pilot<'_> {
     /// Bisects elements until their vertices tell about what light comes to them; returns whether there was anything to do.
@@ -57,7 +28,7 @@ impl Pilot<'_> {
         request: &PilotRequest,
     ) -> bool {
         let Some(emission) = Emission::new(self.scene) else { return false };
-        let times = (emission.count() as u32 / OF_FEW).clamp(1, MOST_TIMES);
+        let times = landed::times(&emission);
         let [few, many] = [FIRST * times, MORE * times];
         let each_lm = |count: u32| emission.flux_lm() / f64::from(count);
         let first = self.landed(&emission, few, 0);
@@ -86,28 +57,10 @@ impl Pilot<'_> {
         any
     }
 
-    /// Where so many particles come straight or over plane mirrors.
     fn landed(&mut self, emission: &Emission<'_>, count: u32, number: u64) -> Vec<Landed> {
-        let sequence = Sequence::new(self.key.with(12).with(number));
-        let one = |index: u32| {
-            let mut landed = Vec::new();
-            let particle = Particle::emit(emission, sequence, index, count, SCATTERINGS);
-            let Some(mut particle) = particle else { return landed };
-            while !particle.is_given_up() && particle.is_covered(self.lighting) {
-                let Some(at) = particle.advance(self.scene) else { break };
-                if carries_map(self.scene, at.triangle, at.back) {
-                    let flux_lm = particle.flux_lm.luminance();
-                    let (triangle, back, place) = (at.triangle, at.back, [at.u, at.v]);
-                    landed.push(Landed { triangle, back, place, flux_lm });
-                }
-                if !particle.scatter_specular(self.scene, self.lighting) {
-                    break;
-                }
-            }
-            landed
-        };
         self.traced += u64::from(count);
-        (0..count).into_par_iter().flat_map_iter(one).collect()
+        let sequence = Sequence::new(self.key.with(12).with(number));
+        landed::landed((self.scene, self.lighting), emission, count, sequence)
     }
 
     /// Elements to which clearly more or less comes than their vertices tell, if that is much: by where particles came, each of which was
@@ -118,9 +71,7 @@ impl Pilot<'_> {
         for of in landed {
             let place = elements.place(u32::MAX, of.triangle, of.back, of.place);
             let Some(place) = place else { continue };
-            let sum = &mut sums[place.node() as usize];
-            sum.flux_lm += of.flux_lm;
-            sum.squares_lm2 += of.flux_lm * of.flux_lm;
+            sums[place.node() as usize].add(of.flux_lm);
             all_lm += of.flux_lm;
         }
         let least_edge_m = self.least_edge_m * LEAST_EDGE;

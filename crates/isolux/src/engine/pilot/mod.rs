@@ -99,7 +99,7 @@ struct Pilot<'s> {
     subdivision: Subdivision,
     /// At the vertices looked at so far: light, and whether they are open to it.
     direct: Vec<Rgb>,
-    /// What is bright by it.
+    /// What is bright by that of luminaires.
     bright: Option<Bright>,
     direct_variance: Vec<f64>,
     /// Where it was measured.
@@ -225,13 +225,15 @@ impl<'s> Pilot<'s> {
         let has_noise = request.is_fitted && lighting.has_many() && lighting.is_measured_once();
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
+        let key = Key::new(request.seed).with(0);
+        let (bright, traced) = Bright::of(scene, lighting, key.with(13));
         Self {
             scene,
             lighting,
-            key: Key::new(request.seed).with(0),
+            key,
             subdivision,
             direct: Vec::new(),
-            bright: None,
+            bright,
             direct_variance: Vec::new(),
             measured_at: Vec::new(),
             direct_noise: has_noise.then_some(NOISE_OF_DIRECT_LIGHT * request.mesh_target),
@@ -258,7 +260,7 @@ impl<'s> Pilot<'s> {
             sees_lit_gaps: false,
             solved_nodes: 0,
             rays,
-            traced: 0,
+            traced,
             costs: Costs::default(),
             is_smoothed: false,
             for_indirect_light: None,
@@ -332,7 +334,6 @@ impl<'s> Pilot<'s> {
         if is_first && self.resolve_what_lands((&mut elements, &mut gatherers), request) {
             self.complete_beset();
         }
-        self.bright = Bright::of(self.scene, &elements, |k| self.direct[k as usize]);
         self.complete_indirect(&elements, &gatherers, request, go_on);
         let started = Instant::now();
         let luminances = self.in_the_open(&self.indirect);

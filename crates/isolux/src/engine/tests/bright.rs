@@ -33,7 +33,7 @@ impl<'a> Lit<'a> {
     }
 
     fn bright(&self) -> Option<Bright> {
-        Bright::of(self.scene, &self.elements, |vertex| self.direct[vertex as usize])
+        Bright::of(self.scene, &self.lighting, Key::new(1)).0
     }
 
     /// Direct light reflected once, in many trials at a place: its mean, the standard error of that, and rays of a trial.

@@ -9,6 +9,7 @@ use crate::engine::place::ProbePoint;
 use crate::engine::probe::{ExactSettings, MapReader};
 use crate::engine::reference::PathTracer;
 use crate::engine::{SolveRequest, Watch, solve};
+use crate::map::Method;
 use std::f64::consts::PI;
 
 const ROOM_M: [f64; 3] = [4.0, 5.0, 2.8];
@@ -195,4 +196,50 @@ fn lamps_below_the_ceiling_of_a_dim_room_are_resolved_where_rays_read_them() {
         true_lx += tracer.estimate(at, &ExactSettings::default()).indirect_lx.luminance();
     }
     assert!((read_lx / true_lx - 1.0).abs() < 0.05, "{read_lx} {true_lx}");
+}
+
+/// The light about a lamp on a ceiling, and at places of which many lie close to edges: rays that go on from there meet what it lights
+/// no more often than the first ones.
+#[test]
+fn light_that_lands_about_a_lamp_on_a_vertex_of_a_ceiling_is_gathered_by_every_method() {
+    let mut shapes = inward_box([4.0, 4.0, 3.0], 0);
+    let desk = inward_box([1.6, 0.8, 0.05], 1).into_iter().map(|shape| {
+        let positions = shape.positions.iter().map(|&[x, y, z]| [x + 1.0, y + 1.0, z + 0.7]);
+        Shape { positions: positions.collect(), triangles: vec![[0, 2, 1], [0, 3, 2]], ..shape }
+    });
+    shapes.extend(desk);
+    let paint = vec![painted(Rgb::grey(0.7)), painted(Rgb::grey(0.3))];
+    // On the diagonal of both triangles, and on a vertex as soon as they are bisected.
+    let scene = scene(shapes, paint, vec![isotropic([2.0, 2.0, 3.0], 3000.0 / (4.0 * PI))]);
+    let tracer = PathTracer::new(&scene);
+    let up = Vector::new(0.0, 0.0, 1.0).normal().unwrap();
+    let aside = Vector::new(1.0, 0.0, 0.0).normal().unwrap();
+    let places = [
+        ([0.25, 0.25, 0.0], up),
+        ([0.75, 2.75, 0.0], up),
+        ([3.25, 3.25, 0.0], up),
+        ([2.25, 0.75, 0.0], up),
+        ([0.05, 0.05, 0.0], up),
+        ([2.1, 0.02, 0.0], up),
+        ([0.0, 2.0, 0.08], aside),
+        ([0.0, 0.02, 1.2], aside),
+    ];
+    let places = places.map(|(at, normal)| ProbePoint { position: Point::from(at), normal });
+    let found = places.map(|at| tracer.estimate(at, &ExactSettings::default()));
+    for method in [Method::Hybrid, Method::Cache] {
+        let request = SolveRequest { method, accuracy: Some(0.01), ..SolveRequest::default() };
+        let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+        let reader = MapReader::new(&scene, &map);
+        for (at, found) in places.iter().zip(&found) {
+            let exact = reader.estimate(*at, &ExactSettings::default());
+            for read in [reader.probe(*at).unwrap(), exact] {
+                let error_lx = libm::hypot(read.standard_error_lx, found.standard_error_lx);
+                let apart_lx = read.illuminance_lx() - found.illuminance_lx();
+                // One in sixteen thousand is farther off.
+                assert!(apart_lx.abs() < 4.0 * error_lx, "{method:?} {at:?}: {read:?} {found:?}");
+                // What is told says something: the spot gives a fifth of the light.
+                assert!(error_lx < 0.1 * found.illuminance_lx(), "{method:?} {at:?}: {read:?}");
+            }
+        }
+    }
 }

@@ -23,6 +23,7 @@ mod foreseeing;
 mod glass;
 mod gloss;
 mod judging;
+mod kept;
 mod landing;
 pub(super) mod many;
 mod means;

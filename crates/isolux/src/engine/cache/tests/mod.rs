@@ -33,7 +33,13 @@ fn site(point: [f64; 3], normal: Vector) -> Site {
 fn look(scene: &Scene, from: &Site, rays: u32) -> Light {
     let lighting = Lighting::new(scene);
     let far = Layer::new(scene, 0.3);
-    let of = Surroundings { scene, far: &far, lighting: Some(&lighting), caustic: &|_| Rgb::BLACK };
+    let of = Surroundings {
+        scene,
+        far: &far,
+        lighting: Some(&lighting),
+        bright: None,
+        caustic: &|_| Rgb::BLACK,
+    };
     let replicates = 16;
     let mut mean = Light::default();
     for replicate in 0..replicates {

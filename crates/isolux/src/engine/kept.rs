@@ -1,0 +1,219 @@
+//! Direct light as rays read it from a map: right in the mean, where it varies between vertices.
+//!
+//! Where luminaires are many, rays read direct light between vertices. That errs where it varies from element to element, as on a
+//! ceiling close above rows of lamps, and errs alike over many elements where these and the lamps both lie in rows, so that means
+//! over what is seen err, too: in all increments by the same, of which their spread tells nothing. So increments take samples of
+//! what is lacking between vertices, each of its own, and hand it to the vertices around: what elements reflect is then right in the mean
+//! over increments, and their spread tells how well it is known. The light that lands is kept, tested by hat functions.
+
+use super::bright::Bright;
+use super::direct::{Goal, Lighting};
+use super::gather::known_weights;
+use super::path::Dice;
+use super::surface::SurfacePoint;
+use crate::elements::Elements;
+use crate::map::Standing;
+use crate::sampling::{Key, Sequence};
+use crate::scene::Scene;
+use crate::units::Rgb;
+use isolux_geometry::Point;
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// What elements that are left as they are may err by, of what is allowed, if they all erred alike.
+const OF_ALLOWED: f64 = 0.5;
+
+/// Places that tell by how much light differs from what is read there: enough to know that of one surface in a hundred.
+const PLACES: usize = 1024;
+
+/// A map of direct light, and what it is of.
+#[derive(Clone, Copy)]
+pub(super) struct Over<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) lighting: &'a Lighting<'a>,
+    pub(super) elements: &'a Elements,
+    pub(super) standings: &'a [Option<Standing>],
+    pub(super) direct: &'a [Rgb],
+    /// There rays evaluate it.
+    pub(super) bright: Option<&'a Bright>,
+}
+
+/// Elements that samples are taken of.
+pub(super) struct Kept {
+    leaves: Vec<Leaf>,
+    /// Whether they are, by node.
+    pub(super) varying: Vec<bool>,
+    /// Integrals of the functions that vertices stand for where rays read, m2.
+    hats_m2: Vec<f64>,
+}
+
+#[derive(Clone, Copy)]
+struct Leaf {
+    node: u32,
+    triangle: u32,
+    back: bool,
+    vertices: [u32; 3],
+    area_m2: f64,
+    /// By how much what is reflected may differ from what is read, in the mean, lx.
+    varies_lx: f64,
+}
+
+/// What is lacking on an element, and which vertices it is handed to.
+struct Lacking {
+    lx_m2: Rgb,
+    corners: [(u32, f64); 3],
+}
+
+impl Kept {
+    /// Where so many lux are allowed to lack in the mean; `None` where rays do not read direct light or vertices tell it well enough.
+    pub(super) fn of(over: &Over<'_>, allowed_lx: f64, key: Key) -> Option<Self> {
+        if !over.lighting.are_read_at_ends() {
+            return None;
+        }
+        let mut hats_m2 = vec![0.0; over.elements.vertices().len()];
+        let (mut leaves, mut lit_m2) = (Vec::new(), 0.0);
+        for (node, triangle, back) in over.elements.leaves() {
+            let vertices = over.elements.node(node).vertices;
+            let thirds = vertices.map(|vertex| (vertex, 1.0 / 3.0));
+            let Some(weights) = known_weights(thirds, over.standings) else { continue };
+            let leaf = over.leaf((node, vertices), triangle, back);
+            vertices
+                .iter()
+                .zip(weights)
+                .for_each(|(&v, w)| hats_m2[v as usize] += w * leaf.area_m2);
+            if vertices.iter().any(|&v| !over.direct[v as usize].is_black()) {
+                lit_m2 += leaf.area_m2;
+            }
+            leaves.push(leaf);
+        }
+        over.look(&mut leaves, key);
+        let needs = |leaf: &Leaf| leaf.area_m2 * leaf.varies_lx;
+        leaves.sort_by(|a, b| needs(b).total_cmp(&needs(a)));
+        let mut left: f64 = leaves.iter().map(needs).sum();
+        let is_left = |leaf: &Leaf| {
+            let is_left = left <= OF_ALLOWED * allowed_lx * lit_m2;
+            left -= needs(leaf);
+            is_left
+        };
+        let count = leaves.iter().position(is_left).unwrap_or(leaves.len());
+        leaves.truncate(count);
+        let mut varying = vec![false; over.elements.node_count()];
+        leaves.iter().for_each(|leaf| varying[leaf.node as usize] = true);
+        (count > 0).then_some(Self { leaves, varying, hats_m2 })
+    }
+
+    /// Direct light at vertices as rays are to read it, by so many samples of an element.
+    pub(super) fn read(&self, over: &Over<'_>, (samples, key): (u64, Key)) -> Vec<Rgb> {
+        let one = |(number, leaf): (usize, &Leaf)| {
+            let sequence = Sequence::new(key.with(number as u64));
+            (0..samples).map(|k| over.sample(leaf, &mut Dice::new(sequence, k as u32))).collect()
+        };
+        let all: Vec<Vec<Lacking>> = self.leaves.par_iter().enumerate().map(one).collect();
+        let mut read = over.direct.to_vec();
+        for Lacking { lx_m2, corners } in all.into_iter().flatten() {
+            for (vertex, weight) in corners {
+                let hat_m2 = self.hats_m2[vertex as usize];
+                if weight > 0.0 && hat_m2 > 0.0 {
+                    read[vertex as usize] += lx_m2 * (weight / (hat_m2 * samples as f64));
+                }
+            }
+        }
+        read
+    }
+}
+
+impl Over<'_> {
+    fn corners(&self, vertices: [u32; 3]) -> [Point; 3] {
+        vertices.map(|vertex| self.elements.vertices()[vertex as usize].position)
+    }
+
+    fn leaf(&self, (node, vertices): (u32, [u32; 3]), triangle: u32, back: bool) -> Leaf {
+        let [a, b, c] = self.corners(vertices);
+        let area_m2 = 0.5 * (b - a).cross(c - a).length();
+        let lx = vertices.map(|v| self.direct[v as usize].luminance());
+        let [high, low] =
+            [lx.into_iter().fold(f64::MIN, f64::max), lx.into_iter().fold(f64::MAX, f64::min)];
+        let middle = self.place(vertices, (triangle, back), [1.0 / 3.0; 3]);
+        let reflectance = middle.reflectance(self.scene).luminance();
+        Leaf { node, triangle, back, vertices, area_m2, varies_lx: reflectance * (high - low) }
+    }
+
+    fn place(
+        &self,
+        vertices: [u32; 3],
+        (triangle, back): (u32, bool),
+        weights: [f64; 3],
+    ) -> SurfacePoint {
+        let [p, q, r] = self.corners(vertices);
+        let point = p + (q - p) * weights[1] + (r - p) * weights[2];
+        let [u, v] = self.scene.triangle(triangle).barycentric(point);
+        SurfacePoint::new(self.scene, triangle, back, u, v)
+    }
+
+    /// Looks at some places: vertices may all have the same light, and have other light between them.
+    fn look(&self, leaves: &mut [Leaf], key: Key) {
+        let sums: Vec<f64> = leaves
+            .iter()
+            .scan(0.0, |sum, leaf| {
+                *sum += leaf.area_m2;
+                Some(*sum)
+            })
+            .collect();
+        let Some(&all_m2) = sums.last() else { return };
+        let shift = key.with(u64::MAX).uniform();
+        let one = |k: usize| {
+            let within = (k as f64 + shift) / PLACES as f64 * all_m2;
+            let number = sums.partition_point(|&sum| sum <= within).min(leaves.len() - 1);
+            let leaf = &leaves[number];
+            let sequence = Sequence::new(key.with(k as u64));
+            let (at, corners) = self.somewhere_on(leaf, &mut Dice::new(sequence, 0))?;
+            let measured = self.lighting.measured(&at, Goal::ANY, sequence);
+            let lacking_lx = (measured.lx - self.told(corners)).luminance();
+            let share = at.reflectance(self.scene).luminance();
+            let square_lx2 = share * share * (lacking_lx * lacking_lx - measured.variance);
+            Some(((leaf.triangle, leaf.back), square_lx2))
+        };
+        let looks: Vec<_> = (0..PLACES).into_par_iter().map(one).collect();
+        let mut sides: HashMap<(u32, bool), (f64, f64)> = HashMap::new();
+        for (side, square_lx2) in looks.into_iter().flatten() {
+            let (sum, count) = sides.entry(side).or_default();
+            (*sum, *count) = (*sum + square_lx2, *count + 1.0);
+        }
+        for leaf in leaves {
+            let side = sides.get(&(leaf.triangle, leaf.back));
+            let of_side_lx = side.map_or(0.0, |(sum, count)| (sum / count).max(0.0).sqrt());
+            leaf.varies_lx = leaf.varies_lx.max(of_side_lx);
+        }
+    }
+
+    /// A place of an element, evenly over its area, and its vertices with their weights there; none where rays do not read.
+    fn somewhere_on(
+        &self,
+        leaf: &Leaf,
+        dice: &mut Dice,
+    ) -> Option<(SurfacePoint, [(u32, f64); 3])> {
+        let Leaf { triangle, back, vertices, .. } = *leaf;
+        let [a, b] = dice.pair();
+        let root = a.sqrt();
+        let weights = [1.0 - root, root * (1.0 - b), root * b];
+        let at = self.place(vertices, (triangle, back), weights);
+        if self.bright.is_some_and(|bright| bright.at(&at).is_some()) {
+            return None;
+        }
+        let weights = known_weights([0, 1, 2].map(|k| (vertices[k], weights[k])), self.standings)?;
+        Some((at, [0, 1, 2].map(|k| (vertices[k], weights[k]))))
+    }
+
+    fn told(&self, corners: [(u32, f64); 3]) -> Rgb {
+        corners.iter().map(|&(vertex, weight)| self.direct[vertex as usize] * weight).sum()
+    }
+
+    /// What is lacking at a place of an element, for all of it.
+    fn sample(&self, leaf: &Leaf, dice: &mut Dice) -> Lacking {
+        let Some((at, corners)) = self.somewhere_on(leaf, dice) else {
+            return Lacking { lx_m2: Rgb::BLACK, corners: leaf.vertices.map(|v| (v, 0.0)) };
+        };
+        let lacking = self.lighting.estimate(&at, dice) - self.told(corners);
+        Lacking { lx_m2: lacking * leaf.area_m2, corners }
+    }
+}

@@ -1,0 +1,99 @@
+//! Direct light that varies between vertices, as rays read it.
+
+use super::*;
+use crate::elements::{Elements, Subdivision};
+use crate::engine::direct::{Goal, Lighting};
+use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering};
+use crate::engine::kept::{Kept, Over};
+use crate::map::Standing;
+
+const ROOM_M: [f64; 3] = [12.6, 12.6, 3.0];
+const REFLECTANCE: f64 = 0.7;
+
+/// A room with lamps in rows, so many each way, ten centimetres below its ceiling.
+fn room(side: usize) -> Scene {
+    let at = |k: usize| ROOM_M[0] * (k as f64 + 0.1) / side as f64;
+    let lamp = |k: usize| isotropic([at(k % side), at(k / side), ROOM_M[2] - 0.1], 1.0);
+    let lamps = (0..side * side).map(lamp).collect();
+    scene(inward_box(ROOM_M, 0), vec![painted(Rgb::grey(REFLECTANCE))], lamps)
+}
+
+/// Elements of a room, and direct light at their vertices.
+fn mapped(scene: &Scene, lighting: &Lighting<'_>) -> (Elements, Vec<Rgb>) {
+    let mut subdivision = Subdivision::new(scene);
+    subdivision.bisect_to(1.2, usize::MAX);
+    let receivers = subdivision.receivers(0.01);
+    let at = receivers.iter().map(|r| Gatherer::at_vertex(scene, r, 0).surface);
+    let light = |at| lighting.measured(&at, Goal::ANY, Sequence::new(Key::new(0))).lx;
+    (subdivision.elements(), at.map(light).collect())
+}
+
+#[test]
+fn rays_read_the_light_that_lands_between_vertices() {
+    // Two lamps an element: vertices lie at the same place between them, all of them in the dark or all in the light.
+    let scene = room(2 * 16);
+    let lighting = Lighting::new(&scene);
+    assert!(lighting.are_countless());
+    let (elements, direct) = mapped(&scene, &lighting);
+    let standings = vec![Some(Standing::Open); direct.len()];
+    let over = Over {
+        scene: &scene,
+        lighting: &lighting,
+        elements: &elements,
+        standings: &standings,
+        direct: &direct,
+        bright: None,
+    };
+    let gathered = |direct: DirectAtEnds<'_>, trials: u64| {
+        let gathering = Gathering {
+            scene: &scene,
+            lighting: &lighting,
+            elements: &elements,
+            level: u32::MAX,
+            standings: &standings,
+            direct,
+            regathers: false,
+            bright: None,
+            cuts: None,
+            backdrop: None,
+        };
+        let at = front_at(&scene, Point::new(5.1, 6.2, 0.0));
+        let rows = vec![Gatherer::on_surface(at, 1024); 16];
+        let operator = gathering.operator(&rows, |k| Key::new(trials).with(k as u64));
+        let black = vec![Rgb::BLACK; standings.len()];
+        mean_and_error(operator.apply(&black).iter().map(|lx| lx.luminance()))
+    };
+    let (expected_lx, expected_error_lx) = gathered(DirectAtEnds::Evaluated, 1);
+    let read = |values: &[Rgb], trial: u64| {
+        gathered(DirectAtEnds::Read { values, level: u32::MAX }, trial)
+    };
+    let (bare_lx, _) = read(&direct, 2);
+    assert!((bare_lx / expected_lx - 1.0).abs() > 0.1, "{bare_lx} {expected_lx}");
+    let kept = Kept::of(&over, 0.01 * expected_lx, Key::new(1)).expect("light varies");
+    let increment = |k: u64| read(&kept.read(&over, (1, Key::new(2).with(k))), 3 + k).0;
+    let (kept_lx, error_lx) = mean_and_error((0..16).map(increment));
+    let error_lx = libm::hypot(error_lx, expected_error_lx);
+    // As Student has it, with fifteen degrees of freedom.
+    assert!(
+        (kept_lx - expected_lx).abs() < SIGMAS * error_lx,
+        "{kept_lx} {expected_lx} {error_lx}"
+    );
+    assert!(error_lx < 0.01 * expected_lx, "{error_lx} {expected_lx}");
+}
+
+#[test]
+fn light_that_vertices_tell_is_left_as_it_is() {
+    // Few luminaires are evaluated, and where much is allowed nothing is lacking.
+    let few = room(2);
+    let few_lighting = Lighting::new(&few);
+    let many = room(3);
+    let many_lighting = Lighting::new(&many);
+    for (scene, lighting, allowed_lx) in [(&few, &few_lighting, 1e-3), (&many, &many_lighting, 1e3)]
+    {
+        let (elements, direct) = mapped(scene, lighting);
+        let standings = vec![Some(Standing::Open); direct.len()];
+        let (elements, standings, direct) = (&elements, &standings[..], &direct[..]);
+        let over = Over { scene, lighting, elements, standings, direct, bright: None };
+        assert!(Kept::of(&over, allowed_lx, Key::new(1)).is_none());
+    }
+}
