@@ -1,6 +1,7 @@
 //! How good a map is and what it took.
 
 use crate::console::facts;
+use crate::kept::LessKnown;
 use crate::lightmap;
 use crate::output::OutputPath;
 use crate::quantity::{show_count, show_seconds, show_share};
@@ -28,6 +29,9 @@ pub(crate) struct Report {
     receivers: usize,
     seed: u64,
     pub(crate) map: String,
+    /// What a resumed run has come to that the map is not of: it was there before, and knows more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kept_instead_of: Option<LessKnown>,
     /// Of a map as texels.
     #[serde(skip_serializing_if = "Option::is_none")]
     lightmap: Option<lightmap::Report>,
@@ -54,8 +58,14 @@ impl Report {
             receivers: map.values.len(),
             seed: from.seed,
             map: output.path().display().to_string(),
+            kept_instead_of: None,
             lightmap: None,
         }
+    }
+
+    /// The same of a map that was kept, if one was, instead of what the run has come to.
+    pub(crate) fn instead_of(self, less: Option<LessKnown>) -> Self {
+        Self { kept_instead_of: less, ..self }
     }
 
     /// The same with a lightmap, if there is one.

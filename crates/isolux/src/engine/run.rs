@@ -55,15 +55,7 @@ pub struct Solution {
 impl Solution {
     /// Itself, unless it has not reached its goal and an earlier one is known to be nearer to the truth.
     fn or_better(self, before: Option<Self>) -> Self {
-        let error = |of: &Self| {
-            let accuracy = of.map.provenance.accuracy;
-            accuracy.map_or(f64::INFINITY, |accuracy| accuracy.reached)
-        };
-        let is_better = |before: &Self| {
-            let increments = [before, &self].map(|of| of.map.provenance.increments);
-            let alike = error(before) == error(&self);
-            error(before) < error(&self) || alike && increments[0] > increments[1]
-        };
+        let is_better = |before: &Self| before.map.knows_more_than(&self.map);
         let before = before.filter(|before| !self.map.provenance.complete && is_better(before));
         // The clock went on.
         let Self { time_s, lacked_time, .. } = self;
