@@ -80,6 +80,7 @@ impl<'a> PathTracer<'a> {
             caustic_lx: Rgb::BLACK,
             indirect_lx,
             interpolation_error_lx: 0.0,
+            bias_lx: 0.0,
             standing: Standing::Open,
             standard_error_lx: (indirect_variance + direct.variance).sqrt(),
             indirect_standard_error_lx: indirect_variance.sqrt(),
