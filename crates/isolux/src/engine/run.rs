@@ -143,8 +143,9 @@ pub fn solve_looked_at(
     loop {
         let plan = run.pilot(&lighting, watch);
         let saved = resume.filter(|state| state.stage == run.stage);
-        // Elements that were too coarse still are, if these are the same.
+        // Elements that were too coarse still are, if these are the same; samples of a cache lie closer at every stage.
         if tried.replace(plan.size()) == Some(plan.size())
+            && request.method != Method::Cache
             && run.stage < MOST_STAGES
             && plan.is_whole
         {
