@@ -14,7 +14,7 @@ use crate::progress::Reporter;
 use crate::quantity::{show_seconds, show_share};
 use crate::report::Report;
 use crate::solving::{self, Run, Solved};
-use crate::{map_file, saved_run, shown};
+use crate::{kept, map_file, saved_run, shown};
 use isolux::engine::{MixPart, SolveRequest, mix};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
@@ -240,11 +240,12 @@ fn solve_one(
     };
     note(Note::Info, format!("group \"{}\"", shown::name(&group.name)));
     let run = Run { source, output, request: &request };
-    let Solved { solution, outcome } =
-        solving::solve(&group.scene, &run, saved.as_ref(), reporter)?;
-    map_file::write(output, &group.scene, &solution.map)?;
-    saved_run::keep(output, &solution.state, matches!(outcome, Outcome::Done))?;
-    let report = Report::of(&solution.map, solution.time_s, output);
+    let mut solved = solving::solve(&group.scene, &run, saved.as_ref(), reporter)?;
+    let less = kept::write((&group.scene, &run), &mut solved, turn.resume)?;
+    let Solved { solution, outcome } = solved;
+    let is_done = matches!(outcome, Outcome::Done);
+    kept::keep_state(output, (&solution.state, saved.as_ref()), is_done)?;
+    let report = Report::of(&solution.map, solution.time_s, output).instead_of(less);
     Ok(SolvedGroup { map: solution.map, report, outcome })
 }
 

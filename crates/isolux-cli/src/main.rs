@@ -20,6 +20,7 @@ mod grid;
 mod groups;
 mod info;
 mod interrupt;
+mod kept;
 mod lamp;
 mod lightmap;
 mod lightmap_export;

@@ -3,6 +3,7 @@
 use crate::arriving::FluxLost;
 use crate::audit;
 use crate::console::facts;
+use crate::kept::LessKnown;
 use crate::lightmap;
 use crate::output::OutputPath;
 use crate::quantity::{show_count, show_seconds, show_share};
@@ -39,6 +40,9 @@ pub(crate) struct Report {
     /// Light that does not come to the scene, where that was looked at.
     #[serde(skip_serializing_if = "Option::is_none")]
     flux_lost: Option<FluxLost>,
+    /// What a resumed run has come to that the map is not of: it was there before, and knows more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    kept_instead_of: Option<LessKnown>,
     /// Of a map as texels.
     #[serde(skip_serializing_if = "Option::is_none")]
     lightmap: Option<lightmap::Report>,
@@ -72,8 +76,14 @@ impl Report {
             seed: from.seed,
             map: output.path().display().to_string(),
             flux_lost: None,
+            kept_instead_of: None,
             lightmap: None,
         }
+    }
+
+    /// The same of a map that was kept, if one was, instead of what the run has come to.
+    pub(crate) fn instead_of(self, less: Option<LessKnown>) -> Self {
+        Self { kept_instead_of: less, ..self }
     }
 
     /// The same with a lightmap, if there is one.

@@ -13,7 +13,7 @@ use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::report::Report;
 use crate::solving::{Run, Solved, estimate, solve};
-use crate::{cache_samples, explain, groups, map_file, request, saved_run, source};
+use crate::{cache_samples, explain, groups, kept, request, saved_run, source};
 use isolux::engine::{IrradianceCache, RunState, Solution, SolveRequest};
 use isolux::scene::Scene;
 use isolux_formats::lightmap::Target;
@@ -94,17 +94,17 @@ fn one(
     }
     let flux_lost = FluxLost::told(scene);
     let run = Run { source: &flags.scene, output, request };
-    let solved = match earlier {
+    let mut solved = match earlier {
         Some(earlier) => earlier,
         None => solve(scene, &run, saved.as_ref(), &mut Reporter::new(flags.progress))?,
     };
-    map_file::write(output, scene, &solved.solution.map)?;
+    let less = kept::write((scene, &run), &mut solved, flags.resume)?;
     if let Some(file) = &mut cache {
         cache_samples::keep(file, &solved.solution.cache);
     }
     // Until a lightmap is written, too, there is something to go on with.
     let finished = solved.outcome == Outcome::Done && lightmap.is_none();
-    saved_run::keep(output, &solved.solution.state, finished)?;
+    kept::keep_state(output, (&solved.solution.state, saved.as_ref()), finished)?;
     let (outcome, lightmap) = match &lightmap {
         Some(planned) => bake(output, (scene, planned), &solved, (clock, flags.progress))?,
         None => {
@@ -117,7 +117,7 @@ fn one(
     }
     let report = Report::of(&solved.solution.map, solved.solution.time_s, output);
     let report = report.with_flux_lost(flux_lost);
-    Ok(Written { outcome, report: report.with_lightmap(lightmap) })
+    Ok(Written { outcome, report: report.with_lightmap(lightmap).instead_of(less) })
 }
 
 /// The map of an earlier run that was complete, and stopped only thereafter.

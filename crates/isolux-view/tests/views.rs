@@ -24,6 +24,7 @@ fn lux(total: f64) -> Option<Illuminance> {
         indirect_standard_error_lx: 0.0,
         common_error_lx: 0.0,
         interpolation_error_lx: 0.0,
+        bias_lx: 0.0,
         standing: Standing::Open,
         samples: 1,
     })

@@ -133,6 +133,33 @@ fn a_resumed_run_ends_with_the_bytes_of_one_that_was_never_stopped() {
 }
 
 #[test]
+fn a_resumed_run_that_comes_to_less_keeps_the_map_and_says_so() {
+    let home = Home::new();
+    let bytes = || std::fs::read(home.path("m.glb")).unwrap();
+    let limited = |limit, flags: &[&str]| {
+        home.run(&[&SOLVE[..], &["--json", "--time-limit", limit], flags].concat())
+    };
+    // Elements that were cut short leave nothing to go on from, so that a resumed run begins anew.
+    let first = limited("1s", &[]);
+    let (whole, known) = (bytes(), first.json());
+    assert_eq!(first.code, 3, "{first:?}");
+    let resumed = limited("1ms", &["--resume"]);
+    let said = resumed.json();
+    assert_eq!(resumed.code, 3, "{resumed:?}");
+    assert!(bytes() == whole, "the map was replaced: {known} by {said}");
+    for key in ["accuracy_reached", "increments", "rays", "receivers"] {
+        assert_eq!(said[key], known[key], "{key}: {said}");
+    }
+    let less = &said["kept_instead_of"];
+    assert!(less["rays"].as_u64() < known["rays"].as_u64(), "{said}");
+    assert!(resumed.err.contains("m.glb: is kept, as it knows more"), "{resumed:?}");
+    // Who solves from the beginning is told what was there.
+    let anew = limited("1ms", &[]);
+    assert!(bytes() != whole && anew.err.contains("m.glb: knew more before"), "{anew:?}");
+    assert!(anew.json()["kept_instead_of"].is_null(), "{anew:?}");
+}
+
+#[test]
 fn a_run_with_other_flags_is_not_resumed() {
     let home = Home::new();
     assert_eq!(interrupt(&home), 130);

@@ -145,6 +145,7 @@ mod tests {
             indirect_standard_error_lx: 5.0,
             common_error_lx: 0.0,
             interpolation_error_lx: 0.0,
+            bias_lx: 0.0,
             standing: Standing::Open,
             samples: 100,
         }

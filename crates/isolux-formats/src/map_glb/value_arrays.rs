@@ -146,6 +146,7 @@ pub(super) fn read_values(
         indirect_standard_error_lx: errors[k][1],
         common_error_lx: common[k],
         interpolation_error_lx: interpolation[k],
+        bias_lx: 0.0,
         standing,
         samples: samples[k],
     };

@@ -154,6 +154,7 @@ fn value(k: f64) -> Illuminance {
         indirect_standard_error_lx: 0.1,
         common_error_lx: 0.05 * k,
         interpolation_error_lx: 0.2 * k,
+        bias_lx: 0.0,
         standing: Standing::ALL[k as usize % 3],
         samples: 1 << (k as u32 % 40),
     }

@@ -7,12 +7,16 @@
 //! One unit is 2^-24 of the scene's reference illuminance (rounded up to a power of two). A value of
 //! one increment is held to 2^47 units (eight million times the reference; brighter values saturate),
 //! its square to 2^94. So 2^15 increments fit the 63 bits of a sum, and 2^15 times their sum of
-//! squares fits 127. Rounding adds at most half a unit an increment: 3e-8 of the reference.
+//! squares fits 127. Rounding adds at most half a unit an increment: 3e-8 of the reference. Where much less light is expected than that, as in
+//! a dim room beside a bright one, the unit is as much smaller, by 2^14 at most, and values are held to five hundred times the
+//! reference still.
 
 use crate::units::Rgb;
 
 const UNITS_OF_REFERENCE: f64 = (1u64 << 24) as f64;
 const LARGEST: f64 = (1u64 << 47) as f64;
+/// Halvings of the unit at most where there is little light.
+const MOST_HALVINGS: u8 = 14;
 
 /// Increments that one accumulator can hold.
 pub(super) const MAX_INCREMENTS: u64 = 1 << 15;
@@ -56,6 +60,8 @@ pub struct Sums {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Accumulator {
     lux_per_unit: f64,
+    /// How often that is halved at every receiver; nowhere if empty.
+    halvings: Vec<u8>,
     pub(super) increments: u64,
     pub(super) sums: Vec<Sums>,
 }
@@ -88,15 +94,39 @@ impl Accumulator {
         let reference = libm::exp2(exponent);
         Self {
             lux_per_unit: reference / UNITS_OF_REFERENCE,
+            halvings: Vec::new(),
             increments: 0,
             sums: vec![Sums::default(); receivers],
         }
     }
 
+    /// The same with units for so much light as is expected at every receiver; where none is, nothing is known.
+    pub(super) fn expecting(self, about_lx: impl Iterator<Item = f64>) -> Self {
+        let reference_lx = self.lux_per_unit * UNITS_OF_REFERENCE;
+        let halvings = |lx: f64| {
+            if lx > 0.0 {
+                libm::log2(reference_lx / lx).floor().clamp(0.0, MOST_HALVINGS.into())
+            } else {
+                0.0
+            }
+        };
+        Self { halvings: about_lx.map(|lx| halvings(lx) as u8).collect(), ..self }
+    }
+
+    fn halvings_at(&self, receiver: usize) -> u8 {
+        self.halvings.get(receiver).copied().unwrap_or(0)
+    }
+
+    fn lux_per_unit_at(&self, receiver: usize) -> f64 {
+        self.lux_per_unit * libm::exp2(-f64::from(self.halvings_at(receiver)))
+    }
+
     /// Adds one increment: one sample a receiver.
     pub(super) fn add(&mut self, samples: impl IntoIterator<Item = Sample>) {
-        let scale = 1.0 / self.lux_per_unit;
-        for (sums, sample) in self.sums.iter_mut().zip(samples) {
+        let of_all = 1.0 / self.lux_per_unit;
+        for (receiver, (sums, sample)) in self.sums.iter_mut().zip(samples).enumerate() {
+            let halvings = self.halvings.get(receiver).copied().unwrap_or(0);
+            let scale = of_all * f64::from(1_u32 << halvings);
             let parts = [sample.direct, sample.caustic, sample.indirect];
             let channels = parts.iter().flat_map(|part| part.0);
             for (sum, value) in sums.values.iter_mut().zip(channels) {
@@ -116,28 +146,31 @@ impl Accumulator {
     /// Three channels of the sums of a receiver, from place `first` on, lx.
     pub(super) fn part(&self, receiver: usize, first: usize) -> Rgb {
         let values = &self.sums[receiver].values;
-        Rgb([0, 1, 2].map(|c| values[first + c] as f64 * self.lux_per_unit))
+        Rgb([0, 1, 2].map(|c| values[first + c] as f64 * self.lux_per_unit_at(receiver)))
     }
 
     /// Adds to them alone.
     pub(super) fn add_part(&mut self, receiver: usize, first: usize, lx: Rgb) {
+        let lux_per_unit = self.lux_per_unit_at(receiver);
         for (channel, value) in lx.0.into_iter().enumerate() {
             let sum = &mut self.sums[receiver].values[first + channel];
             // Sums from a file may be anything.
-            *sum = sum.saturating_add(fixed(value / self.lux_per_unit));
+            *sum = sum.saturating_add(fixed(value / lux_per_unit));
         }
     }
 
     /// Adds to a variance that is kept instead of squares, lx2.
     pub(super) fn add_variance(&mut self, receiver: usize, lx2: f64) {
-        let units = lx2 / (self.lux_per_unit * self.lux_per_unit);
+        let lux_per_unit = self.lux_per_unit_at(receiver);
+        let units = lx2 / (lux_per_unit * lux_per_unit);
         let sum = &mut self.sums[receiver].squares[0];
         *sum = sum.saturating_add(fixed(units).into());
     }
 
     /// That variance, lx2.
     pub(super) fn variance_at(&self, receiver: usize) -> f64 {
-        self.sums[receiver].squares[0].max(0) as f64 * self.lux_per_unit * self.lux_per_unit
+        let lux_per_unit = self.lux_per_unit_at(receiver);
+        self.sums[receiver].squares[0].max(0) as f64 * lux_per_unit * lux_per_unit
     }
 
     /// Counts one more.
@@ -155,10 +188,13 @@ impl Accumulator {
     pub(super) fn estimate(&self, receiver: usize) -> Estimate {
         let Sums { values, totals, squares } = self.sums[receiver];
         let n = self.increments as f64;
-        let mean =
-            |k: usize| Rgb([0, 1, 2].map(|c| values[3 * k + c] as f64 * self.lux_per_unit / n));
-        let passed_on = totals[2] as f64 * self.lux_per_unit / n;
+        let lux_per_unit = self.lux_per_unit_at(receiver);
+        let mean = |k: usize| Rgb([0, 1, 2].map(|c| values[3 * k + c] as f64 * lux_per_unit / n));
+        let passed_on = totals[2] as f64 * lux_per_unit / n;
         let mean = Sample { direct: mean(0), caustic: mean(1), indirect: mean(2), passed_on };
+        // Where less light is expected than units are made for, rounding may be alike in all increments.
+        let is_rounded = self.halvings_at(receiver) == MOST_HALVINGS;
+        let rounding = if is_rounded { 0.25 * lux_per_unit * lux_per_unit } else { 0.0 };
         let variance = |k: usize| {
             if self.increments < 2 {
                 return f64::INFINITY;
@@ -169,7 +205,7 @@ impl Accumulator {
             // Sums from a file may be anything; those of a run do not saturate.
             let squares = i128::from(self.increments).saturating_mul(squares[k]);
             let spread = squares.saturating_sub(total * total).max(0);
-            spread as f64 / (n * n * (n - 1.0)) * self.lux_per_unit * self.lux_per_unit
+            spread as f64 / (n * n * (n - 1.0)) * lux_per_unit * lux_per_unit + rounding
         };
         let [variance, indirect_variance, common_variance] = [0, 1, 2].map(variance);
         Estimate { mean, variance, indirect_variance, common_variance }

@@ -144,6 +144,14 @@ pub(super) fn places(checks: &[Check], is_map_read_by_rays: bool) -> usize {
     if is_read_alike { 2 * checks.len() } else { 3 * checks.len() }
 }
 
+/// The light of vertices there, at every place in the sums, lx.
+pub(super) fn about_lx(checks: &[Check], light: &[Rgb]) -> impl Iterator<Item = f64> {
+    let of = |check: &Check| {
+        check.fine.iter().map(|&(v, weight)| weight * light[v as usize].luminance()).sum::<f64>()
+    };
+    (0..3).flat_map(move |_| checks.iter().map(of))
+}
+
 /// Whether rays read something else than readers anywhere.
 fn are_cut(checks: &[Check]) -> bool {
     checks.iter().any(|check| check.by_rays.is_some())

@@ -130,6 +130,7 @@ impl<'a> Part<'a> {
             // What stands in place of light unshot is added by who reads the sum.
             indirect_lx: read.indirect_lx - self.map.ambient_lx(),
             interpolation_error_lx: between.interpolation_error_lx,
+            bias_lx: 0.0,
             ..read
         })
     }
@@ -258,6 +259,7 @@ fn sum(parts: &[Part<'_>], row: &[Illuminance], is_independent: bool) -> Illumin
         indirect_standard_error_lx: noise(|v| v.indirect_standard_error_lx),
         common_error_lx: noise(|v| v.common_error_lx),
         interpolation_error_lx: dimmed().map(|(v, by)| v.interpolation_error_lx * by).sum(),
+        bias_lx: 0.0,
         // What lies in a gap for the elements of one part is not interpolated into the open.
         standing: row.iter().map(|v| v.standing).min().unwrap_or(Standing::Open),
         samples: row.iter().map(|v| v.samples).sum(),

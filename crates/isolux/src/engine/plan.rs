@@ -164,6 +164,12 @@ impl Plan<'_> {
         self.standings[vertex as usize] == Some(Standing::Open)
     }
 
+    /// The light that is expected at the vertices.
+    pub(super) fn expected(&self) -> Vec<Rgb> {
+        let indirect = self.prolongate(&self.guess);
+        self.direct.iter().zip(indirect).map(|(&direct, indirect)| direct + indirect).collect()
+    }
+
     /// Values for the vertices that only direct light needs: interpolated from their parents.
     pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
         self.prolongate_beside(coarse, &[])

@@ -1,6 +1,7 @@
 //! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
 
 mod effort;
+mod nearby;
 mod parts;
 mod shared_noise;
 mod sight;
@@ -32,7 +33,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 pub use told::{Allowance, IndirectReading, Told};
 
-/// What emitting surfaces give dim places is known as well as where there is this share of the light that errors are relative to.
+/// What emitting surfaces give dim places is known as well as where there is this share of the light about them.
 const DIMMEST: f64 = 0.05;
 
 /// Noise of what readers gather, in errors of the map: it adds half of the square of that, and only where the map
@@ -99,6 +100,8 @@ pub struct MapReader<'a> {
     pub(super) backdrop: Option<Backdrop>,
     patches: Patches,
     unseen: Unseen,
+    /// The part of that which falls to every vertex.
+    parts: Vec<Rgb>,
     shared_noise: SharedNoise,
     /// Rays that readings have gathered by.
     rays: AtomicU64,
@@ -162,12 +165,14 @@ impl<'a> MapReader<'a> {
             backdrop: None,
             patches: Patches::new(),
             unseen: Unseen::of(map),
+            parts: Vec::new(),
             shared_noise: SharedNoise::default(),
             rays: AtomicU64::new(0),
         };
         let (direct_values, varying) = reader.kept().unzip();
         let direct_values = direct_values.or(reader.direct_values.clone());
-        Self { backdrop: reader.walls(), direct_values, varying, ..reader }
+        let parts = reader.parts_of_vertices();
+        Self { backdrop: reader.walls(), direct_values, varying, parts, ..reader }
     }
 
     /// Direct light at the vertices as rays read it, with what is lacking between them, and where; `None` where nothing is.
@@ -188,7 +193,7 @@ impl<'a> MapReader<'a> {
     /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
     /// alone, without the interpolation error and the bias of the map.
     pub fn by_replicates(&self, reading: Illuminance) -> Illuminance {
-        let unseen = libm::hypot(reading.interpolation_error_lx, self.unseen.bias_lx);
+        let unseen = libm::hypot(reading.interpolation_error_lx, reading.bias_lx);
         let unseen = unseen * unseen;
         let less = |error: f64| match error {
             f64::INFINITY => error,
@@ -204,15 +209,16 @@ impl<'a> MapReader<'a> {
     /// The illuminance at barycentric weights `(1 - u - v, u, v)` of a side of a triangle: direct
     /// light evaluated afresh there, caustics interpolated, indirect light interpolated where the map
     /// is to be trusted and gathered over the map where not. The standard error counts, beside that
-    /// of replicates, the interpolation error expected there and the bias that the map reports for
-    /// the scene, the same everywhere; it is infinite where the map does not know its error. `None` where the map knows nothing.
+    /// of replicates, the interpolation error expected there and the part of the bias that the map reports for
+    /// the scene; it is infinite where the map does not know its error. `None` where the map knows nothing.
     pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         self.read(SurfacePoint::new(self.scene, triangle, back, u, v))
     }
 
     fn read(&self, surface: SurfacePoint) -> Option<Illuminance> {
         let (indirect, at) = self.indirect(surface, Allowance::ANY)?;
-        Some(self.told(self.with_fresh_direct(indirect, &at)))
+        let part = self.part_at(&surface);
+        Some(self.told(self.with_fresh_direct(indirect, (&at, part))))
     }
 
     /// What nobody knows of the error of the map, nobody knows of a reading's.
@@ -241,7 +247,7 @@ impl<'a> MapReader<'a> {
         let edge_m = trust::edge_at_m(&self.map.elements, &at);
         let is_allowed = allowance.includes(&stored);
         let indirect = if is_allowed && self.is_trusted(fresh, &stored, (&at, edge_m)) {
-            self.with_interpolation_error(stored)
+            self.with_interpolation_error(stored, self.part_at(&surface))
         } else {
             let in_gap = trust::is_closed_in(self.scene, &at, edge_m);
             let trial = Gatherer::on_surface(at, TRIAL_RAYS).in_gap(in_gap);
@@ -267,10 +273,10 @@ impl<'a> MapReader<'a> {
             && !trust::is_beset(self.scene, at, edge_m)
     }
 
-    /// A value of the map with what interpolation is expected to err by. Half of the error of the
+    /// A value of the map with what interpolation is expected to err by. Half of the part of the error of the
     /// scene is taken to be spread evenly, half as expected of the elements.
-    fn with_interpolation_error(&self, stored: Illuminance) -> Illuminance {
-        let (even, own) = (self.unseen.discretization_lx, stored.interpolation_error_lx);
+    fn with_interpolation_error(&self, stored: Illuminance, part: f64) -> Illuminance {
+        let (even, own) = (part * self.unseen.discretization_lx, stored.interpolation_error_lx);
         let interpolation_error_lx = (0.5 * (even * even + own * own)).sqrt();
         Illuminance { interpolation_error_lx, ..stored }
     }
@@ -284,10 +290,11 @@ impl<'a> MapReader<'a> {
         lookup_lx: f64,
     ) -> Illuminance {
         let key = self.gathering_key(&trial);
+        let part = self.part_of(&trial);
         let behind = self.backdrop.as_ref().and_then(|b| b.behind(self.scene, &trial.stand()));
         let trial = Gatherer { behind, ..trial };
         // With numbers of its own: who stopped at a small variance would report too small ones.
-        let gatherer = trial.with_rays(self.rays_needed((trial, noise), key).rays);
+        let gatherer = trial.with_rays(self.rays_needed((trial, noise, part), key).rays);
         let Gathered { lx, variance, close, common_lx } =
             self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
         let samples = u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays);
@@ -299,7 +306,8 @@ impl<'a> MapReader<'a> {
                 common_lx,
             ),
             common_error_lx: common_lx,
-            interpolation_error_lx: close * lookup_lx,
+            interpolation_error_lx: close * part * lookup_lx,
+            bias_lx: part * self.unseen.bias_lx,
             samples,
             ..stored
         }
@@ -323,10 +331,10 @@ impl<'a> MapReader<'a> {
     }
 
     /// The rays of a replicate that bring noise to what is asked, as a trial tells, which is then thrown away.
-    fn rays_needed(&self, (trial, noise): (Gatherer, f64), key: Key) -> Needed {
+    fn rays_needed(&self, (trial, noise, part): (Gatherer, f64, f64), key: Key) -> Needed {
         let of_trial = (FRESH_REPLICATES, key.with(0));
         let Gathered { lx, variance, .. } = self.gather(trial, self.direct_at_ends(), of_trial);
-        let goal = (FRESH_NOISE * self.unseen.reached_lx).min(noise * lx.luminance());
+        let goal = (FRESH_NOISE * part * self.unseen.reached_lx).min(noise * lx.luminance());
         let rays = f64::from(TRIAL_RAYS)
             * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / ORDER_CLOSE_BY);
         let rays = libm::log2(rays.clamp(FRESH_FEWEST_RAYS, FRESH_MOST_RAYS));
@@ -426,7 +434,8 @@ impl<'a> MapReader<'a> {
             let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
             let indirect =
                 self.gathered(Illuminance::NOTHING, (trial, Allowance::ANY.noise), lookup_lx);
-            Some(self.told(self.with_fresh_direct(indirect, &trial.surface)))
+            let part = self.part_of(&trial);
+            Some(self.told(self.with_fresh_direct(indirect, (&trial.surface, part))))
         })
     }
 
@@ -467,7 +476,7 @@ impl<'a> MapReader<'a> {
     /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
     /// indirect light by gathering over the map. Caustics are read from the map where the point is
     /// on a surface; in free space they are unknown and left out. The standard error counts the
-    /// interpolation error and the bias of the map as if they were the same everywhere, and is infinite where these are not known.
+    /// part of the interpolation error and the bias of the map that is to be expected there, and is infinite where these are not known.
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
         let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
         let gatherer = on_surface
@@ -483,8 +492,10 @@ impl<'a> MapReader<'a> {
         let replicates = settings.replicates.max(2);
         let Gathered { lx: indirect_lx, variance, common_lx, .. } =
             self.gather(gatherer, DirectAtEnds::Evaluated, (replicates, key));
-        // In proportion to what was read, but no less than it is elsewhere: where it is dark, what is bright may be read.
-        let looked_up = (self.lookup_error() * indirect_lx.luminance()).max(self.unseen.bias_lx);
+        // In proportion to what was read, but no less than it is about there: where it is dark, what is bright may be read.
+        let part = self.part_of(&gatherer);
+        let bias_lx = part * self.unseen.bias_lx;
+        let looked_up = (self.lookup_error() * indirect_lx.luminance()).max(bias_lx);
         let stored = on_surface.and_then(|s| self.map.interpolate(s.triangle, s.back, s.u, s.v));
         let samples = u64::from(replicates) * u64::from(settings.rays);
         let variance = variance.max(stored.map_or(0.0, |stored| least_variance(&stored, samples)));
@@ -493,7 +504,7 @@ impl<'a> MapReader<'a> {
         let beside = looked_up * looked_up + of_caustics * of_caustics + common_lx * common_lx;
         let indirect_variance = variance + beside;
         let about_lx = stored.map_or(0.0, |stored| stored.illuminance_lx());
-        let direct = self.direct(&gatherer.surface, about_lx);
+        let direct = self.direct(&gatherer.surface, (about_lx, part));
         self.told(Illuminance {
             direct_lx: direct.lx + caustic_lx,
             caustic_lx,
@@ -502,6 +513,7 @@ impl<'a> MapReader<'a> {
             indirect_standard_error_lx: indirect_variance.sqrt(),
             common_error_lx: common_lx,
             interpolation_error_lx: 0.0,
+            bias_lx: looked_up,
             standing: Standing::Open,
             samples: u64::from(replicates) * u64::from(settings.rays),
         })
@@ -521,9 +533,13 @@ impl<'a> MapReader<'a> {
         accuracy.map_or(0.0, |a| (a.bias * a.bias + a.discretization * a.discretization).sqrt())
     }
 
-    fn with_fresh_direct(&self, stored: Illuminance, at: &SurfacePoint) -> Illuminance {
-        let direct = self.direct(at, stored.illuminance_lx());
-        let indirect = self.indirect_error_lx(&stored);
+    fn with_fresh_direct(
+        &self,
+        stored: Illuminance,
+        (at, part): (&SurfacePoint, f64),
+    ) -> Illuminance {
+        let direct = self.direct(at, (stored.illuminance_lx(), part));
+        let indirect = Self::indirect_error_lx(&stored);
         Illuminance {
             direct_lx: direct.lx + stored.caustic_lx,
             standard_error_lx: (indirect * indirect + direct.variance).sqrt(),
@@ -532,19 +548,19 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// Of replicates, of interpolation, and what is common to all of the map.
-    fn indirect_error_lx(&self, read: &Illuminance) -> f64 {
-        let unseen = libm::hypot(read.interpolation_error_lx, self.unseen.bias_lx);
+    /// Of replicates, of interpolation, and what is common to the surroundings.
+    fn indirect_error_lx(read: &Illuminance) -> f64 {
+        let unseen = libm::hypot(read.interpolation_error_lx, read.bias_lx);
         libm::hypot(read.indirect_standard_error_lx, unseen)
     }
 
-    /// Direct light at a place where there is about so much in all, and the variance of its mean.
-    fn direct(&self, at: &SurfacePoint, about_lx: f64) -> Measured {
+    /// Direct light at a place where there is about so much in all, and such a part of the light of the scene, and the variance of its mean.
+    fn direct(&self, at: &SurfacePoint, (about_lx, part): (f64, f64)) -> Measured {
         let of_direct = self.unseen.of_direct;
         // Choosing among many luminaires goes by what these give.
         let least_lx = match self.lighting.has_many() {
             true => 0.0,
-            false => about_lx.max(DIMMEST * self.unseen.reference_lx),
+            false => about_lx.max(DIMMEST * part * self.unseen.reference_lx),
         };
         let goal = Goal { lx: of_direct.share * least_lx, ..of_direct };
         let sequence = Sequence::new(place_key(at.point).with(0).with(self.map.provenance.seed));
@@ -553,7 +569,7 @@ impl<'a> MapReader<'a> {
 }
 
 impl Unseen {
-    /// As reported: shares of what errors are relative to. (In proportion to the indirect light
+    /// As reported: shares of what errors are relative to, of which every place has its part. (In proportion to the indirect light there
     /// fewer intervals hold the truth: dark edges err most.)
     fn of(map: &IlluminationMap) -> Self {
         let reference_lx = reference_lx(map);

@@ -106,6 +106,7 @@ impl<'a> PathTracer<'a> {
             caustic_lx,
             indirect_lx,
             interpolation_error_lx: 0.0,
+            bias_lx: 0.0,
             standing: Standing::Open,
             standard_error_lx: (found_variance + direct.variance).sqrt(),
             indirect_standard_error_lx: found_variance.sqrt(),

@@ -58,15 +58,7 @@ pub struct Solution {
 impl Solution {
     /// Itself, unless it has not reached its goal and an earlier one is known to be nearer to the truth.
     fn or_better(self, before: Option<Self>) -> Self {
-        let error = |of: &Self| {
-            let accuracy = of.map.provenance.accuracy;
-            accuracy.map_or(f64::INFINITY, |accuracy| accuracy.reached)
-        };
-        let is_better = |before: &Self| {
-            let increments = [before, &self].map(|of| of.map.provenance.increments);
-            let alike = error(before) == error(&self);
-            error(before) < error(&self) || alike && increments[0] > increments[1]
-        };
+        let is_better = |before: &Self| before.map.knows_more_than(&self.map);
         let before = before.filter(|before| !self.map.provenance.complete && is_better(before));
         // The clock went on.
         let Self { time_s, lacked_time, .. } = self;
@@ -155,8 +147,9 @@ pub fn solve_looked_at(
     loop {
         let plan = run.pilot(&lighting, watch);
         let saved = resume.filter(|state| state.stage == run.stage);
-        // Elements that were too coarse still are, if these are the same.
+        // Elements that were too coarse still are, if these are the same; samples of a cache lie closer at every stage.
         if tried.replace(plan.size()) == Some(plan.size())
+            && request.method != Method::Cache
             && run.stage < MOST_STAGES
             && plan.is_whole
         {

@@ -124,8 +124,15 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Forward(_) => (0, parts, reference),
         };
         let sums_of = |places: usize| Accumulator::new(places, reference);
-        let sums = sums_of(plan.elements.vertices().len());
-        let checks = Checks { points, sums: sums_of(places), lacking: sums_of(parts) };
+        let mut sums = sums_of(plan.elements.vertices().len());
+        let mut sums_of_points = sums_of(places);
+        // Single particles, and shots, may bring far more than is expected.
+        if matches!(engine, Engine::Hybrid(_) | Engine::Cache(_)) {
+            let expected = plan.expected();
+            sums = sums.expecting(expected.iter().map(|light| light.luminance()));
+            sums_of_points = sums_of_points.expecting(checks::about_lx(&points, &expected));
+        }
+        let checks = Checks { points, sums: sums_of_points, lacking: sums_of(parts) };
         let given_up = sums_of(1);
         let stops_at_unshot = request.radiosity.unshot.is_some();
         let (samples, left) = (rays, None);
@@ -468,6 +475,7 @@ impl<'p, 's> Work<'p, 's> {
             indirect_standard_error_lx: (estimate.indirect_variance + caustic_variance).sqrt(),
             common_error_lx: estimate.common_variance.min(estimate.indirect_variance).sqrt(),
             interpolation_error_lx,
+            bias_lx: 0.0,
             standing,
             samples: self.sums.increments * u64::from(self.samples_of(vertex)),
         })

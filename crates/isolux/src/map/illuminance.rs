@@ -25,6 +25,9 @@ pub struct Illuminance {
     /// square over the worst element at it, lx. In a reading: what this one is expected to err by for
     /// being interpolated, or for what rays gathered afresh have read close by.
     pub interpolation_error_lx: f64,
+    /// In a reading: what it is expected to err by in common with its surroundings, for what rays got wrong that read the map, and
+    /// for light given up. Zero in a map, which tells that for the scene.
+    pub bias_lx: f64,
     /// What the vertex, or the vertices read, stand for.
     pub standing: Standing,
     /// Samples behind the value (rays gathered or particles received).
@@ -41,6 +44,7 @@ impl Illuminance {
         indirect_standard_error_lx: 0.0,
         common_error_lx: 0.0,
         interpolation_error_lx: 0.0,
+        bias_lx: 0.0,
         standing: Standing::Open,
         samples: 0,
     };
@@ -89,6 +93,7 @@ impl Illuminance {
                 .map(|(v, w)| v.common_error_lx * w)
                 .sum(),
             interpolation_error_lx: least,
+            bias_lx: weighted().map(|(v, w)| v.bias_lx * w).sum(),
             standing,
             samples: weighted().map(|(v, _)| v.samples).sum(),
         })

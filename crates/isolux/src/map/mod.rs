@@ -60,6 +60,19 @@ impl IlluminationMap {
         if all > 0.0 { caustic / all } else { 0.0 }
     }
 
+    /// Whether it is better known how the light is here than in another map of the same scene: its error is smaller, one that is known being
+    /// smaller than one that is not; where both are alike, it has more increments, or as many of more receivers.
+    pub fn knows_more_than(&self, other: &Self) -> bool {
+        let known = |map: &Self| {
+            let Provenance { accuracy, increments, .. } = &map.provenance;
+            let error = accuracy.map_or(f64::INFINITY, |accuracy| accuracy.reached);
+            (error, *increments, map.values.len())
+        };
+        let ((own, increments, receivers), (others, of_others, receivers_of_others)) =
+            (known(self), known(other));
+        own < others || own == others && (increments, receivers) > (of_others, receivers_of_others)
+    }
+
     /// What stands in place of indirect light that was not computed, the same everywhere; readers add
     /// it to the values of vertices, lx.
     pub fn ambient_lx(&self) -> Rgb {

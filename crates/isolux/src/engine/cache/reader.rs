@@ -203,6 +203,7 @@ impl<'s> CacheReader<'s> {
             indirect_standard_error_lx: error_lx,
             common_error_lx: 0.0,
             interpolation_error_lx: 0.0,
+            bias_lx: 0.0,
             standing: Standing::Open,
             samples: ties.len() as u64,
         })

@@ -207,8 +207,8 @@ const MOST_FOLLOWED: usize = 100;
 /// Sweeps of the fixed point before giving up: at mean reflectance 0.99 the light left is e^-20.
 const MAX_SWEEPS: usize = 2000;
 
-/// Light of less than this share of the root mean square counts as that much: changes of what is next to nothing need not settle.
-const FAINT: f64 = 1e-3;
+/// Light of less than this share of the root mean square counts as that much: a unit of the sums, so that dim rooms settle by their own light.
+const FAINT: f64 = 1.0 / (1 << 24) as f64;
 /// What changes most may change so many times as much as all do in the root mean square: a small room beside a bright yard is to settle, too.
 const MOST_UNSETTLED: f64 = 10.0;
 

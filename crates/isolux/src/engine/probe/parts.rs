@@ -46,10 +46,13 @@ impl MapReader<'_> {
         let stored = self.stored_at(&surface)?;
         let at = self.places.pulled_in(surface);
         if self.map.provenance.fresh.is_none() {
-            return Some(Told::Light(self.reading(&stored, 0.0)));
+            return Some(Told::Light(Self::reading(&stored, 0.0)));
         }
         Some(match self.trial(&stored, &at, allowance) {
-            None => Told::Light(self.reading(&self.with_interpolation_error(stored), 0.0)),
+            None => {
+                let told = self.with_interpolation_error(stored, self.part_at(&surface));
+                Told::Light(Self::reading(&told, 0.0))
+            }
             Some(trial) => Told::Little { in_gap: trial.in_gap },
         })
     }
@@ -62,11 +65,13 @@ impl MapReader<'_> {
         (triangle, back, [u, v]): (u32, bool, [f64; 2]),
     ) -> Option<IndirectReading> {
         let stored = self.map.interpolate(triangle, back, u, v)?;
+        let part = self.part_at(&SurfacePoint::new(self.scene, triangle, back, u, v));
+        let bias_lx = part * self.unseen.bias_lx;
         let interpolation_error_lx = libm::hypot(
-            self.unseen.discretization_lx.max(stored.interpolation_error_lx),
+            (part * self.unseen.discretization_lx).max(stored.interpolation_error_lx),
             OF_UNLOOKED * stored.indirect_lx.luminance(),
         );
-        Some(self.reading(&Illuminance { interpolation_error_lx, ..stored }, 0.0))
+        Some(Self::reading(&Illuminance { interpolation_error_lx, bias_lx, ..stored }, 0.0))
     }
 
     /// Indirect light as [`MapReader::at`] reads it, but gathered also where interpolation is expected to err by more than is
@@ -78,7 +83,7 @@ impl MapReader<'_> {
     ) -> Option<IndirectReading> {
         let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
         let (read, _) = self.indirect(surface, allowance)?;
-        Some(self.gathered_reading(&read))
+        Some(Self::gathered_reading(&read))
     }
 
     /// Places that tell the indirect light of a surface, of [`MapReader::indirect_over`]: as many as a reading has replicates.
@@ -94,13 +99,16 @@ impl MapReader<'_> {
         let surfaces: Vec<SurfacePoint> = places
             .map(|(triangle, back, [u, v])| SurfacePoint::new(self.scene, triangle, back, u, v))
             .collect();
-        let (mut told, mut trials, mut shared_lx) = (Vec::new(), Vec::new(), 0.0);
+        let (mut told, mut trials, mut beside) = (Vec::new(), Vec::new(), [0.0; 2]);
         for surface in &surfaces {
             let Some(stored) = self.stored_at(surface) else { continue };
             match self.trial(&stored, &self.places.pulled_in(*surface), Allowance::ANY) {
-                None => told.push(self.with_interpolation_error(stored)),
+                None => {
+                    told.push(self.with_interpolation_error(stored, self.part_at(surface)));
+                }
                 Some(trial) => {
-                    shared_lx += stored.common_error_lx;
+                    beside[0] += stored.common_error_lx;
+                    beside[1] += stored.bias_lx;
                     trials.push((*surface, trial));
                 }
             }
@@ -109,7 +117,7 @@ impl MapReader<'_> {
             // One place alone tells nothing of its own noise.
             return self
                 .indirect(*surface, Allowance::ANY)
-                .map(|(read, _)| self.gathered_reading(&read));
+                .map(|(read, _)| Self::gathered_reading(&read));
         }
         let trials: Vec<Gatherer> = trials.into_iter().map(|(_, trial)| trial).collect();
         let (gathered, replicate_variance) = self.one_of_each(&trials);
@@ -119,20 +127,22 @@ impl MapReader<'_> {
             told.iter().map(|t| t.indirect_lx).chain(gathered.iter().map(|g| g.0)).collect();
         let common = |of: fn(&Illuminance) -> f64| told.iter().map(of).sum::<f64>() / n;
         let close_lx = gathered.iter().map(|(_, close)| close * lookup_lx).sum::<f64>() / n;
+        let [shared_lx, bias_lx] = beside.map(|lx| lx / n);
         let (lx, variance) = match &values[..] {
             [] => return None,
             [only] => (*only, 0.0),
             all => mean_and_variance(all),
         };
         let of_map = Illuminance {
-            indirect_standard_error_lx: common(|t| t.indirect_standard_error_lx) + shared_lx / n,
+            indirect_standard_error_lx: common(|t| t.indirect_standard_error_lx) + shared_lx,
             interpolation_error_lx: common(|t| t.interpolation_error_lx) + close_lx,
+            bias_lx: common(|t| t.bias_lx) + bias_lx,
             ..Illuminance::NOTHING
         };
         // What is not the noise of rays is how light differs within the surface.
         let noise = (replicate_variance * gathered.len() as f64 / (n * n)).min(variance);
         let spread = noise + (variance - noise) * n / AS_OF_PLACES.min(n);
-        let error_lx = libm::hypot(self.indirect_error_lx(&of_map), spread.sqrt());
+        let error_lx = libm::hypot(Self::indirect_error_lx(&of_map), spread.sqrt());
         Some(IndirectReading { lx, error_lx, noise_lx: variance.sqrt() })
     }
 
@@ -152,24 +162,27 @@ impl MapReader<'_> {
         })
     }
 
-    /// What one replicate at each of many places gathers, and the share of a unit of light that it reads close by. How
+    /// What one replicate at each of many places gathers, and the part of the error of what is read close by that it has. How
     /// many rays they take is told at the first of them, and the variance of one by noise that is expected then.
     fn one_of_each(&self, trials: &[Gatherer]) -> (Vec<(Rgb, f64)>, f64) {
         let Some(first) = trials.first() else { return (Vec::new(), 0.0) };
         let key = self.gathering_key(first);
-        let Needed { rays, variance } = self.rays_needed((*first, Allowance::ANY.noise), key);
+        let Needed { rays, variance } =
+            self.rays_needed((*first, Allowance::ANY.noise, self.part_at(&first.surface)), key);
         let rows: Vec<Gatherer> = trials.iter().map(|trial| trial.with_rays(rays)).collect();
         let operator =
             self.gathering(self.direct_at_ends()).operator(&rows, |k| key.with(1).with(k as u64));
-        let gathered = operator.apply(&self.light).into_iter().zip(operator.close()).collect();
+        let parts = trials.iter().map(|trial| self.part_at(&trial.surface));
+        let close = operator.close().zip(parts).map(|(close, part)| close * part);
+        let gathered = operator.apply(&self.light).into_iter().zip(close).collect();
         (gathered, f64::from(FRESH_REPLICATES) * variance)
     }
 
-    fn gathered_reading(&self, read: &Illuminance) -> IndirectReading {
-        self.reading(read, read.indirect_standard_error_lx)
+    fn gathered_reading(read: &Illuminance) -> IndirectReading {
+        Self::reading(read, read.indirect_standard_error_lx)
     }
 
-    fn reading(&self, read: &Illuminance, noise_lx: f64) -> IndirectReading {
-        IndirectReading { lx: read.indirect_lx, error_lx: self.indirect_error_lx(read), noise_lx }
+    fn reading(read: &Illuminance, noise_lx: f64) -> IndirectReading {
+        IndirectReading { lx: read.indirect_lx, error_lx: Self::indirect_error_lx(read), noise_lx }
     }
 }

@@ -20,7 +20,9 @@ impl MapReader<'_> {
     /// element: the corners of that lie in light, beyond something, or nothing is known of them, and the place sees none.
     pub(super) fn stored_at(&self, at: &SurfacePoint) -> Option<Illuminance> {
         let stored = self.map.interpolate(at.triangle, at.back, at.u, at.v)?;
-        (!self.is_closed_off(at, stored.illuminance_lx())).then_some(stored)
+        let bias_lx = self.part_at(at) * self.unseen.bias_lx;
+        let is_known = !self.is_closed_off(at, stored.illuminance_lx());
+        is_known.then_some(Illuminance { bias_lx, ..stored })
     }
 
     /// Of a place whose element has so much light.

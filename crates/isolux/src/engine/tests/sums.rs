@@ -147,3 +147,24 @@ fn one_increment_tells_no_error() {
     sums.add(std::iter::once(sample(Key::new(1), 1.0)));
     assert_eq!(sums.estimate(0).variance, f64::INFINITY);
 }
+
+#[test]
+fn units_are_those_of_the_light_that_is_expected() {
+    let expected_lx = [0.0, 1e-9, 3e-7, 1e-3, 0.4, 1.0, 50.0];
+    let mut sums = Accumulator::new(expected_lx.len(), 1.0).expecting(expected_lx.into_iter());
+    let value = |lx: f64| Rgb::grey(if lx > 0.0 { lx / 3.0 } else { 300.0 });
+    for _ in 0..4 {
+        sums.add(expected_lx.map(|lx| Sample { indirect: value(lx), ..Sample::default() }));
+    }
+    for (k, lx) in expected_lx.into_iter().enumerate() {
+        let Estimate { mean, variance, .. } = sums.estimate(k);
+        // Half a unit, of 2^-24 of the light expected, rounded up to a power of two, or 2^-14 of that of the reference.
+        let least = 1.0 / f64::from(1 << 14);
+        let bound = UNIT * if lx > 0.0 { lx.clamp(least, 1.0) } else { 1.0 };
+        let off = (mean.indirect - value(lx)).luminance().abs();
+        assert!(off <= bound, "{lx} lx: off by {off}, {bound} allowed");
+        // What is too dim for its unit tells so.
+        assert!(lx == 0.0 || lx >= least || off <= variance.sqrt(), "{lx} lx: {off} off");
+        assert!(lx < least || variance.sqrt() <= bound, "{lx} lx: {variance}");
+    }
+}
