@@ -28,6 +28,7 @@ mod shadows;
 mod source;
 mod ties;
 mod tree;
+mod twins;
 mod visibility;
 mod windows;
 
@@ -49,8 +50,8 @@ pub(super) use shadows::Shadows;
 pub(super) use source::LuminaireId;
 use source::{Source, SourceKind, Sources, Target};
 use std::collections::{BTreeSet, HashSet};
-use ties::Twins;
 use tree::{Images, Tree};
+use twins::Twins;
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
 const EXACT_SOURCES: usize = 4;

@@ -11,13 +11,13 @@
 //! The images of a luminaire are found breadth first, so that with a chain all its twins before it are there.
 
 use super::Lighting;
-use super::mirrors::{Mirrors, Plane};
+use super::mirrors::Plane;
 use super::source::Target;
+use super::twins::Twins;
 use super::visibility::{MAX_PANES, segment};
 use crate::engine::surface::SurfacePoint;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point, Ray, Vector};
-use std::collections::{BTreeSet, HashMap};
 use std::f64::consts::FRAC_PI_4;
 
 /// What is nearer than so many bounds of rounding to a place of reflection lies there: its own, that of where the ray started, those of
@@ -27,48 +27,6 @@ const ROUNDINGS: f64 = 4.0;
 /// The cosine from which on a surface lies along a mirror, and hides all of it, however near: of one that is as much inclined, no more than
 /// a strip of some hundred roundings does not count.
 const ALONG: f64 = 1.0 - 1e-4;
-
-/// By chain, the twins before it.
-#[derive(Debug, Default)]
-pub(super) struct Twins(HashMap<Vec<u32>, Vec<Vec<u32>>>);
-
-impl Twins {
-    /// Those among some chains.
-    pub(super) fn of(mirrors: &Mirrors, around: [Point; 2], chains: BTreeSet<Vec<u32>>) -> Self {
-        let [low, high] = around;
-        let side_m = (high - low).length();
-        let axes = [Vector::ZERO, Vector::from([1.0, 0.0, 0.0]), Vector::from([0.0, 1.0, 0.0])];
-        // Where three points come to tells a motion, but for a reflection in their plane: it takes one mirror more or less.
-        let marks = axes.map(|axis| low.lerp(high, 0.5) + axis * side_m);
-        let image = |p: Point, chain: &[u32]| {
-            chain.iter().fold(p, |p, &k| mirrors.planes[k as usize].image(p))
-        };
-        let mut all: Vec<([Point; 3], Vec<u32>)> =
-            chains.into_iter().map(|chain| (marks.map(|p| image(p, &chain)), chain)).collect();
-        all.sort_by(|(a, _), (b, _)| a[0].x.total_cmp(&b[0].x));
-        let mut twins: HashMap<Vec<u32>, Vec<Vec<u32>>> = HashMap::new();
-        for (k, (a, chain)) in all.iter().enumerate() {
-            // Every reflection doubles what its plane is off by.
-            let tolerance_m = 2.0 * chain.len() as f64 * mirrors.tolerance_m;
-            let near = all[k + 1..].iter().take_while(|(b, _)| b[0].x - a[0].x <= tolerance_m);
-            for (b, other) in near {
-                let is_same = a.iter().zip(b).all(|(a, b)| (*a - *b).length() <= tolerance_m);
-                if is_same && (chain.len() + other.len()).is_multiple_of(2) {
-                    let key = |c: &Vec<u32>| (c.len(), c.clone());
-                    let (first, second) =
-                        if key(chain) < key(other) { (chain, other) } else { (other, chain) };
-                    twins.entry(second.clone()).or_default().push(first.clone());
-                }
-            }
-        }
-        Self(twins)
-    }
-
-    /// Those before a chain.
-    pub(super) fn before(&self, chain: &[u32]) -> &[Vec<u32>] {
-        self.0.get(chain).map_or(&[], Vec::as_slice)
-    }
-}
 
 impl Lighting<'_> {
     /// The twins among the chains that images are made by.
