@@ -3,11 +3,30 @@
 use crate::{
     Loaded, Problem, Problems, gltf, mitsuba, obj, ply, product_file, rad, scene_toml, source, stl,
 };
-use isolux::scene::SceneParts;
+use isolux::scene::{Lowered, MOST_REFLECTANCE, SceneParts};
 use std::path::Path;
 
-/// Reads a scene by the extension of its file.
+/// Reads a scene by the extension of its file. Surfaces reflect no more than some do.
 pub fn load(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
+    let Loaded { mut value, mut warnings } = read(path)?;
+    warnings.extend(value.hold_reflectances().iter().map(|lowered| held(path, lowered)));
+    Ok(Loaded { value, warnings })
+}
+
+/// A warning of a material that reflected too much.
+fn held(path: &Path, Lowered { material, texture, reflectance }: &Lowered) -> Problem {
+    let place = match texture {
+        Some(number) => format!("material `{material}`, textures[{number}]"),
+        None => format!("material `{material}`"),
+    };
+    let what = format!(
+        "reflects {reflectance:.3} of the light and is taken to reflect {MOST_REFLECTANCE}: nothing that scatters light \
+         reflects more, and in a closed room of such surfaces light would never end"
+    );
+    Problem::new(path, place, what, "lower it: fresh white paint reflects 0.85")
+}
+
+fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     source::check_present(path)?;
     if std::fs::metadata(path).is_ok_and(|known| known.is_file() && known.len() == 0) {
         return Err(Problem::new(path, "", "is empty", "copy or export it again").into());

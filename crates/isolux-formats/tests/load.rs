@@ -83,3 +83,42 @@ fn the_demo_is_a_furnished_room() {
     assert_eq!(scene.groups(), ["general", "table", "accent", "desk lamp"]);
     assert_eq!(scene.cameras().len(), 2);
 }
+
+/// A closed room of what absorbs nothing has no solution: it is held, and told by name. A perfect mirror is one.
+#[test]
+fn what_reflects_all_light_is_held_and_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("white.toml");
+    let text = r#"
+        [materials.chalk]
+        diffuse = 1.0
+        [materials.lacquer]
+        diffuse = 0.96
+        gloss = { f0 = 0.04, roughness = 0.3 }
+        [materials.silver]
+        mirror = 1.0
+        [materials.paint]
+        diffuse = 0.99
+        [[geometry]]
+        box = { min = [0, 0, 0], max = [4, 5, 3], inward = true }
+        material = "chalk"
+    "#;
+    std::fs::write(&path, text).unwrap();
+    let loaded = load(&path).unwrap_or_else(|p| panic!("{p}"));
+    let told = |name: &str| {
+        let named = format!("material `{name}`");
+        loaded
+            .warnings
+            .iter()
+            .find(|w| w.place == named && w.what.contains("taken to reflect 0.99"))
+    };
+    assert!(["chalk", "lacquer"].iter().all(|name| told(name).is_some()), "{:?}", loaded.warnings);
+    assert!(["silver", "paint"].iter().all(|name| told(name).is_none()), "{:?}", loaded.warnings);
+    for material in &loaded.value.materials {
+        let finish = material.finish(false).unwrap();
+        let all = finish.diffuse.colour + finish.glossy_f0();
+        assert!(all.max_channel() <= 0.99 + 1e-12, "{material:?}");
+        assert!(material.name != "silver" || finish.mirror.max_channel() == 1.0);
+    }
+    assert!(load(&path).unwrap().value.clone().hold_reflectances().is_empty(), "once is enough");
+}

@@ -450,3 +450,34 @@ fn a_picture_that_shows_nothing_is_told() {
         }
     }
 }
+
+/// A closed room of reflectance 1 has no solution. What both say of it is what is solved: 400 pi cd sr over 94 m2 and 1 - 0.99.
+#[test]
+fn a_room_that_absorbs_nothing_is_bounded_and_told() {
+    let home = Home::new();
+    home.file(
+        "white.toml",
+        r#"
+            [materials.p]
+            diffuse = 1.0
+            [[geometry]]
+            box = { min = [0, 0, 0], max = [4, 5, 3], inward = true }
+            material = "p"
+            [[luminaire]]
+            position = [2, 2, 2]
+            isotropic = { intensity_cd = 100 }
+        "#,
+    );
+    let told = "white.toml: material `p`: reflects 1.000 of the light and is taken to reflect 0.99";
+    let checked = home.run(&["check", "white.toml"]);
+    assert!([&checked.out, &checked.err].iter().any(|text| text.contains(told)), "{checked:?}");
+    let ran = home.run(&["solve", "white.toml", "-o", "w.glb", "--accuracy", "2%", "--json"]);
+    assert!(ran.code == 0 && ran.err.contains(told), "{ran:?}");
+    home.file("p.pts", "1 1 0 0 0 1\n");
+    let probed = home.run(&["probe", "w.glb", "--points", "p.pts"]);
+    let row = probed.out.lines().nth(1).expect("one reading");
+    let lx: f64 = row.split(',').nth(6).expect("a column").parse().unwrap();
+    // All but the light that comes straight, a thirtieth of it here, is as good as even.
+    let expected = 400.0 * std::f64::consts::PI / (94.0 * 0.01);
+    assert!((lx / expected - 1.0).abs() < 0.05, "{lx} for {expected}");
+}

@@ -53,7 +53,9 @@ impl Anderson {
         let shares = self.shares(&change);
         let one = |k: usize| {
             let undone = |((image, _), &share): (&(Vec<Rgb>, _), &Rgb)| image[k] * share;
-            image[k] - self.steps.iter().zip(&shares).map(undone).sum::<Rgb>()
+            let mixed = image[k] - self.steps.iter().zip(&shares).map(undone).sum::<Rgb>();
+            // There is no light below none: a sweep alone goes on there.
+            if mixed.min_channel() < 0.0 { image[k] } else { mixed }
         };
         let next = (0..image.len()).into_par_iter().with_min_len(CHUNK).map(one).collect();
         self.before = Some((image, change));

@@ -10,6 +10,7 @@
 //! light itself. So do those that stand for gaps and rims, and all that bisection makes.
 
 use super::coarsening::{Coarsening, Link, weights_at};
+use super::held::{Held, Range, Stencil};
 use super::walls::{Beside, Walls};
 use crate::elements::{Subdivision, Vertex};
 use crate::units::Rgb;
@@ -20,10 +21,6 @@ use rayon::prelude::*;
 /// quarter of the detail and the root mean square over the edge is 0.73 of that; kinks and shadow
 /// borders, which come to matter as the rest is resolved, make it up to twice as much.
 pub(super) const ERROR_OF_DETAIL: f64 = 0.3;
-
-/// A value is bounded to the range of those it comes from, and this share of it beyond: quadratic
-/// functions overshoot where light has a kink.
-const BEYOND: f64 = 0.25;
 
 /// Vertices of one task.
 const TOGETHER: usize = 1024;
@@ -430,17 +427,64 @@ impl Waiting {
         }
     }
 
+    /// A value lies between those that it comes from: quadratic functions overshoot where light has a kink.
     fn read(&self, k: usize, values: &[Rgb]) -> Rgb {
-        let start = k.checked_sub(1).map_or(0, |before| self.ends[before]);
-        let mut sum = Rgb::BLACK;
-        let (mut low, mut high) = (Rgb::grey(f64::INFINITY), Rgb::grey(f64::NEG_INFINITY));
-        for &(parent, weight) in &self.parents[start..self.ends[k]] {
+        let parents = self.parents(k);
+        let Some(&(first, _)) = parents.first() else { return Rgb::BLACK };
+        let (mut sum, mut range) = (Rgb::BLACK, Range::of(values[first as usize]));
+        for &(parent, weight) in parents {
             let value = values[parent as usize];
             sum += value * weight;
-            (low, high) = (low.lesser(value), high.greater(value));
+            range.include(value);
         }
-        let beyond = (high - low) * BEYOND;
-        let (least, most) = (low - beyond, high + beyond);
-        Rgb([0, 1, 2].map(|c| sum.0[c].clamp(least.0[c].max(0.0), most.0[c].max(0.0))))
+        range.hold(sum)
+    }
+
+    fn parents(&self, k: usize) -> &[(u32, f64)] {
+        let start = k.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.parents[start..self.ends[k]]
+    }
+
+    /// Their part of some values, `held` between the own one `before` and those of the carriers that they follow, which are held.
+    pub(super) fn hold(&self, values: &[Rgb], before: &[Rgb], held: &mut [Rgb]) {
+        for (k, &vertex) in self.vertices.iter().enumerate() {
+            let mut range = Range::of(before[vertex as usize]);
+            self.parents(k).iter().for_each(|&(parent, _)| range.include(held[parent as usize]));
+            held[vertex as usize] = range.hold(values[vertex as usize]);
+        }
+    }
+
+    /// How they are filled from the values of some light, which are filled, with weights that stay.
+    pub(super) fn held(&self, values: &[Rgb]) -> HeldWaiting<'_> {
+        let own: Vec<Rgb> = self.vertices.iter().map(|&v| values[v as usize]).collect();
+        let from = |k: usize, from: &mut Stencil| {
+            from.extend(self.parents(k).iter().map(|&(v, _)| (v, values[v as usize])));
+            if from.is_empty() {
+                from.push((self.vertices[k], own[k]));
+            }
+        };
+        HeldWaiting { waiting: self, held: Held::of(&own, from) }
+    }
+}
+
+/// Vertices that do not carry light, with the values that each lies between.
+pub(super) struct HeldWaiting<'a> {
+    waiting: &'a Waiting,
+    held: Held,
+}
+
+impl HeldWaiting<'_> {
+    /// Puts their values where they belong.
+    pub(super) fn fill(&self, values: &mut [Rgb]) {
+        let Waiting { vertices, levels, .. } = self.waiting;
+        let mut start = 0;
+        for &end in levels {
+            let found = self.held.some(start..end, values);
+            vertices[start..end]
+                .iter()
+                .zip(found)
+                .for_each(|(&v, value)| values[v as usize] = value);
+            start = end;
+        }
     }
 }

@@ -13,6 +13,8 @@ use rayon::prelude::*;
 pub(super) struct Caustics {
     /// Illuminance at the vertices that indirect light lives on.
     pub(super) light: Vec<Rgb>,
+    /// The means about them, which are nowhere less than nothing: what is reflected on.
+    pub(super) means: Vec<Rgb>,
     /// What it lacks in the parts of elements that are checked, lx.
     pub(super) lacking: Vec<f64>,
     pub(super) effort: Effort,
@@ -22,6 +24,7 @@ pub(super) struct Caustics {
 pub(super) fn deposit(plan: &Plan, count: u32, key: Key) -> Caustics {
     let nothing = |effort: Effort| Caustics {
         light: vec![Rgb::BLACK; plan.indirect_vertices],
+        means: vec![Rgb::BLACK; plan.indirect_vertices],
         lacking: vec![0.0; plan.parts.count()],
         effort,
     };
@@ -43,5 +46,6 @@ pub(super) fn deposit(plan: &Plan, count: u32, key: Key) -> Caustics {
     let rays = (0..count).into_par_iter().map(one).sum();
     let light = tally.illuminance(0);
     let lacking = tally.lacking(|vertex| light[vertex]);
-    Caustics { light, lacking, effort: Effort { rays, given_up_lx: tally.given_up_lx() } }
+    let means = tally.means(0);
+    Caustics { light, means, lacking, effort: Effort { rays, given_up_lx: tally.given_up_lx() } }
 }

@@ -10,6 +10,7 @@
 //! evenly. And what a room without things in it would show (`backdrop`) is no detail: only what differs from it is filtered. Standard errors stay those of the unfiltered values.
 
 use super::allot::areas_m2;
+use super::held::Range;
 use super::plan::Plan;
 use crate::map::FilterReport;
 use crate::units::Rgb;
@@ -72,7 +73,9 @@ pub(super) fn filter(
             *filtered = part.iter().zip(changes).map(|(&before, by)| before + by).collect();
         }
     }
-    values[0].iter_mut().zip(behind).for_each(|(value, behind)| *value += behind);
+    values[0].iter_mut().zip(&behind).for_each(|(value, &behind)| *value += behind);
+    parts[0].iter_mut().zip(&behind).for_each(|(value, &behind)| *value += behind);
+    values.iter_mut().zip(&parts).for_each(|(filtered, part)| means.hold(plan, filtered, part));
     let bias = if reference_lx > 0.0 { bias / reference_lx } else { 0.0 };
     Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
 }
@@ -153,6 +156,21 @@ impl Means {
             }
         }
         pieces
+    }
+
+    /// Keeps filtered values between the values about them: what is given back to pieces of surface may not make more light than there
+    /// is anywhere about, or less. What does not carry light and only follows has more about it.
+    fn hold(&self, plan: &Plan, filtered: &mut [Rgb], before: &[Rgb]) {
+        let held = |(k, &value): (usize, &Rgb)| {
+            let mut range = Range::of(before[k]);
+            self.rows[k].iter().for_each(|&(v, _)| range.include(before[v as usize]));
+            range.hold(value)
+        };
+        let mut held: Vec<Rgb> = filtered.iter().enumerate().map(held).collect();
+        if plan.resolves_walls {
+            plan.waiting.hold(filtered, before, &mut held);
+        }
+        filtered.copy_from_slice(&held);
     }
 
     fn mean(&self, vertex: usize, value: impl Fn(usize) -> f64) -> f64 {

@@ -15,6 +15,7 @@
 //! part is left to the other vertices of their elements, so that the map is right in the mean.
 
 use super::carriers::Carriers;
+use super::held::{Held, Range};
 use crate::elements::{Element, Elements};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
@@ -24,7 +25,8 @@ use rayon::prelude::*;
 const MOST_WEIGHT: f64 = 4.0;
 
 /// A value is moved by no more than this share of the range of the values about it: that of a
-/// parabola at its top by a sixth. Across kinks and jumps second differences are no curvature.
+/// parabola at its top by a sixth. Across kinks and jumps second differences are no curvature. And it never leaves that range:
+/// see [`Range`].
 const MOST_SHIFT: f64 = 0.25;
 
 /// Vertices of one task.
@@ -101,21 +103,33 @@ impl Fit {
         fit
     }
 
-    /// The values that fit best, from those at the vertices.
+    /// The values that fit best, from those at the vertices: each between the values that it is fitted to.
     pub(super) fn apply(&self, values: &[Rgb]) -> Vec<Rgb> {
         let one = |k: usize| {
-            let start = k.checked_sub(1).map_or(0, |before| self.ends[before]);
-            let (mut low, mut high, mut shift) = (values[k], values[k], Rgb::BLACK);
-            for &(v, weight) in &self.entries[start..self.ends[k]] {
+            let (mut range, mut shift) = (Range::of(values[k]), Rgb::BLACK);
+            for &(v, weight) in self.form(k) {
                 let value = values[v as usize];
                 shift += value * weight;
-                (low, high) = (low.lesser(value), high.greater(value));
+                range.include(value);
             }
-            let most = (high - low) * MOST_SHIFT;
-            let bounded = |c: usize| shift.0[c].clamp(-most.0[c], most.0[c]);
-            values[k] + Rgb([0, 1, 2].map(bounded))
+            let most = range.width() * MOST_SHIFT;
+            range.hold(values[k] + shift.lesser(most).greater(most * -1.0))
         };
         (0..self.ends.len()).into_par_iter().with_min_len(1024).map(one).collect()
+    }
+
+    /// The same as means of the values of some light, with weights that stay.
+    pub(super) fn held(&self, values: &[Rgb]) -> Held {
+        Held::of(&self.apply(values), |k, from| {
+            from.push((k as u32, values[k]));
+            from.extend(self.form(k).iter().map(|&(v, _)| (v, values[v as usize])));
+        })
+    }
+
+    /// What is added to the value of a vertex.
+    fn form(&self, vertex: usize) -> &[(u32, f64)] {
+        let start = vertex.checked_sub(1).map_or(0, |before| self.ends[before]);
+        &self.entries[start..self.ends[vertex]]
     }
 }
 

@@ -12,6 +12,9 @@ pub(super) struct Hats {
     known: Vec<([u32; 3], f64)>,
 }
 
+/// Powers of half of a blur after which nothing is left that integers of sums would hold.
+const HALVINGS: u32 = 32;
+
 /// A quantity on vertices.
 pub(super) trait Quantity:
     Copy
@@ -78,5 +81,71 @@ impl Hats {
     pub(super) fn corrected<T: Quantity>(&self, means: &[T]) -> Vec<T> {
         let blurred = self.blur(means);
         means.iter().zip(&blurred).map(|(&mean, &again)| mean * 2.0 - again).collect()
+    }
+
+    /// The means that were corrected to some values: `(2 - B) means = values`, `B` the blur, which is half of all at most, so that
+    /// its powers sum up.
+    fn uncorrected(&self, values: &[Rgb]) -> Vec<Rgb> {
+        let half = |values: &[Rgb]| -> Vec<Rgb> { values.iter().map(|&v| v * 0.5).collect() };
+        let mut term = half(values);
+        let mut means = term.clone();
+        for _ in 0..HALVINGS {
+            term = half(&self.blur(&term));
+            means.iter_mut().zip(&term).for_each(|(mean, &more)| *mean += more);
+        }
+        means
+    }
+
+    /// Values that means were corrected to, none of them less than half of its mean: along every edge of elements the correction brings
+    /// as much to one end as it takes from the other, and of that only so much that neither loses more (flux-corrected transport:
+    /// Boris, Book 1973; Zalesak 1979). So no light is lost or made, as it would be if what is below zero were cut off.
+    pub(super) fn held(&self, values: &[Rgb]) -> Vec<Rgb> {
+        // Sums of increments are rounded; means of them are not negative otherwise.
+        let means = self.uncorrected(values);
+        let means: Vec<Rgb> = means.into_iter().map(|mean| mean.greater(Rgb::BLACK)).collect();
+        let edges = |corners: &[u32; 3]| {
+            [[0, 1], [1, 2], [2, 0]].map(|edge| edge.map(|k: usize| corners[k] as usize))
+        };
+        // To the first of two vertices, from the second.
+        let brought = |[a, b]: [usize; 2], area_m2: f64| (means[a] - means[b]) * (area_m2 / 12.0);
+        let mut taken = vec![Rgb::BLACK; means.len()];
+        for (corners, area_m2) in &self.known {
+            for [a, b] in edges(corners) {
+                let lm = brought([a, b], *area_m2);
+                taken[a] += (lm * -1.0).greater(Rgb::BLACK);
+                taken[b] += lm.greater(Rgb::BLACK);
+            }
+        }
+        let share = |(k, &taken): (usize, &Rgb)| {
+            let most = means[k] * (0.5 * self.areas_m2[k]);
+            let share =
+                |c: usize| if taken.0[c] > most.0[c] { most.0[c] / taken.0[c] } else { 1.0 };
+            Rgb([0, 1, 2].map(share))
+        };
+        let shares: Vec<Rgb> = taken.iter().enumerate().map(share).collect();
+        // What elements of several standings have of the blur is not known, and left as the means have it.
+        let mut known_m2 = vec![0.0; means.len()];
+        let mut sums: Vec<Rgb> = vec![Rgb::BLACK; means.len()];
+        for (corners, area_m2) in &self.known {
+            for [a, b] in edges(corners) {
+                let lm = brought([a, b], *area_m2) * {
+                    let of = |c: usize| {
+                        let loses = if means[a].0[c] < means[b].0[c] { a } else { b };
+                        shares[loses].0[c]
+                    };
+                    Rgb([0, 1, 2].map(of))
+                };
+                sums[a] += lm;
+                sums[b] += lm * -1.0;
+                known_m2[a] += area_m2 / 3.0;
+            }
+        }
+        let value = |k: usize| {
+            let unknown_m2 = (self.areas_m2[k] - known_m2[k]).max(0.0);
+            let more = sums[k] + means[k] * unknown_m2;
+            let area_m2 = self.areas_m2[k];
+            if area_m2 > 0.0 { means[k] + more / area_m2 } else { Rgb::BLACK }
+        };
+        (0..means.len()).map(value).collect()
     }
 }

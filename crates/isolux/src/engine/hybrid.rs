@@ -11,8 +11,9 @@ use super::caustics::{self, Caustics};
 use super::checks::{self, Check, DirectThere};
 use super::deadline::Deadline;
 use super::detail::LeafError;
-use super::gather::{DirectAtEnds, Gatherer, Gathering, Operator};
+use super::gather::{DirectAtEnds, Fitting, Gatherer, Gathering, Operator, Reading};
 use super::kept::Kept;
+use super::means::Places;
 use super::path::Dice;
 use super::plan::Plan;
 use super::trial::{self, FEWEST_UNJUDGED, NET_ORDER};
@@ -209,7 +210,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
             direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
-        let Caustics { light: caustic, lacking, effort: particles } =
+        let Caustics { light: caustic, means: reflected_on, lacking, effort: particles } =
             caustics::deposit(plan, self.particles, key.with(1));
         let kept = self.kept.as_ref();
         let kept = kept.map(|kept| kept.read(&plan.over(&direct), (1, key.with(6))));
@@ -223,20 +224,15 @@ impl<'p, 's> Hybrid<'p, 's> {
         let measured = |row: usize| key.with(5).with(row as u64);
         operator.append(as_read.operator_until(deadline, &places.gatherers, measured)?);
         guess.extend(places.interpolated(&plan.guess));
-        let fit = |light: &[Rgb]| {
-            let (at_vertices, at_places) = light.split_at(plan.guess.len());
-            let mut fitted = plan.fit.apply(at_vertices);
-            plan.means.apply(&mut fitted, &places, at_places);
-            fitted
-        };
+        let fit = Fitted { plan, places: &places };
         let (gathered, unsettled_lx) = operator.solve_or_give_up(
             &guess,
-            &caustic,
+            &reflected_on,
             (&plan.waiting, &fit),
             UNSETTLED * self.goal.min(COARSEST) * (1.0 - plan.mean_reflectance).max(LEAST_ABSORBED),
         );
-        let gathered = fit(&gathered);
-        let light: Vec<Rgb> = gathered.iter().zip(&caustic).map(|(&e, &c)| e + c).collect();
+        let gathered = fit.read(&gathered);
+        let light: Vec<Rgb> = gathered.iter().zip(&reflected_on).map(|(&e, &c)| e + c).collect();
         let passed_on = self.passed_on(&light);
         // As readers gather.
         let gathering = Gathering { regathers: true, ..gathering };
@@ -287,6 +283,34 @@ impl<'p, 's> Hybrid<'p, 's> {
         }
         let passed_on: Vec<Rgb> = passed_on.into_iter().map(Rgb::grey).collect();
         plan.prolongate(&passed_on).iter().map(|light| light.luminance()).collect()
+    }
+}
+
+/// What rays read of the light of an increment: values of best fit, moved so that elements have the mean that was measured.
+struct Fitted<'a> {
+    plan: &'a Plan<'a>,
+    places: &'a Places,
+}
+
+impl Fitting for Fitted<'_> {
+    fn read(&self, light: &[Rgb]) -> Vec<Rgb> {
+        let (at_vertices, at_places) = light.split_at(self.plan.guess.len());
+        let mut fitted = self.plan.fit.apply(at_vertices);
+        self.plan.means.apply(&mut fitted, self.places, at_places);
+        fitted
+    }
+
+    fn held<'a>(&'a self, light: &[Rgb]) -> Reading<'a> {
+        let vertices = self.plan.guess.len();
+        let (at_vertices, at_places) = light.split_at(vertices);
+        let fit = self.plan.fit.held(at_vertices);
+        let means = self.plan.means.held(&fit.apply(at_vertices), self.places, at_places);
+        Box::new(move |light| {
+            let (at_vertices, at_places) = light.split_at(vertices);
+            let mut fitted = fit.apply(at_vertices);
+            means.apply(&mut fitted, at_places);
+            fitted
+        })
     }
 }
 

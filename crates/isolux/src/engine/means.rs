@@ -8,6 +8,7 @@
 
 use super::detail::LeafError;
 use super::gather::Gatherer;
+use super::held::{Held, Range, Stencil};
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use super::trust;
@@ -109,8 +110,66 @@ impl Means {
         Places { gatherers, corners }
     }
 
-    /// Moves vertices so that elements have the mean that was gathered.
+    /// Moves vertices so that elements have the mean that was gathered, as far as each stays between its own value, what was
+    /// gathered on its elements, and what their corners have.
     pub(super) fn apply(&self, values: &mut [Rgb], places: &Places, gathered: &[Rgb]) {
+        let moves = self.moves(values, places, gathered);
+        let held = |k: usize| {
+            let vertex = self.ends[k].0 as usize;
+            let mut range = Range::of(values[vertex]);
+            self.from(k, places, |of| range.include(of.value(values, gathered)));
+            range.hold(values[vertex] + moves[vertex])
+        };
+        let held: Vec<Rgb> = (0..self.ends.len()).map(held).collect();
+        self.ends.iter().zip(held).for_each(|(&(v, _), value)| values[v as usize] = value);
+        for (k, ends) in self.between.iter().enumerate() {
+            let vertex = self.first_smoothed + k;
+            let mut range = Range::of(values[vertex]);
+            ends.iter().for_each(|&end| range.include(values[end as usize]));
+            values[vertex] = range.hold(values[vertex] + moves[vertex]);
+        }
+    }
+
+    /// The same as means of some light, with weights that stay: of that of all vertices, as given, and after it what was gathered.
+    pub(super) fn held(&self, values: &[Rgb], places: &Places, gathered: &[Rgb]) -> HeldMeans<'_> {
+        let mut moved = values.to_vec();
+        self.apply(&mut moved, places, gathered);
+        let own: Vec<Rgb> = self.ends.iter().map(|&(v, _)| moved[v as usize]).collect();
+        let first_gathered = values.len() as u32;
+        let from = |k: usize, some: &mut Stencil| {
+            let vertex = self.ends[k].0;
+            some.push((vertex, values[vertex as usize]));
+            self.from(k, places, |of| {
+                let number = match of {
+                    Of::Vertex(v) => v,
+                    Of::Place(place) => first_gathered + place,
+                };
+                some.push((number, of.value(values, gathered)));
+            });
+        };
+        let own = Held::of(&own, from);
+        let from = |k: usize, some: &mut Stencil| {
+            let vertex = (self.first_smoothed + k) as u32;
+            some.push((vertex, values[vertex as usize]));
+            some.extend(self.between[k].map(|end| (end, moved[end as usize])));
+        };
+        let last = self.first_smoothed + self.between.len();
+        let between = Held::of(&moved[self.first_smoothed..last], from);
+        HeldMeans { means: self, own, between }
+    }
+
+    /// What the vertex number `k` of those that are moved lies between, beside its own value.
+    fn from(&self, k: usize, places: &Places, mut add: impl FnMut(Of)) {
+        let first = k.checked_sub(1).map_or(0, |before| self.ends[before].1);
+        for &(element, _) in &self.shares[first..self.ends[k].1] {
+            let Some(corners) = places.corners[element as usize] else { continue };
+            add(Of::Place(element));
+            corners.iter().for_each(|&(v, _)| add(Of::Vertex(v)));
+        }
+    }
+
+    /// By how much vertices are to be moved so that elements have the mean that was gathered.
+    pub(super) fn moves(&self, values: &[Rgb], places: &Places, gathered: &[Rgb]) -> Vec<Rgb> {
         let lacking = |(corners, &light): (&Option<[(u32, f64); 3]>, &Rgb)| {
             corners.map_or(Rgb::BLACK, |corners| light - places.read(values, &corners))
         };
@@ -142,7 +201,48 @@ impl Means {
         for ends in &self.between {
             moves.push((moves[ends[0] as usize] + moves[ends[1] as usize]) * 0.5);
         }
-        values.iter_mut().zip(moves).for_each(|(value, by)| *value += by);
+        moves
+    }
+}
+
+/// What a vertex that is moved lies between.
+#[derive(Clone, Copy)]
+enum Of {
+    /// The light of a vertex.
+    Vertex(u32),
+    /// What was gathered at a place.
+    Place(u32),
+}
+
+impl Of {
+    fn value(self, values: &[Rgb], gathered: &[Rgb]) -> Rgb {
+        match self {
+            Self::Vertex(v) => values[v as usize],
+            Self::Place(k) => gathered[k as usize],
+        }
+    }
+}
+
+/// Vertices that are moved, with the values that each lies between.
+pub(super) struct HeldMeans<'a> {
+    means: &'a Means,
+    own: Held,
+    between: Held,
+}
+
+impl HeldMeans<'_> {
+    /// Moves vertices of other light.
+    pub(super) fn apply(&self, values: &mut Vec<Rgb>, gathered: &[Rgb]) {
+        let Means { ends, first_smoothed, between, .. } = self.means;
+        let vertices = values.len();
+        values.extend(gathered);
+        let own = self.own.apply(values);
+        ends.iter().zip(own).for_each(|(&(v, _), value)| values[v as usize] = value);
+        for k in 0..between.len() {
+            let [value] = self.between.some(k..k + 1, values)[..] else { continue };
+            values[first_smoothed + k] = value;
+        }
+        values.truncate(vertices);
     }
 }
 

@@ -154,6 +154,16 @@ pub enum SolveError {
         /// Bytes allowed.
         allowed: u64,
     },
+    /// There is more light in the map than luminaires can have brought.
+    #[error(
+        "the map has {mean_lx:.3e} lx of reflected light in the mean, where the light of all luminaires comes to {allowed_lx:.3e} lx at most: it is wrong and is not written"
+    )]
+    MoreThanEnergy {
+        /// Mean of indirect light, lx.
+        mean_lx: f64,
+        /// The most that it can be, lx.
+        allowed_lx: f64,
+    },
     /// The saved state is that of another run.
     #[error("the saved run differs in {0}; solve without resuming, or ask for the same again")]
     OtherRun(&'static str),

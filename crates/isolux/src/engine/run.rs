@@ -8,6 +8,7 @@ use super::cache::IrradianceCache;
 use super::deadline::Deadline;
 use super::direct::Lighting;
 use super::emission::Emission;
+use super::energy;
 use super::forecast::Round;
 use super::hidden::Unlit;
 use super::pilot::{self, PilotRequest, pilot};
@@ -361,8 +362,12 @@ impl<'s, 'r> Run<'s, 'r> {
         }
         let pace = Pace { started_s: self.elapsed_s(), before: work.sums.increments };
         let whole_mesh = saved.is_some() || !self.cut;
+        let allowed_lx = energy::allowed_lx(self.scene, plan.area_m2());
         loop {
             self.stopped |= !self.advance(&mut work);
+            if let Some([mean_lx, allowed_lx]) = work.beyond_energy(allowed_lx) {
+                return Err(SolveError::MoreThanEnergy { mean_lx, allowed_lx });
+            }
             let accuracy = work.accuracy();
             let end = self.audited_end(&work, accuracy);
             let progress = self.report(&work, accuracy, pace, end);

@@ -8,9 +8,11 @@ use super::cache::{CacheSample, Cached};
 use super::checks::{self, Checks, InterpolationErrors};
 use super::deadline::Deadline;
 use super::emission::Emission;
+use super::energy;
 use super::filter::filter;
 use super::flights;
 use super::forward::Forward;
+use super::hats::Hats;
 use super::hybrid::Hybrid;
 use super::judged::{Judged, OF_GOAL};
 use super::neighbours::lend_noise;
@@ -192,6 +194,12 @@ impl<'p, 's> Work<'p, 's> {
         let direct = Rgb::grey(effort.given_up_lx);
         self.given_up.add(std::iter::once(Sample { direct, ..Sample::default() }));
         Some(effort.rays)
+    }
+
+    /// If there is more indirect light than energy allows in the mean, that mean and what is allowed, lx.
+    pub(super) fn beyond_energy(&self, allowed_lx: f64) -> Option<[f64; 2]> {
+        let indirect_lx = |vertex: usize| self.estimate(vertex).mean.indirect.luminance();
+        energy::excess_lx(self.plan, allowed_lx, indirect_lx)
     }
 
     /// How many increments are made already that were not added.
@@ -391,12 +399,36 @@ impl<'p, 's> Work<'p, 's> {
         let mut values: Vec<Option<Illuminance>> =
             expected.into_iter().enumerate().map(value).collect();
         let by_particles = matches!(self.engine, Engine::Forward(_));
+        self.hold_deposits(&mut values, by_particles);
         let report = filtered.then(|| self.filter(&mut values, by_particles));
-        values.iter_mut().flatten().for_each(without_negative_light);
         if self.left.is_none() {
             lend_noise(&self.plan.elements, &mut values);
         }
         (values, report)
+    }
+
+    /// Holds what particles brought where deposits overshoot: caustics, or all light.
+    fn hold_deposits(&self, values: &mut [Option<Illuminance>], all: bool) {
+        if !all && !self.plan.lighting.leaves_caustics() {
+            return;
+        }
+        let hats = Hats::new(&self.plan.subdivision, &self.plan.standings);
+        let held = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
+            let some = values[..self.plan.indirect_vertices].iter();
+            let some: Vec<Rgb> = some.map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect();
+            self.plan.prolongate(&hats.held(&some))
+        };
+        let caustic = held(&|v| v.caustic_lx);
+        let others = all.then(|| [held(&|v| v.direct_lx - v.caustic_lx), held(&|v| v.indirect_lx)]);
+        for (k, value) in values.iter_mut().enumerate() {
+            let Some(value) = value else { continue };
+            let mut direct = value.direct_lx - value.caustic_lx;
+            if let Some([of_direct, of_indirect]) = &others {
+                (direct, value.indirect_lx) = (of_direct[k], of_indirect[k]);
+            }
+            value.caustic_lx = caustic[k];
+            value.direct_lx = direct + caustic[k];
+        }
     }
 
     /// Filters indirect light and caustics, and direct light where particles brought it.
@@ -480,16 +512,6 @@ impl<'p, 's> Work<'p, 's> {
             samples: self.sums.increments * u64::from(self.samples_of(vertex)),
         })
     }
-}
-
-/// Takes back what noise and overshooting deposits of particles have put below zero, each part of the light for itself, as readers
-/// put others in place of some: it can only come nearer to the truth.
-fn without_negative_light(value: &mut Illuminance) {
-    let no_less = |light: Rgb| light.map(|c| c.max(0.0));
-    let direct = no_less(value.direct_lx - value.caustic_lx);
-    value.indirect_lx = no_less(value.indirect_lx);
-    value.caustic_lx = no_less(value.caustic_lx);
-    value.direct_lx = direct + value.caustic_lx;
 }
 
 /// Gathering rays of receivers in the mean, as they share them best, and particles of an increment.

@@ -8,7 +8,7 @@ use crate::photometry::IntensityDistribution;
 use crate::units::Rgb;
 
 /// Reflectances may exceed one by this much: the rounding of decimal fractions and byte colours.
-const ENERGY_ROUNDING: f64 = 1e-6;
+pub(super) const ENERGY_ROUNDING: f64 = 1e-6;
 
 /// Everything that keeps the parts from being a scene.
 pub(super) fn problems(parts: &SceneParts) -> Vec<SceneProblem> {

@@ -4,6 +4,7 @@
 //! and builds the ray kernel. Engines take only a [`Scene`].
 
 mod assemble;
+mod bounded;
 mod check;
 mod coat;
 mod diffuse_only;
@@ -21,6 +22,7 @@ mod texture;
 mod view;
 
 pub use assemble::Scene;
+pub use bounded::{Lowered, MOST_REFLECTANCE};
 pub use grid::CalculationGrid;
 pub use hanging::world_from_luminaire;
 pub use luminaire::{AreaLuminaire, Luminaire, LuminaireKind};

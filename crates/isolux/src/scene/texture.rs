@@ -33,6 +33,15 @@ impl Texture {
         sum / count.max(1) as f64
     }
 
+    /// The greatest value that any pixel has, channel by channel.
+    pub fn brightest(&self) -> Rgb {
+        let mut codes = [0; 3];
+        for pixel in self.srgb.chunks_exact(3) {
+            codes.iter_mut().zip(pixel).for_each(|(most, &code)| *most = code.max(*most));
+        }
+        Rgb(codes.map(linear_from_srgb))
+    }
+
     fn pixel(&self, x: i64, y: i64) -> Rgb {
         let x = x.rem_euclid(i64::from(self.width)) as usize;
         let y = y.rem_euclid(i64::from(self.height)) as usize;

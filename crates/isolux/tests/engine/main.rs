@@ -9,5 +9,6 @@ mod radiosity;
 mod refusals;
 mod repeat;
 mod rooms;
+mod rugs;
 mod runs;
 mod trusting;

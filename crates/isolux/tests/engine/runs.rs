@@ -41,6 +41,7 @@ pub(crate) fn assert_valid(name: &str, map: &IlluminationMap) {
     for value in map.values.iter().flatten() {
         let parts = [value.direct_lx, value.caustic_lx, value.indirect_lx];
         assert!(parts.iter().all(|p| p.is_finite()), "{name}: {value:?}");
+        assert!(parts.iter().all(|p| p.min_channel() >= 0.0), "{name}: {value:?}");
         assert!(value.standard_error_lx >= 0.0, "{name}: {value:?}");
     }
 }

@@ -178,9 +178,12 @@ impl Backdrop {
         let comes_there = |&k: &usize| {
             let direction = DIRECTIONS.direction(k, of.normal);
             let far = |s: &Seen<'_>| s.at(direction).map(|(far_m, _)| (far_m, s.size_m()));
-            let nearest = seen.iter().filter_map(far).min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((far_m, size_m)) = nearest else { return false };
-            met[k].is_some_and(|hit| (f64::from(hit.t) - far_m).abs() <= BESIDE * (far_m + size_m))
+            let mut along = seen.iter().filter_map(far);
+            let Some((far_m, size_m)) = along.next() else { return false };
+            let is_at = |other_m: f64| (other_m - far_m).abs() <= BESIDE * (far_m + size_m);
+            // A wall that another stands before is not seen.
+            along.all(|(other_m, _)| is_at(other_m))
+                && met[k].is_some_and(|hit| is_at(f64::from(hit.t)))
         };
         (0..TRIED).filter(comes_there).count() >= CLEAR
     }

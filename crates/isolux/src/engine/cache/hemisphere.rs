@@ -9,7 +9,9 @@
 use super::layer::{Layer, Site, Tie};
 use crate::engine::bright::{Bright, Seen};
 use crate::engine::direct::Lighting;
+use crate::engine::held::corrected;
 use crate::engine::path::{Dice, PathEnd, follow_on};
+
 use crate::engine::surface::SurfacePoint;
 use crate::sampling::Sequence;
 use crate::scene::{Finish, Scene};
@@ -35,21 +37,22 @@ impl Light {
     }
 }
 
-/// The light of some ties.
+/// The light of some ties: the mean of what samples have, corrected by how light turns and moves away from them.
 pub(super) fn tied(ties: &[Tie], lights: &[Light]) -> Rgb {
-    let mut sum = [0.0; 3];
+    let (mut mean, mut turned) = ([0.0; 3], [0.0; 3]);
     for tie in ties {
         let Light(parts) = &lights[tie.sample as usize];
         // Most surfaces are flat: nothing turns there.
         let is_flat = tie.shares[4..] == [0.0; 3];
         let shares = if is_flat { &tie.shares[..4] } else { &tie.shares[..] };
-        for (part, &share) in parts.iter().zip(shares) {
+        for (k, (part, &share)) in parts.iter().zip(shares).enumerate() {
+            let sum = if k == 0 { &mut mean } else { &mut turned };
             for (sum, channel) in sum.iter_mut().zip(part) {
                 *sum += f64::from(share) * channel;
             }
         }
     }
-    Rgb(sum)
+    corrected(Rgb(mean), Rgb(turned))
 }
 
 /// Caustics at a place, lx.

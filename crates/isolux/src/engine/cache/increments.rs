@@ -138,9 +138,9 @@ impl<'p, 's> Cached<'p, 's> {
         let key = self.key.with(1 + index);
         let (direct, check_direct) =
             hybrid::direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
-        let Caustics { light: caustic, lacking, effort: particles } =
+        let Caustics { light: caustic, means: reflected_on, lacking, effort: particles } =
             caustics::deposit(plan, self.particles, key.with(1));
-        let caustic_at = |at: &SurfacePoint| caustic_at(plan, &caustic, at);
+        let caustic_at = |at: &SurfacePoint| caustic_at(plan, &reflected_on, at);
         let making = |part: u64, rays: u32| Making {
             index,
             rays,

@@ -191,7 +191,7 @@ impl<'s> CacheReader<'s> {
             share * share * self.variances[tie.sample as usize]
         };
         let error_lx = ties.iter().map(variance).sum::<f64>().sqrt();
-        let indirect = super::hemisphere::tied(&ties, &self.lights).map(|channel| channel.max(0.0));
+        let indirect = super::hemisphere::tied(&ties, &self.lights);
         let sequence = Sequence::new(place_key(at.point).with(number));
         let dice = &mut Dice::new(sequence, 0);
         let direct_lx = self.lighting.sampled_on(&self.patches, &at, GLANCE_SAMPLES, dice);

@@ -47,6 +47,8 @@ const NEARBY: f64 = 4.0;
 #[derive(Default)]
 struct Row {
     source: Rgb,
+    /// What walls tell that is lacking of all that rays find.
+    lacking: Rgb,
     open: bool,
     close: f64,
     /// What is seen from about the receiver, once it was asked for.
@@ -199,7 +201,7 @@ impl Gathering<'_> {
         let share = Rgb::WHITE / f64::from(rays.max(1));
         let walls =
             behind.map_or(Vec::new(), |(_, backdrop)| backdrop.seen_from(&gatherer.stand()));
-        row.source += behind.map_or(Rgb::BLACK, |(whole, _)| whole);
+        row.lacking = behind.map_or(Rgb::BLACK, |(whole, _)| whole);
         let triangle = gatherer.surface.triangle;
         let first = Leg { origin, triangle, normal, share, in_gap, ray: 0 };
         for start in (0..rays).step_by(TOGETHER as usize) {
@@ -211,7 +213,7 @@ impl Gathering<'_> {
             for number in 0..=LOST_IN_GAP {
                 self.trace(wave, row, rows);
                 if number == 0 {
-                    row.source += backdrop::lacking(&walls, &wave.directions) * share;
+                    row.lacking += backdrop::lacking(&walls, &wave.directions) * share;
                 }
                 self.locate(wave);
                 self.read(&receiver, number, (row, wave), rows);
@@ -227,7 +229,7 @@ impl Gathering<'_> {
             }
             rows.further_rays += u64::from(bright.sent);
         }
-        rows.end_row(row.source, row.open, row.close);
+        rows.end_row([row.source, row.lacking], row.open, row.close);
     }
 
     /// Finds the diffuse surfaces that rays come to.

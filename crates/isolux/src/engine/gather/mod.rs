@@ -8,7 +8,7 @@
 mod legs;
 mod operator;
 
-pub(super) use operator::Operator;
+pub(super) use operator::{Fitting, Operator, Reading};
 
 use super::backdrop::{Backdrop, Stand};
 use super::bright::Bright;

@@ -2,11 +2,35 @@
 
 use crate::engine::anderson::Anderson;
 use crate::engine::carriers::Waiting;
+use crate::engine::held::corrected;
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// From the light at receivers to what rays read at them.
-pub(in crate::engine) type Fitting<'a> = dyn Fn(&[Rgb]) -> Vec<Rgb> + 'a;
+/// From the light at receivers to what rays read at them: each value a mean of the light of some, with weights that are not
+/// negative and sum to one.
+pub(in crate::engine) trait Fitting {
+    /// What rays read.
+    fn read(&self, light: &[Rgb]) -> Vec<Rgb>;
+
+    /// The same with the weights that some light has, for any other.
+    fn held<'a>(&'a self, light: &[Rgb]) -> Reading<'a>;
+}
+
+/// What rays read of some light.
+pub(in crate::engine) type Reading<'a> = Box<dyn Fn(&[Rgb]) -> Vec<Rgb> + 'a>;
+
+/// Rays read the first so many receivers as they are.
+struct AsItIs(usize);
+
+impl Fitting for AsItIs {
+    fn read(&self, light: &[Rgb]) -> Vec<Rgb> {
+        light[..self.0].to_vec()
+    }
+
+    fn held<'a>(&'a self, _: &[Rgb]) -> Reading<'a> {
+        Box::new(|light| self.read(light))
+    }
+}
 
 /// What a ray reads from the map: the light of three vertices.
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +55,9 @@ pub(super) struct Rows {
     runs: Vec<Run>,
     /// End of the runs of every row.
     ends: Vec<usize>,
-    /// Light that needs no further reflection, lx.
+    /// Light that needs no further reflection, lx, and what walls tell that is lacking of all (see [`corrected`]).
     sources: Vec<Rgb>,
+    lacking: Vec<Rgb>,
     /// Whether some ray left the scene or came to a surface that could be lit.
     open: Vec<bool>,
     /// Of every row, the share of a unit of light that is read close by.
@@ -52,6 +77,22 @@ pub(in crate::engine) struct Operator {
 }
 
 impl Operator {
+    /// Of rows that are given: of each its light, and the vertices and weights of its rays, which all reflect alike.
+    #[cfg(test)]
+    pub(in crate::engine) fn of_rows(
+        rows: &[(Rgb, Vec<([u32; 3], [f32; 3])>)],
+        reflectance: f64,
+    ) -> Self {
+        let mut all = Rows::default();
+        for (source, rays) in rows {
+            let share = [(reflectance / rays.len() as f64) as f32; 3];
+            rays.iter()
+                .for_each(|&(vertices, weights)| all.push(Entry { vertices, weights }, share));
+            all.end_row([*source, Rgb::BLACK], true, 0.0);
+        }
+        Self { chunks: vec![all], receivers: rows.len(), rays: 0 }
+    }
+
     /// `source + A light`, one value a receiver.
     pub(in crate::engine) fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
         let count = self.chunks.iter().map(|rows| rows.ends.len()).sum();
@@ -115,52 +156,81 @@ impl Operator {
         waiting: &Waiting,
         tolerance: f64,
     ) -> Vec<Rgb> {
-        self.solve_or_give_up(guess, given, (waiting, &<[Rgb]>::to_vec), tolerance).0
+        let fit = AsItIs(given.len());
+        self.solve_or_give_up(guess, given, (waiting, &fit), tolerance).0
     }
 
     /// The same, and the root mean square of what the last sweep changed. What does not carry light is
     /// interpolated; with a fit, the light that is applied to is that of best fit.
     ///
     /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of
-    /// the operator; [`Anderson`] takes what the sweeps have told of it into account.
+    /// the operator; [`Anderson`] takes what the sweeps have told of it into account. Rows, interpolation and fit have weights
+    /// that are not negative, and rows sum to no more than surfaces reflect: so no sweep returns more than it receives. Which weights
+    /// interpolation and fit have depends on the light; once so many sweeps have not settled, they stay
+    /// ([`Held`](super::super::held::Held)), and what is left shrinks in every sweep.
     pub(in crate::engine) fn solve_or_give_up(
         &self,
         guess: &[Rgb],
         given: &[Rgb],
-        (waiting, fit): (&Waiting, &Fitting<'_>),
+        (waiting, fit): (&Waiting, &dyn Fitting),
         tolerance: f64,
     ) -> (Vec<Rgb>, f64) {
-        let apply = |light: &[Rgb]| {
-            let mut gathered = self.apply(light);
-            waiting.fill(&mut gathered);
-            gathered
-        };
-        let with_given = |light: &[Rgb]| -> Vec<Rgb> {
-            let mut light = fit(light);
+        let with_given = |mut light: Vec<Rgb>| -> Vec<Rgb> {
             light.iter_mut().zip(given).for_each(|(e, &g)| *e += g);
             light
         };
+        let read = |light: &[Rgb]| with_given(fit.read(light));
+        let fill = |light: &mut [Rgb]| waiting.fill(light);
         let mut light = guess.to_vec();
         if let Some(rough) = Rough::of(self, guess.len(), waiting) {
-            match self.settle_roughly(&rough, (light, waiting), with_given, tolerance) {
+            match self.settle_roughly(&rough, (light, waiting), read, tolerance) {
                 Ok(settled) => return settled,
                 Err(nearer) => light = nearer,
             }
         }
-        let mut unsettled = 0.0;
-        let mut mixing: Option<Anderson> = None;
-        for _ in 0..MAX_SWEEPS {
-            let mut next = apply(&with_given(&light));
-            let settling = Settling::of(&next, &light);
-            unsettled = settling.rms();
-            if settling.is_within(tolerance) {
-                return (next, unsettled);
+        let light = match self.settle(light, (&read, &fill), (FREE_SWEEPS, tolerance)) {
+            Ok(settled) => return settled,
+            Err(nearer) => nearer,
+        };
+        let (fit, waiting) = (fit.held(&light), waiting.held(&light));
+        let read = |light: &[Rgb]| with_given(fit(light));
+        let fill = |light: &mut [Rgb]| waiting.fill(light);
+        match self.settle(light, (&read, &fill), (MAX_SWEEPS, tolerance)) {
+            Ok(settled) => settled,
+            Err(light) => {
+                let next = self.swept(&light, (&read, &fill));
+                let unsettled_lx = Settling::of(&next, &light).rms();
+                (next, unsettled_lx)
             }
-            next.truncate(guess.len());
+        }
+    }
+
+    /// One sweep.
+    fn swept(&self, light: &[Rgb], (read, fill): Rules<'_>) -> Vec<Rgb> {
+        let mut next = self.apply(&read(light));
+        fill(&mut next);
+        next
+    }
+
+    /// Sweeps until the light settles, so many at most. Without success, the light that it has come to.
+    fn settle(
+        &self,
+        mut light: Vec<Rgb>,
+        rules: Rules<'_>,
+        (most, tolerance): (usize, f64),
+    ) -> Result<(Vec<Rgb>, f64), Vec<Rgb>> {
+        let mut mixing: Option<Anderson> = None;
+        for _ in 0..most {
+            let mut next = self.swept(&light, rules);
+            let settling = Settling::of(&next, &light);
+            if settling.is_within(tolerance) {
+                return Ok((next, settling.rms()));
+            }
+            next.truncate(light.len());
             let mixing = mixing.get_or_insert_with(|| Anderson::weighted(weights(&next)));
             light = mixing.next(&light, next);
         }
-        (apply(&with_given(&light)), unsettled)
+        Err(light)
     }
 
     /// The same where few vertices carry light: what a sweep changes there is followed on its further ways over a rough operator,
@@ -191,7 +261,11 @@ impl Operator {
             let change: Vec<Rgb> = now.iter().zip(&then).map(|(&a, &b)| a - b).collect();
             let whole = rough.followed(change, &weights(&now));
             let of = rough.carriers.iter().zip(then).zip(whole);
-            of.for_each(|((&vertex, then), whole)| light[vertex as usize] = then + whole);
+            of.zip(now).for_each(|(((&vertex, then), whole), now)| {
+                // There is no light below none.
+                let whole = then + whole;
+                light[vertex as usize] = if whole.min_channel() < 0.0 { now } else { whole };
+            });
             waiting.fill(&mut light);
         }
         Err(light)
@@ -209,6 +283,13 @@ const MAX_SWEEPS: usize = 2000;
 
 /// Light of less than this share of the root mean square counts as that much: a unit of the sums, so that dim rooms settle by their own light.
 const FAINT: f64 = 1.0 / (1 << 24) as f64;
+/// Sweeps after which the weights of interpolation and fit stay: at reflectance 0.9 without any mixing, the light left is e^-10, less
+/// than any tolerance.
+const FREE_SWEEPS: usize = 100;
+
+/// What rays read of some light, and how what does not gather is filled.
+type Rules<'a> = (&'a dyn Fn(&[Rgb]) -> Vec<Rgb>, &'a dyn Fn(&mut [Rgb]));
+
 /// What changes most may change so many times as much as all do in the root mean square: a small room beside a bright yard is to settle, too.
 const MOST_UNSETTLED: f64 = 10.0;
 
@@ -301,6 +382,7 @@ impl Rough {
                 if is_carrier(vertex) {
                     own.ends.push(end);
                     own.sources.push(Rgb::BLACK);
+                    own.lacking.push(Rgb::BLACK);
                 }
                 vertex += 1;
             }
@@ -336,6 +418,9 @@ fn parts<'a>(chunks: &'a [Rows], mut values: &'a mut [Rgb]) -> Vec<(&'a Rows, &'
     chunks.iter().map(part).collect()
 }
 
+/// Shares and weights of a row, stored in `f32`, sum to one within this: each is rounded by 2^-24 of it at most.
+const STORED: f64 = 1e-6;
+
 impl Rows {
     /// Adds an entry to the row that is being made.
     pub(super) fn push(&mut self, entry: Entry, share: [f32; 3]) {
@@ -350,16 +435,41 @@ impl Rows {
     }
 
     /// Ends the row that is being made.
-    pub(super) fn end_row(&mut self, source: Rgb, open: bool, close: f64) {
+    pub(super) fn end_row(&mut self, [source, lacking]: [Rgb; 2], open: bool, close: f64) {
+        self.hold_row();
         self.ends.push(self.runs.len());
         self.sources.push(source);
+        self.lacking.push(lacking);
         self.open.push(open);
         self.close.push(close);
+    }
+
+    /// Has the row that is being made return no more than it receives. By roulette over specular surfaces a few rays may carry more than
+    /// there is; what is beyond counts as given up.
+    fn hold_row(&mut self) {
+        let first_of_row = self.ends.last().copied().unwrap_or(0);
+        let mut entry = first_of_row.checked_sub(1).map_or(0, |before| self.runs[before].end);
+        let mut sum = [0.0; 3];
+        for Run { end, share } in &self.runs[first_of_row..] {
+            let count = f64::from(end - entry);
+            (0..3).for_each(|c| sum[c] += count * f64::from(share[c]));
+            entry = *end;
+        }
+        let most = Rgb(sum).max_channel();
+        if most > 1.0 + STORED {
+            self.given_up += most - 1.0;
+            for Run { share, .. } in &mut self.runs[first_of_row..] {
+                *share = share.map(|c| (f64::from(c) / most) as f32);
+            }
+        }
     }
 
     fn apply(&self, light: &[Rgb], values: &mut [Rgb]) {
         values.copy_from_slice(&self.sources);
         self.add(light, values);
+        values.iter_mut().zip(&self.lacking).for_each(|(value, &lacking)| {
+            *value = corrected(*value, lacking);
+        });
     }
 
     /// Adds to vertices what rows of such values read of them.

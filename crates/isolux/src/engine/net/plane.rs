@@ -1,6 +1,7 @@
 //! Planes through what was gathered.
 
 use crate::engine::IndirectReading;
+use crate::engine::held::corrected;
 use crate::units::Rgb;
 
 /// Planes lean by no more than what the spread of their places tells: this share of it is added both ways.
@@ -54,18 +55,20 @@ pub(super) fn plane(about: &[Node]) -> Option<Continued> {
     let (xx, yy) = (xx + stiff, yy + stiff);
     let determinant = xx * yy - xy * xy;
     let lean = [yy * mean[0] - xy * mean[1], xx * mean[1] - xy * mean[0]].map(|c| c / determinant);
-    let (mut lx, mut error_lx, mut noise) = (Rgb::BLACK, 0.0, 0.0);
+    let (mut lx, mut mean_lx, mut error_lx, mut noise) = (Rgb::BLACK, Rgb::BLACK, 0.0, 0.0);
     let (mut squared, mut shares) = (0.0, 0.0);
     for Node { off, weight, reading, squared: of_node, .. } in about {
         let along = lean[0] * (off[0] - mean[0]) + lean[1] * (off[1] - mean[1]);
         let share = weight / total * (1.0 - along);
         lx += reading.lx * share;
+        mean_lx += reading.lx * (weight / total);
         error_lx += share.abs() * reading.error_lx;
         noise += share * share * reading.noise_lx * reading.noise_lx;
         squared += share.abs() * of_node;
         shares += share.abs();
     }
-    let reading = IndirectReading { lx: lx.map(|c| c.max(0.0)), error_lx, noise_lx: noise.sqrt() };
+    let reading =
+        IndirectReading { lx: corrected(mean_lx, lx - mean_lx), error_lx, noise_lx: noise.sqrt() };
     (shares <= MOST_SHARES).then_some(Continued {
         reading,
         squared,

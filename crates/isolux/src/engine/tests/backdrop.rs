@@ -124,9 +124,9 @@ fn light_settles_among_carriers_as_it_does_among_all() {
         .collect();
     let operator = gathering.operator(&rows, |row| Key::new(4).with(row as u64));
     let black = vec![Rgb::BLACK; vertices];
-    let fit = |light: &[Rgb]| plan.fit.apply(light);
+    let fit = FitAlone(&plan.fit);
     let (settled, left) = operator.solve_or_give_up(&black, &black, (&plan.waiting, &fit), 1e-10);
-    let mut image = operator.apply(&fit(&settled));
+    let mut image = operator.apply(&fit.read(&settled));
     plan.waiting.fill(&mut image);
     let rms = |of: &dyn Fn(usize) -> f64| {
         ((0..vertices).map(|k| of(k) * of(k)).sum::<f64>() / vertices as f64).sqrt()

@@ -65,8 +65,7 @@ fn what_is_concave_is_not_too_dark() {
     assert!(fitted_rms < 0.65 * rms, "{fitted_rms} of {rms}");
 }
 
-/// Across a jump second differences are no curvature: no value leaves the range of those about it by
-/// more than the bound, and light does not become negative by more than that.
+/// Across a jump second differences are no curvature: no value leaves the range of those about it, so that none becomes negative.
 #[test]
 fn jumps_are_not_overshot() {
     let (_, elements) = floor();
@@ -74,7 +73,8 @@ fn jumps_are_not_overshot() {
     let value = |p: Point| if p.x + 0.3 * p.y > 1.3 { 100.0 } else { 0.0 };
     let values: Vec<Rgb> = vertices.iter().map(|v| Rgb::grey(value(v.position))).collect();
     let fitted = Fit::new(&elements, vertices.len(), |_| true, &Carriers::all()).apply(&values);
-    assert!(fitted.iter().all(|v| (-25.0..=125.0).contains(&v.luminance())));
+    // The luminance of a grey is rounded.
+    assert!(fitted.iter().all(|v| (0.0..=100.0).contains(&v.0[0])));
     assert!(fitted != values);
 }
 

@@ -70,8 +70,13 @@ fn what_is_measured_is_given_to_elements_that_nobody_trusts() {
     let places = plan.places_of_means(1, Key::new(3));
     assert!(places.gatherers.len() > 100, "{}", places.gatherers.len());
     let zero = vec![Rgb::BLACK; plan.indirect_vertices];
-    let mut moved = zero.clone();
-    plan.means.apply(&mut moved, &places, &vec![Rgb::WHITE; places.gatherers.len()]);
+    let measured = vec![Rgb::WHITE; places.gatherers.len()];
+    let moved = plan.means.moves(&zero, &places, &measured);
+    // What is applied stays between what was there and what was measured.
+    let mut applied = zero;
+    plan.means.apply(&mut applied, &places, &measured);
+    assert!(applied.iter().all(|lx| (0.0..=1.0).contains(&lx.luminance())));
+    assert!(applied.iter().zip(&moved).all(|(a, b)| b.luminance() > 1.0 || a == b));
     let mut measured_m2 = 0.0;
     for gatherer in &places.gatherers {
         let at = gatherer.surface.point;

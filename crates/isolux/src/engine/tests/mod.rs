@@ -14,6 +14,7 @@ mod deposits;
 mod details;
 mod direct_light;
 mod emission;
+mod energy;
 mod errors;
 mod estimates;
 mod faces;
@@ -22,6 +23,7 @@ mod fixed_point;
 mod foreseeing;
 mod glass;
 mod gloss;
+mod held;
 mod judging;
 mod kept;
 mod landing;
@@ -44,6 +46,8 @@ mod ties;
 mod trusting;
 mod walls;
 
+use super::fit::Fit;
+use super::gather::{Fitting, Reading};
 use super::path::Dice;
 use super::pilot::PilotRequest;
 use super::surface::SurfacePoint;
@@ -108,6 +112,20 @@ pub(super) fn scene(
 ) -> Scene {
     let parts = SceneParts { shapes, materials, luminaires, ..SceneParts::default() };
     Scene::assemble(parts).unwrap()
+}
+
+/// Rays read values of best fit.
+struct FitAlone<'f>(&'f Fit);
+
+impl Fitting for FitAlone<'_> {
+    fn read(&self, light: &[Rgb]) -> Vec<Rgb> {
+        self.0.apply(light)
+    }
+
+    fn held<'a>(&'a self, light: &[Rgb]) -> Reading<'a> {
+        let held = self.0.held(light);
+        Box::new(move |light| held.apply(light))
+    }
 }
 
 /// What a pilot is asked for a map of 2 %.

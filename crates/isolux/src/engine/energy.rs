@@ -1,0 +1,59 @@
+//! What energy allows: a map with more light than that is none.
+//!
+//! Of the light that falls on surfaces they reflect a share `rho` at most, and what they reflect is all that falls on them beside the
+//! flux that comes straight. So no more than `flux / (1 - rho)` falls on them in all, and of that `rho flux / (1 - rho)` after reflections:
+//! in the mean over their area what a white sphere around all luminaires has everywhere.
+
+use super::emission::Emission;
+use super::plan::Plan;
+use crate::elements::carries_map;
+use crate::scene::{Finish, Scene, Texture};
+use crate::units::Rgb;
+
+/// Noise and interpolation are part of a map: what it errs by where it knows nothing yet is all of the light, and so it may have twice as
+/// much as there is.
+const ERRS_BY: f64 = 1.0;
+
+/// The most that comes to surfaces after diffuse reflections, in the mean, lx; infinite where some reflect all light.
+pub(super) fn allowed_lx(scene: &Scene, area_m2: f64) -> f64 {
+    let flux_lm = Emission::new(scene).map_or(0.0, |emission| emission.flux_lm());
+    let share = most_reflected(scene);
+    if share < 1.0 { flux_lm * share / (1.0 - share) / area_m2 } else { f64::INFINITY }
+}
+
+/// The mean of indirect light over the elements of a plan, as far as vertices know it, if that is more than energy allows, and what that is, lx.
+pub(super) fn excess_lx(
+    plan: &Plan,
+    allowed_lx: f64,
+    indirect_lx: impl Fn(usize) -> f64,
+) -> Option<[f64; 2]> {
+    let (mut flux_lm, mut known_m2) = (0.0, 0.0);
+    for leaf in plan.subdivision.leaves() {
+        let corners = plan.subdivision.node(leaf).0.vertices.map(|v| v as usize);
+        if corners.iter().all(|&v| plan.standings[v].is_some()) {
+            let third_m2 = plan.subdivision.triangle(leaf).area() / 3.0;
+            flux_lm += corners.iter().map(|&v| third_m2 * indirect_lx(v)).sum::<f64>();
+            known_m2 += 3.0 * third_m2;
+        }
+    }
+    let mean_lx = if known_m2 > 0.0 { flux_lm / known_m2.max(plan.area_m2()) } else { 0.0 };
+    // NaN is no light that is allowed, either.
+    let is_allowed = mean_lx <= (1.0 + ERRS_BY) * allowed_lx;
+    (!is_allowed).then_some([mean_lx, allowed_lx])
+}
+
+/// The greatest share of light that a surface with a map reflects.
+fn most_reflected(scene: &Scene) -> f64 {
+    let brightest: Vec<Rgb> = scene.textures().iter().map(Texture::brightest).collect();
+    let of = |finish: &Finish| {
+        let texture = finish.diffuse.texture.and_then(|t| brightest.get(t as usize));
+        let diffuse = finish.diffuse.colour * texture.copied().unwrap_or(Rgb::WHITE);
+        let gloss =
+            if finish.is_glossy() { Rgb::WHITE - finish.diffuse.colour } else { finish.mirror };
+        (diffuse + gloss.greater(finish.mirror)).max_channel()
+    };
+    let sides = (0..scene.triangle_count()).flat_map(|t| [false, true].map(|back| (t, back)));
+    let with_map = sides.filter(|&(t, back)| carries_map(scene, t, back));
+    let shares = with_map.filter_map(|(t, back)| Some(of(scene.material(t).finish(back)?)));
+    shares.fold(0.0, f64::max)
+}
