@@ -5,7 +5,7 @@ mod outlook;
 use super::accumulate::{Accumulator, Estimate, Sample};
 use super::accuracy::{BELIEVED_INCREMENTS, Pooled, accuracy, accuracy_of_map};
 use super::cache::{CacheSample, Cached};
-use super::checks::{self, Checks, InterpolationErrors};
+use super::checks::{self, Check, Checks, InterpolationErrors};
 use super::deadline::Deadline;
 use super::emission::Emission;
 use super::energy;
@@ -81,7 +81,6 @@ impl<'p, 's> Work<'p, 's> {
         target: f64,
         halvings: u32,
     ) -> Self {
-        let reference = plan.reference_lx;
         let (goal, wanted) = match request.method {
             Method::Hybrid => (request.accuracy.unwrap_or(target), None),
             Method::Cache => (target, None),
@@ -89,7 +88,7 @@ impl<'p, 's> Work<'p, 's> {
             Method::Radiosity => (target, Some(request.radiosity.limits(target).check_rays)),
         };
         let noise = noise(plan, goal, target);
-        let by_noise = || plan.trial.rays_anywhere(noise, reference, FEWEST_INCREMENTS);
+        let by_noise = || plan.trial.rays_anywhere(noise, plan.reference_lx, FEWEST_INCREMENTS);
         let wanted = wanted.unwrap_or_else(by_noise);
         let most = most_rays(plan, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
@@ -118,24 +117,8 @@ impl<'p, 's> Work<'p, 's> {
                 Engine::Radiosity(Box::new(Radiosity::new(plan, &points, settings, target, seed)))
             }
         };
-        let parts = plan.parts.count();
-        let (places, parts, reference) = match &engine {
-            Engine::Radiosity(radiosity) => (radiosity.patches(), 0, radiosity.reference_lx()),
-            Engine::Cache(_) => (checks::places(&points, false), parts, reference),
-            Engine::Hybrid(_) => (checks::places(&points, true), parts, reference),
-            Engine::Forward(_) => (0, parts, reference),
-        };
-        let sums_of = |places: usize| Accumulator::new(places, reference);
-        let mut sums = sums_of(plan.elements.vertices().len());
-        let mut sums_of_points = sums_of(places);
-        // Single particles, and shots, may bring far more than is expected.
-        if matches!(engine, Engine::Hybrid(_) | Engine::Cache(_)) {
-            let expected = plan.expected();
-            sums = sums.expecting(expected.iter().map(|light| light.luminance()));
-            sums_of_points = sums_of_points.expecting(checks::about_lx(&points, &expected));
-        }
-        let checks = Checks { points, sums: sums_of_points, lacking: sums_of(parts) };
-        let given_up = sums_of(1);
+        let (sums, checks) = no_sums(plan, &engine, points);
+        let given_up = Accumulator::new(1, reference_of(plan, &engine));
         let stops_at_unshot = request.radiosity.unshot.is_some();
         let (samples, left) = (rays, None);
         let goal = request.accuracy;
@@ -540,4 +523,34 @@ fn most_rays(plan: &Plan, max_memory_bytes: u64) -> u32 {
     let vertices = plan.indirect_vertices + plan.gathering_for_bare.len();
     let most = (max_memory_bytes / 2 / 48 / vertices.max(1) as u64).clamp(8, 1 << 20) as u32;
     if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 }
+}
+
+/// What light is expected to be about, lx.
+fn reference_of(plan: &Plan, engine: &Engine) -> f64 {
+    match engine {
+        Engine::Radiosity(radiosity) => radiosity.reference_lx(),
+        _ => plan.reference_lx,
+    }
+}
+
+/// Sums of receivers and of check points before the first increment.
+fn no_sums(plan: &Plan, engine: &Engine, points: Vec<Check>) -> (Accumulator, Checks) {
+    let parts = plan.parts.count();
+    let (places, parts) = match engine {
+        Engine::Radiosity(radiosity) => (radiosity.patches(), 0),
+        Engine::Cache(_) => (checks::places(&points, false), parts),
+        Engine::Hybrid(_) => (checks::places(&points, true), parts),
+        Engine::Forward(_) => (0, parts),
+    };
+    let sums_of = |places: usize| Accumulator::new(places, reference_of(plan, engine));
+    let mut sums = sums_of(plan.elements.vertices().len());
+    let mut sums_of_points = sums_of(places);
+    // Single particles, and shots, may bring far more than is expected.
+    if matches!(engine, Engine::Hybrid(_) | Engine::Cache(_)) {
+        let expected = plan.expected();
+        sums = sums.expecting(expected.iter().map(|light| light.luminance()));
+        sums_of_points = sums_of_points.expecting(checks::about_lx(&points, &expected));
+    }
+    let checks = Checks { points, sums: sums_of_points, lacking: sums_of(parts) };
+    (sums, checks)
 }

@@ -3,7 +3,7 @@
 //! An increment is a whole replicate of the cache: its own random rays at every sample, its own
 //! fixed point of the light between samples. Where the samples lie is fixed before the first.
 
-use super::hemisphere::tied;
+use super::hemisphere::{Light, tied};
 use super::layer::Tie;
 use super::placing::Place;
 use super::record::{CACHE_REPLICATES, CacheSample, IrradianceCache};
@@ -160,16 +160,7 @@ impl<'p, 's> Cached<'p, 's> {
         let mut gathered: Vec<Rgb> = self.ties.par_iter().map(|ties| tied(ties, &near)).collect();
         plan.waiting.fill(&mut gathered);
         let gathered = plan.fit.apply(&gathered);
-        let is_direct_read = plan.lighting.are_read_at_ends();
-        let lookup = |k: usize| {
-            // No ray ends where no sample is.
-            if self.far_ties[k].is_empty() {
-                return Rgb::BLACK;
-            }
-            let direct = if is_direct_read { check_direct[k] } else { Rgb::BLACK };
-            tied(&self.far_ties[k], &far) - fresh[k] - direct
-        };
-        let lookups: Vec<Rgb> = (0..fresh.len()).map(lookup).collect();
+        let lookups = self.lookups(&far, &fresh, &check_direct);
         let (indirect, caustic) = (plan.prolongate(&gathered), plan.prolongate(&caustic));
         let map = [direct.as_slice(), &caustic, &indirect];
         check_sums.add(checks::samples(checks, (&fresh, &check_direct), map, Some(&lookups)));
@@ -186,6 +177,20 @@ impl<'p, 's> Cached<'p, 's> {
                 + (lost + far_lost) * plan.reference_lx
                 + unsettled_lx,
         })
+    }
+
+    /// What rays of check points read of samples beyond what they gather afresh, lx.
+    fn lookups(&self, far: &[Light], fresh: &[Rgb], direct: &[Rgb]) -> Vec<Rgb> {
+        let is_direct_read = self.plan.lighting.are_read_at_ends();
+        let lookup = |k: usize| {
+            // No ray ends where no sample is.
+            if self.far_ties[k].is_empty() {
+                return Rgb::BLACK;
+            }
+            let direct = if is_direct_read { direct[k] } else { Rgb::BLACK };
+            tied(&self.far_ties[k], far) - fresh[k] - direct
+        };
+        (0..fresh.len()).map(lookup).collect()
     }
 
     /// The samples made, if they have all their replicates.
