@@ -133,20 +133,20 @@ impl<'p, 's> Cached<'p, 's> {
         checks: &mut Checks,
         deadline: Deadline,
     ) -> Option<Effort> {
-        let plan = self.plan;
+        let (plan, key) = (self.plan, self.key.with(1 + index));
         let Checks { points: checks, sums: check_sums, lacking: lacking_sums } = checks;
-        let key = self.key.with(1 + index);
         let (direct, check_direct) =
             hybrid::direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
         let Caustics { light: caustic, lacking, effort: particles } =
             caustics::deposit(plan, self.particles, key.with(1));
         let caustic_at = |at: &SurfacePoint| caustic_at(plan, &caustic, at);
+        let (lighting, bright) = (plan.lighting, plan.bright.as_ref());
         let making = |part: u64, rays: u32| Making {
             index,
             rays,
             key: self.key.with(u64::MAX - part),
-            lighting: plan.lighting,
-            bright: plan.bright.as_ref(),
+            lighting,
+            bright,
             caustic: &caustic_at,
             deadline,
         };
@@ -160,13 +160,12 @@ impl<'p, 's> Cached<'p, 's> {
         let mut gathered: Vec<Rgb> = self.ties.par_iter().map(|ties| tied(ties, &near)).collect();
         plan.waiting.fill(&mut gathered);
         let gathered = plan.fit.apply(&gathered);
-        let is_direct_read = plan.lighting.are_read_at_ends();
         let lookup = |k: usize| {
             // No ray ends where no sample is.
             if self.far_ties[k].is_empty() {
                 return Rgb::BLACK;
             }
-            let direct = if is_direct_read { check_direct[k] } else { Rgb::BLACK };
+            let direct = if lighting.are_read_at_ends() { check_direct[k] } else { Rgb::BLACK };
             tied(&self.far_ties[k], &far) - fresh[k] - direct
         };
         let lookups: Vec<Rgb> = (0..fresh.len()).map(lookup).collect();
