@@ -123,9 +123,8 @@ impl<'p, 's> Hybrid<'p, 's> {
         let for_bare = plan.gathering_for_bare.iter();
         let for_bare = for_bare.map(|&v| plan.gatherers[v as usize].with_rays(rays_of_means));
         let fresh_rows = checks.iter().map(|check| check.gatherer).chain(for_bare).collect();
-        let absorbed = (1.0 - plan.mean_reflectance).max(LEAST_ABSORBED);
-        let allowed_lx = goal * plan.reference_lx * absorbed;
-        let kept = Kept::of(&plan.over(&plan.direct), allowed_lx, key.with(u64::MAX - 2));
+        let over = plan.over(&plan.direct);
+        let kept = Kept::of(&over, goal * plan.reference_lx, key.with(u64::MAX - 2));
         let ahead = VecDeque::new();
         let readers = READERS.min((most / OF_READERS).max(1));
         let reader = reader(plan, &rows, (readers, key.with(u64::MAX)));

@@ -20,9 +20,6 @@ use isolux_geometry::Point;
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// What elements that are left as they are may err by, of what is allowed, if they all erred alike.
-const OF_ALLOWED: f64 = 0.5;
-
 /// Places that tell by how much light differs from what is read there: enough to know that of one surface in a hundred.
 const PLACES: usize = 1024;
 
@@ -54,7 +51,8 @@ struct Leaf {
     back: bool,
     vertices: [u32; 3],
     area_m2: f64,
-    /// By how much what is reflected may differ from what is read, in the mean, lx.
+    /// By how much what is reflected differs between vertices, or from what is read, lx: in the mean over the element it errs by half of
+    /// that at most, if vertices tell all.
     varies_lx: f64,
 }
 
@@ -91,7 +89,7 @@ impl Kept {
         leaves.sort_by(|a, b| needs(b).total_cmp(&needs(a)));
         let mut left: f64 = leaves.iter().map(needs).sum();
         let is_left = |leaf: &Leaf| {
-            let is_left = left <= OF_ALLOWED * allowed_lx * lit_m2;
+            let is_left = left <= allowed_lx * lit_m2;
             left -= needs(leaf);
             is_left
         };

@@ -133,20 +133,20 @@ impl<'p, 's> Cached<'p, 's> {
         checks: &mut Checks,
         deadline: Deadline,
     ) -> Option<Effort> {
-        let plan = self.plan;
+        let (plan, key) = (self.plan, self.key.with(1 + index));
         let Checks { points: checks, sums: check_sums, lacking: lacking_sums } = checks;
-        let key = self.key.with(1 + index);
         let (direct, check_direct) =
             hybrid::direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
         let Caustics { light: caustic, means: reflected_on, lacking, effort: particles } =
             caustics::deposit(plan, self.particles, key.with(1));
         let caustic_at = |at: &SurfacePoint| caustic_at(plan, &reflected_on, at);
+        let (lighting, bright) = (plan.lighting, plan.bright.as_ref());
         let making = |part: u64, rays: u32| Making {
             index,
             rays,
             key: self.key.with(u64::MAX - part),
-            lighting: plan.lighting,
-            bright: plan.bright.as_ref(),
+            lighting,
+            bright,
             caustic: &caustic_at,
             deadline,
         };

@@ -27,6 +27,7 @@ const LEAST_SHAPE: f64 = 0.03;
 
 /// Clusters and single luminaires, by chain of mirrors, and the running sums of what they are expected to give.
 pub(in crate::engine) struct About {
+    place: Point,
     parts: Vec<(usize, Part)>,
     sums: Vec<f64>,
 }
@@ -45,7 +46,7 @@ impl Lighting<'_> {
         if self.tree.lamps.is_empty() {
             return None;
         }
-        let mut about = About { parts: Vec::new(), sums: vec![0.0] };
+        let mut about = About { place, parts: Vec::new(), sums: vec![0.0] };
         let mut waiting = Vec::new();
         for chain in 0..self.chains.len() {
             let (from, reflectance) = self.image_of(place, chain);
@@ -99,13 +100,18 @@ impl Lighting<'_> {
     }
 
     /// An unbiased estimate of the direct illuminance at a place by one shadow ray, or two where some sources are not
-    /// luminaires without surface.
+    /// luminaires without surface. Where a luminaire is nearer than the place that others are seen from, it gives far more than is
+    /// expected there, as on a ceiling close above it: such places have a cut of their own. Elsewhere none is nearer than half as
+    /// far as it is from there, so that it gives no more than some times what is expected.
     pub(in crate::engine) fn estimate_by(
         &self,
         about: &About,
         at: &SurfacePoint,
         dice: &mut Dice,
     ) -> Rgb {
+        if self.tree.nearest_m(at.point) < (at.point - about.place).length() {
+            return self.estimate(at, dice);
+        }
         let [shift, pick] = dice.pair();
         let candidates: [(usize, u32, f64); CANDIDATES] =
             std::array::from_fn(|k| self.candidate(about, (k as f64 + shift) / CANDIDATES as f64));

@@ -139,7 +139,7 @@ impl Cell {
 
 impl Tree {
     /// Distance to the nearest luminaire, m.
-    fn nearest_m(&self, from: Point) -> f64 {
+    pub(super) fn nearest_m(&self, from: Point) -> f64 {
         let mut nearest_m = f64::INFINITY;
         let mut waiting = vec![0_u32];
         while let Some(number) = waiting.pop() {
