@@ -38,15 +38,15 @@ fn room((at, scale): (f64, f64)) -> Scene {
 
 const LX: f64 = 1000.0;
 
-/// Errors that a reading from a few dozen replicates is off by in one of a hundred thousand.
-const ERRORS: f64 = 5.0;
+/// Errors that a reading from a few dozen replicates is off by in one of twenty thousand.
+const ERRORS: f64 = 4.8;
 
 fn check(what: &str, at: &ProbePoint, reading: &Illuminance) {
     let (found, error) = (reading.illuminance_lx(), reading.standard_error_lx);
     let is_right = (found - LX).abs() < ERRORS * error + 1e-5 * LX;
     assert!(is_right, "{what}: {found} +- {error} at {:?} {:?}", at.position, at.normal);
-    // Half of what is around a corner would be missing, or more.
-    assert!(error < 0.1 * LX, "{what}: {error}");
+    // In a wall three quarters of all light are missing: more than so many errors.
+    assert!(error < 0.15 * LX, "{what}: {error}");
     let direct_lx = reading.direct_lx.luminance();
     assert!((direct_lx - 100.0).abs() < 1e-3, "{what}: {direct_lx} at {:?}", at.position);
 }
@@ -59,7 +59,7 @@ fn corners_of_an_evenly_lit_room_are_as_bright_as_its_walls() {
         let map = solve(&room, &request, None, &mut |_| Watch::Continue).expect("a map").map;
         let (reader, tracer) = (MapReader::new(&room, &map), PathTracer::new(&room));
         let exact = ExactSettings { rays: 64, replicates: 32, seed: 1 };
-        let paths = ExactSettings { rays: 32, replicates: 64, seed: 1 };
+        let paths = ExactSettings { rays: 32, replicates: 32, seed: 1 };
         for at in places(stand) {
             let read = reader.probe(at).expect("a reading");
             check(&format!("map at {stand:?}"), &at, &read);
