@@ -47,11 +47,11 @@ impl Range {
 
 /// Light with a correction that takes no more off than there is: that of rays by walls, that of a mean by the slope about it. Where more
 /// than half would be taken off, what is left falls like one over that, without a kink, and is never nothing: a correction so
-/// large tells little. What comes out grows no faster than the light.
+/// large tells little. What comes out grows no faster than the light, of which there is some.
 pub(super) fn corrected(light: Rgb, by: Rgb) -> Rgb {
     Rgb([0, 1, 2].map(|c| {
         let (light, by) = (light.0[c], by.0[c]);
-        if by >= -0.5 * light { light + by } else { light * light / (-4.0 * by) }
+        if by >= -0.5 * light || light <= 0.0 { light + by } else { light * light / (-4.0 * by) }
     }))
 }
 

@@ -9,6 +9,7 @@
 use super::bright::Bright;
 use super::direct::{Goal, Lighting};
 use super::gather::known_weights;
+use super::held::corrected;
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::elements::Elements;
@@ -107,16 +108,18 @@ impl Kept {
             (0..samples).map(|k| over.sample(leaf, &mut Dice::new(sequence, k as u32))).collect()
         };
         let all: Vec<Vec<Lacking>> = self.leaves.par_iter().enumerate().map(one).collect();
-        let mut read = over.direct.to_vec();
+        let mut lacking = vec![Rgb::BLACK; over.direct.len()];
         for Lacking { lx_m2, corners } in all.into_iter().flatten() {
             for (vertex, weight) in corners {
                 let hat_m2 = self.hats_m2[vertex as usize];
                 if weight > 0.0 && hat_m2 > 0.0 {
-                    read[vertex as usize] += lx_m2 * (weight / (hat_m2 * samples as f64));
+                    lacking[vertex as usize] += lx_m2 * (weight / (hat_m2 * samples as f64));
                 }
             }
         }
-        read
+        // Samples may find more lacking than there is.
+        let of = over.direct.iter().zip(lacking);
+        of.map(|(&direct, lacking)| corrected(direct, lacking)).collect()
     }
 }
 
