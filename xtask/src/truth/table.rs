@@ -153,9 +153,8 @@ pub(super) fn line(row: &Value) -> String {
 pub(super) fn markdown(result: &Value) -> String {
     let machine = &result["machine"];
     let mut text = format!(
-        "# Maps beside long paths\n\nMade by `cargo xtask bench truth` of revision {}, {}, to {} % within {} s, on {} ({} cores, {}, load before {}). \
+        "# Maps beside long paths\n\nMade by `cargo xtask bench truth`, {}, to {} % within {} s, on {} ({} cores, {}, load before {}). \
          What the columns mean is in [README.md](README.md).\n\n",
-        result["revision"].as_str().unwrap_or("unknown"),
         result["isolux"].as_str().unwrap_or("isolux"),
         100.0 * result["accuracy"].as_f64().unwrap_or(0.0),
         result["time_limit_s"],
