@@ -27,7 +27,6 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
     }
     let mut result = json!({
         "machine": machine(),
-        "revision": peers::revision(root),
         "isolux": isolux.version()?,
         "accuracy": flags.accuracy,
         "time_limit_s": flags.time_limit_s,
@@ -35,7 +34,7 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
     });
     let kept =
         if flags.save { root.join("benchmarks").join("truth") } else { folder.join("results") };
-    let mut rows: Vec<Value> = Vec::new();
+    let mut rows = earlier(&kept, &chosen, &flags);
     for scene in &chosen {
         rows.extend(of_scene(root, &folder, &isolux, scene, &flags));
         // A run that is stopped leaves what it has.
@@ -44,6 +43,19 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
         write(&kept, &result)?;
     }
     Ok(if flags.json { format!("{result:#}") } else { table::markdown(&result) })
+}
+
+/// Rows of an earlier run, of what is not asked for now.
+fn earlier(kept: &Path, chosen: &[TruthScene], flags: &Flags) -> Vec<Value> {
+    let text = std::fs::read(kept.join("table.json")).unwrap_or_default();
+    let table: Value = serde_json::from_slice(&text).unwrap_or_default();
+    let is_asked = |row: &Value| {
+        chosen.iter().any(|scene| row["scene"] == scene.name)
+            && flags.methods.iter().any(|method| row["method"] == *method)
+            && flags.seeds.iter().any(|&seed| row["seed"] == seed)
+    };
+    let rows = table["rows"].as_array().cloned().unwrap_or_default();
+    rows.into_iter().filter(|row| !is_asked(row)).collect()
 }
 
 /// Rows of one scene: what goes wrong is a row, too.
@@ -72,6 +84,7 @@ fn of_scene(
             row["leaves_caustics"] = json!(scene.leaves_caustics);
             row["method"] = json!(method);
             row["seed"] = json!(seed);
+            row["revision"] = json!(peers::revision(root));
             eprintln!("  {}", table::line(&row));
             rows.push(row);
         }

@@ -29,10 +29,7 @@ enum Verdict {
 fn verdict(row: &Value) -> Verdict {
     let Some(over) = row["over_told"].as_f64() else { return Verdict::Failed };
     let over_low = row["over_told_low"].as_f64().unwrap_or(over);
-    let (outside, places) =
-        (row["outside"].as_f64().unwrap_or(0.0), row["places"].as_f64().unwrap_or(1.0));
-    // One-sided 95 % of so many readings.
-    let chance = 1.645 * (MOST_OUTSIDE * (1.0 - MOST_OUTSIDE) / places).sqrt();
+    let outside = row["outside"].as_f64().unwrap_or(0.0);
     let is_negative = row["negative"].as_u64() != Some(0);
     let [noise, told] = ["paths_noise", "told"].map(|key| row[key].as_f64().unwrap_or(0.0));
     let is_untold = noise > MOST_NOISE * told;
@@ -40,7 +37,7 @@ fn verdict(row: &Value) -> Verdict {
         Verdict::Unjudged
     } else if is_untold && outside <= MOST_OUTSIDE && !is_negative {
         Verdict::Untold
-    } else if over_low > MOST_OVER_TOLD || outside > MOST_OUTSIDE + chance || is_negative {
+    } else if over_low > MOST_OVER_TOLD || are_outside(row, "") || is_negative {
         Verdict::Broken
     } else if over > MOST_OVER_TOLD || outside > MOST_OUTSIDE {
         Verdict::Doubtful
@@ -49,6 +46,13 @@ fn verdict(row: &Value) -> Verdict {
     } else {
         Verdict::Unfinished
     }
+}
+
+/// Whether more readings of a stratum are outside than may be, beyond chance: one-sided 95 % of so many.
+fn are_outside(row: &Value, stratum: &str) -> bool {
+    let number = |key: &str| row[format!("{key}{stratum}")].as_f64();
+    let (outside, places) = (number("outside").unwrap_or(0.0), number("places").unwrap_or(1.0));
+    outside > MOST_OUTSIDE + 1.645 * (MOST_OUTSIDE * (1.0 - MOST_OUTSIDE) / places.max(1.0)).sqrt()
 }
 
 const fn name(verdict: Verdict, is_done: bool) -> &'static str {
@@ -112,6 +116,9 @@ fn cells(row: &Value) -> [String; 18] {
             says += &format!(", {count} {what}");
         }
     }
+    if are_outside(row, "_beside") {
+        says += ", readings beside outside";
+    }
     if let Some(problem) = row["failed"].as_str() {
         says += &format!(": {}", problem.replace('|', "/"));
     }
@@ -146,9 +153,8 @@ pub(super) fn line(row: &Value) -> String {
 pub(super) fn markdown(result: &Value) -> String {
     let machine = &result["machine"];
     let mut text = format!(
-        "# Maps beside long paths\n\nMade by `cargo xtask bench truth` of revision {}, {}, to {} % within {} s, on {} ({} cores, {}, load before {}). \
+        "# Maps beside long paths\n\nMade by `cargo xtask bench truth`, {}, to {} % within {} s, on {} ({} cores, {}, load before {}). \
          What the columns mean is in [README.md](README.md).\n\n",
-        result["revision"].as_str().unwrap_or("unknown"),
         result["isolux"].as_str().unwrap_or("isolux"),
         100.0 * result["accuracy"].as_f64().unwrap_or(0.0),
         result["time_limit_s"],

@@ -26,7 +26,8 @@ pub(super) fn window(stage: &mut Stage) {
     stage.sheet("jamb", [from[0], 0.0, from[1]], tall, out, reveal);
     stage.sheet("jamb", [to[0], 0.0, from[1]], out, tall, reveal);
     let sky = stage.luminous(5000.0, 0.0);
-    stage.sheet("sky", [-8.0, -6.0, 0.0], [0.0, 0.0, 12.0], [x + 16.0, 0.0, 0.0], sky);
+    // So low that the sun comes in above it: at the window its light has fallen by 2.4 m at least.
+    stage.sheet("sky", [-8.0, -6.0, 0.0], [0.0, 0.0, 3.0], [x + 16.0, 0.0, 0.0], sky);
     stage.furnish(size);
     if stage.draw.chance(0.5) {
         let steep = stage.draw.between(0.4, 1.2);
