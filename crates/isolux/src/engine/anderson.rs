@@ -55,7 +55,8 @@ impl Anderson {
             let undone = |((image, _), &share): (&(Vec<Rgb>, _), &Rgb)| image[k] * share;
             let mixed = image[k] - self.steps.iter().zip(&shares).map(undone).sum::<Rgb>();
             // There is no light below none: a sweep alone goes on there.
-            if mixed.min_channel() < 0.0 { image[k] } else { mixed }
+            let held = |c: usize| if mixed.0[c] < 0.0 { image[k].0[c] } else { mixed.0[c] };
+            Rgb([0, 1, 2].map(held))
         };
         let next = (0..image.len()).into_par_iter().with_min_len(CHUNK).map(one).collect();
         self.before = Some((image, change));
