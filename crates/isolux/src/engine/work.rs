@@ -123,7 +123,18 @@ impl<'p, 's> Work<'p, 's> {
         let (samples, left) = (rays, None);
         let goal = request.accuracy;
         Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal }
+            .in_units_of_light()
             .looked_at()
+    }
+
+    /// With sums in units of the light that is expected. Single particles, and shots, may bring far more than that.
+    fn in_units_of_light(mut self) -> Self {
+        if self.has_nets() {
+            let (expected, points) = (self.plan.expected(), &self.checks.points);
+            self.checks.sums = self.checks.sums.expecting(checks::about_lx(points, &expected));
+            self.sums = self.sums.expecting(expected.iter().map(|light| light.luminance()));
+        }
+        self
     }
 
     pub(super) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
@@ -543,14 +554,7 @@ fn no_sums(plan: &Plan, engine: &Engine, points: Vec<Check>) -> (Accumulator, Ch
         Engine::Forward(_) => (0, parts),
     };
     let sums_of = |places: usize| Accumulator::new(places, reference_of(plan, engine));
-    let mut sums = sums_of(plan.elements.vertices().len());
-    let mut sums_of_points = sums_of(places);
-    // Single particles, and shots, may bring far more than is expected.
-    if matches!(engine, Engine::Hybrid(_) | Engine::Cache(_)) {
-        let expected = plan.expected();
-        sums = sums.expecting(expected.iter().map(|light| light.luminance()));
-        sums_of_points = sums_of_points.expecting(checks::about_lx(&points, &expected));
-    }
-    let checks = Checks { points, sums: sums_of_points, lacking: sums_of(parts) };
+    let sums = sums_of(plan.elements.vertices().len());
+    let checks = Checks { points, sums: sums_of(places), lacking: sums_of(parts) };
     (sums, checks)
 }

@@ -72,16 +72,19 @@ fn a_dim_room_has_errors_of_its_own() {
     for (x, y) in on_floor {
         let place = |x| ProbePoint { position: Point::new(x, y, 0.0), normal: Normal::Z };
         let [bright, dim, dark] = [0.0, 10.0, 20.0].map(|off| place(x + off));
-        for read in [&|at| reader.probe(at).expect("it is on a floor"), &exact as &dyn Fn(_) -> _] {
-            let [bright, dim, dark] = [bright, dim, dark].map(read);
-            let [bright_lx, dim_lx] = [bright, dim].map(|read: Illuminance| read.illuminance_lx());
+        let probed = |at| reader.probe(at).expect("it is on a lit floor");
+        for read in [&probed as &dyn Fn(_) -> Illuminance, &exact] {
+            let [bright, dim] = [bright, dim].map(read);
+            let [bright_lx, dim_lx] = [bright, dim].map(|read| read.illuminance_lx());
             let told = [bright, dim].map(|read| read.standard_error_lx);
             let error_lx = (1e-7 * told[0]).hypot(told[1]);
             outside += usize::from((dim_lx - 1e-7 * bright_lx).abs() > 1.96 * error_lx);
             worst = worst.max(told[1] / dim_lx).max(told[0] / bright_lx);
-            // No way leads there.
-            assert_eq!([dark.illuminance_lx(), dark.standard_error_lx], [0.0; 2], "{dark:?}");
         }
+        // No way leads there: the map has no light for it, and an estimate no error.
+        assert!(reader.probe(dark).is_none_or(|dark| dark.standard_error_lx == 0.0));
+        let dark = exact(dark);
+        assert_eq!([dark.illuminance_lx(), dark.standard_error_lx], [0.0; 2], "{dark:?}");
     }
     // Of ten intervals of 95 % more than two miss once in ninety times (binomial).
     assert!(outside <= 2, "{outside} of 10 intervals do not hold the light of the bright room");

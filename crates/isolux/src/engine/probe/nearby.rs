@@ -19,9 +19,9 @@ use crate::units::Rgb;
 const REFLECTIONS: usize = 3;
 /// Rays of an element at most; one at least, however many elements there are. About a vertex there are half a dozen elements, and what they
 /// see counts together.
-const MOST_RAYS: u32 = 16;
+const MOST_RAYS: u32 = 4;
 /// Rays of all elements, unless these are more.
-const RAYS: usize = 1 << 18;
+const RAYS: usize = 1 << 16;
 
 /// An element that looks about, and its surface, m2.
 type Looking<'e> = (&'e Element, Gatherer, f64);
