@@ -128,8 +128,7 @@ impl<'p, 's> Work<'p, 's> {
         let checks = Checks { points, sums: sums_of(places), lacking: sums_of(parts) };
         let given_up = sums_of(1);
         let stops_at_unshot = request.radiosity.unshot.is_some();
-        let (samples, left) = (rays, None);
-        let goal = request.accuracy;
+        let (samples, left, goal) = (rays, None, request.accuracy);
         Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal }
             .in_units_of_light()
             .looked_at()
