@@ -120,8 +120,7 @@ impl<'p, 's> Work<'p, 's> {
         let (sums, checks) = no_sums(plan, &engine, points);
         let given_up = Accumulator::new(1, reference_of(plan, &engine));
         let stops_at_unshot = request.radiosity.unshot.is_some();
-        let (samples, left) = (rays, None);
-        let goal = request.accuracy;
+        let (samples, left, goal) = (rays, None, request.accuracy);
         Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal }
             .in_units_of_light()
             .looked_at()
