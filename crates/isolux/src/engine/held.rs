@@ -51,7 +51,7 @@ impl Range {
 pub(super) fn corrected(light: Rgb, by: Rgb) -> Rgb {
     Rgb([0, 1, 2].map(|c| {
         let (light, by) = (light.0[c], by.0[c]);
-        if by >= -0.5 * light || light <= 0.0 { light + by } else { light * light / (-4.0 * by) }
+        if by >= -0.5 * light || light < 0.0 { light + by } else { light * light / (-4.0 * by) }
     }))
 }
 

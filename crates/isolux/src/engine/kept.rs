@@ -3,13 +3,13 @@
 //! Where luminaires are many, rays read direct light between vertices. That errs where it varies from element to element, as on a
 //! ceiling close above rows of lamps, and errs alike over many elements where these and the lamps both lie in rows, so that means
 //! over what is seen err, too: in all increments by the same, of which their spread tells nothing. So increments take samples of
-//! what is lacking between vertices, each of its own, and hand it to the vertices around: what elements reflect is then right in the mean
-//! over increments, and their spread tells how well it is known. The light that lands is kept, tested by hat functions.
+//! the light that lands on such elements, each of its own, and hand it to the vertices around: what elements reflect is then right in the mean
+//! over increments, and their spread tells how well it is known. A vertex has the mean of light weighted by its hat function, where all that
+//! other elements add is its own value; so light is kept, and never negative.
 
 use super::bright::Bright;
 use super::direct::{Goal, Lighting};
 use super::gather::known_weights;
-use super::held::corrected;
 use super::path::Dice;
 use super::surface::SurfacePoint;
 use crate::elements::Elements;
@@ -57,9 +57,9 @@ struct Leaf {
     varies_lx: f64,
 }
 
-/// What is lacking on an element, and which vertices it is handed to.
-struct Lacking {
-    lx_m2: Rgb,
+/// What lands on an element, and which vertices it is handed to.
+struct Lit {
+    lm: Rgb,
     corners: [(u32, f64); 3],
 }
 
@@ -73,13 +73,9 @@ impl Kept {
         let (mut leaves, mut lit_m2) = (Vec::new(), 0.0);
         for (node, triangle, back) in over.elements.leaves() {
             let vertices = over.elements.node(node).vertices;
-            let thirds = vertices.map(|vertex| (vertex, 1.0 / 3.0));
-            let Some(weights) = known_weights(thirds, over.standings) else { continue };
+            let Some(thirds) = over.thirds(vertices) else { continue };
             let leaf = over.leaf((node, vertices), triangle, back);
-            vertices
-                .iter()
-                .zip(weights)
-                .for_each(|(&v, w)| hats_m2[v as usize] += w * leaf.area_m2);
+            thirds.iter().for_each(|&(v, w)| hats_m2[v as usize] += w * leaf.area_m2);
             if vertices.iter().any(|&v| !over.direct[v as usize].is_black()) {
                 lit_m2 += leaf.area_m2;
             }
@@ -107,23 +103,38 @@ impl Kept {
             let sequence = Sequence::new(key.with(number as u64));
             (0..samples).map(|k| over.sample(leaf, &mut Dice::new(sequence, k as u32))).collect()
         };
-        let all: Vec<Vec<Lacking>> = self.leaves.par_iter().enumerate().map(one).collect();
-        let mut lacking = vec![Rgb::BLACK; over.direct.len()];
-        for Lacking { lx_m2, corners } in all.into_iter().flatten() {
-            for (vertex, weight) in corners {
-                let hat_m2 = self.hats_m2[vertex as usize];
-                if weight > 0.0 && hat_m2 > 0.0 {
-                    lacking[vertex as usize] += lx_m2 * (weight / (hat_m2 * samples as f64));
+        let all: Vec<Vec<Lit>> = self.leaves.par_iter().enumerate().map(one).collect();
+        let mut sums_lm = vec![Rgb::BLACK; over.direct.len()];
+        let mut sampled_m2 = vec![0.0; over.direct.len()];
+        for (leaf, all) in self.leaves.iter().zip(all) {
+            for (vertex, weight) in over.thirds(leaf.vertices).into_iter().flatten() {
+                sampled_m2[vertex as usize] += weight * leaf.area_m2;
+            }
+            for Lit { lm, corners } in all {
+                for (vertex, weight) in corners {
+                    sums_lm[vertex as usize] += lm * (weight / samples as f64);
                 }
             }
         }
-        // Samples may find more lacking than there is.
-        let of = over.direct.iter().zip(lacking);
-        of.map(|(&direct, lacking)| corrected(direct, lacking)).collect()
+        let read = |v: usize| {
+            let (own, hat_m2) = (over.direct[v], self.hats_m2[v]);
+            if sampled_m2[v] == 0.0 {
+                return own;
+            }
+            // Rounding may leave less than nothing of what others add.
+            own * (1.0 - sampled_m2[v] / hat_m2).max(0.0) + sums_lm[v] / hat_m2
+        };
+        (0..over.direct.len()).map(read).collect()
     }
 }
 
 impl Over<'_> {
+    /// The parts of an element that vertices stand for where rays read.
+    fn thirds(&self, vertices: [u32; 3]) -> Option<[(u32, f64); 3]> {
+        let weights = known_weights(vertices.map(|v| (v, 1.0 / 3.0)), self.standings)?;
+        Some([0, 1, 2].map(|k| (vertices[k], weights[k])))
+    }
+
     fn corners(&self, vertices: [u32; 3]) -> [Point; 3] {
         vertices.map(|vertex| self.elements.vertices()[vertex as usize].position)
     }
@@ -167,7 +178,8 @@ impl Over<'_> {
             let number = sums.partition_point(|&sum| sum <= within).min(leaves.len() - 1);
             let leaf = &leaves[number];
             let sequence = Sequence::new(key.with(k as u64));
-            let (at, corners) = self.somewhere_on(leaf, &mut Dice::new(sequence, 0))?;
+            let place = self.somewhere_on(leaf, &mut Dice::new(sequence, 0));
+            let (at, corners) = place.filter(|(at, _)| !self.is_bright(at))?;
             let measured = self.lighting.measured(&at, Goal::ANY, sequence);
             let lacking_lx = (measured.lx - self.told(corners)).luminance();
             let share = at.reflectance(self.scene).luminance();
@@ -187,7 +199,7 @@ impl Over<'_> {
         }
     }
 
-    /// A place of an element, evenly over its area, and its vertices with their weights there; none where rays do not read.
+    /// A place of an element, evenly over its area, and its vertices with their weights there; none where vertices are not known.
     fn somewhere_on(
         &self,
         leaf: &Leaf,
@@ -198,9 +210,6 @@ impl Over<'_> {
         let root = a.sqrt();
         let weights = [1.0 - root, root * (1.0 - b), root * b];
         let at = self.place(vertices, (triangle, back), weights);
-        if self.bright.is_some_and(|bright| bright.at(&at).is_some()) {
-            return None;
-        }
         let weights = known_weights([0, 1, 2].map(|k| (vertices[k], weights[k])), self.standings)?;
         Some((at, [0, 1, 2].map(|k| (vertices[k], weights[k]))))
     }
@@ -209,12 +218,20 @@ impl Over<'_> {
         corners.iter().map(|&(vertex, weight)| self.direct[vertex as usize] * weight).sum()
     }
 
-    /// What is lacking at a place of an element, for all of it.
-    fn sample(&self, leaf: &Leaf, dice: &mut Dice) -> Lacking {
+    /// What lands on an element, by one place of it.
+    fn sample(&self, leaf: &Leaf, dice: &mut Dice) -> Lit {
         let Some((at, corners)) = self.somewhere_on(leaf, dice) else {
-            return Lacking { lx_m2: Rgb::BLACK, corners: leaf.vertices.map(|v| (v, 0.0)) };
+            return Lit { lm: Rgb::BLACK, corners: leaf.vertices.map(|v| (v, 0.0)) };
         };
-        let lacking = self.lighting.estimate(&at, dice) - self.told(corners);
-        Lacking { lx_m2: lacking * leaf.area_m2, corners }
+        let lx = match self.is_bright(&at) {
+            true => self.told(corners),
+            false => self.lighting.estimate(&at, dice),
+        };
+        Lit { lm: lx * leaf.area_m2, corners }
+    }
+
+    /// Whether rays evaluate direct light there and read none.
+    fn is_bright(&self, at: &SurfacePoint) -> bool {
+        self.bright.is_some_and(|bright| bright.at(at).is_some())
     }
 }

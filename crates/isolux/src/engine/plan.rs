@@ -22,6 +22,7 @@ use crate::map::Standing;
 use crate::sampling::Key;
 use crate::scene::Scene;
 use crate::units::Rgb;
+use std::sync::Arc;
 
 /// What the pilot has fixed.
 pub(super) struct Plan<'s> {
@@ -46,7 +47,7 @@ pub(super) struct Plan<'s> {
     /// The variance of its noise, where it is measured once for all increments, lx2; else zero.
     pub(super) direct_variance: Vec<f64>,
     /// What is far brighter than all else.
-    pub(super) bright: Option<Bright>,
+    pub(super) bright: Option<Arc<Bright>>,
     /// Walls that rays are judged by.
     pub(super) backdrop: Option<Backdrop>,
     /// First guess of the indirect light.
@@ -149,7 +150,7 @@ impl Plan<'_> {
             elements: &self.elements,
             standings: &self.standings,
             direct,
-            bright: self.bright.as_ref(),
+            bright: self.bright.as_deref(),
         }
     }
 
@@ -218,7 +219,7 @@ impl<'a> Gathering<'a> {
                 DirectAtEnds::Evaluated
             },
             regathers: false,
-            bright: plan.bright.as_ref(),
+            bright: plan.bright.as_deref(),
             cuts: Some(&plan.cuts),
             backdrop: plan.backdrop.as_ref(),
         }

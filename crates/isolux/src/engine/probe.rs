@@ -92,7 +92,7 @@ pub struct MapReader<'a> {
     direct_values: Option<Vec<Rgb>>,
     /// Elements on which it varies between vertices, by node.
     varying: Option<Vec<bool>>,
-    bright: Option<Bright>,
+    bright: Option<Arc<Bright>>,
     /// Elements that something stands across.
     cuts: Cuts,
     places: Places<'a>,
@@ -135,13 +135,16 @@ struct Unseen {
 impl<'a> MapReader<'a> {
     /// Prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
-        Self::with_lighting((scene, map), Arc::new(Lighting::new(scene)))
+        let lighting = Arc::new(Lighting::new(scene));
+        let (bright, _) = Bright::of_seed(scene, &lighting, map.provenance.seed);
+        Self::prepared((scene, map), lighting, bright)
     }
 
-    /// The same with luminaires that are prepared already.
-    pub(super) fn with_lighting(
+    /// The same with luminaires, and with what is bright for the seed of the map, that are prepared already.
+    pub(super) fn prepared(
         (scene, map): (&'a Scene, &'a IlluminationMap),
         lighting: Arc<Lighting<'a>>,
+        bright: Option<Arc<Bright>>,
     ) -> Self {
         let ambient = map.ambient_lx();
         let reflected = |v: &Option<Illuminance>| {
@@ -150,7 +153,6 @@ impl<'a> MapReader<'a> {
         let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
         let are_read = lighting.are_read_at_ends();
         let light: Vec<Rgb> = map.values.iter().map(reflected).collect();
-        let (bright, _) = Bright::of(scene, &lighting, Key::new(map.provenance.seed).with(8));
         let reader = Self {
             scene,
             map,
@@ -183,7 +185,7 @@ impl<'a> MapReader<'a> {
             elements: &self.map.elements,
             standings: &self.standings,
             direct: self.direct_values.as_deref()?,
-            bright: self.bright.as_ref(),
+            bright: self.bright.as_deref(),
         };
         let key = Key::new(self.map.provenance.seed).with(14);
         let kept = Kept::of(&over, self.unseen.reached_lx, key.with(0))?;
@@ -352,7 +354,7 @@ impl<'a> MapReader<'a> {
             standings: &self.standings,
             direct,
             regathers: true,
-            bright: self.bright.as_ref(),
+            bright: self.bright.as_deref(),
             cuts: Some(&self.cuts),
             backdrop: self.backdrop.as_ref(),
         }

@@ -125,10 +125,9 @@ impl<'a> PathTracer<'a> {
     ) -> Traced {
         let start = Gatherer::on_surface(self.places.pulled_in(*at), 1);
         let exact = self.lighting.samples_exactly();
-        let direct = |number: u64| {
-            let mut dice = Dice::new(Sequence::new(key.with(number).with(1)), 0);
-            self.lighting.sampled(&start.surface, SHADOW_RAYS, &mut dice)
-        };
+        let sampled = self.lighting.sampled_again(&start.surface, SHADOW_RAYS);
+        let direct =
+            |number: u64| sampled(&mut Dice::new(Sequence::new(key.with(number).with(1)), 0));
         let once = exact.then(|| direct(0));
         let (mut brightest, mut rays, mut found) = (Vec::new(), 0, Vec::new());
         for number in 0..u64::from(replicates) {

@@ -18,6 +18,7 @@ use crate::scene::Scene;
 use isolux_geometry::{Direction, Normal, Point, Vector};
 use patches::{Patch, Patches, reflected_lm};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Bright is what reflects so many times as much direct light as surfaces do in the mean.
 const BRIGHT: f64 = 8.0;
@@ -76,6 +77,16 @@ pub(super) struct Seen<'b> {
 }
 
 impl Bright {
+    /// As maps and caches of a seed use it, and the particles that took.
+    pub(super) fn of_seed(
+        scene: &Scene,
+        lighting: &Lighting<'_>,
+        seed: u64,
+    ) -> (Option<Arc<Self>>, u64) {
+        let (bright, particles) = Self::of(scene, lighting, Key::new(seed).with(0).with(13));
+        (bright.map(Arc::new), particles)
+    }
+
     /// What is bright, as particles tell, and how many those are; `None` where nothing is.
     pub(super) fn of(scene: &Scene, lighting: &Lighting<'_>, key: Key) -> (Option<Self>, u64) {
         let Some(emission) = Emission::new(scene) else { return (None, 0) };

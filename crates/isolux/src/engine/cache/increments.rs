@@ -76,7 +76,7 @@ impl<'p, 's> Cached<'p, 's> {
             rays: FEWEST_FAR_RAYS,
             key: key.with(0),
             lighting: plan.lighting,
-            bright: plan.bright.as_ref(),
+            bright: plan.bright.as_deref(),
             caustic: &|_| Rgb::BLACK,
             deadline: Deadline::NEVER,
         });
@@ -103,7 +103,7 @@ impl<'p, 's> Cached<'p, 's> {
             rays: FEWEST_RAYS,
             key: self.key.with(u64::MAX),
             lighting: self.plan.lighting,
-            bright: self.plan.bright.as_ref(),
+            bright: self.plan.bright.as_deref(),
             caustic: &|_| Rgb::BLACK,
             deadline: Deadline::NEVER,
         };
@@ -140,7 +140,7 @@ impl<'p, 's> Cached<'p, 's> {
         let Caustics { light: caustic, means: reflected_on, lacking, effort: particles } =
             caustics::deposit(plan, self.particles, key.with(1));
         let caustic_at = |at: &SurfacePoint| caustic_at(plan, &reflected_on, at);
-        let (lighting, bright) = (plan.lighting, plan.bright.as_ref());
+        let (lighting, bright) = (plan.lighting, plan.bright.as_deref());
         let making = |part: u64, rays: u32| Making {
             index,
             rays,

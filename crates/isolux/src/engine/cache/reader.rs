@@ -17,6 +17,7 @@ use crate::map::{Illuminance, Standing};
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
+use std::sync::Arc;
 
 /// How densely samples are placed and how well they are known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +75,7 @@ pub struct CachedPlace {
 pub struct CacheReader<'s> {
     scene: &'s Scene,
     lighting: Lighting<'s>,
-    bright: Option<Bright>,
+    bright: Option<Arc<Bright>>,
     patches: Patches,
     places: Places<'s>,
     store: Store<'s>,
@@ -93,7 +94,7 @@ impl<'s> CacheReader<'s> {
     ) -> Result<Self, CacheError> {
         cache.check(scene)?;
         let lighting = Lighting::new(scene);
-        let (bright, _) = Bright::of(scene, &lighting, Key::new(settings.seed).with(8));
+        let (bright, _) = Bright::of_seed(scene, &lighting, settings.seed);
         let mut reader = Self {
             scene,
             lighting,
@@ -136,7 +137,7 @@ impl<'s> CacheReader<'s> {
             rays,
             key: key.with(part),
             lighting,
-            bright: bright.as_ref(),
+            bright: bright.as_deref(),
             caustic: &|_| Rgb::BLACK,
             deadline: Deadline::NEVER,
         };

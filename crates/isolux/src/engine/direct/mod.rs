@@ -236,7 +236,8 @@ impl<'s> Lighting<'s> {
 
     /// Shadow rays that [`Lighting::estimate`] takes at most.
     pub(super) fn rays_of_estimate(&self) -> u64 {
-        self.sources.len().min(EXACT_SOURCES) as u64
+        let all = self.sources.len();
+        if all <= EXACT_SOURCES { all as u64 } else { 1 }
     }
 
     fn area_samples(&self) -> usize {
@@ -249,6 +250,19 @@ impl<'s> Lighting<'s> {
             return self.by_all(at, samples, dice);
         }
         self.lit_by_cut(&self.fine_cut(at), at, (RAYS_TO_MANY, samples), dice)
+    }
+
+    /// [`Lighting::sampled`] again and again at one place.
+    pub(super) fn sampled_again<'d>(
+        &'d self,
+        at: &'d SurfacePoint,
+        samples: usize,
+    ) -> impl Fn(&mut Dice) -> Rgb + 'd {
+        let cut = self.has_many().then(|| self.fine_cut(at));
+        move |dice| match &cut {
+            Some(cut) => self.lit_by_cut(cut, at, (RAYS_TO_MANY, samples), dice),
+            None => self.by_all(at, samples, dice),
+        }
     }
 
     /// [`Lighting::sampled`] with a look at every source.

@@ -8,6 +8,8 @@
 mod legs;
 mod operator;
 
+#[cfg(test)]
+pub(super) use operator::GivenRow;
 pub(super) use operator::{Fitting, Operator, Reading};
 
 use super::backdrop::{Backdrop, Stand};

@@ -68,6 +68,10 @@ pub(super) struct Rows {
     pub(super) further_rays: u64,
 }
 
+/// A row that a test gives: its light, and the vertices and weights of each of its rays.
+#[cfg(test)]
+pub(in crate::engine) type GivenRow = (Rgb, Vec<([u32; 3], [f32; 3])>);
+
 /// The operator of all receivers: one noisy sample of light transport.
 pub(in crate::engine) struct Operator {
     pub(super) chunks: Vec<Rows>,
@@ -79,10 +83,7 @@ pub(in crate::engine) struct Operator {
 impl Operator {
     /// Of rows that are given: of each its light, and the vertices and weights of its rays, which all reflect alike.
     #[cfg(test)]
-    pub(in crate::engine) fn of_rows(
-        rows: &[(Rgb, Vec<([u32; 3], [f32; 3])>)],
-        reflectance: f64,
-    ) -> Self {
+    pub(in crate::engine) fn of_rows(rows: &[GivenRow], reflectance: f64) -> Self {
         let mut all = Rows::default();
         for (source, rays) in rows {
             let share = [(reflectance / rays.len() as f64) as f32; 3];

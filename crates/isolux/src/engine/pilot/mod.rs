@@ -49,6 +49,7 @@ use isolux_geometry::Point;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::mem;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Vertices that the pilot starts with, unless the scene has more.
@@ -100,7 +101,7 @@ struct Pilot<'s> {
     /// At the vertices looked at so far: light, and whether they are open to it.
     direct: Vec<Rgb>,
     /// What is bright by that of luminaires.
-    bright: Option<Bright>,
+    bright: Option<Arc<Bright>>,
     direct_variance: Vec<f64>,
     /// Where it was measured.
     measured_at: Vec<Point>,
@@ -226,7 +227,7 @@ impl<'s> Pilot<'s> {
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         let key = Key::new(request.seed).with(0);
-        let (bright, traced) = Bright::of(scene, lighting, key.with(13));
+        let (bright, traced) = Bright::of_seed(scene, lighting, request.seed);
         Self {
             scene,
             lighting,
@@ -408,7 +409,7 @@ impl<'s> Pilot<'s> {
             standings,
             direct,
             regathers: false,
-            bright: self.bright.as_ref(),
+            bright: self.bright.as_deref(),
             cuts: None,
             backdrop: self.backdrop.as_ref(),
         }

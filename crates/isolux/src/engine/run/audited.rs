@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// What an audit takes, as a share of the rays of the run, and rays that it may take at least: some hundredths of a second.
 const AUDIT_SHARE: f64 = 0.1;
-const FEWEST_AUDIT_RAYS: u64 = 1 << 15;
+const FEWEST_AUDIT_RAYS: u64 = 1 << 14;
 /// Paths of a place in the audit of a run.
 const PATHS_OF_AUDIT: u32 = 32;
 /// A claim that is wrong by more than this is not mended by going on: as errors fall like the root of the work, that would take more than four
@@ -53,6 +53,7 @@ impl Run<'_, '_> {
     fn audit(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<Audit> {
         let lighting = self.lighting.as_ref()?;
         let map = self.map(work, accuracy, true);
+        let bright = work.plan.bright.clone();
         let settings = AuditSettings {
             paths: PATHS_OF_AUDIT,
             most_rays: ((AUDIT_SHARE * self.all_rays(work)) as u64).max(FEWEST_AUDIT_RAYS),
@@ -60,7 +61,7 @@ impl Run<'_, '_> {
             number: self.audited.audits + 1,
             ..AuditSettings::default()
         };
-        let mut audit = audit_with((self.scene, &map), Arc::clone(lighting), &settings)?;
+        let mut audit = audit_with((self.scene, &map), (Arc::clone(lighting), bright), &settings)?;
         audit.trust.trend = trend(&self.audited.noise);
         Some(audit)
     }

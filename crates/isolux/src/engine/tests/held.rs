@@ -3,7 +3,7 @@
 use super::*;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::carriers::Carriers;
-use crate::engine::gather::Operator;
+use crate::engine::gather::{GivenRow, Operator};
 use crate::engine::hats::Hats;
 use crate::engine::held::corrected;
 use crate::map::Standing;
@@ -101,7 +101,7 @@ proptest! {
     ) {
         let (_, elements) = sheet([&xs, &ys]);
         let all = elements.vertices().len();
-        let rows: Vec<(Rgb, Vec<([u32; 3], [f32; 3])>)> = (0..all)
+        let rows: Vec<GivenRow> = (0..all)
             .map(|k| {
                 let of_row = rays[k % rays.len()].iter().map(|&(vertices, [a, b])| {
                     let root = a.sqrt();
