@@ -211,7 +211,9 @@ mod tests {
     fn light_through_glass_is_not_taken_for_none() {
         assert!(light(|_| {}).shown().ends_with(" lx on 600 m2 that light comes to"));
         let in_glass = light(put_into_glass).shown();
-        assert_eq!(in_glass, "not told: if light comes, then by glass, gloss or curved mirrors");
+        // Paths find what walls reflect of it, and leave out what the glass throws on them.
+        assert!(in_glass.starts_with("about "), "{in_glass}");
+        assert!(in_glass.ends_with("by glass, gloss or curved mirrors not counted"), "{in_glass}");
         let dark = |parts: &mut SceneParts| {
             put_into_glass(parts);
             parts.luminaires.clear();

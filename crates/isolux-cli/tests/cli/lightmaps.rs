@@ -229,7 +229,7 @@ fn lightmaps_of_groups_lie_alike_and_add_up() {
         let off = sum.photometric[texel] - left.photometric[texel] - right.photometric[texel];
         outside += usize::from(off.abs() > 1.96 * error);
         // Of some thousand texels none by chance. Where rims were continued from beside them, six errors.
-        assert!(off.abs() < 4.0 * error, "{texel}: {off} {error}");
+        assert!(off.abs() <= 4.0 * error, "{texel}: {off} {error}");
     }
     assert_eq!(known as u64, report["lightmap"]["texels_known"].as_u64().unwrap());
     // Intervals of 95 %.

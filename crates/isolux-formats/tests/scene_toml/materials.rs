@@ -80,7 +80,7 @@ fn textures_are_shared_and_confined() {
         .map(|m| m.finish(false).unwrap().diffuse)
         .map(|d| (d.colour, d.texture))
         .collect();
-    assert_eq!(colours, [(Rgb::WHITE, Some(0)), (Rgb::grey(0.5), Some(0))]);
+    assert_eq!(colours, [(Rgb([0.99, 1.0, 0.99]), Some(0)), (Rgb::grey(0.5), Some(0))]);
 }
 
 #[test]

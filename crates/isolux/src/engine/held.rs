@@ -45,13 +45,19 @@ impl Range {
     }
 }
 
-/// Light with a correction that takes no more off than there is: that of rays by walls, that of a mean by the slope about it. Where more
-/// than half would be taken off, what is left falls like one over that, without a kink, and is never nothing: a correction so
-/// large tells little. What comes out grows no faster than the light, of which there is some.
+/// The share of light that corrections leave at least before they are bounded.
+const LEFT: f64 = 1.0 / 16.0;
+
+/// Light with a correction that takes no more off than there is: that of rays by walls, that of a mean by the slope about it. Where less
+/// than [`LEFT`] would be left, that falls like one over what is taken off, without a kink, and is never nothing. What comes out grows no
+/// faster than the light, of which there is some. As more is left than without the bound, and never less, it makes light in the mean: the
+/// less, the seldomer it acts.
 pub(super) fn corrected(light: Rgb, by: Rgb) -> Rgb {
     Rgb([0, 1, 2].map(|c| {
         let (light, by) = (light.0[c], by.0[c]);
-        if by >= -0.5 * light || light < 0.0 { light + by } else { light * light / (-4.0 * by) }
+        let is_plain = light < 0.0 || by >= -(1.0 - LEFT) * light;
+        let left = || LEFT * LEFT * light * light / (-by - (1.0 - 2.0 * LEFT) * light);
+        if is_plain { light + by } else { left() }
     }))
 }
 

@@ -427,13 +427,19 @@ impl<'p, 's> Radiosity<'p, 's> {
 
     /// The light at a vertex and its variance.
     pub(super) fn estimate(&self, sums: &Accumulator, vertex: usize) -> Estimate {
-        let indirect_variance =
-            sums.variance_at(vertex) + self.caustic_variance.get(vertex).copied().unwrap_or(0.0);
+        // Later shots take back by rays of their own what earlier ones have brought too much: where that is more than has come, none is
+        // left, and what is left out counts as error.
+        let received = sums.part(vertex, RECEIVED);
+        let indirect = received.greater(Rgb::BLACK);
+        let left_out_lx = (indirect - received).luminance();
+        let indirect_variance = sums.variance_at(vertex)
+            + self.caustic_variance.get(vertex).copied().unwrap_or(0.0)
+            + left_out_lx * left_out_lx;
         Estimate {
             mean: Sample {
                 direct: self.direct[vertex],
                 caustic: self.caustic[vertex],
-                indirect: sums.part(vertex, RECEIVED),
+                indirect,
                 passed_on: 0.0,
             },
             variance: indirect_variance + self.direct_variance[vertex],

@@ -69,7 +69,8 @@ impl Run<'_, '_> {
     /// The rays of the run, those of direct light at its receivers counted, too, about.
     fn all_rays(&self, work: &Work) -> f64 {
         let lighting = work.plan.lighting;
-        let looks = if lighting.samples_exactly() { 1 } else { work.sums.increments };
+        let is_once = lighting.samples_exactly() || lighting.is_measured_once();
+        let looks = if is_once { 1 } else { work.sums.increments };
         let receivers = work.sums.sums.len() as u64;
         let shadow_rays = looks * receivers * lighting.rays_of_sampled(1);
         (self.rays + shadow_rays) as f64

@@ -83,10 +83,10 @@ fn of_surfaces_half_in_shadow_it_is_unbiased() {
     check("a ceiling", &with(vec![wide, screen], vec![]), [0.0; 3], UP);
 }
 
-/// Where luminaires are many, readers take direct light from the map where rays end, but for elements nearby whose vertices tell different
-/// light: there a shadow ends somewhere.
+/// Where luminaires are many, readers take direct light from the map where rays end, but look at luminaires again where that is
+/// not what lands there.
 #[test]
-fn readers_look_at_luminaires_again_where_the_map_is_uneven() {
+fn readers_look_at_luminaires_again_where_the_map_is_wrong() {
     let lamp =
         |k: usize| isotropic([0.9 + 1.5 * (k / 4) as f64, 0.8 + 1.4 * (k % 4) as f64, 2.6], 40.0);
     let room = inward_box([8.0, 6.0, 3.0], 0);
@@ -105,8 +105,9 @@ fn readers_look_at_luminaires_again_where_the_map_is_uneven() {
         MapReader::new(&scene, &told).measure(at).unwrap().indirect_lx.luminance()
     };
     let right_lx = read_lx(&|_| 1.0);
-    assert!(read_lx(&|_| 2.0) > 1.3 * right_lx, "even light is read");
-    let uneven_lx = read_lx(&|k| if k % 2 == 0 { 5.0 } else { 1.0 });
-    // Some elements have even vertices alone, and what lies far off is read: all of it would be 1.87 times as much.
-    assert!((uneven_lx / right_lx - 1.0).abs() < 0.5, "{uneven_lx} {right_lx}");
+    let wrong_lx = [read_lx(&|_| 2.0), read_lx(&|k| if k % 2 == 0 { 5.0 } else { 1.0 })];
+    // Four samples of every element tell what lands there to a tenth about; taken from the map it would be 1.5 and 1.87 times as much.
+    for wrong_lx in wrong_lx {
+        assert!((wrong_lx / right_lx - 1.0).abs() < 0.2, "{wrong_lx} {right_lx}");
+    }
 }

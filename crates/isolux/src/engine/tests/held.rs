@@ -136,7 +136,7 @@ proptest! {
         let (less, more_of_it) = (of(light), of(light + more));
         prop_assert!(less >= 0.0 && more_of_it - less >= -1e-9);
         prop_assert!(more_of_it - less <= more + 1e-9);
-        prop_assert!(by < -0.5 * light || less == light + by);
+        prop_assert!(by < -15.0 / 16.0 * light || less == light + by);
     }
 
     /// Deposits that overshoot are held above zero, and no light is lost or made.
