@@ -16,7 +16,7 @@
 mod paths;
 
 use super::accumulate::mean_and_variance;
-use super::direct::{Lighting, LuminaireId, Measured};
+use super::direct::{Lighting, LuminaireId, Measured, REPLICATES};
 use super::emission::Emission;
 use super::gather::Gatherer;
 use super::path::Dice;
@@ -113,6 +113,12 @@ impl<'a> PathTracer<'a> {
             common_error_lx: 0.0,
             samples: u64::from(replicates) * u64::from(settings.rays),
         }
+    }
+
+    /// Shadow rays of a reading of direct light by a map, about.
+    pub(super) fn rays_of_reading(&self) -> u64 {
+        let looks = if self.lighting.samples_exactly() { 1 } else { REPLICATES };
+        u64::from(looks) * self.lighting.rays_of_sampled(SHADOW_RAYS)
     }
 
     /// Light at a place of a surface by so many independent replicates of so many paths; direct light, too, is estimated anew by

@@ -58,7 +58,8 @@ pub(super) fn compare(
     let SurfacePoint { triangle, back, u, v, .. } = place.at;
     let Some(read) = reader.at(triangle, back, u, v) else { return (None, by_area, 0) };
     let traced = tracer.traced(&place.at, (replicates, paths.div_ceil(replicates)), key.with(3));
-    let rays = traced.rays;
+    // Readings look at luminaires themselves, by several replicates where these are chosen.
+    let rays = traced.rays + tracer.rays_of_reading();
     // What paths leave out is taken off what they are compared with.
     let left_out = |of: &Illuminance| match tracer.leaves_caustics() {
         true => of.caustic_lx.luminance(),

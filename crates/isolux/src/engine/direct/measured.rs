@@ -9,7 +9,7 @@ use crate::sampling::Sequence;
 use crate::units::Rgb;
 
 /// Independent combs, whose spread tells the error of their mean.
-pub(super) const REPLICATES: u32 = 8;
+pub(in crate::engine) const REPLICATES: u32 = 8;
 
 /// The standard error by the spread of eight replicates, so that 1.96 of it hold the truth in 95 % of cases (quantiles of Student's
 /// distribution with seven degrees of freedom and of the normal one).

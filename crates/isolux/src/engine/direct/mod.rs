@@ -41,7 +41,7 @@ pub(super) use area::Shape;
 pub(super) use chains::Chain;
 use faces::faces;
 use isolux_geometry::Direction;
-pub(super) use measured::{Goal, Measured};
+pub(super) use measured::{Goal, Measured, REPLICATES};
 use mirrors::Mirrors;
 use openings::Openings;
 use panes::Panes;
