@@ -111,12 +111,12 @@ fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     let read = |at: SurfacePoint| reader.glance((at.triangle, at.back, [at.u, at.v]), 0, None);
     let interpolated = trace(&scene, &camera, size, &settings, &read).unwrap();
     let truth = truth(&view, &reader);
-    // The foot of the block, and what else interpolation gets wrong: gathered light is nearer by a third there at least. How far
+    // The foot of the block, and what else interpolation gets wrong: gathered light is twice as near there at least. How far
     // off it is itself goes by the light of the whole room, and these places are dark.
     let is_wrong = |pixel, lx| share_off(&interpolated, pixel, lx).abs() > 0.1;
     let [by_view, by_interpolation] = [&view, &interpolated].map(|i| off(i, &truth, is_wrong));
     assert!(by_interpolation > 0.15);
-    assert!(by_view < 0.67 * by_interpolation, "{by_view} and {by_interpolation}");
+    assert!(by_view < 0.5 * by_interpolation, "{by_view} and {by_interpolation}");
     let [of_view, of_interpolated] = [&view, &interpolated].map(|i| off(i, &truth, |_, _| true));
     assert!(of_view < of_interpolated, "{of_view} and {of_interpolated}");
     let Gathered { interpolated, gathered, continued } = gathered;

@@ -75,7 +75,12 @@ pub(super) fn filter(
     }
     values[0].iter_mut().zip(&behind).for_each(|(value, &behind)| *value += behind);
     parts[0].iter_mut().zip(&behind).for_each(|(value, &behind)| *value += behind);
-    values.iter_mut().zip(&parts).for_each(|(filtered, part)| means.hold(plan, filtered, part));
+    for (filtered, part) in values.iter_mut().zip(&parts) {
+        means.hold(plan, filtered, part);
+        // What that took, in proportion to the light: none of it becomes negative.
+        let light = first.iter().zip(&*filtered).map(|(share, value)| share * value.luminance());
+        give_back(&areas_m2, (&pieces, &light.collect::<Vec<f64>>()), filtered, part);
+    }
     let bias = if reference_lx > 0.0 { bias / reference_lx } else { 0.0 };
     Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
 }
@@ -223,10 +228,10 @@ impl Means {
     }
 }
 
-/// Gives every piece of surface the light that filtering took from it, where details were smoothed.
+/// Gives every piece of surface the light that filtering took from it, in proportion to some weights of its vertices.
 fn give_back(
     areas_m2: &[f64],
-    (pieces, smoothed): (&[u32], &[f64]),
+    (pieces, weights): (&[u32], &[f64]),
     filtered: &mut [Rgb],
     unfiltered: &[Rgb],
 ) {
@@ -234,12 +239,12 @@ fn give_back(
     for (k, &own_m2) in areas_m2.iter().enumerate() {
         let of_piece = &mut lost[pieces[k] as usize];
         of_piece.0 += (unfiltered[k] - filtered[k]) * own_m2;
-        of_piece.1 += smoothed[k] * own_m2;
+        of_piece.1 += weights[k] * own_m2;
     }
     for (k, value) in filtered.iter_mut().enumerate() {
-        let (flux_lm, smoothed_m2) = lost[pieces[k] as usize];
-        if smoothed_m2 > 0.0 {
-            *value += flux_lm * (smoothed[k] / smoothed_m2);
+        let (flux_lm, weights_m2) = lost[pieces[k] as usize];
+        if weights_m2 > 0.0 {
+            *value += flux_lm * (weights[k] / weights_m2);
         }
     }
 }

@@ -136,7 +136,7 @@ impl<'a> MapReader<'a> {
     /// Prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
         let lighting = Arc::new(Lighting::new(scene));
-        let (bright, _) = Bright::of_seed(scene, &lighting, map.provenance.seed);
+        let (bright, _) = Bright::of(scene, &lighting, map.provenance.seed);
         Self::prepared((scene, map), lighting, bright)
     }
 

@@ -72,7 +72,7 @@ impl Default for AuditSettings {
 /// have any light.
 pub fn audit(scene: &Scene, map: &IlluminationMap, settings: &AuditSettings) -> Option<Audit> {
     let lighting = Arc::new(Lighting::new(scene));
-    let (bright, _) = Bright::of_seed(scene, &lighting, map.provenance.seed);
+    let (bright, _) = Bright::of(scene, &lighting, map.provenance.seed);
     audit_with((scene, map), (lighting, bright), settings)
 }
 

@@ -172,20 +172,30 @@ impl Backdrop {
         self.walls.iter().filter_map(|wall| Seen::from(of, wall)).collect()
     }
 
+    /// Whether enough rays come to the walls, and as large a share of their light: a bright part of a wall that something hides would add
+    /// more noise than all others take off.
     fn is_clear(scene: &Scene, of: &Stand, seen: &[Seen<'_>]) -> bool {
         let ray = |k: usize| DIRECTIONS.ray(k, (of.origin, of.normal, of.triangle));
         let met = DIRECTIONS.met(scene, ray);
-        let comes_there = |&k: &usize| {
+        let (mut count, mut light, mut all_light) = (0, 0.0, 0.0);
+        for (k, met) in met.iter().enumerate() {
             let direction = DIRECTIONS.direction(k, of.normal);
+            let shown = |s: &Seen<'_>| s.light(direction).map_or(0.0, |of| of.luminance().max(0.0));
+            let own_light: f64 = seen.iter().map(shown).sum();
+            all_light += own_light;
             let far = |s: &Seen<'_>| s.at(direction).map(|(far_m, _)| (far_m, s.size_m()));
             let mut along = seen.iter().filter_map(far);
-            let Some((far_m, size_m)) = along.next() else { return false };
+            let Some((far_m, size_m)) = along.next() else { continue };
             let is_at = |other_m: f64| (other_m - far_m).abs() <= BESIDE * (far_m + size_m);
             // A wall that another stands before is not seen.
-            along.all(|(other_m, _)| is_at(other_m))
-                && met[k].is_some_and(|hit| is_at(f64::from(hit.t)))
-        };
-        (0..TRIED).filter(comes_there).count() >= CLEAR
+            let comes_there = along.all(|(other_m, _)| is_at(other_m))
+                && met.is_some_and(|hit| is_at(f64::from(hit.t)));
+            if comes_there {
+                count += 1;
+                light += own_light;
+            }
+        }
+        count >= CLEAR && light * TRIED as f64 >= all_light * CLEAR as f64
     }
 }
 

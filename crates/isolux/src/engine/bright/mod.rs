@@ -77,18 +77,13 @@ pub(super) struct Seen<'b> {
 }
 
 impl Bright {
-    /// As maps and caches of a seed use it, and the particles that took.
-    pub(super) fn of_seed(
+    /// What is bright, as particles of a seed tell, and how many those are; `None` where nothing is.
+    pub(super) fn of(
         scene: &Scene,
         lighting: &Lighting<'_>,
         seed: u64,
     ) -> (Option<Arc<Self>>, u64) {
-        let (bright, particles) = Self::of(scene, lighting, Key::new(seed).with(0).with(13));
-        (bright.map(Arc::new), particles)
-    }
-
-    /// What is bright, as particles tell, and how many those are; `None` where nothing is.
-    pub(super) fn of(scene: &Scene, lighting: &Lighting<'_>, key: Key) -> (Option<Self>, u64) {
+        let key = Key::new(seed).with(0).with(13);
         let Some(emission) = Emission::new(scene) else { return (None, 0) };
         let times = landed::times(&emission);
         let area_m2 = area_m2(scene);
@@ -102,7 +97,7 @@ impl Bright {
                 break;
             }
         }
-        (bright, particles)
+        (bright.map(Arc::new), particles)
     }
 
     fn told_by(scene: &Scene, landed: &[Landed], area_m2: f64) -> Option<Self> {

@@ -94,7 +94,7 @@ impl<'s> CacheReader<'s> {
     ) -> Result<Self, CacheError> {
         cache.check(scene)?;
         let lighting = Lighting::new(scene);
-        let (bright, _) = Bright::of_seed(scene, &lighting, settings.seed);
+        let (bright, _) = Bright::of(scene, &lighting, settings.seed);
         let mut reader = Self {
             scene,
             lighting,

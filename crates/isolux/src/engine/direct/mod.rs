@@ -246,10 +246,7 @@ impl<'s> Lighting<'s> {
 
     /// The same with `samples` shadow rays for every emitting surface.
     pub(super) fn sampled(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
-        if !self.has_many() {
-            return self.by_all(at, samples, dice);
-        }
-        self.lit_by_cut(&self.fine_cut(at), at, (RAYS_TO_MANY, samples), dice)
+        self.sampled_again(at, samples)(dice)
     }
 
     /// [`Lighting::sampled`] again and again at one place.

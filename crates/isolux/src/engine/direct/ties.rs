@@ -5,7 +5,8 @@
 //! it goes through the edge where they meet. Then all are the way of it, and rounding would tell which of them are open: none, one,
 //! or all. Here all of them are open, and the first counts:
 //!
-//! - What a place of reflection lies on but for rounding does not hide it, and a mirror is met where it reaches to within that.
+//! - What mirrors of the chain a place of reflection lies on but for rounding do not hide it, and one is met where it reaches to within that.
+//!   Anything else does: a way that comes to a mirror just above a floor from below is none.
 //! - A chain counts if none of its twins before it is open.
 //!
 //! The images of a luminaire are found breadth first, so that with a chain all its twins before it are there.
@@ -44,7 +45,7 @@ impl Lighting<'_> {
         &self,
         (from, reflected): (&SurfacePoint, bool),
         target: Target,
-        plane: u32,
+        (chain, plane): (&[u32], u32),
     ) -> Option<(Rgb, SurfacePoint)> {
         let mirror = &self.mirrors.planes[plane as usize];
         // Offsets of starts from mirrors would add up from one to the next.
@@ -52,7 +53,7 @@ impl Lighting<'_> {
         let crossing = mirror.crossing(start, target.towards(start), self.mirrors.tolerance_m)?;
         let ends =
             [Some((crossing, mirror.normal)), reflected.then_some((from.point, from.geometric))];
-        let share = self.passed(from, (Target::Point(crossing), None), ends)?;
+        let share = self.passed(from, (Target::Point(crossing), None), (ends, chain))?;
         Some((share, self.mirror_near(mirror, plane, crossing)?))
     }
 
@@ -61,18 +62,18 @@ impl Lighting<'_> {
     pub(super) fn leave_edge(
         &self,
         from: &SurfacePoint,
-        target: Target,
-        emitter: Option<u32>,
+        towards: (Target, Option<u32>),
+        chain: &[u32],
     ) -> Option<Rgb> {
-        self.passed(from, (target, emitter), [Some((from.point, from.geometric)), None])
+        self.passed(from, towards, ([Some((from.point, from.geometric)), None], chain))
     }
 
-    /// What panes leave on a way that meets nothing but what some of its ends on mirrors lie on, across these.
+    /// What panes leave on a way that meets nothing but mirrors of its chain that some of its ends lie on, across the mirrors of these.
     fn passed(
         &self,
         from: &SurfacePoint,
         (target, emitter): (Target, Option<u32>),
-        ends: [Option<(Point, Normal)>; 2],
+        (ends, chain): ([Option<(Point, Normal)>; 2], &[u32]),
     ) -> Option<Rgb> {
         let bvh = self.scene.bvh();
         let mut ray = segment(from, target);
@@ -88,9 +89,12 @@ impl Lighting<'_> {
                 let off_m = (end - surface.point).dot(surface.geometric.to_vector()).abs();
                 is_across && off_m <= ROUNDINGS * bvh.offset_m(end)
             };
+            let plane_of = |back: bool| self.mirrors.of(surface.triangle, back);
+            let is_of_chain =
+                [false, true].into_iter().filter_map(plane_of).any(|plane| chain.contains(&plane));
             match self.pane_share(&surface, &ray) {
                 Some(passed) => share = share * passed,
-                None if ends.into_iter().flatten().any(lies_on) => (),
+                None if is_of_chain && ends.into_iter().flatten().any(lies_on) => (),
                 None => return None,
             }
             ray = segment(&surface.other_side(), target);

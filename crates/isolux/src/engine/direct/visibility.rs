@@ -90,7 +90,7 @@ impl Lighting<'_> {
         for &plane in chain.iter().rev() {
             let met = self.meet_mirror(&from, target, plane);
             let (passed, on_mirror) =
-                met.or_else(|| self.meet_at_edge((&from, reflected), target, plane))?;
+                met.or_else(|| self.meet_at_edge((&from, reflected), target, (chain, plane)))?;
             share = share * passed;
             (from, reflected) = (on_mirror, true);
             target = self.unreflected(target, plane);
@@ -99,7 +99,7 @@ impl Lighting<'_> {
         if !self.scene.bvh().any_hit(&ray) {
             return Some(share * self.through_glass(ray, target));
         }
-        let passed = reflected.then(|| self.leave_edge(&from, target, emitter))??;
+        let passed = reflected.then(|| self.leave_edge(&from, (target, emitter), chain))??;
         Some(share * passed)
     }
 

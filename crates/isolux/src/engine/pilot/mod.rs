@@ -227,7 +227,7 @@ impl<'s> Pilot<'s> {
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         let key = Key::new(request.seed).with(0);
-        let (bright, traced) = Bright::of_seed(scene, lighting, request.seed);
+        let (bright, traced) = Bright::of(scene, lighting, request.seed);
         Self {
             scene,
             lighting,

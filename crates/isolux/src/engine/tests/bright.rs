@@ -7,6 +7,7 @@ use crate::engine::direct::Lighting;
 use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering};
 use crate::engine::surface::SurfacePoint;
 use crate::map::Standing;
+use std::sync::Arc;
 
 /// A room with a lamp 5 cm below its ceiling.
 fn room() -> Scene {
@@ -32,8 +33,8 @@ impl<'a> Lit<'a> {
         Self { scene, lighting, elements: subdivision.elements(), direct }
     }
 
-    fn bright(&self) -> Option<Bright> {
-        Bright::of(self.scene, &self.lighting, Key::new(1)).0
+    fn bright(&self) -> Option<Arc<Bright>> {
+        Bright::of(self.scene, &self.lighting, 1).0
     }
 
     /// Direct light reflected once, in many trials at a place: its mean, the standard error of that, and rays of a trial.

@@ -377,9 +377,7 @@ fn a_filter_takes_no_light() {
         values.iter().zip(vertices).map(|(e, v)| e.luminance() * v.area_m2).sum()
     };
     let (before, after) = (flux(&values), flux(&filtered.values[0]));
-    // Values are held between those about them, which takes some of the noise of the highest and of the lowest: of noise of 5 % at each
-    // of hundreds of vertices, 0.2 % in their mean, a twentieth.
-    assert!((after / before - 1.0).abs() < 1e-4, "{after} for {before}");
+    assert!((after / before - 1.0).abs() < 1e-12, "{after} for {before}");
 }
 
 #[test]

@@ -153,8 +153,7 @@ fn deviation(
             (0..TRIALS).map(|seed| estimate(&lighting, &at, &mut dice(seed))).collect();
         for channel in 0..3 {
             let (mean, error) = mean_and_error(values.iter().map(|v| v.0[channel]));
-            // What is a millionth of the light of a luminaire a metre away counts as none: beams are held in tables.
-            let rounding = RAY_ROUNDING * exact.0[channel].max(100.0);
+            let rounding = RAY_ROUNDING * exact.0[channel];
             largest = largest.max((mean - exact.0[channel]).abs() / (error + rounding).max(1e-300));
             let relative = error * (TRIALS as f64).sqrt() / exact.0[channel].max(1e-300);
             spread += relative * relative;
