@@ -144,17 +144,18 @@ impl<'a> Part<'a> {
 /// A side of a triangle of the scene and the barycentric weights of its second and third corner.
 type SidePlace = (u32, bool, f64, f64);
 
-/// The elements of all parts in one, and, by part, which of its vertices is there what a vertex of
-/// the sum is.
+/// The elements of all parts in one, as far as each knows some light there, and, by part, which of its vertices is there what a
+/// vertex of the sum is.
 fn unite(scene: &Scene, parts: &[Part<'_>]) -> (Elements, Vec<Vec<Option<u32>>>) {
     let mut subdivision = Subdivision::new(scene);
+    let known: Vec<Vec<bool>> = parts.iter().map(|part| known_nodes(part.map)).collect();
     loop {
         let united = subdivision.elements();
         let mut finer: Vec<u32> = Vec::new();
-        for part in parts {
+        for (part, known) in parts.iter().zip(&known) {
             walk_both(&united, &part.map.elements, &mut |node, of_part| {
                 let is_split = part.map.elements.node(of_part).split.is_some();
-                if is_split && united.node(node).split.is_none() {
+                if known[of_part as usize] && is_split && united.node(node).split.is_none() {
                     finer.push(node);
                 }
             });
@@ -167,6 +168,21 @@ fn unite(scene: &Scene, parts: &[Part<'_>]) -> (Elements, Vec<Vec<Option<u32>>>)
         finer.sort_unstable();
         finer.iter().for_each(|&node| subdivision.bisect(node));
     }
+}
+
+/// By node, whether a map knows light there or in a part of it.
+fn known_nodes(map: &IlluminationMap) -> Vec<bool> {
+    let elements = &map.elements;
+    let is_known = |v: u32| map.values[v as usize].is_some();
+    let mut known = vec![false; elements.node_count()];
+    // Parts come after what they are parts of.
+    for node in (0..known.len()).rev() {
+        let of = elements.node(node as u32);
+        let parts = of.split.map(|split| split.first_child as usize);
+        let in_part = parts.is_some_and(|first| known[first] || known[first + 1]);
+        known[node] = in_part || of.vertices.into_iter().any(is_known);
+    }
+    known
 }
 
 /// Visits the nodes that two trees share. Where an element is split at different edges (two of them are

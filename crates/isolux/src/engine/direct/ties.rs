@@ -29,6 +29,9 @@ const ROUNDINGS: f64 = 4.0;
 /// a strip of some hundred roundings does not count.
 const ALONG: f64 = 1.0 - 1e-4;
 
+/// A place of reflection and the normal of the mirror there, of a way over a chain of mirrors.
+type Reflection<'c> = (Point, Normal, &'c [u32]);
+
 impl Lighting<'_> {
     /// The twins among the chains that images are made by.
     pub(super) fn find_twins(&self) -> Twins {
@@ -51,9 +54,11 @@ impl Lighting<'_> {
         // Offsets of starts from mirrors would add up from one to the next.
         let start = if reflected { from.point } else { from.start() };
         let crossing = mirror.crossing(start, target.towards(start), self.mirrors.tolerance_m)?;
-        let ends =
-            [Some((crossing, mirror.normal)), reflected.then_some((from.point, from.geometric))];
-        let share = self.passed(from, (Target::Point(crossing), None), (ends, chain))?;
+        let ends = [
+            Some((crossing, mirror.normal, chain)),
+            reflected.then_some((from.point, from.geometric, chain)),
+        ];
+        let share = self.passed(from, (Target::Point(crossing), None), ends)?;
         Some((share, self.mirror_near(mirror, plane, crossing)?))
     }
 
@@ -65,7 +70,7 @@ impl Lighting<'_> {
         towards: (Target, Option<u32>),
         chain: &[u32],
     ) -> Option<Rgb> {
-        self.passed(from, towards, ([Some((from.point, from.geometric)), None], chain))
+        self.passed(from, towards, [Some((from.point, from.geometric, chain)), None])
     }
 
     /// What panes leave on a way that meets nothing but mirrors of its chain that some of its ends lie on, across the mirrors of these.
@@ -73,7 +78,7 @@ impl Lighting<'_> {
         &self,
         from: &SurfacePoint,
         (target, emitter): (Target, Option<u32>),
-        (ends, chain): ([Option<(Point, Normal)>; 2], &[u32]),
+        ends: [Option<Reflection<'_>>; 2],
     ) -> Option<Rgb> {
         let bvh = self.scene.bvh();
         let mut ray = segment(from, target);
@@ -84,17 +89,17 @@ impl Lighting<'_> {
                 return Some(share);
             };
             let surface = SurfacePoint::from_hit(self.scene, &hit);
-            let lies_on = |(end, mirror): (Point, Normal)| {
+            let plane_of = |back: bool| self.mirrors.of(surface.triangle, back);
+            let lies_on = |(end, mirror, chain): Reflection<'_>| {
                 let is_across = surface.geometric.dot(mirror).abs() < ALONG;
                 let off_m = (end - surface.point).dot(surface.geometric.to_vector()).abs();
-                is_across && off_m <= ROUNDINGS * bvh.offset_m(end)
+                let is_of_chain =
+                    [false, true].into_iter().filter_map(plane_of).any(|p| chain.contains(&p));
+                is_of_chain && is_across && off_m <= ROUNDINGS * bvh.offset_m(end)
             };
-            let plane_of = |back: bool| self.mirrors.of(surface.triangle, back);
-            let is_of_chain =
-                [false, true].into_iter().filter_map(plane_of).any(|plane| chain.contains(&plane));
             match self.pane_share(&surface, &ray) {
                 Some(passed) => share = share * passed,
-                None if is_of_chain && ends.into_iter().flatten().any(lies_on) => (),
+                None if ends.into_iter().flatten().any(lies_on) => (),
                 None => return None,
             }
             ray = segment(&surface.other_side(), target);
