@@ -102,7 +102,8 @@ fn share_off(image: &LuminanceImage, pixel: usize, lx: f64) -> f64 {
 #[test]
 fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     let (scene, camera) = room();
-    let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+    // One of 5 % errs by less than 1 % outside of gaps, and is to be trusted there.
+    let request = SolveRequest { accuracy: Some(0.02), ..SolveRequest::default() };
     let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
     let reader = MapReader::new(&scene, &map);
     let (size, settings) = (Size::new(320, 240).unwrap(), TraceSettings::DRAFT);

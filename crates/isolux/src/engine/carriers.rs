@@ -82,7 +82,8 @@ impl Carriers {
 
     /// Makes vertices from `first` on, made by bisecting `elements`, wait: each is interpolated from the corners of the elements
     /// about it that carry light, or lies between the ends of its edge where those do not tell it. Before walls some
-    /// carry light beside those.
+    /// carry light beside those. Of some vertices `keep_seen` keeps those that tell the light at another: what none of them does
+    /// carries light itself.
     pub(super) fn smooth(
         &mut self,
         subdivision: &Subdivision,
@@ -90,6 +91,7 @@ impl Carriers {
         elements: &[[u32; 3]],
         open: &[bool],
         (walls, rows): (&Walls, &[Beside]),
+        keep_seen: impl Fn(u32, &mut Vec<u32>) + Sync,
     ) {
         let vertices = subdivision.vertices();
         let rings = Rings::of(elements, first, rows, |v| open[v as usize] && self.is_active(v));
@@ -105,29 +107,35 @@ impl Carriers {
                 wider.about(ends_of(), found);
             }
             let distance_m = |v: u32| (vertices[v as usize].position - at.position).length();
-            let near = found.all.iter().map(|&v| (distance_m(v), v as usize)).collect();
+            let seen = |mut some: Vec<u32>| {
+                keep_seen(vertex as u32, &mut some);
+                some
+            };
+            let near = seen(found.all.clone());
+            let near = near.into_iter().map(|v| (distance_m(v), v as usize)).collect();
             let told = weights_at(at, near, |v| vertices[v].position, &near_walls);
             let told = told.filter(|_| open[vertex]);
             let told =
                 told.map(|of| of.into_iter().map(|(v, weight)| (v as u32, weight)).collect());
+            let ends_seen = seen(ends_of().collect());
+            between.retain(|(end, _)| ends_seen.contains(end));
             // What is hidden has no light to tell.
-            let in_the_open: f64 =
-                between.iter().filter(|(end, _)| open[*end as usize]).map(|(_, w)| w).sum();
-            if in_the_open > 0.0 {
+            if between.iter().any(|&(end, _)| open[end as usize]) {
                 between.retain(|&(end, _)| open[end as usize]);
-                between.iter_mut().for_each(|(_, weight)| *weight /= in_the_open);
             }
+            let whole: f64 = between.iter().map(|(_, weight)| weight).sum();
+            between.iter_mut().for_each(|(_, weight)| *weight /= whole);
             let parents = told.unwrap_or(between);
-            Some(Link { parents, spacing_m: distance_m(ends[0]) + distance_m(ends[1]) })
+            let spacing_m = distance_m(ends[0]) + distance_m(ends[1]);
+            (!parents.is_empty()).then_some(Link { parents, spacing_m })
         };
         self.links.resize(first, None);
         self.links.par_extend((first..vertices.len()).into_par_iter().map_init(found, link));
-        self.active.resize(first, true);
-        self.active.resize(vertices.len(), false);
         for row in rows {
             self.links[row.vertex as usize] = None;
-            self.active[row.vertex as usize] = true;
         }
+        self.active.resize(first, true);
+        self.active.extend(self.links[first..].iter().map(Option::is_none));
         // Those that lie between others, after these.
         let all = first as u32..vertices.len() as u32;
         self.order.extend(all.filter(|&v| self.links[v as usize].is_some()));

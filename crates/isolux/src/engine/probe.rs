@@ -102,6 +102,8 @@ pub struct MapReader<'a> {
     unseen: Unseen,
     /// The part of that which falls to every vertex.
     parts: Vec<Rgb>,
+    /// How much of it arrives, root mean square.
+    arriving: f64,
     shared_noise: SharedNoise,
     /// Rays that readings have gathered by.
     rays: AtomicU64,
@@ -168,13 +170,14 @@ impl<'a> MapReader<'a> {
             patches: Patches::new(),
             unseen: Unseen::of(map),
             parts: Vec::new(),
+            arriving: 0.0,
             shared_noise: SharedNoise::default(),
             rays: AtomicU64::new(0),
         };
         let (direct_values, varying) = reader.kept().unzip();
         let direct_values = direct_values.or(reader.direct_values.clone());
-        let parts = reader.parts_of_vertices();
-        Self { backdrop: reader.walls(), direct_values, varying, parts, ..reader }
+        let (parts, arriving) = reader.parts_of_vertices();
+        Self { backdrop: reader.walls(), direct_values, varying, parts, arriving, ..reader }
     }
 
     /// Direct light at the vertices as rays read it, with what is lacking between them, and where; `None` where nothing is.

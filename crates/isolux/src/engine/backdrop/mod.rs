@@ -36,6 +36,7 @@ pub(super) const WORTH: f64 = 0.7;
 /// Rays tell whether something stands before the walls; of so many so many have to come to them.
 const TRIED: usize = 16;
 const CLEAR: usize = 12;
+static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::new(PLACES));
 static DIRECTIONS: LazyLock<Feelers<TRIED>> = LazyLock::new(|| Feelers::of(Key::new(0)));
 /// How far a ray to a wall may end before or behind it, as a share of its length and the size of the wall.
 const BESIDE: f64 = 1e-3;
@@ -63,6 +64,8 @@ struct Wall {
     /// What it reflects, lx, photometric, and its colour.
     light: Polynomial,
     tint: Rgb,
+    /// What it does at the places asked for, lx, photometric: nothing where that is not known.
+    lit: Vec<Option<f64>>,
 }
 
 /// Integrals over walls: of light, of its square, and of the square of what is left of it.
@@ -110,7 +113,7 @@ impl Backdrop {
     pub(super) fn of(scene: &Scene) -> Option<Self> {
         let dark = |rectangle: Rectangle| {
             let light = Polynomial([0.0; COUNT]);
-            Wall { rectangle, light, tint: Rgb::BLACK }
+            Wall { rectangle, light, tint: Rgb::BLACK, lit: Vec::new() }
         };
         let largest = planes::largest(scene).into_iter();
         let faced = largest.filter(|rectangle| rectangle.faces_something(scene));
@@ -172,12 +175,14 @@ impl Backdrop {
         self.walls.iter().filter_map(|wall| Seen::from(of, wall)).collect()
     }
 
-    /// Whether enough rays come to the walls, and as large a share of their light: a bright part of a wall that something hides would add
-    /// more noise than all others take off.
+    /// Whether enough rays come to the walls, and as large a share of their light; and whether polynomials tell the light there. A bright
+    /// part that something hides, or one that the polynomial alone has, would add more noise than all others take off; and what
+    /// noise makes of light is bounded, which makes light.
     fn is_clear(scene: &Scene, of: &Stand, seen: &[Seen<'_>]) -> bool {
         let ray = |k: usize| DIRECTIONS.ray(k, (of.origin, of.normal, of.triangle));
         let met = DIRECTIONS.met(scene, ray);
         let (mut count, mut light, mut all_light) = (0, 0.0, 0.0);
+        let (mut squared, mut left) = (0.0, 0.0);
         for (k, met) in met.iter().enumerate() {
             let direction = DIRECTIONS.direction(k, of.normal);
             let shown = |s: &Seen<'_>| s.light(direction).map_or(0.0, |of| of.luminance().max(0.0));
@@ -193,9 +198,14 @@ impl Backdrop {
             if comes_there {
                 count += 1;
                 light += own_light;
+                if let Some([lit, told]) = seen.iter().find_map(|s| s.lit_and_told(direction)) {
+                    squared += lit * lit;
+                    left += (lit - told) * (lit - told);
+                }
             }
         }
-        count >= CLEAR && light * TRIED as f64 >= all_light * CLEAR as f64
+        let are_told = left <= WORTH * WORTH * squared;
+        are_told && count >= CLEAR && light * TRIED as f64 >= all_light * CLEAR as f64
     }
 }
 
@@ -212,18 +222,21 @@ impl Wall {
         scene: &Scene,
         light_at: &(impl Fn(&SurfacePoint) -> Option<Rgb> + Sync),
     ) -> Moments {
-        let rule = GaussRule::new(PLACES);
+        let rule = &*RULE;
+        self.lit.clear();
         let mut sums = Sums::default();
         let mut colour = Rgb::BLACK;
         let mut places = Vec::with_capacity(PLACES * PLACES);
         for (&x, &weight_x) in rule.nodes.iter().zip(&rule.weights) {
             for (&y, &weight_y) in rule.nodes.iter().zip(&rule.weights) {
                 let weight = weight_x * weight_y;
-                let Some(at) = self.rectangle.surface(scene, [x, y]) else { continue };
-                let Some(finish) = scene.material(at.triangle).finish(at.back) else { continue };
-                let Some(light) = light_at(&at) else { continue };
-                let reflectance = scene.diffuse_reflectance(finish, at.triangle, at.u, at.v);
-                let light = light * reflectance;
+                let reflected = self.rectangle.surface(scene, [x, y]).and_then(|at| {
+                    let finish = scene.material(at.triangle).finish(at.back)?;
+                    let light = light_at(&at)?;
+                    Some(light * scene.diffuse_reflectance(finish, at.triangle, at.u, at.v))
+                });
+                self.lit.push(reflected.map(Rgb::luminance));
+                let Some(light) = reflected else { continue };
                 colour += light * weight;
                 sums.add(&powers([x, y]), light.luminance(), weight);
                 places.push(([x, y], light.luminance(), weight));
@@ -274,7 +287,7 @@ impl<'a> Seen<'a> {
     }
 
     fn illuminance(&self) -> Rgb {
-        let Wall { light, rectangle, tint } = self.wall;
+        let Wall { light, rectangle, tint, .. } = self.wall;
         *tint * light.illuminance(rectangle.half_m, &self.view)
     }
 
@@ -290,6 +303,21 @@ impl<'a> Seen<'a> {
         let place =
             [0, 1].map(|k| (self.view.foot_m[k] + far_m * direction.dot(axes[k])) / half_m[k]);
         (place[0].abs() <= 1.0 && place[1].abs() <= 1.0).then_some((far_m, place))
+    }
+
+    /// The least light that is known of the four places asked for about where a ray comes to it, and what is told of that: what stands on
+    /// the wall may hide others.
+    fn lit_and_told(&self, direction: Direction) -> Option<[f64; 2]> {
+        let (_, place) = self.at(direction)?;
+        let [x, y] = place.map(|c| {
+            let after = RULE.nodes.partition_point(|node| *node < c);
+            [after.saturating_sub(1), after.min(PLACES - 1)]
+        });
+        let about = x.into_iter().flat_map(|x| y.map(|y| [x, y]));
+        let known =
+            about.filter_map(|[x, y]| Some(((*self.wall.lit.get(PLACES * x + y)?)?, [x, y])));
+        let (lit, least) = known.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some([lit, self.wall.light.at(least.map(|k| RULE.nodes[k]))])
     }
 
     fn light(&self, direction: Direction) -> Option<Rgb> {

@@ -2,6 +2,7 @@
 
 use super::Pilot;
 use crate::elements::Elements;
+use crate::engine::cuts;
 use crate::engine::look::Look;
 use crate::map::Standing;
 use crate::units::Rgb;
@@ -31,11 +32,27 @@ impl Pilot<'_> {
         rows.retain(|row| open[row.vertex as usize]);
         // What stands on a vertex stands close to the elements about it, which are left as they are.
         self.torn.skip(&self.subdivision);
-        self.carriers.smooth(&self.subdivision, first, &corners, &open, (&look.walls, &rows));
+        self.complete_rays();
+        let gatherers = self.gatherers();
+        let vertices = self.subdivision.vertices();
+        let of = |v: u32| {
+            let lx = self.indirect.get(v as usize).map(|lx| lx.luminance());
+            (vertices[v as usize].position, lx)
+        };
+        let keep_seen = |from: u32, some: &mut Vec<u32>| {
+            let above = &gatherers[from as usize].surface;
+            cuts::keep_seen(self.scene, (of(from).0, above), of, some);
+        };
+        let before_walls = (&look.walls, rows.as_slice());
+        self.carriers.smooth(&self.subdivision, first, &corners, &open, before_walls, keep_seen);
         look.elements = self.subdivision.elements();
-        self.indirect.resize(self.subdivision.vertex_count(), Rgb::BLACK);
+        // Guesses for those that carry light.
+        for vertex in &self.subdivision.vertices()[first..] {
+            let ends = vertex.parents.expect("made by bisection");
+            let sum: Rgb = ends.into_iter().map(|end| self.indirect[end as usize]).sum();
+            self.indirect.push(sum / 2.0);
+        }
         for row in &rows {
-            // A guess.
             self.indirect[row.vertex as usize] = self.indirect[row.of as usize];
         }
         self.settle(&look.elements);

@@ -27,10 +27,11 @@ const RAYS: usize = 1 << 16;
 type Looking<'e> = (&'e Element, Gatherer, f64);
 
 impl MapReader<'_> {
-    /// The parts of all vertices; none where the map does not know its error.
-    pub(super) fn parts_of_vertices(&self) -> Vec<Rgb> {
+    /// The parts of all vertices, relative to their root mean square, and how much of them arrives, reflected once: the root mean square
+    /// of that. None are known where the map does not know its error.
+    pub(super) fn parts_of_vertices(&self) -> (Vec<Rgb>, f64) {
         if self.map.provenance.accuracy.is_none() {
-            return Vec::new();
+            return (Vec::new(), 0.0);
         }
         let all = self.map.elements.elements();
         let is_known = |v: u32| self.standings[v as usize].is_some();
@@ -57,7 +58,12 @@ impl MapReader<'_> {
         let expected = |value: &Illuminance| value.interpolation_error_lx;
         let by_elements =
             of(&|value| Some(expected(value)).filter(|e| *e <= most_lx).unwrap_or(0.0));
-        by_light.into_iter().zip(by_elements).map(|(a, b)| Rgb::grey(a.max(b))).collect()
+        let of_vertices: Vec<Rgb> =
+            by_light.into_iter().zip(by_elements).map(|(a, b)| Rgb::grey(a.max(b))).collect();
+        let seen = operator.reflected(&of_vertices);
+        let seen =
+            elements.iter().zip(seen).map(|((.., area_m2), seen)| (*area_m2, seen.luminance()));
+        (of_vertices, root_mean_square(seen))
     }
 
     /// What is about every vertex of some values of vertices: of what it sees, and what is seen from there, as it is reflected. Where
@@ -87,14 +93,10 @@ impl MapReader<'_> {
 
     /// Values of vertices over their root mean square on the known surface.
     fn relative(&self, values: Vec<f64>) -> Vec<f64> {
-        let (mut area_m2, mut squared) = (0.0, 0.0);
         let vertices = self.map.elements.vertices().iter().zip(&self.standings).zip(&values);
-        for ((vertex, _), value) in vertices.filter(|((_, standing), _)| standing.is_some()) {
-            area_m2 += vertex.area_m2;
-            squared += vertex.area_m2 * value * value;
-        }
-        let over = if squared > 0.0 { (area_m2 / squared).sqrt() } else { 0.0 };
-        values.into_iter().map(|value| over * value).collect()
+        let known = vertices.filter(|((_, standing), _)| standing.is_some());
+        let over = root_mean_square(known.map(|((vertex, _), value)| (vertex.area_m2, *value)));
+        values.into_iter().map(|value| if over > 0.0 { value / over } else { 0.0 }).collect()
     }
 
     /// The part of a place on a surface.
@@ -108,26 +110,35 @@ impl MapReader<'_> {
         corners.iter().map(|&(v, weight)| weight * self.parts[v as usize].luminance()).sum()
     }
 
-    /// The part of any place: in space that of what is seen from there.
+    /// The part of a place that gathers, on a surface or in space: what arrives there of the parts of what is seen. Vertices about it may
+    /// stand on the other side of something.
     pub(super) fn part_of(&self, from: &Gatherer) -> f64 {
-        if from.surface.triangle != u32::MAX || self.parts.is_empty() {
-            return self.part_at(&from.surface);
+        if self.parts.is_empty() {
+            return 1.0;
         }
         let dark = self.dark();
         let key = place_key(from.surface.point).with(19);
         let operator = self.reading_alone(&dark).operator(&[from.with_rays(LOOKS)], |_| key);
-        let read = |values: &[Rgb]| operator.reflected(values)[0].luminance();
-        let whole = read(&vec![Rgb::grey(1.0); self.parts.len()]);
-        if whole > 0.0 { read(&self.parts) / whole } else { 0.0 }
+        let arrives = operator.reflected(&self.parts)[0].luminance();
+        if self.arriving > 0.0 { arrives / self.arriving } else { 0.0 }
     }
 
     fn dark(&self) -> Vec<Rgb> {
         vec![Rgb::BLACK; self.map.values.len()]
     }
 
-    /// Rays that read vertices and look for no direct light.
+    /// Rays that read vertices as readings do, and look for no direct light.
     fn reading_alone<'b>(&'b self, dark: &'b [Rgb]) -> Gathering<'b> {
         let direct = DirectAtEnds::Read { values: dark, level: u32::MAX };
-        Gathering { regathers: false, backdrop: None, ..self.gathering(direct) }
+        Gathering { backdrop: None, ..self.gathering(direct) }
     }
+}
+
+/// Of values that each stand for some surface, m2.
+fn root_mean_square(values: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let sum = |[area_m2, squared]: [f64; 2], (of_m2, value): (f64, f64)| {
+        [area_m2 + of_m2, squared + of_m2 * value * value]
+    };
+    let [area_m2, squared] = values.fold([0.0; 2], sum);
+    if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
 }

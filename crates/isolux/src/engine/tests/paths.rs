@@ -44,7 +44,7 @@ fn at_walls(scene: &Scene, part: impl Fn(&Illuminance) -> f64) -> (f64, f64) {
         let normal = scene.geometric_normal(triangle);
         part(&tracer.estimate(ProbePoint { position, normal }, &settings))
     };
-    mean_and_error((0..8000).map(value))
+    mean_and_error((0..12_000).map(value))
 }
 
 /// All light lands on the walls at first, by whatever way, so that reflected light is that times rho / (1 - rho).

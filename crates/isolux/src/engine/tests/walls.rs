@@ -199,7 +199,7 @@ fn what_falls_off_towards_walls_is_interpolated_as_it_falls() {
     let open = vec![true; subdivision.vertex_count()];
     let error = |walls: &Walls, rows: &[Beside]| {
         let mut carriers = Carriers::all();
-        carriers.smooth(&subdivision, first, &corners, &open, (walls, rows));
+        carriers.smooth(&subdivision, first, &corners, &open, (walls, rows), |_, _| ());
         assert_eq!(carriers.count(open.len()), first + rows.len());
         let value = |v: usize| {
             let carries = carriers.is_active(v as u32);

@@ -242,9 +242,8 @@ fn floors_below_a_wall_carry_no_light_into_the_room_beyond() {
         let lx = texel.illuminance_lx.luminance();
         if least > sheet_x + 0.2 / texels_per_m {
             dark += 1;
-            // A thousandth of what is beyond the sheet.
-            // The map itself, to 5 %, tells up to 6 lx there.
-            assert!(lx < 10.0, "{lx} lx {} m behind the sheet", least - sheet_x);
+            // By that lamp alone it is 0.3 to 1.2 lx: beyond the sheet it is hundreds.
+            assert!(lx < 2.0, "{lx} lx {} m behind the sheet", least - sheet_x);
         } else if most < sheet_x - 0.2 / texels_per_m {
             lit += 1;
             assert!(lx > 50.0, "{lx} lx {} m before the sheet", sheet_x - most);
