@@ -8,6 +8,7 @@ use crate::lightmap;
 use crate::output::OutputPath;
 use crate::quantity::{show_count, show_seconds, show_share};
 use crate::request::method_name;
+use isolux::engine::reference_lx;
 use isolux::map::{Audit, IlluminationMap};
 use serde::Serialize;
 
@@ -23,6 +24,8 @@ pub(crate) struct Report {
     accuracy_discretization: Option<f64>,
     accuracy_bias: Option<f64>,
     accuracy_interpolated: Option<f64>,
+    /// What these are shares of.
+    reference_lx: f64,
     accuracy_audited: Option<f64>,
     accuracy_audited_low: Option<f64>,
     accuracy_audited_high: Option<f64>,
@@ -62,6 +65,7 @@ impl Report {
             accuracy_discretization: from.accuracy.map(|a| a.discretization),
             accuracy_bias: from.accuracy.map(|a| a.bias),
             accuracy_interpolated: from.accuracy.map(|a| a.interpolated),
+            reference_lx: reference_lx(map),
             accuracy_audited: from.audit.as_ref().map(|a| a.error.value),
             accuracy_audited_low: from.audit.as_ref().map(|a| a.error.low),
             accuracy_audited_high: from.audit.as_ref().map(|a| a.error.high),

@@ -7,8 +7,6 @@ use serde_json::{Value, json};
 
 /// Standard errors to either side of an interval of 95 %.
 const INTERVAL_95: f64 = 1.96;
-/// Errors are told relative to the root mean square of the light, but to no more than so many times its mean.
-const MOST_UNEVEN: f64 = 2.0;
 /// Digits of a map, relative to its light: values are stored in single precision.
 const ROUNDING: f64 = 1e-6;
 /// A map is broken whose true error exceeds the one told by this factor, or that has more than this share of readings
@@ -45,7 +43,8 @@ pub(super) fn row(
     let is_area = |place: &Place| place.stratum == "area";
     let light: Vec<Truth> =
         known.clone().filter(|(place, ..)| is_area(place)).map(|(_, truth, _)| truth).collect();
-    let reference_lx = reference_lx(&light);
+    // What errors are told relative to.
+    let reference_lx = solved["reference_lx"].as_f64().unwrap_or(0.0);
     let mut compared: Vec<Compared> = known
         .map(|(place, truth, reading)| {
             let noise_lx2 = truth.variance
@@ -67,7 +66,6 @@ pub(super) fn row(
     let unknown =
         all().filter(|((place, truth), r)| r.is_none() && is_area(place) && is_lit(truth));
     row["unknown"] = json!(unknown.count());
-    row["reference_lx"] = json!(reference_lx);
     row["paths_noise"] = json!(own_noise(&light, reference_lx));
     (row["true_low"], row["true"], row["true_high"]) =
         (json!(error[0]), json!(error[1]), json!(error[2]));
@@ -81,15 +79,6 @@ pub(super) fn row(
     compared.sort_by(|a, b| b.excess_lx2().total_cmp(&a.excess_lx2()));
     row["costliest"] = compared.iter().take(WORST).map(listed).collect();
     row
-}
-
-/// What errors are told relative to, lx.
-fn reference_lx(light: &[Truth]) -> f64 {
-    let lit = light.iter().filter(|t| t.lx > 0.0).count().max(1) as f64;
-    let sum: f64 = light.iter().map(|t| t.lx).sum();
-    let squared: f64 = light.iter().map(|t| t.lx * t.lx - t.variance).sum();
-    let rms = (squared.max(0.0) / light.len().max(1) as f64).sqrt();
-    rms.min(MOST_UNEVEN * sum / lit)
 }
 
 fn own_noise(light: &[Truth], reference_lx: f64) -> f64 {
@@ -152,14 +141,14 @@ mod tests {
         let reading =
             |k: usize| Some(Reading { lx: 100.0 + 5.0 * (k % 2) as f64, standard_error_lx });
         let readings: Vec<_> = (0..100).map(reading).collect();
-        row(&scene, &truth, json!({ "told": 0.01 }), &readings)
+        row(&scene, &truth, json!({ "told": 0.01, "reference_lx": 100.0 }), &readings)
     }
 
     #[test]
     fn the_paths_own_error_is_taken_off() {
         let row = judged(1.0);
-        // (0 + 25) / 2 - 1, over 100^2 - 1.
-        let expected = (11.5_f64 / 9999.0).sqrt();
+        // (0 + 25) / 2 - 1, over 100^2.
+        let expected = 11.5_f64.sqrt() / 100.0;
         assert!((row["true"].as_f64().unwrap() - expected).abs() < 1e-12, "{row}");
         assert!((row["over_told"].as_f64().unwrap() - 100.0 * expected).abs() < 1e-9);
         assert!(row["true_low"].as_f64().unwrap() < expected);

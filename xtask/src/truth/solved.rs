@@ -60,6 +60,7 @@ fn summary(ended: &Ended, said: &Value, reading_s: f64) -> Value {
         "rays": said["rays"],
         "receivers": said["receivers"],
         "told": said["accuracy_reached"],
+        "reference_lx": said["reference_lx"],
         "audited": said["accuracy_audited"],
     })
 }

@@ -18,6 +18,7 @@ fn solve_ends_with_one_object_that_says_how_good_it_is() {
         "accuracy_statistical",
         "accuracy_discretization",
         "accuracy_interpolated",
+        "reference_lx",
         "time_s",
         "increments",
         "rays",

@@ -81,7 +81,7 @@ pub use cache::{
 pub use highlights::{Highlighted, Highlights, Shining};
 pub use mix::{MixError, MixPart, mix};
 pub use place::ProbePoint;
-pub use probe::{Allowance, ExactSettings, IndirectReading, MapReader, Told};
+pub use probe::{Allowance, ExactSettings, IndirectReading, MapReader, Told, reference_lx};
 pub use radiosity::{RadiosityLimits, RadiositySettings};
 pub use reference::PathTracer;
 pub use request::{Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch};

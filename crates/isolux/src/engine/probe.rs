@@ -617,8 +617,9 @@ fn of_caustics(stored: &Illuminance) -> f64 {
     stored.indirect_standard_error_lx.min(stored.caustic_lx.luminance().abs())
 }
 
-/// What the errors of a map are relative to, lx.
-pub(super) fn reference_lx(map: &IlluminationMap) -> f64 {
+/// What the errors of a map are shares of, lx: the root mean square of its light over the surface, but no more than twice the mean over
+/// what is lit. A small bright surface is a part of both.
+pub fn reference_lx(map: &IlluminationMap) -> f64 {
     let mut light = Light::default();
     for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
         let Some(value) = value else { continue };

@@ -2,9 +2,9 @@
 //!
 //! Rays that are spread over the hemisphere seldom meet them, and bring much light when they do: what few rays gather is mostly too
 //! little, and the same in all replicates, so that their spread tells nothing of it. Some rays are therefore sent there, and the
-//! direct light that is reflected there is weighted between these and the others by the balance heuristic (Veach and Guibas
-//! 1995, "Optimally combining sampling techniques for Monte Carlo rendering"). Light that was reflected before is even, and left
-//! to the others.
+//! light that is reflected there is weighted between these and the others by the balance heuristic (Veach and Guibas
+//! 1995, "Optimally combining sampling techniques for Monte Carlo rendering"): direct light, and light that was reflected before, which in a
+//! housing is as much brighter than elsewhere.
 
 mod patches;
 
@@ -15,7 +15,7 @@ use super::surface::SurfacePoint;
 use crate::elements::carries_map;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
-use isolux_geometry::{Direction, Normal, Point, Vector};
+use isolux_geometry::{Direction, Normal, Point, Ray, Vector};
 use patches::{Patch, Patches, reflected_lm};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -186,10 +186,11 @@ impl Part {
 }
 
 impl Seen<'_> {
-    /// A place to send a ray to; `None` if that lies below the horizon or faces away.
+    /// A place to send a ray to from a triangle; `None` if that lies below the horizon, faces away, or has something before it: rays that come
+    /// there through glass are none of those that [`Seen::share`] weighs them with.
     pub(super) fn draw(
         &self,
-        scene: &Scene,
+        (scene, triangle): (&Scene, u32),
         [pick, _]: [f64; 2],
         [a, b]: [f64; 2],
     ) -> Option<(SurfacePoint, Spot)> {
@@ -200,14 +201,17 @@ impl Seen<'_> {
         let part = &self.bright.parts[number];
         let within = (at - before) / (self.sums[number] - before) * part.flux_lm;
         let patch = part.sums_lm.partition_point(|&sum| sum <= within).min(part.patches.len() - 1);
-        let Patch { triangle, back, corners: [p, q, r], reflected_lx, .. } = part.patches[patch];
+        let Patch { triangle: at, back, corners: [p, q, r], reflected_lx, .. } =
+            part.patches[patch];
         let root = a.sqrt();
         let point = p + (q - p) * (root * (1.0 - b)) + (r - p) * (root * b);
-        let [u, v] = scene.triangle(triangle).barycentric(point);
-        let place = SurfacePoint::new(scene, triangle, back, u, v);
+        let [u, v] = scene.triangle(at).barycentric(point);
+        let place = SurfacePoint::new(scene, at, back, u, v);
         let way = place.point - self.origin;
-        let is_seen =
+        let is_faced =
             way.dot(self.axis.to_vector()) > 0.0 && way.dot(place.geometric.to_vector()) < 0.0;
+        let ray = || Ray::between(self.origin, place.start()).skipping(triangle);
+        let is_seen = is_faced && scene.bvh().closest_hit(&ray()).is_none();
         is_seen.then_some((place, Spot { part: number, density: reflected_lx / part.flux_lm }))
     }
 

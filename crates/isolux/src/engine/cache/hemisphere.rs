@@ -146,12 +146,9 @@ impl Hemisphere {
         dice: &mut Dice,
     ) {
         let [pick, within] = [dice.pair(), dice.pair()];
-        let Some((to, spot)) = bright.draw(of.scene, pick, within) else { return };
-        let way = Ray::between(from.origin, to.start()).skipping(from.triangle);
+        let drawn = bright.draw((of.scene, from.triangle), pick, within);
+        let Some((to, spot)) = drawn else { return };
         let reflectance = to.reflectance(of.scene);
-        if reflectance.is_black() || of.scene.bvh().any_hit(&way) {
-            return;
-        }
         let share = bright.share(spot, &to) / f64::from(rays);
         let light = reflectance * lighting.estimate(&to, dice) * share;
         let [along, turning] = gradients_of_patch(from, &to);

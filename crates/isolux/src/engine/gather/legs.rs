@@ -225,7 +225,7 @@ impl Gathering<'_> {
         if let Some(bright) = &bright {
             let sequence = Sequence::new(key.with(SENT));
             for index in 0..bright.sent {
-                row.source += self.sent(&first, bright, &mut Dice::new(sequence, index));
+                row.source += self.sent(&first, bright, &mut Dice::new(sequence, index), rows);
             }
             rows.further_rays += u64::from(bright.sent);
         }
@@ -297,13 +297,13 @@ impl Gathering<'_> {
             let dice = &mut dice[leg.ray as usize];
             let spot = self.bright.and_then(|bright| bright.at(&end.surface));
             let is_evaluated = spot.is_some() || matches!(self.direct, DirectAtEnds::Evaluated);
-            let of_sent = spot.filter(|_| met.straight);
-            let of_direct = share
-                * of_sent.map_or(1.0, |spot| {
-                    let seen = if number == 0 { None } else { self.bright_from(leg) };
-                    let seen = if number == 0 { receiver.bright } else { seen.as_ref() };
-                    seen.map_or(1.0, |seen| seen.share(spot, &end.surface))
-                });
+            // What rays that are sent there find, too.
+            let beside_sent = spot.filter(|_| met.straight).map_or(1.0, |spot| {
+                let seen = if number == 0 { None } else { self.bright_from(leg) };
+                let seen = if number == 0 { receiver.bright } else { seen.as_ref() };
+                seen.map_or(1.0, |seen| seen.share(spot, &end.surface))
+            });
+            let of_direct = share * beside_sent;
             row.source += if is_evaluated {
                 self.lighting.estimate_later(&end.surface, of_direct, dice, shadows)
             } else {
@@ -324,7 +324,8 @@ impl Gathering<'_> {
                 next.push(leg);
             } else if let Some(entry) = located.and_then(|l| self.entry(&l, end.out_of_gap_m)) {
                 row.close += if end.is_close { share.luminance() } else { 0.0 };
-                rows.push(entry, share.0.map(|c| c as f32));
+                let read = if end.is_close { share } else { of_direct };
+                rows.push(entry, read.0.map(|c| c as f32));
             } else if self.is_lost(&end) && number < LOST_IN_GAP {
                 let survival = met.reflectance.max_channel().min(1.0);
                 if dice.pair()[0] < survival {
@@ -348,23 +349,29 @@ impl Gathering<'_> {
     fn sent_on(&self, leg: &Leg, dice: &mut Dice, rows: &mut Rows) -> Rgb {
         let Some(bright) = self.bright_from(leg) else { return Rgb::BLACK };
         rows.further_rays += u64::from(bright.sent);
-        (0..bright.sent).map(|_| self.sent(leg, &bright, dice)).sum()
+        (0..bright.sent).map(|_| self.sent(leg, &bright, dice, rows)).sum()
     }
 
-    /// A ray to what is bright: of the light there, what comes straight from luminaires alone.
-    fn sent(&self, leg: &Leg, bright: &bright::Seen<'_>, dice: &mut Dice) -> Rgb {
+    /// A ray to what is bright: what comes there straight from luminaires, and what is read there; close by, where others go on, the former
+    /// alone.
+    fn sent(&self, leg: &Leg, bright: &bright::Seen<'_>, dice: &mut Dice, rows: &mut Rows) -> Rgb {
         let [pick, within] = [dice.pair(), dice.pair()];
-        let Some((to, spot)) = bright.draw(self.scene, pick, within) else { return Rgb::BLACK };
-        let way = Ray::between(leg.origin, to.start()).skipping(leg.triangle);
-        if self.scene.bvh().any_hit(&way) {
+        let Some((to, spot)) = bright.draw((self.scene, leg.triangle), pick, within) else {
             return Rgb::BLACK;
-        }
+        };
         let Some(finish) = self.scene.material(to.triangle).finish(to.back) else {
             return Rgb::BLACK;
         };
         let Side::Lit(reflectance) = self.side(&to, finish, Rgb::WHITE) else { return Rgb::BLACK };
         let share = leg.share * reflectance * bright.share(spot, &to);
-        share * self.lighting.estimate(&to, dice)
+        let place = self.elements.place(self.level, to.triangle, to.back, [to.u, to.v]);
+        let located = place.map(|place| self.located(place));
+        let end = self.end(leg, to, located);
+        let entry = located.and_then(|l| self.entry(&l, end.out_of_gap_m));
+        if let Some(entry) = entry.filter(|_| !end.is_close) {
+            rows.push(entry, share.0.map(|c| c as f32));
+        }
+        share * self.lighting.estimate(&end.surface, dice)
     }
 
     /// The end of a ray at a place.

@@ -166,7 +166,8 @@ impl PathTracer<'_> {
         (light, rays)
     }
 
-    /// How likely a cosine-distributed ray is to end at a place straight, 1/m2.
+    /// How likely a cosine-distributed ray is to end at a place straight, 1/m2. Glass on the way counts as nothing: what is seen through it is not
+    /// dimmed, for what it would reflect besides.
     fn seen(&self, from: &Gatherer, surface: &SurfacePoint) -> f64 {
         let by_chance = density(from, surface);
         let way = Ray::between(from.origin, surface.start()).skipping(from.surface.triangle);

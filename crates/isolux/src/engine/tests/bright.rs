@@ -1,12 +1,13 @@
 //! Bright surfaces, which few rays meet unless they are sent there.
 
 use super::*;
-use crate::elements::{Elements, Subdivision};
+use crate::elements::{Elements, Subdivision, Vertex};
 use crate::engine::bright::Bright;
 use crate::engine::direct::Lighting;
 use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering};
 use crate::engine::surface::SurfacePoint;
 use crate::map::Standing;
+use crate::scene::{Body, Dielectric};
 use std::sync::Arc;
 
 /// A room with a lamp 5 cm below its ceiling.
@@ -37,8 +38,14 @@ impl<'a> Lit<'a> {
         Bright::of(self.scene, &self.lighting, 1).0
     }
 
-    /// Direct light reflected once, in many trials at a place: its mean, the standard error of that, and rays of a trial.
-    fn reflected(&self, at: SurfacePoint, bright: Option<&Bright>) -> (f64, f64, f64) {
+    /// Direct light reflected once, and light read of vertices, in many trials at a place: the mean, the standard error of that, and rays of a
+    /// trial.
+    fn reflected(
+        &self,
+        at: SurfacePoint,
+        bright: Option<&Bright>,
+        read: &[Rgb],
+    ) -> (f64, f64, f64) {
         let standings = vec![Some(Standing::Open); self.direct.len()];
         let gathering = Gathering {
             scene: self.scene,
@@ -54,8 +61,7 @@ impl<'a> Lit<'a> {
         };
         let rows = vec![Gatherer::on_surface(at, 16); 4000];
         let operator = gathering.operator(&rows, |k| Key::new(3).with(k as u64));
-        let black = vec![Rgb::BLACK; self.direct.len()];
-        let found = operator.apply(&black);
+        let found = operator.apply(read);
         let (mean, error) = mean_and_error(found.iter().map(|lx| lx.luminance()));
         (mean, error, operator.rays as f64 / rows.len() as f64)
     }
@@ -71,8 +77,9 @@ fn rays_sent_to_what_is_bright_bring_the_same_light_with_less_noise() {
         [(0, [0.4, 0.3], 10.0), (4, [0.2, 0.5], 5.0), (10, [0.3, 0.3], 0.99)]
     {
         let at = SurfacePoint::new(&scene, triangle, false, u, v);
-        let (mean, error, rays) = lit.reflected(at, Some(&bright));
-        let (expected, plain_error, plain_rays) = lit.reflected(at, None);
+        let black = vec![Rgb::BLACK; lit.direct.len()];
+        let (mean, error, rays) = lit.reflected(at, Some(&bright), &black);
+        let (expected, plain_error, plain_rays) = lit.reflected(at, None, &black);
         let allowed = SIGMAS * libm::hypot(error, plain_error);
         assert!(
             (mean - expected).abs() < allowed,
@@ -81,6 +88,64 @@ fn rays_sent_to_what_is_bright_bring_the_same_light_with_less_noise() {
         let gain = (plain_error / error).powi(2) * plain_rays / rays;
         assert!(gain > less, "at {:?}: variance and rays fall {gain} times", at.point);
     }
+}
+
+/// A can on the ceiling with a lamp inside: light that goes to and fro in it is as much brighter than that of the room.
+#[test]
+fn what_is_reflected_again_where_it_is_bright_is_found_by_rays_sent_there() {
+    let (x, y, z) = ([0.2, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.3]);
+    let mut shapes = inward_box([4.0, 3.0, 2.5], 0);
+    for (corner, u, v) in [
+        ([1.9, 1.4, 2.2], y, z),
+        ([2.1, 1.4, 2.2], z, y),
+        ([1.9, 1.4, 2.2], z, x),
+        ([1.9, 1.6, 2.2], x, z),
+    ] {
+        shapes.push(rectangle(corner, u, v, 0));
+    }
+    let lamps = vec![isotropic([2.0, 1.5, 2.35], 100.0)];
+    let scene = scene(shapes, vec![painted(Rgb::grey(0.6))], lamps);
+    let lit = Lit::of(&scene);
+    let bright = lit.bright().expect("the can");
+    let is_inside =
+        |p: Point| (1.9..=2.1).contains(&p.x) && (1.4..=1.6).contains(&p.y) && p.z >= 2.2;
+    let value = |v: &Vertex| Rgb::grey(if is_inside(v.position) { 5000.0 } else { 10.0 });
+    let read: Vec<Rgb> = lit.elements.vertices().iter().map(value).collect();
+    for (triangle, [u, v], less) in [(0, [0.4, 0.3], 5.0), (4, [0.2, 0.5], 1.0)] {
+        let at = SurfacePoint::new(&scene, triangle, false, u, v);
+        let (mean, error, rays) = lit.reflected(at, Some(&bright), &read);
+        let (expected, plain_error, plain_rays) = lit.reflected(at, None, &read);
+        let allowed = SIGMAS * libm::hypot(error, plain_error);
+        assert!(
+            (mean - expected).abs() < allowed,
+            "{mean} +- {error} for {expected} +- {plain_error}"
+        );
+        let gain = (plain_error / error).powi(2) * plain_rays / rays;
+        assert!(gain > less, "at {:?}: variance and rays fall {gain} times", at.point);
+    }
+}
+
+/// Rays come through a pane by themselves: what were sent there besides would count twice.
+#[test]
+fn what_is_bright_beyond_glass_is_left_to_rays_that_come_through() {
+    let glass = Dielectric { ior: 1.5, transmittance: Rgb::WHITE, thin: true };
+    let glass = Material { name: "pane".into(), body: Body::Dielectric(glass) };
+    let mut shapes = inward_box([4.0, 3.0, 2.5], 0);
+    shapes.push(rectangle([2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 2.5], 1));
+    let lamps = vec![isotropic([1.3, 1.6, 2.45], 100.0)];
+    let scene = scene(shapes, vec![painted(Rgb::grey(0.6)), glass], lamps);
+    let lit = Lit::of(&scene);
+    let bright = lit.bright().expect("the ceiling above the lamp");
+    let black = vec![Rgb::BLACK; lit.direct.len()];
+    // On the floor beyond the pane.
+    let at = SurfacePoint::new(&scene, 0, false, 0.6, 0.2);
+    assert!(at.point.x > 2.5 && at.point.z == 0.0, "{at:?}");
+    let (mean, error, _) = lit.reflected(at, Some(&bright), &black);
+    let (expected, plain_error, _) = lit.reflected(at, None, &black);
+    let allowed = SIGMAS * libm::hypot(error, plain_error);
+    assert!((mean - expected).abs() < allowed, "{mean} +- {error} for {expected} +- {plain_error}");
+    // Twice as much would be seen.
+    assert!(allowed < 0.5 * expected, "{allowed} {expected}");
 }
 
 #[test]
