@@ -1,10 +1,11 @@
 //! Small surfaces that are lit far more than all others, as a ceiling is above a lamp that hangs below it.
 //!
 //! Rays that are spread over the hemisphere seldom meet them, and bring much light when they do: what few rays gather is mostly too
-//! little, and the same in all replicates, so that their spread tells nothing of it. Some rays are therefore sent there, and the
-//! light that is reflected there is weighted between these and the others by the balance heuristic (Veach and Guibas
-//! 1995, "Optimally combining sampling techniques for Monte Carlo rendering"): direct light, and light that was reflected before, which in a
-//! housing is as much brighter than elsewhere.
+//! little, and the same in all replicates, so that their spread tells nothing of it. Some rays are therefore sent there. Direct light that is
+//! reflected there is weighted between these and the others by the balance heuristic (Veach and Guibas 1995, "Optimally combining sampling
+//! techniques for Monte Carlo rendering"). Light that was reflected before is, in a housing, as much brighter than elsewhere, too, but even
+//! within: who sees much of it finds it with little noise by the others. Rays that are sent bring it where they come far more often, and the
+//! others where they do not (the cutoff heuristic there).
 
 mod patches;
 
@@ -29,6 +30,9 @@ const MOST_CUBES: usize = 64;
 
 /// No more than this share as many rays are sent as there are others.
 const MOST_SENT: f64 = 0.5;
+
+/// Rays that are sent bring light that was reflected before from where they come as many times as often as others: as many as there is more of it.
+const SENT_ALONE: f64 = BRIGHT;
 
 /// Bright surfaces.
 pub(super) struct Bright {
@@ -233,6 +237,12 @@ impl Seen<'_> {
         let of_others = f64::from(self.others) * cosine / std::f64::consts::PI;
         of_others / (of_others + of_sent)
     }
+}
+
+/// Of light that was reflected before, what counts of a ray of those sent, by [`Seen::share`] of direct light: nothing where the others bring it.
+pub(super) fn sent_alone(share: f64) -> Option<f64> {
+    let of_others = share / (1.0 - share);
+    (of_others * SENT_ALONE < 1.0).then_some(of_others)
 }
 
 /// Surface that may be lit, m2.

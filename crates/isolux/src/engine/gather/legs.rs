@@ -324,8 +324,9 @@ impl Gathering<'_> {
                 next.push(leg);
             } else if let Some(entry) = located.and_then(|l| self.entry(&l, end.out_of_gap_m)) {
                 row.close += if end.is_close { share.luminance() } else { 0.0 };
-                let read = if end.is_close { share } else { of_direct };
-                rows.push(entry, read.0.map(|c| c as f32));
+                if end.is_close || bright::sent_alone(beside_sent).is_none() {
+                    rows.push(entry, share.0.map(|c| c as f32));
+                }
             } else if self.is_lost(&end) && number < LOST_IN_GAP {
                 let survival = met.reflectance.max_channel().min(1.0);
                 if dice.pair()[0] < survival {
@@ -352,8 +353,8 @@ impl Gathering<'_> {
         (0..bright.sent).map(|_| self.sent(leg, &bright, dice, rows)).sum()
     }
 
-    /// A ray to what is bright: what comes there straight from luminaires, and what is read there; close by, where others go on, the former
-    /// alone.
+    /// A ray to what is bright: what comes there straight from luminaires, and what is read there where others seldom come; close by, where
+    /// others go on, the former alone.
     fn sent(&self, leg: &Leg, bright: &bright::Seen<'_>, dice: &mut Dice, rows: &mut Rows) -> Rgb {
         let [pick, within] = [dice.pair(), dice.pair()];
         let Some((to, spot)) = bright.draw((self.scene, leg.triangle), pick, within) else {
@@ -363,15 +364,17 @@ impl Gathering<'_> {
             return Rgb::BLACK;
         };
         let Side::Lit(reflectance) = self.side(&to, finish, Rgb::WHITE) else { return Rgb::BLACK };
-        let share = leg.share * reflectance * bright.share(spot, &to);
+        let reflected = leg.share * reflectance;
+        let beside_others = bright.share(spot, &to);
         let place = self.elements.place(self.level, to.triangle, to.back, [to.u, to.v]);
         let located = place.map(|place| self.located(place));
         let end = self.end(leg, to, located);
         let entry = located.and_then(|l| self.entry(&l, end.out_of_gap_m));
-        if let Some(entry) = entry.filter(|_| !end.is_close) {
-            rows.push(entry, share.0.map(|c| c as f32));
+        let alone = bright::sent_alone(beside_others).filter(|_| !end.is_close);
+        if let Some((entry, alone)) = entry.zip(alone) {
+            rows.push(entry, (reflected * alone).0.map(|c| c as f32));
         }
-        share * self.lighting.estimate(&end.surface, dice)
+        reflected * beside_others * self.lighting.estimate(&end.surface, dice)
     }
 
     /// The end of a ray at a place.
