@@ -226,8 +226,9 @@ fn light_that_lands_about_a_lamp_on_a_vertex_of_a_ceiling_is_gathered_by_every_m
     ];
     let places = places.map(|(at, normal)| ProbePoint { position: Point::from(at), normal });
     let found = places.map(|at| tracer.estimate(at, &ExactSettings::default()));
-    for method in [Method::Hybrid, Method::Cache] {
-        let request = SolveRequest { method, accuracy: Some(0.01), ..SolveRequest::default() };
+    for (method, accuracy) in [(Method::Hybrid, 0.005), (Method::Cache, 0.01)] {
+        let accuracy = Some(accuracy);
+        let request = SolveRequest { method, accuracy, ..SolveRequest::default() };
         let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
         let reader = MapReader::new(&scene, &map);
         for (at, found) in places.iter().zip(&found) {

@@ -118,7 +118,10 @@ fn housings_of_lamps_get_more_rays_than_their_area_is_worth() {
     assert!(mean(&can, false) > 0.4, "{} elsewhere", mean(&can, false));
     let are_by_area = |of: &[(Point, u32, u32)]| of.iter().all(|(_, own, by_area)| own == by_area);
     assert!(are_by_area(&rays_of(&polished_room(), true)), "an ordinary room");
-    assert!(are_by_area(&rays_of(&room_with_a_can(), true)), "rays are enough for it");
+    // Rays sent to the can take the noise of its light off all places but those in it: these get more, whatever a trial has met.
+    let met = rays_of(&room_with_a_can(), true);
+    assert!(mean(&met, true) > 2.0, "{} in the can", mean(&met, true));
+    assert!(mean(&met, false) > 0.4, "{} elsewhere", mean(&met, false));
 }
 
 /// A room of which one wall is polished metal.
