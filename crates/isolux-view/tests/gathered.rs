@@ -3,6 +3,7 @@
 
 use isolux::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest, Watch, solve};
 use isolux::geometry::{Direction, Point, Transform, Vector};
+use isolux::map::Fresh;
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Camera, Finish, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape};
 use isolux::units::Rgb;
@@ -102,9 +103,11 @@ fn share_off(image: &LuminanceImage, pixel: usize, lx: f64) -> f64 {
 #[test]
 fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     let (scene, camera) = room();
-    // One of 5 % errs by less than 1 % outside of gaps, and is to be trusted there.
-    let request = SolveRequest { accuracy: Some(0.02), ..SolveRequest::default() };
-    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    let request = SolveRequest { accuracy: Some(0.05), ..SolveRequest::default() };
+    let mut map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
+    // One that is as good as this may be trusted; here it is not where its elements err by more than a hundredth of the light.
+    let fresh = map.provenance.fresh.unwrap();
+    map.provenance.fresh = Some(Fresh { above_lx: Some(1.0), in_gaps_alone: false, ..fresh });
     let reader = MapReader::new(&scene, &map);
     let (size, settings) = (Size::new(320, 240).unwrap(), TraceSettings::DRAFT);
     let (view, gathered) =
@@ -140,7 +143,13 @@ fn a_gap_in_the_middle_of_a_pixel_does_not_darken_what_the_pixel_shows_before_it
     let reader = MapReader::new(&scene, &map);
     let (size, settings) = (Size::new(128, 48).unwrap(), TraceSettings::FINE);
     let (view, _) = trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap();
-    let read = |at: SurfacePoint| reader.at(at.triangle, at.back, at.u, at.v);
+    let few = ExactSettings { rays: 16, replicates: 4, ..ExactSettings::default() };
+    let read = |at: SurfacePoint| {
+        let front = scene.geometric_normal(at.triangle);
+        let normal = if at.back { -front } else { front };
+        let position = scene.triangle(at.triangle).point(at.u, at.v);
+        Some(reader.estimate(ProbePoint { position, normal }, &few))
+    };
     let by_readings = trace(&scene, &camera, size, &settings, &read).unwrap();
     let share = |pixel: usize| {
         view.luminance_cd_m2(pixel).luminance() / by_readings.luminance_cd_m2(pixel).luminance()
