@@ -67,6 +67,16 @@ impl<'a> Lit<'a> {
     }
 }
 
+/// With rays sent to what is bright, as much light comes to a place as without, and variance and rays fall so many times. Also, the light
+/// that comes there and how far both may differ by chance.
+fn gain(lit: &Lit<'_>, bright: &Bright, at: SurfacePoint, read: &[Rgb]) -> (f64, f64, f64) {
+    let (mean, error, rays) = lit.reflected(at, Some(bright), read);
+    let (expected, plain_error, plain_rays) = lit.reflected(at, None, read);
+    let allowed = SIGMAS * libm::hypot(error, plain_error);
+    assert!((mean - expected).abs() < allowed, "{mean} +- {error} for {expected} +- {plain_error}");
+    ((plain_error / error).powi(2) * plain_rays / rays, expected, allowed)
+}
+
 #[test]
 fn rays_sent_to_what_is_bright_bring_the_same_light_with_less_noise() {
     let scene = room();
@@ -78,14 +88,7 @@ fn rays_sent_to_what_is_bright_bring_the_same_light_with_less_noise() {
     {
         let at = SurfacePoint::new(&scene, triangle, false, u, v);
         let black = vec![Rgb::BLACK; lit.direct.len()];
-        let (mean, error, rays) = lit.reflected(at, Some(&bright), &black);
-        let (expected, plain_error, plain_rays) = lit.reflected(at, None, &black);
-        let allowed = SIGMAS * libm::hypot(error, plain_error);
-        assert!(
-            (mean - expected).abs() < allowed,
-            "{mean} +- {error} for {expected} +- {plain_error}"
-        );
-        let gain = (plain_error / error).powi(2) * plain_rays / rays;
+        let (gain, ..) = gain(&lit, &bright, at, &black);
         assert!(gain > less, "at {:?}: variance and rays fall {gain} times", at.point);
     }
 }
@@ -113,14 +116,7 @@ fn what_is_reflected_again_where_it_is_bright_is_found_by_rays_sent_there() {
     let read: Vec<Rgb> = lit.elements.vertices().iter().map(value).collect();
     for (triangle, [u, v], less) in [(0, [0.4, 0.3], 5.0), (4, [0.2, 0.5], 1.0)] {
         let at = SurfacePoint::new(&scene, triangle, false, u, v);
-        let (mean, error, rays) = lit.reflected(at, Some(&bright), &read);
-        let (expected, plain_error, plain_rays) = lit.reflected(at, None, &read);
-        let allowed = SIGMAS * libm::hypot(error, plain_error);
-        assert!(
-            (mean - expected).abs() < allowed,
-            "{mean} +- {error} for {expected} +- {plain_error}"
-        );
-        let gain = (plain_error / error).powi(2) * plain_rays / rays;
+        let (gain, ..) = gain(&lit, &bright, at, &read);
         assert!(gain > less, "at {:?}: variance and rays fall {gain} times", at.point);
     }
 }
@@ -140,10 +136,7 @@ fn what_is_bright_beyond_glass_is_left_to_rays_that_come_through() {
     // On the floor beyond the pane.
     let at = SurfacePoint::new(&scene, 0, false, 0.6, 0.2);
     assert!(at.point.x > 2.5 && at.point.z == 0.0, "{at:?}");
-    let (mean, error, _) = lit.reflected(at, Some(&bright), &black);
-    let (expected, plain_error, _) = lit.reflected(at, None, &black);
-    let allowed = SIGMAS * libm::hypot(error, plain_error);
-    assert!((mean - expected).abs() < allowed, "{mean} +- {error} for {expected} +- {plain_error}");
+    let (_, expected, allowed) = gain(&lit, &bright, at, &black);
     // Twice as much would be seen.
     assert!(allowed < 0.5 * expected, "{allowed} {expected}");
 }
