@@ -64,6 +64,8 @@ pub(super) struct Accumulator {
     halvings: Vec<u8>,
     pub(super) increments: u64,
     pub(super) sums: Vec<Sums>,
+    /// Whether something was added that is no number, which sums do not show.
+    has_nan: bool,
 }
 
 /// Mean and variance of the mean at one receiver.
@@ -97,6 +99,7 @@ impl Accumulator {
             halvings: Vec::new(),
             increments: 0,
             sums: vec![Sums::default(); receivers],
+            has_nan: false,
         }
     }
 
@@ -134,6 +137,7 @@ impl Accumulator {
             }
             let indirect = (sample.indirect + sample.caustic).luminance();
             let total = indirect + sample.direct.luminance();
+            self.has_nan |= total.is_nan();
             for (k, value) in [total, indirect, sample.passed_on].into_iter().enumerate() {
                 let units = fixed(value * scale);
                 sums.totals[k] += units;
@@ -182,6 +186,15 @@ impl Accumulator {
     /// How often that was.
     pub(super) fn count_at(&self, receiver: usize) -> i64 {
         self.sums[receiver].totals[0]
+    }
+
+    /// The mean of indirect light at a receiver, photometric; NaN as soon as any light added was.
+    pub(super) fn indirect_lx(&self, receiver: usize) -> f64 {
+        if self.has_nan {
+            f64::NAN
+        } else {
+            self.part(receiver, 6).luminance() / self.increments as f64
+        }
     }
 
     /// Mean and its variance at a receiver, from the spread of the increments.

@@ -19,8 +19,6 @@ const CHUNK: usize = 4096;
 
 /// What the last sweeps have told.
 pub(super) struct Anderson {
-    /// By how much changes count at every place.
-    weights: Vec<f64>,
     /// The last image of the light, and what was changed.
     before: Option<(Vec<Rgb>, Vec<Rgb>)>,
     /// From sweep to sweep, the change of the image, and that of what was changed.
@@ -28,17 +26,18 @@ pub(super) struct Anderson {
 }
 
 impl Anderson {
-    /// Changes count by these weights: one over the light has dim rooms settle as bright ones do.
-    pub(super) const fn weighted(weights: Vec<f64>) -> Self {
-        Self { weights, before: None, steps: VecDeque::new() }
+    /// Nothing told yet.
+    pub(super) const fn new() -> Self {
+        Self { before: None, steps: VecDeque::new() }
     }
 
-    /// The light to go on with, after some light and its image.
-    pub(super) fn next(&mut self, light: &[Rgb], image: Vec<Rgb>) -> Vec<Rgb> {
+    /// The light to go on with, after some light and its image. Changes count by the weights: one over the light has dim rooms settle as
+    /// bright ones do.
+    pub(super) fn next(&mut self, light: &[Rgb], image: Vec<Rgb>, weights: &[f64]) -> Vec<Rgb> {
         let change = minus(&image, light);
         if let Some((image_before, change_before)) = &self.before {
-            let now = self.dot(&change, &change);
-            let then = self.dot(change_before, change_before);
+            let now = dot(&change, &change, weights);
+            let then = dot(change_before, change_before, weights);
             if now.luminance() > then.luminance() {
                 // It did not answer as before.
                 self.steps.clear();
@@ -50,7 +49,7 @@ impl Anderson {
                 }
             }
         }
-        let shares = self.shares(&change);
+        let shares = self.shares(&change, weights);
         let one = |k: usize| {
             let undone = |((image, _), &share): (&(Vec<Rgb>, _), &Rgb)| image[k] * share;
             let mixed = image[k] - self.steps.iter().zip(&shares).map(undone).sum::<Rgb>();
@@ -63,24 +62,13 @@ impl Anderson {
         next
     }
 
-    /// The weighted sum of products, part by part in their order, whoever adds them up.
-    fn dot(&self, a: &[Rgb], b: &[Rgb]) -> Rgb {
-        let part = |((a, b), weights): ((&[Rgb], &[Rgb]), &[f64])| -> Rgb {
-            let products = a.iter().zip(b).zip(weights);
-            products.map(|((&a, &b), &weight)| a * b * (weight * weight)).sum()
-        };
-        let all = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)).zip(self.weights.par_chunks(CHUNK));
-        let parts: Vec<Rgb> = all.map(part).collect();
-        parts.into_iter().sum()
-    }
-
     /// How much of each step to take back, channel by channel, so that the least is changed: least squares by
     /// the normal equations.
-    fn shares(&self, change: &[Rgb]) -> Vec<Rgb> {
+    fn shares(&self, change: &[Rgb], weights: &[f64]) -> Vec<Rgb> {
         let count = self.steps.len();
         let product = |row: usize, column: usize| -> Rgb {
             let of = |k: usize| self.steps.get(k).map_or(change, |step| &step.1);
-            if row < count { self.dot(of(row), of(column)) } else { Rgb::BLACK }
+            if row < count { dot(of(row), of(column), weights) } else { Rgb::BLACK }
         };
         // Of the rows that there are, as many columns, and the right side next to them.
         let products: [[Rgb; DEPTH + 1]; DEPTH] = std::array::from_fn(|row| {
@@ -98,6 +86,17 @@ impl Anderson {
         }
         shares
     }
+}
+
+/// The weighted sum of products, part by part in their order, whoever adds them up.
+fn dot(a: &[Rgb], b: &[Rgb], weights: &[f64]) -> Rgb {
+    let part = |((a, b), weights): ((&[Rgb], &[Rgb]), &[f64])| -> Rgb {
+        let products = a.iter().zip(b).zip(weights);
+        products.map(|((&a, &b), &weight)| a * b * (weight * weight)).sum()
+    };
+    let all = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)).zip(weights.par_chunks(CHUNK));
+    let parts: Vec<Rgb> = all.map(part).collect();
+    parts.into_iter().sum()
 }
 
 /// The solution of `count` equations, whose right sides come last; zero for unknowns that the others leave open.

@@ -21,25 +21,41 @@ pub(super) fn allowed_lx(scene: &Scene, area_m2: f64) -> f64 {
     if share < 1.0 { flux_lm * share / (1.0 - share) / area_m2 } else { f64::INFINITY }
 }
 
-/// The mean of indirect light over the elements of a plan, as far as vertices know it, if that is more than energy allows, and what that is, lx.
-pub(super) fn excess_lx(
-    plan: &Plan,
-    allowed_lx: f64,
-    indirect_lx: impl Fn(usize) -> f64,
-) -> Option<[f64; 2]> {
-    let (mut flux_lm, mut known_m2) = (0.0, 0.0);
-    for leaf in plan.subdivision.leaves() {
-        let corners = plan.subdivision.node(leaf).0.vertices.map(|v| v as usize);
-        if corners.iter().all(|&v| plan.standings[v].is_some()) {
-            let third_m2 = plan.subdivision.triangle(leaf).area() / 3.0;
-            flux_lm += corners.iter().map(|&v| third_m2 * indirect_lx(v)).sum::<f64>();
-            known_m2 += 3.0 * third_m2;
+/// What energy allows the map of a plan.
+pub(super) struct Allowed {
+    /// In the mean over the surface, lx.
+    lx: f64,
+    /// The surface that every vertex stands for where all of an element is known, m2.
+    known_m2: Vec<f64>,
+    /// All of the surface, m2.
+    area_m2: f64,
+}
+
+impl Allowed {
+    pub(super) fn of(plan: &Plan) -> Self {
+        let mut known_m2 = vec![0.0; plan.standings.len()];
+        for leaf in plan.subdivision.leaves() {
+            let corners = plan.subdivision.node(leaf).0.vertices.map(|v| v as usize);
+            if corners.iter().all(|&v| plan.standings[v].is_some()) {
+                let third_m2 = plan.subdivision.triangle(leaf).area() / 3.0;
+                corners.iter().for_each(|&v| known_m2[v] += third_m2);
+            }
         }
+        let area_m2 = plan.area_m2();
+        Self { lx: allowed_lx(plan.scene, area_m2), known_m2, area_m2 }
     }
-    let mean_lx = if known_m2 > 0.0 { flux_lm / known_m2.max(plan.area_m2()) } else { 0.0 };
-    // NaN is no light that is allowed, either.
-    let is_allowed = mean_lx <= (1.0 + ERRS_BY) * allowed_lx;
-    (!is_allowed).then_some([mean_lx, allowed_lx])
+
+    /// The mean of indirect light, as far as vertices know it, if that is more than energy allows, and what that is, lx.
+    pub(super) fn excess_lx(&self, indirect_lx: impl Fn(usize) -> f64) -> Option<[f64; 2]> {
+        let known = self.known_m2.iter().enumerate().filter(|&(_, &m2)| m2 > 0.0);
+        let (flux_lm, known_m2) = known.fold((0.0, 0.0), |(flux_lm, known_m2), (v, m2)| {
+            (flux_lm + m2 * indirect_lx(v), known_m2 + m2)
+        });
+        let mean_lx = if known_m2 > 0.0 { flux_lm / self.area_m2.max(known_m2) } else { 0.0 };
+        // NaN is no light that is allowed, either.
+        let is_allowed = mean_lx <= (1.0 + ERRS_BY) * self.lx;
+        (!is_allowed).then_some([mean_lx, self.lx])
+    }
 }
 
 /// The greatest share of light that a surface with a map reflects.

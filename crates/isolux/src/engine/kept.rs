@@ -97,6 +97,11 @@ impl Kept {
         (count > 0).then_some(Self { leaves, varying, hats_m2 })
     }
 
+    /// Rays that finding out where they are and so many samples of each take, about.
+    pub(super) const fn rays(&self, samples: u64) -> u64 {
+        PLACES as u64 + samples * self.leaves.len() as u64
+    }
+
     /// Direct light at vertices as rays are to read it, by so many samples of an element.
     pub(super) fn read(&self, over: &Over<'_>, (samples, key): (u64, Key)) -> Vec<Rgb> {
         let one = |(number, leaf): (usize, &Leaf)| {

@@ -192,6 +192,7 @@ impl<'a> MapReader<'a> {
         };
         let key = Key::new(self.map.provenance.seed).with(14);
         let kept = Kept::of(&over, self.unseen.reached_lx, key.with(0))?;
+        self.count(kept.rays(KEPT));
         Some((kept.read(&over, (KEPT, key.with(1))), kept.varying))
     }
 
@@ -318,9 +319,13 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// Rays that its readings have gathered by so far.
+    /// Rays that it was prepared with and that its readings have gathered by so far, with as many shadow rays at their ends as there may be.
     pub(super) fn rays(&self) -> u64 {
         self.rays.load(Ordering::Relaxed)
+    }
+
+    fn count(&self, rays: u64) {
+        self.rays.fetch_add(rays, Ordering::Relaxed);
     }
 
     /// Random numbers of a place; other ones for every seed of the map: readings of several maps have errors of their own.
@@ -370,10 +375,14 @@ impl<'a> MapReader<'a> {
         direct: DirectAtEnds<'_>,
         (replicates, key): (u32, Key),
     ) -> Gathered {
+        let shadow_rays = match direct {
+            DirectAtEnds::Read { .. } => 0,
+            _ => self.lighting.rays_of_estimate(),
+        };
         let gathering = self.gathering(direct);
         let rows = vec![gatherer; replicates as usize];
         let operator = gathering.operator(&rows, |k| key.with(k as u64));
-        self.rays.fetch_add(operator.rays, Ordering::Relaxed);
+        self.count(operator.rays * (1 + shadow_rays));
         let (lx, variance) = mean_and_variance(&operator.apply(&self.light));
         let close = operator.close().sum::<f64>() / f64::from(replicates);
         let common_lx = self.shared_noise.lx(self.map, &gatherer.surface, &operator);

@@ -362,10 +362,10 @@ impl<'s, 'r> Run<'s, 'r> {
         }
         let pace = Pace { started_s: self.elapsed_s(), before: work.sums.increments };
         let whole_mesh = saved.is_some() || !self.cut;
-        let allowed_lx = energy::allowed_lx(self.scene, plan.area_m2());
+        let allowed = energy::Allowed::of(plan);
         loop {
             self.stopped |= !self.advance(&mut work);
-            if let Some([mean_lx, allowed_lx]) = work.beyond_energy(allowed_lx) {
+            if let Some([mean_lx, allowed_lx]) = work.beyond_energy(&allowed) {
                 return Err(SolveError::MoreThanEnergy { mean_lx, allowed_lx });
             }
             let accuracy = work.accuracy();

@@ -190,9 +190,11 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     /// If there is more indirect light than energy allows in the mean, that mean and what is allowed, lx.
-    pub(super) fn beyond_energy(&self, allowed_lx: f64) -> Option<[f64; 2]> {
-        let indirect_lx = |vertex: usize| self.estimate(vertex).mean.indirect.luminance();
-        energy::excess_lx(self.plan, allowed_lx, indirect_lx)
+    pub(super) fn beyond_energy(&self, allowed: &energy::Allowed) -> Option<[f64; 2]> {
+        allowed.excess_lx(|vertex| match &self.engine {
+            Engine::Radiosity(_) => self.estimate(vertex).mean.indirect.luminance(),
+            _ => self.sums.indirect_lx(vertex),
+        })
     }
 
     /// How many increments are made already that were not added.

@@ -109,7 +109,8 @@ impl Lighting<'_> {
         at: &SurfacePoint,
         dice: &mut Dice,
     ) -> Rgb {
-        if self.tree.nearest_m(at.point) < (at.point - about.place).length() {
+        let away_m = (at.point - about.place).length();
+        if self.tree.nearest_m(at.point, away_m) < away_m {
             return self.estimate(at, dice);
         }
         let [shift, pick] = dice.pair();

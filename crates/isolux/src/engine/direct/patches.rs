@@ -100,7 +100,7 @@ impl Patch {
         if at.shading.dot(at.geometric) < FLAT {
             return None;
         }
-        let nearest_m = lighting.tree.nearest_m(at.point);
+        let nearest_m = lighting.tree.nearest_m(at.point, f64::INFINITY);
         let longest_m = libm::exp2(libm::floor(libm::log2(SHARE * nearest_m)));
         let triangle = lighting.scene.triangle(at.triangle);
         let [a, b, c] = triangle.corners;
@@ -138,9 +138,9 @@ impl Cell {
 }
 
 impl Tree {
-    /// Distance to the nearest luminaire, m.
-    pub(super) fn nearest_m(&self, from: Point) -> f64 {
-        let mut nearest_m = f64::INFINITY;
+    /// Distance to the nearest luminaire, m, or this if none is nearer.
+    pub(super) fn nearest_m(&self, from: Point, most_m: f64) -> f64 {
+        let mut nearest_m = most_m;
         let mut waiting = vec![0_u32];
         while let Some(number) = waiting.pop() {
             let node = &self.nodes[number as usize];

@@ -69,6 +69,9 @@ impl Lighting<'_> {
         target: Target,
         emitter: Option<u32>,
     ) -> Rgb {
+        if chain.is_empty() {
+            return self.share_by(chain, at, target, emitter).unwrap_or(Rgb::BLACK);
+        }
         let share = |chain: &[u32]| self.share_by(chain, at, target, emitter);
         let is_open = |twin: &Vec<u32>| {
             self.chain_is_in_view(twin, at, target) && share(twin).is_some_and(|s| !s.is_black())

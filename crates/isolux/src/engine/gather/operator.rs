@@ -183,6 +183,8 @@ impl Operator {
         let read = |light: &[Rgb]| with_given(fit.read(light));
         let fill = |light: &mut [Rgb]| waiting.fill(light);
         let mut light = guess.to_vec();
+        let lit = self.lit(given);
+        light.iter_mut().zip(&lit).filter(|&(_, lit)| !lit).for_each(|(e, _)| *e = Rgb::BLACK);
         if let Some(rough) = Rough::of(self, guess.len(), waiting) {
             match self.settle_roughly(&rough, (light, waiting), read, tolerance) {
                 Ok(settled) => return settled,
@@ -206,6 +208,21 @@ impl Operator {
         }
     }
 
+    /// Whether any light comes to receivers, over however many reflections, if such light is given; so for those that have no rays.
+    fn lit(&self, given: &[Rgb]) -> Vec<bool> {
+        let mut lit: Vec<bool> = self.chunks.iter().flat_map(Rows::lit_by_themselves).collect();
+        loop {
+            let (mut first, mut has_changed) = (0, false);
+            for rows in &self.chunks {
+                has_changed |= rows.light(first, given, &mut lit);
+                first += rows.ends.len();
+            }
+            if !has_changed {
+                return lit;
+            }
+        }
+    }
+
     /// One sweep.
     fn swept(&self, light: &[Rgb], (read, fill): Rules<'_>) -> Vec<Rgb> {
         let mut next = self.apply(&read(light));
@@ -220,7 +237,7 @@ impl Operator {
         rules: Rules<'_>,
         (most, tolerance): (usize, f64),
     ) -> Result<(Vec<Rgb>, f64), Vec<Rgb>> {
-        let mut mixing: Option<Anderson> = None;
+        let mut mixing = Anderson::new();
         for _ in 0..most {
             let mut next = self.swept(&light, rules);
             let settling = Settling::of(&next, &light);
@@ -228,8 +245,8 @@ impl Operator {
                 return Ok((next, settling.rms()));
             }
             next.truncate(light.len());
-            let mixing = mixing.get_or_insert_with(|| Anderson::weighted(weights(&next)));
-            light = mixing.next(&light, next);
+            let weights = weights(&next, &light);
+            light = mixing.next(&light, next, &weights);
         }
         Err(light)
     }
@@ -260,7 +277,7 @@ impl Operator {
             }
             before = settling.relative;
             let change: Vec<Rgb> = now.iter().zip(&then).map(|(&a, &b)| a - b).collect();
-            let whole = rough.followed(change, &weights(&now));
+            let whole = rough.followed(change, &weights(&now, &then));
             let of = rough.carriers.iter().zip(then).zip(whole);
             of.zip(now).for_each(|(((&vertex, then), whole), now)| {
                 // There is no light below none.
@@ -307,7 +324,7 @@ impl Settling {
         let count = next.len().min(light.len());
         let next = &next[..count];
         let (mut change, mut relative, mut greatest) = (0.0, 0.0, 0.0_f64);
-        for ((a, b), weight) in next.iter().zip(light).zip(weights(next)) {
+        for ((a, b), weight) in next.iter().zip(light).zip(weights(next, light)) {
             let difference = (*a - *b).luminance();
             let of_value = (difference * weight) * (difference * weight);
             change += difference * difference;
@@ -328,11 +345,12 @@ impl Settling {
     }
 }
 
-/// One over the light at every place, as much as counts.
-fn weights(light: &[Rgb]) -> Vec<f64> {
-    let size: f64 = light.iter().map(|a| a.luminance() * a.luminance()).sum();
-    let faint = ((size / light.len().max(1) as f64).sqrt() * FAINT).max(f64::MIN_POSITIVE);
-    light.iter().map(|a| 1.0 / a.luminance().abs().max(faint)).collect()
+/// One over the light at every place, before or after a sweep, whichever is more, as much as counts.
+fn weights(next: &[Rgb], light: &[Rgb]) -> Vec<f64> {
+    let size: f64 = next.iter().map(|a| a.luminance() * a.luminance()).sum();
+    let faint = ((size / next.len().max(1) as f64).sqrt() * FAINT).max(f64::MIN_POSITIVE);
+    let one = |(a, b): (&Rgb, &Rgb)| 1.0 / a.luminance().abs().max(b.luminance().abs()).max(faint);
+    next.iter().zip(light).map(one).collect()
 }
 
 /// Whether a change is followed as far as it matters, relative to the light.
@@ -395,7 +413,7 @@ impl Rough {
     /// What a change comes to once it is reflected again and again; weights are one over the light.
     fn followed(&self, change: Vec<Rgb>, weights: &[f64]) -> Vec<Rgb> {
         let mut whole = change.clone();
-        let mut mixing = Anderson::weighted(weights.to_vec());
+        let mut mixing = Anderson::new();
         for _ in 0..MOST_FOLLOWED {
             let mut next = change.clone();
             let parts = parts(&self.chunks, &mut next);
@@ -403,7 +421,7 @@ impl Rough {
             if is_followed(&next, &whole, weights) {
                 return next;
             }
-            whole = mixing.next(&whole, next);
+            whole = mixing.next(&whole, next, weights);
         }
         whole
     }
@@ -463,6 +481,35 @@ impl Rows {
                 *share = share.map(|c| (f64::from(c) / most) as f32);
             }
         }
+    }
+
+    /// Of every row, whether it has light that needs no further reflection, or no rays.
+    fn lit_by_themselves(&self) -> impl Iterator<Item = bool> + '_ {
+        let first = |row: usize| row.checked_sub(1).map_or(0, |before| self.ends[before]);
+        self.ends
+            .iter()
+            .enumerate()
+            .map(move |(row, &end)| end == first(row) || !self.sources[row].is_black())
+    }
+
+    /// Marks rows, the first of which has such a number, that read what is lit; whether there were any.
+    fn light(&self, first: usize, given: &[Rgb], lit: &mut [bool]) -> bool {
+        let (mut run, mut has_changed) = (0_usize, false);
+        for (row, &end) in self.ends.iter().enumerate() {
+            if !lit[first + row] {
+                let entry = run.checked_sub(1).map_or(0, |before: usize| self.runs[before].end);
+                let last = self.runs[end - 1].end;
+                let is_read = |of: &Entry| {
+                    of.vertices.iter().zip(of.weights).any(|(&v, weight)| {
+                        weight > 0.0 && (lit[v as usize] || !given[v as usize].is_black())
+                    })
+                };
+                let is_lit = self.entries[entry as usize..last as usize].iter().any(is_read);
+                (lit[first + row], has_changed) = (is_lit, has_changed || is_lit);
+            }
+            run = end;
+        }
+        has_changed
     }
 
     fn apply(&self, light: &[Rgb], values: &mut [Rgb]) {

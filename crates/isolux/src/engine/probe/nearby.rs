@@ -19,7 +19,7 @@ use crate::units::Rgb;
 const REFLECTIONS: usize = 3;
 /// Rays of an element at most; one at least, however many elements there are. About a vertex there are half a dozen elements, and what they
 /// see counts together.
-const MOST_RAYS: u32 = 4;
+const MOST_RAYS: u32 = 2;
 /// Rays of all elements, unless these are more.
 const RAYS: usize = 1 << 16;
 
@@ -46,6 +46,7 @@ impl MapReader<'_> {
         let dark = self.dark();
         let key = Key::new(self.map.provenance.seed).with(18);
         let operator = self.reading_alone(&dark).operator(&rows, |row| key.with(row as u64));
+        self.count(operator.rays);
         let of = |read: &dyn Fn(&Illuminance) -> f64| {
             let read = self.map.values.iter().map(|v| v.as_ref().map_or(0.0, read)).collect();
             self.relative(self.about(&operator, &elements, read))

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::engine::direct::Lighting;
-use crate::engine::energy::{allowed_lx, excess_lx};
+use crate::engine::energy::{Allowed, allowed_lx};
 use crate::engine::hidden::Unlit;
 use crate::engine::pilot::pilot;
 use std::f64::consts::PI;
@@ -31,7 +31,8 @@ fn more_than_that_is_found_and_what_is_no_number_too() {
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let allowed = allowed_lx(&scene, plan.area_m2());
-    let excess = |lx: &dyn Fn(usize) -> f64| excess_lx(&plan, allowed, lx);
+    let energy = Allowed::of(&plan);
+    let excess = |lx: &dyn Fn(usize) -> f64| energy.excess_lx(lx);
     assert!(excess(&|k| plan.guess[k].luminance()).is_none());
     assert!(excess(&|_| 1.9 * allowed).is_none(), "noise may be as much as the light");
     let [mean, most] = excess(&|_| 1e8).expect("it is more");

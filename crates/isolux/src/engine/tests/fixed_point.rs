@@ -4,7 +4,7 @@ use super::*;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::carriers::Carriers;
 use crate::engine::direct::Lighting;
-use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, Operator, known_weights};
+use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, GivenRow, Operator, known_weights};
 use crate::map::Standing;
 use std::f64::consts::PI;
 
@@ -284,4 +284,26 @@ fn what_is_read_is_read_by_somebody() {
     let back: f64 = read.iter().zip(&light).map(|(read, lx)| read * lx).sum();
     // The same products, added up in another order.
     assert!((forward - back).abs() < 1e-9 * forward, "{forward} {back}");
+}
+
+#[test]
+fn receivers_that_no_light_comes_to_have_none_at_once() {
+    // The first has a light of its own, the second reads it, the third and the fourth read each other alone.
+    let reading = |source: f64, vertex: u32| -> GivenRow {
+        (Rgb::grey(source), vec![([vertex; 3], [0.5, 0.25, 0.25])])
+    };
+    let operator = Operator::of_rows(
+        &[reading(1.0, 1), reading(0.0, 0), reading(0.0, 3), reading(0.0, 2)],
+        0.9,
+    );
+    let black = [Rgb::BLACK; 4];
+    let waiting = Carriers::all().waiting();
+    let solved = operator.solve(&[Rgb::grey(100.0); 4], &black, &waiting, 1e-6);
+    assert_eq!(solved[2..], [Rgb::BLACK; 2]);
+    // E1 = 1 + 0.9 E2, E2 = 0.9 E1.
+    assert!((solved[0].0[0] * 0.19 - 1.0).abs() < 1e-5, "{:?}", solved[0]);
+    // Light that is given beside reaches them.
+    let given = [Rgb::BLACK, Rgb::BLACK, Rgb::grey(1.0), Rgb::BLACK];
+    let solved = operator.solve(&[Rgb::grey(100.0); 4], &given, &waiting, 1e-6);
+    assert!((solved[3].0[0] * 0.19 - 0.9).abs() < 1e-5, "{:?}", solved[3]);
 }

@@ -168,3 +168,13 @@ fn units_are_those_of_the_light_that_is_expected() {
         assert!(lx < least || variance.sqrt() <= bound, "{lx} lx: {variance}");
     }
 }
+
+#[test]
+fn light_that_is_no_number_stays_none() {
+    let mut sums = Accumulator::new(2, 1.0);
+    sums.add([1.0, 2.0].map(|lx| Sample { indirect: Rgb::grey(lx), ..Sample::default() }));
+    assert_eq!([0, 1].map(|k| sums.indirect_lx(k)), [1.0, 2.0]);
+    let direct = Rgb::new(0.0, f64::NAN, 0.0);
+    sums.add([Sample { direct, ..Sample::default() }, Sample::default()]);
+    assert!(sums.indirect_lx(0).is_nan());
+}
