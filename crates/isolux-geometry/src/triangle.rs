@@ -107,6 +107,12 @@ impl TriangleMesh {
         (place - self.origin).to_f32()
     }
 
+    /// The place that a position has instead of another: where the kernel has rays start that start there.
+    #[inline]
+    pub fn rounded(&self, place: Point) -> Point {
+        self.world_from_local(self.local_from_world(place))
+    }
+
     /// The smallest axis-parallel box around all positions, `None` for an empty mesh.
     pub fn bounds(&self) -> Option<(Point, Point)> {
         let first = self.world_from_local(*self.positions.first()?);
@@ -125,7 +131,7 @@ impl TriangleMesh {
 #[cfg(test)]
 mod tests {
     use super::{Triangle, TriangleMesh};
-    use crate::{Normal, Point};
+    use crate::{Normal, Point, Vector};
 
     fn right_angled() -> Triangle {
         let corner = |x, y| Point::new(x, y, 5.0);
@@ -171,6 +177,7 @@ mod tests {
         let corners = mesh.triangle(0).corners;
         assert_eq!(corners[0], Point::new(4096.5, -63.0, -2.0));
         assert_eq!(corners.map(|corner| mesh.local_from_world(corner)), mesh.positions[..]);
+        assert_eq!(mesh.rounded(corners[0] + Vector::new(1e-9, 0.0, 0.0)), corners[0]);
         assert_eq!(mesh.bounds().unwrap().0, Point::new(4093.0, -64.0, -2.0));
         assert_eq!(mesh.largest_coordinate_m(0), 3.0);
     }
