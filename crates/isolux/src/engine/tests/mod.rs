@@ -33,6 +33,7 @@ mod means;
 mod middles;
 mod mirrors;
 mod mixing;
+mod moved;
 mod net;
 mod openings;
 mod parts;
