@@ -14,6 +14,7 @@ mod measure;
 pub mod metric;
 pub mod model;
 pub mod statistics;
+pub mod study;
 pub mod tolerance;
 pub mod truth;
 mod validate;

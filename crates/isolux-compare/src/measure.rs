@@ -6,7 +6,7 @@ use isolux::engine::{MapReader, ProbePoint};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// Places along each side of the grid over a face of CUBE.
@@ -24,7 +24,7 @@ pub enum MeasureError {
 }
 
 /// One place of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredPoint {
     /// Letter in the paper's table.
     pub name: char,
@@ -43,6 +43,10 @@ pub struct GridError {
     pub relative_l2: f64,
     /// Root mean square of relative differences.
     pub rms_relative: f64,
+    /// Share of the places whose intervals of 95 % hold the truth; `None` where the map does not know its error.
+    pub covered: Option<f64>,
+    /// Root mean square of the standard errors told, over that of the true errors; `None` likewise.
+    pub told_over_true: Option<f64>,
     /// Number of places.
     pub places: usize,
 }
@@ -148,16 +152,39 @@ fn pair(point: &MeasuredPoint) -> Pair {
 }
 
 fn grid_error(reader: &MapReader, grid: &[(ProbePoint, f64)]) -> Result<GridError, MeasureError> {
-    let pairs = grid
+    let places = grid
         .par_iter()
-        .map(|&(at, expected_lx)| Ok(pair(&measured(reader, ' ', at, expected_lx)?)))
-        .collect::<Result<Vec<Pair>, MeasureError>>()?;
+        .map(|&(at, expected_lx)| measured(reader, ' ', at, expected_lx))
+        .collect::<Result<Vec<MeasuredPoint>, MeasureError>>()?;
+    let pairs: Vec<Pair> = places.iter().map(pair).collect();
     let even: Vec<(Pair, f64)> = pairs.iter().map(|&p| (p, 1.0)).collect();
+    let is_told = places.iter().all(|place| place.standard_error_lx.is_finite());
     Ok(GridError {
         relative_l2: relative_l2_distance(&pairs).unwrap_or(f64::NAN),
         rms_relative: weighted_rms_relative_difference(&even).unwrap_or(f64::NAN),
+        covered: is_told.then(|| covered(&places)),
+        told_over_true: is_told.then(|| told_over_true(&places)).flatten(),
         places: pairs.len(),
     })
+}
+
+/// The quantile of the normal distribution that intervals of 95 % reach to on either side.
+const IN_95_OF_100: f64 = 1.96;
+
+/// The share of places that lie within their intervals of 95 %.
+fn covered(places: &[MeasuredPoint]) -> f64 {
+    let holds = |place: &&MeasuredPoint| {
+        (place.measured_lx - place.expected_lx).abs() <= IN_95_OF_100 * place.standard_error_lx
+    };
+    places.iter().filter(holds).count() as f64 / places.len().max(1) as f64
+}
+
+/// Root mean square of what is told over that of what is true; `None` where all are right.
+fn told_over_true(places: &[MeasuredPoint]) -> Option<f64> {
+    let sum =
+        |of: &dyn Fn(&MeasuredPoint) -> f64| places.iter().map(|p| of(p).powi(2)).sum::<f64>();
+    let (told, wrong) = (sum(&|p| p.standard_error_lx), sum(&|p| p.measured_lx - p.expected_lx));
+    (wrong > 0.0).then(|| (told / wrong).sqrt())
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::delta_e::DeltaE;
 use super::lab::{Lab, White, Xyz};
 use super::{Pair, relative_l2_distance};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Why two pictures have no difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -29,7 +29,7 @@ pub enum PictureError {
 }
 
 /// How far a picture is from its reference, as a share of the reference.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PictureDistance {
     /// Of red, green and blue. A component of which the reference has nothing has none.
     pub components: [Option<f64>; 3],
@@ -58,7 +58,7 @@ pub fn picture_distance(
 
 /// The distribution of differences of colour over the pixels of a picture, in units of the formula. Quantiles are
 /// those of the nearest rank: the least difference that so many hundredths of the pixels do not exceed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ColourDifference {
     /// Arithmetic mean.
     pub mean: f64,
