@@ -13,6 +13,7 @@ pub mod lambert;
 mod measure;
 pub mod metric;
 pub mod model;
+pub mod report;
 pub mod statistics;
 pub mod study;
 pub mod tolerance;

@@ -6,7 +6,7 @@ use super::system::System;
 use serde::Serialize;
 
 /// The error on CUBE that the study's LVS stopped at, and reached ten times sooner than its Inspirer (2.1).
-const ERROR_OF_LVS: f64 = 0.028;
+pub const ERROR_OF_LVS: f64 = 0.028;
 
 /// How many times sooner that was.
 const TIMES_SOONER: f64 = 10.0;

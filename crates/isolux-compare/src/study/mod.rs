@@ -9,7 +9,7 @@ mod measured;
 mod record;
 mod system;
 
-pub use conclusions::{Answer, Conclusion, conclusions};
+pub use conclusions::{Answer, Conclusion, ERROR_OF_LVS, conclusions};
 pub use convergence::{Convergence, time_to_error_s};
 pub use measured::{Measured, measure};
 pub use record::{
