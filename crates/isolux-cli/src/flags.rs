@@ -1,9 +1,10 @@
 //! Arguments as written.
 
+use crate::appearance::{self, ExposureChoice, ProfileChoice};
 use crate::dimming::{DimmedMap, dimmed_group};
 use crate::quantity;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use isolux_view::Exposure;
+use isolux_view::WhiteAdaptation;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -335,6 +336,9 @@ pub(crate) struct GridFlags {
 #[command(after_help = "Examples:
   isolux render map.glb --camera door -o door.png
   isolux render map.glb --camera door -o lux.png --false-colour --limits 0:500 --contours
+  isolux render map.glb --camera door -o door.png --exposure ev9 --tone linear --brightness 0.1 --contrast 1.2
+  isolux render map.glb --camera door -o door.png --tone ward --display-white 250cd/m2 --profile monitor.icc
+  isolux render map.glb --camera door -o door.png --exposure map --white 2700K --profile display-p3
   isolux render builtin:hall --cache hall.cache --camera entrance -o entrance.png
 
 With --cache no map is read: indirect light comes from the samples in the file, and what the view still \
@@ -369,13 +373,34 @@ pub(crate) struct RenderFlags {
 /// How luminance becomes a picture.
 #[derive(Debug, Args)]
 pub(crate) struct LookFlags {
-    /// auto, an exposure value (ev8), or the luminance shown as white (500cd/m2)
-    #[arg(long, value_name = "EXPOSURE", value_parser = quantity::exposure, default_value = "auto",
+    /// auto, map (alike for all cameras), an exposure value (ev8), the luminance shown as white (500cd/m2) or as middle
+    /// grey (grey 90cd/m2), or the share of lit pixels no brighter than white (99%)
+    #[arg(long, value_name = "EXPOSURE", value_parser = appearance::exposure, default_value = "auto",
           conflicts_with = "false_colour", allow_hyphen_values = true)]
-    pub exposure: Exposure,
+    pub exposure: ExposureChoice,
     /// How luminance is fitted to the display
     #[arg(long, value_enum, default_value = "reinhard", conflicts_with = "false_colour")]
     pub tone: ToneName,
+    /// With --tone linear: what is added to the signal, -1 to 1 [default: 0]
+    #[arg(long, value_name = "N", value_parser = appearance::brightness, conflicts_with = "false_colour",
+          allow_hyphen_values = true)]
+    pub brightness: Option<f64>,
+    /// With --tone linear: a factor on the signal about its middle, 0 to 100 [default: 1]
+    #[arg(long, value_name = "N", value_parser = appearance::contrast, conflicts_with = "false_colour",
+          allow_hyphen_values = true)]
+    pub contrast: Option<f64>,
+    /// With --tone ward or tumblin-rushmeier: the luminance of the white of the display [default: 100cd/m2]
+    #[arg(long, value_name = "LUMINANCE", value_parser = appearance::display_white, conflicts_with = "false_colour",
+          allow_hyphen_values = true)]
+    pub display_white: Option<f64>,
+    /// Light that is to look white: a colour temperature (2700K), or scene, the mean of the surfaces seen [default: D65, as in sRGB]
+    #[arg(long, value_name = "WHITE", value_parser = appearance::white, conflicts_with = "false_colour",
+          allow_hyphen_values = true)]
+    pub white: Option<WhiteAdaptation>,
+    /// The display: srgb, display-p3, or an ICC file of one; the picture says which
+    #[arg(long, value_name = "PROFILE", value_parser = appearance::profile, default_value = "srgb",
+          conflicts_with = "false_colour")]
+    pub profile: ProfileChoice,
     /// Colours that stand for lux, with a legend
     #[arg(long, visible_alias = "false-color")]
     pub false_colour: bool,
@@ -399,6 +424,10 @@ pub(crate) enum ToneName {
     Reinhard,
     /// Hable's filmic curve
     Hable,
+    /// Ward's scale factor: what can just be seen there can just be seen here
+    Ward,
+    /// Tumblin and Rushmeier's power: as bright here as there
+    TumblinRushmeier,
 }
 
 #[derive(Debug, Args)]

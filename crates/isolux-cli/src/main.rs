@@ -1,5 +1,6 @@
 //! The isolux command: a table of contents.
 
+mod appearance;
 mod arriving;
 mod audit;
 mod cache_samples;
@@ -26,6 +27,7 @@ mod lightmap;
 mod lightmap_export;
 mod lightmap_files;
 mod lint;
+mod look;
 mod map_file;
 mod meter;
 mod mix;
