@@ -1,8 +1,7 @@
 //! All figures of a study as a table for programs: one row a map, an empty field for what is not known.
 
-use super::contents::merit;
 use crate::case::cube::TABLE_1;
-use crate::metric::ColourDifference;
+use crate::metric::{ColourDifference, figure_of_merit};
 use crate::study::{CaseStudy, Distances, Measured, Point, Prediction, Series, Study};
 
 /// A row under construction: names of columns and their fields, so that neither is without the other.
@@ -136,7 +135,10 @@ fn add_measured(row: &mut Row, measured: Option<&Measured>) {
         let point = points.iter().find(|point| point.name == letter);
         row.number(format!("{letter}_expected_lx"), point.map(|of| of.expected_lx));
         row.number(format!("{letter}_measured_lx"), point.map(|of| of.measured_lx));
-        row.number(format!("{letter}_standard_error_lx"), point.map(|of| of.standard_error_lx));
+        row.number(
+            format!("{letter}_standard_error_lx"),
+            point.and_then(|of| of.standard_error_lx),
+        );
     }
 }
 
@@ -146,6 +148,10 @@ fn add_merit(row: &mut Row, point: Option<&Point>) {
     row.number("merit_measured_per_s", measured);
     row.number("merit_audited_per_s", audited);
     row.number("merit_reported_per_s", point.and_then(|point| merit(point, point.reported.error)));
+}
+
+fn merit(point: &Point, error: Option<f64>) -> Option<f64> {
+    figure_of_merit(error?, point.time_s)
 }
 
 fn add_distances(row: &mut Row, from: &str, distances: Option<&Distances>) {

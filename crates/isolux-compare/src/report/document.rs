@@ -28,6 +28,7 @@ pub(super) enum Block {
     Table(Table),
     /// Graphs that may stand side by side.
     Graphs(Vec<Graph>),
+    Picture(Picture),
     Pictures(Pictures),
     /// Details that are shown when asked for.
     Folded(String, Vec<Block>),
@@ -84,6 +85,11 @@ pub(super) struct Source {
     pub(super) address: Option<&'static str>,
 }
 
+/// The name of the file of a graph.
+pub(super) fn graph_file(id: &str) -> String {
+    format!("graphs/{id}.svg")
+}
+
 /// A column of words.
 pub(super) fn words(title: impl Into<String>) -> Column {
     Column { title: title.into(), is_number: false }
@@ -102,6 +108,14 @@ impl Table {
         rows: Vec<Vec<String>>,
     ) -> Self {
         Self { caption: caption.into(), columns, groups: vec![Group { title: None, rows }] }
+    }
+
+    /// Leaves out the last column.
+    pub(super) fn drop_last(&mut self) {
+        self.columns.pop();
+        for row in self.groups.iter_mut().flat_map(|group| &mut group.rows) {
+            row.pop();
+        }
     }
 
     /// The same without columns of which no row knows anything, and the names of those.

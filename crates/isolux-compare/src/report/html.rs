@@ -16,6 +16,8 @@ pub(super) struct Attached<'a> {
     pub(super) name: &'a str,
     pub(super) media: &'a str,
     pub(super) text: &'a str,
+    /// What is in it.
+    pub(super) says: &'a str,
 }
 
 /// Where pictures come from, by names of files.
@@ -71,6 +73,7 @@ fn block(block: &Block, read: Read) -> String {
                 graphs.iter().map(figure).collect::<String>()
             )
         }
+        Block::Picture(of) => alone(of, read),
         Block::Pictures(of) => pictures(of, read),
         Block::Folded(title, inside) => format!(
             "<details>\n<summary>{}</summary>\n{}</details>\n",
@@ -100,17 +103,17 @@ fn figure(of: &Graph) -> String {
     format!("<figure>\n{drawing}\n<figcaption><b>{title}.</b> {says}</figcaption>\n</figure>\n")
 }
 
-/// A table that scrolls where it is wider than the page.
+/// A table that scrolls where it is wider than the page; one of words has its cells one below the other on a phone.
 fn table(table: &Table) -> String {
     let caption = escape(&table.caption);
     let head: String = table.columns.iter().map(head).collect();
     let bodies: String = table.groups.iter().map(|of| group(of, &table.columns)).collect();
-    scrolled(
-        &caption,
-        &format!(
-            "<table>\n<caption>{caption}</caption>\n<thead>\n<tr>{head}</tr>\n</thead>\n{bodies}</table>\n"
-        ),
-    )
+    let class =
+        if table.columns.iter().any(|column| column.is_number) { "" } else { " class=\"words\"" };
+    let table = format!(
+        "<table{class}>\n<caption><span>{caption}</span></caption>\n<thead>\n<tr>{head}</tr>\n</thead>\n{bodies}</table>\n"
+    );
+    scrolled(&caption, &table)
 }
 
 fn scrolled(label: &str, inside: &str) -> String {
@@ -139,10 +142,17 @@ fn group(group: &Group, columns: &[Column]) -> String {
     format!("<tbody>\n{}{rows}</tbody>\n", title.unwrap_or_default())
 }
 
+/// The first cell of a row says what the others are of, if it is no number.
 fn row(cells: &[String], columns: &[Column]) -> String {
-    let cell =
-        |(cell, column): (&String, &Column)| format!("<td{}>{}</td>", class(column), escape(cell));
-    let cells: String = cells.iter().zip(columns).map(cell).collect();
+    let cell = |(k, (text, column)): (usize, (&String, &Column))| {
+        let (text, title) = (escape(text), escape(&column.title));
+        match (k, column.is_number) {
+            (0, false) => format!("<th scope=\"row\">{text}</th>"),
+            (_, false) => format!("<td data-title=\"{title}\">{text}</td>"),
+            (_, true) => format!("<td class=\"number\">{text}</td>"),
+        }
+    };
+    let cells: String = cells.iter().zip(columns).enumerate().map(cell).collect();
     format!("<tr>{cells}</tr>\n")
 }
 
@@ -159,7 +169,7 @@ fn pictures(of: &Pictures, read: Read) -> String {
     };
     let rows: String = of.rows.iter().map(row).collect();
     let table = format!(
-        "<table class=\"pictures\">\n<caption>{caption}</caption>\n<thead>\n<tr><th scope=\"col\">Allowed</th>{head}</tr>\n</thead>\n<tbody>\n{rows}</tbody>\n\
+        "<table class=\"pictures\">\n<caption><span>{caption}</span></caption>\n<thead>\n<tr><th scope=\"col\">Allowed</th>{head}</tr>\n</thead>\n<tbody>\n{rows}</tbody>\n\
          </table>\n"
     );
     scrolled(&caption, &table)
@@ -167,33 +177,42 @@ fn pictures(of: &Pictures, read: Read) -> String {
 
 fn picture(of: Option<&Picture>, read: Read) -> String {
     let Some(of) = of else { return format!("<td>{UNKNOWN}</td>") };
+    format!("<td>{}<p>{}</p></td>", image(of, read), figures(of))
+}
+
+/// A picture that stands for itself.
+fn alone(of: &Picture, read: Read) -> String {
+    format!(
+        "<figure class=\"alone\">\n{}\n<figcaption><b>{}.</b> {}</figcaption>\n</figure>\n",
+        image(of, read),
+        escape(&of.shows),
+        figures(of)
+    )
+}
+
+fn image(of: &Picture, read: Read) -> String {
     let shows = escape(&of.shows);
-    let shown = match read(&of.file) {
+    match read(&of.file) {
         Some(png) => format!("<img alt=\"{shows}\" src=\"{}\"/>", data_uri("image/png", &png)),
-        None => format!("<p class=\"absent\">{shows}: {} is not at hand.</p>", escape(&of.file)),
-    };
+        None => format!("<p>{shows}: {} is not at hand.</p>", escape(&of.file)),
+    }
+}
+
+fn figures(of: &Picture) -> String {
     let figures: Vec<String> = of.figures.iter().map(|figure| escape(figure)).collect();
-    format!("<td>{shown}<p>{}</p></td>", figures.join("<br/>"))
+    figures.join("<br/>")
 }
 
 fn data(attached: &[Attached]) -> String {
     let link = |of: &Attached| {
         let name = escape(of.name);
         let uri = data_uri(of.media, of.text.as_bytes());
-        format!("<li><a download=\"{name}\" href=\"{uri}\">{name}</a></li>\n")
-    };
-    let shown = |of: &Attached| {
-        format!(
-            "<details class=\"data\">\n<summary>{}</summary>\n<pre>{}</pre>\n</details>\n",
-            escape(of.name),
-            escape(of.text)
-        )
+        format!("<li><a download=\"{name}\" href=\"{uri}\">{name}</a>: {}</li>\n", escape(of.says))
     };
     let links: String = attached.iter().map(link).collect();
-    let tables: String = attached.iter().filter(|of| of.media == "text/csv").map(shown).collect();
     format!(
-        "<section id=\"data\">\n<h2>Data</h2>\n<p>All figures are kept in this page; errors and distances are shares there, times seconds.</p>\n\
-         <ul>\n{links}</ul>\n{tables}</section>\n"
+        "<section id=\"data\">\n<h2>Data</h2>\n<p>This page holds all figures. Errors and distances are shares there, times are seconds.</p>\n\
+         <ul>\n{links}</ul>\n</section>\n"
     )
 }
 

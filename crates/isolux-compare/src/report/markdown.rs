@@ -1,6 +1,9 @@
 //! A report as Markdown: graphs and pictures by names of files.
 
-use super::document::{Block, Document, Group, Picture, Pictures, Section, Source, Table};
+use super::document::{
+    Block, Document, Group, Picture, Pictures, Section, Source, Table, graph_file,
+};
+use super::quantity::UNKNOWN;
 
 /// The whole report.
 pub(super) fn written(document: &Document) -> String {
@@ -25,9 +28,10 @@ fn block(block: &Block) -> String {
             .iter()
             .map(|graph| {
                 let (title, says) = (text(&graph.title), text(&graph.description));
-                format!("![{title}]({})\n\n*{title}.* {says}\n\n", super::graph_file(&graph.id))
+                format!("![{title}]({})\n\n*{title}.* {says}\n\n", graph_file(&graph.id))
             })
             .collect(),
+        Block::Picture(of) => format!("{}\n\n", picture(Some(of))),
         Block::Pictures(of) => pictures(of),
         Block::Folded(title, inside) => format!("### {}\n\n{}", text(title), blocks(inside)),
         Block::Sources(sources) => {
@@ -85,7 +89,7 @@ fn pictures(of: &Pictures) -> String {
 }
 
 fn picture(of: Option<&Picture>) -> String {
-    let Some(of) = of else { return super::quantity::UNKNOWN.to_owned() };
+    let Some(of) = of else { return UNKNOWN.to_owned() };
     let figures: Vec<String> = of.figures.iter().map(|figure| text(figure)).collect();
     // A name in angle brackets may hold spaces.
     format!(

@@ -12,7 +12,7 @@ mod quantity;
 mod tests;
 
 use crate::study::Study;
-use document::Block;
+use document::{Block, graph_file};
 use html::Attached;
 
 /// A graph as a file of its own.
@@ -28,12 +28,18 @@ pub struct GraphFile {
 /// give is left out with a sentence.
 pub fn html(study: &Study, picture: &dyn Fn(&str) -> Option<Vec<u8>>) -> String {
     let table = csv(study);
-    let json = serde_json::to_string_pretty(study).ok();
-    let mut attached = vec![Attached { name: "study.csv", media: "text/csv", text: &table }];
+    let json = serde_json::to_string(study).ok();
+    let mut attached = vec![Attached {
+        name: "study.csv",
+        media: "text/csv",
+        text: &table,
+        says: "one row a map, with units in the names of columns",
+    }];
     attached.extend(json.as_deref().map(|text| Attached {
         name: "study.json",
         media: "application/json",
         text,
+        says: "the study as it was measured",
     }));
     html::written(&contents::document(study), picture, &attached)
 }
@@ -59,9 +65,4 @@ pub fn graphs(study: &Study) -> Vec<GraphFile> {
     let file =
         |of: &graph::Graph| Some(GraphFile { name: graph_file(&of.id), svg: graph::file(of)? });
     graphs.flatten().filter_map(file).collect()
-}
-
-/// The name of the file of a graph.
-fn graph_file(id: &str) -> String {
-    format!("graphs/{id}.svg")
 }

@@ -6,6 +6,9 @@ pub(super) const UNKNOWN: &str = "–";
 /// Digits that mean something in errors, times and distances of a single run.
 const DIGITS: usize = 3;
 
+/// Digits of what was asked for, which is exact.
+pub(super) const ASKED_DIGITS: usize = 6;
+
 /// Powers of ten between which numbers are written without one.
 const PLAIN: std::ops::RangeInclusive<i32> = -4..=5;
 
@@ -17,6 +20,16 @@ pub(super) fn number(value: f64) -> String {
     significant(value, DIGITS)
 }
 
+/// A number with so many digits behind the point.
+pub(super) fn fixed(value: f64, behind: usize) -> String {
+    if !value.is_finite() {
+        return UNKNOWN.to_owned();
+    }
+    let text = format!("{value:.behind$}");
+    let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
+    if is_zero { text.replace('-', "") } else { text.replace('-', "−") }
+}
+
 /// A share as hundredths, without sign.
 pub(super) fn percent(share: f64) -> String {
     number(100.0 * share)
@@ -25,6 +38,11 @@ pub(super) fn percent(share: f64) -> String {
 /// A share as hundredths, with its sign.
 pub(super) fn percent_sign(share: f64) -> String {
     with_unit(percent(share), "%")
+}
+
+/// A time that was asked for, s: as it was asked for.
+pub(super) fn asked(time_s: f64) -> String {
+    with_unit(short(time_s, ASKED_DIGITS), "s")
 }
 
 /// A time, s.
@@ -88,10 +106,11 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
 /// A number with at most so many digits, without zeros at its end.
 pub(super) fn short(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
-    if !text.contains('.') || text.contains('×') {
+    let (mantissa, power) = text.split_at(text.find('×').unwrap_or(text.len()));
+    if !mantissa.contains('.') {
         return text;
     }
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    format!("{}{power}", mantissa.trim_end_matches('0').trim_end_matches('.'))
 }
 
 fn raised(power: i32) -> String {
@@ -138,7 +157,14 @@ mod tests {
         assert_eq!(known(None, percent), "–");
         assert_eq!(known(Some(0.028), percent), "2.80");
         assert_eq!(percent_sign(f64::NAN), "–");
+        assert_eq!(asked(0.125), "0.125\u{a0}s");
         assert_eq!(percent_sign(0.028), "2.80\u{a0}%");
+    }
+
+    #[test]
+    fn nothing_is_less_than_nothing() {
+        let texts = [-0.004, -0.006, 1.0, f64::NAN].map(|value| fixed(value, 2));
+        assert_eq!(texts, ["0.00", "−0.01", "1.00", UNKNOWN]);
     }
 
     #[test]
@@ -160,5 +186,6 @@ mod tests {
         assert_eq!(short(0.5, 3), "0.5");
         assert_eq!(short(100.0, 3), "100");
         assert_eq!(short(0.1 + 0.2, 3), "0.3");
+        assert_eq!(short(1e-9, 3), "1×10⁻⁹");
     }
 }

@@ -159,7 +159,7 @@ fn mirrors(study: &Study) -> Conclusion {
         },
         figures: format!(
             "Errors on SPHERE: {}. Without specular exchange it is {}.",
-            list.join(", "),
+            list.join("; "),
             percent(left_out)
         ),
     }

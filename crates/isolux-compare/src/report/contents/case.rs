@@ -1,20 +1,9 @@
 //! A scene through all systems.
 
-use super::{errors, graphs};
+use super::{errors, graphs, names};
 use crate::report::document::{Block, Section};
 use crate::report::quantity::{list, percent_sign, seconds, things};
 use crate::study::{CaseStudy, Point, System};
-
-/// How a scene is called in sentences.
-pub(super) fn name(case: &CaseStudy) -> String {
-    match case.name.as_str() {
-        "cube" => "CUBE".to_owned(),
-        "sphere" => "SPHERE".to_owned(),
-        "hall" => "HALL".to_owned(),
-        "demo" => "the demo scene".to_owned(),
-        other => other.to_owned(),
-    }
-}
 
 /// All that is said of a scene.
 pub(super) fn section(case: &CaseStudy) -> Section {
@@ -31,26 +20,9 @@ pub(super) fn section(case: &CaseStudy) -> Section {
     blocks.extend(errors::places(case));
     let folded = errors::every_map(case);
     if !folded.is_empty() {
-        blocks.push(Block::Folded(format!("Every map of {}", name(case)), folded));
+        blocks.push(Block::Folded(format!("Every map of {}", names::name(case)), folded));
     }
-    Section { id: id(case), title: title(case), blocks }
-}
-
-/// The name of a case as a part of names of files and of links.
-pub(super) fn id(case: &CaseStudy) -> String {
-    let kept = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
-    let id: String = case.name.chars().map(kept).collect();
-    format!("case-{}", id.trim_matches('-'))
-}
-
-fn title(case: &CaseStudy) -> String {
-    match case.name.as_str() {
-        "cube" => "CUBE: light between diffuse walls".to_owned(),
-        "sphere" => "SPHERE: light from diffuse walls over mirrors to diffuse walls".to_owned(),
-        "hall" => "HALL: the practical scene".to_owned(),
-        "demo" => "The demo scene".to_owned(),
-        other => format!("Scene {other}"),
-    }
+    Section { id: names::id(case), title: names::title(case), blocks }
 }
 
 fn about(case: &CaseStudy) -> String {

@@ -1,65 +1,69 @@
 //! Tables of maps: what they took, what they tell, and by how much they are wrong.
 
+use crate::measure::MeasuredPoint;
 use crate::metric::figure_of_merit;
 use crate::report::document::{Block, Column, Group, Table, numbers, words};
-use crate::report::quantity::{UNKNOWN, count, known, list, number, percent};
+use crate::report::quantity::{
+    ASKED_DIGITS, UNKNOWN, count, fixed, known, list, number, percent, short,
+};
 use crate::study::{
     CaseStudy, Convergence, Distances, ERROR_OF_LVS, Measured, Point, Series, time_to_error_s,
 };
 
 /// A column of a table and what stands in it.
-struct Field<T: ?Sized> {
+struct Field<T> {
     title: &'static str,
     text: fn(&T) -> String,
 }
 
-const fn field<T: ?Sized>(title: &'static str, text: fn(&T) -> String) -> Field<T> {
+const fn field<T>(title: &'static str, text: fn(&T) -> String) -> Field<T> {
     Field { title, text }
 }
 
-/// What a map took.
-const WORK: [Field<Point>; 4] = [
-    field("Allowed, s", |p| number(p.asked_s)),
-    field("Took, s", |p| number(p.time_s)),
-    field("Rays", |p| count(p.rays)),
-    field("Receivers", |p| count(p.receivers)),
-];
+const ALLOWED: Field<Point> = field("Allowed, s", |p| short(p.asked_s, ASKED_DIGITS));
+const TOOK: Field<Point> = field("Took, s", |p| number(p.time_s));
+const RAYS: Field<Point> = field("Rays", |p| count(p.rays));
+const RECEIVERS: Field<Point> = field("Receivers", |p| count(p.receivers));
+const TOLD: Field<Point> = field("Told error, %", |p| known(p.reported.error, percent));
+const NOISE: Field<Point> = field("of it noise, %", |p| known(p.reported.noise, percent));
+const BARE: Field<Point> = field("Told of the bare map, %", |p| known(p.reported.bare, percent));
+const UNSHOT: Field<Point> = field("Not yet shot, %", |p| known(p.reported.unshot, percent));
+const FILTERED: Field<Point> = field("Filtered, %", |p| known(p.reported.filtered, percent));
+const FORESEEN: Field<Point> = field("Finish foreseen at last, s", |p| {
+    known(p.predictions.last(), |of| {
+        format!("{} ({} to {})", number(of.finish_s), number(of.earliest_s), number(of.latest_s))
+    })
+});
+const AUDITED: Field<Point> =
+    field("Audited error, %", |p| known(p.audited, |of| percent(of.error)));
+const INTERVAL: Field<Point> = field("its interval of 95 %", |p| {
+    known(p.audited, |of| format!("{} to {}", percent(of.low), percent(of.high)))
+});
+const CONTRADICTS: Field<Point> =
+    field("Audit contradicts", |p| known(p.audited, |of| yes(of.contradicts)));
+const MEASURED: Field<Point> =
+    field("Measured error, %", |p| known(measured(p), |of| percent(of.error)));
+const GRID: Field<Point> = field("over a grid, %", |p| known(measured(p), |of| percent(of.grid)));
+const COVERED: Field<Point> =
+    field("Intervals that hold, %", |p| known(measured(p).and_then(|of| of.covered), percent));
+const SHARPNESS: Field<Point> =
+    field("Told over true", |p| known(measured(p).and_then(|of| of.told_over_true), number));
+const MERIT: Field<Point> = field("Merit by measured error, 1/s", |p| {
+    known(merit(p, measured(p).map(|of| of.error)), number)
+});
+const MERIT_TOLD: Field<Point> =
+    field("Merit by told error, 1/s", |p| known(merit(p, p.reported.error), number));
 
-/// What it tells of itself.
-const TOLD: [Field<Point>; 5] = [
-    field("Told error, %", |p| known(p.reported.error, percent)),
-    field("of it noise, %", |p| known(p.reported.noise, percent)),
-    field("Told of the bare map, %", |p| known(p.reported.bare, percent)),
-    field("Not yet shot, %", |p| known(p.reported.unshot, percent)),
-    field("Filtered, %", |p| known(p.reported.filtered, percent)),
-];
-
-/// What others find.
-const FOUND: [Field<Point>; 10] = [
-    field("Audited error, %", |p| known(p.audited, |of| percent(of.error))),
-    field("its interval of 95 %", |p| {
-        known(p.audited, |of| format!("{} to {}", percent(of.low), percent(of.high)))
-    }),
-    field("Audit contradicts", |p| known(p.audited, |of| yes(of.contradicts))),
-    field("Measured error, %", |p| known(measured(p), |of| percent(of.error))),
-    field("over a grid, %", |p| known(measured(p), |of| percent(of.grid))),
-    field("Intervals that hold, %", |p| known(measured(p).and_then(|of| of.covered), percent)),
-    field("Told over true", |p| known(measured(p).and_then(|of| of.told_over_true), number)),
-    field("Merit by measured error, 1/s", |p| {
-        known(merit(p, measured(p).map(|of| of.error)), number)
-    }),
-    field("Merit by told error, 1/s", |p| known(merit(p, p.reported.error), number)),
-    field("Finish foreseen at last, s", |p| {
-        known(p.predictions.last(), |of| {
-            format!(
-                "{} ({} to {})",
-                number(of.finish_s),
-                number(of.earliest_s),
-                number(of.latest_s)
-            )
-        })
-    }),
-];
+/// What every map took and tells of itself.
+const SAID: [Field<Point>; 10] =
+    [ALLOWED, TOOK, RAYS, RECEIVERS, TOLD, NOISE, BARE, UNSHOT, FILTERED, FORESEEN];
+/// What is found of it.
+const FOUND: [Field<Point>; 10] =
+    [TOOK, AUDITED, INTERVAL, CONTRADICTS, MEASURED, GRID, COVERED, SHARPNESS, MERIT, MERIT_TOLD];
+/// Last maps, of scenes whose right values are known, and of others.
+const LAST_EXACT: [Field<Point>; 9] =
+    [TOOK, MEASURED, TOLD, AUDITED, UNSHOT, COVERED, SHARPNESS, MERIT, RAYS];
+const LAST_PRACTICAL: [Field<Point>; 6] = [TOOK, TOLD, AUDITED, UNSHOT, MERIT_TOLD, RAYS];
 
 /// How far its picture is from others.
 const PICTURE: [Field<Distances>; 4] = [
@@ -69,12 +73,16 @@ const PICTURE: [Field<Distances>; 4] = [
     field("ΔE00", |of| number(of.ciede2000.mean)),
 ];
 
+/// Digits behind the point of orders of convergence, and of illuminances in lux.
+const OF_ORDERS: usize = 2;
+const OF_LUX: usize = 1;
+
 fn measured(point: &Point) -> Option<&Measured> {
     point.measured.as_ref()
 }
 
 /// The figure of merit of a map by one of its errors.
-pub(in crate::report) fn merit(point: &Point, error: Option<f64>) -> Option<f64> {
+fn merit(point: &Point, error: Option<f64>) -> Option<f64> {
     figure_of_merit(error?, point.time_s)
 }
 
@@ -84,40 +92,52 @@ fn yes(is_so: bool) -> String {
 
 /// The last map of every system.
 pub(super) fn last_maps(case: &CaseStudy) -> Vec<Block> {
-    let fields: Vec<&Field<Point>> = WORK[1..].iter().chain(&TOLD).chain(&FOUND).collect();
-    let row = |series: &Series| -> Option<Vec<String>> {
-        let last = series.points.last()?;
-        let mut row = vec![series.system.title().to_owned()];
-        row.extend(orders(series));
-        row.extend(fields.iter().map(|field| (field.text)(last)));
-        row.extend(PICTURE.iter().map(|of| known(last.from_reference.as_ref(), of.text)));
-        Some(row)
+    let mut points = case.series.iter().flat_map(|series| &series.points);
+    let is_exact = points.any(|point| point.measured.is_some());
+    let columns = if is_exact {
+        columns(&LAST_EXACT, &["Order", "Time to 2.8 %, s"])
+    } else {
+        columns(&LAST_PRACTICAL, &PICTURE.map(|of| of.title))
     };
-    let mut columns = vec![words("System")];
-    columns.extend(
-        ["Time to 2.8 %, s", "Order of measured error", "Order of told error"].map(numbers),
-    );
-    columns.extend(fields.iter().map(|field| numbers(field.title)));
-    columns.extend(PICTURE.iter().map(|of| numbers(format!("From reference: {}", of.title))));
+    let row = if is_exact { last_exact } else { last_practical };
     let rows = case.series.iter().filter_map(row).collect();
-    shown(Table::plain("The last map of every system", columns, rows))
+    let mut table = Table::plain("The last map of every system", columns, rows);
+    if case.name == "sphere" {
+        // The study has no such time of it.
+        table.drop_last();
+    }
+    shown(table)
 }
 
-/// When the error of the study's LVS is reached, of CUBE, and how fast errors fall.
-fn orders(series: &Series) -> [String; 3] {
+fn columns(fields: &[Field<Point>], others: &[&str]) -> Vec<Column> {
+    let titles = fields.iter().map(|field| field.title).chain(others.iter().copied());
+    std::iter::once(words("System")).chain(titles.map(numbers)).collect()
+}
+
+fn last(series: &Series, fields: &[Field<Point>]) -> Option<Vec<String>> {
+    let last = series.points.last()?;
+    let title = series.system.title().to_owned();
+    Some(std::iter::once(title).chain(fields.iter().map(|field| (field.text)(last))).collect())
+}
+
+/// With how fast the measured error falls, and when it reaches that of the study's LVS.
+fn last_exact(series: &Series) -> Option<Vec<String>> {
     let error = |point: &Point| measured(point).map(|of| of.error);
-    let is_cube = |point: &Point| measured(point).is_some_and(|of| of.points.len() > 1);
-    let points = if series.points.iter().any(is_cube) { series.points.as_slice() } else { &[] };
-    let order = |of: &dyn Fn(&Point) -> Option<f64>| {
-        let known: Vec<(f64, f64)> =
-            series.points.iter().filter_map(|point| Some((point.time_s, of(point)?))).collect();
-        Convergence::of(&known).map(|found| found.order)
-    };
-    [
-        known(time_to_error_s(points, error, ERROR_OF_LVS), number),
-        known(order(&error), number),
-        known(order(&|point| point.reported.error), number),
-    ]
+    let known_errors: Vec<(f64, f64)> =
+        series.points.iter().filter_map(|point| Some((point.time_s, error(point)?))).collect();
+    let order = Convergence::of(&known_errors).map(|found| found.order);
+    let mut row = last(series, &LAST_EXACT)?;
+    row.push(known(order, |order| fixed(order, OF_ORDERS)));
+    row.push(known(time_to_error_s(&series.points, error, ERROR_OF_LVS), number));
+    Some(row)
+}
+
+/// With how far its picture is from the reference.
+fn last_practical(series: &Series) -> Option<Vec<String>> {
+    let far = series.points.last()?.from_reference.as_ref();
+    let mut row = last(series, &LAST_PRACTICAL)?;
+    row.extend(PICTURE.iter().map(|of| known(far, of.text)));
+    Some(row)
 }
 
 /// What the last maps read at the points of the study.
@@ -126,53 +146,54 @@ pub(super) fn places(case: &CaseStudy) -> Vec<Block> {
         let points = series.points.last()?.measured.as_ref()?.points.clone();
         (!points.is_empty()).then(|| (series.system.title().to_owned(), points))
     };
-    let read: Vec<_> = case.series.iter().filter_map(last).collect();
+    let read: Vec<(String, Vec<MeasuredPoint>)> = case.series.iter().filter_map(last).collect();
     let Some((_, first)) = read.first() else { return Vec::new() };
-    let mut columns = vec![words("Point")];
-    columns.extend(first.iter().map(|point| numbers(point.name.to_string())));
-    let mut rows = vec![vec!["right value".to_owned()]];
-    rows[0].extend(first.iter().map(|point| lux(point.expected_lx)));
-    for (title, points) in &read {
-        let mut row = vec![title.clone()];
-        row.extend(
-            points.iter().map(|p| format!("{} ± {}", lux(p.measured_lx), lux(p.standard_error_lx))),
-        );
-        rows.push(row);
-    }
-    let caption = "Illuminance at the points of the study, lx, with standard errors as told";
-    vec![Block::Table(Table::plain(caption, columns, rows))]
+    let columns = first.iter().map(|point| numbers(point.name.to_string()));
+    let row = |(title, points): (&str, &[MeasuredPoint]), lux: fn(&MeasuredPoint) -> String| {
+        std::iter::once(title.to_owned()).chain(points.iter().map(lux)).collect()
+    };
+    let right = row(("right value", first.as_slice()), |point| fixed(point.expected_lx, OF_LUX));
+    let rows = read.iter().map(|(title, points)| row((title.as_str(), points.as_slice()), read_lx));
+    vec![Block::Table(Table::plain(
+        "Illuminance at the points of the study, lx, with standard errors as told",
+        std::iter::once(words("Point")).chain(columns).collect(),
+        std::iter::once(right).chain(rows).collect(),
+    ))]
 }
 
-/// Tenths of a lux.
-fn lux(value: f64) -> String {
-    if value.is_finite() { format!("{value:.1}") } else { UNKNOWN.to_owned() }
+fn read_lx(point: &MeasuredPoint) -> String {
+    let error = point.standard_error_lx.map(|error| format!(" ± {}", fixed(error, OF_LUX)));
+    format!("{}{}", fixed(point.measured_lx, OF_LUX), error.unwrap_or_default())
 }
 
-/// Every map of a scene: errors, and pictures.
+/// Every map of a scene: what it tells, by how much it errs, and how far pictures are from others.
 pub(super) fn every_map(case: &CaseStudy) -> Vec<Block> {
-    let fields: Vec<&Field<Point>> = WORK.iter().chain(&TOLD).chain(&FOUND).collect();
-    let columns: Vec<Column> = fields.iter().map(|field| numbers(field.title)).collect();
-    let errors = by_system("Every map", columns, case, |point| {
-        fields.iter().map(|field| (field.text)(point)).collect()
-    });
-    let mut columns = vec![numbers("Took, s")];
+    let of_fields = |caption: &str, fields: &[Field<Point>]| {
+        let columns = fields.iter().map(|field| numbers(field.title)).collect();
+        let row = |point: &Point| fields.iter().map(|field| (field.text)(point)).collect();
+        shown(by_system(caption, columns, case, row))
+    };
+    let mut blocks = of_fields("Every map: what it took and what it tells", &SAID);
+    blocks.extend(of_fields("Every map: by how much it errs", &FOUND));
+    let has_pictures = |point: &Point| point.from_last.is_some() || point.from_reference.is_some();
+    if case.series.iter().flat_map(|series| &series.points).any(has_pictures) {
+        blocks.extend(shown(every_picture(case)));
+    }
+    blocks
+}
+
+fn every_picture(case: &CaseStudy) -> Table {
+    let mut columns = vec![numbers(TOOK.title)];
     for from in ["From last", "From reference"] {
         columns.extend(PICTURE.iter().map(|of| numbers(format!("{from}: {}", of.title))));
     }
-    let pictures = by_system("Every picture: means over its pixels", columns, case, |point| {
-        let mut row = vec![number(point.time_s)];
+    by_system("Every picture: means over its pixels", columns, case, |point| {
+        let mut row = vec![(TOOK.text)(point)];
         for distances in [&point.from_last, &point.from_reference] {
             row.extend(PICTURE.iter().map(|of| known(distances.as_ref(), of.text)));
         }
         row
-    });
-    let has_pictures = |point: &Point| point.from_last.is_some() || point.from_reference.is_some();
-    let mut points = case.series.iter().flat_map(|series| &series.points);
-    let mut blocks = shown(errors);
-    if points.any(has_pictures) {
-        blocks.extend(shown(pictures));
-    }
-    blocks
+    })
 }
 
 fn by_system(

@@ -2,7 +2,7 @@
 
 use super::foreseen;
 use super::kinds::{KINDS, Kind, Of, On};
-use super::{case, systems};
+use super::{names, systems};
 use crate::report::graph::{Axis, Dot, Graph, Line};
 use crate::study::{CaseStudy, Point, Series};
 
@@ -39,10 +39,10 @@ fn belongs(kind: &Kind, case: &CaseStudy) -> bool {
 }
 
 fn graph(kind: &Kind, case: &CaseStudy) -> Graph {
-    let name = case::name(case);
+    let name = names::name(case);
     let lines = case.series.iter().map(|series| line(kind, series));
     Graph {
-        id: format!("{}-{}", case::id(case), kind.id),
+        id: format!("{}-{}", names::id(case), kind.id),
         title: format!("{name}. {}", kind.title),
         description: kind.says.to_owned(),
         x: axis(kind.x),

@@ -52,7 +52,7 @@ pub(super) const KINDS: [Kind; 15] = [
     Kind {
         id: "measured",
         title: "Measured error over time",
-        says: "Error of the study, measured at points whose right values are known, over the time a map took. Both axes are logarithmic.",
+        says: "Error of the study, measured at points whose right values are known, over the time that a map took; graphs 1 and 3 of the study.",
         x: TIME,
         y: ("measured error, %", Scale::Decades),
         of: Of::Time(measured),
@@ -62,7 +62,7 @@ pub(super) const KINDS: [Kind; 15] = [
     Kind {
         id: "reported-measured",
         title: "Measured error against told error",
-        says: "Each point is a map, in the order of time along each line. On the dashed line a map errs by what it tells; above it, by more.",
+        says: "Each point is a map, in the order of time along each line. On the dashed line a map errs by what it tells; above it, by more. The study has both over time in its graph 2.",
         x: TOLD,
         y: ("measured error, %", Scale::Decades),
         of: Of::Pair(told, measured),
@@ -72,7 +72,7 @@ pub(super) const KINDS: [Kind; 15] = [
     Kind {
         id: "progress",
         title: "Reported progress over time",
-        says: "What a user sees while a system runs: of radiosity the share of light that is not yet shot, of others the told error.",
+        says: "What a user sees while a system runs: of radiosity the share of light that is not yet shot, of others the told error; graph 4 of the study.",
         x: TIME,
         y: ("told error, or light not yet shot, %", Scale::Linear),
         of: Of::Time(progress),
@@ -82,7 +82,7 @@ pub(super) const KINDS: [Kind; 15] = [
     Kind {
         id: "progress-log",
         title: "Reported progress over time, both logarithmic",
-        says: "The same: errors that fall as one over the root of time lie on a straight line.",
+        says: "The same, as in graph 5 of the study: errors that fall as one over the root of time lie on a straight line.",
         x: TIME,
         y: ("told error, or light not yet shot, %", Scale::Decades),
         of: Of::Time(progress),
@@ -184,8 +184,7 @@ pub(super) const KINDS: [Kind; 15] = [
     },
 ];
 
-const OWN: &str = "How far a system’s picture is from its last one, as the study has it: each converges to itself, right or wrong. The last picture is at \
-                   zero.";
+const OWN: &str = "How far a system’s picture is from its last one, as the study has it: each converges to itself, right or wrong.";
 const COMMON: &str = "How far a system’s picture is from the reference, which is the same for all.";
 
 /// A graph of the convergence of pictures.

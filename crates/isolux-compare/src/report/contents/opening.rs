@@ -1,9 +1,9 @@
 //! What was compared, on what, and what became of the conclusions of the study.
 
-use super::systems;
-use crate::report::document::{Block, Section, Table, words};
-use crate::report::quantity::{UNKNOWN, count, list, seconds, things};
-use crate::study::{Answer, CaseStudy, Study, conclusions};
+use super::{names, systems};
+use crate::report::document::{Block, Section, Table, numbers, words};
+use crate::report::quantity::{UNKNOWN, asked, count, list, things};
+use crate::study::{Answer, CaseStudy, Conclusion, Study, conclusions};
 
 /// The title of the report.
 pub(super) const TITLE: &str = "Illumination maps compared: the study of GraphiCon’98 made anew";
@@ -11,12 +11,12 @@ pub(super) const TITLE: &str = "Illumination maps compared: the study of GraphiC
 /// The report in a paragraph.
 pub(super) fn lead(study: &Study) -> String {
     let systems = things(systems::of(study).len(), "system", "systems");
-    let scenes: Vec<String> = study.cases.iter().map(super::case::name).collect();
+    let scenes: Vec<String> = study.cases.iter().map(names::name).collect();
     let when = match times_s(study) {
         Some([first, last]) if first < last => {
-            format!("in times that double from {} to {}", seconds(first), seconds(last))
+            format!("in times that double from {} to {}", asked(first), asked(last))
         }
-        Some([_, last]) => format!("in {} each", seconds(last)),
+        Some([_, last]) => format!("in {} each", asked(last)),
         None => "but no map was finished".to_owned(),
     };
     format!(
@@ -30,24 +30,19 @@ pub(super) fn lead(study: &Study) -> String {
 /// The least and the greatest time asked for, s.
 fn times_s(study: &Study) -> Option<[f64; 2]> {
     let series = study.cases.iter().flat_map(|case| &case.series);
-    let mut asked = series.flat_map(|series| &series.points).map(|point| point.asked_s);
-    let first = asked.next()?;
-    Some(asked.fold([first; 2], |[least, most], t| [least.min(t), most.max(t)]))
+    let mut times_s = series.flat_map(|series| &series.points).map(|point| point.asked_s);
+    let first = times_s.next()?;
+    Some(times_s.fold([first; 2], |[least, most], t| [least.min(t), most.max(t)]))
 }
 
 /// The conclusions of the study, tested again.
 pub(super) fn tested_again(study: &Study) -> Section {
-    let row = |(number, of): (usize, crate::study::Conclusion)| {
-        vec![
-            (number + 1).to_string(),
-            of.statement.to_owned(),
-            answer(of.answer).to_owned(),
-            of.figures,
-        ]
+    let row = |(number, of): (usize, Conclusion)| {
+        vec![format!("{}. {}", number + 1, of.statement), answer(of.answer).to_owned(), of.figures]
     };
     let table = Table::plain(
         "What the study concludes, and whether it holds of these systems",
-        vec![words("No."), words("Conclusion of the study"), words("Holds here"), words("Figures")],
+        ["Conclusion of the study", "Holds here", "Figures"].map(words).to_vec(),
         conclusions(study).into_iter().enumerate().map(row).collect(),
     );
     Section {
@@ -86,7 +81,7 @@ fn facts(study: &Study) -> Table {
         ("Operating system", machine.system.clone()),
         ("Threads of every system", count(settings.threads as u64)),
         ("Seed of all random numbers", settings.seed.to_string()),
-        ("Longest time of a map", seconds(settings.limit_s)),
+        ("Longest time of a map", asked(settings.limit_s)),
         ("Pictures", format!("{width} × {height} pixels")),
     ];
     let row = |(name, value): (&str, String)| {
@@ -96,10 +91,9 @@ fn facts(study: &Study) -> Table {
 }
 
 fn scenes(cases: &[CaseStudy]) -> Table {
-    use crate::report::document::numbers;
     let row = |case: &CaseStudy| {
         vec![
-            super::case::name(case),
+            names::name(case),
             count(u64::from(case.triangles)),
             count(case.luminaires as u64),
             case.scene_hash.clone(),

@@ -86,7 +86,7 @@ impl Frame {
             draw_rule(&self.ends(graph, rule).map(at), sheet)?;
         }
         for line in &self.lines {
-            draw_line(graph, line, &at, sheet)?;
+            draw_line(graph, line, (&at, self.y.from), sheet)?;
         }
         self.draw_legend(&lower)
     }
@@ -157,15 +157,18 @@ fn name_axes(graph: &Graph, [left, right]: [(i32, i32); 2], sheet: &Sheet) -> Re
 fn draw_line(
     graph: &Graph,
     line: &Line,
-    at: &impl Fn((f64, f64)) -> (i32, i32),
+    (at, bottom): (&impl Fn((f64, f64)) -> (i32, i32), f64),
     sheet: &Sheet,
 ) -> Result<(), Failed> {
     let place = |dot: &Dot| graph.place(dot.x, dot.y).map(at);
     let places: Vec<(i32, i32)> = line.points.iter().filter_map(place).collect();
     stroke_line(&places, line.look, sheet)?;
     for dot in &line.points {
-        let ends = dot.interval.map(|ends| ends.map(|y| graph.place(dot.x, y).map(at)));
-        if let Some([Some(low), Some(high)]) = ends {
+        // An interval from zero begins below the axis.
+        let end = |y: f64| {
+            Some(at((graph.x.scale.place(dot.x)?, graph.y.scale.place(y).unwrap_or(bottom))))
+        };
+        if let Some([Some(low), Some(high)]) = dot.interval.map(|ends| ends.map(end)) {
             draw_interval(low, high, line.look, sheet)?;
         }
     }

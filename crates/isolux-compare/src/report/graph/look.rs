@@ -53,7 +53,7 @@ pub(super) fn of(number: usize) -> &'static Look {
 }
 
 /// Rules of CSS for graphs: their colours by day and in the dark.
-pub(in crate::report) fn css() -> String {
+pub(crate) fn css() -> String {
     let colours = |k: usize| -> String {
         let one = |(number, look): (usize, &Look)| format!("--line-{number}:{};", look.colour[k]);
         LOOKS.iter().enumerate().map(one).collect()

@@ -2,28 +2,28 @@
 
 /// Lines over two axes.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::report) struct Graph {
+pub(crate) struct Graph {
     /// Name of its file without extension, and of its parts.
-    pub(in crate::report) id: String,
-    pub(in crate::report) title: String,
+    pub(crate) id: String,
+    pub(crate) title: String,
     /// What it shows, for those who do not see it and for captions.
-    pub(in crate::report) description: String,
-    pub(in crate::report) x: Axis,
-    pub(in crate::report) y: Axis,
-    pub(in crate::report) lines: Vec<Line>,
-    pub(in crate::report) rules: Vec<Rule>,
+    pub(crate) description: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) lines: Vec<Line>,
+    pub(crate) rules: Vec<Rule>,
 }
 
 /// An axis.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::report) struct Axis {
-    pub(in crate::report) title: String,
-    pub(in crate::report) scale: Scale,
+pub(crate) struct Axis {
+    pub(crate) title: String,
+    pub(crate) scale: Scale,
 }
 
 /// How values are laid out along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::report) enum Scale {
+pub(crate) enum Scale {
     /// Equal distances for equal differences, from zero.
     Linear,
     /// Equal distances for doubling: ticks are powers of two.
@@ -34,25 +34,25 @@ pub(in crate::report) enum Scale {
 
 /// The points of one system.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::report) struct Line {
-    pub(in crate::report) title: String,
+pub(crate) struct Line {
+    pub(crate) title: String,
     /// Which of the looks it has: the same in all graphs of a report.
-    pub(in crate::report) look: usize,
-    pub(in crate::report) points: Vec<Dot>,
+    pub(crate) look: usize,
+    pub(crate) points: Vec<Dot>,
 }
 
 /// A point of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::report) struct Dot {
-    pub(in crate::report) x: f64,
-    pub(in crate::report) y: f64,
+pub(crate) struct Dot {
+    pub(crate) x: f64,
+    pub(crate) y: f64,
     /// Where the value lies, from and to, along y.
-    pub(in crate::report) interval: Option<[f64; 2]>,
+    pub(crate) interval: Option<[f64; 2]>,
 }
 
 /// A line that is no data.
 #[derive(Clone, Debug, PartialEq)]
-pub(in crate::report) enum Rule {
+pub(crate) enum Rule {
     /// A value of y.
     Level(f64, String),
     /// Where y is x.
@@ -97,13 +97,13 @@ impl Graph {
     }
 
     /// How many points have no place on it, as zero has none on a logarithmic axis.
-    pub(in crate::report) fn left_out(&self) -> usize {
+    pub(crate) fn left_out(&self) -> usize {
         let all: usize = self.lines.iter().map(|line| line.points.len()).sum();
         all - self.drawn().iter().map(|line| line.points.len()).sum::<usize>()
     }
 
     /// Whether there is anything to draw.
-    pub(in crate::report) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.drawn().is_empty()
     }
 }

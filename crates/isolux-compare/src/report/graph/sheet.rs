@@ -5,7 +5,7 @@ pub(super) const UNITS: i32 = 10;
 /// Width of the sheet.
 pub(super) const WIDTH: i32 = 4400;
 /// Height of the axes and what lies between them, without legend.
-pub(super) const HEIGHT: i32 = 2900;
+pub(super) const HEIGHT: i32 = 2960;
 /// Free at all sides.
 pub(super) const MARGIN: i32 = 60;
 
@@ -19,9 +19,9 @@ pub(super) const LIBRARY_FONT: f64 = 1.24;
 /// Above the axes, where the title of y stands.
 pub(super) const TOP: i32 = 260;
 /// Beneath the axis of x: marks and its title.
-pub(super) const BOTTOM: i32 = 420;
+pub(super) const BOTTOM: i32 = 480;
 /// From the axis to the title of x.
-pub(super) const TO_TITLE: i32 = 240;
+pub(super) const TO_TITLE: i32 = 285;
 /// From marks to their labels, and what sticks out.
 pub(super) const MARK: i32 = 50;
 

@@ -10,17 +10,17 @@ use crate::report::markup::escape;
 const SHARED: &str = include_str!("graph.css");
 
 /// The element of a page; `None` of a graph without points.
-pub(in crate::report) fn element(graph: &Graph) -> Option<String> {
+pub(crate) fn element(graph: &Graph) -> Option<String> {
     written(graph, "")
 }
 
 /// A file of its own, which needs no page; `None` of a graph without points.
-pub(in crate::report) fn file(graph: &Graph) -> Option<String> {
+pub(crate) fn file(graph: &Graph) -> Option<String> {
     written(graph, &format!("<style>{}</style>\n", css()))
 }
 
 /// Rules of CSS for pages that hold drawings.
-pub(in crate::report) fn css() -> String {
+pub(crate) fn css() -> String {
     format!("{SHARED}{}", look::css())
 }
 

@@ -102,22 +102,26 @@ fn widened(scale: Scale, low: f64, high: f64) -> (f64, f64) {
 fn marks(scale: Scale, from: f64, to: f64) -> Vec<f64> {
     match scale {
         Scale::Linear => evenly(from, to),
-        Scale::Doubling => doubling(from, to),
+        Scale::Doubling => whole(from, to),
         Scale::Decades => {
             let choices = WITHIN.map(|within| decades(within, from, to));
-            let fits = |marks: &&Vec<f64>| (FEWEST..=MOST).contains(&marks.len());
-            choices.iter().find(fits).or_else(|| fallback(&choices)).cloned().unwrap_or_default()
+            let fits = |marks: &Vec<f64>| (FEWEST..=MOST).contains(&marks.len());
+            choices.into_iter().find(fits).unwrap_or_else(|| other(from, to))
         }
     }
 }
 
-/// The marks of a span that none of the choices fits: the most that are not too many, else the fewest.
-fn fallback(choices: &[Vec<f64>]) -> Option<&Vec<f64>> {
-    choices.iter().rfind(|marks| marks.len() <= MOST).or(choices.first())
+/// The marks of a span that none of those fits: even steps where it is a part of a decade, else every so many decades.
+fn other(from: f64, to: f64) -> Vec<f64> {
+    if to - from > 1.0 {
+        return whole(from, to);
+    }
+    let values = evenly(libm::exp10(from), libm::exp10(to));
+    values.into_iter().map(libm::log10).collect()
 }
 
-/// Powers of two, every so many that they can be read.
-fn doubling(from: f64, to: f64) -> Vec<f64> {
+/// Whole powers, every so many that they can be read.
+fn whole(from: f64, to: f64) -> Vec<f64> {
     let (first, last) = (from.ceil() as i64, to.floor() as i64);
     let step = ((last - first) as f64 / MOST as f64).floor() as usize + 1;
     (first..=last).step_by(step).map(|k| k as f64).collect()
@@ -155,6 +159,8 @@ mod tests {
         assert_eq!(labels(Scale::Doubling, [0.5, 8.0]), ["0.5", "1", "2", "4", "8"]);
         assert_eq!(labels(Scale::Decades, [0.01, 10.0]), ["0.01", "0.1", "1", "10"]);
         assert_eq!(labels(Scale::Decades, [0.9, 12.0]), ["1", "2", "5", "10"]);
+        assert_eq!(labels(Scale::Decades, [0.85, 1.2]), ["0.8", "0.9", "1", "1.1", "1.2", "1.3"]);
+        assert_eq!(labels(Scale::Decades, [1e-9, 1e9])[..2], ["1×10⁻⁹", "1×10⁻⁶"]);
         assert_eq!(labels(Scale::Linear, [1.0, 100.0]), ["0", "20", "40", "60", "80", "100"]);
         for span in [0.5, 1.0, 3.0, 7.0, 20.0] {
             for scale in [Scale::Linear, Scale::Doubling, Scale::Decades] {
