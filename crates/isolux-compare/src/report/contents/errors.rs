@@ -101,7 +101,12 @@ pub(super) fn last_maps(case: &CaseStudy) -> Vec<Block> {
     };
     let row = if is_exact { last_exact } else { last_practical };
     let rows = case.series.iter().filter_map(row).collect();
-    let mut table = Table::plain("The last map of every system", columns, rows);
+    let caption = if is_exact {
+        "The last map of every system"
+    } else {
+        "The last map of every system; L2 and ΔE are distances of its picture from the reference"
+    };
+    let mut table = Table::plain(caption, columns, rows);
     if case.name == "sphere" {
         // The study has no such time of it.
         table.drop_last();
