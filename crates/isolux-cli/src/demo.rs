@@ -72,7 +72,7 @@ impl Files {
 }
 
 /// The scene in the current folder, or in one above the program (as in `target/release`).
-fn find_scene() -> Result<PathBuf, Failure> {
+pub(crate) fn find_scene() -> Result<PathBuf, Failure> {
     let program = std::env::current_exe().unwrap_or_default();
     let above = program.ancestors().skip(1).map(|folder| folder.join(SCENE));
     let candidates = std::iter::once(PathBuf::from(SCENE)).chain(above);

@@ -50,6 +50,8 @@ pub(crate) enum Command {
     Lint(LintFlags),
     /// Run the cases with exact answers
     Validate(ValidateFlags),
+    /// Compare the methods by error against time, as the study of 1998 did, in one report
+    Compare(CompareFlags),
     /// Write a scene as files to open and edit
     Scene(SceneFlags),
     /// Solve a real interior and draw it, from nothing
@@ -604,4 +606,37 @@ pub(crate) struct DemoFlags {
     /// Stop when the whole error of the scene is this small: 1% or 0.01
     #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "5%")]
     pub accuracy: f64,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux compare all -o study
+  isolux compare cube sphere -o study --quick
+  isolux compare room.toml -o study --systems hybrid,forward --limit 1min
+
+Every system makes a map at times that double up to the limit: CUBE and SPHERE, whose right values are known, from an eighth of a second on, \
+others from a second on. Maps and pictures are kept in the folder, and a comparison that was interrupted goes on where it stopped. \
+report.html holds graphs, tables and pictures in one file; report.md, study.csv and study.json hold the same.")]
+pub(crate) struct CompareFlags {
+    /// cube, sphere, hall, demo, all four of them, or a scene
+    #[arg(value_name = "CASE", required = true)]
+    pub cases: Vec<PathBuf>,
+    /// Folder to keep everything in
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// The longest time of a map [default: 16 s]
+    #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true, conflicts_with = "quick")]
+    pub limit: Option<Duration>,
+    /// Within two minutes: no map takes more than a second
+    #[arg(long)]
+    pub quick: bool,
+    /// Some of hybrid, forward, forward-unfiltered, radiosity, radiosity-without-ambient, radiosity-diffuse, cache [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub systems: Vec<String>,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", value_parser = quantity::seed, default_value = "1", allow_hyphen_values = true)]
+    pub seed: u64,
+    /// Threads of every system [default: all there are]
+    #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
+    pub threads: Option<u16>,
 }

@@ -7,6 +7,7 @@ mod cache_samples;
 mod cached_view;
 mod check;
 mod clock;
+mod compare;
 mod console;
 mod demo;
 mod dimming;
@@ -71,6 +72,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
     let threads = match &flags.command {
         Command::Solve(flags) => flags.threads,
         Command::Export(flags) => flags.threads,
+        Command::Compare(flags) => flags.threads,
         _ => None,
     };
     request::use_threads(threads)?;
@@ -85,6 +87,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Lint(flags) => lint::run(flags, json),
         Command::Render(flags) => render::run(flags, json),
         Command::Validate(flags) => validate::run(flags, json),
+        Command::Compare(flags) => compare::run(flags, json),
         Command::Scene(flags) => scene::run(flags, json),
         Command::Demo(flags) => demo::run(flags, json),
         Command::Mix(flags) => mix::run(flags, json),
