@@ -1,7 +1,7 @@
 //! The rays: incoherent, from surfaces, as light travels.
 
 use crate::random::Random;
-use isolux_geometry::{Bvh, Direction, Normal, Point, Ray, Vector};
+use isolux_geometry::{Bvh, Direction, End, Normal, Point, Ray, Vector};
 
 /// Points of the surfaces of a mesh, uniform over their area.
 pub(crate) struct Surfaces<'a> {
@@ -79,10 +79,12 @@ impl<'a> Surfaces<'a> {
         let ray = |_| loop {
             let Place { point, normal, .. } = self.place(random);
             let target = self.edge_point(random);
-            let origin = self.bvh.offset_origin(point, normal).to_f32();
+            let mesh = self.bvh.mesh();
+            let origin = mesh.local_from_world(self.bvh.offset_origin(point, normal));
             let direction = [0, 1, 2].map(|axis| target[axis] - origin[axis]);
             if direction.iter().any(|x| x.abs() > 1e-3) {
-                break Ray { origin, direction, t_max: f32::INFINITY, skip: None };
+                let (origin, end) = (mesh.world_from_local(origin), End::At(f32::INFINITY));
+                break Ray { origin, direction, end, skip: None };
             }
         };
         (0..count).map(ray).collect()

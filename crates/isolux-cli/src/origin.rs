@@ -1,10 +1,10 @@
 //! How far a scene lies from its origin, and whether single precision tells its surfaces apart there.
 //!
-//! Rays are traced in single precision, whose numbers lie the farther apart the larger they are. A room of
-//! 4 x 3 x 5 m reads as at the origin up to 9 km from it. At 10 km, where a coordinate is known to 1 mm, a
-//! place 0.3 m above its lamp reads a seventh too dark; at 20 km, with 2 mm, places on walls are not found any
-//! more and that one reads a quarter too dark; at 100 km, with 8 mm, the floor is wrong by 4 % and more; at
-//! 4000 km it is dark. The error that is reported is that of light among surfaces so displaced: it tells nothing.
+//! Most files keep coordinates in single precision, whose numbers lie the farther apart the larger they are: at
+//! 10 km they are known to 1 mm, at 100 km to 8 mm. The error that is reported is that of light among surfaces so
+//! displaced: it tells nothing of that. The ray kernel counts coordinates from an origin near the scene and adds
+//! nothing. The limits are those of a room of 4 x 3 x 5 m, traced in coordinates of the world: it reads right up to
+//! 9 km from the origin, and wrong by a seventh at 10 km.
 
 use crate::quantity::significant;
 use isolux::scene::Scene;

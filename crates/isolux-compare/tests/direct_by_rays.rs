@@ -76,7 +76,7 @@ fn by_way_of(scene: &Scene, luminaire: &Luminaire, way: &[&Mirror], at: ProbePoi
     let (mut from, mut normal, mut share) = (at.position, at.normal, Rgb::WHITE);
     for mirror in way.iter().rev() {
         let start = scene.bvh().offset_origin(from, normal);
-        let ray = Ray { t_max: f32::INFINITY, ..Ray::between(start, target) };
+        let ray = Ray::between(start, target).up_to(f32::INFINITY);
         let Some(hit) = scene.bvh().closest_hit(&ray) else { return Rgb::BLACK };
         if scene.shape_of(hit.triangle) != mirror.shape || hit.back {
             return Rgb::BLACK;

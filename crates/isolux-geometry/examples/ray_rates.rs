@@ -77,9 +77,8 @@ fn reflected(bvh: &Bvh, ray: &Ray, hit: isolux_geometry::Hit, random: &mut Rando
 
 /// From every start of the walk to that of a ray a while later: two thirds of them are blocked.
 fn segments(walk: &[Ray]) -> Vec<Ray> {
-    let point = |ray: &Ray| isolux_geometry::Point::from(ray.origin);
     let later = walk.iter().cycle().skip(walk.len() / 3);
-    walk.iter().zip(later).map(|(from, to)| Ray::between(point(from), point(to))).collect()
+    walk.iter().zip(later).map(|(from, to)| Ray::between(from.origin, to.origin)).collect()
 }
 
 /// Millions a second in the best round, and the share of rays that hit.

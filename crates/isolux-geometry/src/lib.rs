@@ -1,7 +1,7 @@
 //! What a ray hits: points, vectors, transforms, triangles, rays and the bounding volume hierarchy.
 //!
-//! Lengths are metres. Positions of triangles are `f32` (what the ray kernel reads), everything
-//! computed from them is `f64`.
+//! Lengths are metres. Positions of triangles are `f32` (what the ray kernel reads), counted from an
+//! origin of their mesh; everything computed from them is `f64`.
 
 pub mod bvh;
 mod ray;
@@ -11,7 +11,7 @@ mod vector;
 mod vectors;
 
 pub use bvh::Bvh;
-pub use ray::{Hit, Ray};
+pub use ray::{End, Hit, Ray};
 pub use transform::Transform;
 pub use triangle::{Triangle, TriangleMesh};
 pub use vector::{Direction, Normal, Point, Vector};

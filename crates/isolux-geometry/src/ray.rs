@@ -5,42 +5,58 @@ use crate::{Direction, Point, Vector};
 /// A query of the ray kernel: what lies at `origin + t direction` for `0 < t < t_max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Start, metres.
-    pub origin: [f32; 3],
+    /// Start, metres; the kernel rounds it to `f32` in coordinates of its own.
+    pub origin: Point,
     /// Need not have length one; `t` counts in its length.
     pub direction: [f32; 3],
-    /// Open end of the interval searched.
-    pub t_max: f32,
+    /// Where the interval searched ends.
+    pub end: End,
     /// A triangle that this ray never meets: the one it starts on.
     pub skip: Option<u32>,
+}
+
+/// The open end of the interval that a ray searches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// The interval ends at this `t`.
+    At(f32),
+    /// The interval ends before `t = 1` by a bound of the rounding errors there: see [`Ray::between`].
+    Target,
 }
 
 impl Ray {
     /// A ray without end.
     pub fn new(origin: Point, direction: Direction) -> Self {
-        Self {
-            origin: origin.to_f32(),
-            direction: direction.to_f32(),
-            t_max: f32::INFINITY,
-            skip: None,
-        }
+        Self { origin, direction: direction.to_f32(), end: End::At(f32::INFINITY), skip: None }
     }
 
     /// The segment between two points: `t` runs from 0 at `from` to 1 at `to`. The end is left out
-    /// by a bound of the rounding errors of coordinates of that size, so that what lies there is
-    /// not met; for the start see
+    /// by a bound of the rounding errors of coordinates of that size in the kernel, so that what lies there
+    /// is not met; for the start see
     /// [`Bvh::offset_origin`](crate::Bvh::offset_origin) and [`Ray::skipping`]. Points closer together
     /// than that bound have nothing between them.
     pub fn between(from: Point, to: Point) -> Self {
-        let d: Vector = to - from;
-        let size = largest(from.to_vector()).max(largest(to.to_vector()));
-        let rounding = 8.0 * f64::from(f32::EPSILON) * (1.0 + size / largest(d));
-        Self {
-            origin: from.to_f32(),
-            direction: [d.x as f32, d.y as f32, d.z as f32],
-            t_max: (1.0 - rounding) as f32,
-            skip: None,
+        Self { origin: from, direction: (to - from).to_f32(), end: End::Target, skip: None }
+    }
+
+    /// Where the interval searched ends by a kernel whose coordinates count from `kernel_origin`.
+    #[inline]
+    pub fn t_max(&self, kernel_origin: Point) -> f32 {
+        match self.end {
+            End::At(t_max) => t_max,
+            End::Target => {
+                let from = self.origin - kernel_origin;
+                let d = Vector::from(self.direction);
+                let size = largest(from).max(largest(from + d));
+                let rounding = 8.0 * f64::from(f32::EPSILON) * (1.0 + size / largest(d));
+                (1.0 - rounding) as f32
+            }
         }
+    }
+
+    /// The same ray, which searches up to `t_max`.
+    pub fn up_to(self, t_max: f32) -> Self {
+        Self { end: End::At(t_max), ..self }
     }
 
     /// The same ray, blind to triangle `index`.
@@ -88,7 +104,9 @@ mod tests {
 
     fn kernel(triangle: &Triangle) -> Bvh {
         let positions = triangle.corners.map(Point::to_f32).to_vec();
-        Bvh::build(TriangleMesh { positions, triangles: vec![[0, 1, 2]] }, |_| false)
+        let mesh =
+            TriangleMesh { positions, triangles: vec![[0, 1, 2]], ..TriangleMesh::default() };
+        Bvh::build(mesh, |_| false)
     }
 
     proptest! {
@@ -161,8 +179,8 @@ mod tests {
     fn a_segment_between_equal_points_holds_nothing() {
         let p = Point::new(1.0, 2.0, 3.0);
         let ray = Ray::between(p, p);
-        assert!(ray.t_max.is_nan() || ray.t_max <= 0.0);
-        assert!(Ray::between(p, p + Direction::X * 1e-9).t_max <= 0.0);
-        assert!(Ray::between(Point::ORIGIN, Point::ORIGIN).t_max.is_nan());
+        assert!(ray.t_max(Point::ORIGIN) <= 0.0);
+        assert!(ray.t_max(p).is_nan());
+        assert!(Ray::between(p, p + Direction::X * 1e-9).t_max(Point::ORIGIN) <= 0.0);
     }
 }

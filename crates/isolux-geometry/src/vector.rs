@@ -152,6 +152,11 @@ impl Vector {
         self.direction().map(Direction::to_normal)
     }
 
+    /// Components as the ray kernel stores them.
+    pub const fn to_f32(self) -> [f32; 3] {
+        [self.x as f32, self.y as f32, self.z as f32]
+    }
+
     /// Component by index 0, 1, 2.
     pub const fn component(self, axis: usize) -> f64 {
         match axis {

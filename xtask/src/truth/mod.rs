@@ -29,7 +29,6 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
         "machine": machine(),
         "isolux": isolux.version()?,
         "accuracy": flags.accuracy,
-        "time_limit_s": flags.time_limit_s,
         "rows": [],
     });
     let kept =
@@ -84,6 +83,7 @@ fn of_scene(
             row["leaves_caustics"] = json!(scene.leaves_caustics);
             row["method"] = json!(method);
             row["seed"] = json!(seed);
+            row["time_limit_s"] = json!(flags.time_limit_s);
             row["revision"] = json!(peers::revision(root));
             eprintln!("  {}", table::line(&row));
             rows.push(row);

@@ -3,7 +3,7 @@
 use super::abi::{self, Handle, RtcHit, RtcRay, RtcRayHit};
 use super::device::Embree;
 use crate::kernel::{Kernel, Meeting};
-use isolux_geometry::{Ray, TriangleMesh};
+use isolux_geometry::{Point, Ray, TriangleMesh};
 use std::ffi::c_int;
 use std::ptr::null_mut;
 
@@ -11,6 +11,8 @@ use std::ptr::null_mut;
 pub(crate) struct EmbreeScene<'a> {
     embree: &'a Embree,
     scene: Handle,
+    /// Embree reads coordinates as our kernel does: counted from here.
+    origin: Point,
 }
 
 // SAFETY: the scene is committed before it is shared and never changed, and Embree allows queries
@@ -35,7 +37,7 @@ impl<'a> EmbreeScene<'a> {
             (f.release_geometry)(geometry);
             (f.commit_scene)(scene);
             match (f.device_error)(embree.device) {
-                0 => Ok(Self { embree, scene }),
+                0 => Ok(Self { embree, scene, origin: mesh.origin }),
                 code => Err(format!("Embree could not build the scene: error {code}")),
             }
         }
@@ -65,13 +67,13 @@ unsafe fn fill<T: Copy>(
     }
 }
 
-fn to_rtc(ray: &Ray) -> RtcRay {
+fn to_rtc(ray: &Ray, origin: Point) -> RtcRay {
     RtcRay {
-        origin: ray.origin,
+        origin: (ray.origin - origin).to_f32(),
         t_near: 0.0,
         direction: ray.direction,
         time: 0.0,
-        t_far: ray.t_max,
+        t_far: ray.t_max(origin),
         mask: u32::MAX,
         id: 0,
         flags: 0,
@@ -90,7 +92,7 @@ const NO_HIT: RtcHit = RtcHit {
 impl Kernel for EmbreeScene<'_> {
     #[inline]
     fn closest(&self, ray: &Ray) -> Option<Meeting> {
-        let mut query = RtcRayHit { ray: to_rtc(ray), hit: NO_HIT };
+        let mut query = RtcRayHit { ray: to_rtc(ray, self.origin), hit: NO_HIT };
         // SAFETY: the scene is committed, the query is as large and aligned as Embree asks, and
         // null stands for the default arguments.
         unsafe { (self.embree.functions.intersect)(self.scene, &raw mut query, null_mut()) };
@@ -101,7 +103,7 @@ impl Kernel for EmbreeScene<'_> {
 
     #[inline]
     fn any(&self, ray: &Ray) -> bool {
-        let mut query = to_rtc(ray);
+        let mut query = to_rtc(ray, self.origin);
         // SAFETY: as for `closest`.
         unsafe { (self.embree.functions.occluded)(self.scene, &raw mut query, null_mut()) };
         query.t_far == f32::NEG_INFINITY

@@ -58,11 +58,14 @@ impl Contents<'_> {
             ("receivers", format!("{}, {} of them unknown", self.receivers, self.unknown)),
             ("cameras", list(&self.cameras)),
         ];
-        if let Some(Unshot { share, ambient_lx }) = from.unshot {
-            let lx = significant(ambient_lx.luminance(), 3);
+        if let Some(Unshot { share, ambient_lx, doubt_lx }) = from.unshot {
+            let [lx, doubt] = [ambient_lx.luminance(), doubt_lx].map(|lx| significant(lx, 3));
             all.push((
                 "light unshot",
-                format!("{}, {lx} lx of ambient light instead", show_share(share)),
+                format!(
+                    "{}, {lx} lx of ambient light instead (+- {doubt} at a place)",
+                    show_share(share)
+                ),
             ));
         }
         if !from.mixed.is_empty() {

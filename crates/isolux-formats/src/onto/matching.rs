@@ -94,16 +94,20 @@ impl Runs<'_> {
         scene_from_file: &Transform,
         tolerance_m: f64,
     ) -> Result<Triangles, Difference> {
+        let mesh = self.scene.bvh().mesh();
         let mut all = Vec::with_capacity(self.shapes.len());
         for (index, shape) in self.shapes.iter().enumerate() {
             let Range { start: mut next, end } = self.ranges[start + index].clone();
             let mut triangles = Vec::with_capacity(shape.triangles.len());
             for (number, &corners) in shape.triangles.iter().enumerate() {
                 let own = corners.map(|v| Point::from(shape.positions[v as usize]));
-                let placed = own.map(|p| scene_from_file.point(p).to_f32());
+                let placed = own.map(|p| mesh.local_from_world(scene_from_file.point(p)));
                 let is_there = next < end && {
                     let there = self.scene.triangle(next).corners;
-                    placed.iter().zip(there).all(|(&p, q)| is_near(p, q.to_f32(), tolerance_m))
+                    placed
+                        .iter()
+                        .zip(there)
+                        .all(|(&p, q)| is_near(p, mesh.local_from_world(q), tolerance_m))
                 };
                 if is_there {
                     triangles.push(Some(next));

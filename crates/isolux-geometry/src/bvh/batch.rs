@@ -2,10 +2,11 @@
 //! an instruction, others go on.
 #![allow(unsafe_code, reason = "vector instructions, reached only where the processor has them")]
 
+use super::local::Local;
 use super::traverse::{Constants, Lanes, Query, Stack, Walk};
 use super::triangle_test::Shear;
 use super::wide::WideTree;
-use crate::Ray;
+use crate::{Point, Ray};
 use std::iter::Enumerate;
 use std::slice::Iter;
 
@@ -19,7 +20,7 @@ const IN_FLIGHT: usize = 16;
 #[inline(always)]
 pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
     tree: &WideTree<W>,
-    rays: &[Ray],
+    (rays, kernel_origin): (&[Ray], Point),
     mut tell: impl FnMut(usize, Q::Answer),
 ) {
     let mut waiting = rays.iter().enumerate();
@@ -27,7 +28,7 @@ pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
     let mut walks = [const { None }; IN_FLIGHT];
     let mut in_flight = 0;
     for walk in &mut walks {
-        *walk = depart::<W, Q>(tree, &mut waiting, &mut tell);
+        *walk = depart::<W, Q>(tree, kernel_origin, &mut waiting, &mut tell);
         in_flight += usize::from(walk.is_some());
     }
     while in_flight > 0 {
@@ -41,7 +42,7 @@ pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
                 }
             }
             tell(*place, walk.answer());
-            *slot = depart(tree, &mut waiting, &mut tell);
+            *slot = depart(tree, kernel_origin, &mut waiting, &mut tell);
             in_flight -= usize::from(slot.is_none());
         }
     }
@@ -51,10 +52,12 @@ pub(super) unsafe fn trace_many<const W: usize, L: Lanes<W>, Q: Query>(
 #[inline(always)]
 fn depart<const W: usize, Q: Query>(
     tree: &WideTree<W>,
+    kernel_origin: Point,
     waiting: &mut Enumerate<Iter<'_, Ray>>,
     tell: &mut impl FnMut(usize, Q::Answer),
 ) -> Option<(usize, Constants, Walk<Q>)> {
     for (place, ray) in waiting {
+        let ray = &Local::of(ray, kernel_origin);
         match tree.root.zip(Shear::new(ray)) {
             Some((root, shear)) => {
                 return Some((

@@ -2,6 +2,7 @@
 //!
 //! Slow, and kept as the oracle: the hierarchy returns the same hits bit for bit.
 
+use super::local::Local;
 use super::triangle_test::{Meeting, Shear, comes_before, corners};
 use crate::{Hit, Ray, TriangleMesh};
 
@@ -29,7 +30,7 @@ pub fn hits(mesh: &TriangleMesh, ray: &Ray) -> impl Iterator<Item = Hit> {
 
 fn meetings(mesh: &TriangleMesh, ray: &Ray) -> impl Iterator<Item = (u32, Meeting)> {
     let skip = ray.skip;
-    Shear::new(ray).into_iter().flat_map(move |shear| {
+    Shear::new(&Local::of(ray, mesh.origin)).into_iter().flat_map(move |shear| {
         (0..mesh.len() as u32).filter(move |&triangle| Some(triangle) != skip).filter_map(
             move |triangle| {
                 let corners = corners(mesh, triangle)?;

@@ -4,7 +4,7 @@ use super::Bvh;
 use super::bounds::Bounds;
 use super::build::{self, BinaryNode, MAX_DEPTH, Preset, Primitive};
 use super::slabs::widened;
-use crate::{Hit, Point, Ray, Transform, Vector};
+use crate::{End, Hit, Point, Ray, Transform, Vector};
 
 /// A mesh at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,8 @@ impl std::error::Error for InstanceProblem {}
 /// Triangles are counted through: those of the first instance, then those of the second, and so on
 /// ([`InstancedBvh::locate`] tells where one belongs). A ray meets a triangle of an instance where
 /// [`InstancedBvh::ray_in`] meets that of the mesh, at the same `t`; for equal `t`, fronts count
-/// before backs and then the lower index. No ray passes between triangles of one instance that share
+/// before backs and then the lower index. Each mesh has an origin of its own; how far before its target a segment
+/// ([`Ray::between`]) ends is told by coordinates of the world. No ray passes between triangles of one instance that share
 /// an edge; between instances that touch, one may, as each rounds the ray in its own coordinates.
 #[derive(Clone, Debug)]
 pub struct InstancedBvh {
@@ -98,9 +99,9 @@ impl InstancedBvh {
                 return Err(InstanceProblem::TooManyTriangles);
             }
             if let Some(bounds) = &object_bounds[instance.object as usize] {
-                let placement = &instance.world_from_object;
-                primitives.push(Primitive::new(&image(bounds, placement), index as u32));
-                this.widen_for(placement, &placed.object_from_world, f64::from(bounds.reach()));
+                let placement = from_origin(&instance.world_from_object, object.mesh().origin);
+                primitives.push(Primitive::new(&image(bounds, &placement), index as u32));
+                this.widen_for(&placement, &placed.object_from_world, f64::from(bounds.reach()));
             }
             this.placed.push(placed);
         }
@@ -108,7 +109,8 @@ impl InstancedBvh {
         Ok(this)
     }
 
-    /// Rounding the origin and the direction to `f32` in the coordinates of the object moves the ray
+    /// `placement` takes coordinates that count from the origin of the mesh, `inverse` gives those of the object.
+    /// Rounding the origin and the direction to `f32` in the former moves the ray
     /// there by up to u (2 |o| + M), with o the origin and M the largest coordinate in them, u =
     /// 2^-24; what the kernel adds is 20 u (M + |o|). The world sees it enlarged by the norm of the
     /// map, and |o| is at most the norm of the inverse times the distance of origin and instance.
@@ -161,11 +163,11 @@ impl InstancedBvh {
         let Placed { object, object_from_world, first_triangle, .. } = &self.placed[instance];
         let count = self.objects[*object as usize].mesh().len() as u32;
         let local = |triangle: u32| triangle.checked_sub(*first_triangle).filter(|&k| k < count);
-        let direction = object_from_world.vector(Vector::from(ray.direction.map(f64::from)));
+        let direction = object_from_world.vector(Vector::from(ray.direction));
         Ray {
-            origin: object_from_world.point(Point::from(ray.origin)).to_f32(),
-            direction: [direction.x as f32, direction.y as f32, direction.z as f32],
-            t_max: ray.t_max,
+            origin: object_from_world.point(ray.origin),
+            direction: direction.to_f32(),
+            end: End::At(ray.t_max(Point::ORIGIN)),
             skip: ray.skip.and_then(local),
         }
     }
@@ -173,11 +175,12 @@ impl InstancedBvh {
     /// The first triangle that the ray meets, transparent or not.
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         let mut closest: Option<Hit> = None;
+        let end = ray.t_max(Point::ORIGIN);
         self.visit(ray, |instance| {
             // Ties are looked at, too.
-            let t_max = closest.map_or(ray.t_max, |hit| hit.t.next_up().min(ray.t_max));
+            let t_max = closest.map_or(end, |hit| hit.t.next_up().min(end));
             let placed = &self.placed[instance];
-            let local = self.ray_in(instance, &Ray { t_max, ..*ray });
+            let local = self.ray_in(instance, &ray.up_to(t_max));
             if let Some(hit) = self.objects[placed.object as usize].closest_hit(&local) {
                 let triangle = placed.first_triangle + hit.triangle;
                 let hit = Hit { triangle, back: hit.back != placed.mirrored, ..hit };
@@ -185,7 +188,7 @@ impl InstancedBvh {
                     closest = Some(hit);
                 }
             }
-            closest.map_or(ray.t_max, |hit| hit.t)
+            closest.map_or(end, |hit| hit.t)
         });
         closest
     }
@@ -193,10 +196,11 @@ impl InstancedBvh {
     /// Whether the ray meets any triangle that is not transparent.
     pub fn any_hit(&self, ray: &Ray) -> bool {
         let mut is_hit = false;
+        let end = ray.t_max(Point::ORIGIN);
         self.visit(ray, |instance| {
             let object = self.placed[instance].object as usize;
             is_hit = self.objects[object].any_hit(&self.ray_in(instance, ray));
-            if is_hit { f32::NEG_INFINITY } else { ray.t_max }
+            if is_hit { f32::NEG_INFINITY } else { end }
         });
         is_hit
     }
@@ -205,7 +209,7 @@ impl InstancedBvh {
     /// the nearest first.
     fn visit(&self, ray: &Ray, mut look: impl FnMut(usize) -> f32) {
         let Some(slabs) = WideSlabs::new(ray, self.margin) else { return };
-        let mut t_far = f64::from(ray.t_max);
+        let mut t_far = f64::from(ray.t_max(Point::ORIGIN));
         let mut stack = [(0, 0.0); MAX_DEPTH as usize + 2];
         let mut waiting = 0;
         if let Some(t) = self.nodes.first().and_then(|root| slabs.enter(&root.bounds)) {
@@ -263,9 +267,10 @@ struct WideSlabs {
 impl WideSlabs {
     /// `None` for rays that can meet nothing.
     fn new(ray: &Ray, [at_origin, per_metre]: [f64; 2]) -> Option<Self> {
-        let (origin, direction) = (ray.origin.map(f64::from), ray.direction.map(f64::from));
+        let (origin, direction) = (<[f64; 3]>::from(ray.origin), ray.direction.map(f64::from));
         let distance = origin.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-        let is_ray = origin.iter().chain(&direction).all(|x| x.is_finite()) && ray.t_max > 0.0;
+        let is_ray = origin.iter().chain(&direction).all(|x| x.is_finite())
+            && ray.t_max(Point::ORIGIN) > 0.0;
         is_ray.then(|| Self {
             origin,
             // Infinite along an axis that the ray does not move along.
@@ -295,7 +300,12 @@ impl WideSlabs {
     }
 }
 
-/// The box around what can be met of a mesh; `None` for nothing.
+/// The same map of coordinates that count from an origin.
+fn from_origin(map: &Transform, origin: Point) -> Transform {
+    Transform { translation: map.point(origin).to_vector(), ..*map }
+}
+
+/// The box around what can be met of a mesh, in its own coordinates; `None` for nothing.
 fn bounds(object: &Bvh) -> Option<Bounds> {
     let mesh = object.mesh();
     let triangles = (0..mesh.len() as u32).filter_map(|k| super::triangle_test::corners(mesh, k));

@@ -6,12 +6,13 @@ use super::batch::trace_many;
 use super::bounds::Bounds;
 use super::build::{BinaryNode, Preset};
 use super::collapse::collapse;
+use super::local::Local;
 use super::portable::Portable;
 use super::traverse::{Query, trace};
 use super::wide::{Labelled, TooLarge, WideTree};
 #[cfg(target_arch = "x86_64")]
 use super::{avx2::Avx2, avx512::Avx512};
-use crate::Ray;
+use crate::{Point, Ray};
 
 /// A set of instructions that the kernel has code for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -121,7 +122,7 @@ impl Kernel {
 
     /// The answer about one ray.
     #[inline]
-    pub(super) fn trace<Q: Query>(&self, ray: &Ray) -> Q::Answer {
+    pub(super) fn trace<Q: Query>(&self, ray: &Local) -> Q::Answer {
         match self {
             // SAFETY: no special instructions are needed.
             Self::Portable(tree) => unsafe { trace::<_, Portable, Q>(tree, ray) },
@@ -134,8 +135,12 @@ impl Kernel {
         }
     }
 
-    /// The answers about many rays, by their place, in any order.
-    pub(super) fn trace_many<Q: Query>(&self, rays: &[Ray], tell: impl FnMut(usize, Q::Answer)) {
+    /// The answers about many rays, by their place, in any order; with the rays comes the origin of the kernel.
+    pub(super) fn trace_many<Q: Query>(
+        &self,
+        rays: (&[Ray], Point),
+        tell: impl FnMut(usize, Q::Answer),
+    ) {
         match self {
             // SAFETY: no special instructions are needed.
             Self::Portable(tree) => unsafe { trace_many::<_, Portable, Q>(tree, rays, tell) },
@@ -151,7 +156,7 @@ impl Kernel {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-fn trace_with_avx2<Q: Query>(tree: &WideTree<8>, ray: &Ray) -> Q::Answer {
+fn trace_with_avx2<Q: Query>(tree: &WideTree<8>, ray: &Local) -> Q::Answer {
     // SAFETY: this function has the instructions.
     unsafe { trace::<_, Avx2, Q>(tree, ray) }
 }
@@ -160,7 +165,7 @@ fn trace_with_avx2<Q: Query>(tree: &WideTree<8>, ray: &Ray) -> Q::Answer {
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn trace_many_with_avx2<Q: Query>(
     tree: &WideTree<8>,
-    rays: &[Ray],
+    rays: (&[Ray], Point),
     tell: impl FnMut(usize, Q::Answer),
 ) {
     // SAFETY: this function has the instructions.
@@ -169,7 +174,7 @@ fn trace_many_with_avx2<Q: Query>(
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-fn trace_with_avx512<Q: Query>(tree: &WideTree<16>, ray: &Ray) -> Q::Answer {
+fn trace_with_avx512<Q: Query>(tree: &WideTree<16>, ray: &Local) -> Q::Answer {
     // SAFETY: this function has the instructions.
     unsafe { trace::<_, Avx512, Q>(tree, ray) }
 }
@@ -178,7 +183,7 @@ fn trace_with_avx512<Q: Query>(tree: &WideTree<16>, ray: &Ray) -> Q::Answer {
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
 fn trace_many_with_avx512<Q: Query>(
     tree: &WideTree<16>,
-    rays: &[Ray],
+    rays: (&[Ray], Point),
     tell: impl FnMut(usize, Q::Answer),
 ) {
     // SAFETY: this function has the instructions.

@@ -15,6 +15,7 @@ mod collapse;
 mod extent;
 mod instances;
 mod instructions;
+mod local;
 mod memory;
 mod portable;
 mod slabs;
@@ -22,13 +23,14 @@ mod traverse;
 mod triangle_test;
 mod wide;
 
-use crate::{Hit, Normal, Point, Ray, TriangleMesh};
+use crate::{Hit, Normal, Point, Ray, TriangleMesh, Vector};
 pub use build::Preset;
 pub use instances::{Instance, InstanceProblem, InstancedBvh};
 pub use instructions::InstructionSet;
 
 use build::Primitive;
 use instructions::Kernel;
+use local::Local;
 use rayon::prelude::*;
 use traverse::{Any, Closest, Query};
 use triangle_test::corners;
@@ -40,9 +42,12 @@ use wide::{Labelled, TRANSPARENT};
 /// the same `t`, a front counts before a back and then the lower index. Between triangles that
 /// share an edge (the same two positions, bit for bit) or a corner no ray passes.
 ///
-/// Rays that are not finite meet nothing, nor do those whose origin is more than 2^38 m away or
+/// The kernel works in coordinates that count from the origin of the mesh: wherever that lies, hits
+/// are the same bits as those of the same positions, and of rays moved alike, at the origin of the world.
+///
+/// Rays that are not finite meet nothing, nor do those whose origin is more than 2^38 m away from there or
 /// whose direction is shorter than 2^-38 or longer than 2^38. Triangles with a corner that is not
-/// finite or has a coordinate beyond 2^38 m are never met, nor are triangles without area.
+/// finite or has a coordinate beyond 2^38 m from there are never met, nor are triangles without area.
 #[derive(Clone, Debug)]
 pub struct Bvh {
     mesh: TriangleMesh,
@@ -122,22 +127,23 @@ impl Bvh {
     /// far beside a surface starts on its side of it, and the walk leaves it alone (after Pharr, Jakob,
     /// Humphreys, "Physically Based Rendering", 4th ed., 6.8.6).
     pub fn offset_m(&self, point: Point) -> f64 {
-        let margin = slabs::margin(&self.kernel.bounds(), point.to_f32());
+        let from_origin = point - self.mesh.origin;
+        let margin = slabs::margin(&self.kernel.bounds(), from_origin.to_f32());
         // Rounding the origin, and the boxes.
-        let more = 4.0 * f64::from(f32::EPSILON) * largest(point);
+        let more = 4.0 * f64::from(f32::EPSILON) * largest(from_origin);
         1.25 * f64::from(margin) + more
     }
 
     /// The first triangle that the ray meets, transparent or not.
     #[inline]
     pub fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        self.kernel.trace::<Closest>(ray)
+        self.kernel.trace::<Closest>(&self.local(ray))
     }
 
     /// Whether the ray meets any triangle that is not transparent.
     #[inline]
     pub fn any_hit(&self, ray: &Ray) -> bool {
-        self.kernel.trace::<Any>(ray)
+        self.kernel.trace::<Any>(&self.local(ray))
     }
 
     /// [`Bvh::closest_hit`] of many rays: faster than one by one in tiny scenes and in large ones.
@@ -156,19 +162,25 @@ impl Bvh {
         self.trace_all::<Any>(rays, are_hit);
     }
 
+    #[inline(always)]
+    fn local(&self, ray: &Ray) -> Local {
+        Local::of(ray, self.mesh.origin)
+    }
+
     fn trace_all<Q: Query>(&self, rays: &[Ray], answers: &mut [Q::Answer]) {
         assert_eq!(rays.len(), answers.len(), "a place for every answer");
         if self.in_flight {
-            self.kernel.trace_many::<Q>(rays, |place, answer| answers[place] = answer);
+            self.kernel
+                .trace_many::<Q>((rays, self.mesh.origin), |place, answer| answers[place] = answer);
         } else {
             for (ray, answer) in rays.iter().zip(answers) {
-                *answer = self.kernel.trace::<Q>(ray);
+                *answer = self.kernel.trace::<Q>(&self.local(ray));
             }
         }
     }
 }
 
-/// The largest coordinate without its sign.
-fn largest(p: Point) -> f64 {
-    p.x.abs().max(p.y.abs()).max(p.z.abs())
+/// The largest component without its sign.
+fn largest(v: Vector) -> f64 {
+    v.x.abs().max(v.y.abs()).max(v.z.abs())
 }

@@ -7,9 +7,9 @@
 //! |direction|. So planes moved by u (15 D + 3 |origin|), with the scene's D, hold every hit.
 
 use super::bounds::Bounds;
+use super::local::Local;
 use super::triangle_test::{LEAST, greater};
 use super::wide::Node;
-use crate::Ray;
 
 /// By how much planes are moved for rays from `origin`, metres.
 #[inline(always)]
@@ -49,8 +49,8 @@ impl Slabs {
     /// For rays that passed [`Shear::new`](super::triangle_test::Shear::new), in a scene of the
     /// given bounds.
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, scene: &Bounds) -> Self {
-        let Ray { origin, direction, .. } = *ray;
+    pub(super) fn new(ray: &Local, scene: &Bounds) -> Self {
+        let Local { origin, direction, .. } = *ray;
         let margin = margin(scene, origin);
         // With it there is no division by zero.
         let inverse = |axis: usize| {

@@ -6,10 +6,11 @@
 
 use super::bounds::Bounds;
 use super::build::MAX_DEPTH;
+use super::local::Local;
 use super::slabs::Slabs;
 use super::triangle_test::{Meeting, Shear, comes_before};
 use super::wide::{Leaf, MAX_WIDTH, Node, Reference, TRANSPARENT, WideTree};
-use crate::{Hit, Ray};
+use crate::Hit;
 use std::mem::MaybeUninit;
 
 /// The tests of `W` boxes and `W` triangles at once. Box tests only sift; triangle tests give the
@@ -109,7 +110,7 @@ pub(super) trait Query: Copy {
     /// About rays that can meet nothing.
     const NOTHING: Self::Answer;
 
-    fn new(ray: &Ray, shear: &Shear) -> Self;
+    fn new(ray: &Local, shear: &Shear) -> Self;
 
     /// Nothing beyond is of interest.
     fn t_far(&self) -> f32;
@@ -144,7 +145,7 @@ impl Query for Closest {
     const NOTHING: Option<Hit> = None;
 
     #[inline(always)]
-    fn new(ray: &Ray, shear: &Shear) -> Self {
+    fn new(ray: &Local, shear: &Shear) -> Self {
         let t_far = shear.t_last;
         Self { skip: skipped(ray), t_far, reach: t_far, closest: None }
     }
@@ -204,7 +205,7 @@ impl Query for Any {
     const NOTHING: bool = false;
 
     #[inline(always)]
-    fn new(ray: &Ray, shear: &Shear) -> Self {
+    fn new(ray: &Local, shear: &Shear) -> Self {
         let t_far = shear.t_last;
         Self { skip: skipped(ray), t_far, is_hit: false }
     }
@@ -242,7 +243,7 @@ impl Query for Any {
 
 /// The label of no triangle where none is skipped.
 #[inline(always)]
-fn skipped(ray: &Ray) -> u32 {
+fn skipped(ray: &Local) -> u32 {
     ray.skip.unwrap_or(u32::MAX)
 }
 
@@ -253,7 +254,7 @@ fn skipped(ray: &Ray) -> u32 {
 #[inline(always)]
 pub(super) unsafe fn trace<const W: usize, L: Lanes<W>, Q: Query>(
     tree: &WideTree<W>,
-    ray: &Ray,
+    ray: &Local,
 ) -> Q::Answer {
     let Some((root, shear)) = tree.root.zip(Shear::new(ray)) else { return Q::NOTHING };
     let mut stack = Stack::<W>::new();
@@ -272,7 +273,7 @@ pub(super) struct Constants {
 
 impl Constants {
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, shear: Shear, scene: &Bounds) -> Self {
+    pub(super) fn new(ray: &Local, shear: Shear, scene: &Bounds) -> Self {
         Self { shear, slabs: Slabs::new(ray, scene) }
     }
 }

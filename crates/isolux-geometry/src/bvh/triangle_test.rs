@@ -33,7 +33,8 @@
 //! less than a 256th. So a walk loses nothing if it leaves out boxes entered beyond the end, or that much
 //! farther behind the closest meeting ([`Shear::reach`]).
 
-use crate::{Hit, Ray, Vector};
+use super::local::Local;
+use crate::{Hit, Vector};
 
 /// Largest coordinate, metres, and largest (inverse: smallest) length of a direction the kernel
 /// takes, 2^38: up to here no intermediate result overflows. Rays beyond it meet nothing and
@@ -83,8 +84,8 @@ pub(super) struct Shear {
 impl Shear {
     /// `None` for rays that can meet nothing: not finite, without direction, without length.
     #[inline(always)]
-    pub(super) fn new(ray: &Ray) -> Option<Self> {
-        let Ray { origin, direction, t_max, .. } = *ray;
+    pub(super) fn new(ray: &Local) -> Option<Self> {
+        let Local { origin, direction, t_max, .. } = *ray;
         let [x, y, z] = [direction[0].abs(), direction[1].abs(), direction[2].abs()];
         let largest = greater(greater(x, y), z);
         // Written so that a NaN anywhere fails.

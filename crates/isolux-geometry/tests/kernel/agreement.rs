@@ -23,7 +23,7 @@ fn check(mesh: &TriangleMesh, rays: impl IntoIterator<Item = Ray>) -> usize {
             assert_eq!(bvh.any_hit(&ray), expected_any, "{ray:?}");
             assert_eq!(onward.and_then(|ray| bvh.closest_hit(&ray)), expected_onward, "{ray:?}");
             if let Some(hit) = expected {
-                let up_to_hit = Ray { t_max: hit.t, ..ray };
+                let up_to_hit = ray.up_to(hit.t);
                 assert_eq!(bvh.closest_hit(&up_to_hit), None, "{ray:?}");
                 assert!(!bvh.any_hit(&up_to_hit), "{ray:?}");
             }
@@ -93,7 +93,7 @@ fn grazing() {
             let axis = random.below(3);
             target[axis] = origin[axis];
         }
-        room::aimed(Ray { origin, ..ray }, target)
+        room::aimed(Ray { origin: origin.into(), ..ray }, target)
     };
     check(&mesh, random_rays(2000).into_iter().map(graze));
 }
@@ -105,7 +105,7 @@ fn from_outside() {
     let withdraw = |ray: Ray| {
         let distance = 10.0_f32.powi(1 + random.below(6) as i32);
         let origin = random.direction().map(|x| x * 20.0 * distance);
-        room::aimed(Ray { origin, ..ray }, room::edge_point(&mesh, &mut random))
+        room::aimed(Ray { origin: origin.into(), ..ray }, room::edge_point(&mesh, &mut random))
     };
     assert!(check(&mesh, random_rays(2000).into_iter().map(withdraw)) > 1000);
 }
@@ -134,7 +134,7 @@ fn small_and_large_scenes() {
         let mut random = Random(8);
         let rays: Vec<Ray> = random_rays(500)
             .into_iter()
-            .map(|ray| Ray { origin: ray.origin.map(|x| x * scale), ..ray })
+            .map(|ray| Ray { origin: ray.origin.to_f32().map(|x| x * scale).into(), ..ray })
             .map(|ray| room::aimed(ray, room::edge_point(&mesh, &mut random)))
             .collect();
         assert_eq!(check(&mesh, rays), 500, "scale {scale}");
@@ -150,7 +150,7 @@ fn far_from_the_origin() {
         let mut random = Random(9);
         let rays: Vec<Ray> = random_rays(500)
             .into_iter()
-            .map(|ray| Ray { origin: ray.origin.map(|x| x + distance), ..ray })
+            .map(|ray| Ray { origin: ray.origin.to_f32().map(|x| x + distance).into(), ..ray })
             .map(|ray| room::aimed(ray, room::edge_point(&mesh, &mut random)))
             .collect();
         check(&mesh, rays);
@@ -176,7 +176,7 @@ fn soup() {
         let rays: Vec<Ray> = (0..300)
             .map(|k| {
                 let origin = random.direction().map(|x| x * 2.0);
-                let ray = Ray { origin, ..room::random_ray(&mut random) };
+                let ray = Ray { origin: origin.into(), ..room::random_ray(&mut random) };
                 let target = room::edge_point(&mesh, &mut random);
                 if k % 3 == 0 { ray } else { room::aimed(ray, target) }
             })

@@ -2,15 +2,20 @@
 
 use crate::room::{self, Random};
 use isolux_geometry::bvh::brute_force;
-use isolux_geometry::{Bvh, Hit, Ray, TriangleMesh};
+use isolux_geometry::{Bvh, End, Hit, Point, Ray, TriangleMesh};
 
-const DOWN: Ray =
-    Ray { origin: [0.25, 0.25, 1.0], direction: [0.0, 0.0, -1.0], t_max: 10.0, skip: None };
+const DOWN: Ray = Ray {
+    origin: Point::new(0.25, 0.25, 1.0),
+    direction: [0.0, 0.0, -1.0],
+    end: End::At(10.0),
+    skip: None,
+};
 
 fn mesh(triangles: &[[[f32; 3]; 3]]) -> TriangleMesh {
     TriangleMesh {
         positions: triangles.concat(),
         triangles: (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
+        ..TriangleMesh::default()
     }
 }
 
@@ -33,7 +38,7 @@ fn check(name: &str, triangles: &[[[f32; 3]; 3]], expected: Option<Hit>) {
     }
     let mut random = Random(12);
     for _ in 0..200 {
-        let ray = Ray { origin: random.direction(), ..room::random_ray(&mut random) };
+        let ray = Ray { origin: random.direction().into(), ..room::random_ray(&mut random) };
         let closest = brute_force::closest_hit(&mesh, &ray);
         let any = brute_force::any_hit(&mesh, |_| false, &ray);
         for bvh in &kernels {
@@ -97,13 +102,13 @@ fn rays_that_meet_nothing() {
         Ray { direction: [0.0, 0.0, f32::NEG_INFINITY], ..DOWN },
         Ray { direction: [0.0, 0.0, -1e-30], ..DOWN },
         Ray { direction: [0.0, 0.0, -1e30], ..DOWN },
-        Ray { origin: [f32::NAN, 0.25, 1.0], ..DOWN },
-        Ray { origin: [0.25, f32::INFINITY, 1.0], ..DOWN },
-        Ray { origin: [0.25, 0.25, 1e30], t_max: f32::INFINITY, ..DOWN },
-        Ray { t_max: f32::NAN, ..DOWN },
-        Ray { t_max: 0.0, ..DOWN },
-        Ray { t_max: -1.0, ..DOWN },
-        Ray { t_max: f32::NEG_INFINITY, ..DOWN },
+        Ray { origin: Point::new(f64::NAN, 0.25, 1.0), ..DOWN },
+        Ray { origin: Point::new(0.25, f64::INFINITY, 1.0), ..DOWN },
+        Ray { origin: Point::new(0.25, 0.25, 1e30), ..DOWN.up_to(f32::INFINITY) },
+        DOWN.up_to(f32::NAN),
+        DOWN.up_to(0.0),
+        DOWN.up_to(-1.0),
+        DOWN.up_to(f32::NEG_INFINITY),
         DOWN.skipping(0),
     ];
     for ray in rays {
@@ -111,7 +116,7 @@ fn rays_that_meet_nothing() {
         assert_eq!(brute_force::closest_hit(&mesh, &ray), None, "{ray:?}");
         assert!(!bvh.any_hit(&ray), "{ray:?}");
     }
-    assert!(bvh.any_hit(&Ray { t_max: f32::INFINITY, ..DOWN }));
+    assert!(bvh.any_hit(&DOWN.up_to(f32::INFINITY)));
     assert!(bvh.any_hit(&DOWN.skipping(1)));
 }
 
@@ -120,7 +125,7 @@ fn transparent_triangles_stop_closest_hit_alone() {
     let bvh = Bvh::build(mesh(&[level(0.5), level(0.0), level(0.25)]), |triangle| triangle != 1);
     assert_eq!(bvh.closest_hit(&DOWN).map(|hit| hit.triangle), Some(0));
     assert!(bvh.any_hit(&DOWN));
-    assert!(!bvh.any_hit(&Ray { t_max: 0.9, ..DOWN }));
+    assert!(!bvh.any_hit(&DOWN.up_to(0.9)));
     assert!(!bvh.any_hit(&DOWN.skipping(1)));
 }
 

@@ -2,7 +2,7 @@
 
 use crate::room::{self, Random};
 use isolux_geometry::bvh::{Instance, InstanceProblem, InstancedBvh, brute_force};
-use isolux_geometry::{Bvh, Direction, Hit, Ray, Transform, TriangleMesh, Vector};
+use isolux_geometry::{Bvh, Direction, Hit, Point, Ray, Transform, TriangleMesh, Vector};
 
 fn objects() -> Vec<Bvh> {
     let is_transparent = |triangle: u32| triangle.is_multiple_of(3);
@@ -49,7 +49,17 @@ fn expected(bvh: &InstancedBvh, instances: &[Instance], ray: &Ray) -> (Option<Hi
 /// Compares, and says how many rays hit.
 #[track_caller]
 fn check(instances: &[Instance], rays: impl IntoIterator<Item = Ray>) -> usize {
-    let bvh = InstancedBvh::build(objects(), instances).expect("proper instances");
+    check_of(objects(), instances, rays)
+}
+
+/// The same of other objects.
+#[track_caller]
+fn check_of(
+    objects: Vec<Bvh>,
+    instances: &[Instance],
+    rays: impl IntoIterator<Item = Ray>,
+) -> usize {
+    let bvh = InstancedBvh::build(objects, instances).expect("proper instances");
     assert_eq!((bvh.len(), bvh.is_empty()), (instances.len(), instances.is_empty()));
     let mut hits = 0;
     for ray in rays {
@@ -69,11 +79,9 @@ fn check(instances: &[Instance], rays: impl IntoIterator<Item = Ray>) -> usize {
 }
 
 fn rays(count: usize, random: &mut Random) -> Vec<Ray> {
-    let mut ray = || Ray {
-        origin: random.direction().map(|x| 12.0 * x),
-        direction: random.direction(),
-        t_max: if random.below(4) == 0 { 20.0 } else { f32::INFINITY },
-        skip: None,
+    let mut ray = || {
+        let ray = room::ray(random.direction().map(|x| 12.0 * x), random.direction());
+        if random.below(4) == 0 { ray.up_to(20.0) } else { ray }
     };
     (0..count).map(|_| ray()).collect()
 }
@@ -85,6 +93,28 @@ fn scattered_instances() {
     assert!(check(&instances, rays(400, &mut random)) > 100);
 }
 
+/// Meshes whose coordinates count from afar, brought back by where they stand.
+#[test]
+fn instances_of_meshes_far_from_the_origin() {
+    let mut random = Random(25);
+    let far = Vector::new(4096.0, -8192.0, 1024.0);
+    let objects = objects().into_iter().map(|object| {
+        let mesh = TriangleMesh { origin: Point::ORIGIN + far, ..object.mesh().clone() };
+        Bvh::build(mesh, |triangle| triangle.is_multiple_of(3))
+    });
+    let back = |instance: Instance| {
+        let map = instance.world_from_object.then_from(&Transform::translation(-far));
+        Instance { world_from_object: map, ..instance }
+    };
+    let instances: Vec<Instance> = scattered(80, &mut random).into_iter().map(back).collect();
+    let between = |rays: Vec<Ray>| {
+        let segments = rays.windows(2).map(|pair| Ray::between(pair[0].origin, pair[1].origin));
+        segments.chain(rays.iter().copied()).collect::<Vec<_>>()
+    };
+    let rays = between(rays(400, &mut random));
+    assert!(check_of(objects.collect(), &instances, rays) > 100);
+}
+
 /// At the same place: what counts is the side, then the index.
 #[test]
 fn coincident_instances() {
@@ -92,12 +122,8 @@ fn coincident_instances() {
     let mirror = Transform::scale(-1.0, 1.0, 1.0);
     let instances = [mirror, Transform::IDENTITY, Transform::IDENTITY, mirror]
         .map(|world_from_object| Instance { object: 0, world_from_object });
-    let inside = (0..400).map(|_| Ray {
-        origin: random.direction().map(|x| 0.9 * x),
-        direction: random.direction(),
-        t_max: f32::INFINITY,
-        skip: None,
-    });
+    let inside =
+        (0..400).map(|_| room::ray(random.direction().map(|x| 0.9 * x), random.direction()));
     assert_eq!(check(&instances, inside), 400);
 }
 
@@ -109,16 +135,11 @@ fn grazing_a_row_of_boxes() {
     let instances: Vec<Instance> =
         (-5..5).map(|k| Instance { object: 0, world_from_object: at(k) }).collect();
     let grazing = (0..400).map(|_| {
-        let mut ray = Ray {
-            origin: random.direction().map(|x| 12.0 * x),
-            direction: random.direction(),
-            t_max: f32::INFINITY,
-            skip: None,
-        };
+        let mut origin = random.direction().map(|x| 12.0 * x);
+        let mut direction = random.direction();
         let axis = random.below(3);
-        (ray.origin[axis], ray.direction[axis]) =
-            (if random.below(2) == 0 { 1.0 } else { -1.0 }, 0.0);
-        ray
+        (origin[axis], direction[axis]) = (if random.below(2) == 0 { 1.0 } else { -1.0 }, 0.0);
+        room::ray(origin, direction)
     });
     check(&instances, grazing);
 }
@@ -135,8 +156,7 @@ fn no_leak_at_edges_and_corners() {
             let world = |p: [f32; 3]| instance.world_from_object.point(p.into()).to_f32();
             let origin = world(random.direction().map(|x| 0.9 * x));
             let target = world(room::edge_point(&mesh, &mut random));
-            let ray = Ray { origin, direction: [0.0; 3], t_max: f32::INFINITY, skip: None };
-            let ray = room::aimed(ray, target);
+            let ray = room::aimed(room::ray(origin, [0.0; 3]), target);
             assert!(bvh.closest_hit(&ray).is_some(), "{ray:?}");
         }
     }
@@ -145,7 +165,7 @@ fn no_leak_at_edges_and_corners() {
 #[test]
 fn nothing_and_nonsense() {
     let none = InstancedBvh::build(Vec::new(), &[]).unwrap();
-    let ray = Ray { origin: [0.0; 3], direction: [1.0; 3], t_max: 1.0, skip: None };
+    let ray = room::ray([0.0; 3], [1.0; 3]).up_to(1.0);
     assert_eq!((none.closest_hit(&ray), none.any_hit(&ray), none.locate(0)), (None, false, None));
     let problem = |object, world_from_object| {
         let fine = Instance { object: 0, world_from_object: Transform::IDENTITY };
@@ -167,6 +187,6 @@ fn nothing_and_nonsense() {
     assert_eq!(cube.closest_hit(&ray).map(|hit| hit.t), None);
     let nan = Ray { direction: [f32::NAN, 0.0, 1.0], ..ray };
     assert_eq!((cube.closest_hit(&nan), cube.any_hit(&nan)), (None, false));
-    let long = Ray { t_max: 2.0, ..ray };
+    let long = ray.up_to(2.0);
     assert_eq!(cube.closest_hit(&long).map(|hit| hit.t), Some(1.0));
 }

@@ -3,5 +3,6 @@
 mod agreement;
 mod degenerate;
 mod instances;
+mod moved;
 mod room;
 mod watertight;

@@ -1,7 +1,7 @@
 //! A closed room with furniture, all of it welded closed surfaces, and random rays in it.
 
 use isolux_geometry::bvh::{InstructionSet, Preset};
-use isolux_geometry::{Bvh, Ray, TriangleMesh};
+use isolux_geometry::{Bvh, End, Ray, TriangleMesh};
 use std::collections::HashMap;
 
 /// Numbers in [0, 1) from a counter (SplitMix64).
@@ -131,6 +131,11 @@ pub(crate) fn hall() -> TriangleMesh {
     mesh
 }
 
+/// A ray without end.
+pub(crate) fn ray(origin: [f32; 3], direction: [f32; 3]) -> Ray {
+    Ray { origin: origin.into(), direction, end: End::At(f32::INFINITY), skip: None }
+}
+
 /// A ray from inside the hall, above the furniture, in any direction.
 pub(crate) fn random_ray(random: &mut Random) -> Ray {
     let origin = [
@@ -138,7 +143,7 @@ pub(crate) fn random_ray(random: &mut Random) -> Ray {
         random.between(0.1, ROOM[1] - 0.1),
         random.between(1.7, 2.9),
     ];
-    Ray { origin, direction: random.direction(), t_max: f32::INFINITY, skip: None }
+    ray(origin, random.direction())
 }
 
 /// A point on an edge of the mesh, in one case of four a corner.
@@ -155,7 +160,8 @@ pub(crate) fn edge_point(mesh: &TriangleMesh, random: &mut Random) -> [f32; 3] {
 
 /// The same ray towards a point.
 pub(crate) fn aimed(ray: Ray, target: [f32; 3]) -> Ray {
-    Ray { direction: [0, 1, 2].map(|axis| target[axis] - ray.origin[axis]), ..ray }
+    let origin = ray.origin.to_f32();
+    Ray { direction: [0, 1, 2].map(|axis| target[axis] - origin[axis]), ..ray }
 }
 
 /// A hierarchy for every preset and every set of instructions that this processor has.

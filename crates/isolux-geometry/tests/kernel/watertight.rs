@@ -1,7 +1,7 @@
 //! No ray leaves a closed room.
 
 use crate::room::{self, Random};
-use isolux_geometry::{Ray, TriangleMesh};
+use isolux_geometry::{Point, Ray, TriangleMesh};
 
 /// Rays from inside towards edges and corners, and how many of them met nothing.
 fn leaks(mesh: &TriangleMesh, count: usize, origin: impl Fn(&mut Random) -> Ray) -> usize {
@@ -23,7 +23,7 @@ fn hall_has_no_leak_at_edges_and_corners() {
 #[test]
 fn cube_has_no_leak_at_edges_and_corners() {
     let origin = |random: &mut Random| Ray {
-        origin: random.direction().map(|x| x * 0.999),
+        origin: random.direction().map(|x| x * 0.999).into(),
         ..room::random_ray(random)
     };
     assert_eq!(leaks(&room::cube(), 200_000, origin), 0);
@@ -32,7 +32,7 @@ fn cube_has_no_leak_at_edges_and_corners() {
 /// From the very middle, all sheared coordinates are exact and edge functions vanish exactly.
 #[test]
 fn cube_has_no_leak_from_its_centre() {
-    let origin = |random: &mut Random| Ray { origin: [0.0; 3], ..room::random_ray(random) };
+    let origin = |random: &mut Random| Ray { origin: Point::ORIGIN, ..room::random_ray(random) };
     assert_eq!(leaks(&room::cube(), 200_000, origin), 0);
 }
 

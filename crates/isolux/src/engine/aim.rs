@@ -142,7 +142,7 @@ impl Aim {
         unaimed: f64,
     ) -> Option<f64> {
         let group = self.group_of[at.triangle as usize]? as usize;
-        let way_m = (at.point - Point::from(aimed.emitted.ray.origin)).length();
+        let way_m = (at.point - aimed.emitted.ray.origin).length();
         if aimed.target.is_some_and(|to| (to - at.point).length() > OFF * way_m) {
             return None;
         }

@@ -182,7 +182,7 @@ impl<'s> Emission<'s> {
         let Emitted { direction, luminaire, normal, .. } = emitted;
         let number = self.number(*luminaire);
         let cos = direction.cos(at.geometric).abs();
-        let distance2 = (at.point - Point::from(emitted.ray.origin)).length_squared();
+        let distance2 = (at.point - emitted.ray.origin).length_squared();
         let one_m2 = match self.luminaire(number) {
             Emitter::Surface(_) => {
                 let cos = normal.map_or(0.0, |normal| direction.cos(normal).max(0.0));
@@ -266,12 +266,17 @@ impl<'s> Emission<'s> {
         direction: Direction,
     ) -> Emitted {
         Emitted {
-            ray: Ray::new(origin, direction),
+            ray: self.ray(origin, direction),
             direction,
             luminaire: LuminaireId::Luminaire(number as u32),
             colour: luminaire.colour.chromaticity(),
             normal: None,
         }
+    }
+
+    /// A ray from where the kernel has it start: there its way is counted from.
+    fn ray(&self, origin: Point, direction: Direction) -> Ray {
+        Ray::new(self.scene.bvh().mesh().rounded(origin), direction)
     }
 
     /// A start of parallel light: uniform over a disc that covers the scene.
@@ -302,7 +307,7 @@ impl<'s> Emission<'s> {
         direction: Direction,
     ) -> Emitted {
         Emitted {
-            ray: Ray::new(start.origin, direction).skipping(start.triangle),
+            ray: self.ray(start.origin, direction).skipping(start.triangle),
             direction,
             luminaire: LuminaireId::Area((number - self.scene.luminaires().len()) as u32),
             colour: area.luminance_cd_m2.chromaticity(),

@@ -29,9 +29,7 @@ impl<const N: usize> Feelers<N> {
 
     /// The same of a surface, no longer than `reach_m`.
     pub(super) fn ray_of(&self, k: usize, at: &SurfacePoint, reach_m: f64) -> Ray {
-        let mut ray = self.ray(k, (at.start(), at.shading, at.triangle));
-        ray.t_max = reach_m as f32;
-        ray
+        self.ray(k, (at.start(), at.shading, at.triangle)).up_to(reach_m as f32)
     }
 
     /// What all of them meet, transparent or not.

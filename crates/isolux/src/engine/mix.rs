@@ -297,6 +297,7 @@ fn first_provenance(scene: &Scene, parts: &[Part<'_>]) -> Provenance {
     let unshot = from().any(|p| p.unshot.is_some()).then(|| Unshot {
         share: share(with(&|p| p.unshot.map(|u| u.share))),
         ambient_lx: parts.iter().map(|part| part.map.ambient_lx() * part.dimming).sum(),
+        doubt_lx: parts.iter().map(|part| part.map.ambient_doubt_lx() * part.dimming).sum(),
     });
     let targets: Option<Vec<f64>> = from().map(|p| p.accuracy_target).collect();
     let first = &parts[0].map.provenance;

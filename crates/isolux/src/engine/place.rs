@@ -56,8 +56,7 @@ impl<'a> Places<'a> {
 
     fn surface_below(&self, point: Point, normal: Normal) -> Option<SurfacePoint> {
         let down: Direction = -normal.to_direction();
-        let mut ray = Ray::new(point + normal * self.reach_m, down);
-        ray.t_max = 2.0 * self.reach_m as f32;
+        let ray = Ray::new(point + normal * self.reach_m, down).up_to(2.0 * self.reach_m as f32);
         let hit = self.scene.bvh().closest_hit(&ray)?;
         let surface = SurfacePoint::from_hit(self.scene, &hit);
         // Sixty degrees: a surface that faces quite another way is not the one asked for.
@@ -70,7 +69,8 @@ impl<'a> Places<'a> {
     pub(super) fn pulled_in(&self, at: SurfacePoint) -> SurfacePoint {
         let triangle = self.scene.triangle(at.triangle);
         let inwards = triangle.centroid() - at.point;
-        let rounding_m = f64::from(f32::EPSILON) * triangle.largest_coordinate_m();
+        let largest_m = self.scene.bvh().mesh().largest_coordinate_m(at.triangle);
+        let rounding_m = f64::from(f32::EPSILON) * largest_m;
         let distance_m = (INWARDS * rounding_m).min(0.5 * inwards.length());
         let near_rim = at.u.min(at.v).min(1.0 - at.u - at.v) * inwards.length() < distance_m;
         match inwards.direction() {

@@ -309,7 +309,7 @@ impl<'a> MapReader<'a> {
             indirect_lx: lx,
             indirect_standard_error_lx: libm::hypot(
                 libm::hypot(OF_FEW * variance.sqrt(), of_caustics(&stored)),
-                common_lx,
+                libm::hypot(common_lx, self.map.ambient_doubt_lx()),
             ),
             common_error_lx: common_lx,
             interpolation_error_lx: close * part * lookup_lx,
@@ -515,7 +515,9 @@ impl<'a> MapReader<'a> {
         let variance = variance.max(stored.map_or(0.0, |stored| least_variance(&stored, samples)));
         let caustic_lx = stored.map_or(Rgb::BLACK, |stored| stored.caustic_lx);
         let of_caustics = stored.map_or(0.0, |stored| of_caustics(&stored));
-        let beside = looked_up * looked_up + of_caustics * of_caustics + common_lx * common_lx;
+        let doubt_lx = self.map.ambient_doubt_lx();
+        let beside =
+            [looked_up, of_caustics, common_lx, doubt_lx].map(|lx| lx * lx).iter().sum::<f64>();
         let indirect_variance = variance + beside;
         let about_lx = stored.map_or(0.0, |stored| stored.illuminance_lx());
         let direct = self.direct(&gatherer.surface, (about_lx, part));

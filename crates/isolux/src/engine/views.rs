@@ -93,9 +93,7 @@ fn far(scene: &Scene, place: &Read) -> f64 {
     let at = &place.surface;
     let axis = at.geometric;
     let rays: [Ray; FEELERS] = std::array::from_fn(|k| {
-        let mut ray = DIRECTIONS.ray(k, (at.start(), axis, at.triangle));
-        ray.t_max = place.edge_m as f32;
-        ray
+        DIRECTIONS.ray(k, (at.start(), axis, at.triangle)).up_to(place.edge_m as f32)
     });
     let mut are_hit = [false; FEELERS];
     scene.bvh().any_hits(&rays, &mut are_hit);

@@ -151,8 +151,9 @@ impl Walls {
         let Some(outward) = (up * RISE - inward).direction() else { return };
         let aside_m = ASIDE * length;
         let start = from.lerp(to, 0.5) + inward * aside_m;
-        let mut ray = Ray::new(start, outward).skipping(subdivision.node(leaf).1.triangle);
-        ray.t_max = (REACH * aside_m) as f32;
+        let ray = Ray::new(start, outward)
+            .skipping(subdivision.node(leaf).1.triangle)
+            .up_to((REACH * aside_m) as f32);
         let hit = scene.bvh().closest_hit(&ray);
         // Mirrors do not end a room.
         if !hit.is_some_and(|hit| carries_map(scene, hit.triangle, hit.back)) {

@@ -33,10 +33,6 @@ use crate::units::Rgb;
 /// vertices, whose spreads make one good enough: decision 12.)
 const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
 
-/// How far the light that an ambient term stands for is from it at a place, as a share of it: between
-/// none, in gaps, and twice as much.
-const DOUBT_OF_AMBIENT: f64 = 0.5;
-
 /// The increments on one mesh.
 pub(super) struct Work<'p, 's> {
     pub(super) plan: &'p Plan<'s>,
@@ -273,7 +269,10 @@ impl<'p, 's> Work<'p, 's> {
 
     /// What radiosity has not shot.
     pub(super) fn unshot(&self) -> Option<Unshot> {
-        self.left.as_ref().map(|left| Unshot { share: left.share, ambient_lx: left.ambient_lx })
+        self.left.as_ref().map(|left| {
+            let Left { share, ambient_lx, doubt_lx, .. } = *left;
+            Unshot { share, ambient_lx, doubt_lx }
+        })
     }
 
     fn ambient_lx(&self) -> Rgb {
@@ -283,10 +282,7 @@ impl<'p, 's> Work<'p, 's> {
     /// The light at a vertex.
     fn estimate(&self, vertex: usize) -> Estimate {
         match &self.engine {
-            Engine::Radiosity(radiosity) => {
-                let ambient = self.ambient_lx().luminance();
-                radiosity.estimate(&self.sums, vertex).in_doubt_by(DOUBT_OF_AMBIENT * ambient)
-            }
+            Engine::Radiosity(radiosity) => radiosity.estimate(&self.sums, vertex),
             _ => self.sums.estimate(vertex),
         }
     }
@@ -366,8 +362,9 @@ impl<'p, 's> Work<'p, 's> {
         let errors = InterpolationErrors { given_up_lx, ..*interpolation };
         let Some(pooled) = pooled else {
             let ambient_lx = self.ambient_lx();
+            let doubt_lx = self.left.as_ref().map_or(0.0, |left| left.doubt_lx);
             let estimate = |vertex: usize| {
-                let mut estimate = self.estimate(vertex);
+                let mut estimate = self.estimate(vertex).in_doubt_by(doubt_lx);
                 estimate.mean.indirect += ambient_lx;
                 estimate
             };

@@ -5,7 +5,7 @@ use std::fmt;
 /// Triangles to be laid out together: one side of one shape.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Patch {
-    /// Vertices, m, each place once.
+    /// Vertices, m from the origin of the scene's ray kernel, each place once.
     pub positions: Vec<[f32; 3]>,
     /// Corners of triangles, counter-clockwise seen from the lit side.
     pub triangles: Vec<[u32; 3]>,

@@ -322,13 +322,14 @@ pub(super) fn patches(
 }
 
 fn patch(scene: &Scene, sides: &[(u32, bool)]) -> Patch {
+    let mesh = scene.bvh().mesh();
     let mut made = Patch::default();
     let mut known: HashMap<[u32; 3], u32> = HashMap::new();
     let mut normals: Vec<[Normal; 3]> = Vec::new();
     for &(triangle, back) in sides {
         let corners = turned(scene.triangle(triangle).corners, back).map(|point| {
             // Adding zero makes one zero of the two.
-            let position = point.to_f32().map(|c| c + 0.0);
+            let position = mesh.local_from_world(point).map(|c| c + 0.0);
             *known.entry(position.map(f32::to_bits)).or_insert_with(|| {
                 made.positions.push(position);
                 made.positions.len() as u32 - 1

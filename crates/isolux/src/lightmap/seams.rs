@@ -33,7 +33,8 @@ pub(super) fn find(scene: &Scene, layout: &Layout) -> (Vec<Seam>, usize) {
     let runs = || edges.chunk_by(|a, b| a.0 == b.0);
     let mut seams: Vec<Seam> = runs().flat_map(pairs).collect();
     let whole = seams.len();
-    seams.extend(t_junctions::find(runs().flat_map(alone).collect()));
+    let origin = scene.bvh().mesh().origin;
+    seams.extend(t_junctions::find(runs().flat_map(alone).collect(), origin));
     (seams, whole)
 }
 

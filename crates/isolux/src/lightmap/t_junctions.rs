@@ -11,7 +11,8 @@ const LEAST_PART: f64 = 1e-3;
 const SWEPT: Vector = Vector { x: 0.684, y: 0.509, z: 0.523 };
 
 /// Seams between edges of which none continues smoothly beyond: along what two of them have in common.
-pub(super) fn find(mut borders: Vec<Edge>) -> Vec<Seam> {
+/// Coordinates were rounded as counted from `origin`.
+pub(super) fn find(mut borders: Vec<Edge>, origin: Point) -> Vec<Seam> {
     let ranges = |edge: &Edge| {
         let along = edge.ends.map(|end| end.to_vector().dot(SWEPT));
         (along[0].min(along[1]), along[0].max(along[1]))
@@ -22,13 +23,13 @@ pub(super) fn find(mut borders: Vec<Edge>) -> Vec<Seam> {
     for (index, a) in borders.iter().enumerate() {
         let (_, high) = ranges(a);
         let near = borders[index + 1..].iter().take_while(|b| ranges(b).0 <= high);
-        found.extend(near.filter_map(|b| common(a, b)));
+        found.extend(near.filter_map(|b| common(a, b, origin)));
     }
     found
 }
 
 /// What two edges have in common, if they are two sides of one surface there.
-fn common(a: &Edge, b: &Edge) -> Option<Seam> {
+fn common(a: &Edge, b: &Edge, origin: Point) -> Option<Seam> {
     let (long, short) = if length(a) >= length(b) { (a, b) } else { (b, a) };
     let along = short.ends.map(|end| share_along(long, end));
     let [from, to] = along.map(|along| along.clamp(0.0, 1.0));
@@ -37,7 +38,7 @@ fn common(a: &Edge, b: &Edge) -> Option<Seam> {
     }
     let is_beside = (0..2).all(|end| {
         let off = short.ends[end] - at(long.ends, along[end]);
-        off.length() <= beside_m(long, short)
+        off.length() <= beside_m(long, short, origin)
     });
     // As shares of the short edge, which may reach beyond the long one.
     let of_short = [from, to].map(|place| (place - along[0]) / (along[1] - along[0]));
@@ -81,7 +82,8 @@ fn share_along(edge: &Edge, point: Point) -> f64 {
 }
 
 /// Of all ends: where the coordinates of one are zero, those of the others are rounded all the same.
-fn beside_m(a: &Edge, b: &Edge) -> f64 {
-    let coordinates = a.ends.iter().chain(&b.ends).flat_map(|end| [end.x, end.y, end.z]);
+fn beside_m(a: &Edge, b: &Edge, origin: Point) -> f64 {
+    let ends = a.ends.iter().chain(&b.ends).map(|&end| end - origin);
+    let coordinates = ends.flat_map(<[f64; 3]>::from);
     BESIDE * coordinates.fold(0.0, |largest: f64, x| largest.max(x.abs()))
 }

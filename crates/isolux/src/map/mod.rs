@@ -38,15 +38,23 @@ impl IlluminationMap {
     pub fn interpolate(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         let corners = self.elements.locate(triangle, back, u, v)?;
         let values = corners.map(|(vertex, weight)| (self.values[vertex as usize], weight));
-        let mut found = Illuminance::mix(values)?;
-        found.indirect_lx += self.ambient_lx();
-        Some(found)
+        Illuminance::mix(values).map(|found| self.with_ambient(found))
     }
 
     /// The value of a vertex as readers have it: with the ambient term.
     pub fn read_at_vertex(&self, vertex: u32) -> Option<Illuminance> {
-        let stored = self.values[vertex as usize]?;
-        Some(Illuminance { indirect_lx: stored.indirect_lx + self.ambient_lx(), ..stored })
+        self.values[vertex as usize].map(|stored| self.with_ambient(stored))
+    }
+
+    fn with_ambient(&self, stored: Illuminance) -> Illuminance {
+        let doubt_lx = self.ambient_doubt_lx();
+        let with = |error_lx: f64| libm::hypot(error_lx, doubt_lx);
+        Illuminance {
+            indirect_lx: stored.indirect_lx + self.ambient_lx(),
+            standard_error_lx: with(stored.standard_error_lx),
+            indirect_standard_error_lx: with(stored.indirect_standard_error_lx),
+            ..stored
+        }
     }
 
     /// The share of all light on the known surface that comes by specular ways without virtual luminaires.
@@ -77,5 +85,10 @@ impl IlluminationMap {
     /// it to the values of vertices, lx.
     pub fn ambient_lx(&self) -> Rgb {
         self.provenance.unshot.map_or(Rgb::BLACK, |unshot| unshot.ambient_lx)
+    }
+
+    /// The standard error of readings for that, lx.
+    pub fn ambient_doubt_lx(&self) -> f64 {
+        self.provenance.unshot.map_or(0.0, |unshot| unshot.doubt_lx)
     }
 }

@@ -86,6 +86,9 @@ pub struct Unshot {
     /// What readers add to indirect light in its place, the same everywhere; values of vertices
     /// are without it, lx.
     pub ambient_lx: Rgb,
+    /// The standard error of the light at a place for what it stands for, lx: alike in all readings, and not part of the values of vertices.
+    #[serde(default)]
+    pub doubt_lx: f64,
 }
 
 /// What the filter did to a map.

@@ -4,7 +4,7 @@ use super::{
     AreaLuminaire, Body, CalculationGrid, Camera, Finish, Luminaire, LuminaireKind, Material,
     SceneParts, SceneProblem, Shape, Texture, UpAxis,
 };
-use super::{mounted, sealed};
+use super::{mounted, origin, sealed};
 use crate::units::Rgb;
 use isolux_geometry::{Bvh, Hit, Normal, Point, Triangle, TriangleMesh, Vector};
 
@@ -41,13 +41,8 @@ impl Scene {
         if !problems.is_empty() {
             return Err(problems);
         }
-        let has_lightmap = parts.shapes.iter().any(|shape| shape.lightmap_uvs.is_some());
-        let mut build = Build { has_lightmap, ..Build::default() };
-        for (index, shape) in parts.shapes.iter().enumerate() {
-            build.add(index as u32, shape);
-        }
         let Build { mesh, corner_normals, corner_uvs, corner_lightmap_uvs, triangle_shape, .. } =
-            build;
+            Build::of(&parts.shapes);
         let is_transparent = |triangle: u32| {
             let shape = &parts.shapes[triangle_shape[triangle as usize] as usize];
             matches!(parts.materials[shape.material as usize].body, Body::Dielectric(_))
@@ -82,7 +77,7 @@ impl Scene {
     }
 
     /// The inverse of [`Scene::assemble`], but for triangles without area and for positions, which
-    /// come back as the ray kernel stores them (`f32`). Every triangle has its own three vertices.
+    /// come back as the ray kernel stores them (`f32`, counted from its origin). Every triangle has its own three vertices.
     pub fn to_parts(&self) -> SceneParts {
         let mut shapes: Vec<Shape> = self
             .shape_names
@@ -331,10 +326,45 @@ struct Build {
     has_lightmap: bool,
 }
 
+/// How often the origin is chosen anew. Once is enough but where rounding moves the box around the surfaces across the border
+/// between two origins.
+const ORIGINS: usize = 4;
+
 impl Build {
+    /// All shapes, about the origin that the surfaces as stored have themselves: a scene that is read from a map has it, too,
+    /// and thereby the same bits.
+    fn of(shapes: &[Shape]) -> Self {
+        let mut build = Self::about(origin::of(shapes.iter().flat_map(corners)), shapes);
+        for _ in 1..ORIGINS {
+            let own = build.own_origin();
+            if own == build.mesh.origin {
+                break;
+            }
+            build = Self::about(own, shapes);
+        }
+        build
+    }
+
+    fn about(origin: Point, shapes: &[Shape]) -> Self {
+        let has_lightmap = shapes.iter().any(|shape| shape.lightmap_uvs.is_some());
+        let mesh = TriangleMesh { origin, ..TriangleMesh::default() };
+        let mut build = Self { mesh, has_lightmap, ..Self::default() };
+        for (index, shape) in shapes.iter().enumerate() {
+            build.add(index as u32, shape);
+        }
+        build
+    }
+
+    fn own_origin(&self) -> Point {
+        let corners = self.mesh.triangles.as_flattened().iter();
+        origin::of(corners.map(|&v| self.mesh.world_from_local(self.mesh.positions[v as usize])))
+    }
+
     fn add(&mut self, index: u32, shape: &Shape) {
         let first = self.mesh.positions.len() as u32;
-        self.mesh.positions.extend(shape.positions.iter().map(|&p| Point::from(p).to_f32()));
+        let local: Vec<[f32; 3]> =
+            shape.positions.iter().map(|&p| self.mesh.local_from_world(p.into())).collect();
+        self.mesh.positions.extend(local);
         for corners in &shape.triangles {
             self.mesh.triangles.push(corners.map(|v| first + v));
             let stored = self.mesh.triangle(self.mesh.len() as u32 - 1);
@@ -357,6 +387,11 @@ impl Build {
             }
         }
     }
+}
+
+/// Corners of all triangles of a shape.
+fn corners(shape: &Shape) -> impl Iterator<Item = Point> {
+    shape.triangles.as_flattened().iter().map(|&v| Point::from(shape.positions[v as usize]))
 }
 
 /// The stored normal where it has a direction on the front of the triangle, else the flat one.

@@ -2,6 +2,7 @@
 
 use super::{Body, Finish, Material, Scene};
 use crate::units::Rgb;
+use isolux_geometry::Point;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -38,6 +39,9 @@ impl Scene {
         let mesh = self.bvh().mesh();
         // BLAKE3 hashes many bytes at once faster than a few at a time.
         let mut bytes = Vec::with_capacity(2 * AT_ONCE);
+        if mesh.origin != Point::ORIGIN {
+            add(&mut bytes, &<[f64; 3]>::from(mesh.origin));
+        }
         for triangle in 0..self.triangle_count() {
             for corner in mesh.triangles[triangle as usize] {
                 let position = mesh.positions[corner as usize];

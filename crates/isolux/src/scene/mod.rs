@@ -14,6 +14,7 @@ mod hash;
 mod luminaire;
 mod material;
 mod mounted;
+mod origin;
 mod parts;
 mod problem;
 mod relight;

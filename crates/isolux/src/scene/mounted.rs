@@ -52,8 +52,7 @@ fn before_what_it_lies_on(
     let axes = AXES.into_iter().filter_map(|[x, y, z]| Vector::new(x, y, z).direction());
     for axis in axes.flat_map(|axis| [axis, -axis]) {
         let start = position - axis.to_vector() * before_it_m;
-        let t_max = (2.0 * before_it_m) as f32;
-        let segment = Ray { t_max, ..Ray::new(start, axis) };
+        let segment = Ray::new(start, axis).up_to((2.0 * before_it_m) as f32);
         let Some(hit) = bvh.closest_hit(&segment) else { continue };
         let normal = normals[hit.triangle as usize].to_vector();
         let above_m = (position - bvh.mesh().triangle(hit.triangle).corners[0]).dot(normal);

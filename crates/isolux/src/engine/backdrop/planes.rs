@@ -140,8 +140,8 @@ impl Rectangle {
         let at =
             self.middle + self.axes[0] * (x * self.half_m[0]) + self.axes[1] * (y * self.half_m[1]);
         let before_m = BEFORE * self.half_m[0].min(self.half_m[1]);
-        let mut ray = Ray::new(at + self.axes[2] * before_m, (-self.axes[2]).direction()?);
-        ray.t_max = (2.0 * before_m) as f32;
+        let ray = Ray::new(at + self.axes[2] * before_m, (-self.axes[2]).direction()?)
+            .up_to((2.0 * before_m) as f32);
         let hit = scene.bvh().closest_hit(&ray)?;
         Some(SurfacePoint::from_hit(scene, &hit))
     }

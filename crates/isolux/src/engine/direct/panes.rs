@@ -16,7 +16,7 @@ impl Panes {
         let is_clear = |t: &u32| scene.material(*t).finish(false).is_none();
         let triangles: Vec<u32> = (0..scene.triangle_count()).filter(is_clear).collect();
         let all = scene.bvh().mesh();
-        let mut mesh = TriangleMesh::default();
+        let mut mesh = TriangleMesh { origin: all.origin, ..TriangleMesh::default() };
         for &triangle in &triangles {
             let first = mesh.positions.len() as u32;
             let corners = all.triangles[triangle as usize];

@@ -113,7 +113,8 @@ impl Patch {
         let along = along.map(|(share, of)| (share * of).floor().clamp(0.0, of - 1.0));
         let [u, v] = std::array::from_fn(|k| (along[k] + 0.5) / of[k]);
         let point = triangle.point(u, v);
-        let inwards_m = INWARDS * f64::from(f32::EPSILON) * triangle.largest_coordinate_m();
+        let largest_m = lighting.scene.bvh().mesh().largest_coordinate_m(at.triangle);
+        let inwards_m = INWARDS * f64::from(f32::EPSILON) * largest_m;
         let half_m = 0.5 * (edges_m[0] / of[0] + edges_m[1] / of[1]);
         Some(Self {
             cell: Cell {

@@ -122,8 +122,7 @@ impl Lighting<'_> {
             let mut left_m = 2.0 * above_m;
             // Where mirrors meet at a sharp angle the other one lies before it.
             for _ in 0..MAX_PANES {
-                ray.t_max = left_m as f32;
-                let hit = self.scene.bvh().closest_hit(&ray)?;
+                let hit = self.scene.bvh().closest_hit(&ray.up_to(left_m as f32))?;
                 let surface = SurfacePoint::from_hit(self.scene, &hit);
                 if self.mirrors.of(hit.triangle, hit.back) == Some(plane) {
                     return Some(SurfacePoint { point: at, ..surface });

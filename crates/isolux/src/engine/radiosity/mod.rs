@@ -57,6 +57,10 @@ const PLACES: [[f64; 3]; 3] = [
 /// Where surfaces absorb less than this share of light, nobody knows how much there is of it.
 const LEAST_ABSORBED: f64 = 1e-6;
 
+/// How far the light that an ambient term stands for is from it at a place, as a share of it: its interval of 95 % goes from none, in gaps and
+/// outside, to twice as much.
+const DOUBT_OF_AMBIENT: f64 = 1.0 / 1.96;
+
 /// The engine, ready for shots. What they come to is kept in sums of its run: of each vertex what was
 /// received in the place of direct light, what was shot in that of caustics, what was sent over
 /// specular surfaces in that of indirect light, and the variance; of each patch how often it was shot.
@@ -268,7 +272,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         let unsent_lm = self.specular.as_ref().map_or(0.0, |s| self.unsent_lm(s, sums));
         let unshot_lm = unsent_lm + fluxes.iter().map(|f| f.size_lm).sum::<f64>();
         let share = if self.whole_lm > 0.0 { (unshot_lm / self.whole_lm).min(1.0) } else { 0.0 };
-        let ambient_lx = self.ambient(&fluxes);
+        let (ambient_lx, doubt_lx) = self.ambient(&fluxes);
         let all_have_shot = fluxes.iter().all(|f| !f.is_first || f.size_lm == 0.0);
         let is_shot = all_have_shot && share <= self.stop_unshot;
         let absorbed = 1.0 - self.reflectance.luminance();
@@ -277,7 +281,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         let most_lm = self.reference_lx * self.area_m2;
         let is_bounded =
             absorbed > LEAST_ABSORBED && unshot_lm * series <= most_lm.max(self.whole_lm);
-        Left { is_bounded, fluxes, unsent_lm, share, ambient_lx, all_have_shot, is_shot }
+        Left { is_bounded, fluxes, unsent_lm, share, ambient_lx, doubt_lx, all_have_shot, is_shot }
     }
 
     /// The increments after which what is left will be little enough, if it fades as it has done.
@@ -290,17 +294,21 @@ impl<'p, 's> Radiosity<'p, 's> {
             .then(|| count * (libm::log(self.stop_unshot) / libm::log(left.share)).max(1.0))
     }
 
-    /// The light that takes the place of what is unshot, the same everywhere, lx.
-    fn ambient(&self, fluxes: &[Flux]) -> Rgb {
+    /// The light that takes the place of what is unshot, the same everywhere, and its standard error at a place, lx. Where too much was shot
+    /// that would be less than none: there is none, and what is left out is in doubt.
+    fn ambient(&self, fluxes: &[Flux]) -> (Rgb, f64) {
         if !self.ambient || self.area_m2 <= 0.0 {
-            return Rgb::BLACK;
+            return (Rgb::BLACK, 0.0);
         }
         // What was expected has all further reflections in it.
         let once: Rgb = fluxes.iter().filter(|f| f.is_first).map(|f| f.sum_lm).sum();
         let again: Rgb = fluxes.iter().filter(|f| !f.is_first).map(|f| f.sum_lm).sum();
         let series = self.reflectance.map(|rho| 1.0 / (1.0 - rho.min(0.99)));
         let again = if once.is_black() { again * series } else { Rgb::BLACK };
-        (once + again) / self.area_m2
+        let mean_lx = (once + again) / self.area_m2;
+        let ambient_lx = mean_lx.greater(Rgb::BLACK);
+        let left_out_lx = (ambient_lx - mean_lx).luminance();
+        (ambient_lx, libm::hypot(DOUBT_OF_AMBIENT * ambient_lx.luminance(), left_out_lx))
     }
 
     /// One shot; what it took, or nothing if the deadline passes before it is done.
@@ -479,6 +487,8 @@ pub(super) struct Left {
     pub(super) share: f64,
     /// What takes its place, the same everywhere, lx.
     pub(super) ambient_lx: Rgb,
+    /// Its standard error at a place, lx.
+    pub(super) doubt_lx: f64,
     /// Whether there is no patch that has not shot yet.
     pub(super) all_have_shot: bool,
     /// Whether it is known how much it can come to: no more than what is there.

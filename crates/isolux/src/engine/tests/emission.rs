@@ -60,7 +60,7 @@ fn luminaires_emit_by_their_flux() {
 fn particles_start_where_and_go_where_luminaires_shine() {
     let scene = everything();
     for particle in emitted(&scene, 4096) {
-        let origin = Point::from(particle.ray.origin);
+        let origin = particle.ray.origin;
         let way = particle.direction.to_vector();
         match particle.luminaire {
             LuminaireId::Luminaire(0) => assert_eq!(origin, Point::new(0.0, 0.0, 1.0)),

@@ -187,7 +187,7 @@ fn the_ray_goes_on_from_the_side_it_leaves() {
             let at = place(back);
             let at = SurfacePoint { point: Point::new(10.0, 0.0, 0.0), ..at };
             let next = refract(&glass(1.5, false), &at, incoming(30.0, back), pick);
-            let side = f64::from(next.ray.origin[2]).signum();
+            let side = next.ray.origin.z.signum();
             let leaves = next.direction.to_vector().z.signum();
             assert_eq!(side, leaves, "{back} {pick}");
             assert_eq!(next.ray.skip, Some(at.triangle));

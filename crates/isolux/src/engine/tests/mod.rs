@@ -1,6 +1,7 @@
 //! The parts of the engines, each against what can be computed by hand.
 
 mod aiming;
+mod ambient;
 mod anderson;
 mod arrivals;
 mod audit;
@@ -32,6 +33,7 @@ mod means;
 mod middles;
 mod mirrors;
 mod mixing;
+mod moved;
 mod net;
 mod openings;
 mod parts;
