@@ -3,6 +3,7 @@
 mod case;
 mod folder;
 mod machine;
+mod pace;
 mod pictures;
 mod plan;
 mod point;
@@ -11,13 +12,11 @@ use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::CompareFlags;
 use crate::interrupt::Interrupt;
-use crate::notes::{Note, note};
-use crate::quantity::show_seconds;
 use folder::Folder;
 use isolux_compare::report;
 use isolux_compare::study::{Answer, Settings, Study, conclusions};
-use plan::{Case, Plan};
-use std::time::Instant;
+use pace::Pace;
+use plan::Plan;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> {
@@ -79,33 +78,4 @@ fn text(study: &Study, folder: &Folder) -> String {
     };
     let conclusions: String = conclusions(study).iter().map(line).collect();
     format!("{conclusions}report {}\n", folder.path("report.html").display())
-}
-
-/// What is done and what is left, for people.
-pub(crate) struct Pace {
-    begun: Instant,
-    asked_s: f64,
-    done_s: f64,
-}
-
-impl Pace {
-    fn start(plan: &Plan) -> Self {
-        Self { begun: Instant::now(), asked_s: plan.asked_s(), done_s: 0.0 }
-    }
-
-    /// Tells of a map that was made or found; what was found took no time.
-    pub(crate) fn tell(&mut self, case: &Case, what: &str, asked_s: f64, was_made: bool) {
-        if was_made {
-            self.done_s += asked_s;
-        } else {
-            self.asked_s -= asked_s;
-        }
-        let elapsed_s = self.begun.elapsed().as_secs_f64();
-        let left_s = match self.done_s > 0.0 {
-            true => elapsed_s / self.done_s * (self.asked_s - self.done_s),
-            false => self.asked_s,
-        };
-        let left = show_seconds(left_s.max(0.0));
-        note(Note::Info, format!("{}, {what}; {left} left", case.name));
-    }
 }
