@@ -14,8 +14,7 @@ use isolux_compare::study::{CaseStudy, Point, Reference, Series, System};
 use std::time::Instant;
 
 /// A scene and what is known of it.
-struct Subject<'a> {
-    case: &'a Case,
+struct Subject {
     scene: Scene,
     /// The same without mirrors, gloss and glass, where that is asked for.
     diffuse: Option<Scene>,
@@ -24,7 +23,7 @@ struct Subject<'a> {
     viewer: Option<Viewer>,
 }
 
-impl Subject<'_> {
+impl Subject {
     fn scene(&self, system: System) -> &Scene {
         match (&self.diffuse, system) {
             (Some(diffuse), System::RadiosityDiffuse) => diffuse,
@@ -70,16 +69,16 @@ pub(crate) fn compare(
 }
 
 /// Reads the scene, and makes the map of the reference picture, if there is to be one.
-fn begin<'a>(
-    case: &'a Case,
+fn begin(
+    case: &Case,
     (plan, folder): (&Plan, &Folder),
     interrupt: &Interrupt,
-) -> Result<Option<(Subject<'a>, Option<Reference>)>, Failure> {
+) -> Result<Option<(Subject, Option<Reference>)>, Failure> {
     let scene = source::read_scene(&case.source)?;
     let hash = scene.hash();
     let has_diffuse = plan.systems.contains(&System::RadiosityDiffuse);
     let diffuse = has_diffuse.then(|| source::diffuse(&case.source, &scene)).transpose()?;
-    let subject = Subject { case, scene, diffuse, hash, viewer: None };
+    let subject = Subject { scene, diffuse, hash, viewer: None };
     if case.is_exact {
         return Ok(Some((subject, None)));
     }
