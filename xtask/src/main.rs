@@ -2,6 +2,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command line speaks")]
 
 mod bench;
+mod colours;
 mod consumers;
 mod grids;
 mod hall;
@@ -22,6 +23,7 @@ cargo xtask test    everything that must hold before a change lands
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
+cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask consumers     light in Blender, Godot and Bevy, by hand
 cargo xtask bench setup   download Embree 4.4 into target/embree
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
@@ -42,6 +44,7 @@ fn main() -> ExitCode {
         ["tidy"] => tidy::run(root),
         ["smoke"] => test::smoke_and_judge(root),
         ["lamps"] => lamps::run(root),
+        ["colours"] => colours::run(root),
         ["consumers"] => consumers::run(root),
         ["bench", "setup"] => bench::setup(root),
         ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),

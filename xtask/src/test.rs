@@ -1,6 +1,6 @@
 //! Everything that must hold before a change lands, in one command.
 
-use crate::{grids, judge, lamps, peers, smoke, tidy, worlds};
+use crate::{colours, grids, judge, lamps, peers, smoke, tidy, worlds};
 use std::path::Path;
 use std::process::Command;
 
@@ -20,6 +20,8 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
     println!("{}", smoke_and_judge(root)?);
     announce("outside judges of photometric files: ies2rad, photompy");
     println!("{}", lamps::run(root)?);
+    announce("outside judge of differences of colours: colour-science");
+    println!("{}", colours::run(root)?);
     announce("scripts of the bench of peers");
     println!("{}", peers::check(root)?);
     Ok("all fine".to_owned())

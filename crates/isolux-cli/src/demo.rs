@@ -2,7 +2,8 @@
 
 use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
-use crate::flags::{DemoFlags, LookFlags, ToneName};
+use crate::flags::DemoFlags;
+use crate::look::Look;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
@@ -10,7 +11,7 @@ use crate::solving::Run;
 use crate::summary::{self, Lit};
 use crate::{explain, map_file, render, report, solving, source, viewpoint};
 use isolux::engine::SolveRequest;
-use isolux_view::Exposure;
+use isolux_view::{Contours, FalseColour};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -29,9 +30,12 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let solved = solving::solve(&scene, &run, None, &mut Reporter::new(None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;
     let camera = viewpoint::camera(&scene, None).map_err(Failure::bad_input)?;
-    let (view, _) = render::look(&scene, &solved.solution.map, &camera, PICTURE)?;
-    render::write(&files.picture, &render::shown(&view, &look(false))?)?;
-    render::write(&files.false_colour, &render::shown(&view, &look(true))?)?;
+    let (view, _) = render::view(&scene, &solved.solution.map, &camera, PICTURE)?;
+    let contours = Some(Contours::AtTicks);
+    let chart = Look::Chart(FalseColour { contours, ..FalseColour::default() });
+    let picture = Look::Picture(Box::default());
+    render::write(&files.picture, &picture.show(&view)?)?;
+    render::write(&files.false_colour, &chart.show(&view)?)?;
     let results = Results {
         solution: report::Report::of(&solved.solution.map, solved.solution.time_s, &files.map),
         picture: files.picture.path().display().to_string(),
@@ -67,19 +71,8 @@ impl Files {
     }
 }
 
-fn look(false_colour: bool) -> LookFlags {
-    LookFlags {
-        exposure: Exposure::Automatic,
-        tone: ToneName::Reinhard,
-        false_colour,
-        limits: None,
-        logarithmic: false,
-        contours: false_colour,
-    }
-}
-
 /// The scene in the current folder, or in one above the program (as in `target/release`).
-fn find_scene() -> Result<PathBuf, Failure> {
+pub(crate) fn find_scene() -> Result<PathBuf, Failure> {
     let program = std::env::current_exe().unwrap_or_default();
     let above = program.ancestors().skip(1).map(|folder| folder.join(SCENE));
     let candidates = std::iter::once(PathBuf::from(SCENE)).chain(above);

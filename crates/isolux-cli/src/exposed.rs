@@ -2,7 +2,7 @@
 
 use crate::notes::{Note, note};
 use crate::quantity::{show_share, significant};
-use isolux_view::{Exposure, LuminanceImage, Picture};
+use isolux_view::{Development, Exposure, LuminanceImage, Picture, ToneOperator};
 
 /// Shares of the lit pixels that are black or burnt out from which on nothing is to be seen.
 const NEARLY_ALL: f64 = 0.99;
@@ -10,13 +10,13 @@ const NEARLY_ALL: f64 = 0.99;
 const BLACK_UP_TO: u8 = 3;
 
 /// Tells of a view that is developed to a picture without anything to be seen.
-pub(crate) fn warn(view: &LuminanceImage, picture: &Picture, exposure: Exposure) {
-    if let Some(text) = problem(view, picture, exposure) {
+pub(crate) fn warn(view: &LuminanceImage, picture: &Picture, how: &Development) {
+    if let Some(text) = problem(view, picture, how) {
         note(Note::Warning, text);
     }
 }
 
-fn problem(view: &LuminanceImage, picture: &Picture, exposure: Exposure) -> Option<String> {
+fn problem(view: &LuminanceImage, picture: &Picture, how: &Development) -> Option<String> {
     let is_lit = |&pixel: &usize| view.luminance_cd_m2(pixel).luminance() > 0.0;
     let brightest = |pixel: usize| picture.rgb[pixel].into_iter().max();
     let lit: Vec<u8> = (0..view.size().pixels()).filter(is_lit).filter_map(brightest).collect();
@@ -37,8 +37,12 @@ fn problem(view: &LuminanceImage, picture: &Picture, exposure: Exposure) -> Opti
         () => return None,
     };
     let ev = automatic_ev(view).map_or(String::new(), |ev| format!(" (here about ev{ev})"));
-    let remedy = match exposure {
-        Exposure::Automatic => String::new(),
+    let remedy = match (how.tone, how.exposure) {
+        // They show the dark as dark and the dazzling as dazzling, however exposed.
+        (ToneOperator::Ward | ToneOperator::TumblinRushmeier, _) => {
+            "; --tone reinhard shows it".into()
+        }
+        (_, Exposure::Automatic) => String::new(),
         _ => format!("; --exposure auto{ev} shows it"),
     };
     Some(format!("{} of what is lit in the picture is {what}{remedy}", show_share(share)))

@@ -1,9 +1,10 @@
 //! Arguments as written.
 
+use crate::appearance::{self, ExposureChoice, ProfileChoice};
 use crate::dimming::{DimmedMap, dimmed_group};
 use crate::quantity;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use isolux_view::Exposure;
+use isolux_view::WhiteAdaptation;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -49,6 +50,8 @@ pub(crate) enum Command {
     Lint(LintFlags),
     /// Run the cases with exact answers
     Validate(ValidateFlags),
+    /// Compare the methods by error against time, as the study of 1998 did, in one report
+    Compare(CompareFlags),
     /// Write a scene as files to open and edit
     Scene(SceneFlags),
     /// Solve a real interior and draw it, from nothing
@@ -335,6 +338,9 @@ pub(crate) struct GridFlags {
 #[command(after_help = "Examples:
   isolux render map.glb --camera door -o door.png
   isolux render map.glb --camera door -o lux.png --false-colour --limits 0:500 --contours
+  isolux render map.glb --camera door -o door.png --exposure ev9 --tone linear --brightness 0.1 --contrast 1.2
+  isolux render map.glb --camera door -o door.png --tone ward --display-white 250cd/m2 --profile monitor.icc
+  isolux render map.glb --camera door -o door.png --exposure map --white 2700K --profile display-p3
   isolux render builtin:hall --cache hall.cache --camera entrance -o entrance.png
 
 With --cache no map is read: indirect light comes from the samples in the file, and what the view still \
@@ -369,13 +375,34 @@ pub(crate) struct RenderFlags {
 /// How luminance becomes a picture.
 #[derive(Debug, Args)]
 pub(crate) struct LookFlags {
-    /// auto, an exposure value (ev8), or the luminance shown as white (500cd/m2)
-    #[arg(long, value_name = "EXPOSURE", value_parser = quantity::exposure, default_value = "auto",
+    /// auto, map (alike for all cameras), an exposure value (ev8), the luminance shown as white (500cd/m2) or as middle
+    /// grey (grey 90cd/m2), or the share of lit pixels no brighter than white (99%)
+    #[arg(long, value_name = "EXPOSURE", value_parser = appearance::exposure, default_value = "auto",
           conflicts_with = "false_colour", allow_hyphen_values = true)]
-    pub exposure: Exposure,
+    pub exposure: ExposureChoice,
     /// How luminance is fitted to the display
     #[arg(long, value_enum, default_value = "reinhard", conflicts_with = "false_colour")]
     pub tone: ToneName,
+    /// With --tone linear: what is added to the signal, -1 to 1 [default: 0]
+    #[arg(long, value_name = "N", value_parser = appearance::brightness, conflicts_with = "false_colour",
+          allow_hyphen_values = true)]
+    pub brightness: Option<f64>,
+    /// With --tone linear: a factor on the signal about its middle, 0 to 100 [default: 1]
+    #[arg(long, value_name = "N", value_parser = appearance::contrast, conflicts_with = "false_colour",
+          allow_hyphen_values = true)]
+    pub contrast: Option<f64>,
+    /// With --tone ward or tumblin-rushmeier: the luminance of the white of the display [default: 100cd/m2]
+    #[arg(long, value_name = "LUMINANCE", value_parser = appearance::display_white, conflicts_with = "false_colour",
+          allow_hyphen_values = true)]
+    pub display_white: Option<f64>,
+    /// Light that is to look white: a colour temperature (2700K), or scene, the mean of the surfaces seen [default: D65, as in sRGB]
+    #[arg(long, value_name = "WHITE", value_parser = appearance::white, conflicts_with = "false_colour",
+          allow_hyphen_values = true)]
+    pub white: Option<WhiteAdaptation>,
+    /// The display: srgb, display-p3, or an ICC file of one; the picture says which
+    #[arg(long, value_name = "PROFILE", value_parser = appearance::profile, default_value = "srgb",
+          conflicts_with = "false_colour")]
+    pub profile: ProfileChoice,
     /// Colours that stand for lux, with a legend
     #[arg(long, visible_alias = "false-color")]
     pub false_colour: bool,
@@ -399,6 +426,10 @@ pub(crate) enum ToneName {
     Reinhard,
     /// Hable's filmic curve
     Hable,
+    /// Ward's scale factor: what can just be seen there can just be seen here
+    Ward,
+    /// Tumblin and Rushmeier's power: as bright here as there
+    TumblinRushmeier,
 }
 
 #[derive(Debug, Args)]
@@ -575,4 +606,37 @@ pub(crate) struct DemoFlags {
     /// Stop when the whole error of the scene is this small: 1% or 0.01
     #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "5%")]
     pub accuracy: f64,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux compare all -o study
+  isolux compare cube sphere -o study --quick
+  isolux compare room.toml -o study --systems hybrid,forward --limit 1min
+
+Every system makes a map at times that double up to the limit: CUBE and SPHERE, whose right values are known, from an eighth of a second on, \
+others from a second on. Maps and pictures are kept in the folder, and a comparison that was interrupted goes on where it stopped. \
+report.html holds graphs, tables and pictures in one file; report.md, study.csv and study.json hold the same.")]
+pub(crate) struct CompareFlags {
+    /// cube, sphere, hall, demo, all four of them, or a scene
+    #[arg(value_name = "CASE", required = true)]
+    pub cases: Vec<PathBuf>,
+    /// Folder to keep everything in
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// The longest time of a map [default: 16 s]
+    #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true, conflicts_with = "quick")]
+    pub limit: Option<Duration>,
+    /// Within two minutes: no map takes more than a second
+    #[arg(long)]
+    pub quick: bool,
+    /// Some of hybrid, forward, forward-unfiltered, radiosity, radiosity-without-ambient, radiosity-diffuse, cache [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub systems: Vec<String>,
+    /// Seed of the random numbers
+    #[arg(long, value_name = "N", value_parser = quantity::seed, default_value = "1", allow_hyphen_values = true)]
+    pub seed: u64,
+    /// Threads of every system [default: all there are]
+    #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
+    pub threads: Option<u16>,
 }

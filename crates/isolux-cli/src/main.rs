@@ -1,11 +1,13 @@
 //! The isolux command: a table of contents.
 
+mod appearance;
 mod arriving;
 mod audit;
 mod cache_samples;
 mod cached_view;
 mod check;
 mod clock;
+mod compare;
 mod console;
 mod demo;
 mod dimming;
@@ -26,6 +28,7 @@ mod lightmap;
 mod lightmap_export;
 mod lightmap_files;
 mod lint;
+mod look;
 mod map_file;
 mod meter;
 mod mix;
@@ -69,6 +72,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
     let threads = match &flags.command {
         Command::Solve(flags) => flags.threads,
         Command::Export(flags) => flags.threads,
+        Command::Compare(flags) => flags.threads,
         _ => None,
     };
     request::use_threads(threads)?;
@@ -83,6 +87,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Lint(flags) => lint::run(flags, json),
         Command::Render(flags) => render::run(flags, json),
         Command::Validate(flags) => validate::run(flags, json),
+        Command::Compare(flags) => compare::run(flags, json),
         Command::Scene(flags) => scene::run(flags, json),
         Command::Demo(flags) => demo::run(flags, json),
         Command::Mix(flags) => mix::run(flags, json),

@@ -1,6 +1,5 @@
 //! Quantities as people write them on a command line.
 
-use isolux_view::Exposure;
 use std::fmt::Display;
 use std::str::FromStr;
 use std::time::Duration;
@@ -178,23 +177,6 @@ pub(crate) fn luminance_cd_m2(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "write a luminance above zero as 500cd/m2".to_owned())
 }
 
-/// Exposure as written: `auto`, `ev 8`, `500 cd/m2`.
-pub(crate) fn exposure(text: &str) -> Result<Exposure, String> {
-    let text = text.trim();
-    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-    let written = if text == "auto" {
-        Some(Exposure::Automatic)
-    } else if let Some(value) = text.strip_prefix("ev") {
-        number(value).map(Exposure::Ev100)
-    } else {
-        let value = text.strip_suffix("cd/m2").and_then(number);
-        value.filter(|white| *white > 0.0).map(Exposure::WhiteCdM2)
-    };
-    written.ok_or_else(|| {
-        "write auto, an exposure value as ev8, or the luminance shown as white as 500cd/m2".into()
-    })
-}
-
 /// Luminous flux for reading. Parallel light has none: it is given by its illuminance, and how much
 /// of it enters depends on the scene.
 pub(crate) fn flux(lm: f64, has_parallel: bool) -> String {
@@ -353,22 +335,6 @@ mod tests {
         assert_eq!(range("0:500"), Ok((0.0, 500.0)));
         for text in ["", ":", "5:5", "5:1", "NaN:1", "0:inf"] {
             assert!(range(text).is_err(), "{text}");
-        }
-    }
-
-    #[test]
-    fn exposures() {
-        for (text, expected) in [
-            ("auto", Exposure::Automatic),
-            ("ev8", Exposure::Ev100(8.0)),
-            ("ev-1.5", Exposure::Ev100(-1.5)),
-            ("500cd/m2", Exposure::WhiteCdM2(500.0)),
-            ("2.5 cd/m2", Exposure::WhiteCdM2(2.5)),
-        ] {
-            assert_eq!(exposure(text), Ok(expected), "{text}");
-        }
-        for text in ["", "8", "ev", "evNaN", "0cd/m2", "-1cd/m2", "cd/m2"] {
-            assert!(exposure(text).is_err(), "{text}");
         }
     }
 

@@ -1,9 +1,11 @@
 //! `isolux render`: a view from a map.
 
+use crate::appearance::ExposureChoice;
 use crate::cached_view::{self, CacheUse};
 use crate::console::{facts, print, print_json};
 use crate::failure::{Failure, Outcome};
-use crate::flags::{LookFlags, RenderFlags, ToneName};
+use crate::flags::RenderFlags;
+use crate::look::Look;
 use crate::meter::Meter;
 use crate::output::OutputPath;
 use crate::quantity::show_share;
@@ -12,8 +14,8 @@ use crate::{exposed, map_file, source, viewpoint};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_view::{
-    Contours, Development, FalseColour, Gathered, LuminanceImage, Picture, Size, SurfacePoint,
-    ToneCurve, TraceSettings, ViewProgress, develop, false_colour, trace, trace_map,
+    Gathered, LuminanceImage, Picture, Size, SurfacePoint, TraceSettings, ViewProgress, trace,
+    trace_map,
 };
 use serde::Serialize;
 use std::path::Path;
@@ -21,20 +23,21 @@ use std::path::Path;
 /// Runs the subcommand.
 pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     let output = OutputPath::check(&flags.output, "png")?;
-    check_limits(&flags.look)?;
-    let Some(Seen { view, camera, gathered, cache }) = see(flags)? else {
+    let look = Look::of(&flags.look)?;
+    let Some(Seen { view, camera, gathered, cache, look }) = see(flags, look)? else {
         return Ok(Outcome::Interrupted);
     };
-    let picture = shown(&view, &flags.look)?;
+    let picture = look.show(&view)?;
     write(&output, &picture)?;
-    if !flags.look.false_colour {
-        exposed::warn(&view, &picture, flags.look.exposure);
+    if let Look::Picture(how) = &look {
+        exposed::warn(&view, &picture, how);
     }
     let report = Report {
         picture: output.path().display().to_string(),
         camera: camera.name,
         width: picture.width,
         height: picture.height,
+        profile: look.profile().to_owned(),
         indirect: gathered.map(Indirect::of),
         cache,
     };
@@ -46,21 +49,26 @@ pub(crate) fn run(flags: &RenderFlags, json: bool) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
-/// A view, whose it is, and where its indirect light comes from.
+/// A view, whose it is, where its indirect light comes from, and what it is shown as.
 struct Seen {
     view: LuminanceImage,
     camera: Camera,
     gathered: Option<Gathered>,
     cache: Option<CacheUse>,
+    look: Look,
 }
 
 /// Looks at a map, or at a scene by its cache; nothing if the user stops that.
-fn see(flags: &RenderFlags) -> Result<Option<Seen>, Failure> {
+fn see(flags: &RenderFlags, look: Look) -> Result<Option<Seen>, Failure> {
     let camera = |scene: &Scene| {
         viewpoint::camera(scene, flags.camera.as_deref())
             .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))
     };
     if let Some(path) = &flags.cache {
+        if flags.look.exposure == ExposureChoice::Map {
+            let what = "--exposure map: with --cache no map is read; leave one of the two out";
+            return Err(Failure::bad_input(what));
+        }
         let scene = scene_of(&flags.map)?;
         if scene.luminous_flux_lm() == 0.0 {
             return Err(source::no_light(&flags.map, &scene));
@@ -72,6 +80,7 @@ fn see(flags: &RenderFlags) -> Result<Option<Seen>, Failure> {
             camera,
             gathered: None,
             cache: Some(used),
+            look,
         }));
     }
     let (scene, map) = map_file::read(&flags.map)?;
@@ -79,10 +88,14 @@ fn see(flags: &RenderFlags) -> Result<Option<Seen>, Failure> {
     let (view, gathered) = if flags.interpolated {
         (bare(&scene, &map, &camera, flags.size)?, None)
     } else {
-        let (view, found) = look(&scene, &map, &camera, flags.size)?;
+        let (view, found) = view(&scene, &map, &camera, flags.size)?;
         (view, Some(found))
     };
-    Ok(Some(Seen { view, camera, gathered, cache: None }))
+    let look = match flags.look.exposure {
+        ExposureChoice::Map => look.exposed_by(&scene, &map),
+        ExposureChoice::Of(_) => look,
+    };
+    Ok(Some(Seen { view, camera, gathered, cache: None, look }))
 }
 
 /// The scene of a map, or of a file of its own.
@@ -94,21 +107,11 @@ fn scene_of(path: &Path) -> Result<Scene, Failure> {
     }
 }
 
-/// Refuses before minutes are spent on the view.
-fn check_limits(look: &LookFlags) -> Result<(), Failure> {
-    match look.limits {
-        Some((low, _)) if look.logarithmic && low <= 0.0 => Err(Failure::bad_input(format!(
-            "--limits {low}: a logarithmic scale has no zero; start above it, as 1:1000"
-        ))),
-        _ => Ok(()),
-    }
-}
-
 /// Walls of one side only are looked through from outside.
 const SETTINGS: TraceSettings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
 
 /// Traces a view over a map: direct light evaluated afresh, indirect light gathered where the map is not to be trusted.
-pub(crate) fn look(
+pub(crate) fn view(
     scene: &Scene,
     map: &IlluminationMap,
     camera: &Camera,
@@ -136,42 +139,12 @@ fn bare(
     trace(scene, camera, size, &SETTINGS, &read).map_err(Failure::bad_input)
 }
 
-/// Makes a view a picture.
-pub(crate) fn shown(view: &LuminanceImage, look: &LookFlags) -> Result<Picture, Failure> {
-    let picture = if look.false_colour {
-        false_colour(view, &chart(look))
-    } else {
-        develop(view, &Development { exposure: look.exposure, tone: tone(look.tone) })
-    };
-    picture.map_err(Failure::bad_input)
-}
-
 /// Writes a picture.
 pub(crate) fn write(output: &OutputPath, picture: &Picture) -> Result<(), Failure> {
-    let bytes = isolux_formats::png::encode(picture.width, picture.height, &picture.rgb)
+    let Picture { width, height, rgb, icc } = picture;
+    let bytes = isolux_formats::png::encode_profiled(*width, *height, rgb, icc.as_deref())
         .map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
     output.write(&bytes)
-}
-
-fn chart(look: &LookFlags) -> FalseColour {
-    FalseColour {
-        limits: look.limits,
-        contours: look.contours.then_some(Contours::AtTicks),
-        scale: if look.logarithmic {
-            isolux_view::Scale::Logarithmic
-        } else {
-            isolux_view::Scale::Linear
-        },
-        ..FalseColour::default()
-    }
-}
-
-fn tone(name: ToneName) -> ToneCurve {
-    match name {
-        ToneName::Linear => ToneCurve::Linear,
-        ToneName::Reinhard => ToneCurve::default(),
-        ToneName::Hable => ToneCurve::Hable,
-    }
 }
 
 /// What `render --json` prints.
@@ -181,6 +154,7 @@ struct Report {
     camera: String,
     width: u32,
     height: u32,
+    profile: String,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     indirect: Option<Indirect>,
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
@@ -225,6 +199,7 @@ impl Report {
             ("picture", self.picture.clone()),
             ("camera", name(&self.camera)),
             ("size", format!("{} x {}", self.width, self.height)),
+            ("profile", name(&self.profile)),
         ];
         lines.extend(self.indirect.iter().map(Indirect::fact));
         lines.extend(self.cache.iter().flat_map(CacheUse::facts));

@@ -6,7 +6,7 @@ use isolux::engine::{MapReader, ProbePoint};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// Places along each side of the grid over a face of CUBE.
@@ -24,7 +24,7 @@ pub enum MeasureError {
 }
 
 /// One place of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeasuredPoint {
     /// Letter in the paper's table.
     pub name: char,
@@ -32,8 +32,8 @@ pub struct MeasuredPoint {
     pub expected_lx: f64,
     /// As probed, lx.
     pub measured_lx: f64,
-    /// Standard error of the measured value, lx.
-    pub standard_error_lx: f64,
+    /// Standard error of the measured value, lx; `None` where the map does not know it.
+    pub standard_error_lx: Option<f64>,
 }
 
 /// Errors over a grid of places.
@@ -43,6 +43,10 @@ pub struct GridError {
     pub relative_l2: f64,
     /// Root mean square of relative differences.
     pub rms_relative: f64,
+    /// Share of the places whose intervals of 95 % hold the truth; `None` where the map does not know its error.
+    pub covered: Option<f64>,
+    /// Root mean square of the standard errors told, over that of the true errors; `None` likewise.
+    pub told_over_true: Option<f64>,
     /// Number of places.
     pub places: usize,
 }
@@ -139,7 +143,8 @@ fn measured(
     expected_lx: f64,
 ) -> Result<MeasuredPoint, MeasureError> {
     let found = reader.probe(at).ok_or(MeasureError::Unknown(at.position.into()))?;
-    let (measured_lx, standard_error_lx) = (found.illuminance_lx(), found.standard_error_lx);
+    let measured_lx = found.illuminance_lx();
+    let standard_error_lx = Some(found.standard_error_lx).filter(|error| error.is_finite());
     Ok(MeasuredPoint { name, expected_lx, measured_lx, standard_error_lx })
 }
 
@@ -148,16 +153,39 @@ fn pair(point: &MeasuredPoint) -> Pair {
 }
 
 fn grid_error(reader: &MapReader, grid: &[(ProbePoint, f64)]) -> Result<GridError, MeasureError> {
-    let pairs = grid
+    let places = grid
         .par_iter()
-        .map(|&(at, expected_lx)| Ok(pair(&measured(reader, ' ', at, expected_lx)?)))
-        .collect::<Result<Vec<Pair>, MeasureError>>()?;
+        .map(|&(at, expected_lx)| measured(reader, ' ', at, expected_lx))
+        .collect::<Result<Vec<MeasuredPoint>, MeasureError>>()?;
+    let pairs: Vec<Pair> = places.iter().map(pair).collect();
     let even: Vec<(Pair, f64)> = pairs.iter().map(|&p| (p, 1.0)).collect();
     Ok(GridError {
         relative_l2: relative_l2_distance(&pairs).unwrap_or(f64::NAN),
         rms_relative: weighted_rms_relative_difference(&even).unwrap_or(f64::NAN),
+        covered: covered(&places),
+        told_over_true: told_over_true(&places),
         places: pairs.len(),
     })
+}
+
+/// The quantile of the normal distribution that intervals of 95 % reach to on either side.
+const IN_95_OF_100: f64 = 1.96;
+
+/// The share of places that lie within their intervals of 95 %; `None` where one of them does not know its own.
+fn covered(places: &[MeasuredPoint]) -> Option<f64> {
+    let holds = |place: &MeasuredPoint| {
+        let reach_lx = IN_95_OF_100 * place.standard_error_lx?;
+        Some((place.measured_lx - place.expected_lx).abs() <= reach_lx)
+    };
+    let held = places.iter().map(holds).collect::<Option<Vec<bool>>>()?;
+    Some(held.iter().filter(|held| **held).count() as f64 / held.len().max(1) as f64)
+}
+
+/// Root mean square of what is told over that of what is true; `None` where all are right, or one of them tells nothing.
+fn told_over_true(places: &[MeasuredPoint]) -> Option<f64> {
+    let told = places.iter().map(|p| Some(p.standard_error_lx?.powi(2))).sum::<Option<f64>>()?;
+    let wrong = places.iter().map(|p| (p.measured_lx - p.expected_lx).powi(2)).sum::<f64>();
+    (wrong > 0.0).then(|| (told / wrong).sqrt())
 }
 
 #[cfg(test)]

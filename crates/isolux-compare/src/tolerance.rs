@@ -6,6 +6,9 @@ pub const ROUNDING: f64 = 1e-14;
 /// Numbers printed with six digits after the point, in tests: half of the last, and our rounding of it.
 pub const PRINTED_SIX_DIGITS: f64 = 1e-6;
 
+/// Numbers printed with four digits after the point: half of the last.
+pub const PRINTED_FOUR_DIGITS: f64 = 5e-5;
+
 /// Luminances printed with one digit after the point: half of it.
 pub const PRINTED_TENTH: f64 = 0.05;
 

@@ -21,7 +21,7 @@ pub mod mitsuba;
 pub mod obj;
 pub mod onto;
 pub mod photometric_file;
-mod picture;
+pub mod picture;
 mod plain_text;
 pub mod ply;
 pub mod png;

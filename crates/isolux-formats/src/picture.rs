@@ -14,7 +14,7 @@ const MOST_PIXELS: u64 = 16 << 20;
 const MOST_DECODER_BYTES: u64 = 16 * MOST_PIXELS;
 
 /// Reads a picture; transparency is left out.
-pub(crate) fn read(path: &Path) -> Result<Texture, Problem> {
+pub fn read(path: &Path) -> Result<Texture, Problem> {
     decode(&source::read_bytes(path, MOST_FILE_BYTES)?)
         .map_err(|what| Problem::new(path, "", what, "save it again as PNG or JPEG, not too large"))
 }

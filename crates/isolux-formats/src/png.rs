@@ -1,6 +1,6 @@
 //! Pictures as PNG (ISO/IEC 15948).
 
-use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
+use png::{BitDepth, ColorType, Encoder, Info, SrgbRenderingIntent};
 
 /// Why there is no file.
 #[derive(Debug, thiserror::Error)]
@@ -23,15 +23,29 @@ pub enum PngError {
 
 /// The bytes of a PNG file of sRGB pixels, rows from the top.
 pub fn encode(width: u32, height: u32, rgb: &[[u8; 3]]) -> Result<Vec<u8>, PngError> {
+    encode_profiled(width, height, rgb, None)
+}
+
+/// The same of pixels whose colours an ICC profile describes, which the file carries; of sRGB ones without it.
+pub fn encode_profiled(
+    width: u32,
+    height: u32,
+    rgb: &[[u8; 3]],
+    icc: Option<&[u8]>,
+) -> Result<Vec<u8>, PngError> {
     let expected = u64::from(width) * u64::from(height);
     if expected == 0 || rgb.len() as u64 != expected {
         return Err(PngError::Size { width, height, pixels: rgb.len() });
     }
     let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, width, height);
-    encoder.set_color(ColorType::Rgb);
-    encoder.set_depth(BitDepth::Eight);
-    encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+    let mut info = Info::with_size(width, height);
+    info.color_type = ColorType::Rgb;
+    info.bit_depth = BitDepth::Eight;
+    info.icc_profile = icc.map(Into::into);
+    let mut encoder = Encoder::with_info(&mut bytes, info)?;
+    if icc.is_none() {
+        encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+    }
     let mut writer = encoder.write_header()?;
     writer.write_image_data(rgb.as_flattened())?;
     writer.finish()?;
@@ -53,6 +67,15 @@ mod tests {
         assert_eq!((info.width, info.height), (3, 2));
         assert_eq!(decoded, rgb.as_flattened());
         assert!(reader.info().srgb.is_some(), "the file must say that it is sRGB");
+    }
+
+    #[test]
+    fn a_profile_comes_back_and_leaves_srgb_out() {
+        let profile = b"as it was given";
+        let bytes = encode_profiled(1, 1, &[[1, 2, 3]], Some(profile)).unwrap();
+        let reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
+        assert_eq!(reader.info().icc_profile.as_deref(), Some(&profile[..]));
+        assert!(reader.info().srgb.is_none());
     }
 
     #[test]

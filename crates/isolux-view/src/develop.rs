@@ -4,33 +4,64 @@ use crate::error::ViewError;
 use crate::exposure::Exposure;
 use crate::image::{LuminanceImage, Seen};
 use crate::picture::Picture;
-use crate::srgb::codes_from_linear;
-use crate::tone::ToneCurve;
+use crate::profile::MonitorProfile;
+use crate::tone::{Levels, ToneMap, ToneOperator};
+use crate::white::WhiteAdaptation;
 use isolux::units::Rgb;
 use rayon::prelude::*;
 
 /// How luminances become colours.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Development {
+    /// Which colour is shown as white.
+    pub white: WhiteAdaptation,
     /// Which luminance is shown how bright.
     pub exposure: Exposure,
     /// How the rest is fitted to the display.
-    pub tone: ToneCurve,
+    pub tone: ToneOperator,
+    /// The luminance of the white of the display, cd/m2, for tone operators that ask for it.
+    pub display_white_cd_m2: f64,
+    /// What the codes of the picture mean.
+    pub profile: MonitorProfile,
+}
+
+impl Default for Development {
+    /// Colours as they are, exposed by their log-average, by Reinhard's operator, for an sRGB display of 100 cd/m2.
+    fn default() -> Self {
+        Self {
+            white: WhiteAdaptation::default(),
+            exposure: Exposure::default(),
+            tone: ToneOperator::default(),
+            display_white_cd_m2: 100.0,
+            profile: MonitorProfile::srgb(),
+        }
+    }
+}
+
+impl Development {
+    /// The tone operator, worked out for a view.
+    fn tone_map(&self, white_cd_m2: f64) -> Result<ToneMap, ViewError> {
+        let display_white_cd_m2 = self.display_white_cd_m2;
+        self.tone.at(Levels { white_cd_m2, display_white_cd_m2 })
+    }
 }
 
 /// Exposes and tone maps a view. Samples are mapped one by one and averaged as the display emits
 /// them, so that the outlines of luminaires stay smooth. Where there is no surface the picture is black; where the map has
 /// no value it shows what is emitted and mirrored alone: no light is known to reach the place.
 pub fn develop(image: &LuminanceImage, how: &Development) -> Result<Picture, ViewError> {
-    how.tone.check()?;
     let white_cd_m2 = how.exposure.white_cd_m2(image)?;
-    let shown = |seen: &Seen| how.tone.apply(seen.luminance() / white_cd_m2);
+    let tone = how.tone_map(white_cd_m2)?;
+    let adaptation = how.white.matrix(image)?;
+    let adapted = |colour: Rgb| adaptation.map_or(colour, |matrix| Rgb(matrix.apply(colour.0)));
+    let shown = |seen: &Seen| tone.apply(adapted(seen.luminance()) / white_cd_m2);
     let rgb = (0..image.size().pixels())
         .into_par_iter()
         .map(|pixel| {
             let sum: Rgb = image.samples(pixel).iter().map(shown).sum();
-            codes_from_linear(sum / f64::from(image.samples_per_pixel()))
+            how.profile.code_from_linear(sum / f64::from(image.samples_per_pixel()))
         })
         .collect();
-    Ok(Picture { width: image.size().width(), height: image.size().height(), rgb })
+    let (width, height) = (image.size().width(), image.size().height());
+    Ok(Picture { width, height, rgb, icc: how.profile.icc() })
 }

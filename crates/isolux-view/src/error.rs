@@ -28,6 +28,20 @@ pub enum ViewError {
     /// Reinhard's white is not a positive number.
     #[error("the tone curve reaches white at {0}; give a number above zero")]
     ToneWhite(f64),
+    /// Brightness that leaves nothing of the picture.
+    #[error("brightness {0}; give -1 to 1, where 0 changes nothing")]
+    Brightness(f64),
+    /// Contrast that is no factor.
+    #[error("contrast {0}; give 0 to 100, where 1 changes nothing")]
+    Contrast(f64),
+    /// A display without a luminance.
+    #[error(
+        "a display whose white is {0} cd/m2; give 1 to 100000 cd/m2, as it was measured or as its data sheet says"
+    )]
+    DisplayWhite(f64),
+    /// A white that is no colour.
+    #[error("what is to look white is black, or no colour; give one with light in it")]
+    White,
     /// Limits of a scale that enclose nothing, or zero on a logarithmic one.
     #[error(
         "false colour from {low} to {high}; the upper limit must lie above the lower, and on a \

@@ -4,7 +4,7 @@ use crate::error::ViewError;
 use crate::image::LuminanceImage;
 
 /// The share of light that a middle grey reflects, and that the mean of a picture is shown as.
-const MIDDLE_GREY: f64 = 0.18;
+pub(crate) const MIDDLE_GREY: f64 = 0.18;
 
 /// What saturates at an exposure value of nought, cd/m2: 78 / (100 x 0.65) lx s over the s of that value (ISO 12232).
 const SATURATION_CD_M2: f64 = 1.2;
@@ -24,6 +24,8 @@ pub enum Exposure {
     Ev100(f64),
     /// The luminance shown as 1, cd/m2.
     WhiteCdM2(f64),
+    /// The luminance shown as middle grey, cd/m2: the one that eyes in the scene are adapted to.
+    GreyCdM2(f64),
 }
 
 impl Exposure {
@@ -36,6 +38,7 @@ impl Exposure {
             Self::Percentile(share) => (share, percentile(image, share)),
             Self::Ev100(ev) => (ev, SATURATION_CD_M2 * libm::exp2(ev)),
             Self::WhiteCdM2(white) => (white, white),
+            Self::GreyCdM2(grey) => (grey, grey / MIDDLE_GREY),
         };
         let usable = white > 0.0 && white.is_finite();
         usable.then_some(white).ok_or(ViewError::Exposure(given))

@@ -1,25 +1,29 @@
-//! Values in, pixels out: views traced from an illumination map, exposure, tone mapping, false
-//! colour.
+//! Values in, pixels out: views traced from an illumination map, exposure, tone mapping,
+//! colours of displays, false colour.
 //!
 //! [`trace_map()`], or [`trace()`] with a reader of one's own, makes a [`LuminanceImage`] (cd/m2 and lx); [`develop()`] shows it as the eye or a camera
-//! would, [`false_colour()`] as a chart of lux with a legend. Both end in a [`Picture`] of sRGB bytes.
+//! would, in the codes of a display ([`MonitorProfile`]), [`false_colour()`] as a chart of lux with a legend. Both end in a [`Picture`].
 //! [`PolarDiagram`] draws an intensity distribution.
 //! Nothing here reads or writes a file.
 
 mod camera;
+mod colorimetry;
 mod develop;
 mod error;
 mod exposure;
 mod false_colour;
 mod gathered;
 mod image;
+mod matrix;
 mod picture;
 mod plan;
 mod polar;
+mod profile;
 mod srgb;
 mod text;
 mod tone;
 mod trace;
+mod white;
 
 pub use develop::{Development, develop};
 pub use error::ViewError;
@@ -30,5 +34,7 @@ pub use image::{LuminanceImage, Reading, Seen, Sight, Size, Surface};
 pub use picture::{Picture, UNKNOWN};
 pub use plan::plan;
 pub use polar::PolarDiagram;
-pub use tone::ToneCurve;
+pub use profile::{MAX_ICC_BYTES, MonitorProfile, ProfileError};
+pub use tone::{Levels, ToneMap, ToneOperator};
 pub use trace::{Read, SurfacePoint, TraceSettings, trace, trace_watched};
+pub use white::WhiteAdaptation;

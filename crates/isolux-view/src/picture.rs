@@ -2,11 +2,12 @@
 
 use crate::error::ViewError;
 use crate::image::Size;
+use std::sync::Arc;
 
 /// Drawn in charts where a surface carries no known value: a mid grey that no colour map contains.
 pub const UNKNOWN: [u8; 3] = [128, 128, 128];
 
-/// Pixels in sRGB (IEC 61966-2-1), rows from the top.
+/// Pixels, rows from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// Pixels across.
@@ -15,13 +16,15 @@ pub struct Picture {
     pub height: u32,
     /// One colour a pixel.
     pub rgb: Vec<[u8; 3]>,
+    /// The ICC profile that says what the colours are; `None` for sRGB (IEC 61966-2-1).
+    pub icc: Option<Arc<[u8]>>,
 }
 
 impl Picture {
-    /// A picture of one colour.
+    /// A picture of one sRGB colour.
     pub fn filled(size: Size, colour: [u8; 3]) -> Self {
         let (width, height) = (size.width(), size.height());
-        Self { width, height, rgb: vec![colour; size.pixels()] }
+        Self { width, height, rgb: vec![colour; size.pixels()], icc: None }
     }
 
     /// The colour at a pixel; `None` outside.

@@ -1,21 +1,25 @@
-//! The sRGB transfer function (IEC 61966-2-1).
+//! The transfer function of sRGB (IEC 61966-2-1).
 
 use isolux::units::Rgb;
 
+/// The display-linear value of a signal, which is 0 for black and 1 for white; beyond white the power goes on.
+pub(crate) fn linear_from_signal(signal: f64) -> f64 {
+    if signal <= 0.04045 { signal / 12.92 } else { libm::pow((signal + 0.055) / 1.055, 2.4) }
+}
+
+/// The signal of a display-linear value.
+pub(crate) fn signal_from_linear(value: f64) -> f64 {
+    if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * libm::pow(value, 1.0 / 2.4) - 0.055 }
+}
+
 /// The display-linear value of a code.
 pub(crate) fn linear_from_code(code: u8) -> f64 {
-    let c = f64::from(code) / 255.0;
-    if c <= 0.04045 { c / 12.92 } else { libm::pow((c + 0.055) / 1.055, 2.4) }
+    linear_from_signal(f64::from(code) / 255.0)
 }
 
 /// The code nearest to a display-linear value, clipped to 0..1; zero for NaN.
 pub(crate) fn code_from_linear(value: f64) -> u8 {
-    let c = if value <= 0.003_130_8 {
-        12.92 * value
-    } else {
-        1.055 * libm::pow(value, 1.0 / 2.4) - 0.055
-    };
-    (255.0 * c.clamp(0.0, 1.0) + 0.5) as u8
+    (255.0 * signal_from_linear(value).clamp(0.0, 1.0) + 0.5) as u8
 }
 
 /// Three channels at once.

@@ -280,12 +280,14 @@ fn exposure_and_tone_make_the_documented_codes() {
     let scene = scene(room([0; 6]), vec![diffuse(0.5)]);
     let image = look(&scene, &TraceSettings::DRAFT, 1000.0);
     let luminance = 500.0 / PI;
-    let linear = |exposure| Development { exposure, tone: ToneCurve::Linear };
+    let linear =
+        |exposure| Development { exposure, tone: ToneOperator::LINEAR, ..Development::default() };
     for (exposure, code) in [
         // The log-average of one luminance is that luminance, shown as 0.18.
         (Exposure::Automatic, 118),
         (Exposure::Percentile(1.0), 255),
         (Exposure::WhiteCdM2(luminance / 0.18), 118),
+        (Exposure::GreyCdM2(luminance), 118),
         // 1.2 * 2^EV times 0.18 is the luminance.
         (Exposure::Ev100((luminance / 0.18 / 1.2).log2()), 118),
     ] {
@@ -325,7 +327,8 @@ fn bad_requests_are_refused() {
         let how = Development { exposure, ..Development::default() };
         assert!(matches!(develop(&image, &how), Err(ViewError::Exposure(_))), "{exposure:?}");
     }
-    let how = Development { tone: ToneCurve::Reinhard { white: -1.0 }, ..Development::default() };
+    let how =
+        Development { tone: ToneOperator::Reinhard { white: -1.0 }, ..Development::default() };
     assert_eq!(develop(&image, &how), Err(ViewError::ToneWhite(-1.0)));
     assert!(Size::new(0, 5).is_err() && Size::new(1 << 16, 1 << 16).is_err());
     let size = Size::new(4096, 4096).unwrap();

@@ -12,5 +12,6 @@ mod groups;
 mod interrupted;
 mod lightmaps;
 mod lint;
+mod pictures;
 mod ran;
 mod results;

@@ -25,6 +25,7 @@ mod write;
 
 use crate::{Loaded, Problems};
 use isolux::scene::SceneParts;
+use isolux::units::Rgb;
 use std::path::Path;
 
 pub use write::{NamedPhotometry, SceneFile, write};
@@ -37,4 +38,10 @@ pub fn read(path: &Path) -> Result<Loaded<SceneParts>, Problems> {
     let file = parse::parse(&text, &mut context);
     let parts = resolve::resolve(file, &mut context);
     context.finish(parts)
+}
+
+/// The colour of light of a correlated colour temperature, of luminance 1, as `cct_k` of a luminaire has it; `None` outside of 1000 to
+/// 25 000 K.
+pub fn light_of_temperature(kelvin: f64) -> Option<Rgb> {
+    chromaticity::RANGE_K.contains(&kelvin).then(|| chromaticity::of_temperature(kelvin))
 }

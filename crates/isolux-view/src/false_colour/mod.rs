@@ -105,5 +105,5 @@ fn coloured(image: &LuminanceImage, how: &FalseColour, axis: &Axis) -> Picture {
             codes_from_linear(sum / f64::from(image.samples_per_pixel()))
         })
         .collect();
-    Picture { width: image.size().width(), height: image.size().height(), rgb }
+    Picture { width: image.size().width(), height: image.size().height(), rgb, icc: None }
 }

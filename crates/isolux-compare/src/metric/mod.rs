@@ -1,4 +1,19 @@
-//! Distances between what is and what should be.
+//! Distances between what is and what should be: of values, of colours, of pictures and of maps.
+
+mod ciede2000;
+mod delta_e;
+mod lab;
+mod map;
+mod picture;
+
+pub use ciede2000::ciede2000;
+pub use delta_e::{DeltaE, delta_e_1976, delta_e_1994};
+pub use lab::{Lab, White, Xyz};
+pub use map::{MapDifference, MapDifferenceError, MapPlace, figure_of_merit, map_difference};
+pub use picture::{
+    ColourDifference, PictureDistance, PictureError, colour_difference, colour_differences,
+    picture_distance,
+};
 
 /// A value beside its reference.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,0 +1,81 @@
+//! `isolux compare`: the study of GraphiCon'98 made anew.
+
+mod case;
+mod folder;
+mod machine;
+mod pace;
+mod pictures;
+mod plan;
+mod point;
+
+use crate::console::{print, print_json};
+use crate::failure::{Failure, Outcome};
+use crate::flags::CompareFlags;
+use crate::interrupt::Interrupt;
+use folder::Folder;
+use isolux_compare::report;
+use isolux_compare::study::{Answer, Settings, Study, conclusions};
+use pace::Pace;
+use plan::Plan;
+
+/// Runs the subcommand.
+pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> {
+    let plan = Plan::of(flags)?;
+    let folder = Folder::create(&flags.output)?;
+    let interrupt = Interrupt::install()?;
+    let mut study = empty(flags, &plan);
+    let mut pace = Pace::start(&plan);
+    for case in &plan.cases {
+        let done = case::compare(case, (&plan, &folder), &interrupt, &mut pace)?;
+        study.cases.extend(done);
+        if interrupt.is_requested() {
+            break;
+        }
+    }
+    write(&folder, &study)?;
+    if json {
+        print_json(&study)?
+    } else {
+        print(&text(&study, &folder))?
+    }
+    Ok(if interrupt.is_requested() { Outcome::Interrupted } else { Outcome::Done })
+}
+
+fn empty(flags: &CompareFlags, plan: &Plan) -> Study {
+    Study {
+        isolux: env!("CARGO_PKG_VERSION").to_owned(),
+        machine: machine::this(),
+        settings: Settings {
+            limit_s: plan.limit_s,
+            seed: flags.seed,
+            threads: rayon::current_num_threads(),
+            picture: plan.picture,
+        },
+        cases: Vec::new(),
+        missing: Vec::new(),
+    }
+}
+
+/// The report in all its forms.
+fn write(folder: &Folder, study: &Study) -> Result<(), Failure> {
+    let picture = |name: &str| folder.picture(name);
+    let json = serde_json::to_vec_pretty(study).expect("plain values always have a JSON text");
+    folder.write("study.json", &json)?;
+    folder.write("study.csv", report::csv(study).as_bytes())?;
+    folder.write("report.md", report::markdown(study).as_bytes())?;
+    report::graphs(study).iter().try_for_each(|of| folder.write(&of.name, of.svg.as_bytes()))?;
+    folder.write("report.html", report::html(study, &picture).as_bytes())
+}
+
+fn text(study: &Study, folder: &Folder) -> String {
+    let answer = |answer: Answer| match answer {
+        Answer::Yes => "yes",
+        Answer::No => "no",
+        Answer::Unknown => "not known",
+    };
+    let line = |of: &isolux_compare::study::Conclusion| {
+        format!("{}: {}. {}\n", of.statement, answer(of.answer), of.figures)
+    };
+    let conclusions: String = conclusions(study).iter().map(line).collect();
+    format!("{conclusions}report {}\n", folder.path("report.html").display())
+}

@@ -1,0 +1,89 @@
+//! Which graphs a scene has, and what they show.
+
+use super::foreseen;
+use super::kinds::{KINDS, Kind, Of, On};
+use super::{names, systems};
+use crate::report::graph::{Axis, Dot, Graph, Line};
+use crate::study::{CaseStudy, Point, Series};
+
+/// The graphs of a scene.
+pub(super) struct Drawn {
+    pub(super) graphs: Vec<Graph>,
+    /// Titles of those that belong to the scene and have nothing to show.
+    pub(super) missing: Vec<&'static str>,
+}
+
+/// All graphs of a scene.
+pub(super) fn of(case: &CaseStudy) -> Drawn {
+    let mut drawn = Drawn { graphs: Vec::new(), missing: Vec::new() };
+    for kind in &KINDS {
+        let graph = graph(kind, case);
+        if !graph.is_empty() {
+            drawn.graphs.push(with_what_is_left_out(graph));
+        } else if belongs(kind, case) {
+            drawn.missing.push(kind.title);
+        }
+    }
+    drawn
+}
+
+/// Whether a scene should have a graph of this kind.
+fn belongs(kind: &Kind, case: &CaseStudy) -> bool {
+    let is_exact = matches!(case.name.as_str(), "cube" | "sphere");
+    match kind.on {
+        On::Every => true,
+        On::Exact => is_exact,
+        On::Cube => case.name == "cube",
+        On::Practical => !is_exact,
+    }
+}
+
+fn graph(kind: &Kind, case: &CaseStudy) -> Graph {
+    let name = names::name(case);
+    let lines = case.series.iter().map(|series| line(kind, series));
+    Graph {
+        id: format!("{}-{}", names::id(case), kind.id),
+        title: format!("{name}. {}", kind.title),
+        description: kind.says.to_owned(),
+        x: axis(kind.x),
+        y: axis(kind.y),
+        lines: lines.filter(|line| !line.points.is_empty()).collect(),
+        rules: (kind.rules)(case),
+    }
+}
+
+fn axis((title, scale): (&str, crate::report::graph::Scale)) -> Axis {
+    Axis { title: title.to_owned(), scale }
+}
+
+fn line(kind: &Kind, series: &Series) -> Line {
+    let points = match kind.of {
+        Of::Time(value) => dots(series, |point| at(point.time_s, value(point)?)),
+        Of::Pair(x, y) => dots(series, |point| at(x(point)?, y(point)?)),
+        Of::Interval(x, y) => dots(series, |point| {
+            let [value, low, high] = y(point)?;
+            Some(Dot { x: x(point)?, y: value, interval: Some([low, high]) })
+        }),
+        Of::Foreseen => foreseen::dots(series),
+    };
+    Line { title: series.system.title().to_owned(), look: systems::number(series.system), points }
+}
+
+fn dots(series: &Series, dot: impl Fn(&Point) -> Option<Dot>) -> Vec<Dot> {
+    series.points.iter().filter_map(dot).collect()
+}
+
+fn at(x: f64, y: f64) -> Option<Dot> {
+    Some(Dot { x, y, interval: None })
+}
+
+/// Says how many points have no place.
+fn with_what_is_left_out(mut graph: Graph) -> Graph {
+    let said = match graph.left_out() {
+        0 => return graph,
+        1 => " One point of zero has no place on a logarithmic axis.".to_owned(),
+        many => format!(" {many} points of zero have no place on a logarithmic axis."),
+    };
+    graph.description.push_str(&said);
+    graph
+}

@@ -1,0 +1,19 @@
+//! The study of Kopylov, Khodulev and Volevich (GraphiCon'98) made anew: what is run, what is measured of it, and what follows.
+//!
+//! A [`Study`] is a plain value: cases, in each of them systems, and of each system a point for every time allowed. It is filled by who can run
+//! engines and make pictures; [`conclusions`] and reports are functions of it.
+
+mod conclusions;
+mod convergence;
+mod measured;
+mod record;
+mod system;
+
+pub use conclusions::{Answer, Conclusion, ERROR_OF_LVS, conclusions};
+pub use convergence::{Convergence, time_to_error_s};
+pub use measured::{Measured, measure};
+pub use record::{
+    Audited, CaseStudy, Distances, Machine, Point, Prediction, Reference, Reported, Series,
+    Settings, Study,
+};
+pub use system::{System, times_s};
