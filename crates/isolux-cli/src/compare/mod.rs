@@ -12,6 +12,7 @@ use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::CompareFlags;
 use crate::interrupt::Interrupt;
+use crate::source;
 use folder::Folder;
 use isolux_compare::report;
 use isolux_compare::study::{Answer, Settings, Study, conclusions};
@@ -21,6 +22,10 @@ use plan::Plan;
 /// Runs the subcommand.
 pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> {
     let plan = Plan::of(flags)?;
+    // Whatever is wrong with the last scene is told before hours are spent on the first.
+    for case in &plan.cases {
+        source::read_scene(&case.source)?;
+    }
     let folder = Folder::create(&flags.output)?;
     let interrupt = Interrupt::install()?;
     let mut study = empty(flags, &plan);
@@ -69,12 +74,12 @@ fn write(folder: &Folder, study: &Study) -> Result<(), Failure> {
 
 fn text(study: &Study, folder: &Folder) -> String {
     let answer = |answer: Answer| match answer {
-        Answer::Yes => "yes",
-        Answer::No => "no",
-        Answer::Unknown => "not known",
+        Answer::Yes => "Yes",
+        Answer::No => "No",
+        Answer::Unknown => "Not known",
     };
     let line = |of: &isolux_compare::study::Conclusion| {
-        format!("{}: {}. {}\n", of.statement, answer(of.answer), of.figures)
+        format!("{} {}: {}\n", of.statement, answer(of.answer), of.figures)
     };
     let conclusions: String = conclusions(study).iter().map(line).collect();
     format!("{conclusions}report {}\n", folder.path("report.html").display())

@@ -5,8 +5,10 @@ use isolux::map::Method;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// The accuracy that every run is asked for: none gets there in time, so that all use the time allowed.
+/// The accuracy that every run is asked for: hardly any gets there in time, so that all use the time allowed. Radiosity makes its elements and
+/// form factors for it before it looks at the time.
 const OUT_OF_REACH: f64 = 1e-4;
+const OUT_OF_REACH_OF_RADIOSITY: f64 = 1e-3;
 
 /// A way to make maps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -87,7 +89,10 @@ impl System {
     pub fn request(self, time: Duration, seed: u64) -> SolveRequest {
         SolveRequest {
             method: self.method(),
-            accuracy: Some(OUT_OF_REACH),
+            accuracy: Some(match self.method() {
+                Method::Radiosity => OUT_OF_REACH_OF_RADIOSITY,
+                _ => OUT_OF_REACH,
+            }),
             time_limit: Some(time),
             seed,
             filter: self != Self::ForwardUnfiltered,
