@@ -16,24 +16,21 @@ pub(crate) fn run(root: &Path, made: &Made) -> Result<String, String> {
     if !folder.join("package.json").is_file() {
         return Ok("skipped: there is no checks/".to_owned());
     }
-    if let Some(missing) = missing_for_node(&folder) {
-        let message = format!("skipped, as it is optional: {missing}");
-        return if is_ci() {
-            Err(format!("not optional with CI=true: {missing}"))
-        } else {
-            Ok(message)
-        };
-    }
+    let needed = missing_for_node(&folder).map_or(Ok(()), |missing| Err(missing.to_owned()));
+    optional(needed, |()| show(&folder, made))
+}
+
+fn show(folder: &Path, made: &Made) -> Result<String, String> {
     for judge in JUDGES {
-        accept(&folder, judge, &[made.map.as_os_str()])?;
+        accept(folder, judge, &[made.map.as_os_str()])?;
     }
     let Card { file, vertices, onto, reflectance, illuminance_lx } = &made.card;
     let files = made.for_engines.iter().chain([file, vertices, onto]);
-    accept(&folder, "validate.mjs", &files.map(|file| file.as_os_str()).collect::<Vec<_>>())?;
+    accept(folder, "validate.mjs", &files.map(|file| file.as_os_str()).collect::<Vec<_>>())?;
     let [reflectance, illuminance_lx] = [reflectance, illuminance_lx].map(ToString::to_string);
     let known = [OsStr::new(&reflectance), OsStr::new(&illuminance_lx)];
     let card = [&[file.as_os_str(), vertices.as_os_str(), onto.as_os_str()], &known[..]].concat();
-    match node(&folder, "lightmap.mjs", &card)? {
+    match node(folder, "lightmap.mjs", &card)? {
         Some(0) => Ok("the judges accept the map and what is made of it for engines".to_owned()),
         Some(NO_BROWSER) => {
             Ok("the judges accept the map and what is made of it for engines, but three.js drew \
@@ -60,6 +57,18 @@ fn node(folder: &Path, judge: &str, arguments: &[&OsStr]) -> Result<Option<i32>,
 /// Whether nothing may be left out.
 pub(crate) fn is_ci() -> bool {
     std::env::var_os("CI").is_some_and(|value| value == "true")
+}
+
+/// Has judges look that need something that may not be there; without it they are left out, except where `CI` is `true`.
+pub(crate) fn optional<T>(
+    needed: Result<T, String>,
+    judge: impl FnOnce(T) -> Result<String, String>,
+) -> Result<String, String> {
+    match needed {
+        Ok(found) => judge(found),
+        Err(missing) if is_ci() => Err(format!("not optional with CI=true: {missing}")),
+        Err(missing) => Ok(format!("skipped, as it is optional: {missing}")),
+    }
 }
 
 /// What keeps the judges of a folder from running.

@@ -1,7 +1,7 @@
 //! Judges of the reading of photometric files: Radiance's ies2rad and photompy, through Python.
 
-use crate::judge::is_ci;
-use crate::peers::{environment, wait};
+use crate::judge::optional;
+use crate::peers::{python_of_judge, wait};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -13,32 +13,20 @@ const PHOTOMPY: &str = "photompy==0.3.1";
 pub(crate) fn run(root: &Path) -> Result<String, String> {
     let source = root.join("checks").join("photometry");
     let folder = root.join("target").join("judges-of-lamps");
-    let found = has_python().and_then(|()| {
-        std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-        let python = environment(&source, &folder.join("venv"))?;
-        Ok((unpacked(&folder, &python)?, python))
-    });
-    let (samples, python) = match found {
-        Ok(found) => found,
-        Err(missing) if is_ci() => return Err(format!("not optional with CI=true: {missing}")),
-        Err(missing) => return Ok(format!("skipped, as it is optional: {missing}")),
-    };
-    let mut judge = Command::new(python);
-    judge.arg(source.join("judge.py")).arg("--isolux").arg(built(root)?);
-    judge.arg("--accepted").arg(source.join("accepted.json"));
-    for (name, files) in
-        [("collection", root.join("data").join("photometry")), ("photompy", samples)]
-    {
-        judge.arg(format!("{name}={}", files.display()));
-    }
-    wait(&mut judge, "ies2rad and photompy")?;
-    Ok("the judges read the lamps alike".to_owned())
-}
-
-pub(crate) fn has_python() -> Result<(), String> {
-    let version = Command::new("python3").arg("--version").output();
-    let works = version.is_ok_and(|output| output.status.success());
-    works.then_some(()).ok_or_else(|| "python3 is not installed".to_owned())
+    let needed = python_of_judge(&source, &folder)
+        .and_then(|python| Ok((unpacked(&folder, &python)?, python)));
+    optional(needed, |(samples, python)| {
+        let mut judge = Command::new(python);
+        judge.arg(source.join("judge.py")).arg("--isolux").arg(built(root)?);
+        judge.arg("--accepted").arg(source.join("accepted.json"));
+        for (name, files) in
+            [("collection", root.join("data").join("photometry")), ("photompy", samples)]
+        {
+            judge.arg(format!("{name}={}", files.display()));
+        }
+        wait(&mut judge, "ies2rad and photompy")?;
+        Ok("the judges read the lamps alike".to_owned())
+    })
 }
 
 /// The test files of the source package of photompy, downloaded once.

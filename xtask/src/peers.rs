@@ -27,14 +27,26 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
 
 /// Tests of the scripts themselves, for which no other renderer is installed.
 pub(crate) fn check(root: &Path) -> Result<String, String> {
-    let python = Command::new("python3").arg("--version").output();
-    if !python.is_ok_and(|output| output.status.success()) {
-        return Ok("skipped, as it is optional: python3 is not installed".to_owned());
+    if let Err(missing) = has_python() {
+        return Ok(format!("skipped, as it is optional: {missing}"));
     }
     let folder = root.join("benchmarks").join("peers");
     let tests = ["-B", "-m", "unittest", "--quiet"];
     wait(Command::new("python3").args(tests).current_dir(folder), "python3 -m unittest")?;
     Ok("the scripts refuse what they should".to_owned())
+}
+
+pub(crate) fn has_python() -> Result<(), String> {
+    let version = Command::new("python3").arg("--version").output();
+    let works = version.is_ok_and(|output| output.status.success());
+    works.then_some(()).ok_or_else(|| "python3 is not installed".to_owned())
+}
+
+/// The Python of a judge whose packages `source` pins, in a folder of its own; an error without Python or a package index.
+pub(crate) fn python_of_judge(source: &Path, folder: &Path) -> Result<PathBuf, String> {
+    has_python()?;
+    std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    environment(source, &folder.join("venv"))
 }
 
 /// A virtual environment with the pinned packages, made anew when they change; its Python.

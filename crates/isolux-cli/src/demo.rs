@@ -5,7 +5,7 @@ use crate::failure::{Failure, Outcome};
 use crate::flags::DemoFlags;
 use crate::look::Look;
 use crate::notes::{Note, note};
-use crate::output::OutputPath;
+use crate::output::{OutputPath, create_folder};
 use crate::progress::Reporter;
 use crate::solving::Run;
 use crate::summary::{self, Lit};
@@ -59,10 +59,7 @@ struct Files {
 
 impl Files {
     fn check(folder: &Path) -> Result<Self, Failure> {
-        std::fs::create_dir_all(folder).map_err(|e| {
-            let folder = folder.display();
-            Failure::bad_input(format!("{folder}: cannot be created ({e}); choose another folder"))
-        })?;
+        create_folder(folder)?;
         Ok(Self {
             map: OutputPath::check(&folder.join("map.glb"), "glb")?,
             picture: OutputPath::check(&folder.join("picture.png"), "png")?,

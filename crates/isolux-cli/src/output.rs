@@ -4,6 +4,14 @@ use crate::failure::Failure;
 use isolux_formats::atomic;
 use std::path::{Path, PathBuf};
 
+/// Makes a folder and those above it, unless they are there.
+pub(crate) fn create_folder(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|e| {
+        let folder = folder.display();
+        Failure::bad_input(format!("{folder}: cannot be created ({e}); choose another folder"))
+    })
+}
+
 /// A path that could be written when it was checked.
 #[derive(Clone, Debug)]
 pub(crate) struct OutputPath(PathBuf);

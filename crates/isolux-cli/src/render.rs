@@ -128,7 +128,7 @@ pub(crate) fn view(
 }
 
 /// The same of the bare map, all light interpolated.
-fn bare(
+pub(crate) fn bare(
     scene: &Scene,
     map: &IlluminationMap,
     camera: &Camera,

@@ -3,13 +3,14 @@
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::SceneFlags;
+use crate::output::create_folder;
 use crate::source;
 use isolux_compare::hall::{Lamp, lamps};
 use isolux_formats::ies::Photometry;
 use isolux_formats::scene_toml::{NamedPhotometry, SceneFile, write};
 use isolux_formats::{Loaded, atomic};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &SceneFlags, json: bool) -> Result<Outcome, Failure> {
@@ -17,8 +18,8 @@ pub(crate) fn run(flags: &SceneFlags, json: bool) -> Result<Outcome, Failure> {
     source::show_warnings(&warnings);
     let known: Vec<NamedPhotometry> = lamps().into_iter().map(photometry).collect();
     let files = write(&parts, &known).map_err(Failure::bad_input)?;
-    let folder = folder(&flags.output)?;
-    let paths: Vec<PathBuf> = files.iter().map(|file| folder.join(&file.name)).collect();
+    create_folder(&flags.output)?;
+    let paths: Vec<PathBuf> = files.iter().map(|file| flags.output.join(&file.name)).collect();
     refuse_to_replace(&paths, flags.force)?;
     for (SceneFile { bytes, .. }, path) in files.iter().zip(&paths) {
         atomic::write(path, bytes).map_err(|problem| Failure::Refused(problem.to_string()))?;
@@ -38,15 +39,6 @@ pub(crate) fn run(flags: &SceneFlags, json: bool) -> Result<Outcome, Failure> {
 struct Written {
     scene: String,
     files: Vec<String>,
-}
-
-/// The folder, made if it is not there.
-fn folder(path: &Path) -> Result<PathBuf, Failure> {
-    std::fs::create_dir_all(path).map_err(|e| {
-        let folder = path.display();
-        Failure::bad_input(format!("{folder}: cannot be created ({e}); choose another folder"))
-    })?;
-    Ok(path.to_owned())
 }
 
 /// A folder may hold what somebody has edited.
@@ -90,6 +82,7 @@ mod tests {
     use isolux::geometry::Point;
     use isolux::scene::{Luminaire, LuminaireKind, Scene};
     use isolux_compare::truth::TruthScene;
+    use std::path::Path;
 
     fn hash(source: &Path) -> String {
         Scene::assemble(source::read_parts(source).unwrap().value).unwrap().hash()

@@ -1,8 +1,7 @@
 //! Blender, as a module of Python.
 
 use super::bench::{Bench, text};
-use crate::lamps::has_python;
-use crate::peers::{environment, wait};
+use crate::peers::{environment, has_python, wait};
 use crate::smoke::{CARD, PICTURE_SIZE, PICTURE_WHITE_CD_M2};
 use std::path::Path;
 use std::process::Command;

@@ -14,8 +14,8 @@ use isolux_compare::study::{CaseStudy, Point, Reference, Series, System};
 use std::time::Instant;
 
 /// A scene and what is known of it.
-struct Subject {
-    scene: Scene,
+struct Subject<'a> {
+    scene: &'a Scene,
     /// The same without mirrors, gloss and glass, where that is asked for.
     diffuse: Option<Scene>,
     hash: String,
@@ -23,11 +23,11 @@ struct Subject {
     viewer: Option<Viewer>,
 }
 
-impl Subject {
+impl Subject<'_> {
     fn scene(&self, system: System) -> &Scene {
         match (&self.diffuse, system) {
             (Some(diffuse), System::RadiosityDiffuse) => diffuse,
-            _ => &self.scene,
+            _ => self.scene,
         }
     }
 }
@@ -68,16 +68,16 @@ pub(crate) fn compare(
     Ok(Some(done))
 }
 
-/// Reads the scene, and makes the map of the reference picture, if there is to be one.
-fn begin(
-    case: &Case,
+/// Makes the map of the reference picture, if there is to be one.
+fn begin<'a>(
+    case: &'a Case,
     (plan, folder): (&Plan, &Folder),
     interrupt: &Interrupt,
-) -> Result<Option<(Subject, Option<Reference>)>, Failure> {
-    let scene = source::read_scene(&case.source)?;
+) -> Result<Option<(Subject<'a>, Option<Reference>)>, Failure> {
+    let scene = &case.scene;
     let hash = scene.hash();
     let has_diffuse = plan.systems.contains(&System::RadiosityDiffuse);
-    let diffuse = has_diffuse.then(|| source::diffuse(&case.source, &scene)).transpose()?;
+    let diffuse = has_diffuse.then(|| source::diffuse(&case.source, scene)).transpose()?;
     let subject = Subject { scene, diffuse, hash, viewer: None };
     if case.is_exact {
         return Ok(Some((subject, None)));
@@ -89,10 +89,10 @@ fn begin(
         ..SolveRequest::default()
     };
     let begun = Instant::now();
-    let Some((map, _)) = solve(&subject.scene, &request, interrupt)? else { return Ok(None) };
+    let Some((map, _)) = solve(scene, &request, interrupt)? else { return Ok(None) };
     let picture = format!("pictures/{}-reference.png", case.stem());
-    let viewer = Viewer::of(&subject.scene, &map, plan)?;
-    viewer.keep((&subject.scene, &map), (folder, &picture))?;
+    let viewer = Viewer::of(scene, &map, plan)?;
+    viewer.keep((scene, &map), (folder, &picture))?;
     let reference = Reference {
         picture,
         told: map.provenance.accuracy.map(|accuracy| accuracy.reached),

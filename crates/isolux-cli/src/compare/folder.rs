@@ -1,6 +1,7 @@
 //! The folder that a comparison is kept in: its maps, points, pictures and reports.
 
 use crate::failure::Failure;
+use crate::output::{OutputPath, create_folder};
 use isolux_formats::atomic;
 use std::path::{Path, PathBuf};
 
@@ -10,16 +11,9 @@ pub(crate) struct Folder(PathBuf);
 impl Folder {
     /// Makes it, unless it is there.
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
-        for folder in
-            [path.to_owned(), path.join("maps"), path.join("pictures"), path.join("graphs")]
-        {
-            std::fs::create_dir_all(&folder).map_err(|e| {
-                let folder = folder.display();
-                Failure::bad_input(format!(
-                    "{folder}: cannot be created ({e}); choose another folder"
-                ))
-            })?;
-        }
+        ["maps", "pictures", "graphs"]
+            .iter()
+            .try_for_each(|name| create_folder(&path.join(name)))?;
         let folder = Self(path.to_owned());
         atomic::check_writable(&folder.path("report.html")).map_err(Failure::bad_input)?;
         Ok(folder)
@@ -27,6 +21,11 @@ impl Folder {
 
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.join(name)
+    }
+
+    /// Where a file of some kind goes.
+    pub(crate) fn output(&self, name: &str, extension: &str) -> Result<OutputPath, Failure> {
+        OutputPath::check(&self.path(name), extension)
     }
 
     /// Writes a file whole or not at all.

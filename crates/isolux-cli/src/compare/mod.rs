@@ -12,7 +12,6 @@ use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::CompareFlags;
 use crate::interrupt::Interrupt;
-use crate::source;
 use folder::Folder;
 use isolux_compare::report;
 use isolux_compare::study::{Answer, Settings, Study, conclusions};
@@ -22,10 +21,6 @@ use plan::Plan;
 /// Runs the subcommand.
 pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> {
     let plan = Plan::of(flags)?;
-    // Whatever is wrong with the last scene is told before hours are spent on the first.
-    for case in &plan.cases {
-        source::read_scene(&case.source)?;
-    }
     let folder = Folder::create(&flags.output)?;
     let interrupt = Interrupt::install()?;
     let mut study = empty(flags, &plan);

@@ -3,23 +3,17 @@
 use super::folder::Folder;
 use super::plan::Plan;
 use crate::failure::Failure;
-use crate::viewpoint;
+use crate::{render, viewpoint};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_compare::metric::{DeltaE, White, Xyz, colour_difference, picture_distance};
 use isolux_compare::study::Distances;
-use isolux_view::{
-    Development, Exposure, LuminanceImage, MonitorProfile, Size, SurfacePoint, TraceSettings,
-    develop, trace,
-};
-
-/// Walls of one side only are looked through from outside.
-const SETTINGS: TraceSettings = TraceSettings { through_black_backs: true, ..TraceSettings::FINE };
+use isolux_view::{Development, Exposure, MonitorProfile, develop};
 
 /// Looks at maps of one scene, always alike.
 pub(crate) struct Viewer {
     camera: Camera,
-    size: Size,
+    size: (u32, u32),
     /// The luminance that is shown as white, cd/m2: that of the reference picture.
     exposure: Exposure,
     profile: MonitorProfile,
@@ -28,35 +22,27 @@ pub(crate) struct Viewer {
 impl Viewer {
     /// As a map asks for.
     pub(crate) fn of(scene: &Scene, map: &IlluminationMap, plan: &Plan) -> Result<Self, Failure> {
-        let [width, height] = plan.picture;
         let viewer = Self {
             camera: viewpoint::camera(scene, None).map_err(Failure::bad_input)?,
-            size: Size::new(width, height).map_err(Failure::bad_input)?,
+            size: plan.picture.into(),
             exposure: Exposure::Automatic,
             profile: MonitorProfile::srgb(),
         };
-        let seen = viewer.look(scene, map)?;
+        let seen = render::bare(scene, map, &viewer.camera, viewer.size)?;
         let white = Exposure::Automatic.white_cd_m2(&seen).map_err(Failure::bad_input)?;
         Ok(Self { exposure: Exposure::WhiteCdM2(white), ..viewer })
     }
 
-    /// The bare map: all light interpolated between its vertices.
-    fn look(&self, scene: &Scene, map: &IlluminationMap) -> Result<LuminanceImage, Failure> {
-        let read = |at: SurfacePoint| map.interpolate(at.triangle, at.back, at.u, at.v);
-        trace(scene, &self.camera, self.size, &SETTINGS, &read).map_err(Failure::bad_input)
-    }
-
-    /// Makes a picture of a map and keeps it.
+    /// Makes a picture of a bare map, all light interpolated between its vertices, and keeps it.
     pub(crate) fn keep(
         &self,
         (scene, map): (&Scene, &IlluminationMap),
         (folder, name): (&Folder, &str),
     ) -> Result<(), Failure> {
         let how = Development { exposure: self.exposure, ..Development::default() };
-        let picture = develop(&self.look(scene, map)?, &how).map_err(Failure::bad_input)?;
-        let bytes = isolux_formats::png::encode(picture.width, picture.height, &picture.rgb)
-            .map_err(|e| Failure::Refused(format!("{name}: {e}")))?;
-        folder.write(name, &bytes)
+        let seen = render::bare(scene, map, &self.camera, self.size)?;
+        let picture = develop(&seen, &how).map_err(Failure::bad_input)?;
+        render::write(&folder.output(name, "png")?, &picture)
     }
 
     /// How far a picture that was kept is from another; `None` where one of them is not there.

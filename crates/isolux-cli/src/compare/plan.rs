@@ -1,8 +1,9 @@
 //! What is to be run.
 
-use crate::demo;
 use crate::failure::Failure;
 use crate::flags::CompareFlags;
+use crate::{demo, source};
+use isolux::scene::Scene;
 use isolux_compare::study::{System, times_s};
 use std::path::{Path, PathBuf};
 
@@ -36,6 +37,8 @@ pub(crate) struct Plan {
 pub(crate) struct Case {
     pub(crate) name: String,
     pub(crate) source: PathBuf,
+    /// Read before any is compared: what is wrong with the last one is told before hours are spent on the first.
+    pub(crate) scene: Scene,
     /// Whether its right values are known: then errors are measured, and no pictures made.
     pub(crate) is_exact: bool,
 }
@@ -100,7 +103,8 @@ fn add(cases: &mut Vec<Case>, name: &Path) -> Result<(), Failure> {
     let name = name.display().to_string();
     let is_exact = matches!(name.as_str(), "cube" | "sphere");
     if cases.iter().all(|case| case.name != name) {
-        cases.push(Case { name, source, is_exact });
+        let scene = source::read_scene(&source)?;
+        cases.push(Case { name, source, scene, is_exact });
     }
     Ok(())
 }

@@ -4,11 +4,11 @@ use super::folder::Folder;
 use super::plan::{Case, Plan};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::map_file;
 use isolux::engine::{self, AuditSettings, Progress, SolveRequest, Watch};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_compare::study::{Audited, Point, Prediction, Reported, System, measure};
-use isolux_formats::map_glb::{self, Preview};
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
@@ -72,9 +72,7 @@ impl Asked<'_> {
         point: &Point,
     ) -> Result<(), Failure> {
         let stem = self.stem();
-        let bytes = map_glb::write(scene, map, &Preview::automatic(scene, map))
-            .map_err(|e| Failure::Refused(format!("{stem}: {e}")))?;
-        folder.write(&format!("maps/{stem}.glb"), &bytes)?;
+        map_file::write(&folder.output(&format!("maps/{stem}.glb"), "glb")?, scene, map)?;
         let kept = Kept { made: self.made(scene_hash, plan), point: point.clone() };
         let json = serde_json::to_vec_pretty(&kept).expect("plain values always have a JSON text");
         folder.write(&format!("maps/{stem}.json"), &json)
