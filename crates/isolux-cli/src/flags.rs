@@ -627,7 +627,7 @@ pub(crate) struct CompareFlags {
     /// The longest time of a map [default: 16 s]
     #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true, conflicts_with = "quick")]
     pub limit: Option<Duration>,
-    /// Within two minutes: no map takes more than a second
+    /// Within two minutes: maps of half a second, or of as little as there can be
     #[arg(long)]
     pub quick: bool,
     /// Some of hybrid, forward, forward-unfiltered, radiosity, radiosity-without-ambient, radiosity-diffuse, cache [default: all]

@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::notes::{Note, note};
 use crate::output::OutputPath;
-use crate::source::{bad_file, check_place, show_warnings};
+use crate::source::{bad_file, check_place, is_builtin, show_warnings};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use isolux_formats::map_glb::{self, MapFile, Preview};
@@ -16,6 +16,7 @@ pub(crate) fn is_map(path: &Path) -> bool {
 
 /// Reads a map with the scene in it, which is not refused by [`check_place`].
 pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
+    refuse_builtin(path)?;
     let loaded = map_glb::read(path).map_err(bad_file)?;
     show_warnings(&loaded.warnings);
     check_place(path, &loaded.value.0)?;
@@ -24,10 +25,22 @@ pub(crate) fn read(path: &Path) -> Result<(Scene, IlluminationMap), Failure> {
 
 /// The same with the texels that the file holds.
 pub(crate) fn read_with_texels(path: &Path) -> Result<MapFile, Failure> {
+    refuse_builtin(path)?;
     let loaded = map_glb::read_with_texels(path).map_err(bad_file)?;
     show_warnings(&loaded.warnings);
     check_place(path, &loaded.value.scene)?;
     Ok(loaded.value)
+}
+
+/// Scenes that are built in are no maps.
+fn refuse_builtin(path: &Path) -> Result<(), Failure> {
+    if !is_builtin(path) {
+        return Ok(());
+    }
+    let scene = path.display();
+    Err(Failure::bad_input(format!(
+        "{scene}: is a scene and no map; solve it first: isolux solve {scene} -o map.glb"
+    )))
 }
 
 /// Writes a map with its scene.

@@ -6,6 +6,12 @@ use std::path::{Path, PathBuf};
 
 /// Makes a folder and those above it, unless they are there.
 pub(crate) fn create_folder(folder: &Path) -> Result<(), Failure> {
+    if let Some(file) = folder.ancestors().find(|above| above.is_file()) {
+        let file = file.display();
+        return Err(Failure::bad_input(format!(
+            "{file}: is a file, where a folder is to be; choose another name"
+        )));
+    }
     std::fs::create_dir_all(folder).map_err(|e| {
         let folder = folder.display();
         Failure::bad_input(format!("{folder}: cannot be created ({e}); choose another folder"))

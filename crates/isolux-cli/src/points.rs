@@ -65,7 +65,9 @@ fn parse(text: &str, name: &str) -> Result<Vec<ProbePoint>, Failure> {
             break;
         }
     }
-    if problems.is_empty() && points.is_empty() {
+    if points.is_empty() {
+        // What is no list of points at all is told once.
+        problems.truncate(1);
         problems.push(format!("{name}: holds no point; write x y z nx ny nz, one a line"));
     }
     if problems.is_empty() { Ok(points) } else { Err(Failure::BadInput(problems)) }

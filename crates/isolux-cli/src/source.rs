@@ -49,6 +49,11 @@ fn bad_scene(file: &Path, problems: Vec<SceneProblem>) -> Failure {
     bad_file(Problems(problems.into_iter().map(problem).collect()))
 }
 
+/// Whether this names a scene that is built in, or should.
+pub(crate) fn is_builtin(source: &Path) -> bool {
+    source.to_str().is_some_and(|name| name.starts_with(BUILTIN))
+}
+
 /// Reads what a scene is made of.
 pub(crate) fn read_parts(source: &Path) -> Result<Loaded<SceneParts>, Failure> {
     match source.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {

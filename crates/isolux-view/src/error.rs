@@ -22,6 +22,9 @@ pub enum ViewError {
         /// Samples asked for.
         samples: u64,
     },
+    /// A limit of differences that is no size.
+    #[error("differences up to {0}; give a finite number above zero")]
+    Limit(f64),
     /// A luminance or exposure value that is no exposure.
     #[error("exposure {0}; give a finite number, for a luminance one above zero")]
     Exposure(f64),

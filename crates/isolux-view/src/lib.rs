@@ -9,6 +9,7 @@
 mod camera;
 mod colorimetry;
 mod develop;
+mod difference;
 mod error;
 mod exposure;
 mod false_colour;
@@ -26,6 +27,7 @@ mod trace;
 mod white;
 
 pub use develop::{Development, develop};
+pub use difference::differences;
 pub use error::ViewError;
 pub use exposure::Exposure;
 pub use false_colour::{ColourMap, Contours, FalseColour, Quantity, Scale, false_colour};

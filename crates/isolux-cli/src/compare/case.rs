@@ -1,26 +1,32 @@
 //! One scene through all systems.
 
 use super::folder::Folder;
+use super::kept::{self, Made};
 use super::pace::Pace;
 use super::pictures::Viewer;
 use super::plan::{Case, Plan};
 use super::point::{Asked, solve};
+use super::wrong::{self, Wrong};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::source;
 use isolux::engine::SolveRequest;
 use isolux::scene::Scene;
-use isolux_compare::study::{CaseStudy, Point, Reference, Series, System};
+use isolux_compare::metric::landed_over_emitted;
+use isolux_compare::study::{
+    CaseStudy, Point, Reference, Series, System, accuracy_for, errors, right_landing,
+};
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// A scene and what is known of it.
-struct Subject<'a> {
+pub(crate) struct Subject<'a> {
     scene: &'a Scene,
     /// The same without mirrors, gloss and glass, where that is asked for.
     diffuse: Option<Scene>,
     hash: String,
     /// Who makes pictures, where there are any.
-    viewer: Option<Viewer>,
+    pub(crate) viewer: Option<Viewer>,
 }
 
 impl Subject<'_> {
@@ -43,32 +49,40 @@ pub(crate) fn compare(
     let Some((subject, reference)) = begin(case, (plan, folder), interrupt)? else {
         return Ok(None);
     };
-    let mut series: Vec<Series> =
-        plan.systems.iter().map(|&system| Series { system, points: Vec::new() }).collect();
+    let begun = |&system: &System| Series { system, points: Vec::new(), error_picture: None };
+    let mut series: Vec<Series> = plan.systems.iter().map(begun).collect();
+    let mut wrong = BTreeMap::new();
     'all: for asked_s in plan.times_s(case) {
-        for Series { system, points } in &mut series {
-            let asked = Asked { case, system: *system, asked_s };
-            let Some(point) = point(&asked, &subject, (plan, folder), interrupt, pace)? else {
+        for Series { system, points, .. } in &mut series {
+            let accuracy = accuracy_for(points, asked_s);
+            let asked = Asked { case, system: *system, asked_s, accuracy };
+            let Some((point, is_wrong)) = point(&asked, &subject, (plan, folder), interrupt, pace)?
+            else {
                 break 'all;
             };
             points.push(point);
+            wrong.insert(*system, is_wrong);
         }
     }
+    let scene = subject.scene;
     let mut done = CaseStudy {
         name: case.name.clone(),
         scene_hash: subject.hash.clone(),
-        triangles: subject.scene.triangle_count(),
-        luminaires: subject.scene.luminaires().len() + subject.scene.area_luminaires().len(),
+        triangles: scene.triangle_count(),
+        luminaires: scene.luminaires().len() + scene.area_luminaires().len(),
         reference,
+        landing: right_landing(&case.name, scene).filter(|_| case.is_exact),
+        error_limit: None,
         series,
     };
     if let Some(viewer) = &subject.viewer {
         tell_distances(&mut done, viewer, folder);
     }
+    wrong::tell(&mut done, &wrong, (case, &subject), folder)?;
     Ok(Some(done))
 }
 
-/// Makes the map of the reference picture, if there is to be one.
+/// Makes the map of the reference picture, if there is to be one and it is not there already.
 fn begin<'a>(
     case: &'a Case,
     (plan, folder): (&Plan, &Folder),
@@ -82,6 +96,31 @@ fn begin<'a>(
     if case.is_exact {
         return Ok(Some((subject, None)));
     }
+    let made = Made::of(&subject.hash, plan).for_accuracy(plan.reference);
+    let stem = format!("{}-reference", case.stem());
+    let reference = match made.found::<Reference>(folder, &stem) {
+        Some(reference) => reference,
+        None => {
+            let Some(reference) = reference(case, (plan, folder), (&stem, &made), interrupt)?
+            else {
+                return Ok(None);
+            };
+            reference
+        }
+    };
+    let (scene_of_map, map) = kept::map(folder, &stem)?;
+    let viewer = Viewer::of(&scene_of_map, &map, plan)?;
+    viewer.keep((&scene_of_map, &map), (folder, &reference.picture))?;
+    Ok(Some((Subject { viewer: Some(viewer), ..subject }, Some(reference))))
+}
+
+/// The map that others are compared with; `None` if the user stops it.
+fn reference(
+    case: &Case,
+    (plan, folder): (&Plan, &Folder),
+    (stem, made): (&str, &Made),
+    interrupt: &Interrupt,
+) -> Result<Option<Reference>, Failure> {
     let request = SolveRequest {
         accuracy: Some(plan.reference),
         audit: false,
@@ -89,45 +128,52 @@ fn begin<'a>(
         ..SolveRequest::default()
     };
     let begun = Instant::now();
-    let Some((map, _)) = solve(scene, &request, interrupt)? else { return Ok(None) };
-    let picture = format!("pictures/{}-reference.png", case.stem());
-    let viewer = Viewer::of(scene, &map, plan)?;
-    viewer.keep((scene, &map), (folder, &picture))?;
+    let Some((map, predictions)) = solve(&case.scene, &request, interrupt)? else {
+        return Ok(None);
+    };
     let reference = Reference {
-        picture,
+        picture: format!("pictures/{stem}.png"),
         told: map.provenance.accuracy.map(|accuracy| accuracy.reached),
         time_s: begun.elapsed().as_secs_f64(),
+        accuracy: plan.reference,
+        predictions,
+        landing: landed_over_emitted(&case.scene, &map),
     };
-    Ok(Some((Subject { viewer: Some(viewer), ..subject }, Some(reference))))
+    kept::keep_map(folder, stem, (&case.scene, &map))?;
+    made.keep(folder, stem, &reference)?;
+    Ok(Some(reference))
 }
 
-/// A point that is there already, or made now; `None` if the user stops it.
+/// A point that is there already, or made now, and where its map errs; `None` if the user stops it.
 fn point(
     asked: &Asked,
     subject: &Subject,
     (plan, folder): (&Plan, &Folder),
     interrupt: &Interrupt,
     pace: &mut Pace,
-) -> Result<Option<Point>, Failure> {
-    let Asked { case, system, asked_s } = *asked;
-    let mut tell = |was_made: bool| {
-        let verb = if was_made { "made" } else { "found" };
-        pace.tell(case, &format!("{}, {asked_s} s: {verb}", system.title()), asked_s, was_made);
-    };
-    if let Some(point) = asked.found(&subject.hash, plan, folder) {
-        tell(false);
-        return Ok(Some(point));
+) -> Result<Option<(Point, Wrong)>, Failure> {
+    let Asked { case, system, asked_s, .. } = *asked;
+    let (made, stem) = (Made::of(&subject.hash, plan), asked.stem());
+    let what = format!("{}, {}, {asked_s} s", case.name, system.title());
+    if let Some(point) = made.found::<Point>(folder, &stem) {
+        pace.tell(&what, asked_s, false);
+        return Ok(Some((point, Wrong::Kept(stem))));
     }
     let scene = subject.scene(system);
     let Some((map, mut point)) = asked.make(scene, plan, interrupt)? else { return Ok(None) };
-    if let Some(viewer) = &subject.viewer {
-        let name = format!("pictures/{}.png", asked.stem());
-        viewer.keep((scene, &map), (folder, &name))?;
-        point.picture = Some(name);
-    }
-    asked.keep((&subject.hash, plan, folder), (scene, &map), &point)?;
-    tell(true);
-    Ok(Some(point))
+    let wrong = match &subject.viewer {
+        Some(viewer) => {
+            let name = format!("pictures/{stem}.png");
+            let wrong = viewer.keep((scene, &map), (folder, &name))?;
+            point.picture = Some(name);
+            Some(wrong)
+        }
+        None => errors(&case.name, scene, &map),
+    };
+    kept::keep_map(folder, &stem, (scene, &map))?;
+    made.keep(folder, &stem, &point)?;
+    pace.tell(&what, asked_s, true);
+    Ok(Some((point, Wrong::Known(wrong))))
 }
 
 /// How far all pictures are from the last one of their system, and from the reference.

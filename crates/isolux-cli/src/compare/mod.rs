@@ -1,12 +1,15 @@
 //! `isolux compare`: the study of GraphiCon'98 made anew.
 
 mod case;
+mod costs;
 mod folder;
+mod kept;
 mod machine;
 mod pace;
 mod pictures;
 mod plan;
 mod point;
+mod wrong;
 
 use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
@@ -32,6 +35,9 @@ pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> 
             break;
         }
     }
+    if !interrupt.is_requested() {
+        study.costs = costs::measure((&plan, &folder), &interrupt, &mut pace)?;
+    }
     write(&folder, &study)?;
     if json {
         print_json(&study)?
@@ -52,6 +58,7 @@ fn empty(flags: &CompareFlags, plan: &Plan) -> Study {
             picture: plan.picture,
         },
         cases: Vec::new(),
+        costs: Vec::new(),
         missing: Vec::new(),
     }
 }

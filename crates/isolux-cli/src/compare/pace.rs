@@ -1,6 +1,6 @@
 //! How long the rest will take.
 
-use super::plan::{Case, Plan};
+use super::plan::Plan;
 use crate::notes::{Note, note};
 use crate::quantity::show_seconds;
 use std::time::Instant;
@@ -18,7 +18,7 @@ impl Pace {
     }
 
     /// Tells of a map that was made or found; what was found took no time.
-    pub(crate) fn tell(&mut self, case: &Case, what: &str, asked_s: f64, was_made: bool) {
+    pub(crate) fn tell(&mut self, what: &str, asked_s: f64, was_made: bool) {
         if was_made {
             self.done_s += asked_s;
         } else {
@@ -29,7 +29,7 @@ impl Pace {
             true => elapsed_s / self.done_s * (self.asked_s - self.done_s),
             false => self.asked_s,
         };
-        let left = show_seconds(left_s.max(0.0));
-        note(Note::Info, format!("{}, {what}; {left} left", case.name));
+        let (verb, left) = (if was_made { "made" } else { "found" }, show_seconds(left_s.max(0.0)));
+        note(Note::Info, format!("{what}: {verb}; {left} left"));
     }
 }

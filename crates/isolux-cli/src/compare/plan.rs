@@ -4,12 +4,13 @@ use crate::failure::Failure;
 use crate::flags::CompareFlags;
 use crate::{demo, source};
 use isolux::scene::Scene;
-use isolux_compare::study::{System, times_s};
+use isolux_compare::hall::Variant;
+use isolux_compare::study::{System, Varied, times_s};
 use std::path::{Path, PathBuf};
 
 /// The longest time of a point unless told otherwise, s; and of a quick comparison.
 const LIMIT_S: f64 = 16.0;
-const QUICK_LIMIT_S: f64 = 1.0;
+const QUICK_LIMIT_S: f64 = 0.5;
 
 /// The first time of the scenes with exact answers, whose maps are fair within it; of others, s.
 const FIRST_OF_EXACT_S: f64 = 0.125;
@@ -22,6 +23,18 @@ const PICTURE: [u32; 2] = [640, 360];
 const REFERENCE: f64 = 0.01;
 const QUICK_REFERENCE: f64 = 0.05;
 
+/// Rays that the audit of a point may take, so that it takes no longer than a second or two; and of a quick comparison.
+const AUDIT_RAYS: u64 = 1 << 19;
+const QUICK_AUDIT_RAYS: u64 = 1 << 17;
+
+/// What maps of larger halls are asked for, and how long one may take, s: for the time that is told to be left.
+const LARGER: f64 = 0.05;
+const LARGER_ABOUT_S: f64 = 10.0;
+
+/// Numbers of triangles and of luminaires that HALL is enlarged to.
+const TRIANGLES: [u32; 3] = [10_000, 100_000, 1_000_000];
+const LUMINAIRES: [u32; 4] = [100, 1_000, 10_000, 100_000];
+
 /// Scenes, systems and times.
 pub(crate) struct Plan {
     pub(crate) cases: Vec<Case>,
@@ -31,6 +44,18 @@ pub(crate) struct Plan {
     pub(crate) picture: [u32; 2],
     /// What the map of the reference picture is asked for.
     pub(crate) reference: f64,
+    /// Rays that the audit of a point may take.
+    pub(crate) audit_rays: u64,
+    /// Larger halls, and what their maps are asked for.
+    pub(crate) larger: Vec<Larger>,
+    pub(crate) accuracy_of_larger: f64,
+}
+
+/// A larger hall.
+pub(crate) struct Larger {
+    pub(crate) variant: Variant,
+    pub(crate) varied: Varied,
+    pub(crate) about_s: f64,
 }
 
 /// A scene to compare on.
@@ -47,11 +72,16 @@ impl Plan {
     pub(crate) fn of(flags: &CompareFlags) -> Result<Self, Failure> {
         let default_s = if flags.quick { QUICK_LIMIT_S } else { LIMIT_S };
         let systems = match flags.systems.as_slice() {
-            [] => System::ALL.to_vec(),
+            [] => System::ALL.into_iter().filter(|of| of.method().is_some()).collect(),
             names => names.iter().map(|name| system(name)).collect::<Result<_, _>>()?,
         };
+        let cases = cases(&flags.cases)?;
+        let has_hall = cases.iter().any(|case| case.name == "hall");
         Ok(Self {
-            cases: cases(&flags.cases)?,
+            larger: if has_hall && !flags.quick { larger() } else { Vec::new() },
+            accuracy_of_larger: LARGER,
+            audit_rays: if flags.quick { QUICK_AUDIT_RAYS } else { AUDIT_RAYS },
+            cases,
             systems,
             limit_s: flags.limit.map_or(default_s, |limit| limit.as_secs_f64()),
             seed: flags.seed,
@@ -68,13 +98,26 @@ impl Plan {
     /// The times of all points together, s.
     pub(crate) fn asked_s(&self) -> f64 {
         let of_case = |case: &Case| self.times_s(case).iter().sum::<f64>();
-        self.systems.len() as f64 * self.cases.iter().map(of_case).sum::<f64>()
+        let larger_s: f64 = self.larger.iter().map(|larger| larger.about_s).sum();
+        self.systems.len() as f64 * self.cases.iter().map(of_case).sum::<f64>() + larger_s
     }
+}
+
+fn larger() -> Vec<Larger> {
+    let larger = |variant, varied| Larger { variant, varied, about_s: LARGER_ABOUT_S };
+    let triangles = TRIANGLES
+        .map(|triangles| larger(Variant { triangles, ..Variant::STANDARD }, Varied::Triangles));
+    let luminaires = LUMINAIRES
+        .map(|luminaires| larger(Variant { luminaires, ..Variant::STANDARD }, Varied::Luminaires));
+    triangles.into_iter().chain(luminaires).collect()
 }
 
 fn system(name: &str) -> Result<System, Failure> {
     System::parse(name).ok_or_else(|| {
         let names = System::ALL.map(System::name).join(", ");
+        if name.is_empty() {
+            return Failure::bad_input(format!("--systems: a name is empty; give some of {names}"));
+        }
         Failure::bad_input(format!(
             "--systems {name}: there is no such system; choose some of {names}"
         ))
@@ -100,6 +143,13 @@ fn add(cases: &mut Vec<Case>, name: &Path) -> Result<(), Failure> {
         Some(builtin @ ("cube" | "sphere" | "hall")) => PathBuf::from(format!("builtin:{builtin}")),
         _ => name.to_owned(),
     };
+    if !source.exists() && !source::is_builtin(&source) {
+        let cases = ALL.join(", ");
+        return Err(Failure::bad_input(format!(
+            "{}: is no case and no file; give some of {cases}, all of them as `all`, or a scene",
+            name.display()
+        )));
+    }
     let name = name.display().to_string();
     let is_exact = matches!(name.as_str(), "cube" | "sphere");
     if cases.iter().all(|case| case.name != name) {
@@ -114,5 +164,10 @@ impl Case {
     pub(crate) fn stem(&self) -> String {
         let kept = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
         self.name.chars().map(kept).collect::<String>().trim_matches('-').to_lowercase()
+    }
+
+    /// The beginning of the names of the files of a point.
+    pub(crate) fn point_stem(&self, system: System, asked_s: f64) -> String {
+        format!("{}-{}-{asked_s}s", self.stem(), system.name())
     }
 }

@@ -3,12 +3,14 @@
 mod ciede2000;
 mod delta_e;
 mod lab;
+mod landing;
 mod map;
 mod picture;
 
 pub use ciede2000::ciede2000;
 pub use delta_e::{DeltaE, delta_e_1976, delta_e_1994};
 pub use lab::{Lab, White, Xyz};
+pub use landing::landed_over_emitted;
 pub use map::{MapDifference, MapDifferenceError, MapPlace, figure_of_merit, map_difference};
 pub use picture::{
     ColourDifference, PictureDistance, PictureError, colour_difference, colour_differences,

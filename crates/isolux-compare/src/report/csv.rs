@@ -97,14 +97,21 @@ fn add_case(row: &mut Row, case: Option<&CaseStudy>) {
     row.text("luminaires", case.map(|case| case.luminaires.to_string()).unwrap_or_default());
     row.text("reference_picture", reference.map(|of| of.picture.clone()).unwrap_or_default());
     row.number("reference_told_relative", reference.and_then(|of| of.told));
+    row.number("reference_asked_relative", reference.map(|of| of.accuracy));
+    row.number("reference_landing_over_emitted", reference.and_then(|of| of.landing));
+    row.number("right_landing_over_emitted", case.and_then(|case| case.landing));
     row.number("reference_time_s", reference.map(|of| of.time_s));
 }
 
 fn add_work(row: &mut Row, point: Option<&Point>) {
     row.number("asked_s", point.map(|point| point.asked_s));
+    row.number("asked_relative", point.and_then(|point| point.accuracy));
+    row.text("effort", point.and_then(|point| point.effort.clone()).unwrap_or_default());
     row.number("time_s", point.map(|point| point.time_s));
-    row.text("rays", point.map(|point| point.rays.to_string()).unwrap_or_default());
-    row.text("receivers", point.map(|point| point.receivers.to_string()).unwrap_or_default());
+    let whole = |of: Option<u64>| of.map(|count| count.to_string()).unwrap_or_default();
+    row.text("rays", whole(point.and_then(|point| point.rays)));
+    row.text("receivers", whole(point.and_then(|point| point.receivers)));
+    row.number("landing_over_emitted", point.and_then(|point| point.landing));
 }
 
 fn add_told(row: &mut Row, point: Option<&Point>) {

@@ -83,7 +83,7 @@ fn sooner(study: &Study) -> Conclusion {
         (None, _) => Conclusion {
             statement,
             answer: Answer::No,
-            figures: "Radiosity does not get there in the time allowed.".to_owned(),
+            figures: "Radiosity does not get there.".to_owned(),
         },
     }
 }
@@ -138,7 +138,7 @@ fn mirrors(study: &Study) -> Conclusion {
     let errors = |case: &CaseStudy| -> Vec<(System, f64)> {
         let error =
             |system: System| Some((system, points(case, system)?.last()?.measured.as_ref()?.error));
-        System::ALL.into_iter().filter_map(error).collect()
+        System::ALL.into_iter().filter(|of| of.method().is_some()).filter_map(error).collect()
     };
     let errors = study.case("sphere").map(errors).unwrap_or_default();
     let left_out = errors.iter().find(|(system, _)| *system == System::RadiosityDiffuse);

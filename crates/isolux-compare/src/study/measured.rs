@@ -1,9 +1,11 @@
 //! By how much maps of the scenes with exact answers are wrong, as the study measures it.
 
-use crate::measure::{MeasureError, MeasuredPoint, measure_cube, measure_sphere};
+use crate::case::cube;
+use crate::measure::{MeasureError, MeasuredPoint, measure_cube, measure_sphere, sphere_grid};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::FRAC_PI_2;
 
 /// The error of a map whose right values are known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,4 +47,18 @@ pub fn measure(
         covered: grid.covered,
         told_over_true: grid.told_over_true,
     }))
+}
+
+/// The flux that lands on the surfaces of the case `cube` or `sphere` over that which the luminaire emits: in a closed box of one reflectance `1/(1 - rho)`, on
+/// an octant the mean illuminance of places of equal area times its area.
+pub fn right_landing(case: &str, scene: &Scene) -> Option<f64> {
+    match case {
+        "cube" => Some(1.0 / (1.0 - cube::REFLECTANCE)),
+        "sphere" => {
+            let places = sphere_grid();
+            let mean_lx = places.iter().map(|(_, lx)| lx).sum::<f64>() / places.len() as f64;
+            Some(mean_lx * FRAC_PI_2 / scene.luminous_flux_lm())
+        }
+        _ => None,
+    }
 }

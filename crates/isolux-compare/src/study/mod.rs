@@ -1,19 +1,21 @@
 //! The study of Kopylov, Khodulev and Volevich (GraphiCon'98) made anew: what is run, what is measured of it, and what follows.
 //!
-//! A [`Study`] is a plain value: cases, in each of them systems, and of each system a point for every time allowed. It is filled by who can run
+//! A [`Study`] is a plain value: cases, in each of them systems, and of each system a point for every time. It is filled by who can run
 //! engines and make pictures; [`conclusions`] and reports are functions of it.
 
 mod conclusions;
 mod convergence;
+mod errors;
 mod measured;
 mod record;
 mod system;
 
 pub use conclusions::{Answer, Conclusion, ERROR_OF_LVS, conclusions};
 pub use convergence::{Convergence, time_to_error_s};
-pub use measured::{Measured, measure};
+pub use errors::{Errors, errors, limit};
+pub use measured::{Measured, measure, right_landing};
 pub use record::{
-    Audited, CaseStudy, Distances, Machine, Point, Prediction, Reference, Reported, Series,
-    Settings, Study,
+    Audited, CaseStudy, Cost, Distances, Machine, Point, Prediction, Reference, Reported, Series,
+    Settings, Study, Varied,
 };
-pub use system::{System, times_s};
+pub use system::{System, accuracy_for, times_s};

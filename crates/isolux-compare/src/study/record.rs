@@ -16,6 +16,8 @@ pub struct Study {
     pub settings: Settings,
     /// What was compared.
     pub cases: Vec<CaseStudy>,
+    /// What larger scenes cost.
+    pub costs: Vec<Cost>,
     /// Renderers beside isolux that were asked for and are not installed, each with how to install it.
     pub missing: Vec<String>,
 }
@@ -57,8 +59,39 @@ pub struct CaseStudy {
     pub luminaires: usize,
     /// The picture that those of all systems are compared with, by file name, and how it was made.
     pub reference: Option<Reference>,
+    /// [`Point::landing`] as it should be, where that is known.
+    pub landing: Option<f64>,
+    /// The relative error that pictures of errors show in full colour.
+    pub error_limit: Option<f64>,
     /// One a system, in the order of [`System::ALL`], those of other renderers after.
     pub series: Vec<Series>,
+}
+
+/// What a map of a variant of HALL takes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    /// Which of both was varied.
+    pub varied: Varied,
+    /// Number of triangles.
+    pub triangles: u32,
+    /// Number of luminaires.
+    pub luminaires: usize,
+    /// The accuracy asked for, relative.
+    pub accuracy: f64,
+    /// The error told, relative.
+    pub told: Option<f64>,
+    /// What the map took, without reading the scene, s.
+    pub time_s: f64,
+}
+
+/// What larger scenes have more of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Varied {
+    /// Triangles of the same surfaces, divided.
+    Triangles,
+    /// Luminaires that share the same flux.
+    Luminaires,
 }
 
 /// A picture that others are compared with.
@@ -70,6 +103,12 @@ pub struct Reference {
     pub told: Option<f64>,
     /// What its map took, s.
     pub time_s: f64,
+    /// The accuracy that it was asked for, relative, and no time limit.
+    pub accuracy: f64,
+    /// When it said that it would be done, each time it said so.
+    pub predictions: Vec<Prediction>,
+    /// [`Point::landing`] of its map.
+    pub landing: Option<f64>,
 }
 
 /// One system on one scene.
@@ -77,21 +116,29 @@ pub struct Reference {
 pub struct Series {
     /// Which.
     pub system: System,
-    /// By the time allowed, shortest first.
+    /// By the time aimed at, shortest first.
     pub points: Vec<Point>,
+    /// Name of the file that shows where its last map errs, where there is one.
+    pub error_picture: Option<String>,
 }
 
 /// One map.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// The time allowed, s.
+    /// The time that it should take about, s.
     pub asked_s: f64,
+    /// The accuracy asked for, relative; `None` of a renderer that cannot be asked.
+    pub accuracy: Option<f64>,
+    /// What a renderer that cannot be asked for an accuracy was asked for, in words of its script.
+    pub effort: Option<String>,
     /// The time it took, s.
     pub time_s: f64,
-    /// Rays traced.
-    pub rays: u64,
-    /// Vertices of its elements.
-    pub receivers: u64,
+    /// Rays traced, if it tells.
+    pub rays: Option<u64>,
+    /// Vertices of its elements, if it has any.
+    pub receivers: Option<u64>,
+    /// Luminous flux that lands on surfaces which carry a map, over that which luminaires emit; light that is reflected lands again.
+    pub landing: Option<f64>,
     /// What it tells of itself.
     pub reported: Reported,
     /// When the system said that it would be done, each time it said so.

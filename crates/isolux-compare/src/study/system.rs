@@ -1,17 +1,16 @@
 //! What is compared: the engines, with what the study switched on and off.
 
+use super::record::Point;
 use isolux::engine::{RadiositySettings, SolveRequest};
 use isolux::map::Method;
 use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-/// The accuracy that every run is asked for: hardly any gets there in time, so that all use the time allowed. Radiosity makes its elements and
-/// form factors for it before it looks at the time.
-const OUT_OF_REACH: f64 = 1e-4;
-const OUT_OF_REACH_OF_RADIOSITY: f64 = 1e-3;
+/// What the shortest run of a system is asked for.
+const FIRST_ACCURACY: f64 = 0.1;
 
 /// A way to make maps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum System {
     /// Gathering over a map that is solved for as a fixed point: what isolux does unless told otherwise.
@@ -28,11 +27,18 @@ pub enum System {
     RadiosityDiffuse,
     /// Irradiance cache: as Radiance.
     Cache,
+    /// Radiance itself, of Greg Ward: `rtrace` at the points that are judged.
+    Radiance,
+    /// Mitsuba 3, of Wenzel Jakob and others: paths from the points.
+    Mitsuba,
+    /// LuxCore's baker of light maps.
+    #[serde(rename = "luxcore")]
+    LuxCore,
 }
 
 impl System {
     /// In the order of reports.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::Hybrid,
         Self::Forward,
         Self::ForwardUnfiltered,
@@ -40,6 +46,9 @@ impl System {
         Self::RadiosityWithoutAmbient,
         Self::RadiosityDiffuse,
         Self::Cache,
+        Self::Radiance,
+        Self::Mitsuba,
+        Self::LuxCore,
     ];
 
     /// Its name in files and on the command line.
@@ -52,6 +61,9 @@ impl System {
             Self::RadiosityWithoutAmbient => "radiosity-without-ambient",
             Self::RadiosityDiffuse => "radiosity-diffuse",
             Self::Cache => "cache",
+            Self::Radiance => "radiance",
+            Self::Mitsuba => "mitsuba",
+            Self::LuxCore => "luxcore",
         }
     }
 
@@ -65,6 +77,9 @@ impl System {
             Self::RadiosityWithoutAmbient => "radiosity without ambient term",
             Self::RadiosityDiffuse => "radiosity without specular exchange",
             Self::Cache => "irradiance cache",
+            Self::Radiance => "Radiance",
+            Self::Mitsuba => "Mitsuba 3",
+            Self::LuxCore => "LuxCore",
         }
     }
 
@@ -73,27 +88,25 @@ impl System {
         Self::ALL.into_iter().find(|system| system.name() == name)
     }
 
-    /// Which engine it is.
-    pub const fn method(self) -> Method {
+    /// Which engine of isolux it is; `None` of another renderer.
+    pub const fn method(self) -> Option<Method> {
         match self {
-            Self::Hybrid => Method::Hybrid,
-            Self::Forward | Self::ForwardUnfiltered => Method::Forward,
+            Self::Hybrid => Some(Method::Hybrid),
+            Self::Forward | Self::ForwardUnfiltered => Some(Method::Forward),
             Self::Radiosity | Self::RadiosityWithoutAmbient | Self::RadiosityDiffuse => {
-                Method::Radiosity
+                Some(Method::Radiosity)
             }
-            Self::Cache => Method::Cache,
+            Self::Cache => Some(Method::Cache),
+            Self::Radiance | Self::Mitsuba | Self::LuxCore => None,
         }
     }
 
-    /// What it is asked for within a time. Of [`System::RadiosityDiffuse`] the scene is to be made diffuse by the caller.
-    pub fn request(self, time: Duration, seed: u64) -> SolveRequest {
-        SolveRequest {
-            method: self.method(),
-            accuracy: Some(match self.method() {
-                Method::Radiosity => OUT_OF_REACH_OF_RADIOSITY,
-                _ => OUT_OF_REACH,
-            }),
-            time_limit: Some(time),
+    /// What it is asked for, if it is of isolux: an accuracy in about so much time, at most twice that. Of [`System::RadiosityDiffuse`] the scene is to be made diffuse by the caller.
+    pub fn request(self, accuracy: f64, about: Duration, seed: u64) -> Option<SolveRequest> {
+        Some(SolveRequest {
+            method: self.method()?,
+            accuracy: Some(accuracy),
+            time_limit: Some(2 * about),
             seed,
             filter: self != Self::ForwardUnfiltered,
             audit: false,
@@ -103,8 +116,21 @@ impl System {
                 ..RadiositySettings::default()
             },
             ..SolveRequest::default()
-        }
+        })
     }
+}
+
+/// The accuracy that a run of about so much time is asked for, after shorter runs of its system: what independent samples would make of the least
+/// error told, which falls as one over the root of time. Elements are made for the accuracy asked for, so that what is far out of reach would
+/// leave no time for light: where a longer run has told no less since, the next is asked for something between the two.
+pub fn accuracy_for(shorter: &[Point], within_s: f64) -> f64 {
+    let told = shorter.iter().enumerate().filter_map(|(k, of)| Some((k, of.reported.error?)));
+    let Some((best, error)) = told.min_by(|a, b| a.1.total_cmp(&b.1)) else {
+        return FIRST_ACCURACY;
+    };
+    let fits = error * libm::sqrt(shorter[best].time_s / within_s).min(1.0);
+    let too_much = shorter[best + 1..].iter().filter_map(|of| of.accuracy).max_by(f64::total_cmp);
+    too_much.map_or(fits, |asked| libm::sqrt(error * asked).max(fits))
 }
 
 /// Times that double, from the first up to the limit, s; the limit alone if it is less than the first.
@@ -118,12 +144,34 @@ pub fn times_s(first_s: f64, limit_s: f64) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::Reported;
 
     #[test]
     fn times_double_up_to_the_limit() {
         assert_eq!(times_s(1.0, 8.0), [1.0, 2.0, 4.0, 8.0]);
         assert_eq!(times_s(0.5, 3.0), [0.5, 1.0, 2.0, 3.0]);
         assert_eq!(times_s(1.0, 0.5), [0.5]);
+    }
+
+    fn told(asked: f64, error: Option<f64>, time_s: f64) -> Point {
+        Point {
+            accuracy: Some(asked),
+            time_s,
+            reported: Reported { error, ..Reported::default() },
+            ..Point::default()
+        }
+    }
+
+    #[test]
+    fn runs_are_asked_for_what_they_have_time_for() {
+        let first = told(FIRST_ACCURACY, Some(0.04), 0.5);
+        let in_vain = told(0.01, None, 4.0);
+        // Independent samples; nothing told yet; the middle of what was told and what was out of reach.
+        assert_eq!(accuracy_for(std::slice::from_ref(&first), 2.0), 0.02);
+        assert_eq!(accuracy_for(std::slice::from_ref(&in_vain), 8.0), FIRST_ACCURACY);
+        assert_eq!(accuracy_for(&[first.clone(), in_vain], 8.0), 0.02);
+        // There is never less time than there was.
+        assert_eq!(accuracy_for(&[first], 0.1), 0.04);
     }
 
     #[test]

@@ -13,6 +13,9 @@ pub enum ProfileError {
         /// Bytes of the file.
         bytes: usize,
     },
+    /// The file has not the signature of a profile.
+    #[error("is no ICC profile; give a file of one, as in .icc or .icm")]
+    NoProfile,
     /// The file is not what the ICC specification describes, or cut off.
     #[error("is no whole ICC profile of version 2 or 4 ({0}); save or copy it again")]
     Malformed(String),

@@ -12,6 +12,10 @@ const MAX_TAGS: u32 = 200;
 /// Where the number of tags stands.
 const TAG_COUNT_AT: usize = 128;
 
+/// What every profile has there (ICC.1:2022, 7.2.9).
+const SIGNATURE: &[u8] = b"acsp";
+const SIGNATURE_AT: usize = 36;
+
 /// The name and the display that a file describes.
 pub(super) fn read(bytes: &[u8]) -> Result<(String, Device), ProfileError> {
     let profile = parse(bytes)?;
@@ -26,6 +30,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<(String, Device), ProfileError> {
 fn parse(bytes: &[u8]) -> Result<ColorProfile, ProfileError> {
     if bytes.len() > MAX_ICC_BYTES {
         return Err(ProfileError::Size { bytes: bytes.len() });
+    }
+    if !bytes.get(SIGNATURE_AT..).is_some_and(|rest| rest.starts_with(SIGNATURE)) {
+        return Err(ProfileError::NoProfile);
     }
     let malformed = |why: &str| ProfileError::Malformed(why.to_owned());
     let (size, tags) = word(bytes, 0)

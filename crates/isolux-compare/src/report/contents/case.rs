@@ -1,6 +1,6 @@
 //! A scene through all systems.
 
-use super::{errors, graphs, names};
+use super::{errors, graphs, names, wrong};
 use crate::report::document::{Block, Section};
 use crate::report::quantity::{list, percent_sign, seconds, things};
 use crate::study::{CaseStudy, Point, System};
@@ -18,6 +18,7 @@ pub(super) fn section(case: &CaseStudy) -> Section {
         blocks.push(Block::Text(left_out(&drawn.missing)));
     }
     blocks.extend(errors::places(case));
+    blocks.extend(wrong::blocks(case));
     let folded = errors::every_map(case);
     if !folded.is_empty() {
         blocks.push(Block::Folded(format!("Every map of {}", names::name(case)), folded));
@@ -46,8 +47,19 @@ fn about(case: &CaseStudy) -> String {
         );
         format!(" The map of the reference took {} and {told}.", seconds(of.time_s))
     });
+    let landing = match (case.landing, case.reference.as_ref().and_then(|of| of.landing)) {
+        (Some(right), _) => {
+            format!(
+                " Of the light emitted {right:.4} times as much lands on surfaces, as it is reflected."
+            )
+        }
+        (None, Some(found)) => {
+            format!(" By the reference {found:.4} times the light emitted lands on surfaces.")
+        }
+        (None, None) => String::new(),
+    };
     format!(
-        "{what} {}, {}.{}",
+        "{what} {}, {}.{}{landing}",
         things(case.triangles as usize, "triangle", "triangles"),
         things(
             case.luminaires,

@@ -20,13 +20,18 @@ const fn field<T>(title: &'static str, text: fn(&T) -> String) -> Field<T> {
     Field { title, text }
 }
 
-const ALLOWED: Field<Point> = field("Allowed, s", |p| short(p.asked_s, ASKED_DIGITS));
+const ALLOWED: Field<Point> = field("Aimed at, s", |p| short(p.asked_s, ASKED_DIGITS));
+const ASKED: Field<Point> = field("Asked for, %", |p| known(p.accuracy, percent));
+const EFFORT: Field<Point> =
+    field("Effort", |p| p.effort.clone().unwrap_or_else(|| UNKNOWN.to_owned()));
 const TOOK: Field<Point> = field("Took, s", |p| number(p.time_s));
-const RAYS: Field<Point> = field("Rays", |p| count(p.rays));
-const RECEIVERS: Field<Point> = field("Receivers", |p| count(p.receivers));
+const RAYS: Field<Point> = field("Rays", |p| known(p.rays, count));
+const RECEIVERS: Field<Point> = field("Receivers", |p| known(p.receivers, count));
 const TOLD: Field<Point> = field("Told error, %", |p| known(p.reported.error, percent));
 const NOISE: Field<Point> = field("of it noise, %", |p| known(p.reported.noise, percent));
 const BARE: Field<Point> = field("Told of the bare map, %", |p| known(p.reported.bare, percent));
+const LANDING: Field<Point> =
+    field("Light landing over emitted", |p| known(p.landing, |of| fixed(of, OF_LANDING)));
 const UNSHOT: Field<Point> = field("Not yet shot, %", |p| known(p.reported.unshot, percent));
 const FILTERED: Field<Point> = field("Filtered, %", |p| known(p.reported.filtered, percent));
 const FORESEEN: Field<Point> = field("Finish foreseen at last, s", |p| {
@@ -55,15 +60,26 @@ const MERIT_TOLD: Field<Point> =
     field("Merit by told error, 1/s", |p| known(merit(p, p.reported.error), number));
 
 /// What every map took and tells of itself.
-const SAID: [Field<Point>; 10] =
-    [ALLOWED, TOOK, RAYS, RECEIVERS, TOLD, NOISE, BARE, UNSHOT, FILTERED, FORESEEN];
+const SAID: [Field<Point>; 12] =
+    [ALLOWED, ASKED, EFFORT, TOOK, RAYS, RECEIVERS, TOLD, NOISE, BARE, UNSHOT, FILTERED, FORESEEN];
 /// What is found of it.
-const FOUND: [Field<Point>; 10] =
-    [TOOK, AUDITED, INTERVAL, CONTRADICTS, MEASURED, GRID, COVERED, SHARPNESS, MERIT, MERIT_TOLD];
+const FOUND: [Field<Point>; 11] = [
+    TOOK,
+    AUDITED,
+    INTERVAL,
+    CONTRADICTS,
+    MEASURED,
+    GRID,
+    COVERED,
+    SHARPNESS,
+    LANDING,
+    MERIT,
+    MERIT_TOLD,
+];
 /// Last maps, of scenes whose right values are known, and of others.
-const LAST_EXACT: [Field<Point>; 9] =
-    [TOOK, MEASURED, TOLD, AUDITED, UNSHOT, COVERED, SHARPNESS, MERIT, RAYS];
-const LAST_PRACTICAL: [Field<Point>; 6] = [TOOK, TOLD, AUDITED, UNSHOT, MERIT_TOLD, RAYS];
+const LAST_EXACT: [Field<Point>; 10] =
+    [TOOK, MEASURED, TOLD, AUDITED, UNSHOT, COVERED, SHARPNESS, LANDING, MERIT, RAYS];
+const LAST_PRACTICAL: [Field<Point>; 7] = [TOOK, TOLD, AUDITED, UNSHOT, LANDING, MERIT_TOLD, RAYS];
 
 /// How far its picture is from others.
 const PICTURE: [Field<Distances>; 4] = [
@@ -73,8 +89,9 @@ const PICTURE: [Field<Distances>; 4] = [
     field("ΔE00", |of| number(of.ciede2000.mean)),
 ];
 
-/// Digits behind the point of orders of convergence, and of illuminances in lux.
+/// Digits behind the point of orders of convergence, of shares of light, and of illuminances in lux.
 const OF_ORDERS: usize = 2;
+const OF_LANDING: usize = 4;
 const OF_LUX: usize = 1;
 
 fn measured(point: &Point) -> Option<&Measured> {

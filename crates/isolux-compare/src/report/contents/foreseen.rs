@@ -1,21 +1,29 @@
 //! Finishing times as they were foreseen.
 
-use crate::report::graph::Dot;
-use crate::study::{Prediction, Series};
+use super::systems;
+use crate::report::graph::{Dot, Line, Rule};
+use crate::report::quantity::seconds;
+use crate::study::{CaseStudy, Prediction, System};
 
 /// Between two predictions that are drawn at least so much more time has passed.
 const FACTOR: f64 = std::f64::consts::SQRT_2;
 
-/// Those of the longest run that told any, few enough to be told apart.
-pub(super) fn dots(series: &Series) -> Vec<Dot> {
-    let told = series.points.iter().rev().map(|point| &point.predictions).find(|p| !p.is_empty());
-    let mut dots: Vec<Dot> = Vec::new();
-    for prediction in told.into_iter().flatten() {
-        if dots.last().is_none_or(|last| prediction.at_s >= FACTOR * last.x) {
-            dots.push(dot(prediction));
+/// Those of the run that made the map of the reference picture, few enough to be told apart: it alone has no time limit.
+pub(super) fn line(case: &CaseStudy) -> Option<Line> {
+    let mut points: Vec<Dot> = Vec::new();
+    for prediction in &case.reference.as_ref()?.predictions {
+        if points.last().is_none_or(|last| prediction.at_s >= FACTOR * last.x) {
+            points.push(dot(prediction));
         }
     }
-    dots
+    let title = System::Hybrid.title().to_owned();
+    Some(Line { title, look: systems::number(System::Hybrid), points })
+}
+
+/// When that run ended.
+pub(super) fn rules(case: &CaseStudy) -> Vec<Rule> {
+    let end = |time_s| Rule::Level(time_s, format!("finished: {}", seconds(time_s)));
+    case.reference.iter().map(|of| end(of.time_s)).collect()
 }
 
 fn dot(prediction: &Prediction) -> Dot {

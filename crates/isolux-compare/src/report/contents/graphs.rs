@@ -1,7 +1,7 @@
 //! Which graphs a scene has, and what they show.
 
 use super::foreseen;
-use super::kinds::{KINDS, Kind, Of, On};
+use super::kinds::{KINDS, Kind, Of, OfMap, On};
 use super::{names, systems};
 use crate::report::graph::{Axis, Dot, Graph, Line};
 use crate::study::{CaseStudy, Point, Series};
@@ -40,14 +40,17 @@ fn belongs(kind: &Kind, case: &CaseStudy) -> bool {
 
 fn graph(kind: &Kind, case: &CaseStudy) -> Graph {
     let name = names::name(case);
-    let lines = case.series.iter().map(|series| line(kind, series));
+    let lines: Vec<Line> = match kind.of {
+        Of::Foreseen => foreseen::line(case).into_iter().collect(),
+        Of::Map(of) => case.series.iter().map(|series| line(of, series)).collect(),
+    };
     Graph {
         id: format!("{}-{}", names::id(case), kind.id),
         title: format!("{name}. {}", kind.title),
         description: kind.says.to_owned(),
         x: axis(kind.x),
         y: axis(kind.y),
-        lines: lines.filter(|line| !line.points.is_empty()).collect(),
+        lines: lines.into_iter().filter(|line| !line.points.is_empty()).collect(),
         rules: (kind.rules)(case),
     }
 }
@@ -56,15 +59,14 @@ fn axis((title, scale): (&str, crate::report::graph::Scale)) -> Axis {
     Axis { title: title.to_owned(), scale }
 }
 
-fn line(kind: &Kind, series: &Series) -> Line {
-    let points = match kind.of {
-        Of::Time(value) => dots(series, |point| at(point.time_s, value(point)?)),
-        Of::Pair(x, y) => dots(series, |point| at(x(point)?, y(point)?)),
-        Of::Interval(x, y) => dots(series, |point| {
+fn line(of: OfMap, series: &Series) -> Line {
+    let points = match of {
+        OfMap::Time(value) => dots(series, |point| at(point.time_s, value(point)?)),
+        OfMap::Pair(x, y) => dots(series, |point| at(x(point)?, y(point)?)),
+        OfMap::Interval(x, y) => dots(series, |point| {
             let [value, low, high] = y(point)?;
             Some(Dot { x: x(point)?, y: value, interval: Some([low, high]) })
         }),
-        Of::Foreseen => foreseen::dots(series),
     };
     Line { title: series.system.title().to_owned(), look: systems::number(series.system), points }
 }

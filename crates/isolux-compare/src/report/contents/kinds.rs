@@ -1,5 +1,6 @@
 //! The closed list of graphs.
 
+use super::foreseen;
 use crate::report::graph::{Rule, Scale};
 use crate::study::{CaseStudy, Distances, ERROR_OF_LVS, Point};
 
@@ -16,17 +17,24 @@ pub(super) struct Kind {
     pub(super) on: On,
 }
 
-/// What its points are.
+/// What its lines are.
 #[derive(Clone, Copy)]
 pub(super) enum Of {
+    /// One a system, through its maps.
+    Map(OfMap),
+    /// Finishing times over the time when they were told, of the run that made the reference.
+    Foreseen,
+}
+
+/// What a map is drawn as.
+#[derive(Clone, Copy)]
+pub(super) enum OfMap {
     /// Something over the time that a map took.
     Time(fn(&Point) -> Option<f64>),
     /// Something over something else, of one map each.
     Pair(fn(&Point) -> Option<f64>, fn(&Point) -> Option<f64>),
     /// The same where it has an interval: value, from, to.
     Interval(fn(&Point) -> Option<f64>, fn(&Point) -> Option<[f64; 3]>),
-    /// Finishing times over the time when they were told.
-    Foreseen,
 }
 
 /// Which scenes it belongs to.
@@ -55,7 +63,7 @@ pub(super) const KINDS: [Kind; 15] = [
         says: "Error of the study, measured at points whose right values are known, over the time that a map took; graphs 1 and 3 of the study.",
         x: TIME,
         y: ("measured error, %", Scale::Decades),
-        of: Of::Time(measured),
+        of: Of::Map(OfMap::Time(measured)),
         rules: of_the_paper,
         on: On::Exact,
     },
@@ -65,7 +73,7 @@ pub(super) const KINDS: [Kind; 15] = [
         says: "Each point is a map, in the order of time along each line. On the dashed line a map errs by what it tells; above it, by more. The study has both over time in its graph 2.",
         x: TOLD,
         y: ("measured error, %", Scale::Decades),
-        of: Of::Pair(told, measured),
+        of: Of::Map(OfMap::Pair(told, measured)),
         rules: equal,
         on: On::Cube,
     },
@@ -75,7 +83,7 @@ pub(super) const KINDS: [Kind; 15] = [
         says: "What a user sees while a system runs: of radiosity the share of light that is not yet shot, of others the told error; graph 4 of the study.",
         x: TIME,
         y: ("told error, or light not yet shot, %", Scale::Linear),
-        of: Of::Time(progress),
+        of: Of::Map(OfMap::Time(progress)),
         rules: none,
         on: On::Practical,
     },
@@ -85,19 +93,19 @@ pub(super) const KINDS: [Kind; 15] = [
         says: "The same, as in graph 5 of the study: errors that fall as one over the root of time lie on a straight line.",
         x: TIME,
         y: ("told error, or light not yet shot, %", Scale::Decades),
-        of: Of::Time(progress),
+        of: Of::Map(OfMap::Time(progress)),
         rules: none,
         on: On::Practical,
     },
     Kind {
         id: "foreseen",
         title: "Finishing time as foreseen",
-        says: "During the longest run, when a system expects to reach the accuracy that it was asked for, with intervals of 90 %, over the time when it \
-               says so. A system that is right all along draws a level line.",
+        says: "While the map of the reference was made, when it was expected to reach the accuracy asked for, with intervals of 90 %, over the time \
+               when that was said. The dashed line is when it did.",
         x: ("time when it was said, s", Scale::Doubling),
         y: ("finishing time, s", Scale::Doubling),
         of: Of::Foreseen,
-        rules: none,
+        rules: foreseen::rules,
         on: On::Practical,
     },
     picture(
@@ -105,42 +113,42 @@ pub(super) const KINDS: [Kind; 15] = [
         "Pictures: L2 distance from the system’s own last",
         OWN,
         L2,
-        Of::Time(|p| rgb(own(p))),
+        OfMap::Time(|p| rgb(own(p))),
     ),
     picture(
         "lab-last",
         "Pictures: CIE 1976 from the system’s own last",
         OWN,
         LAB,
-        Of::Time(|p| Some(own(p)?.cie1976.mean)),
+        OfMap::Time(|p| Some(own(p)?.cie1976.mean)),
     ),
     picture(
         "cie94-last",
         "Pictures: CIE94 from the system’s own last",
         OWN,
         CIE94,
-        Of::Time(|p| Some(own(p)?.cie1994.mean)),
+        OfMap::Time(|p| Some(own(p)?.cie1994.mean)),
     ),
     picture(
         "rgb-reference",
         "Pictures: L2 distance from the reference",
         COMMON,
         L2,
-        Of::Time(|p| rgb(common(p))),
+        OfMap::Time(|p| rgb(common(p))),
     ),
     picture(
         "lab-reference",
         "Pictures: CIE 1976 from the reference",
         COMMON,
         LAB,
-        Of::Time(|p| Some(common(p)?.cie1976.mean)),
+        OfMap::Time(|p| Some(common(p)?.cie1976.mean)),
     ),
     picture(
         "cie94-reference",
         "Pictures: CIE94 from the reference",
         COMMON,
         CIE94,
-        Of::Time(|p| Some(common(p)?.cie1994.mean)),
+        OfMap::Time(|p| Some(common(p)?.cie1994.mean)),
     ),
     Kind {
         id: "covered",
@@ -148,7 +156,7 @@ pub(super) const KINDS: [Kind; 15] = [
         says: "Share of places whose told intervals of 95 % hold the right value. It should be at the dashed line.",
         x: TIME,
         y: ("intervals that hold, %", Scale::Linear),
-        of: Of::Time(|p| Some(100.0 * p.measured.as_ref()?.covered?)),
+        of: Of::Map(OfMap::Time(|p| Some(100.0 * p.measured.as_ref()?.covered?))),
         rules: |_| vec![Rule::Level(COVERED, "95 %".to_owned())],
         on: On::Exact,
     },
@@ -158,7 +166,7 @@ pub(super) const KINDS: [Kind; 15] = [
         says: "Root mean square of the standard errors told at places, over that of their true errors. Above one a map is too careful, below one too sure.",
         x: TIME,
         y: ("told over true error", Scale::Decades),
-        of: Of::Time(|p| p.measured.as_ref()?.told_over_true),
+        of: Of::Map(OfMap::Time(|p| p.measured.as_ref()?.told_over_true)),
         rules: |_| vec![Rule::Level(1.0, "as told".to_owned())],
         on: On::Exact,
     },
@@ -168,7 +176,7 @@ pub(super) const KINDS: [Kind; 15] = [
         says: "Each point is a map: what independent paths find that it errs by, with an interval of 95 %, over what it tells.",
         x: TOLD,
         y: ("audited error, %", Scale::Decades),
-        of: Of::Interval(told, audited),
+        of: Of::Map(OfMap::Interval(told, audited)),
         rules: equal,
         on: On::Every,
     },
@@ -178,7 +186,7 @@ pub(super) const KINDS: [Kind; 15] = [
         says: "Share of the surface where the filter takes most of the detail for noise. A filter that is no longer needed switches itself off.",
         x: TIME,
         y: ("filtered share of the surface, %", Scale::Linear),
-        of: Of::Time(|p| Some(100.0 * p.reported.filtered?)),
+        of: Of::Map(OfMap::Time(|p| Some(100.0 * p.reported.filtered?))),
         rules: none,
         on: On::Every,
     },
@@ -193,9 +201,9 @@ const fn picture(
     title: &'static str,
     says: &'static str,
     y: (&'static str, Scale),
-    of: Of,
+    of: OfMap,
 ) -> Kind {
-    Kind { id, title, says, x: TIME, y, of, rules: none, on: On::Practical }
+    Kind { id, title, says, x: TIME, y, of: Of::Map(of), rules: none, on: On::Practical }
 }
 
 fn measured(point: &Point) -> Option<f64> {

@@ -5,7 +5,7 @@ use crate::report::document::{Block, Section, Source, Table, words};
 /// A measure: its name, formula, unit and source.
 type Measure = [&'static str; 4];
 
-const MEASURES: [Measure; 15] = [
+const MEASURES: [Measure; 16] = [
     [
         "Measured error of CUBE",
         "√(Σ w ((m − e)/e)² / Σ w) over points A to F: m as read from the map, e the right value, w the weight of the point",
@@ -47,6 +47,12 @@ const MEASURES: [Measure; 15] = [
         "isolux",
     ],
     ["Told over true", "√(Σ s² / Σ (m − e)²) over the same places", "–", "isolux"],
+    [
+        "Light landing over emitted",
+        "Luminous flux that lands on surfaces, each time it is reflected anew, over that of all luminaires. A map that loses or makes light shows it here",
+        "–",
+        "isolux",
+    ],
     [
         "Figure of merit",
         "1 / (ε² t), ε the error, t the time; it does not depend on t where ε falls as 1/√t",
@@ -128,6 +134,8 @@ pub(super) fn sources() -> Section {
 }
 
 fn how() -> &'static str {
-    "Every map is a run of its own from the start; all have the same seed and number of threads, and one is made at a time. Each is asked for an accuracy \
-     that is out of reach, so that it uses all of the time allowed. What was not measured, or is not known to the system, is a dash, never zero."
+    "Every map is a run of its own from the start; all have the same seed and number of threads, one is made at a time, and systems take turns. For every \
+     time a run is asked for an accuracy that fits it: the shortest for 10 %, others for what independent samples would make of the least error that \
+     their system has told so far. A run that takes twice its time is stopped as soon as its system can be. Times are as measured, without reading the \
+     scene. What was not measured, or is not known to the system, is a dash, never zero."
 }

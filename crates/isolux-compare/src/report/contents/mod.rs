@@ -1,6 +1,7 @@
 //! What reports say, whatever their format.
 
 mod case;
+mod costs;
 mod errors;
 mod foreseen;
 mod graphs;
@@ -11,6 +12,7 @@ mod opening;
 mod pictures;
 mod systems;
 mod theory;
+mod wrong;
 
 use super::document::{Block, Document, Section};
 use crate::study::Study;
@@ -19,6 +21,7 @@ use crate::study::Study;
 pub(super) fn document(study: &Study) -> Document {
     let mut sections: Vec<Section> = vec![opening::tested_again(study), opening::compared(study)];
     sections.extend(study.cases.iter().map(case::section));
+    sections.extend(costs::section(&study.costs));
     sections.push(theory::section());
     sections.extend(pictures::section(study));
     sections.push(methods::section());

@@ -36,7 +36,7 @@ fn of_case(scene: &CaseStudy) -> Vec<Block> {
     blocks.extend(reference(scene).map(Block::Picture));
     blocks.push(Block::Pictures(Pictures {
         caption: format!(
-            "Table 2. {} by system, and by the time allowed, all with the same exposure",
+            "Table 2. {} by system, and by the time aimed at, all with the same exposure",
             names::name(scene)
         ),
         columns: scene.series.iter().map(|series| series.system.title().to_owned()).collect(),
@@ -73,7 +73,8 @@ fn cell(scene: &CaseStudy, series: &Series, asked_s: f64) -> Option<Picture> {
 fn figures(point: &Point) -> Vec<String> {
     let told = point.reported.error.map(|error| format!("told error {}", percent_sign(error)));
     let unshot = point.reported.unshot.map(|share| format!("not yet shot {}", percent_sign(share)));
-    let mut figures = vec![format!("{}, {} rays", seconds(point.time_s), count(point.rays))];
+    let rays = point.rays.map(|rays| format!(", {} rays", count(rays)));
+    let mut figures = vec![format!("{}{}", seconds(point.time_s), rays.unwrap_or_default())];
     figures.extend([told, unshot].into_iter().flatten());
     figures.extend(point.from_reference.iter().flat_map(far));
     figures

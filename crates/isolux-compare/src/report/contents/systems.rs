@@ -51,6 +51,13 @@ fn does(system: System) -> &'static str {
         System::Cache => {
             "Indirect light is gathered at few places, where it is asked for, and interpolated between them."
         }
+        System::Radiance => {
+            "rtrace of another program: light is gathered at the points judged alone, with a cache of its own; no map is made."
+        }
+        System::Mitsuba => {
+            "Another program: paths from the points judged alone, or particles to a camera that sees them; no map is made."
+        }
+        System::LuxCore => "Another program: light maps of rectangles, baked by paths.",
     }
 }
 
@@ -65,5 +72,7 @@ fn stands_for(system: System) -> &'static str {
         }
         System::RadiosityDiffuse => "LVS 3.1.1 of the study",
         System::Cache => "Radiance, which the study leaves out",
+        System::Radiance => "itself",
+        System::Mitsuba | System::LuxCore => "itself; there was none like it in the study",
     }
 }

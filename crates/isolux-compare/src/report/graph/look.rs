@@ -26,7 +26,7 @@ const SANDGLASS: Marker = Marker::Corners(&[(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.
 
 /// In the order of [`crate::study::System::ALL`]: colours of Okabe and Ito (2008), some made lighter on dark paper; forward methods are blue, those of
 /// radiosity red and yellow.
-pub(super) const LOOKS: [Look; 9] = [
+pub(super) const LOOKS: [Look; 10] = [
     look(["#1a1a1a", "#f2f2f2"], "", Marker::Circle, true),
     look(["#0072b2", "#3f9fdc"], "", SQUARE, true),
     look(["#56b4e9", "#9bd5f7"], "60 35", SQUARE, false),
@@ -36,6 +36,7 @@ pub(super) const LOOKS: [Look; 9] = [
     look(["#009e73", "#23bd92"], "110 30 15 30", DIAMOND, true),
     look(["#7a7a00", "#c9c95a"], "110 30", DIAMOND, false),
     look(["#7f5539", "#c49a7c"], "60 35", SANDGLASS, true),
+    look(["#5b4b8a", "#a99bd6"], "15 30", Marker::Circle, false),
 ];
 
 const fn look(

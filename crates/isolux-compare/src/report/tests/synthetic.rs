@@ -4,8 +4,8 @@ use crate::case::cube::TABLE_1;
 use crate::measure::MeasuredPoint;
 use crate::metric::{ColourDifference, PictureDistance};
 use crate::study::{
-    Audited, CaseStudy, Distances, Machine, Measured, Point, Prediction, Reference, Reported,
-    Series, Settings, Study, System, times_s,
+    Audited, CaseStudy, Cost, Distances, Machine, Measured, Point, Prediction, Reference, Reported,
+    Series, Settings, Study, System, Varied, times_s,
 };
 
 /// How a system does: its error after one second, how fast that falls, and where it stays.
@@ -30,6 +30,8 @@ fn course(system: System) -> Course {
         System::RadiosityWithoutAmbient => [0.02, 1.0, 0.0031],
         System::RadiosityDiffuse => [0.01, 1.0, 0.21],
         System::Cache => [0.008, 0.3, 0.001],
+        System::Radiance => [0.05, 0.4, 0.002],
+        System::Mitsuba | System::LuxCore => [0.1, 0.5, 0.0],
     };
     Course { at_1_s, order, floor }
 }
@@ -45,6 +47,7 @@ pub(super) fn study() -> Study {
         },
         settings: Settings { limit_s: 256.0, seed: 1, threads: 2, picture: [640, 360] },
         cases: vec![exact("cube", 12), exact("sphere", 16_384), practical("hall", 10_218)],
+        costs: costs(),
         missing: vec!["mitsuba (pip install mitsuba)".to_owned()],
     }
 }
@@ -56,8 +59,24 @@ fn case(name: &str, triangles: u32, series: Vec<Series>) -> CaseStudy {
         triangles,
         luminaires: if name == "hall" { 2626 } else { 1 },
         reference: None,
+        landing: (name != "hall").then_some(3.0),
+        error_limit: Some(0.02),
         series,
     }
+}
+
+fn costs() -> Vec<Cost> {
+    let cost = |varied, triangles: u32, luminaires: usize| Cost {
+        varied,
+        triangles,
+        luminaires,
+        accuracy: 0.05,
+        told: Some(0.048),
+        time_s: 0.1 * f64::from(triangles).log2() + 0.2 * (luminaires as f64).log2(),
+    };
+    let triangles = [10_000, 100_000, 1_000_000].map(|n| cost(Varied::Triangles, n, 2626));
+    let luminaires = [100, 1000, 10_000].map(|n| cost(Varied::Luminaires, 10_000, n));
+    triangles.into_iter().chain(luminaires).collect()
 }
 
 fn exact(name: &str, triangles: u32) -> CaseStudy {
@@ -66,7 +85,7 @@ fn exact(name: &str, triangles: u32) -> CaseStudy {
         point.measured = Some(measured(name, system, point.time_s));
         point
     };
-    case(name, triangles, all_series(0.125, &point))
+    case(name, triangles, all_series(0.125, &System::ALL, &point))
 }
 
 fn practical(name: &str, triangles: u32) -> CaseStudy {
@@ -83,17 +102,30 @@ fn practical(name: &str, triangles: u32) -> CaseStudy {
         picture: format!("pictures/{name}-reference.png"),
         told: Some(0.0097),
         time_s: 803.2,
+        accuracy: 0.01,
+        predictions: predictions(803.2, 0.0097),
+        landing: Some(2.17),
     };
     let reference = Some(reference);
-    CaseStudy { reference, ..case(name, triangles, all_series(1.0, &point)) }
+    CaseStudy { reference, ..case(name, triangles, all_series(1.0, &own(), &point)) }
 }
 
-fn all_series(first_s: f64, point: &dyn Fn(System, f64) -> Point) -> Vec<Series> {
-    let series = |system| Series {
+/// The systems of isolux.
+fn own() -> Vec<System> {
+    System::ALL.into_iter().filter(|system| system.method().is_some()).collect()
+}
+
+fn all_series(
+    first_s: f64,
+    systems: &[System],
+    point: &dyn Fn(System, f64) -> Point,
+) -> Vec<Series> {
+    let series = |&system: &System| Series {
         system,
         points: times_s(first_s, 256.0).into_iter().map(|s| point(system, s)).collect(),
+        error_picture: Some(format!("pictures/errors-{}.png", system.name())),
     };
-    System::ALL.map(series).into()
+    systems.iter().map(series).collect()
 }
 
 /// Something that varies from map to map.
@@ -104,13 +136,19 @@ fn waver(system: System, time_s: f64) -> f64 {
 fn plain(system: System, asked_s: f64) -> Point {
     let time_s = asked_s * (1.0 + 0.03 * waver(system, asked_s));
     let error = course(system).at(time_s) * waver(system, time_s);
+    if system.method().is_none() {
+        let effort = Some("0.4:64:0:16:5".to_owned());
+        return Point { asked_s, effort, time_s, ..Point::default() };
+    }
     let is_radiosity = system.name().starts_with("radiosity");
     let told = (!is_radiosity || asked_s > 0.5).then_some(1.1 * error);
     Point {
         asked_s,
+        accuracy: Some(error),
         time_s,
-        rays: (3.1e6 * time_s) as u64,
-        receivers: 1634,
+        rays: Some((3.1e6 * time_s) as u64),
+        receivers: Some(1634),
+        landing: Some(3.0 * (1.0 + error)),
         reported: Reported {
             error: told,
             noise: told.map(|error| 0.8 * error),
@@ -125,10 +163,7 @@ fn plain(system: System, asked_s: f64) -> Point {
             high: 1.3 * error,
             contradicts: false,
         }),
-        measured: None,
-        picture: None,
-        from_last: None,
-        from_reference: None,
+        ..Point::default()
     }
 }
 
@@ -151,7 +186,7 @@ fn predictions(time_s: f64, error: f64) -> Vec<Prediction> {
 fn measured(name: &str, system: System, time_s: f64) -> Measured {
     let error = course(system).at(time_s) * waver(system, 2.0 * time_s);
     let letters = if name == "cube" { &TABLE_1[..] } else { &TABLE_1[2..3] };
-    let is_told = system != System::RadiosityDiffuse;
+    let is_told = system.method().is_some() && system != System::RadiosityDiffuse;
     let points = letters
         .iter()
         .map(|point| MeasuredPoint {
