@@ -4,24 +4,20 @@ import argparse
 import datetime
 import json
 import os
-import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 import ladders
 import library
 import machine
+import once
 import report
 import scene as scenes
 
-HERE = Path(__file__).parent
 # Runs shorter than this are repeated with other seeds: their times scatter most.
 SHORT_S = 3.0
 REPETITIONS = 3
-# Then a run is given up.
-TOO_LONG_S = 600.0
 
 
 def main():
@@ -126,28 +122,16 @@ class Bench:
 
     def once(self, ladder, effort, seed):
         """Time and error of one run; None if it failed, which is said."""
-        output = self.folder / "values.json"
-        output.unlink(missing_ok=True)
-        command = [
-            sys.executable, HERE / f"with_{ladder.renderer}.py", self.scene(ladder), "--points", ladder.points,
-            "--effort", effort, "--threads", str(self.flags.threads), "--seed", str(seed),
-            "--folder", self.folder, "--output", output,
-        ]
-        started = time.perf_counter()
         try:
-            ended = subprocess.run(
-                command, env=self.environment, capture_output=True, text=True, timeout=TOO_LONG_S
+            found = once.run(
+                self.scene(ladder), ladder.points, ladder.renderer, effort, threads=self.flags.threads, seed=seed,
+                folder=self.folder, environment=self.environment,
             )
-        except subprocess.TimeoutExpired:
-            say(f"{ladder.renderer} {effort}: given up after {TOO_LONG_S:.0f} s")
+        except once.Failed as why:
+            say(f"{ladder.renderer} {effort}: {why}")
             return None
-        whole_s = time.perf_counter() - started
-        if ended.returncode != 0 or not output.is_file():
-            say(f"{ladder.renderer} {effort}: {' '.join(ended.stderr.split()[-60:])}")
-            return None
-        found = json.loads(output.read_text())
         return {
-            "whole_s": found.get("whole_s", whole_s),
+            "whole_s": found["whole_s"],
             "trace_s": found["trace_s"],
             "map_s": found.get("map_s"),
             "error": self.points[ladder.scene, ladder.points].error(found["values_lx"]),

@@ -25,7 +25,7 @@ cargo xtask smoke   of it, the command line from scene to values, and the outsid
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask consumers     light in Blender, Godot and Bevy, by hand
-cargo xtask bench setup   download Embree 4.4 into target/embree
+cargo xtask bench setup   download Embree 4.4 into target/embree, and Radiance, Mitsuba and LuxCore into target/peers
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
 cargo xtask bench hall    time to an accuracy against triangles and luminaires, and true errors
                           [--json] [--quick | --standard] [--accuracy 1%] [--time-limit 600s] [--threads 2]
@@ -46,7 +46,7 @@ fn main() -> ExitCode {
         ["lamps"] => lamps::run(root),
         ["colours"] => colours::run(root),
         ["consumers"] => consumers::run(root),
-        ["bench", "setup"] => bench::setup(root),
+        ["bench", "setup"] => bench::setup(root).and_then(|embree| peers::setup(root, &embree)),
         ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),
         ["bench", "rays", ref arguments @ ..] => bench::rays(root, arguments),
         ["bench", "peers", ref arguments @ ..] => peers::run(root, arguments),

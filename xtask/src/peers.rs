@@ -25,6 +25,14 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
     Ok(String::new())
 }
 
+/// Installs the renderers; `also` is what was installed before.
+pub(crate) fn setup(root: &Path, also: &str) -> Result<String, String> {
+    let folder = root.join("target").join("peers");
+    std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    environment(&root.join("benchmarks").join("peers"), &folder.join("venv"))?;
+    Ok(format!("{also}; Radiance, Mitsuba and LuxCore are in target/peers"))
+}
+
 /// Tests of the scripts themselves, for which no other renderer is installed.
 pub(crate) fn check(root: &Path) -> Result<String, String> {
     if let Err(missing) = has_python() {

@@ -13,6 +13,7 @@ pub mod lambert;
 mod measure;
 pub mod metric;
 pub mod model;
+pub mod peers;
 pub mod report;
 pub mod statistics;
 pub mod study;

@@ -3,6 +3,7 @@
 use super::folder::Folder;
 use super::kept::{self, Made};
 use super::pace::Pace;
+use super::peers::{AskedOf, Peers};
 use super::pictures::Viewer;
 use super::plan::{Case, Plan};
 use super::point::{Asked, solve};
@@ -42,18 +43,32 @@ impl Subject<'_> {
 /// within each, so that whatever else the machine does meets all of them.
 pub(crate) fn compare(
     case: &Case,
-    (plan, folder): (&Plan, &Folder),
+    (plan, peers, folder): (&Plan, &Peers, &Folder),
     interrupt: &Interrupt,
     pace: &mut Pace,
 ) -> Result<Option<CaseStudy>, Failure> {
     let Some((subject, reference)) = begin(case, (plan, folder), interrupt)? else {
         return Ok(None);
     };
-    let begun = |&system: &System| Series { system, points: Vec::new(), error_picture: None };
-    let mut series: Vec<Series> = plan.systems.iter().map(begun).collect();
+    let begun = |system: System| Series { system, points: Vec::new(), error_picture: None };
+    let mut series: Vec<Series> =
+        plan.systems.iter().copied().chain(peers.systems(case)).map(begun).collect();
     let mut wrong = BTreeMap::new();
-    'all: for asked_s in plan.times_s(case) {
+    'all: for (number, asked_s) in plan.times_s(case).into_iter().enumerate() {
         for Series { system, points, .. } in &mut series {
+            if system.method().is_none() {
+                let Some(effort) = peers.effort(case, *system, number) else { continue };
+                let effort = effort.to_owned();
+                let asked = AskedOf { case, system: *system, asked_s, effort };
+                let made = Made::of(&subject.hash, plan);
+                if let Some((point, errors)) =
+                    peers.ask(&asked, &made, (plan, folder), interrupt)?
+                {
+                    points.push(point);
+                    wrong.insert(*system, Wrong::Known(errors));
+                }
+                continue;
+            }
             let accuracy = accuracy_for(points, asked_s);
             let asked = Asked { case, system: *system, asked_s, accuracy };
             let Some((point, is_wrong)) = point(&asked, &subject, (plan, folder), interrupt, pace)?

@@ -19,6 +19,8 @@ pub(crate) struct Made {
     picture: [u32; 2],
     /// The accuracy asked for, where it was asked for beforehand.
     accuracy: Option<f64>,
+    /// What another renderer was asked for.
+    effort: Option<String>,
 }
 
 impl Made {
@@ -30,11 +32,16 @@ impl Made {
             threads: rayon::current_num_threads(),
             picture: plan.picture,
             accuracy: None,
+            effort: None,
         }
     }
 
     pub(crate) fn for_accuracy(self, accuracy: f64) -> Self {
         Self { accuracy: Some(accuracy), ..self }
+    }
+
+    pub(crate) fn with_effort(self, effort: &str) -> Self {
+        Self { effort: Some(effort.to_owned()), ..self }
     }
 
     /// A result of an earlier comparison that was made of the same.

@@ -6,6 +6,7 @@ mod folder;
 mod kept;
 mod machine;
 mod pace;
+mod peers;
 mod pictures;
 mod plan;
 mod point;
@@ -15,10 +16,12 @@ use crate::console::{print, print_json};
 use crate::failure::{Failure, Outcome};
 use crate::flags::CompareFlags;
 use crate::interrupt::Interrupt;
+use crate::notes::{Note, note};
 use folder::Folder;
 use isolux_compare::report;
 use isolux_compare::study::{Answer, Settings, Study, conclusions};
 use pace::Pace;
+use peers::Peers;
 use plan::Plan;
 
 /// Runs the subcommand.
@@ -26,10 +29,15 @@ pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> 
     let plan = Plan::of(flags)?;
     let folder = Folder::create(&flags.output)?;
     let interrupt = Interrupt::install()?;
+    let peers = Peers::of(&plan.peers);
     let mut study = empty(flags, &plan);
+    (study.versions, study.missing) = (peers.versions.clone(), peers.missing.clone());
+    for missing in &study.missing {
+        note(Note::Info, format!("not compared: {missing}"));
+    }
     let mut pace = Pace::start(&plan);
     for case in &plan.cases {
-        let done = case::compare(case, (&plan, &folder), &interrupt, &mut pace)?;
+        let done = case::compare(case, (&plan, &peers, &folder), &interrupt, &mut pace)?;
         study.cases.extend(done);
         if interrupt.is_requested() {
             break;
@@ -59,6 +67,7 @@ fn empty(flags: &CompareFlags, plan: &Plan) -> Study {
         },
         cases: Vec::new(),
         costs: Vec::new(),
+        versions: Vec::new(),
         missing: Vec::new(),
     }
 }

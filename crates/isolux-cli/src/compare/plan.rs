@@ -39,6 +39,8 @@ const LUMINAIRES: [u32; 4] = [100, 1_000, 10_000, 100_000];
 pub(crate) struct Plan {
     pub(crate) cases: Vec<Case>,
     pub(crate) systems: Vec<System>,
+    /// Renderers beside isolux.
+    pub(crate) peers: Vec<System>,
     pub(crate) limit_s: f64,
     pub(crate) seed: u64,
     pub(crate) picture: [u32; 2],
@@ -72,9 +74,15 @@ impl Plan {
     pub(crate) fn of(flags: &CompareFlags) -> Result<Self, Failure> {
         let default_s = if flags.quick { QUICK_LIMIT_S } else { LIMIT_S };
         let systems = match flags.systems.as_slice() {
-            [] => System::ALL.into_iter().filter(|of| of.method().is_some()).collect(),
+            [] => System::ALL.to_vec(),
             names => names.iter().map(|name| system(name)).collect::<Result<_, _>>()?,
         };
+        let (mut systems, mut peers): (Vec<System>, Vec<System>) =
+            systems.into_iter().partition(|system| system.method().is_some());
+        for all in [&mut systems, &mut peers] {
+            all.sort();
+            all.dedup();
+        }
         let cases = cases(&flags.cases)?;
         let has_hall = cases.iter().any(|case| case.name == "hall");
         Ok(Self {
@@ -83,6 +91,7 @@ impl Plan {
             audit_rays: if flags.quick { QUICK_AUDIT_RAYS } else { AUDIT_RAYS },
             cases,
             systems,
+            peers,
             limit_s: flags.limit.map_or(default_s, |limit| limit.as_secs_f64()),
             seed: flags.seed,
             picture: PICTURE,

@@ -12,10 +12,10 @@ mod system;
 
 pub use conclusions::{Answer, Conclusion, ERROR_OF_LVS, conclusions};
 pub use convergence::{Convergence, time_to_error_s};
-pub use errors::{Errors, errors, limit};
-pub use measured::{Measured, measure, right_landing};
+pub use errors::{Errors, errors, errors_of_places, limit};
+pub use measured::{Measured, measure, measure_places, places, right_landing};
 pub use record::{
     Audited, CaseStudy, Cost, Distances, Machine, Point, Prediction, Reference, Reported, Series,
-    Settings, Study, Varied,
+    Settings, Study, Varied, Version,
 };
 pub use system::{System, accuracy_for, times_s};

@@ -18,8 +18,19 @@ pub struct Study {
     pub cases: Vec<CaseStudy>,
     /// What larger scenes cost.
     pub costs: Vec<Cost>,
+    /// Renderers beside isolux.
+    pub versions: Vec<Version>,
     /// Renderers beside isolux that were asked for and are not installed, each with how to install it.
     pub missing: Vec<String>,
+}
+
+/// A renderer beside isolux.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Version {
+    /// Which.
+    pub system: System,
+    /// The version of its Python package.
+    pub version: String,
 }
 
 /// What a study ran on.

@@ -20,7 +20,11 @@ const fn field<T>(title: &'static str, text: fn(&T) -> String) -> Field<T> {
     Field { title, text }
 }
 
-const ALLOWED: Field<Point> = field("Aimed at, s", |p| short(p.asked_s, ASKED_DIGITS));
+const ALLOWED: Field<Point> = field("Aimed at, s", |p| match p.effort {
+    // Other renderers are asked for efforts, not for times.
+    Some(_) => UNKNOWN.to_owned(),
+    None => short(p.asked_s, ASKED_DIGITS),
+});
 const ASKED: Field<Point> = field("Asked for, %", |p| known(p.accuracy, percent));
 const EFFORT: Field<Point> =
     field("Effort", |p| p.effort.clone().unwrap_or_else(|| UNKNOWN.to_owned()));

@@ -84,10 +84,12 @@ fn facts(study: &Study) -> Table {
         ("Longest time of a map", asked(settings.limit_s)),
         ("Pictures", format!("{width} × {height} pixels")),
     ];
+    let peers = study.versions.iter().map(|of| (of.system.title(), of.version.clone()));
     let row = |(name, value): (&str, String)| {
         vec![name.to_owned(), if value.is_empty() { UNKNOWN.to_owned() } else { value }]
     };
-    Table::plain("Runs", vec![words("What"), words("Value")], rows.into_iter().map(row).collect())
+    let rows = rows.into_iter().chain(peers).map(row).collect();
+    Table::plain("Runs", vec![words("What"), words("Value")], rows)
 }
 
 fn scenes(cases: &[CaseStudy]) -> Table {

@@ -5,7 +5,7 @@ use crate::measure::MeasuredPoint;
 use crate::metric::{ColourDifference, PictureDistance};
 use crate::study::{
     Audited, CaseStudy, Cost, Distances, Machine, Measured, Point, Prediction, Reference, Reported,
-    Series, Settings, Study, System, Varied, times_s,
+    Series, Settings, Study, System, Varied, Version, times_s,
 };
 
 /// How a system does: its error after one second, how fast that falls, and where it stays.
@@ -48,6 +48,7 @@ pub(super) fn study() -> Study {
         settings: Settings { limit_s: 256.0, seed: 1, threads: 2, picture: [640, 360] },
         cases: vec![exact("cube", 12), exact("sphere", 16_384), practical("hall", 10_218)],
         costs: costs(),
+        versions: vec![Version { system: System::Radiance, version: "1.3.1".to_owned() }],
         missing: vec!["mitsuba (pip install mitsuba)".to_owned()],
     }
 }

@@ -1,0 +1,65 @@
+//! Scenes as the scripts read them.
+
+use super::{ExactPoint, PointSet};
+use isolux::photometry::IntensityDistribution;
+use isolux::scene::{Luminaire, LuminaireKind, SceneParts, Shape};
+use serde_json::{Value, json};
+
+/// All that is read of it.
+pub(super) fn scene(parts: &SceneParts, sets: &[PointSet]) -> Value {
+    let mut distributions: Vec<&IntensityDistribution> = Vec::new();
+    let luminaires: Vec<Value> =
+        parts.luminaires.iter().map(|lamp| luminaire(lamp, &mut distributions)).collect();
+    json!({
+        "name": parts.name,
+        "shapes": parts.shapes.iter().map(|s| shape(s, &parts.name)).collect::<Vec<_>>(),
+        "materials": parts.materials,
+        "luminaires": luminaires,
+        "distributions": distributions,
+        "point_sets": sets.iter().map(point_set).collect::<Vec<_>>(),
+    })
+}
+
+fn shape(shape: &Shape, scene: &str) -> Value {
+    // What the triangles stand for, for renderers that have spheres of their own.
+    let sphere = (scene == "sphere" && shape.name == "sphere")
+        .then(|| json!({ "centre": [0.0, 0.0, 0.0], "radius_m": 1.0 }));
+    json!({
+        "sphere": sphere,
+        "name": shape.name,
+        "positions": shape.positions,
+        "triangles": shape.triangles,
+        "material": shape.material,
+    })
+}
+
+/// Where a luminaire is and how it stands, and the number of its distribution.
+fn luminaire<'a>(lamp: &'a Luminaire, known: &mut Vec<&'a IntensityDistribution>) -> Value {
+    let LuminaireKind::Point { position, world_from_luminaire, intensity } = &lamp.kind else {
+        panic!("{}: only luminaires at a point can be written", lamp.name);
+    };
+    let number = known.iter().position(|d| *d == intensity).unwrap_or_else(|| {
+        known.push(intensity);
+        known.len() - 1
+    });
+    json!({
+        "name": lamp.name,
+        "position": position,
+        "axes": world_from_luminaire.columns,
+        "colour": lamp.colour,
+        "distribution": number,
+    })
+}
+
+fn point_set(set: &PointSet) -> Value {
+    let of = |f: fn(&ExactPoint) -> Value| set.points.iter().map(f).collect::<Vec<_>>();
+    json!({
+        "name": set.name,
+        "own_error": set.own_error,
+        "has_caustics": set.has_caustics,
+        "positions": of(|p| json!(<[f64; 3]>::from(p.at.position))),
+        "normals": of(|p| json!(<[f64; 3]>::from(p.at.normal.to_vector()))),
+        "expected_lx": of(|p| json!(p.expected_lx)),
+        "weights": of(|p| json!(p.weight)),
+    })
+}
