@@ -69,7 +69,7 @@ pub(crate) fn compare(
                 }
                 continue;
             }
-            let accuracy = accuracy_for(points, asked_s);
+            let accuracy = accuracy_for(*system, points, asked_s);
             let asked = Asked { case, system: *system, asked_s, accuracy };
             let Some((point, is_wrong)) = point(&asked, &subject, (plan, folder), interrupt, pace)?
             else {

@@ -71,8 +71,11 @@ fn line(of: OfMap, series: &Series) -> Line {
     Line { title: series.system.title().to_owned(), look: systems::number(series.system), points }
 }
 
+/// In the order of the times that maps took.
 fn dots(series: &Series, dot: impl Fn(&Point) -> Option<Dot>) -> Vec<Dot> {
-    series.points.iter().filter_map(dot).collect()
+    let mut points: Vec<&Point> = series.points.iter().collect();
+    points.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    points.into_iter().filter_map(dot).collect()
 }
 
 fn at(x: f64, y: f64) -> Option<Dot> {

@@ -135,7 +135,7 @@ pub(super) fn sources() -> Section {
 
 fn how() -> &'static str {
     "Every map is a run of its own from the start; all have the same seed and number of threads, one is made at a time, and systems take turns. For every \
-     time a run is asked for an accuracy that fits it: the shortest for 10 %, others for what independent samples would make of the least error that \
-     their system has told so far. A run that takes twice its time is stopped as soon as its system can be. Times are as measured, without reading the \
+     time a run is asked for an accuracy that fits it: the shortest for 10 %, others for what so much time makes of the least error that their \
+     system has told so far: with light between all pairs of elements (radiosity) it falls as time to the power −¼, else −½. A run that takes twice its time is stopped as soon as its system can be. Times are as measured, without reading the \
      scene. What was not measured, or is not known to the system, is a dash, never zero."
 }

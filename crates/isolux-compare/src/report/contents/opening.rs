@@ -3,14 +3,20 @@
 use super::{names, systems};
 use crate::report::document::{Block, Section, Table, numbers, words};
 use crate::report::quantity::{UNKNOWN, asked, count, list, things};
-use crate::study::{Answer, CaseStudy, Conclusion, Study, conclusions};
+use crate::study::{Answer, CaseStudy, Conclusion, Study, System, conclusions};
 
 /// The title of the report.
 pub(super) const TITLE: &str = "Illumination maps compared: the study of GraphiCon’98 made anew";
 
 /// The report in a paragraph.
 pub(super) fn lead(study: &Study) -> String {
-    let systems = things(systems::of(study).len(), "system", "systems");
+    let (own, others): (Vec<System>, Vec<System>) =
+        systems::of(study).into_iter().partition(|system| system.method().is_some());
+    let own = things(own.len(), "system", "systems");
+    let others = match others.len() {
+        0 => String::new(),
+        others => format!(" and {}", things(others, "other renderer", "other renderers")),
+    };
     let scenes: Vec<String> = study.cases.iter().map(names::name).collect();
     let when = match times_s(study) {
         Some([first, last]) if first < last => {
@@ -20,7 +26,7 @@ pub(super) fn lead(study: &Study) -> String {
         None => "but no map was finished".to_owned(),
     };
     format!(
-        "{systems} of isolux {} computed illumination maps of {}, {when}. Errors are measured where right values are known; elsewhere pictures are \
+        "{own} of isolux {}{others} computed illumination of {}, {when}. Errors are measured where right values are known; elsewhere pictures are \
          compared. Scenes, measures and conclusions are those of Kopylov, Khodulev and Volevich [1], who compared LVS 3.1.1 and Inspirer 5.30.",
         study.isolux,
         if scenes.is_empty() { "no scene".to_owned() } else { list(&scenes) },
@@ -81,10 +87,13 @@ fn facts(study: &Study) -> Table {
         ("Operating system", machine.system.clone()),
         ("Threads of every system", count(settings.threads as u64)),
         ("Seed of all random numbers", settings.seed.to_string()),
-        ("Longest time of a map", asked(settings.limit_s)),
+        ("Longest time aimed at", asked(settings.limit_s)),
         ("Pictures", format!("{width} × {height} pixels")),
     ];
-    let peers = study.versions.iter().map(|of| (of.system.title(), of.version.clone()));
+    let peers = study
+        .versions
+        .iter()
+        .map(|of| (of.system.title(), format!("Python package {}", of.version)));
     let row = |(name, value): (&str, String)| {
         vec![name.to_owned(), if value.is_empty() { UNKNOWN.to_owned() } else { value }]
     };
