@@ -3,6 +3,7 @@
 
 mod bench;
 mod colours;
+mod compared;
 mod consumers;
 mod grids;
 mod hall;
@@ -24,6 +25,7 @@ cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
+cargo xtask compared      of it, all systems by error against time, as short as it can be
 cargo xtask consumers     light in Blender, Godot and Bevy, by hand
 cargo xtask bench setup   download Embree 4.4 into target/embree, and Radiance, Mitsuba and LuxCore into target/peers
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
@@ -45,6 +47,7 @@ fn main() -> ExitCode {
         ["smoke"] => test::smoke_and_judge(root),
         ["lamps"] => lamps::run(root),
         ["colours"] => colours::run(root),
+        ["compared"] => compared::run(root),
         ["consumers"] => consumers::run(root),
         ["bench", "setup"] => bench::setup(root).and_then(|embree| peers::setup(root, &embree)),
         ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),

@@ -218,7 +218,7 @@ fn expect_middle_of_wall(csv: &str) -> Result<(), String> {
 }
 
 /// Runs the command and gives what it printed.
-fn isolux(root: &Path, arguments: &[&str]) -> Result<String, String> {
+pub(crate) fn isolux(root: &Path, arguments: &[&str]) -> Result<String, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let line = format!("isolux {}", arguments.join(" "));
     let output = Command::new(cargo)

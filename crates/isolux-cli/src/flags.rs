@@ -624,15 +624,18 @@ pub(crate) struct CompareFlags {
     /// Folder to keep everything in
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// The longest time of a map [default: 16 s]
+    /// The longest time that a map should take [default: 16 s]
     #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true, conflicts_with = "quick")]
     pub limit: Option<Duration>,
     /// Within two minutes: maps of half a second, or of as little as there can be
     #[arg(long)]
     pub quick: bool,
-    /// Some of hybrid, forward, forward-unfiltered, radiosity, radiosity-without-ambient, radiosity-diffuse, cache [default: all]
+    /// Some of hybrid, forward, forward-unfiltered, radiosity, radiosity-without-ambient, radiosity-diffuse, cache, radiance, mitsuba, luxcore [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub systems: Vec<String>,
+    /// Width and height of pictures [default: 640x360]
+    #[arg(long, value_name = "WxH", value_parser = quantity::pixels)]
+    pub size: Option<(u32, u32)>,
     /// Seed of the random numbers
     #[arg(long, value_name = "N", value_parser = quantity::seed, default_value = "1", allow_hyphen_values = true)]
     pub seed: u64,

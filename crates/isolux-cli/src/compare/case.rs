@@ -21,13 +21,13 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// A scene and what is known of it.
-pub(crate) struct Subject<'a> {
+struct Subject<'a> {
     scene: &'a Scene,
     /// The same without mirrors, gloss and glass, where that is asked for.
     diffuse: Option<Scene>,
     hash: String,
     /// Who makes pictures, where there are any.
-    pub(crate) viewer: Option<Viewer>,
+    viewer: Option<Viewer>,
 }
 
 impl Subject<'_> {
@@ -93,7 +93,7 @@ pub(crate) fn compare(
     if let Some(viewer) = &subject.viewer {
         tell_distances(&mut done, viewer, folder);
     }
-    wrong::tell(&mut done, &wrong, (case, &subject), folder)?;
+    wrong::tell(&mut done, &wrong, (case, subject.viewer.as_ref()), folder)?;
     Ok(Some(done))
 }
 

@@ -94,7 +94,7 @@ impl Plan {
             peers,
             limit_s: flags.limit.map_or(default_s, |limit| limit.as_secs_f64()),
             seed: flags.seed,
-            picture: PICTURE,
+            picture: flags.size.map_or(PICTURE, |(width, height)| [width, height]),
             reference: if flags.quick { QUICK_REFERENCE } else { REFERENCE },
         })
     }

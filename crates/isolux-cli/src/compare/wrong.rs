@@ -1,8 +1,8 @@
 //! Pictures of where last maps err.
 
-use super::case::Subject;
 use super::folder::Folder;
 use super::kept;
+use super::pictures::Viewer;
 use super::plan::Case;
 use crate::failure::Failure;
 use crate::render;
@@ -25,12 +25,12 @@ pub(crate) enum Wrong {
 pub(crate) fn tell(
     study: &mut CaseStudy,
     last: &BTreeMap<System, Wrong>,
-    (case, subject): (&Case, &Subject),
+    (case, viewer): (&Case, Option<&Viewer>),
     folder: &Folder,
 ) -> Result<(), Failure> {
     let found = |series: &Series| match last.get(&series.system) {
         Some(Wrong::Known(errors)) => Ok(errors.clone()),
-        Some(Wrong::Kept(stem)) => of(stem, (case, subject), folder),
+        Some(Wrong::Kept(stem)) => of(stem, (case, viewer), folder),
         None => Ok(None),
     };
     let all = study.series.iter().map(found).collect::<Result<Vec<_>, Failure>>()?;
@@ -52,11 +52,11 @@ pub(crate) fn tell(
 
 fn of(
     stem: &str,
-    (case, subject): (&Case, &Subject),
+    (case, viewer): (&Case, Option<&Viewer>),
     folder: &Folder,
 ) -> Result<Option<Errors>, Failure> {
     let (scene, map) = kept::map(folder, stem)?;
-    match &subject.viewer {
+    match viewer {
         None => Ok(errors(&case.name, &scene, &map)),
         Some(viewer) => viewer.errors(&scene, &map).map(Some),
     }

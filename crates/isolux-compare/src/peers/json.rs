@@ -1,6 +1,6 @@
 //! Scenes as the scripts read them.
 
-use super::{ExactPoint, PointSet};
+use super::points::{ExactPoint, PointSet};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Luminaire, LuminaireKind, SceneParts, Shape};
 use serde_json::{Value, json};

@@ -1,6 +1,7 @@
 //! Scenes with points and the right illuminance there, for the scripts of `benchmarks/peers` that ask other renderers.
 
 mod json;
+mod points;
 
 use crate::builtin;
 use crate::case::{cube, sphere};
@@ -8,6 +9,7 @@ use crate::measure::{cube_grid, sphere_grid};
 use crate::study;
 use isolux::engine::ProbePoint;
 use isolux::geometry::{Point, Vector};
+use points::{ExactPoint, PointSet};
 use serde_json::Value;
 
 /// The scene of a name with all its sets of points; `None` of a scene for which there are none.
@@ -18,35 +20,6 @@ pub fn scene(name: &str) -> Option<Value> {
 
 /// The name of the set of points that [`study::measure`] reads.
 pub const OF_THE_STUDY: &str = "study";
-
-/// Points at which a scene is judged.
-struct PointSet {
-    name: &'static str,
-    points: Vec<ExactPoint>,
-    /// What the expected values are off by themselves, in the measure of errors.
-    own_error: f64,
-    /// Whether they hold the light that glass and gloss throw on surfaces.
-    has_caustics: bool,
-}
-
-impl PointSet {
-    fn exact(name: &'static str, points: Vec<ExactPoint>) -> Self {
-        Self { name, points, own_error: 0.0, has_caustics: true }
-    }
-}
-
-/// The exact illuminance at a place, and how much the place counts.
-struct ExactPoint {
-    at: ProbePoint,
-    expected_lx: f64,
-    weight: f64,
-}
-
-impl ExactPoint {
-    fn of((at, expected_lx): (ProbePoint, f64)) -> Self {
-        Self { at, expected_lx, weight: 1.0 }
-    }
-}
 
 /// The map of the whole scene first, then the places of the paper, then those that [`study::measure`] reads.
 fn point_sets(scene: &str) -> Option<Vec<PointSet>> {

@@ -3,6 +3,7 @@
 //! A [`Study`] is a plain value: cases, in each of them systems, and of each system a point for every time. It is filled by who can run
 //! engines and make pictures; [`conclusions`] and reports are functions of it.
 
+mod asked;
 mod conclusions;
 mod convergence;
 mod errors;
@@ -10,6 +11,7 @@ mod measured;
 mod record;
 mod system;
 
+pub use asked::accuracy_for;
 pub use conclusions::{Answer, Conclusion, ERROR_OF_LVS, conclusions};
 pub use convergence::{Convergence, time_to_error_s};
 pub use errors::{Errors, errors, errors_of_places, limit};
@@ -18,4 +20,4 @@ pub use record::{
     Audited, CaseStudy, Cost, Distances, Machine, Point, Prediction, Reference, Reported, Series,
     Settings, Study, Varied, Version,
 };
-pub use system::{System, accuracy_for, times_s};
+pub use system::{System, times_s};
