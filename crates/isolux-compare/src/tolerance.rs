@@ -47,7 +47,7 @@ pub const COVERAGE: f64 = 0.95;
 /// off by (pi / 256)^2 / 3 of the radius, up and down in turn. Measured over the receivers of the tests.
 pub const DISC_POLYGON: f64 = 1e-6;
 
-/// Relative error of the flux on walls and floor from five Gauss nodes each way, as `cie171_5_4` reads them: measured.
+/// Relative error of the flux on walls and floor from four Gauss nodes each way, as `cie171_5_4` reads them: measured.
 pub const FLUX_ON_GRID: f64 = 1e-3;
 
 /// Relative error of light through a window by the midpoints of 400 by 400 cells of it, in tests: the second order of the

@@ -18,7 +18,7 @@ use isolux::scene::{SceneParts, Shape};
 const NAME: &str = "cie171_5_4";
 const LUMINANCE_CD_M2: f64 = 4000.0;
 /// Nodes each way on a surface.
-const NODES: usize = 5;
+const NODES: usize = 4;
 
 pub(super) fn case() -> Case {
     Case {

@@ -87,7 +87,7 @@ fn parts(name: &str, has_screen: bool) -> SceneParts {
 fn places() -> Vec<ProbePoint> {
     let room = Room::from_x(0.0);
     let west = [0.3, 0.7, 1.1, 1.5, 1.9, 2.4].map(|z| room.west.place(2.0, z));
-    let aside = [(0.6, 0.8), (3.6, 1.6)].map(|(y, z)| room.west.place(y, z));
+    let aside = [(0.6, 0.8), (3.6, 2.0)].map(|(y, z)| room.west.place(y, z));
     let north = [(0.5, 3.0), (1.5, 2.0), (0.6, 0.8)].map(|(z, x)| room.north.place(z, x));
     let ceiling = [(3.0, 2.0), (3.7, 0.5)].map(|(x, y)| room.ceiling.place(x, y));
     [west.as_slice(), &aside, &north, &ceiling].concat()

@@ -80,17 +80,14 @@ fn clear() -> CieSky {
     CieSky::clear(LUMINANCE_CD_M2, Vector::new(0.9, 0.0, 0.4))
 }
 
-fn dome() -> Dome {
-    Dome {
-        centre: Point::new(2.0, 2.0, HEIGHT_M),
-        radius_m: 12.0,
-        azimuths_rad: ALL_AROUND,
-        facets: [15, 36],
-    }
+/// The clear sky is steeper than the overcast one, and its dome finer and farther away.
+fn dome(sky: &CieSky) -> Dome {
+    let (radius_m, facets) = if sky.has_sun() { (100.0, [20, 48]) } else { (30.0, [15, 36]) };
+    Dome { centre: Point::new(2.0, 2.0, HEIGHT_M), radius_m, azimuths_rad: ALL_AROUND, facets }
 }
 
 fn facets(sky: &CieSky) -> Vec<Facet> {
-    dome().facets(sky)
+    dome(sky).facets(sky)
 }
 
 /// The room with its opening, and the pane in it, if any.
@@ -188,7 +185,7 @@ mod tests {
             places().into_iter().map(off).map(f64::abs).fold(0.0, f64::max)
         };
         let (coarse, fine) =
-            (off(dome()), off(Dome { radius_m: 300.0, facets: [60, 144], ..dome() }));
+            (off(dome(&sky)), off(Dome { radius_m: 300.0, facets: [60, 144], ..dome(&sky) }));
         assert!(coarse < 0.01 && fine < 0.1 * coarse, "{coarse} {fine}");
     }
 

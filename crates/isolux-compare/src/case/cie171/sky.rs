@@ -58,6 +58,11 @@ impl CieSky {
             / (self.phi(1.0) * self.f(sun_from_zenith))
     }
 
+    /// Whether luminance depends on the place of the sun.
+    pub(super) fn has_sun(&self) -> bool {
+        self.indicatrix[0] != 0.0
+    }
+
     fn phi(&self, cos_z: f64) -> f64 {
         let [a, b] = self.gradation;
         1.0 + a * libm::exp(b / cos_z)

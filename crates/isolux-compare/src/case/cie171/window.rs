@@ -44,9 +44,9 @@ fn clear() -> CieSky {
 fn facets(sky: &CieSky) -> Vec<Facet> {
     let dome = Dome {
         centre: Point::new(0.0, 2.0, 2.0),
-        radius_m: 12.0,
+        radius_m: 40.0,
         azimuths_rad: [-FRAC_PI_2, FRAC_PI_2],
-        facets: [18, 24],
+        facets: [24, 30],
     };
     dome.facets(sky)
 }
@@ -60,11 +60,11 @@ fn parts(name: &str, sky: &CieSky) -> SceneParts {
     SceneParts { name: name.into(), shapes, materials, ..SceneParts::default() }
 }
 
-/// All below the middle of the window: higher up little sky is seen, and that near the horizon.
+/// All well below the window: higher up only sky near the horizon is seen, where the dome ends at another angle.
 fn places() -> Vec<ProbePoint> {
     let room = room();
     let floor = [-0.6, -1.3, -2.0, -2.8, -3.6].map(|x| room.floor.place(x, 2.0));
-    let back = [0.3, 0.9, 1.5].map(|z| room.west.place(2.0, z));
+    let back = [0.3, 0.6, 0.9].map(|z| room.west.place(2.0, z));
     let side = [(0.7, -1.5), (1.2, -3.0)].map(|(z, x)| room.south.place(z, x));
     [floor.as_slice(), &back, &side].concat()
 }
