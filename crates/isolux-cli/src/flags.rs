@@ -618,7 +618,7 @@ Every system makes a map at times that double up to the limit: CUBE and SPHERE, 
 others from a second on. Maps and pictures are kept in the folder, and a comparison that was interrupted goes on where it stopped. \
 report.html holds graphs, tables and pictures in one file; report.md, study.csv and study.json hold the same.")]
 pub(crate) struct CompareFlags {
-    /// cube, sphere, hall, demo, all four of them, or a scene
+    /// cube, sphere, hall, demo, cie171 (the analytic cases of CIE 171:2006), all of these, or a scene
     #[arg(value_name = "CASE", required = true)]
     pub cases: Vec<PathBuf>,
     /// Folder to keep everything in

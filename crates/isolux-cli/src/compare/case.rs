@@ -15,7 +15,8 @@ use isolux::engine::SolveRequest;
 use isolux::scene::Scene;
 use isolux_compare::metric::landed_over_emitted;
 use isolux_compare::study::{
-    CaseStudy, Point, Reference, Series, System, accuracy_for, errors, right_landing,
+    CaseStudy, Errors, Point, Reference, Series, System, accuracy_for, errors, errors_of_places,
+    measure_places, right_landing,
 };
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -50,20 +51,17 @@ pub(crate) fn compare(
     let Some((subject, reference)) = begin(case, (plan, folder), interrupt)? else {
         return Ok(None);
     };
+    let others = if case.is_exact { peers.systems(&case.name) } else { Vec::new() };
     let begun = |system: System| Series { system, points: Vec::new(), error_picture: None };
-    let mut series: Vec<Series> =
-        plan.systems.iter().copied().chain(peers.systems(case)).map(begun).collect();
+    let mut series: Vec<Series> = plan.systems.iter().copied().chain(others).map(begun).collect();
     let mut wrong = BTreeMap::new();
     'all: for (number, asked_s) in plan.times_s(case).into_iter().enumerate() {
         for Series { system, points, .. } in &mut series {
             if system.method().is_none() {
-                let Some(effort) = peers.effort(case, *system, number) else { continue };
-                let effort = effort.to_owned();
-                let asked = AskedOf { case, system: *system, asked_s, effort };
+                let beside = (*system, number, asked_s);
                 let made = Made::of(&subject.hash, plan);
-                if let Some((point, errors)) =
-                    peers.ask(&asked, &made, (plan, folder), interrupt)?
-                {
+                let made = by_peer(case, peers, beside, &made, (plan, folder), interrupt)?;
+                if let Some((point, errors)) = made {
                     points.push(point);
                     wrong.insert(*system, Wrong::Known(errors));
                 }
@@ -189,6 +187,31 @@ fn point(
     made.keep(folder, &stem, &point)?;
     pace.tell(&what, asked_s, true);
     Ok(Some((point, Wrong::Known(wrong))))
+}
+
+/// What another renderer finds with the effort that stands beside a time; `None` if it has none, or fails.
+fn by_peer(
+    case: &Case,
+    peers: &Peers,
+    (system, number, asked_s): (System, usize, f64),
+    made: &Made,
+    (plan, folder): (&Plan, &Folder),
+    interrupt: &Interrupt,
+) -> Result<Option<(Point, Option<Errors>)>, Failure> {
+    let Some(effort) = peers.effort(&case.name, system, number) else { return Ok(None) };
+    let stem = case.point_stem(system, asked_s);
+    let asked = AskedOf { scene: &case.name, system, effort: effort.to_owned(), stem };
+    let Some(found) = peers.ask(&asked, made, (plan, folder), interrupt)? else {
+        return Ok(None);
+    };
+    let point = Point {
+        asked_s,
+        effort: Some(asked.effort),
+        time_s: found.whole_s,
+        measured: measure_places(&case.name, &found.values_lx),
+        ..Point::default()
+    };
+    Ok(Some((point, errors_of_places(&case.name, &found.values_lx))))
 }
 
 /// How far all pictures are from the last one of their system, and from the reference.

@@ -1,5 +1,6 @@
 //! `isolux compare`: the study of GraphiCon'98 made anew.
 
+mod analytic;
 mod case;
 mod costs;
 mod folder;
@@ -43,6 +44,9 @@ pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> 
             break;
         }
     }
+    if plan.is_analytic && !interrupt.is_requested() {
+        study.analytic = analytic::measure(&peers, (&plan, &folder), &interrupt, &mut pace)?;
+    }
     if !interrupt.is_requested() {
         study.costs = costs::measure((&plan, &folder), &interrupt, &mut pace)?;
     }
@@ -66,6 +70,7 @@ fn empty(flags: &CompareFlags, plan: &Plan) -> Study {
             picture: plan.picture,
         },
         cases: Vec::new(),
+        analytic: Vec::new(),
         costs: Vec::new(),
         versions: Vec::new(),
         missing: Vec::new(),

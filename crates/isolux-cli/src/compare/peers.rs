@@ -2,12 +2,12 @@
 
 use super::folder::Folder;
 use super::kept::Made;
-use super::plan::{Case, Plan};
+use super::plan::Plan;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use isolux_compare::peers::{OF_THE_STUDY, scene};
-use isolux_compare::study::{Errors, Point, System, Version, errors_of_places, measure_places};
+use isolux_compare::study::{System, Version};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -69,20 +69,21 @@ struct Efforts {
     efforts: Vec<String>,
 }
 
-/// What the script says of a run.
+/// What a run found, and what it took.
 #[derive(Deserialize, Serialize)]
-struct Found {
-    values_lx: Vec<f64>,
-    whole_s: f64,
+pub(crate) struct FoundByPeer {
+    pub(crate) values_lx: Vec<f64>,
+    pub(crate) whole_s: f64,
 }
 
 /// A run of another renderer.
 pub(crate) struct AskedOf<'a> {
-    pub(crate) case: &'a Case,
+    /// The scene, as it is built in or a case of `validate`.
+    pub(crate) scene: &'a str,
     pub(crate) system: System,
-    /// Which of the times it stands beside.
-    pub(crate) asked_s: f64,
     pub(crate) effort: String,
+    /// The beginning of the names of its files.
+    pub(crate) stem: String,
 }
 
 impl Peers {
@@ -119,53 +120,38 @@ impl Peers {
         }
     }
 
-    /// Those with something to do in a case.
-    pub(crate) fn systems(&self, case: &Case) -> Vec<System> {
-        let of_case = self.efforts.iter().filter(|of| case.is_exact && of.is_of(&case.name));
-        of_case.map(|of| of.renderer).collect()
+    /// Those with something to do in a scene.
+    pub(crate) fn systems(&self, scene: &str) -> Vec<System> {
+        self.efforts.iter().filter(|of| of.is_of(scene)).map(|of| of.renderer).collect()
     }
 
-    /// What a renderer is asked for at the time of a number.
-    pub(crate) fn effort(&self, case: &Case, system: System, number: usize) -> Option<&str> {
-        let of_case = self.efforts.iter().find(|of| of.renderer == system && of.is_of(&case.name));
-        Some(of_case?.efforts.get(number)?.as_str())
+    /// The effort of a number, from the cheapest upwards.
+    pub(crate) fn effort(&self, scene: &str, system: System, number: usize) -> Option<&str> {
+        let of_scene = self.efforts.iter().find(|of| of.renderer == system && of.is_of(scene));
+        Some(of_scene?.efforts.get(number)?.as_str())
     }
 
-    /// A run and where it errs, or one that an earlier comparison has left; `None` if it fails, which is said, or the user stops it.
+    /// A run, or one that an earlier comparison has left; `None` if it fails, which is said, or the user stops it.
     pub(crate) fn ask(
         &self,
         asked: &AskedOf,
         made: &Made,
         (plan, folder): (&Plan, &Folder),
         interrupt: &Interrupt,
-    ) -> Result<Option<(Point, Option<Errors>)>, Failure> {
+    ) -> Result<Option<FoundByPeer>, Failure> {
         let made = made.clone().with_effort(&asked.effort);
-        let stem = asked.case.point_stem(asked.system, asked.asked_s);
-        let found = match made.found::<Found>(folder, &stem) {
-            Some(found) => found,
-            None => {
-                let is_cold = self.warm.borrow_mut().insert(asked.system);
-                if is_cold {
-                    let cheapest = self.effort(asked.case, asked.system, 0).unwrap_or_default();
-                    let first = AskedOf { effort: cheapest.to_owned(), ..*asked };
-                    self.run(&first, (plan, folder), interrupt)?;
-                }
-                let Some(found) = self.run(asked, (plan, folder), interrupt)? else {
-                    return Ok(None);
-                };
-                made.keep(folder, &stem, &found)?;
-                found
-            }
-        };
-        let errors = errors_of_places(&asked.case.name, &found.values_lx);
-        let point = Point {
-            asked_s: asked.asked_s,
-            effort: Some(asked.effort.clone()),
-            time_s: found.whole_s,
-            measured: measure_places(&asked.case.name, &found.values_lx),
-            ..Point::default()
-        };
-        Ok(Some((point, errors)))
+        if let Some(found) = made.found::<FoundByPeer>(folder, &asked.stem) {
+            return Ok(Some(found));
+        }
+        let is_cold = self.warm.borrow_mut().insert(asked.system);
+        if is_cold && let Some(cheapest) = self.effort("cube", asked.system, 0) {
+            let (effort, stem) = (cheapest.to_owned(), String::new());
+            let first = AskedOf { scene: "cube", system: asked.system, effort, stem };
+            self.run(&first, (plan, folder), interrupt)?;
+        }
+        let Some(found) = self.run(asked, (plan, folder), interrupt)? else { return Ok(None) };
+        made.keep(folder, &asked.stem, &found)?;
+        Ok(Some(found))
     }
 
     fn run(
@@ -173,10 +159,10 @@ impl Peers {
         asked: &AskedOf,
         (plan, folder): (&Plan, &Folder),
         interrupt: &Interrupt,
-    ) -> Result<Option<Found>, Failure> {
+    ) -> Result<Option<FoundByPeer>, Failure> {
         let Some(place) = &self.place else { return Ok(None) };
-        let name = &asked.case.name;
-        let whose = (name.clone(), asked.system);
+        let name = asked.scene;
+        let whose = (name.to_owned(), asked.system);
         if self.failed.borrow().contains(&whose) {
             return Ok(None);
         }
@@ -194,7 +180,7 @@ impl Peers {
         command.args(["--seed", &plan.seed.to_string(), "--at-most", &at_most_s.to_string()]);
         command.arg("--folder").arg(scratch.path());
         let Some((said, problem)) = output(command, interrupt)? else { return Ok(None) };
-        let found: Option<Found> = serde_json::from_slice(&said).ok();
+        let found: Option<FoundByPeer> = serde_json::from_slice(&said).ok();
         if found.is_none() {
             let why = String::from_utf8_lossy(&problem).trim().to_owned();
             let what = format!("{name}, {}, {}", asked.system.title(), asked.effort);

@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::flags::CompareFlags;
 use crate::{demo, source};
 use isolux::scene::Scene;
+use isolux_compare::case::cie171::LISTED;
 use isolux_compare::hall::Variant;
 use isolux_compare::study::{System, Varied, times_s};
 use std::path::{Path, PathBuf};
@@ -35,6 +36,14 @@ const LARGER_ABOUT_S: f64 = 10.0;
 const TRIANGLES: [u32; 3] = [10_000, 100_000, 1_000_000];
 const LUMINAIRES: [u32; 4] = [100, 1_000, 10_000, 100_000];
 
+/// What maps of analytic cases are asked for, as by `validate`, and in about how long, s.
+pub(crate) const ANALYTIC_ACCURACY: f64 = 0.005;
+pub(crate) const ANALYTIC_ABOUT_S: f64 = 2.0;
+
+/// Systems that are asked for them, which differ in method alone: filters and ambient terms are tested elsewhere.
+pub(crate) const ANALYTIC_SYSTEMS: [System; 4] =
+    [System::Hybrid, System::Forward, System::Radiosity, System::Cache];
+
 /// Scenes, systems and times.
 pub(crate) struct Plan {
     pub(crate) cases: Vec<Case>,
@@ -48,6 +57,8 @@ pub(crate) struct Plan {
     pub(crate) reference: f64,
     /// Rays that the audit of a point may take.
     pub(crate) audit_rays: u64,
+    /// Whether the analytic cases of CIE 171:2006 are to be run.
+    pub(crate) is_analytic: bool,
     /// Larger halls, and what their maps are asked for.
     pub(crate) larger: Vec<Larger>,
     pub(crate) accuracy_of_larger: f64,
@@ -83,10 +94,15 @@ impl Plan {
             all.sort();
             all.dedup();
         }
-        let cases = cases(&flags.cases)?;
+        let is_analytic = |name: &PathBuf| name.to_str() == Some(ANALYTIC);
+        let is_all = |name: &PathBuf| name.to_str() == Some("all");
+        let (analytic, others): (Vec<PathBuf>, Vec<PathBuf>) =
+            flags.cases.iter().cloned().partition(is_analytic);
+        let cases = cases(&others)?;
         let has_hall = cases.iter().any(|case| case.name == "hall");
         Ok(Self {
             larger: if has_hall && !flags.quick { larger() } else { Vec::new() },
+            is_analytic: !analytic.is_empty() || others.iter().any(is_all) && !flags.quick,
             accuracy_of_larger: LARGER,
             audit_rays: if flags.quick { QUICK_AUDIT_RAYS } else { AUDIT_RAYS },
             cases,
@@ -108,7 +124,15 @@ impl Plan {
     pub(crate) fn asked_s(&self) -> f64 {
         let of_case = |case: &Case| self.times_s(case).iter().sum::<f64>();
         let larger_s: f64 = self.larger.iter().map(|larger| larger.about_s).sum();
-        self.systems.len() as f64 * self.cases.iter().map(of_case).sum::<f64>() + larger_s
+        let ours = self.systems.iter().filter(|system| ANALYTIC_SYSTEMS.contains(system)).count();
+        let analytic: usize = LISTED.iter().map(|of| of.names.len()).sum();
+        let analytic_s = match self.is_analytic {
+            true => (ours * analytic) as f64 * ANALYTIC_ABOUT_S,
+            false => 0.0,
+        };
+        self.systems.len() as f64 * self.cases.iter().map(of_case).sum::<f64>()
+            + larger_s
+            + analytic_s
     }
 }
 
@@ -133,6 +157,9 @@ fn system(name: &str) -> Result<System, Failure> {
     })
 }
 
+/// The name of all cases of CIE 171:2006 together.
+const ANALYTIC: &str = "cie171";
+
 const ALL: [&str; 4] = ["cube", "sphere", "hall", "demo"];
 
 fn cases(names: &[PathBuf]) -> Result<Vec<Case>, Failure> {
@@ -155,7 +182,7 @@ fn add(cases: &mut Vec<Case>, name: &Path) -> Result<(), Failure> {
     if !source.exists() && !source::is_builtin(&source) {
         let cases = ALL.join(", ");
         return Err(Failure::bad_input(format!(
-            "{}: is no case and no file; give some of {cases}, all of them as `all`, or a scene",
+            "{}: is no case and no file; give some of {cases}, {ANALYTIC}, all of them as `all`, or a scene",
             name.display()
         )));
     }

@@ -10,11 +10,14 @@ pub(super) fn scene(parts: &SceneParts, sets: &[PointSet]) -> Value {
     let mut distributions: Vec<&IntensityDistribution> = Vec::new();
     let luminaires: Vec<Value> =
         parts.luminaires.iter().map(|lamp| luminaire(lamp, &mut distributions)).collect();
+    let (suns, lamps): (Vec<Value>, Vec<Value>) =
+        luminaires.into_iter().partition(|lamp| lamp.get("direction").is_some());
     json!({
         "name": parts.name,
         "shapes": parts.shapes.iter().map(|s| shape(s, &parts.name)).collect::<Vec<_>>(),
         "materials": parts.materials,
-        "luminaires": luminaires,
+        "luminaires": lamps,
+        "suns": suns,
         "distributions": distributions,
         "point_sets": sets.iter().map(point_set).collect::<Vec<_>>(),
     })
@@ -33,22 +36,28 @@ fn shape(shape: &Shape, scene: &str) -> Value {
     })
 }
 
-/// Where a luminaire is and how it stands, and the number of its distribution.
+/// Where a luminaire is and how it stands, and the number of its distribution; or where parallel light goes.
 fn luminaire<'a>(lamp: &'a Luminaire, known: &mut Vec<&'a IntensityDistribution>) -> Value {
-    let LuminaireKind::Point { position, world_from_luminaire, intensity } = &lamp.kind else {
-        panic!("{}: only luminaires at a point can be written", lamp.name);
-    };
-    let number = known.iter().position(|d| *d == intensity).unwrap_or_else(|| {
-        known.push(intensity);
-        known.len() - 1
-    });
-    json!({
-        "name": lamp.name,
-        "position": position,
-        "axes": world_from_luminaire.columns,
-        "colour": lamp.colour,
-        "distribution": number,
-    })
+    match &lamp.kind {
+        LuminaireKind::Directional { direction, illuminance_lx } => json!({
+            "name": lamp.name,
+            "direction": direction,
+            "illuminance_lx": illuminance_lx,
+        }),
+        LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+            let number = known.iter().position(|d| *d == intensity).unwrap_or_else(|| {
+                known.push(intensity);
+                known.len() - 1
+            });
+            json!({
+                "name": lamp.name,
+                "position": position,
+                "axes": world_from_luminaire.columns,
+                "colour": lamp.colour,
+                "distribution": number,
+            })
+        }
+    }
 }
 
 fn point_set(set: &PointSet) -> Value {

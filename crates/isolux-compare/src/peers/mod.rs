@@ -4,9 +4,10 @@ mod json;
 mod points;
 
 use crate::builtin;
-use crate::case::{cube, sphere};
+use crate::case::{cube, find, sphere};
+use crate::expectation::Case;
 use crate::measure::{cube_grid, sphere_grid};
-use crate::study;
+use crate::study::{self, LitPlace};
 use isolux::engine::ProbePoint;
 use isolux::geometry::{Point, Vector};
 use points::{ExactPoint, PointSet};
@@ -14,7 +15,7 @@ use serde_json::Value;
 
 /// The scene of a name with all its sets of points; `None` of a scene for which there are none.
 pub fn scene(name: &str) -> Option<Value> {
-    let parts = builtin(name).ok()?;
+    let parts = builtin(name).ok().or_else(|| find(name).map(|case| (case.parts)()))?;
     Some(json::scene(&parts, &point_sets(name)?))
 }
 
@@ -31,7 +32,7 @@ fn point_sets(scene: &str) -> Option<Vec<PointSet>> {
             let centre = ExactPoint::of((at, sphere::total_lx(&at)));
             (sphere_grid().into_iter().map(ExactPoint::of).collect(), vec![centre])
         }
-        _ => return None,
+        name => return find(name).map(|case| case_maps(&case)),
     };
     let places = study::places(scene)?;
     let of_the_study = places.into_iter().map(ExactPoint::of).collect();
@@ -67,6 +68,16 @@ fn hall_map() -> PointSet {
     }
     let own_error = (own / squared).sqrt();
     PointSet { name: "map", points, own_error, has_caustics: false }
+}
+
+/// All places of a case whose whole light is known and not nothing. What the scene as tessellated is off by is the values' own error.
+fn case_maps(case: &Case) -> Vec<PointSet> {
+    let places = study::lit_places(case);
+    let points = || places.iter().map(|of| ExactPoint::of((of.at, of.expected_lx))).collect();
+    let own = |of: &LitPlace| (of.bound_lx / of.expected_lx).powi(2);
+    let own_error = libm::sqrt(places.iter().map(own).sum::<f64>() / places.len().max(1) as f64);
+    let set = |name| PointSet { own_error, ..PointSet::exact(name, points()) };
+    vec![set("map"), set(OF_THE_STUDY)]
 }
 
 /// The grid of the floor on all six faces.

@@ -1,5 +1,6 @@
 //! The study as plain values.
 
+use super::analytic::Analytic;
 use super::measured::Measured;
 use super::system::System;
 use crate::metric::{ColourDifference, PictureDistance};
@@ -16,6 +17,8 @@ pub struct Study {
     pub settings: Settings,
     /// What was compared.
     pub cases: Vec<CaseStudy>,
+    /// The analytic cases of CIE 171:2006.
+    pub analytic: Vec<Analytic>,
     /// What larger scenes cost.
     pub costs: Vec<Cost>,
     /// Renderers beside isolux.

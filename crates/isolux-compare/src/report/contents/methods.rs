@@ -81,7 +81,7 @@ const MEASURES: [Measure; 16] = [
     ["ΔE00", "Mean over the pixels", "–", "CIEDE2000 [5]"],
 ];
 
-const SOURCES: [Source; 6] = [
+const SOURCES: [Source; 7] = [
     Source {
         text: "E. A. Kopylov, A. B. Khodulev, V. L. Volevich: The comparison of illumination maps technique in computer graphics software. GraphiCon’98, \
                Moscow, 1998.",
@@ -108,6 +108,10 @@ const SOURCES: [Source; 6] = [
     Source {
         text: "M. Okabe, K. Ito: Color universal design: how to make figures and presentations that are friendly to colorblind people, 2008. The colours \
                of the graphs.",
+        address: None,
+    },
+    Source {
+        text: "CIE 171:2006, Test cases to assess the accuracy of lighting computer programs. Commission Internationale de l’Éclairage, Vienna, 2006.",
         address: None,
     },
 ];

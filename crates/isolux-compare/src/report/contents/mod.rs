@@ -1,5 +1,6 @@
 //! What reports say, whatever their format.
 
+mod analytic;
 mod case;
 mod costs;
 mod errors;
@@ -21,6 +22,7 @@ use crate::study::Study;
 pub(super) fn document(study: &Study) -> Document {
     let mut sections: Vec<Section> = vec![opening::tested_again(study), opening::compared(study)];
     sections.extend(study.cases.iter().map(case::section));
+    sections.extend(analytic::section(study));
     sections.extend(costs::section(&study.costs));
     sections.push(theory::section());
     sections.extend(pictures::section(study));

@@ -22,6 +22,7 @@ fn parsed(html: &str) -> Document<'_> {
 fn bare() -> Study {
     let mut study = synthetic::study();
     study.costs.clear();
+    study.analytic.clear();
     for case in &mut study.cases {
         (case.reference, case.landing, case.error_limit) = (None, None, None);
         for series in &mut case.series {
@@ -40,7 +41,7 @@ fn bare() -> Study {
 
 /// A study that was stopped before its first map.
 fn empty() -> Study {
-    Study { cases: Vec::new(), costs: Vec::new(), ..synthetic::study() }
+    Study { cases: Vec::new(), costs: Vec::new(), analytic: Vec::new(), ..synthetic::study() }
 }
 
 #[test]

@@ -4,8 +4,8 @@ use crate::case::cube::TABLE_1;
 use crate::measure::MeasuredPoint;
 use crate::metric::{ColourDifference, PictureDistance};
 use crate::study::{
-    Audited, CaseStudy, Cost, Distances, Machine, Measured, Point, Prediction, Reference, Reported,
-    Series, Settings, Study, System, Varied, Version, times_s,
+    Analytic, Audited, CaseStudy, Cost, Distances, Found, Machine, Measured, Point, Prediction,
+    Reference, Reported, Series, Settings, Study, System, Varied, Version, times_s,
 };
 
 /// How a system does: its error after one second, how fast that falls, and where it stays.
@@ -47,6 +47,7 @@ pub(super) fn study() -> Study {
         },
         settings: Settings { limit_s: 256.0, seed: 1, threads: 2, picture: [640, 360] },
         cases: vec![exact("cube", 12), exact("sphere", 16_384), practical("hall", 10_218)],
+        analytic: vec![analytic()],
         costs: costs(),
         versions: vec![Version { system: System::Radiance, version: "1.3.1".to_owned() }],
         missing: vec!["mitsuba (pip install mitsuba)".to_owned()],
@@ -63,6 +64,22 @@ fn case(name: &str, triangles: u32, series: Vec<Series>) -> CaseStudy {
         landing: (name != "hall").then_some(3.0),
         error_limit: Some(0.02),
         series,
+    }
+}
+
+fn analytic() -> Analytic {
+    let found = |system: System| Found {
+        system,
+        time_s: 0.4,
+        values_lx: vec![Some(100.3), (system != System::Cache).then_some(49.9)],
+        standard_errors_lx: vec![system.method().map(|_| 0.2), None],
+    };
+    Analytic {
+        number: "5.2".to_owned(),
+        title: "point light sources".to_owned(),
+        name: "cie171_5_2_isotropic".to_owned(),
+        expected_lx: vec![100.0, 50.0],
+        found: System::ALL.map(found).into(),
     }
 }
 
