@@ -46,3 +46,18 @@ pub const COVERAGE: f64 = 0.95;
 /// Relative error of a disc replaced by a polygon of 256 corners and the same area: the border is
 /// off by (pi / 256)^2 / 3 of the radius, up and down in turn. Measured over the receivers of the tests.
 pub const DISC_POLYGON: f64 = 1e-6;
+
+/// Relative error of the flux on walls and floor from four Gauss nodes each way, as `cie171_5_4` reads them: measured.
+pub const FLUX_ON_GRID: f64 = 2e-3;
+
+/// Relative error of light through a window by the midpoints of 400 by 400 cells of it, in tests: the second order of the
+/// midpoint rule. Measured.
+pub const WINDOW_QUADRATURE: f64 = 1e-4;
+
+/// Share of the light through a window that rays of a grid of it tell wrongly where an edge of the sky crosses their
+/// cells, in tests: half a row of 80 in a part of the light.
+pub const RAYS_PAST_EDGES: f64 = 0.0125;
+
+/// Largest relative difference between the overcast sky of type 1 and that of Moon and Spencer (1942) from 20 degrees above
+/// the horizon on. Measured.
+pub const MOON_SPENCER: f64 = 0.11;

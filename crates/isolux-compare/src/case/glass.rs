@@ -43,7 +43,6 @@ pub(super) fn cases() -> [Case; 2] {
 fn parts(name: &str, transmittance: Rgb) -> SceneParts {
     let level = |z: f64| Rectangle::new([-4.0, -4.0, z], [8.0, 0.0, 0.0], [0.0, 8.0, 0.0]);
     let ceiling = Rectangle::new([-4.0, -4.0, CEILING_Z_M], [0.0, 8.0, 0.0], [8.0, 0.0, 0.0]);
-    let pane = Body::Dielectric(Dielectric { ior: IOR, transmittance, thin: true });
     SceneParts {
         name: name.into(),
         shapes: vec![
@@ -51,20 +50,25 @@ fn parts(name: &str, transmittance: Rgb) -> SceneParts {
             ceiling.shape("ceiling", 0),
             level(PANE_Z_M).shape("pane", 1),
         ],
-        materials: vec![
-            Material::one_sided("black", Finish::BLACK),
-            Material { name: "pane".into(), body: pane },
-        ],
+        materials: vec![Material::one_sided("black", Finish::BLACK), pane_material(transmittance)],
         luminaires: vec![isotropic("lamp", LAMP_M.into(), LAMP_CD)],
         ..SceneParts::default()
     }
 }
 
-/// What a face and a pane do to unpolarized light.
+/// Thin glass of index 1.5.
+pub(super) fn pane_material(transmittance: Rgb) -> Material {
+    let body = Body::Dielectric(Dielectric { ior: IOR, transmittance, thin: true });
+    Material { name: "pane".into(), body }
+}
+
+/// What a pane does to unpolarized light.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Pane {
-    transmitted: f64,
-    reflected: f64,
+pub(super) struct Pane {
+    /// Share that goes on.
+    pub(super) transmitted: f64,
+    /// Share that goes back.
+    pub(super) reflected: f64,
 }
 
 /// Reflectances of one face for light polarized across and along the plane of incidence.
@@ -76,7 +80,8 @@ fn fresnel(cos_theta: f64) -> [f64; 2] {
     [across * across, along * along]
 }
 
-fn pane(cos_theta: f64, t: f64) -> Pane {
+/// At an angle of incidence, with the share `t` left by one crossing.
+pub(super) fn pane(cos_theta: f64, t: f64) -> Pane {
     let [across, along] = fresnel(cos_theta).map(|r| {
         let transmitted = (1.0 - r) * (1.0 - r) * t / (1.0 - r * r * t * t);
         Pane { transmitted, reflected: r * (1.0 + t * transmitted) }
