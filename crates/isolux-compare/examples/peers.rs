@@ -6,19 +6,26 @@ use isolux::engine::ProbePoint;
 use isolux::geometry::{Point, Vector};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{Luminaire, LuminaireKind, SceneParts, Shape};
-use isolux_compare::case::{cube, sphere};
-use isolux_compare::{builtin, cube_grid, sphere_grid};
+use isolux_compare::case::{cube, find, sphere};
+use isolux_compare::{Case, Quantity, builtin, cube_grid, sphere_grid};
 use serde_json::{Value, json};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let name = std::env::args().nth(1).unwrap_or_default();
-    let (Ok(parts), Some(points)) = (builtin(&name), point_sets(&name)) else {
-        eprintln!("there are no points for a scene `{name}`; choose cube, sphere or hall");
+    let (Some(parts), Some(points)) = (parts(&name), point_sets(&name)) else {
+        eprintln!(
+            "there are no points for a scene `{name}`; choose cube, sphere, hall or a case of `isolux validate`"
+        );
         return ExitCode::from(2);
     };
     println!("{}", scene(&parts, &points));
     ExitCode::SUCCESS
+}
+
+/// A scene as built in, else that of a case.
+fn parts(name: &str) -> Option<SceneParts> {
+    builtin(name).ok().or_else(|| find(name).map(|case| (case.parts)()))
 }
 
 /// Points at which a scene is judged.
@@ -60,7 +67,7 @@ fn point_sets(scene: &str) -> Option<Vec<PointSet>> {
             let centre = ExactPoint::of((at, sphere::total_lx(&at)));
             (sphere_grid().into_iter().map(ExactPoint::of).collect(), vec![centre])
         }
-        _ => return None,
+        name => return find(name).map(|case| vec![case_map(&case)]),
     };
     Some(vec![PointSet::exact("map", map), PointSet::exact("paper", paper)])
 }
@@ -90,6 +97,20 @@ fn hall_map() -> PointSet {
     }
     let own_error = (own / squared).sqrt();
     PointSet { name: "map", points, own_error, has_caustics: false }
+}
+
+/// All places of a case whose whole light is known and not nothing: an error relative to nothing is none. What
+/// the scene as tessellated is off by is taken as the values' own error.
+fn case_map(case: &Case) -> PointSet {
+    let expectations = (case.expectations)();
+    let lit: Vec<_> = expectations
+        .iter()
+        .filter(|e| e.quantity == Quantity::Total && !e.expected_lx.is_black())
+        .collect();
+    let own = |e: &&isolux_compare::Expectation| (e.bound.lx / e.expected_lx.luminance()).powi(2);
+    let own_error = (lit.iter().map(own).sum::<f64>() / lit.len() as f64).sqrt();
+    let points = lit.iter().map(|e| ExactPoint::of((e.at, e.expected_lx.luminance()))).collect();
+    PointSet { own_error, ..PointSet::exact("map", points) }
 }
 
 /// The grid of the floor on all six faces.
@@ -132,11 +153,14 @@ fn scene(parts: &SceneParts, sets: &[PointSet]) -> Value {
     let mut distributions: Vec<&IntensityDistribution> = Vec::new();
     let luminaires: Vec<Value> =
         parts.luminaires.iter().map(|lamp| luminaire(lamp, &mut distributions)).collect();
+    let (suns, lamps): (Vec<Value>, Vec<Value>) =
+        luminaires.into_iter().partition(|lamp| lamp.get("direction").is_some());
     json!({
         "name": parts.name,
         "shapes": parts.shapes.iter().map(|s| shape(s, &parts.name)).collect::<Vec<_>>(),
         "materials": parts.materials,
-        "luminaires": luminaires,
+        "luminaires": lamps,
+        "suns": suns,
         "distributions": distributions,
         "point_sets": sets.iter().map(point_set).collect::<Vec<_>>(),
     })
@@ -155,22 +179,28 @@ fn shape(shape: &Shape, scene: &str) -> Value {
     })
 }
 
-/// Where a luminaire is and how it stands, and the number of its distribution.
+/// Where a luminaire is and how it stands, and the number of its distribution; or where parallel light goes.
 fn luminaire<'a>(lamp: &'a Luminaire, known: &mut Vec<&'a IntensityDistribution>) -> Value {
-    let LuminaireKind::Point { position, world_from_luminaire, intensity } = &lamp.kind else {
-        panic!("{}: only luminaires at a point can be written", lamp.name);
-    };
-    let number = known.iter().position(|d| *d == intensity).unwrap_or_else(|| {
-        known.push(intensity);
-        known.len() - 1
-    });
-    json!({
-        "name": lamp.name,
-        "position": position,
-        "axes": world_from_luminaire.columns,
-        "colour": lamp.colour,
-        "distribution": number,
-    })
+    match &lamp.kind {
+        LuminaireKind::Directional { direction, illuminance_lx } => json!({
+            "name": lamp.name,
+            "direction": direction,
+            "illuminance_lx": illuminance_lx,
+        }),
+        LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+            let number = known.iter().position(|d| *d == intensity).unwrap_or_else(|| {
+                known.push(intensity);
+                known.len() - 1
+            });
+            json!({
+                "name": lamp.name,
+                "position": position,
+                "axes": world_from_luminaire.columns,
+                "colour": lamp.colour,
+                "distribution": number,
+            })
+        }
+    }
 }
 
 fn point_set(set: &PointSet) -> Value {
