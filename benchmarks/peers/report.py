@@ -55,6 +55,34 @@ def levels(result):
     return rows
 
 
+def off(values_lx, expected_lx):
+    """Relative differences without their signs."""
+    return [abs(value / expected - 1.0) for value, expected in zip(values_lx, expected_lx)]
+
+
+def text(result):
+    """All tables, for the terminal."""
+    tables = [table(result["levels"])] if result["runs"] else []
+    return "\n\n".join(tables + ([values(result["values"])] if result["values"] else []))
+
+
+def values(found):
+    """Of the scenes whose values are compared: the largest relative difference of each renderer."""
+    renderers = list(dict.fromkeys(one["renderer"] for one in found))
+    lines = [["scene", "places", *(f"{r}, worst" for r in renderers)]]
+    for scene in dict.fromkeys(one["scene"] for one in found):
+        of = {one["renderer"]: one for one in found if one["scene"] == scene}
+        places = len(next(iter(of.values()))["expected_lx"])
+        cells = [of.get(r) and max(off(of[r]["values_lx"], of[r]["expected_lx"])) for r in renderers]
+        lines.append([scene, str(places), *("-" if c is None else f"{100 * c:.3g} %" for c in cells)])
+    return aligned(lines)
+
+
+def aligned(lines):
+    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
+    return "\n".join("  ".join(cell.ljust(w) for cell, w in zip(line, widths)).rstrip() for line in lines)
+
+
 def table(rows):
     """Of `levels`, for the terminal."""
     renderers = list(dict.fromkeys(r for row in rows for r in row["times"]))
@@ -67,9 +95,7 @@ def table(rows):
             shown(row["map_alone"], row["map_alone"] is not None),
             times_faster(row["best_peer_over_map_alone"], row["map_alone"]),
         ])
-    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
-    text = ["  ".join(cell.ljust(w) for cell, w in zip(line, widths)).rstrip() for line in lines]
-    return "\n".join([*text, "", NOTES])
+    return "\n".join([aligned(lines), "", NOTES])
 
 
 NOTES = (

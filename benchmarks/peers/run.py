@@ -40,15 +40,17 @@ def main():
             for (scene, renderer), reason in ladders.CANNOT.items()
         ],
         "runs": [],
+        "values": [],
     }
     with tempfile.TemporaryDirectory(prefix="isolux-peers-") as folder:
         bench = Bench(flags, environment, Path(folder))
         for run in bench.in_turn():
             result["runs"].append(run)
+        result["values"].extend(bench.values())
     result["machine"]["load_after"] = os.getloadavg()[0]
     result["levels"] = report.levels(result)
     save(result, flags.results)
-    print(json.dumps(result, indent=1) if flags.json else report.table(result["levels"]))
+    print(json.dumps(result, indent=1) if flags.json else report.text(result))
 
 
 def arguments():
@@ -61,11 +63,10 @@ def arguments():
     flags.add_argument("--quick", action="store_true", help="only the efforts that end soon")
     flags.add_argument("--json", action="store_true", help="print the result instead of a table")
     flags.add_argument("--only", nargs="+", action="extend", metavar="RENDERER", default=[], help="leave the others out")
+    flags.add_argument("--scene", nargs="+", action="extend", metavar="SCENE", default=[], help="leave the others out")
     given = flags.parse_args()
-    known = sorted({ladder.renderer for ladder in ladders.LADDERS})
-    strangers = [name for name in given.only if name not in known]
-    if strangers:
-        flags.error(f"there is no renderer `{strangers[0]}`; choose from {', '.join(known)}")
+    chosen(flags, "renderer", given.only, sorted({ladder.renderer for ladder in ladders.LADDERS}))
+    chosen(flags, "scene", given.scene, list(dict.fromkeys(ladder.scene for ladder in ladders.LADDERS)))
     for path in (given.isolux, given.scenes):
         if not path.exists():
             flags.error(f"{path} is not there; `cargo xtask bench peers` makes it")
@@ -75,17 +76,27 @@ def arguments():
     return given
 
 
+def chosen(flags, what, names, known):
+    """Refuses a name that nothing has."""
+    strangers = [name for name in names if name not in known]
+    if strangers:
+        flags.error(f"there is no {what} `{strangers[0]}`; choose from {', '.join(known)}")
+
+
 class Bench:
     """The runs of one bench."""
 
     def __init__(self, flags, environment, folder):
         self.flags, self.environment, self.folder = flags, environment, folder
-        self.ladders = [
-            ladder for ladder in ladders.LADDERS if not flags.only or ladder.renderer in flags.only
+        asked = [
+            ladder for ladder in ladders.LADDERS
+            if (not flags.only or ladder.renderer in flags.only) and (not flags.scene or ladder.scene in flags.scene)
         ]
+        self.ladders = [ladder for ladder in asked if not ladder.is_valued()]
+        self.valued = [ladder for ladder in asked if ladder.is_valued()]
         self.points = {
             (ladder.scene, ladder.points): scenes.read(self.scene(ladder)).points(ladder.points)
-            for ladder in self.ladders
+            for ladder in asked
         }
 
     def scene(self, ladder):
@@ -102,6 +113,21 @@ class Bench:
                 for ladder in here:
                     if step < (ladder.quick if self.flags.quick else len(ladder.efforts)):
                         yield self.measured(ladder, ladder.efforts[step])
+
+    def values(self):
+        """Of scenes whose values are compared, one run of every renderer."""
+        for ladder in self.valued:
+            effort, points = ladder.efforts[0], self.points[ladder.scene, ladder.points]
+            found = self.once(ladder, effort, 1)
+            if found is None:
+                continue
+            say(f"{ladder.scene} {ladder.renderer} {effort}: " + worst(found["values_lx"], points.expected_lx))
+            yield {
+                "scene": ladder.scene, "points": ladder.points, "renderer": ladder.renderer, "effort": effort,
+                "whole_s": round(found["whole_s"], 4), "error": found["error"],
+                "positions": points.positions, "normals": points.normals,
+                "expected_lx": points.expected_lx, "values_lx": found["values_lx"],
+            }
 
     def measured(self, ladder, effort):
         """One effort, more than once if it is short."""
@@ -136,7 +162,14 @@ class Bench:
             "map_s": found.get("map_s"),
             "error": self.points[ladder.scene, ladder.points].error(found["values_lx"]),
             "reported_error": found.get("reported_error"),
+            "values_lx": found["values_lx"],
         }
+
+
+def worst(values_lx, expected_lx):
+    if None in values_lx:
+        return "not all places are known"
+    return f"{100 * max(report.off(values_lx, expected_lx)):.3f} % at worst"
 
 
 def said(run):
@@ -148,8 +181,10 @@ def said(run):
 def save(result, folder):
     path = folder / f"peers-{result['date']}.json"
     path.write_text(json.dumps(result, indent=1) + "\n")
+    if not result["runs"]:
+        return say(f"saved {path.name} in {folder}")
     report.plot(result, path.with_suffix(".svg"))
-    say(f"saved {path.name} and its picture in {folder}")
+    return say(f"saved {path.name} and its picture in {folder}")
 
 
 def say(line):

@@ -2,7 +2,7 @@
 
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 
@@ -45,13 +45,17 @@ class Shape:
 
 @dataclass(frozen=True)
 class Material:
-    """A front that is diffuse or a mirror, reflectances of red, green and blue; or `pane`, thin glass:
+    """A front that is diffuse or a mirror, reflectances of red, green and blue, and shines; or `pane`, thin glass:
     (refractive index, transmittance of its inside)."""
 
     name: str
     diffuse: tuple
     mirror: tuple
     pane: tuple | None
+    luminance_cd_m2: tuple = (0.0, 0.0, 0.0)
+
+    def shines(self):
+        return max(self.luminance_cd_m2) > 0
 
 
 @dataclass(frozen=True)
@@ -74,6 +78,15 @@ class PointLuminaire:
     intensity_cd: float | None
     """The same in every direction; None where `web` tells."""
     web: Web | None
+
+
+@dataclass(frozen=True)
+class Sun:
+    """Parallel light: where it goes, and the illuminance of what faces it."""
+
+    name: str
+    direction: tuple
+    illuminance_lx: float
 
 
 @dataclass(frozen=True)
@@ -113,6 +126,7 @@ class Scene:
     materials: list
     luminaires: list
     point_sets: list
+    suns: list = field(default_factory=list)
 
     def points(self, name):
         for point_set in self.point_sets:
@@ -133,11 +147,16 @@ class Scene:
     def has_specular(self):
         return any(max(m.mirror) > 0 or m.pane for m in self.materials)
 
+    def shines(self):
+        return any(m.shines() for m in self.materials)
+
     def mean_luminance_cd_m2(self):
         """Of a closed scene without mirrors, by the balance of energy: what is absorbed is emitted."""
         areas = [(s.area_m2(), luminance(self.materials[s.material].diffuse)) for s in self.shapes]
         whole_m2 = sum(area for area, _ in areas)
         reflectance = sum(area * r for area, r in areas) / whole_m2
+        if reflectance == 0:
+            return 0.0
         flux_lm = sum(4.0 * math.pi * lamp.intensity_cd for lamp in self.luminaires)
         return reflectance * flux_lm / (whole_m2 * (1.0 - reflectance)) / math.pi
 
@@ -169,6 +188,7 @@ def read(path):
             materials=[_material(m) for m in record["materials"]],
             luminaires=_luminaires(record["luminaires"], record["distributions"]),
             point_sets=[PointSet(**p) for p in record["point_sets"]],
+            suns=[Sun(s["name"], tuple(s["direction"]), s["illuminance_lx"]) for s in record.get("suns", [])],
         )
     except (KeyError, TypeError) as e:
         raise SystemExit(f"{path}: is no scene of ours ({e!r}); write it with the example `peers`") from None
@@ -192,7 +212,8 @@ def _material(record):
         pane = (glass["ior"], luminance(glass["transmittance"]))
         return Material(record["name"], (0.0,) * 3, (0.0,) * 3, pane)
     front = record["body"]["opaque"]["front"]
-    return Material(record["name"], tuple(front["diffuse"]["colour"]), tuple(front["mirror"]), None)
+    shone = tuple(front.get("luminance_cd_m2", (0.0,) * 3))
+    return Material(record["name"], tuple(front["diffuse"]["colour"]), tuple(front["mirror"]), None, shone)
 
 
 def _luminaires(records, distributions):

@@ -14,6 +14,7 @@ import curve
 import ladders
 import report
 import scene as scenes
+import run
 import with_radiance
 from arguments import effort
 
@@ -127,6 +128,33 @@ class Scene(Folder):
         self.assertEqual(table[:3], ["2", "0 0 5 0 90 180 270 360.0", "0 0 5 0 45 90 90.001 180.0"])
         self.assertEqual(table[3:], ["9 5 0 0.0 0.0"] * 5)
 
+    def test_surfaces_that_shine_and_parallel_light(self):
+        def shining(name):
+            front = {"diffuse": {"colour": [0] * 3}, "mirror": [0] * 3, "luminance_cd_m2": [7] * 3}
+            return {"name": name, "body": {"opaque": {"front": front}}}
+
+        sky = {**RECORD["shapes"][0], "name": "sky", "material": 1}
+        panel = {**RECORD["shapes"][0], "name": "panel", "material": 2}
+        sun = {"name": "sun", "direction": [0, 0, -1], "illuminance_lx": 100}
+        self.scene.write_text(json.dumps({
+            **RECORD, "luminaires": [], "suns": [sun], "shapes": [*RECORD["shapes"], sky, panel],
+            "materials": [*RECORD["materials"], shining("of sky"), shining("of panel")],
+        }))
+        scene = scenes.read(self.scene)
+        self.assertTrue(scene.shines())
+        text = with_radiance.rad(scene, self.folder)
+        self.assertIn("void glow of_sky\n0\n0\n4 7 7 7 0\n", text)
+        self.assertIn("void light of_panel\n0\n0\n3 7 7 7\n", text)
+        self.assertIn("sun source sun.disc\n0\n0\n4 0 0 1 0.02\n", text)
+        # The disc of its luminance is the illuminance of what faces it.
+        shone = float(text.split("void light sun\n0\n0\n3 ")[1].split()[0])
+        self.assertAlmostEqual(shone * math.pi * math.radians(0.01) ** 2, 100.0, places=4)
+
+    def test_nothing_black_is_bright_beyond_the_last_bounce(self):
+        black = {"name": "black", "body": {"opaque": {"front": {"diffuse": {"colour": [0] * 3}, "mirror": [0] * 3}}}}
+        self.scene.write_text(json.dumps({**RECORD, "materials": [black]}))
+        self.assertEqual(scenes.read(self.scene).mean_luminance_cd_m2(), 0.0)
+
     def test_halves_of_rectangles_are_joined(self):
         positions = [[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [5, 5, 0]]
         shape = scenes.Shape("s", positions, [[0, 1, 2], [0, 2, 3], [0, 2, 4]], 0, None)
@@ -158,6 +186,22 @@ class Curve(unittest.TestCase):
         steep = curve.reached([(1.0, 0.02), (1.1, 0.002)], 0.001)
         self.assertAlmostEqual(steep.time_s, 4.4)
         self.assertEqual(steep.mark, "~")
+
+    def test_values_are_told_by_their_largest_difference(self):
+        def one(renderer, values):
+            return {"scene": "cie171_5_3", "renderer": renderer, "values_lx": values, "expected_lx": [100.0, 50.0]}
+
+        found = [one("radiance", [101.0, 51.0]), one("mitsuba", [99.0, 50.0])]
+        self.assertEqual(report.values(found).splitlines()[1].split(), ["cie171_5_3", "2", "2", "%", "1", "%"])
+        self.assertEqual(run.worst([101.0, 51.0], [100.0, 50.0]), "2.000 % at worst")
+        self.assertEqual(run.worst([None, 51.0], [100.0, 50.0]), "not all places are known")
+
+    def test_every_valued_scene_has_one_effort_of_each_renderer_that_can(self):
+        for case in ladders.CASES:
+            ran = {ladder.renderer for ladder in ladders.LADDERS if ladder.scene == case}
+            cannot = {renderer for scene, renderer in ladders.CANNOT if scene == case}
+            self.assertEqual(ran | cannot, {"radiance", "mitsuba", "luxcore"})
+            self.assertFalse(ran & cannot)
 
     def test_the_table_says_never_where_an_error_is_not_reached(self):
         def run(renderer, time_s, error):

@@ -1,5 +1,6 @@
 """Mitsuba 3, `llvm_ad_rgb`: `path` with rays of our own that look at the points, or, where light comes by
-mirrors, `ptracer` into a camera that sees the whole surface."""
+mirrors, `ptracer` into a camera that sees the whole surface, or, where points may be black, `path` with rays of our own that
+look out from the points."""
 
 import os
 import sys
@@ -19,7 +20,7 @@ LAUNCH = 1 << 22
 
 
 def main():
-    flags = arguments.parser(__doc__ + " Integrators: 0 path, 1 ptracer.", EFFORT).parse_args()
+    flags = arguments.parser(__doc__ + " Integrators: 0 path, 1 ptracer, 2 path over the hemisphere.", EFFORT).parse_args()
     os.environ.setdefault("DRJIT_LIBLLVM_PATH", library.llvm())
     scene = scenes.read(flags.scene)
     points = scene.points(flags.points)
@@ -30,7 +31,7 @@ def main():
     drjit.set_thread_count(flags.threads)
     started = time.perf_counter()
     integrator, samples = flags.effort
-    method = (by_path, by_particles)[int(integrator)]
+    method = (by_path, by_particles, over_hemisphere)[int(integrator)]
     values = method(scene, points, max(1, int(samples)), flags.seed)
     arguments.write(flags.output, values_lx=values, trace_s=time.perf_counter() - started)
 
@@ -56,6 +57,58 @@ def by_path(scene, points, samples, seed):
         total += np.array(dr.block_sum(mi.luminance(colour), per_launch))
     reflectance = diffuse_reflectance(scene)
     return [float(x) for x in total / (launches * per_launch) * np.pi / reflectance]
+
+
+def over_hemisphere(scene, points, samples, seed):
+    """What comes in over the hemisphere of every point, `pi` times the mean of luminances seen in directions in proportion to
+    the cosine; what lamps without surface send, which no ray meets, is added by their formulae with a shadow ray each."""
+    import drjit as dr
+    import mitsuba as mi
+    import numpy as np
+
+    world = mi.load_dict(description(scene))
+    integrator = mi.load_dict({"type": "path", "max_depth": -1, "rr_depth": 8})
+    count = len(points.positions)
+    per_launch = max(1, min(samples, LAUNCH // count))
+    starts = np.array(scene.just_inside(points))
+    origin = mi.Point3f(np.repeat(starts.astype(np.float32), per_launch, axis=0).T)
+    normal = np.repeat(np.array(points.normals, dtype=np.float32), per_launch, axis=0)
+    frame = mi.Frame3f(mi.Vector3f(normal.T))
+    total, launches = np.zeros(count), -(-samples // per_launch)
+    for launch in range(launches):
+        sampler = mi.load_dict({"type": "independent"})
+        sampler.seed(seed * 1_000_003 + launch, count * per_launch)
+        towards = frame.to_world(mi.warp.square_to_cosine_hemisphere(sampler.next_2d()))
+        colour, _, _ = integrator.sample(world, sampler, mi.RayDifferential3f(mi.Ray3f(origin, towards)))
+        total += np.array(dr.block_sum(mi.luminance(colour), per_launch))
+    seen = total / (launches * per_launch) * np.pi
+    return [float(x) for x in seen + straight(world, scene, starts, np.array(points.normals))]
+
+
+def straight(world, scene, starts, normals):
+    """Illuminance from lamps at points and from parallel light, lx."""
+    import mitsuba as mi
+    import numpy as np
+
+    def lit(way, length_m, intensity):
+        cosines = np.sum(way * normals, axis=1)
+        ray = mi.Ray3f(mi.Point3f(starts.T), mi.Vector3f(way.T))
+        ray.maxt = mi.Float(length_m * (1.0 - 1e-6))
+        hidden = np.array(world.ray_test(ray))
+        return np.where(hidden, 0.0, np.maximum(cosines, 0.0) * intensity)
+
+    found = np.zeros(len(starts))
+    for lamp in scene.luminaires:
+        if lamp.web:
+            raise SystemExit(f"{lamp.name} has a measured distribution, which Mitsuba has not")
+        away = np.array(lamp.position) - starts
+        length_m = np.linalg.norm(away, axis=1)
+        found += lit(away / length_m[:, None], length_m, lamp.intensity_cd / length_m**2)
+    far_m = 10.0 * scene.size_m()
+    for sun in scene.suns:
+        way = np.tile(-np.array(sun.direction), (len(starts), 1))
+        found += lit(way, np.full(len(starts), far_m), sun.illuminance_lx)
+    return found
 
 
 def by_particles(scene, points, samples, seed):
@@ -154,8 +207,12 @@ def description(scene):
     for lamp in scene.luminaires:
         intensity = {"type": "rgb", "value": [lamp.intensity_cd] * 3}
         world[lamp.name] = {"type": "point", "position": list(lamp.position), "intensity": intensity}
-    for shape in scene.shapes:
-        bsdf = mi.load_dict(surface(scene.materials[shape.material]))
+    for sun in scene.suns:
+        irradiance = {"type": "rgb", "value": [sun.illuminance_lx] * 3}
+        world[sun.name] = {"type": "directional", "direction": list(sun.direction), "irradiance": irradiance}
+    for number, shape in enumerate(scene.shapes):
+        material = scene.materials[shape.material]
+        bsdf = mi.load_dict(surface(material))
         if shape.sphere:
             centre, radius_m = shape.sphere
             world[shape.name] = {
@@ -163,23 +220,32 @@ def description(scene):
                 "surface": bsdf,
             }
         else:
-            world[shape.name] = mesh(shape, bsdf)
+            # Shapes may share a name.
+            world[f"{shape.name}_{number}".replace(".", "_")] = mesh(shape, bsdf, material)
     return world
 
 
 def surface(material):
+    if material.pane:
+        ior, transmittance = material.pane
+        if transmittance != 1.0:
+            raise SystemExit(f"{material.name} absorbs, which a `thindielectric` does by another formula")
+        return {"type": "thindielectric", "int_ior": ior, "ext_ior": 1.0}
     if max(material.mirror) > 0:
         reflectance = {"type": "rgb", "value": list(material.mirror)}
         return {"type": "conductor", "material": "none", "specular_reflectance": reflectance}
     return {"type": "diffuse", "reflectance": {"type": "rgb", "value": list(material.diffuse)}}
 
 
-def mesh(shape, bsdf):
+def mesh(shape, bsdf, material):
     import mitsuba as mi
     import numpy as np
 
     properties = mi.Properties()
     properties["surface"] = bsdf
+    if material.shines():
+        radiance = {"type": "rgb", "value": list(material.luminance_cd_m2)}
+        properties["shine"] = mi.load_dict({"type": "area", "radiance": radiance})
     made = mi.Mesh(shape.name, len(shape.positions), len(shape.triangles), props=properties)
     parameters = mi.traverse(made)
     parameters["vertex_positions"] = np.array(shape.positions, dtype=np.float32).ravel()

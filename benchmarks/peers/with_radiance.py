@@ -19,6 +19,12 @@ import scene as scenes
 EFFORT = "aa:ad:as:ar:ab"
 # A lamp in place of a point: so small that its size is not seen.
 LAMP_RADIUS_SHARE = 1e-4
+# Half of the angle that stands for parallel light.
+SUN_DEG = 0.01
+# Surfaces of this name shine from all around: hemisphere samples find them, as Radiance's manual advises for skies. All others
+# that shine are sources, cut as fine as Radiance does it.
+SKY = "sky"
+FINEST = 0.01
 # From then on not every lamp is looked at from every place.
 MANY = 100
 
@@ -67,7 +73,8 @@ def programs():
 def options(scene, flags, cache):
     accuracy, divisions, supersamples, resolution, bounces = flags.effort
     # Light beyond the last bounce: the mean of the closed scene, where the balance of energy gives it.
-    beyond = 0.0 if scene.has_specular() else scene.mean_luminance_cd_m2()
+    is_open = scene.has_specular() or scene.shines() or scene.suns
+    beyond = 0.0 if is_open else scene.mean_luminance_cd_m2()
     if len(scene.luminaires) > MANY:
         # Of lamps that together could add less than this share no shadows are traced, and what they give is guessed;
         # one mirror at most between lamp and place.
@@ -76,28 +83,49 @@ def options(scene, flags, cache):
         many = "-dt 0 -dc 1 -dr 3"
     words = f"-I -h -fdd -w- -n {flags.threads} -ab {bounces:.0f} -aa {accuracy} -ar {resolution:.0f}"
     words += f" -ad {divisions:.0f} -as {supersamples:.0f} -av {beyond} {beyond} {beyond} -aw 0"
-    words += f" -ds 0 -dj 0 {many} -dp 0 -lr 60 -lw 1e-7 -st 0"
+    finest = FINEST if scene.shines() else 0
+    words += f" -ds {finest} -dj 0 {many} -dp 0 -lr 60 -lw 1e-7 -st 0"
     return [*words.split(), "-af", cache]
 
 
 def rad(scene, folder):
     """The scene in Radiance's language, in photometric units on all three channels."""
-    lines = [surface(material) for material in scene.materials]
+    skies = {shape.material for shape in scene.shapes if shape.name == SKY}
+    lines = [surface(material, k in skies) for k, material in enumerate(scene.materials)]
     for shape in scene.shapes:
-        lines.extend(surfaces(shape, scene.materials[shape.material].name))
+        lines.extend(surfaces(shape, word(scene.materials[shape.material].name)))
     radius_m = LAMP_RADIUS_SHARE * scene.size_m()
     lights = Lights(folder, math.pi * radius_m * radius_m)
     for lamp in scene.luminaires:
         light = lights.of(lamp)
         place = " ".join(str(x) for x in (*lamp.position, radius_m))
-        name = lamp.name.replace(" ", "_")
+        name = word(lamp.name)
         lines.extend([*lights.new, f"{light} sphere {name}\n0\n0\n4 {place}\n"])
         lights.new.clear()
+    lines.extend(parallel(sun) for sun in scene.suns)
     return "\n".join(lines)
 
 
-def surface(material):
-    name = material.name
+def word(name):
+    """A name as Radiance reads it."""
+    return name.replace(" ", "_")
+
+
+def parallel(sun):
+    """A disc of the sky as small as a sun's, and smaller."""
+    steradians = math.pi * math.sin(math.radians(SUN_DEG)) ** 2
+    shone = 3 * f" {sun.illuminance_lx / steradians}"
+    towards = " ".join(str(-x) for x in sun.direction)
+    name = word(sun.name)
+    return f"void light {name}\n0\n0\n3{shone}\n\n{name} source {name}.disc\n0\n0\n4 {towards} {2 * SUN_DEG}\n"
+
+
+def surface(material, is_sky):
+    name = word(material.name)
+    if material.shines():
+        shone = " ".join(str(x) for x in material.luminance_cd_m2)
+        # `glow` of no reach is never a source of shadow rays.
+        return f"void glow {name}\n0\n0\n4 {shone} 0\n" if is_sky else f"void light {name}\n0\n0\n3 {shone}\n"
     if material.pane:
         ior, transmittance = material.pane
         return f"void glass {name}\n0\n0\n4" + 3 * f" {transmittance}" + f" {ior}\n"

@@ -33,7 +33,7 @@ cargo xtask bench hall    time to an accuracy against triangles and luminaires, 
                           [--json] [--quick | --standard] [--accuracy 1%] [--time-limit 600s] [--threads 2]
 cargo xtask bench hall --reference   make the reference of true errors anew
 cargo xtask bench peers   error against time beside Radiance, Mitsuba and LuxCore
-                          [--json] [--quick] [--only NAME ...] [--save]
+                          [--json] [--quick] [--only NAME ...] [--scene NAME ...] [--save]
 cargo xtask bench truth   maps of sixty unknown scenes beside long paths [--only NAME ...] [--half tuning|judging]
                           [--seeds 1,2,3] [--methods hybrid,cache,forward,radiosity] [--accuracy 2%]
                           [--time-limit 60s] [--isolux PATH] [--fresh] [--json] [--save]";

@@ -3,8 +3,32 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Scenes of the bench, as built in.
-const SCENES: [&str; 3] = ["cube", "sphere", "hall"];
+/// Scenes of the bench, as built in, and those of which values are compared: the cases after CIE 171.
+const SCENES: [&str; 23] = [
+    "cube",
+    "sphere",
+    "hall",
+    "cie171_5_2_isotropic",
+    "cie171_5_2_web",
+    "cie171_5_3",
+    "cie171_5_4",
+    "cie171_5_5",
+    "cie171_5_6",
+    "cie171_5_7",
+    "cie171_5_8_sphere",
+    "cie171_5_8_cube",
+    "cie171_5_9_uniform",
+    "cie171_5_9_overcast",
+    "cie171_5_9_clear",
+    "cie171_5_10_uniform",
+    "cie171_5_10_overcast",
+    "cie171_5_11_uniform",
+    "cie171_5_11_overcast",
+    "cie171_5_11_clear",
+    "cie171_5_12_uniform",
+    "cie171_5_13_uniform",
+    "cie171_5_14_uniform",
+];
 
 /// Measures isolux beside its peers; the arguments go on to the script, but for `--save`, which
 /// keeps the result in the repository.

@@ -7,7 +7,9 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     let name = std::env::args().nth(1).unwrap_or_default();
     let Some(scene) = isolux_compare::peers::scene(&name) else {
-        eprintln!("there are no points for a scene `{name}`; choose cube, sphere or hall");
+        eprintln!(
+            "there are no points for a scene `{name}`; choose cube, sphere, hall or a case of `isolux validate`"
+        );
         return ExitCode::from(2);
     };
     println!("{scene}");

@@ -71,6 +71,6 @@ fn by_peer(
         system,
         time_s: found.whole_s,
         standard_errors_lx: vec![None; found.values_lx.len()],
-        values_lx: found.values_lx.into_iter().map(Some).collect(),
+        values_lx: found.values_lx,
     }))
 }

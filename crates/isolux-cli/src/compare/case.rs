@@ -204,14 +204,17 @@ fn by_peer(
     let Some(found) = peers.ask(&asked, made, (plan, folder), interrupt)? else {
         return Ok(None);
     };
+    let Some(values_lx) = found.values_lx.into_iter().collect::<Option<Vec<f64>>>() else {
+        return Ok(None);
+    };
     let point = Point {
         asked_s,
         effort: Some(asked.effort),
         time_s: found.whole_s,
-        measured: measure_places(&case.name, &found.values_lx),
+        measured: measure_places(&case.name, &values_lx),
         ..Point::default()
     };
-    Ok(Some((point, errors_of_places(&case.name, &found.values_lx))))
+    Ok(Some((point, errors_of_places(&case.name, &values_lx))))
 }
 
 /// How far all pictures are from the last one of their system, and from the reference.

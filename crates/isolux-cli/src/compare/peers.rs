@@ -72,7 +72,8 @@ struct Efforts {
 /// What a run found, and what it took.
 #[derive(Deserialize, Serialize)]
 pub(crate) struct FoundByPeer {
-    pub(crate) values_lx: Vec<f64>,
+    /// As at the points; `None` where it knows nothing.
+    pub(crate) values_lx: Vec<Option<f64>>,
     pub(crate) whole_s: f64,
 }
 

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::flags::CompareFlags;
 use crate::{demo, source};
 use isolux::scene::Scene;
-use isolux_compare::case::cie171::LISTED;
+use isolux_compare::case::cie171::CASES;
 use isolux_compare::hall::Variant;
 use isolux_compare::study::{System, Varied, times_s};
 use std::path::{Path, PathBuf};
@@ -125,7 +125,7 @@ impl Plan {
         let of_case = |case: &Case| self.times_s(case).iter().sum::<f64>();
         let larger_s: f64 = self.larger.iter().map(|larger| larger.about_s).sum();
         let ours = self.systems.iter().filter(|system| ANALYTIC_SYSTEMS.contains(system)).count();
-        let analytic: usize = LISTED.iter().map(|of| of.names.len()).sum();
+        let analytic: usize = CASES.iter().map(|of| of.names.len()).sum();
         let analytic_s = match self.is_analytic {
             true => (ours * analytic) as f64 * ANALYTIC_ABOUT_S,
             false => 0.0,

@@ -1,7 +1,7 @@
 //! The analytic cases of CIE 171:2006 through systems: what they find at places whose right values are known.
 
 use super::system::System;
-use crate::case::cie171::LISTED;
+use crate::case::cie171::CASES;
 use crate::case::find;
 use crate::expectation::{Case, Quantity};
 use isolux::engine::{MapReader, ProbePoint};
@@ -91,7 +91,7 @@ pub struct AnalyticCase {
 
 /// All cases of the standard.
 pub fn analytic_cases() -> Result<Vec<AnalyticCase>, SceneProblem> {
-    let named = LISTED.iter().flat_map(|of| of.names.iter().map(move |name| (of, name)));
+    let named = CASES.iter().flat_map(|of| of.names.iter().map(move |name| (of, name)));
     let one = |(of, name): (&crate::case::cie171::Listed, &&'static str)| {
         let case = find(name)?;
         let scene = match Scene::assemble((case.parts)()) {

@@ -31,7 +31,7 @@ const fn listed(
 }
 
 /// The cases by the number of the standard.
-pub const LISTED: [Listed; 13] = [
+pub const CASES: [Listed; 13] = [
     listed("5.2", "point light sources", &["cie171_5_2_isotropic", "cie171_5_2_web"]),
     listed("5.3", "area light source", &["cie171_5_3"]),
     listed("5.4", "luminous flux conservation", &["cie171_5_4"]),
@@ -104,7 +104,7 @@ mod tests {
     #[test]
     fn every_case_is_listed_once_under_its_number() {
         let listed: Vec<(&str, &str)> =
-            LISTED.iter().flat_map(|l| l.names.iter().map(|&name| (l.number, name))).collect();
+            CASES.iter().flat_map(|l| l.names.iter().map(|&name| (l.number, name))).collect();
         let cases = super::super::cases();
         assert_eq!(listed.len(), cases.len());
         for (case, (number, name)) in cases.iter().zip(listed) {

@@ -21,7 +21,7 @@ mod street;
 mod visible;
 mod window;
 
-pub use listing::{LISTED, LeftOut, Listed, left_out};
+pub use listing::{CASES, LeftOut, Listed, left_out};
 
 use crate::expectation::Case;
 

@@ -181,7 +181,7 @@ mod tests {
             let facets = dome.facets(&sky);
             let skylight =
                 Skylight { sky: &sky, facets: &facets, opening: &corners, transmitted: None };
-            let off = |at| skylight.from_dome_lx(at) / skylight.from_sky_lx(at) - 1.0;
+            let off = |at| skylight.of_dome_lx(at) / skylight.of_sky_lx(at) - 1.0;
             places().into_iter().map(off).map(f64::abs).fold(0.0, f64::max)
         };
         let (coarse, fine) =

@@ -160,7 +160,7 @@ const FACET_NODES: usize = 6;
 impl Skylight<'_> {
     /// The light of the sky at a place, and how far that of the dome is from it.
     pub(super) fn expected(&self, at: ProbePoint) -> [Expectation; 2] {
-        let (sky, dome) = (self.from_sky_lx(at), self.from_dome_lx(at));
+        let (sky, dome) = (self.of_sky_lx(at), self.of_dome_lx(at));
         let reason = "facets of one luminance each, at a finite distance, in place of the sky";
         Expectation::direct_only(at, Rgb::grey(sky), Bound { lx: (sky - dome).abs(), reason })
     }
@@ -174,7 +174,7 @@ impl Skylight<'_> {
     }
 
     /// An integral over the part of the opening through which the sky is seen.
-    pub(super) fn from_sky_lx(&self, at: ProbePoint) -> f64 {
+    pub(super) fn of_sky_lx(&self, at: ProbePoint) -> f64 {
         let upwards = ProbePoint { position: at.position, normal: isolux::geometry::Normal::Z };
         gathered_lx(&above(self.opening, upwards), at, OPENING_NODES, |through| {
             self.sky.luminance_cd_m2(through - at.position) * self.share(at, through)
@@ -182,7 +182,7 @@ impl Skylight<'_> {
     }
 
     /// A sum over facets.
-    pub(super) fn from_dome_lx(&self, at: ProbePoint) -> f64 {
+    pub(super) fn of_dome_lx(&self, at: ProbePoint) -> f64 {
         let seen = |facet: &Facet| {
             let polygon = within(&facet.corners, self.opening, at.position);
             let l = facet.luminance_cd_m2;

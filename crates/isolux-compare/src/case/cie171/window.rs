@@ -98,7 +98,7 @@ mod tests {
                     sum += sky.luminance_cd_m2(way) * cos * way.x / (r2 * r2);
                 }
                 let sum = sum * 2.0 / f64::from(steps * steps);
-                let found = skylight.from_sky_lx(at);
+                let found = skylight.of_sky_lx(at);
                 assert!((found / sum - 1.0).abs() < WINDOW_QUADRATURE, "{at:?}: {found} {sum}");
             }
         }
