@@ -624,7 +624,7 @@ pub(crate) struct CompareFlags {
     /// Folder to keep everything in
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// The longest time that a map should take [default: 16 s]
+    /// The longest time that a map should take [default: 8 s]
     #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true, conflicts_with = "quick")]
     pub limit: Option<Duration>,
     /// Within two minutes: maps of half a second, or of as little as there can be

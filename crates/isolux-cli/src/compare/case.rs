@@ -3,7 +3,7 @@
 use super::folder::Folder;
 use super::kept::{self, Made};
 use super::pace::Pace;
-use super::peers::{AskedOf, Peers};
+use super::peers::{AskedOf, PATIENCE, Peers};
 use super::pictures::Viewer;
 use super::plan::{Case, Plan};
 use super::point::{Asked, solve};
@@ -58,10 +58,18 @@ pub(crate) fn compare(
     'all: for (number, asked_s) in plan.times_s(case).into_iter().enumerate() {
         for Series { system, points, .. } in &mut series {
             if system.method().is_none() {
+                // Each effort takes some times as long as the one before.
+                let last_s = points.last().map_or(0.0, |last: &Point| last.time_s);
+                if PATIENCE * last_s > plan.limit_s {
+                    continue;
+                }
                 let beside = (*system, number, asked_s);
                 let made = Made::of(&subject.hash, plan);
                 let made = by_peer(case, peers, beside, &made, (plan, folder), interrupt)?;
                 if let Some((point, errors)) = made {
+                    let effort = point.effort.clone().unwrap_or_default();
+                    let what = format!("{}, {}, {effort}", case.name, system.title());
+                    pace.tell(&what, 0.0, true);
                     points.push(point);
                     wrong.insert(*system, Wrong::Known(errors));
                 }

@@ -22,8 +22,8 @@ const PYTHON: [&str; 2] = ["target/peers/venv/bin/python", "target/peers/venv/Sc
 /// How to get them.
 const REMEDY: &str = "run `cargo xtask bench setup` in a copy of the repository";
 
-/// A run may take so many times as much as is aimed at before it is given up.
-const PATIENCE: f64 = 4.0;
+/// A run may take so many times the longest time aimed at before it is given up, as those of isolux.
+pub(crate) const PATIENCE: f64 = 2.0;
 
 /// Between two looks at whether a renderer has ended.
 const LOOK: Duration = Duration::from_millis(20);

@@ -10,7 +10,7 @@ use isolux_compare::study::{System, Varied, times_s};
 use std::path::{Path, PathBuf};
 
 /// The longest time of a point unless told otherwise, s; and of a quick comparison.
-const LIMIT_S: f64 = 16.0;
+const LIMIT_S: f64 = 8.0;
 const QUICK_LIMIT_S: f64 = 0.5;
 
 /// The first time of the scenes with exact answers, whose maps are fair within it; of others, s.
