@@ -41,8 +41,13 @@ fn closed_forms_lie_within_its_standard_errors() {
         let scene = Scene::assemble((case.parts)()).unwrap();
         let tracer = PathTracer::new(&scene);
         let expectations = (case.expectations)().into_iter();
+        // Parts of the light at one place follow each other.
+        let mut last: Option<(ProbePoint, Illuminance)> = None;
         for expectation in expectations.filter(|e| is_covered(&tracer, e)) {
-            let found = tracer.estimate(expectation.at, &SETTINGS);
+            let at = expectation.at;
+            let known = last.filter(|(place, _)| *place == at);
+            let found = known.map_or_else(|| tracer.estimate(at, &SETTINGS), |(_, found)| found);
+            last = Some((at, found));
             let chance = chance(&expectation, &found);
             assert!(
                 chance > SIGNIFICANCE,
