@@ -82,7 +82,8 @@ pub(super) fn gathered_lx(
                     })
                 })
         })
-        .sum()
+        // The sum of nothing has a sign.
+        .fold(0.0, |sum, part| sum + part)
 }
 
 #[cfg(test)]
