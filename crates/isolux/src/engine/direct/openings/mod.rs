@@ -3,8 +3,10 @@
 //! Where little of an emitter is seen, shadow rays that are spread over all of it mostly end at a wall. They go to the
 //! openings instead, as rectangles in the planes of what stands in the way (`planes`), found by looks ahead (`find`),
 //! which also tell from which parts of the scene light comes through which of them (`zones`). A quarter of all rays is
-//! spread over the hemisphere, for light that comes in elsewhere; both are weighted by the balance heuristic (Veach and
-//! Guibas 1995), so that nothing is lost wherever the openings are thought to be.
+//! spread over the hemisphere, for light that comes in elsewhere. A direction counts for the rays of which more go there (the
+//! maximum heuristic of Veach and Guibas 1995), so that nothing is lost wherever the openings are thought to be. (By the
+//! balance heuristic the few rays anywhere that meet an opening bring part of its light: mostly none do, then readings are too dark
+//! and their replicates agree.)
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
@@ -134,9 +136,11 @@ impl<'a> View<'a> {
     ) -> Rgb {
         let share = self.anywhere_share();
         let brought = |found: Option<(Direction, Option<usize>)>, counts: [f64; 2]| {
-            found.map_or(Rgb::BLACK, |(direction, through)| {
-                seen(direction) / self.density(direction, through, counts)
-            })
+            found
+                .and_then(|(direction, through)| {
+                    Some(seen(direction) / self.density(direction, through, counts)?)
+                })
+                .unwrap_or(Rgb::BLACK)
         };
         if samples == 1 {
             let [pick, accept] = dice.pair();
@@ -168,10 +172,12 @@ impl<'a> View<'a> {
         PI / (self.anywhere_share() * samples)
     }
 
-    /// Rays by solid angle in a direction, over the cosine, 1/sr: of so many through openings and so many anywhere.
-    fn density(&self, direction: Direction, drawn: Option<usize>, counts: [f64; 2]) -> f64 {
+    /// Rays by solid angle in a direction, over the cosine, 1/sr, of the kind of which more go there; `None` for a ray of the
+    /// other kind, which does not count.
+    fn density(&self, direction: Direction, drawn: Option<usize>, counts: [f64; 2]) -> Option<f64> {
+        let anywhere = counts[1] / PI;
         if self.whole <= 0.0 {
-            return counts[1] / PI;
+            return Some(anywhere);
         }
         let is_passed = |k: usize, through: &Through| {
             let opening = &self.before.openings[through.opening as usize];
@@ -179,7 +185,10 @@ impl<'a> View<'a> {
         };
         let passed = self.through.iter().enumerate().filter(|(k, through)| is_passed(*k, through));
         let weights: f64 = passed.map(|(_, through)| through.weight).sum();
-        counts[0] * weights / self.whole + counts[1] / PI
+        let by_openings = counts[0] * weights / self.whole;
+        let are_openings = by_openings >= anywhere;
+        let counted = if are_openings { by_openings } else { anywhere };
+        (are_openings == drawn.is_some()).then_some(counted)
     }
 
     /// A direction of the hemisphere, in proportion to its cosine.
