@@ -180,7 +180,7 @@ impl Peers {
         command.args(["--threads", &rayon::current_num_threads().to_string()]);
         command.args(["--seed", &plan.seed.to_string(), "--at-most", &at_most_s.to_string()]);
         command.arg("--folder").arg(scratch.path());
-        let Some((said, problem)) = output(command, interrupt)? else { return Ok(None) };
+        let Some([said, problem]) = output(command, interrupt)? else { return Ok(None) };
         let found: Option<FoundByPeer> = serde_json::from_slice(&said).ok();
         if found.is_none() {
             let why = String::from_utf8_lossy(&problem).trim().to_owned();
@@ -215,10 +215,7 @@ fn list(place: &Place) -> Option<Listed> {
 }
 
 /// What a command prints, and what it complains of; `None` if the user stops it.
-fn output(
-    mut command: Command,
-    interrupt: &Interrupt,
-) -> Result<Option<(Vec<u8>, Vec<u8>)>, Failure> {
+fn output(mut command: Command, interrupt: &Interrupt) -> Result<Option<[Vec<u8>; 2]>, Failure> {
     let refused = |e: std::io::Error| Failure::Refused(format!("Python: {e}"));
     let mut child =
         command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().map_err(refused)?;
@@ -231,8 +228,7 @@ fn output(
         }
         std::thread::sleep(LOOK);
     }
-    let [said, problem] = reading.map(|thread| thread.join().unwrap_or_default());
-    Ok(Some((said, problem)))
+    Ok(Some(reading.map(|thread| thread.join().unwrap_or_default())))
 }
 
 /// Reads a pipe to its end beside all else, so that it is never full.

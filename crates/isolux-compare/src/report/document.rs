@@ -63,6 +63,8 @@ pub(super) struct Group {
 #[derive(Clone, Debug)]
 pub(super) struct Pictures {
     pub(super) caption: String,
+    /// What the names of its rows are.
+    pub(super) first: &'static str,
     pub(super) columns: Vec<String>,
     pub(super) rows: Vec<(String, Vec<Option<Picture>>)>,
 }

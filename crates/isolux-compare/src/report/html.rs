@@ -157,7 +157,7 @@ fn row(cells: &[String], columns: &[Column]) -> String {
 }
 
 fn pictures(of: &Pictures, read: Read) -> String {
-    let caption = escape(&of.caption);
+    let (caption, first) = (escape(&of.caption), escape(of.first));
     let head: String = of
         .columns
         .iter()
@@ -169,7 +169,7 @@ fn pictures(of: &Pictures, read: Read) -> String {
     };
     let rows: String = of.rows.iter().map(row).collect();
     let table = format!(
-        "<table class=\"pictures\">\n<caption><span>{caption}</span></caption>\n<thead>\n<tr><th scope=\"col\">Allowed</th>{head}</tr>\n</thead>\n<tbody>\n{rows}</tbody>\n\
+        "<table class=\"pictures\">\n<caption><span>{caption}</span></caption>\n<thead>\n<tr><th scope=\"col\">{first}</th>{head}</tr>\n</thead>\n<tbody>\n{rows}</tbody>\n\
          </table>\n"
     );
     scrolled(&caption, &table)

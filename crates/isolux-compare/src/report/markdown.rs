@@ -75,7 +75,7 @@ fn rule(rules: &[&str]) -> String {
 
 fn pictures(of: &Pictures) -> String {
     let titles: Vec<String> =
-        std::iter::once("Allowed".to_owned()).chain(of.columns.iter().cloned()).collect();
+        std::iter::once(of.first.to_owned()).chain(of.columns.iter().cloned()).collect();
     let rules = vec!["---"; titles.len()];
     let rows: String = of
         .rows

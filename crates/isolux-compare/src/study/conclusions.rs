@@ -93,8 +93,10 @@ fn stops(study: &Study) -> Conclusion {
         "On CUBE radiosity does not become better over the last three quarters of its time.";
     let of = || {
         let points = points(study.case("cube")?, System::Radiosity)?;
-        let last = points.last()?;
-        let quarter = points.iter().rfind(|point| point.asked_s <= 0.25 * last.asked_s)?;
+        let by_time = |a: &&Point, b: &&Point| a.time_s.total_cmp(&b.time_s);
+        let last = points.iter().max_by(by_time)?;
+        let early = points.iter().filter(|point| point.time_s <= 0.25 * last.time_s);
+        let quarter = early.max_by(by_time)?;
         Some((quarter, last, [quarter, last].map(|p| p.measured.as_ref().map(|m| m.error))))
     };
     let Some((quarter, last, [Some(then), Some(now)])) = of() else { return unknown(statement) };

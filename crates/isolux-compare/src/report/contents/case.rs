@@ -72,11 +72,11 @@ fn about(case: &CaseStudy) -> String {
 
 /// Which system came closest, by what is known of the case.
 fn best(case: &CaseStudy) -> Option<String> {
-    let measured = |point: &Point| Some(point.measured.as_ref()?.error);
+    let measured = |point: &Point| Some(point.measured.as_ref()?.grid);
     let pictured = |point: &Point| point.from_reference.as_ref()?.rgb.mean;
     if let Some((system, point, error)) = least(case, measured) {
         return Some(format!(
-            "The least measured error is {}: {} after {}.",
+            "The least error over a grid of places is {}: {} after {}. A single point, as that of the study on SPHERE, may be right by chance.",
             percent_sign(error),
             system.title(),
             seconds(point.time_s)

@@ -39,6 +39,7 @@ fn of_case(scene: &CaseStudy) -> Vec<Block> {
             "Table 2. {} by system, and by the time aimed at, all with the same exposure",
             names::name(scene)
         ),
+        first: "Aimed at",
         columns: scene.series.iter().map(|series| series.system.title().to_owned()).collect(),
         rows: times_s.iter().map(row).collect(),
     }));

@@ -13,22 +13,27 @@ pub(super) fn blocks(case: &CaseStudy) -> Vec<Block> {
     if known.is_empty() {
         return Vec::new();
     }
-    vec![Block::Pictures(Pictures {
-        caption: format!(
-            "Where the last maps err: {}; red is too bright, blue too dark, by {} or more in full colour, white is right, grey not known",
-            place(case),
-            percent_sign(limit)
-        ),
+    let how = format!(
+        "Where the last maps err, below, is shown over {}. Red is too bright and blue too dark, in full colour by {} or more; white is right, grey not known.",
+        place(case),
+        percent_sign(limit)
+    );
+    let pictures = Pictures {
+        caption: "Where the last maps err".to_owned(),
+        first: "Map",
         columns: known.iter().map(|series| series.system.title().to_owned()).collect(),
-        rows: vec![("Last map".to_owned(), known.iter().map(|of| picture(case, of)).collect())],
-    })]
+        rows: vec![("Last".to_owned(), known.iter().map(|of| picture(case, of)).collect())],
+    };
+    vec![Block::Text(how), Block::Pictures(pictures)]
 }
 
 fn place(case: &CaseStudy) -> &'static str {
     match case.name.as_str() {
-        "cube" => "a face of CUBE, place by place",
-        "sphere" => "the octant, azimuth to the right and height upwards in steps of equal area",
-        _ => "illuminance as the camera sees it, over that of the reference",
+        "cube" => "a face of CUBE",
+        "sphere" => {
+            "the octant, with azimuth to the right and height upwards in steps of equal area"
+        }
+        _ => "what the camera sees, as illuminance beside that of the reference",
     }
 }
 
