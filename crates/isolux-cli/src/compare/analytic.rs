@@ -67,7 +67,7 @@ fn by_peer(
     let stem = format!("{name}-{}", system.name());
     let asked = AskedOf { scene: name, system, effort: effort.to_owned(), stem };
     let found = peers.ask(&asked, made, (plan, folder), interrupt)?;
-    Ok(found.map(|found| Found {
+    Ok(found.map(|(found, _)| Found {
         system,
         time_s: found.whole_s,
         standard_errors_lx: vec![None; found.values_lx.len()],

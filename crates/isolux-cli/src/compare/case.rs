@@ -66,10 +66,10 @@ pub(crate) fn compare(
                 let beside = (*system, number, asked_s);
                 let made = Made::of(&subject.hash, plan);
                 let made = by_peer(case, peers, beside, &made, (plan, folder), interrupt)?;
-                if let Some((point, errors)) = made {
+                if let Some((point, errors, was_made)) = made {
                     let effort = point.effort.clone().unwrap_or_default();
                     let what = format!("{}, {}, {effort}", case.name, system.title());
-                    pace.tell(&what, 0.0, true);
+                    pace.tell(&what, 0.0, was_made);
                     points.push(point);
                     wrong.insert(*system, Wrong::Known(errors));
                 }
@@ -205,11 +205,11 @@ fn by_peer(
     made: &Made,
     (plan, folder): (&Plan, &Folder),
     interrupt: &Interrupt,
-) -> Result<Option<(Point, Option<Errors>)>, Failure> {
+) -> Result<Option<(Point, Option<Errors>, bool)>, Failure> {
     let Some(effort) = peers.effort(&case.name, system, number) else { return Ok(None) };
     let stem = case.point_stem(system, asked_s);
     let asked = AskedOf { scene: &case.name, system, effort: effort.to_owned(), stem };
-    let Some(found) = peers.ask(&asked, made, (plan, folder), interrupt)? else {
+    let Some((found, was_made)) = peers.ask(&asked, made, (plan, folder), interrupt)? else {
         return Ok(None);
     };
     let Some(values_lx) = found.values_lx.into_iter().collect::<Option<Vec<f64>>>() else {
@@ -222,7 +222,7 @@ fn by_peer(
         measured: measure_places(&case.name, &values_lx),
         ..Point::default()
     };
-    Ok(Some((point, errors_of_places(&case.name, &values_lx))))
+    Ok(Some((point, errors_of_places(&case.name, &values_lx), was_made)))
 }
 
 /// How far all pictures are from the last one of their system, and from the reference.

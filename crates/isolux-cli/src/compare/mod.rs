@@ -20,7 +20,7 @@ use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use folder::Folder;
 use isolux_compare::report;
-use isolux_compare::study::{Answer, Settings, Study, conclusions};
+use isolux_compare::study::{Answer, Series, Settings, Study, conclusions};
 use pace::Pace;
 use peers::Peers;
 use plan::Plan;
@@ -28,9 +28,10 @@ use plan::Plan;
 /// Runs the subcommand.
 pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> {
     let plan = Plan::of(flags)?;
+    let peers = Peers::of(&plan.peers);
+    check_something_to_do(&plan, &peers)?;
     let folder = Folder::create(&flags.output)?;
     let interrupt = Interrupt::install()?;
-    let peers = Peers::of(&plan.peers);
     let mut study = empty(flags, &plan);
     (study.versions, study.missing) = (peers.versions.clone(), peers.missing.clone());
     for missing in &study.missing {
@@ -50,6 +51,8 @@ pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> 
     if !interrupt.is_requested() {
         study.costs = costs::measure((&plan, &folder), &interrupt, &mut pace)?;
     }
+    study.is_unfinished = interrupt.is_requested();
+    tell_of_none(&mut study);
     write(&folder, &study)?;
     if json {
         print_json(&study)?
@@ -57,6 +60,20 @@ pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> 
         print(&text(&study, &folder))?
     }
     Ok(if interrupt.is_requested() { Outcome::Interrupted } else { Outcome::Done })
+}
+
+/// Refuses systems none of which can do any of the cases.
+fn check_something_to_do(plan: &Plan, peers: &Peers) -> Result<(), Failure> {
+    let exact = plan.cases.iter().filter(|case| case.is_exact);
+    let has_peer = exact.map(|case| peers.systems(&case.name)).any(|of| !of.is_empty());
+    let has_analytic = plan.is_analytic && !peers.systems("cie171_5_2_isotropic").is_empty();
+    if !plan.systems.is_empty() || has_peer || has_analytic {
+        return Ok(());
+    }
+    let missing: String = peers.missing.iter().map(|why| format!("; {why}")).collect();
+    Err(Failure::bad_input(format!(
+        "--systems: none of these can do any of these cases; other renderers do cube, sphere and cie171 where they are installed{missing}"
+    )))
 }
 
 fn empty(flags: &CompareFlags, plan: &Plan) -> Study {
@@ -72,8 +89,22 @@ fn empty(flags: &CompareFlags, plan: &Plan) -> Study {
         cases: Vec::new(),
         analytic: Vec::new(),
         costs: Vec::new(),
+        is_unfinished: false,
         versions: Vec::new(),
         missing: Vec::new(),
+    }
+}
+
+/// Other renderers that were asked and found nothing in the time are told of, without a series.
+fn tell_of_none(study: &mut Study) {
+    for case in &mut study.cases {
+        let is_none =
+            |series: &Series| series.points.is_empty() && series.system.method().is_none();
+        for series in case.series.iter().filter(|series| is_none(series)) {
+            let title = series.system.title();
+            study.missing.push(format!("{title} on {} (no effort ended in the time)", case.name));
+        }
+        case.series.retain(|series| !is_none(series));
     }
 }
 

@@ -20,7 +20,7 @@ const SCRIPT: &str = "benchmarks/peers/once.py";
 const PYTHON: [&str; 2] = ["target/peers/venv/bin/python", "target/peers/venv/Scripts/python.exe"];
 
 /// How to get them.
-const REMEDY: &str = "run `cargo xtask bench setup` in a copy of the repository";
+const REMEDY: &str = "run “cargo xtask bench setup” in a copy of the repository";
 
 /// A run may take so many times the longest time aimed at before it is given up, as those of isolux.
 pub(crate) const PATIENCE: f64 = 2.0;
@@ -132,17 +132,17 @@ impl Peers {
         Some(of_scene?.efforts.get(number)?.as_str())
     }
 
-    /// A run, or one that an earlier comparison has left; `None` if it fails, which is said, or the user stops it.
+    /// A run, or one that an earlier comparison has left, and whether it was made now; `None` if it fails, which is said, or the user stops it.
     pub(crate) fn ask(
         &self,
         asked: &AskedOf,
         made: &Made,
         (plan, folder): (&Plan, &Folder),
         interrupt: &Interrupt,
-    ) -> Result<Option<FoundByPeer>, Failure> {
+    ) -> Result<Option<(FoundByPeer, bool)>, Failure> {
         let made = made.clone().with_effort(&asked.effort);
         if let Some(found) = made.found::<FoundByPeer>(folder, &asked.stem) {
-            return Ok(Some(found));
+            return Ok(Some((found, false)));
         }
         let is_cold = self.warm.borrow_mut().insert(asked.system);
         if is_cold && let Some(cheapest) = self.effort("cube", asked.system, 0) {
@@ -152,7 +152,7 @@ impl Peers {
         }
         let Some(found) = self.run(asked, (plan, folder), interrupt)? else { return Ok(None) };
         made.keep(folder, &asked.stem, &found)?;
-        Ok(Some(found))
+        Ok(Some((found, true)))
     }
 
     fn run(

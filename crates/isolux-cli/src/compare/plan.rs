@@ -174,6 +174,9 @@ fn cases(names: &[PathBuf]) -> Result<Vec<Case>, Failure> {
 }
 
 fn add(cases: &mut Vec<Case>, name: &Path) -> Result<(), Failure> {
+    // `builtin:cube` has the same right values as `cube`.
+    let known = name.to_str().and_then(|name| name.strip_prefix("builtin:"));
+    let name = known.filter(|name| ALL.contains(name)).map_or(name, Path::new);
     let source = match name.to_str() {
         Some("demo") => demo::find_scene()?,
         Some(builtin @ ("cube" | "sphere" | "hall")) => PathBuf::from(format!("builtin:{builtin}")),
@@ -190,6 +193,9 @@ fn add(cases: &mut Vec<Case>, name: &Path) -> Result<(), Failure> {
     let is_exact = matches!(name.as_str(), "cube" | "sphere");
     if cases.iter().all(|case| case.name != name) {
         let scene = source::read_scene(&source)?;
+        if !scene.gives_light() {
+            return Err(source::no_light(&source, &scene));
+        }
         cases.push(Case { name, source, scene, is_exact });
     }
     Ok(())

@@ -30,20 +30,21 @@ impl Convergence {
     }
 }
 
-/// When an error was reached first, s: on lines between the points in logarithms of both; `None` where none of them gets there. Where the
-/// first point is better already, its time.
+/// From when on a system errs by no more than an error, s: a run that is right by chance, and wrong again later, does not count. On lines between points
+/// in logarithms of both; `None` where the longest run errs by more. Where none does, the time of the shortest.
 pub fn time_to_error_s(
     points: &[Point],
     error_of: impl Fn(&Point) -> Option<f64>,
     error: f64,
 ) -> Option<f64> {
-    let known: Vec<(f64, f64)> =
+    let mut known: Vec<(f64, f64)> =
         points.iter().filter_map(|point| Some((point.time_s, error_of(point)?))).collect();
-    let first = known.iter().position(|&(_, e)| e <= error)?;
-    let (after_s, after) = known[first];
-    let Some(&(before_s, before)) = first.checked_sub(1).map(|k| &known[k]) else {
-        return Some(after_s);
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let Some(last_above) = known.iter().rposition(|&(_, e)| e > error) else {
+        return Some(known.first()?.0);
     };
+    let (before_s, before) = known[last_above];
+    let &(after_s, after) = known.get(last_above + 1)?;
     let log = |x: f64| libm::log(x.max(f64::MIN_POSITIVE));
     let share = (log(before) - log(error)) / (log(before) - log(after));
     Some(libm::exp(log(before_s) + share * (log(after_s) - log(before_s))))
@@ -62,5 +63,20 @@ mod tests {
         assert_eq!(Convergence::of(&[(1.0, 0.1)]), None);
         assert_eq!(Convergence::of(&[(1.0, 0.1), (1.0, 0.2)]), None);
         assert_eq!(Convergence::of(&[(1.0, 0.1), (2.0, 0.0)]), None);
+    }
+
+    #[test]
+    fn what_is_right_by_chance_does_not_count() {
+        let points = [(1.0, 0.01), (2.0, 0.04), (8.0, 0.01), (16.0, 0.02)]
+            .map(|(time_s, error)| (Point { time_s, ..Point::default() }, error));
+        let only: Vec<Point> = points.iter().map(|(point, _)| point.clone()).collect();
+        let error_of = |point: &Point| {
+            points.iter().find(|(of, _)| of.time_s == point.time_s).map(|(_, error)| *error)
+        };
+        let found = |error| time_to_error_s(&only, error_of, error);
+        // Half way between two and eight in logarithms.
+        assert!((found(0.02).unwrap() - 4.0).abs() < 1e-12);
+        assert_eq!(found(0.05), Some(1.0));
+        assert_eq!(found(0.015), None);
     }
 }

@@ -21,6 +21,9 @@ pub struct Study {
     pub analytic: Vec<Analytic>,
     /// What larger scenes cost.
     pub costs: Vec<Cost>,
+    /// Whether it was stopped before its end.
+    #[serde(default)]
+    pub is_unfinished: bool,
     /// Renderers beside isolux.
     pub versions: Vec<Version>,
     /// Renderers beside isolux that were asked for and are not installed, each with how to install it.

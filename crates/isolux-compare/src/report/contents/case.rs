@@ -45,16 +45,19 @@ fn about(case: &CaseStudy) -> String {
             || "tells no error".to_owned(),
             |told| format!("tells an error of {}", percent_sign(told)),
         );
-        format!(" The map of the reference took {} and {told}.", seconds(of.time_s))
+        format!(
+            " The map of the reference, hybrid with the same seed, took {} and {told}: pictures that differ from it by less may be as good or better.",
+            seconds(of.time_s)
+        )
     });
     let landing = match (case.landing, case.reference.as_ref().and_then(|of| of.landing)) {
         (Some(right), _) => {
-            format!(
-                " Of the light emitted {right:.4} times as much lands on surfaces, as it is reflected."
-            )
+            format!(" Light is reflected and lands again: in all {right:.4} times what is emitted.")
         }
         (None, Some(found)) => {
-            format!(" By the reference {found:.4} times the light emitted lands on surfaces.")
+            format!(
+                " Light is reflected and lands again: by the reference in all {found:.4} times what is emitted."
+            )
         }
         (None, None) => String::new(),
     };

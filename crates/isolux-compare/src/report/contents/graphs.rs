@@ -46,7 +46,7 @@ fn graph(kind: &Kind, case: &CaseStudy) -> Graph {
     };
     Graph {
         id: format!("{}-{}", names::id(case), kind.id),
-        title: format!("{name}. {}", kind.title),
+        title: format!("{}. {}", capital(&name), kind.title),
         description: kind.says.to_owned(),
         x: axis(kind.x),
         y: axis(kind.y),
@@ -91,4 +91,11 @@ fn with_what_is_left_out(mut graph: Graph) -> Graph {
     };
     graph.description.push_str(&said);
     graph
+}
+
+/// With a capital letter at its beginning.
+fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    format!("{first}{}", letters.as_str())
 }

@@ -18,16 +18,23 @@ pub(super) fn lead(study: &Study) -> String {
         others => format!(" and {}", things(others, "other renderer", "other renderers")),
     };
     let scenes: Vec<String> = study.cases.iter().map(names::name).collect();
+    let stopped = if study.is_unfinished { " It was stopped before its end." } else { "" };
     let when = match times_s(study) {
         Some([first, last]) if first < last => {
-            format!("in times that double from {} to {}", asked(first), asked(last))
+            format!("aiming at times that double from {} to {}", asked(first), asked(last))
         }
-        Some([_, last]) => format!("in {} each", asked(last)),
-        None => "but no map was finished".to_owned(),
+        Some([_, last]) => format!("aiming at {} each", asked(last)),
+        None if study.analytic.is_empty() => "but no map was finished".to_owned(),
+        None => {
+            return format!(
+                "isolux {} computed the analytic cases of CIE 171:2006.{stopped}",
+                study.isolux
+            );
+        }
     };
     format!(
         "{own} of isolux {}{others} computed illumination of {}, {when}. Errors are measured where right values are known; elsewhere pictures are \
-         compared. Scenes, measures and conclusions are those of Kopylov, Khodulev and Volevich [1], who compared LVS 3.1.1 and Inspirer 5.30.",
+         compared.{stopped} Scenes, measures and conclusions are those of Kopylov, Khodulev and Volevich [1], who compared LVS 3.1.1 and Inspirer 5.30.",
         study.isolux,
         if scenes.is_empty() { "no scene".to_owned() } else { list(&scenes) },
     )

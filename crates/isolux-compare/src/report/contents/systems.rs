@@ -6,7 +6,8 @@ use crate::study::{Study, System};
 /// All systems of a study, each once, in the order of reports.
 pub(super) fn of(study: &Study) -> Vec<System> {
     let mut systems: Vec<System> = Vec::new();
-    for series in study.cases.iter().flat_map(|case| &case.series) {
+    let series = study.cases.iter().flat_map(|case| &case.series);
+    for series in series.filter(|series| !series.points.is_empty()) {
         if !systems.contains(&series.system) {
             systems.push(series.system);
         }

@@ -49,6 +49,7 @@ pub(super) fn study() -> Study {
         cases: vec![exact("cube", 12), exact("sphere", 16_384), practical("hall", 10_218)],
         analytic: vec![analytic()],
         costs: costs(),
+        is_unfinished: false,
         versions: vec![Version { system: System::Radiance, version: "1.3.1".to_owned() }],
         missing: vec!["mitsuba (pip install mitsuba)".to_owned()],
     }
