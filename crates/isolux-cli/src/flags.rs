@@ -633,7 +633,7 @@ pub(crate) struct CompareFlags {
     /// Some of hybrid, forward, forward-unfiltered, radiosity, radiosity-without-ambient, radiosity-diffuse, cache, radiance, mitsuba, luxcore [default: all]
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     pub systems: Vec<String>,
-    /// Width and height of pictures [default: 640x360]
+    /// Width and height of pictures [default: 640x360, with --quick 320x180]
     #[arg(long, value_name = "WxH", value_parser = quantity::pixels)]
     pub size: Option<(u32, u32)>,
     /// Seed of the random numbers

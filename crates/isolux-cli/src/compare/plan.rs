@@ -17,8 +17,9 @@ const QUICK_LIMIT_S: f64 = 0.5;
 const FIRST_OF_EXACT_S: f64 = 0.125;
 const FIRST_S: f64 = 1.0;
 
-/// Width and height of pictures.
+/// Width and height of pictures; and of a quick comparison.
 const PICTURE: [u32; 2] = [640, 360];
+const QUICK_PICTURE: [u32; 2] = [320, 180];
 
 /// What the map of the reference picture is asked for, and that of a quick comparison.
 const REFERENCE: f64 = 0.01;
@@ -26,7 +27,7 @@ const QUICK_REFERENCE: f64 = 0.05;
 
 /// Rays that the audit of a point may take, so that it takes no longer than a second or two; and of a quick comparison.
 const AUDIT_RAYS: u64 = 1 << 19;
-const QUICK_AUDIT_RAYS: u64 = 1 << 17;
+const QUICK_AUDIT_RAYS: u64 = 1 << 16;
 
 /// What maps of larger halls are asked for, and how long one may take, s: for the time that is told to be left.
 const LARGER: f64 = 0.05;
@@ -83,6 +84,7 @@ pub(crate) struct Case {
 
 impl Plan {
     pub(crate) fn of(flags: &CompareFlags) -> Result<Self, Failure> {
+        let picture = if flags.quick { QUICK_PICTURE } else { PICTURE };
         let default_s = if flags.quick { QUICK_LIMIT_S } else { LIMIT_S };
         let systems = match flags.systems.as_slice() {
             [] => System::ALL.to_vec(),
@@ -110,7 +112,7 @@ impl Plan {
             peers,
             limit_s: flags.limit.map_or(default_s, |limit| limit.as_secs_f64()),
             seed: flags.seed,
-            picture: flags.size.map_or(PICTURE, |(width, height)| [width, height]),
+            picture: flags.size.map_or(picture, |(width, height)| [width, height]),
             reference: if flags.quick { QUICK_REFERENCE } else { REFERENCE },
         })
     }

@@ -82,7 +82,7 @@ fn what_does_not_go_together_is_refused() {
             "--profile missing.icc: does not exist; give srgb, display-p3",
         ),
         (&["--profile", "."], "not a regular file"),
-        (&["--profile", "text.icc"], "text.icc: is no whole ICC profile"),
+        (&["--profile", "text.icc"], "text.icc: is no ICC profile"),
         (&["--profile", "huge.icc"], "huge.icc: an ICC profile of 8388609 bytes"),
         (&["--profile", "display-p3", "--false-colour"], "cannot be used with"),
         (&["--white", "scene", "--false-colour"], "cannot be used with"),
