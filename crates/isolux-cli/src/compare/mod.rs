@@ -120,14 +120,12 @@ fn write(folder: &Folder, study: &Study) -> Result<(), Failure> {
 }
 
 fn text(study: &Study, folder: &Folder) -> String {
-    let answer = |answer: Answer| match answer {
-        Answer::Yes => "Yes",
-        Answer::No => "No",
-        Answer::Unknown => "Not known",
+    // What was not run tells nothing of the study's conclusions.
+    let line = |of: &isolux_compare::study::Conclusion| match of.answer {
+        Answer::Yes => Some(format!("{} Yes: {}\n", of.statement, of.figures)),
+        Answer::No => Some(format!("{} No: {}\n", of.statement, of.figures)),
+        Answer::Unknown => None,
     };
-    let line = |of: &isolux_compare::study::Conclusion| {
-        format!("{} {}: {}\n", of.statement, answer(of.answer), of.figures)
-    };
-    let conclusions: String = conclusions(study).iter().map(line).collect();
+    let conclusions: String = conclusions(study).iter().filter_map(line).collect();
     format!("{conclusions}report {}\n", folder.path("report.html").display())
 }
