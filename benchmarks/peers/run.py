@@ -9,7 +9,6 @@ import tempfile
 from pathlib import Path
 
 import ladders
-import library
 import machine
 import once
 import report
@@ -23,10 +22,10 @@ REPETITIONS = 3
 def main():
     flags = arguments()
     # Only Mitsuba needs it.
-    libllvm = library.llvm() if not flags.only or "mitsuba" in flags.only else None
-    environment = {**os.environ, "ISOLUX": str(flags.isolux.resolve()), "OMP_NUM_THREADS": str(flags.threads)}
-    if libllvm:
-        environment["DRJIT_LIBLLVM_PATH"] = libllvm
+    needs_llvm = not flags.only or "mitsuba" in flags.only
+    environment = once.environment("mitsuba" if needs_llvm else None, flags.threads)
+    environment["ISOLUX"] = str(flags.isolux.resolve())
+    libllvm = environment["DRJIT_LIBLLVM_PATH"] if needs_llvm else None
     result = {
         "date": datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d"),
         "revision": flags.revision,

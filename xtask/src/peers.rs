@@ -3,33 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// Scenes of the bench, as built in, and those of which values are compared: the cases after CIE 171.
-const SCENES: [&str; 23] = [
-    "cube",
-    "sphere",
-    "hall",
-    "cie171_5_2_isotropic",
-    "cie171_5_2_web",
-    "cie171_5_3",
-    "cie171_5_4",
-    "cie171_5_5",
-    "cie171_5_6",
-    "cie171_5_7",
-    "cie171_5_8_sphere",
-    "cie171_5_8_cube",
-    "cie171_5_9_uniform",
-    "cie171_5_9_overcast",
-    "cie171_5_9_clear",
-    "cie171_5_10_uniform",
-    "cie171_5_10_overcast",
-    "cie171_5_11_uniform",
-    "cie171_5_11_overcast",
-    "cie171_5_11_clear",
-    "cie171_5_12_uniform",
-    "cie171_5_13_uniform",
-    "cie171_5_14_uniform",
-];
-
 /// Measures isolux beside its peers; the arguments go on to the script, but for `--save`, which
 /// keeps the result in the repository.
 pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
@@ -38,7 +11,7 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
     let python = environment(&source, &folder.join("venv"))?;
     let isolux = build(root)?;
     let scenes = folder.join("scenes");
-    export(root, &scenes)?;
+    export(root, &scenes, &names(&source, &python)?)?;
     let (save, rest): (Vec<&str>, Vec<&str>) = arguments.iter().partition(|a| **a == "--save");
     let results = if save.is_empty() { folder.join("results") } else { source.join("results") };
     let mut bench = Command::new(python);
@@ -106,15 +79,30 @@ pub(crate) fn build(root: &Path) -> Result<PathBuf, String> {
     Ok(built.join("release").join(format!("isolux{}", std::env::consts::EXE_SUFFIX)))
 }
 
+/// The scenes that the ladders name, each once.
+fn names(source: &Path, python: &Path) -> Result<Vec<String>, String> {
+    let wrong = |why: &dyn std::fmt::Display| format!("once.py --list: {why}");
+    let said = Command::new(python).arg(source.join("once.py")).arg("--list").output();
+    let said = said.map_err(|e| wrong(&e))?;
+    let listed: serde_json::Value = serde_json::from_slice(&said.stdout).map_err(|e| wrong(&e))?;
+    let ladders = listed["ladders"].as_array().ok_or_else(|| wrong(&"no ladders"))?;
+    let scenes = ladders.iter().filter_map(|ladder| ladder["scene"].as_str());
+    Ok(scenes.map(str::to_owned).collect::<std::collections::BTreeSet<_>>().into_iter().collect())
+}
+
 /// Scenes with their points, each as JSON.
-fn export(root: &Path, folder: &Path) -> Result<(), String> {
+fn export(root: &Path, folder: &Path, names: &[String]) -> Result<(), String> {
     std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    for scene in SCENES {
+    for scene in names {
         let path = folder.join(format!("{scene}.json"));
         let file = std::fs::File::create(&path).map_err(|e| format!("{}: {e}", path.display()))?;
         let example = ["run", "--release", "--quiet", "-p", "isolux-compare", "--example", "peers"];
         let mut command = cargo();
-        command.args(example).args(["--", scene]).current_dir(root).stdout(Stdio::from(file));
+        command
+            .args(example)
+            .args(["--", scene.as_str()])
+            .current_dir(root)
+            .stdout(Stdio::from(file));
         wait(&mut command, "the example `peers`")?;
     }
     Ok(())

@@ -9,7 +9,7 @@ use crate::output::{OutputPath, create_folder};
 use crate::progress::Reporter;
 use crate::solving::Run;
 use crate::summary::{self, Lit};
-use crate::{explain, map_file, render, report, solving, source, viewpoint};
+use crate::{explain, map_file, render, report, repository, solving, source, viewpoint};
 use isolux::engine::SolveRequest;
 use isolux_view::{Contours, FalseColour};
 use serde::Serialize;
@@ -70,10 +70,8 @@ impl Files {
 
 /// The scene in the current folder, or in one above the program (as in `target/release`).
 pub(crate) fn find_scene() -> Result<PathBuf, Failure> {
-    let program = std::env::current_exe().unwrap_or_default();
-    let above = program.ancestors().skip(1).map(|folder| folder.join(SCENE));
-    let candidates = std::iter::once(PathBuf::from(SCENE)).chain(above);
-    candidates.into_iter().find(|path| path.is_file()).ok_or_else(|| {
+    let mut candidates = repository::folders().map(|folder| folder.join(SCENE));
+    candidates.find(|path| path.is_file()).ok_or_else(|| {
         Failure::bad_input(format!(
             "{SCENE}: not found here nor above the program; run it in a copy of the repository"
         ))

@@ -41,6 +41,7 @@ mod progress;
 mod quantity;
 mod render;
 mod report;
+mod repository;
 mod request;
 mod saved_run;
 mod scene;

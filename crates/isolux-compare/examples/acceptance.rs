@@ -5,7 +5,7 @@
 use isolux::engine::{Progress, Solution, SolveRequest, Watch, solve};
 use isolux::map::Method;
 use isolux::scene::Scene;
-use isolux_compare::{builtin, measure_cube, measure_sphere};
+use isolux_compare::{Readings, builtin};
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).collect();
@@ -26,13 +26,8 @@ fn main() {
             Watch::Continue
         })
         .unwrap();
-        let (point, grid) = if words[0] == "cube" {
-            let e = measure_cube(&scene, &map).unwrap();
-            (e.points_error, e.grid.relative_l2)
-        } else {
-            let e = measure_sphere(&scene, &map).unwrap();
-            (e.centre_error, e.grid.relative_l2)
-        };
+        let readings = Readings::of_map(&words[0], &scene, &map).unwrap().unwrap();
+        let (point, grid) = (readings.points_error().unwrap(), readings.grid_error().unwrap());
         let p = &map.provenance;
         let a = p.accuracy.unwrap();
         println!(

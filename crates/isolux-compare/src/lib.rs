@@ -23,10 +23,7 @@ mod validate;
 
 pub use builtin::{BUILTIN_NAMES, BuiltinError, builtin};
 pub use expectation::{Bound, Case, Expectation, Quantity};
-pub use measure::{
-    CubeError, GridError, MeasureError, MeasuredPoint, SphereError, cube_grid, measure_cube,
-    measure_sphere, sphere_grid,
-};
+pub use measure::{MeasureError, MeasuredPoint, Readings, cube_grid, places, sphere_grid};
 pub use validate::{
     Calibration, OnRow, Reading, ValidateError, ValidateRow, ValidateSettings, ValidateTable,
     Verdict, validate, validate_all,

@@ -36,71 +36,106 @@ pub struct MeasuredPoint {
     pub standard_error_lx: Option<f64>,
 }
 
-/// Errors over a grid of places.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct GridError {
-    /// Relative L2 distance (the paper's, 3.3).
-    pub relative_l2: f64,
-    /// Root mean square of relative differences.
-    pub rms_relative: f64,
-    /// Share of the places whose intervals of 95 % hold the truth; `None` where the map does not know its error.
-    pub covered: Option<f64>,
-    /// Root mean square of the standard errors told, over that of the true errors; `None` likewise.
-    pub told_over_true: Option<f64>,
-    /// Number of places.
-    pub places: usize,
+/// What is found at the places of the case `cube` or `sphere`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Readings {
+    /// Over places of equal area: the middles of 32 x 32 cells of a face of CUBE, 16 x 16 places of SPHERE.
+    pub grid: Vec<MeasuredPoint>,
+    /// At the points of the paper: A to F of CUBE, the centre of SPHERE; each with its weight.
+    pub points: Vec<(MeasuredPoint, f64)>,
 }
 
-/// How far a map of CUBE is from the truth.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CubeError {
-    /// The points of Table 1.
-    pub points: Vec<MeasuredPoint>,
-    /// Weighted root mean square of their relative differences, the paper's error.
-    pub points_error: f64,
-    /// Over the middles of 32 x 32 cells of one face.
-    pub grid: GridError,
+/// A point of the paper: its letter, its weight and where it is.
+fn points(case: &str) -> Option<Vec<(char, f64, ProbePoint)>> {
+    match case {
+        "cube" => {
+            let point = |p: &cube::TablePoint| (p.name, p.weight, cube::floor_point(p.x, p.y));
+            Some(cube::TABLE_1.iter().map(point).collect())
+        }
+        "sphere" => Some(vec![('C', 1.0, sphere::centre())]),
+        _ => None,
+    }
 }
 
-/// How far a map of SPHERE is from the truth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct SphereError {
-    /// The paper's point.
-    pub centre: MeasuredPoint,
-    /// Its relative difference, without sign.
-    pub centre_error: f64,
-    /// Over 16 x 16 places of equal area.
-    pub grid: GridError,
+/// Where the case `cube` or `sphere` is read, with the right values in lx: the places of the grid, then the points of the paper; `None` of any other.
+pub fn places(case: &str) -> Option<Vec<(ProbePoint, f64)>> {
+    let points = points(case)?;
+    let mut places = if case == "cube" { cube_grid().to_vec() } else { sphere_grid() };
+    let right_lx = |at: &ProbePoint| match case {
+        "cube" => {
+            let [x, y] = [at.position.x, at.position.y].map(|x| x / cube::HALF_EDGE_M);
+            cube::reference::cube_reference().at(x, y).total_lx()
+        }
+        _ => sphere::total_lx(at),
+    };
+    places.extend(points.iter().map(|(_, _, at)| (*at, right_lx(at))));
+    Some(places)
 }
 
-/// The error of a map of CUBE.
-pub fn measure_cube(scene: &Scene, map: &IlluminationMap) -> Result<CubeError, MeasureError> {
-    let reader = MapReader::new(scene, map);
-    let reference = cube::reference::cube_reference();
-    let points = cube::TABLE_1
-        .iter()
-        .map(|p| {
-            let expected_lx = reference.at(p.x, p.y).total_lx();
-            measured(&reader, p.name, cube::floor_point(p.x, p.y), expected_lx)
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    let weighted: Vec<(Pair, f64)> =
-        points.iter().map(pair).zip(cube::TABLE_1.iter().map(|p| p.weight)).collect();
-    let points_error = weighted_rms_relative_difference(&weighted).unwrap_or(f64::NAN);
-    Ok(CubeError { points, points_error, grid: grid_error(&reader, cube_grid())? })
-}
+impl Readings {
+    /// Of a map; `None` of a case without right values.
+    pub fn of_map(
+        case: &str,
+        scene: &Scene,
+        map: &IlluminationMap,
+    ) -> Option<Result<Self, MeasureError>> {
+        let reader = MapReader::new(scene, map);
+        let read = |&(at, expected_lx): &(ProbePoint, f64)| measured(&reader, at, expected_lx);
+        let all = places(case)?.par_iter().map(read).collect::<Result<Vec<_>, MeasureError>>();
+        all.map(|all| Self::parted(case, all)).transpose()
+    }
 
-/// The error of a map of SPHERE.
-pub fn measure_sphere(scene: &Scene, map: &IlluminationMap) -> Result<SphereError, MeasureError> {
-    let at = sphere::centre();
-    let reader = MapReader::new(scene, map);
-    let centre = measured(&reader, 'C', at, sphere::total_lx(&at))?;
-    let grid = sphere_grid();
-    Ok(SphereError {
-        centre,
-        centre_error: (centre.measured_lx / centre.expected_lx - 1.0).abs(),
-        grid: grid_error(&reader, &grid)?,
-    })
+    /// Of what is found at [`places`], lx, by a renderer that makes no map; `None` of another case, or of another number of places.
+    pub fn of_values(case: &str, found_lx: &[f64]) -> Option<Self> {
+        let places = places(case)?;
+        let found = |((_, expected_lx), measured_lx): (&(ProbePoint, f64), &f64)| MeasuredPoint {
+            name: ' ',
+            expected_lx: *expected_lx,
+            measured_lx: *measured_lx,
+            standard_error_lx: None,
+        };
+        let all = places.iter().zip(found_lx).map(found).collect();
+        (places.len() == found_lx.len()).then(|| Self::parted(case, all)).flatten()
+    }
+
+    /// Readings at [`places`], the points of the paper last.
+    fn parted(case: &str, mut all: Vec<MeasuredPoint>) -> Option<Self> {
+        let named = points(case)?;
+        let last = all.split_off(all.len() - named.len());
+        let name = |(point, (name, weight, _))| (MeasuredPoint { name, ..point }, weight);
+        Some(Self { grid: all, points: last.into_iter().zip(named).map(name).collect() })
+    }
+
+    /// The root mean square of the relative differences at the points of the paper, by their weights (2.1).
+    pub fn points_error(&self) -> Option<f64> {
+        let weighted: Vec<(Pair, f64)> =
+            self.points.iter().map(|(point, weight)| (pair(point), *weight)).collect();
+        weighted_rms_relative_difference(&weighted)
+    }
+
+    /// The relative L2 distance over the grid (the paper's, 3.3).
+    pub fn grid_error(&self) -> Option<f64> {
+        let pairs: Vec<Pair> = self.grid.iter().map(pair).collect();
+        relative_l2_distance(&pairs)
+    }
+
+    /// The share of the places of the grid that lie within their intervals of 95 %; `None` where one of them does not know its own.
+    pub fn covered(&self) -> Option<f64> {
+        let holds = |place: &MeasuredPoint| {
+            let reach_lx = IN_95_OF_100 * place.standard_error_lx?;
+            Some((place.measured_lx - place.expected_lx).abs() <= reach_lx)
+        };
+        let held = self.grid.iter().map(holds).collect::<Option<Vec<bool>>>()?;
+        Some(held.iter().filter(|held| **held).count() as f64 / held.len().max(1) as f64)
+    }
+
+    /// Root mean square of what is told over the grid, over that of what is true; `None` where all are right, or one of them tells nothing.
+    pub fn told_over_true(&self) -> Option<f64> {
+        let told = |p: &MeasuredPoint| Some(p.standard_error_lx?.powi(2));
+        let told = self.grid.iter().map(told).sum::<Option<f64>>()?;
+        let wrong = self.grid.iter().map(|p| (p.measured_lx - p.expected_lx).powi(2)).sum::<f64>();
+        (wrong > 0.0).then(|| (told / wrong).sqrt())
+    }
 }
 
 /// 16 x 16 places of equal area over SPHERE and their exact totals, lx.
@@ -138,55 +173,21 @@ pub fn cube_grid() -> &'static [(ProbePoint, f64)] {
 
 fn measured(
     reader: &MapReader,
-    name: char,
     at: ProbePoint,
     expected_lx: f64,
 ) -> Result<MeasuredPoint, MeasureError> {
     let found = reader.probe(at).ok_or(MeasureError::Unknown(at.position.into()))?;
     let measured_lx = found.illuminance_lx();
     let standard_error_lx = Some(found.standard_error_lx).filter(|error| error.is_finite());
-    Ok(MeasuredPoint { name, expected_lx, measured_lx, standard_error_lx })
+    Ok(MeasuredPoint { name: ' ', expected_lx, measured_lx, standard_error_lx })
 }
 
 fn pair(point: &MeasuredPoint) -> Pair {
     Pair { reference: point.expected_lx, measured: point.measured_lx }
 }
 
-fn grid_error(reader: &MapReader, grid: &[(ProbePoint, f64)]) -> Result<GridError, MeasureError> {
-    let places = grid
-        .par_iter()
-        .map(|&(at, expected_lx)| measured(reader, ' ', at, expected_lx))
-        .collect::<Result<Vec<MeasuredPoint>, MeasureError>>()?;
-    let pairs: Vec<Pair> = places.iter().map(pair).collect();
-    let even: Vec<(Pair, f64)> = pairs.iter().map(|&p| (p, 1.0)).collect();
-    Ok(GridError {
-        relative_l2: relative_l2_distance(&pairs).unwrap_or(f64::NAN),
-        rms_relative: weighted_rms_relative_difference(&even).unwrap_or(f64::NAN),
-        covered: covered(&places),
-        told_over_true: told_over_true(&places),
-        places: pairs.len(),
-    })
-}
-
 /// The quantile of the normal distribution that intervals of 95 % reach to on either side.
 const IN_95_OF_100: f64 = 1.96;
-
-/// The share of places that lie within their intervals of 95 %; `None` where one of them does not know its own.
-fn covered(places: &[MeasuredPoint]) -> Option<f64> {
-    let holds = |place: &MeasuredPoint| {
-        let reach_lx = IN_95_OF_100 * place.standard_error_lx?;
-        Some((place.measured_lx - place.expected_lx).abs() <= reach_lx)
-    };
-    let held = places.iter().map(holds).collect::<Option<Vec<bool>>>()?;
-    Some(held.iter().filter(|held| **held).count() as f64 / held.len().max(1) as f64)
-}
-
-/// Root mean square of what is told over that of what is true; `None` where all are right, or one of them tells nothing.
-fn told_over_true(places: &[MeasuredPoint]) -> Option<f64> {
-    let told = places.iter().map(|p| Some(p.standard_error_lx?.powi(2))).sum::<Option<f64>>()?;
-    let wrong = places.iter().map(|p| (p.measured_lx - p.expected_lx).powi(2)).sum::<f64>();
-    (wrong > 0.0).then(|| (told / wrong).sqrt())
-}
 
 #[cfg(test)]
 mod tests {

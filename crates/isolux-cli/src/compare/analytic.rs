@@ -8,6 +8,7 @@ use super::plan::{ANALYTIC_ABOUT_S, ANALYTIC_ACCURACY, ANALYTIC_SYSTEMS, Plan};
 use super::point::solve;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use isolux_compare::peers::WHOLE;
 use isolux_compare::study::{Analytic, AnalyticCase, Found, System, analytic_cases, found_in_map};
 use std::time::{Duration, Instant};
 
@@ -65,7 +66,7 @@ fn by_peer(
 ) -> Result<Option<Found>, Failure> {
     let Some(effort) = peers.effort(name, system, 0) else { return Ok(None) };
     let stem = format!("{name}-{}", system.name());
-    let asked = AskedOf { scene: name, system, effort: effort.to_owned(), stem };
+    let asked = AskedOf { scene: name, points: WHOLE, system, effort: effort.to_owned(), stem };
     let found = peers.ask(&asked, made, (plan, folder), interrupt)?;
     Ok(found.map(|(found, _)| Found {
         system,

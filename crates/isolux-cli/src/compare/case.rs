@@ -13,10 +13,11 @@ use crate::interrupt::Interrupt;
 use crate::source;
 use isolux::engine::SolveRequest;
 use isolux::scene::Scene;
+use isolux_compare::Readings;
 use isolux_compare::metric::landed_over_emitted;
+use isolux_compare::peers::OF_THE_STUDY;
 use isolux_compare::study::{
-    CaseStudy, Errors, Point, Reference, Series, System, accuracy_for, errors, errors_of_places,
-    measure_places, right_landing,
+    CaseStudy, Errors, Measured, Point, Reference, Series, System, accuracy_for, right_landing,
 };
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -181,7 +182,9 @@ fn point(
         return Ok(Some((point, Wrong::Kept(stem))));
     }
     let scene = subject.scene(system);
-    let Some((map, mut point)) = asked.make(scene, plan, interrupt)? else { return Ok(None) };
+    let Some((map, mut point, errors)) = asked.make(scene, plan, interrupt)? else {
+        return Ok(None);
+    };
     let wrong = match &subject.viewer {
         Some(viewer) => {
             let name = format!("pictures/{stem}.png");
@@ -189,7 +192,7 @@ fn point(
             point.picture = Some(name);
             Some(wrong)
         }
-        None => errors(&case.name, scene, &map),
+        None => errors,
     };
     kept::keep_map(folder, &stem, (scene, &map))?;
     made.keep(folder, &stem, &point)?;
@@ -208,21 +211,22 @@ fn by_peer(
 ) -> Result<Option<(Point, Option<Errors>, bool)>, Failure> {
     let Some(effort) = peers.effort(&case.name, system, number) else { return Ok(None) };
     let stem = case.point_stem(system, asked_s);
-    let asked = AskedOf { scene: &case.name, system, effort: effort.to_owned(), stem };
+    let (scene, effort) = (&case.name, effort.to_owned());
+    let asked = AskedOf { scene, points: OF_THE_STUDY, system, effort, stem };
     let Some((found, was_made)) = peers.ask(&asked, made, (plan, folder), interrupt)? else {
         return Ok(None);
     };
-    let Some(values_lx) = found.values_lx.into_iter().collect::<Option<Vec<f64>>>() else {
-        return Ok(None);
-    };
+    let values_lx: Option<Vec<f64>> = found.values_lx.into_iter().collect();
+    let readings = values_lx.and_then(|values_lx| Readings::of_values(scene, &values_lx));
+    let Some(readings) = readings else { return Ok(None) };
     let point = Point {
         asked_s,
         effort: Some(asked.effort),
         time_s: found.whole_s,
-        measured: measure_places(&case.name, &values_lx),
+        measured: Measured::of(&readings),
         ..Point::default()
     };
-    Ok(Some((point, errors_of_places(&case.name, &values_lx), was_made)))
+    Ok(Some((point, Errors::of(scene, &readings), was_made)))
 }
 
 /// How far all pictures are from the last one of their system, and from the reference.

@@ -19,6 +19,7 @@ use crate::flags::CompareFlags;
 use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use folder::Folder;
+use isolux_compare::case::cie171::CASES;
 use isolux_compare::report;
 use isolux_compare::study::{Answer, Series, Settings, Study, conclusions};
 use pace::Pace;
@@ -66,7 +67,8 @@ pub(crate) fn run(flags: &CompareFlags, json: bool) -> Result<Outcome, Failure> 
 fn check_something_to_do(plan: &Plan, peers: &Peers) -> Result<(), Failure> {
     let exact = plan.cases.iter().filter(|case| case.is_exact);
     let has_peer = exact.map(|case| peers.systems(&case.name)).any(|of| !of.is_empty());
-    let has_analytic = plan.is_analytic && !peers.systems("cie171_5_2_isotropic").is_empty();
+    let mut analytic = CASES.iter().flat_map(|of| of.names);
+    let has_analytic = plan.is_analytic && analytic.any(|name| !peers.systems(name).is_empty());
     if !plan.systems.is_empty() || has_peer || has_analytic {
         return Ok(());
     }

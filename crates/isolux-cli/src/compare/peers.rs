@@ -6,7 +6,8 @@ use super::plan::Plan;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
-use isolux_compare::peers::{OF_THE_STUDY, scene};
+use crate::repository;
+use isolux_compare::peers::{OF_THE_STUDY, WHOLE, scene};
 use isolux_compare::study::{System, Version};
 use serde::{Deserialize, Serialize};
 use std::cell::RefCell;
@@ -81,6 +82,8 @@ pub(crate) struct FoundByPeer {
 pub(crate) struct AskedOf<'a> {
     /// The scene, as it is built in or a case of `validate`.
     pub(crate) scene: &'a str,
+    /// The name of the set of points of it.
+    pub(crate) points: &'static str,
     pub(crate) system: System,
     pub(crate) effort: String,
     /// The beginning of the names of its files.
@@ -147,7 +150,8 @@ impl Peers {
         let is_cold = self.warm.borrow_mut().insert(asked.system);
         if is_cold && let Some(cheapest) = self.effort("cube", asked.system, 0) {
             let (effort, stem) = (cheapest.to_owned(), String::new());
-            let first = AskedOf { scene: "cube", system: asked.system, effort, stem };
+            let (scene, points) = ("cube", OF_THE_STUDY);
+            let first = AskedOf { scene, points, system: asked.system, effort, stem };
             self.run(&first, (plan, folder), interrupt)?;
         }
         let Some(found) = self.run(asked, (plan, folder), interrupt)? else { return Ok(None) };
@@ -168,14 +172,12 @@ impl Peers {
             return Ok(None);
         }
         let file = format!("maps/{name}-peers.json");
-        if !folder.path(&file).is_file() {
-            let Some(scene) = scene(name) else { return Ok(None) };
-            folder.write(&file, scene.to_string().as_bytes())?;
-        }
+        let Some(scene) = scene(name) else { return Ok(None) };
+        folder.write(&file, scene.to_string().as_bytes())?;
         let scratch = tempfile::tempdir().map_err(|e| Failure::Refused(e.to_string()))?;
         let at_most_s = (PATIENCE * plan.limit_s).ceil().max(1.0);
         let mut command = Command::new(&place.python);
-        command.arg(&place.script).arg(folder.path(&file)).args(["--points", OF_THE_STUDY]);
+        command.arg(&place.script).arg(folder.path(&file)).args(["--points", asked.points]);
         command.args(["--renderer", asked.system.name(), "--effort", &asked.effort]);
         command.args(["--threads", &rayon::current_num_threads().to_string()]);
         command.args(["--seed", &plan.seed.to_string(), "--at-most", &at_most_s.to_string()]);
@@ -194,15 +196,12 @@ impl Peers {
 
 impl Efforts {
     fn is_of(&self, case: &str) -> bool {
-        self.scene == case && self.points == "map"
+        self.scene == case && self.points == WHOLE
     }
 }
 
-/// In the current folder, or in one above the program.
 fn find() -> Option<Place> {
-    let program = std::env::current_exe().unwrap_or_default();
-    let above = program.ancestors().skip(1).map(PathBuf::from);
-    std::iter::once(PathBuf::from(".")).chain(above).find_map(|root| {
+    repository::folders().find_map(|root| {
         let script = root.join(SCRIPT);
         let python = PYTHON.iter().map(|name| root.join(name)).find(|path| path.is_file())?;
         script.is_file().then_some(Place { python, script })

@@ -6,8 +6,9 @@ use crate::interrupt::Interrupt;
 use isolux::engine::{self, AuditSettings, Progress, SolveRequest, Watch};
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
+use isolux_compare::Readings;
 use isolux_compare::metric::landed_over_emitted;
-use isolux_compare::study::{Audited, Point, Prediction, Reported, System, measure};
+use isolux_compare::study::{Audited, Errors, Measured, Point, Prediction, Reported, System};
 use std::time::{Duration, Instant};
 
 /// A prediction is kept if so many times as much time has passed as at the one before: graphs show time in logarithms.
@@ -28,20 +29,23 @@ impl Asked<'_> {
         self.case.point_stem(self.system, self.asked_s)
     }
 
-    /// Makes the map, tells what it takes and what it is like; `None` if the user stops it.
+    /// Makes the map, tells what it takes and what it is like, and where it errs if right values are known; `None` if the user stops it.
     pub(crate) fn make(
         &self,
         scene: &Scene,
         plan: &Plan,
         interrupt: &Interrupt,
-    ) -> Result<Option<(IlluminationMap, Point)>, Failure> {
+    ) -> Result<Option<(IlluminationMap, Point, Option<Errors>)>, Failure> {
         let about = Duration::from_secs_f64(self.asked_s);
         let request = self.system.request(self.accuracy, about, plan.seed);
         let request = request.expect("peers are asked elsewhere");
         let begun = Instant::now();
         let Some((map, predictions)) = solve(scene, &request, interrupt)? else { return Ok(None) };
         let time_s = begun.elapsed().as_secs_f64();
-        let measured = measure(&self.case.name, scene, &map).transpose();
+        let case = &self.case.name;
+        let readings = Readings::of_map(case, scene, &map).transpose();
+        let readings = readings.map_err(|e| Failure::bad_input(format!("{}: {e}", self.stem())))?;
+        let readings = readings.as_ref();
         let point = Point {
             asked_s: self.asked_s,
             accuracy: Some(self.accuracy),
@@ -52,10 +56,10 @@ impl Asked<'_> {
             reported: reported(&map),
             predictions,
             audited: audited(scene, &map, plan),
-            measured: measured.map_err(|e| Failure::bad_input(format!("{}: {e}", self.stem())))?,
+            measured: readings.and_then(Measured::of),
             ..Point::default()
         };
-        Ok(Some((map, point)))
+        Ok(Some((map, point, readings.and_then(|of| Errors::of(case, of)))))
     }
 }
 

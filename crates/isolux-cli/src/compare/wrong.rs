@@ -6,7 +6,8 @@ use super::pictures::Viewer;
 use super::plan::Case;
 use crate::failure::Failure;
 use crate::render;
-use isolux_compare::study::{CaseStudy, Errors, Series, System, errors, limit};
+use isolux_compare::Readings;
+use isolux_compare::study::{CaseStudy, Errors, Series, System, limit};
 use isolux_view::{Size, differences};
 use std::collections::BTreeMap;
 
@@ -57,7 +58,10 @@ fn of(
 ) -> Result<Option<Errors>, Failure> {
     let (scene, map) = kept::map(folder, stem)?;
     match viewer {
-        None => Ok(errors(&case.name, &scene, &map)),
+        None => {
+            let readings = Readings::of_map(&case.name, &scene, &map).and_then(Result::ok);
+            Ok(readings.and_then(|readings| Errors::of(&case.name, &readings)))
+        }
         Some(viewer) => viewer.errors(&scene, &map).map(Some),
     }
 }

@@ -6,7 +6,7 @@ mod points;
 use crate::builtin;
 use crate::case::{cube, find, sphere};
 use crate::expectation::Case;
-use crate::measure::{cube_grid, sphere_grid};
+use crate::measure::{cube_grid, places, sphere_grid};
 use crate::study::{self, LitPlace};
 use isolux::engine::ProbePoint;
 use isolux::geometry::{Point, Vector};
@@ -19,10 +19,13 @@ pub fn scene(name: &str) -> Option<Value> {
     Some(json::scene(&parts, &point_sets(name)?))
 }
 
-/// The name of the set of points that [`study::measure`] reads.
+/// The name of the set of points all over a scene, or of all places of a case.
+pub const WHOLE: &str = "map";
+
+/// The name of the set of points that readings of CUBE and SPHERE hold.
 pub const OF_THE_STUDY: &str = "study";
 
-/// The map of the whole scene first, then the places of the paper, then those that [`study::measure`] reads.
+/// The map of the whole scene first, then the places of the paper, then those that readings hold.
 fn point_sets(scene: &str) -> Option<Vec<PointSet>> {
     let (map, paper): (Vec<ExactPoint>, Vec<ExactPoint>) = match scene {
         "hall" => return Some(vec![hall_map()]),
@@ -32,12 +35,11 @@ fn point_sets(scene: &str) -> Option<Vec<PointSet>> {
             let centre = ExactPoint::of((at, sphere::total_lx(&at)));
             (sphere_grid().into_iter().map(ExactPoint::of).collect(), vec![centre])
         }
-        name => return find(name).map(|case| case_maps(&case)),
+        name => return find(name).map(|case| vec![case_map(&case)]),
     };
-    let places = study::places(scene)?;
-    let of_the_study = places.into_iter().map(ExactPoint::of).collect();
+    let of_the_study = places(scene)?.into_iter().map(ExactPoint::of).collect();
     Some(vec![
-        PointSet::exact("map", map),
+        PointSet::exact(WHOLE, map),
         PointSet::exact("paper", paper),
         PointSet::exact(OF_THE_STUDY, of_the_study),
     ])
@@ -71,13 +73,12 @@ fn hall_map() -> PointSet {
 }
 
 /// All places of a case whose whole light is known and not nothing. What the scene as tessellated is off by is the values' own error.
-fn case_maps(case: &Case) -> Vec<PointSet> {
+fn case_map(case: &Case) -> PointSet {
     let places = study::lit_places(case);
-    let points = || places.iter().map(|of| ExactPoint::of((of.at, of.expected_lx))).collect();
+    let points = places.iter().map(|of| ExactPoint::of((of.at, of.expected_lx))).collect();
     let own = |of: &LitPlace| (of.bound_lx / of.expected_lx).powi(2);
     let own_error = libm::sqrt(places.iter().map(own).sum::<f64>() / places.len().max(1) as f64);
-    let set = |name| PointSet { own_error, ..PointSet::exact(name, points()) };
-    vec![set("map"), set(OF_THE_STUDY)]
+    PointSet { own_error, ..PointSet::exact(WHOLE, points) }
 }
 
 /// The grid of the floor on all six faces.

@@ -1,11 +1,7 @@
 //! Where a map errs: relative errors in rows and columns, to be shown as pictures.
 
 use crate::case::cube;
-use crate::measure::{cube_grid, sphere_grid};
-use isolux::engine::{MapReader, ProbePoint};
-use isolux::map::IlluminationMap;
-use isolux::scene::Scene;
-use rayon::prelude::*;
+use crate::measure::{Readings, places};
 
 /// Relative errors, signed, row by row from the top; `None` where nothing is known.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,50 +14,31 @@ pub struct Errors {
     pub shares: Vec<Option<f64>>,
 }
 
-/// The errors of a map over a face of CUBE, the middle of the face in the middle, or over the octant of SPHERE, azimuth to the right and height upwards in
-/// steps of equal area; `None` of other cases.
-pub fn errors(case: &str, scene: &Scene, map: &IlluminationMap) -> Option<Errors> {
-    let grid = grid(case)?;
-    let reader = MapReader::new(scene, map);
-    let share = |&(at, right_lx): &(ProbePoint, f64)| {
-        Some(reader.probe(at)?.illuminance_lx() / right_lx - 1.0)
-    };
-    Some(arranged(case, &grid, grid.par_iter().map(share).collect()))
-}
-
-/// The same of a renderer that makes no map, by what it finds at [`super::places`], lx.
-pub fn errors_of_places(case: &str, found_lx: &[f64]) -> Option<Errors> {
-    let grid = grid(case)?;
-    let found = found_lx.get(..grid.len())?;
-    let shares = grid.iter().zip(found).map(|((_, right_lx), lx)| Some(lx / right_lx - 1.0));
-    Some(arranged(case, &grid, shares.collect()))
-}
-
-fn grid(case: &str) -> Option<Vec<(ProbePoint, f64)>> {
-    match case {
-        "cube" => Some(cube_grid().to_vec()),
-        "sphere" => Some(sphere_grid()),
-        _ => None,
+impl Errors {
+    /// Of readings over a face of CUBE, the middle of the face in the middle, or over the octant of SPHERE, azimuth to the right and height upwards in
+    /// steps of equal area; `None` of other cases.
+    pub fn of(case: &str, readings: &Readings) -> Option<Self> {
+        let places = places(case)?;
+        let count = readings.grid.len();
+        let side = (count as f64).sqrt().round() as u32;
+        let mut order: Vec<usize> = (0..count).collect();
+        if case == "cube" {
+            let cell = |x: f64| (x / cube::HALF_EDGE_M * f64::from(side)).round() as i64;
+            order.sort_by_key(|&k| {
+                let at = places[k].0.position;
+                (-cell(at.y), cell(at.x))
+            });
+        } else {
+            // The grid has its lowest row first, each from azimuth 0 on.
+            let side = side as usize;
+            order.sort_by_key(|k| (usize::MAX - k / side, k % side));
+        }
+        let share = |k: usize| {
+            let place = &readings.grid[k];
+            Some(place.measured_lx / place.expected_lx - 1.0)
+        };
+        Some(Self { width: side, height: side, shares: order.into_iter().map(share).collect() })
     }
-}
-
-/// Places of the grid in rows from the top.
-fn arranged(case: &str, grid: &[(ProbePoint, f64)], shares: Vec<Option<f64>>) -> Errors {
-    let side = (grid.len() as f64).sqrt().round() as u32;
-    let mut order: Vec<usize> = (0..grid.len()).collect();
-    if case == "cube" {
-        let cell = |x: f64| (x / cube::HALF_EDGE_M * f64::from(side)).round() as i64;
-        order.sort_by_key(|&k| {
-            let at = grid[k].0.position;
-            (-cell(at.y), cell(at.x))
-        });
-    } else {
-        // The grid has its lowest row first, each from azimuth 0 on.
-        let side = side as usize;
-        order.sort_by_key(|k| (usize::MAX - k / side, k % side));
-    }
-    let shares = order.into_iter().map(|k| shares[k]).collect();
-    Errors { width: side, height: side, shares }
 }
 
 /// Steps of limits within a power of ten.

@@ -1,12 +1,7 @@
 //! By how much maps of the scenes with exact answers are wrong, as the study measures it.
 
-use crate::case::{cube, sphere};
-use crate::measure::{
-    MeasureError, MeasuredPoint, cube_grid, measure_cube, measure_sphere, sphere_grid,
-};
-use crate::metric::{Pair, relative_l2_distance, weighted_rms_relative_difference};
-use isolux::engine::ProbePoint;
-use isolux::map::IlluminationMap;
+use crate::case::cube;
+use crate::measure::{MeasuredPoint, Readings, sphere_grid};
 use isolux::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
@@ -27,85 +22,17 @@ pub struct Measured {
     pub told_over_true: Option<f64>,
 }
 
-/// The error of a map of the case `cube` or `sphere`; `None` of any other.
-pub fn measure(
-    case: &str,
-    scene: &Scene,
-    map: &IlluminationMap,
-) -> Option<Result<Measured, MeasureError>> {
-    let (points, error, grid) = match case {
-        "cube" => match measure_cube(scene, map) {
-            Ok(of) => (of.points, of.points_error, of.grid),
-            Err(problem) => return Some(Err(problem)),
-        },
-        "sphere" => match measure_sphere(scene, map) {
-            Ok(of) => (vec![of.centre], of.centre_error, of.grid),
-            Err(problem) => return Some(Err(problem)),
-        },
-        _ => return None,
-    };
-    Some(Ok(Measured {
-        points,
-        error,
-        grid: grid.relative_l2,
-        covered: grid.covered,
-        told_over_true: grid.told_over_true,
-    }))
-}
-
-/// The places that [`measure`] reads in the case `cube` or `sphere`, with their right values in lx: those of the grid, then the points of the study; `None`
-/// of any other.
-pub fn places(case: &str) -> Option<Vec<(ProbePoint, f64)>> {
-    let (mut places, points) = match case {
-        "cube" => {
-            (cube_grid().to_vec(), cube::TABLE_1.map(|p| cube::floor_point(p.x, p.y)).to_vec())
-        }
-        "sphere" => (sphere_grid(), vec![sphere::centre()]),
-        _ => return None,
-    };
-    let reference = cube::reference::cube_reference;
-    let right_lx = |at: &ProbePoint| match case {
-        "cube" => {
-            let [x, y] = [at.position.x, at.position.y].map(|x| x / cube::HALF_EDGE_M);
-            reference().at(x, y).total_lx()
-        }
-        _ => sphere::total_lx(at),
-    };
-    places.extend(points.iter().map(|at| (*at, right_lx(at))));
-    Some(places)
-}
-
-/// The error of a renderer that makes no map, by what it finds at [`places`], lx; `None` of another case, or of another number of places.
-pub fn measure_places(case: &str, found_lx: &[f64]) -> Option<Measured> {
-    let places = places(case)?;
-    if places.len() != found_lx.len() {
-        return None;
+impl Measured {
+    /// By readings.
+    pub fn of(readings: &Readings) -> Option<Self> {
+        Some(Self {
+            points: readings.points.iter().map(|(point, _)| *point).collect(),
+            error: readings.points_error()?,
+            grid: readings.grid_error()?,
+            covered: readings.covered(),
+            told_over_true: readings.told_over_true(),
+        })
     }
-    let pairs: Vec<Pair> = places
-        .iter()
-        .zip(found_lx)
-        .map(|(&(_, reference), &measured)| Pair { reference, measured })
-        .collect();
-    let named: Vec<(char, f64)> = match case {
-        "cube" => cube::TABLE_1.iter().map(|point| (point.name, point.weight)).collect(),
-        _ => vec![('C', 1.0)],
-    };
-    let (grid, points) = pairs.split_at(pairs.len() - named.len());
-    let weighted: Vec<(Pair, f64)> =
-        points.iter().zip(&named).map(|(&pair, &(_, weight))| (pair, weight)).collect();
-    let point = |(pair, &(name, _)): (&Pair, &(char, f64))| MeasuredPoint {
-        name,
-        expected_lx: pair.reference,
-        measured_lx: pair.measured,
-        standard_error_lx: None,
-    };
-    Some(Measured {
-        points: points.iter().zip(&named).map(point).collect(),
-        error: weighted_rms_relative_difference(&weighted)?,
-        grid: relative_l2_distance(grid)?,
-        covered: None,
-        told_over_true: None,
-    })
 }
 
 /// The flux that lands on the surfaces of the case `cube` or `sphere` over that which the luminaire emits: in a closed box of one reflectance `1/(1 - rho)`, on
@@ -125,8 +52,8 @@ pub fn right_landing(case: &str, scene: &Scene) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use isolux::engine::{MapReader, SolveRequest, Watch, solve};
-    use isolux::scene::Scene;
+    use crate::measure::places;
+    use isolux::engine::{MapReader, ProbePoint, SolveRequest, Watch, solve};
 
     #[test]
     fn a_map_and_what_is_read_of_it_err_alike() {
@@ -137,14 +64,13 @@ mod tests {
             let reader = MapReader::new(&scene, &map);
             let read = |(at, _): &(ProbePoint, f64)| reader.probe(*at).unwrap().illuminance_lx();
             let found_lx: Vec<f64> = places(case).unwrap().iter().map(read).collect();
-            let [by_map, by_places] = [
-                measure(case, &scene, &map).unwrap().unwrap(),
-                measure_places(case, &found_lx).unwrap(),
-            ];
+            let by_map = Readings::of_map(case, &scene, &map).unwrap().unwrap();
+            let by_values = Readings::of_values(case, &found_lx).unwrap();
+            let [by_map, by_places] = [by_map, by_values].map(|of| Measured::of(&of).unwrap());
             // The same sums in another order, over a thousand places.
             let is_same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * a.abs();
             assert!(is_same(by_map.error, by_places.error) && is_same(by_map.grid, by_places.grid));
-            assert_eq!(measure_places(case, &found_lx[1..]), None);
+            assert_eq!(Readings::of_values(case, &found_lx[1..]), None);
         }
         assert!(places("hall").is_none());
     }

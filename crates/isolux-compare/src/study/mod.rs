@@ -18,8 +18,8 @@ pub use analytic::{
 pub use asked::accuracy_for;
 pub use conclusions::{Answer, Conclusion, ERROR_OF_LVS, conclusions};
 pub use convergence::{Convergence, time_to_error_s};
-pub use errors::{Errors, errors, errors_of_places, limit};
-pub use measured::{Measured, measure, measure_places, places, right_landing};
+pub use errors::{Errors, limit};
+pub use measured::{Measured, right_landing};
 pub use record::{
     Audited, CaseStudy, Cost, Distances, Machine, Point, Prediction, Reference, Reported, Series,
     Settings, Study, Varied, Version,

@@ -30,10 +30,6 @@ fn says(costs: &[Cost]) -> String {
     let said = growth.into_iter().filter_map(|(varied, name)| {
         let of: Vec<&Cost> = costs.iter().filter(|cost| cost.varied == varied).collect();
         let [first, .., last] = of.as_slice() else { return None };
-        let size = |cost: &Cost| match varied {
-            Varied::Triangles => f64::from(cost.triangles),
-            Varied::Luminaires => cost.luminaires as f64,
-        };
         let [more, longer] = [size(last) / size(first), last.time_s / first.time_s].map(number);
         Some(format!(" With {more} times the {name} a map takes {longer} times as long."))
     });
@@ -43,14 +39,16 @@ fn says(costs: &[Cost]) -> String {
     )
 }
 
+/// How much there is of what was varied.
+fn size(cost: &Cost) -> f64 {
+    match cost.varied {
+        Varied::Triangles => f64::from(cost.triangles),
+        Varied::Luminaires => cost.luminaires as f64,
+    }
+}
+
 fn graph(costs: &[Cost], varied: Varied, id: &str, name: &str) -> Graph {
-    let dot = |cost: &Cost| {
-        let x = match varied {
-            Varied::Triangles => f64::from(cost.triangles),
-            Varied::Luminaires => cost.luminaires as f64,
-        };
-        Dot { x, y: cost.time_s, interval: None }
-    };
+    let dot = |cost: &Cost| Dot { x: size(cost), y: cost.time_s, interval: None };
     let points = costs.iter().filter(|cost| cost.varied == varied).map(dot).collect::<Vec<_>>();
     let line = Line { title: System::Hybrid.title().to_owned(), look: 0, points };
     Graph {
