@@ -8,7 +8,7 @@ use std::process::Command;
 /// The version in `checks/photometry/requirements.txt`, whose source package has test files.
 const PHOTOMPY: &str = "photompy==0.3.1";
 
-/// Shows the files of `data/photometry`, and those of the source package of photompy, to the judges.
+/// Shows the files of `scenes/photometry`, and those of the source package of photompy, to the judges.
 /// Without Python or a package index they are left out, except where `CI` is `true`.
 pub(crate) fn run(root: &Path) -> Result<String, String> {
     let source = root.join("checks").join("photometry");
@@ -20,7 +20,7 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
         judge.arg(source.join("judge.py")).arg("--isolux").arg(built(root)?);
         judge.arg("--accepted").arg(source.join("accepted.json"));
         for (name, files) in
-            [("collection", root.join("data").join("photometry")), ("photompy", samples)]
+            [("collection", root.join("scenes").join("photometry")), ("photompy", samples)]
         {
             judge.arg(format!("{name}={}", files.display()));
         }

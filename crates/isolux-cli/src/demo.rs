@@ -27,7 +27,7 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     note(Note::Info, format!("{}, from {}", scene.name(), path.display()));
     explain::lines(&scene, &request).iter().for_each(|line| note(Note::Info, line));
     let run = Run { source: &path, output: &files.map, request: &request };
-    let solved = solving::solve(&scene, &run, None, &mut Reporter::new(None))?;
+    let solved = solving::solve(&scene, &run, None, (&mut Reporter::new(None), None))?;
     map_file::write(&files.map, &scene, &solved.solution.map)?;
     let camera = viewpoint::camera(&scene, None).map_err(Failure::bad_input)?;
     let (view, _) = render::view(&scene, &solved.solution.map, &camera, PICTURE)?;

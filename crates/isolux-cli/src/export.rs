@@ -7,6 +7,7 @@ use crate::flags::ExportFlags;
 use crate::map_file;
 use crate::output::OutputPath;
 use crate::quantity::show_bytes;
+use crate::walk_export;
 use isolux_formats::export::{ExportKind, export};
 use isolux_formats::map_glb::Preview;
 use serde::Serialize;
@@ -15,6 +16,15 @@ use serde::Serialize;
 pub(crate) fn run(flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
     if let Some(wanted) = engine_export::Wanted::of(flags)? {
         return wanted.write(flags, json);
+    }
+    if extension(flags).as_deref() == Some("html") {
+        return walk_export::run(flags, json);
+    }
+    if flags.beside.is_some() {
+        return Err(Failure::bad_input(format!(
+            "{}: --beside is for .html; end the name in that, or leave it out",
+            flags.output.display()
+        )));
     }
     let (kind, extension) = kind(flags)?;
     let output = OutputPath::check(&flags.output, extension)?;
@@ -39,12 +49,16 @@ pub(crate) fn run(flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
     Ok(Outcome::Done)
 }
 
+fn extension(flags: &ExportFlags) -> Option<String> {
+    flags.output.extension().map(|e| e.to_string_lossy().to_lowercase())
+}
+
 fn kind(flags: &ExportFlags) -> Result<(ExportKind, &'static str), Failure> {
-    let found = flags.output.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let found = extension(flags);
     let known = ExportKind::ALL.into_iter().find(|(_, e)| found.as_deref() == Some(*e));
     known.ok_or_else(|| {
         let mut all: Vec<String> = ExportKind::ALL.iter().map(|(_, e)| format!(".{e}")).collect();
-        all.extend([".glb", ".exr", ".ktx2"].map(str::to_owned));
+        all.extend([".glb", ".exr", ".ktx2", ".html"].map(str::to_owned));
         Failure::bad_input(format!(
             "{}: cannot write this kind of file; end its name in one of {}",
             flags.output.display(),

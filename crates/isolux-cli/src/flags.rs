@@ -38,7 +38,9 @@ pub(crate) enum Command {
     Grid(GridFlags),
     /// Draw a view from a map
     Render(RenderFlags),
-    /// Write a map for other software: .wrl, .x3d, .vtu, .ply, .csv; lightmaps as .glb, .exr, .ktx2
+    /// Walk through a map in a browser
+    View(ViewFlags),
+    /// Write a map for other software: .wrl, .x3d, .vtu, .ply, .csv; lightmaps as .glb, .exr, .ktx2; .html to walk through in a browser
     Export(ExportFlags),
     /// Add maps of luminaire groups, each dimmed as you like, without a new run
     Mix(MixFlags),
@@ -111,6 +113,12 @@ pub(crate) struct SolveFlags {
     /// map, as MAP.checkpoint
     #[arg(long)]
     pub resume: bool,
+    /// Show the run in a browser while it computes: its light as it becomes right, its error, when it will be done; it can be paused,
+    /// stopped and given another accuracy there
+    #[arg(long, conflicts_with_all = ["dry_run", "group"])]
+    pub live: bool,
+    #[command(flatten)]
+    pub server: ServerFlags,
     /// With --method cache: reuse the samples in this file, and add those that are missing
     #[arg(long, value_name = "FILE", conflicts_with = "resume")]
     pub cache: Option<PathBuf>,
@@ -361,6 +369,9 @@ pub(crate) struct RenderFlags {
     /// Read the bare map, all light interpolated: fast, and what a viewer of it shows
     #[arg(long)]
     pub interpolated: bool,
+    /// With --interpolated: time to look for finer shadows first, as `view` and `export` of .html do
+    #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true, requires = "interpolated")]
+    pub finer: Option<Duration>,
     /// Take indirect light from this cache of samples, and add those that are missing
     #[arg(long, value_name = "FILE", conflicts_with = "interpolated")]
     pub cache: Option<PathBuf>,
@@ -434,6 +445,43 @@ pub(crate) enum ToneName {
 
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
+  isolux view map.glb
+  isolux view before.glb after.glb
+  isolux view map.glb --no-open --port 8080
+  isolux view map.glb --address 0.0.0.0
+
+The page shows the map as a walk-through, in false colour, with lux and standard error under the pointer, as `probe` reads them. \
+If the map is a sum of groups (solve --group), they can be dimmed there. Two maps are compared side by side. The command \
+serves the page until it is stopped by Ctrl-C. Nothing leaves this machine, unless --address says so: then \
+the address that is printed has a token, without which nothing is answered.")]
+pub(crate) struct ViewFlags {
+    /// The map (.glb)
+    #[arg(value_name = "MAP.glb")]
+    pub map: PathBuf,
+    /// Another map (.glb), compared with the first
+    #[arg(value_name = "OTHER.glb")]
+    pub other: Option<PathBuf>,
+    #[command(flatten)]
+    pub server: ServerFlags,
+}
+
+/// Where a page is served.
+#[derive(Debug, Args)]
+pub(crate) struct ServerFlags {
+    /// Print the address and open no browser
+    #[arg(long)]
+    pub no_open: bool,
+    /// Port of the page [default: any that is free]
+    #[arg(long, value_name = "PORT", default_value = "0", hide_default_value = true)]
+    pub port: u16,
+    /// Address to listen at: another than one of this machine alone makes a token
+    #[arg(long, value_name = "IP", default_value = "127.0.0.1")]
+    pub address: std::net::IpAddr,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux export map.glb -o room.html
   isolux export map.glb -o room.wrl
   isolux export map.glb -o room.vtu
   isolux export map.glb -o baked.glb --target bevy
@@ -441,7 +489,7 @@ pub(crate) enum ToneName {
   isolux export map.glb -o baked.glb --layout texels --target three --onto scene.glb
   isolux export map.glb -o lightmap.exr
 
-The extension tells the kind: .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row \
+The extension tells the kind: .html is the walk-through of `view` in one file, which opens without a server and without a network; .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row \
 a vertex. Values are those of the bare map at its vertices. The map itself is a .glb that viewers of glTF open.
 
 A .glb has colours of vertices under unlit materials, without the map: luminance in proportion, as an engine shows it, with the \
@@ -470,6 +518,12 @@ pub(crate) struct ExportFlags {
     /// Leave out the luminaires of --onto, as their light is in the lightmap
     #[arg(long)]
     pub without_lights: bool,
+    /// With .html: another map (.glb) to be compared with this one
+    #[arg(long, value_name = "MAP.glb")]
+    pub beside: Option<PathBuf>,
+    /// With .html: time to look for finer shadows than the map has
+    #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true, default_value = "20s")]
+    pub finer: Duration,
     /// Luminance that colours of vertices show as white: 500cd/m2 [default: what 99 % of all surfaces stay below]
     #[arg(long, value_name = "LUMINANCE", value_parser = quantity::luminance_cd_m2, allow_hyphen_values = true)]
     pub white: Option<f64>,

@@ -206,15 +206,7 @@ impl GridResult {
     /// Values as they are maintained.
     fn maintained(&self) -> impl Iterator<Item = Option<Illuminance>> + '_ {
         let factor = self.grid.maintenance_factor;
-        self.values.iter().map(move |value| {
-            value.map(|v| Illuminance {
-                direct_lx: v.direct_lx * factor,
-                caustic_lx: v.caustic_lx * factor,
-                indirect_lx: v.indirect_lx * factor,
-                standard_error_lx: v.standard_error_lx * factor,
-                ..v
-            })
-        })
+        self.values.iter().map(move |value| value.map(|value| value.dimmed(factor)))
     }
 
     fn picture(&self) -> Result<isolux_view::Picture, Failure> {

@@ -240,7 +240,7 @@ fn solve_one(
     };
     note(Note::Info, format!("group \"{}\"", shown::name(&group.name)));
     let run = Run { source, output, request: &request };
-    let mut solved = solving::solve(&group.scene, &run, saved.as_ref(), reporter)?;
+    let mut solved = solving::solve(&group.scene, &run, saved.as_ref(), (reporter, None))?;
     let less = kept::write((&group.scene, &run), &mut solved, turn.resume)?;
     let Solved { solution, outcome } = solved;
     let is_done = matches!(outcome, Outcome::Done);

@@ -45,6 +45,7 @@ mod repository;
 mod request;
 mod saved_run;
 mod scene;
+mod serving;
 mod shown;
 mod solve;
 mod solving;
@@ -53,6 +54,8 @@ mod summary;
 mod validate;
 mod vertex_export;
 mod viewpoint;
+mod walk;
+mod walk_export;
 
 use clap::Parser;
 use failure::{Failure, Outcome, exit_code};
@@ -77,12 +80,16 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         _ => None,
     };
     request::use_threads(threads)?;
+    if let Command::View(flags) = &flags.command {
+        return serving::view(flags, json);
+    }
     // Among the threads that share the work: to hand it to them from outside makes each of its many small parts wait.
     rayon::scope(|_| match &flags.command {
         Command::Solve(flags) => solve::run(flags, json),
         Command::Probe(flags) => probe::run(flags, json),
         Command::Grid(flags) => grid::run(flags, json),
         Command::Export(flags) => export::run(flags, json),
+        Command::View(flags) => serving::view(flags, json),
         Command::Audit(flags) => audit::run(flags, json),
         Command::Check(flags) => check::run(flags, json),
         Command::Lint(flags) => lint::run(flags, json),

@@ -33,10 +33,7 @@ pub(crate) fn run(flags: &MixFlags, json: bool) -> Result<Outcome, Failure> {
     for part in &read {
         output.differs_from(&part.path)?;
     }
-    let parts: Vec<MixPart<'_>> = read
-        .iter()
-        .map(|part| MixPart { scene: &part.scene, map: &part.map, dimming: part.dimming })
-        .collect();
+    let parts: Vec<MixPart<'_>> = read.iter().map(Part::asked).collect();
     let (scene, map) = mix(&parts).map_err(|error| failure(&error, &read))?;
     map_file::write(&output, &scene, &map)?;
     let report = Report::of(&map, started.elapsed().as_secs_f64(), &output);
@@ -59,15 +56,25 @@ fn warn_if_bright(name: &str, dimming: f64) {
 }
 
 /// A map to add.
-struct Part {
+pub(crate) struct Part {
     path: PathBuf,
-    scene: Scene,
-    map: IlluminationMap,
-    dimming: f64,
+    /// The scene in it.
+    pub(crate) scene: Scene,
+    /// The map.
+    pub(crate) map: IlluminationMap,
+    /// What all of its light is multiplied by.
+    pub(crate) dimming: f64,
+}
+
+impl Part {
+    /// As the engine wants it.
+    pub(crate) fn asked(&self) -> MixPart<'_> {
+        MixPart { scene: &self.scene, map: &self.map, dimming: self.dimming }
+    }
 }
 
 /// A map, or, of a sum of groups, the maps beside it that it was made of.
-fn parts_of(path: &Path, dimming: f64) -> Result<Vec<Part>, Failure> {
+pub(crate) fn parts_of(path: &Path, dimming: f64) -> Result<Vec<Part>, Failure> {
     let (scene, map) = map_file::read(path)?;
     let mixed = &map.provenance.mixed;
     let is_beside = |part: &MixedPart| match &part.groups[..] {
@@ -127,14 +134,15 @@ fn dim(parts: &mut [Part], group: &str, dimming: f64) -> Result<(), Failure> {
 }
 
 /// The groups whose light a scene has.
-fn lit_groups(scene: &Scene) -> Vec<String> {
+pub(crate) fn lit_groups(scene: &Scene) -> Vec<String> {
     let shines = |group: u32| group == 0 && !scene.area_luminaires().is_empty();
     let is_lit = |group: u32| shines(group) || scene.luminaires().iter().any(|l| l.group == group);
     let names = scene.groups().iter().enumerate();
     names.filter(|(k, _)| is_lit(*k as u32)).map(|(_, name)| name.clone()).collect()
 }
 
-fn failure(error: &MixError, parts: &[Part]) -> Failure {
+/// What is wrong with maps that cannot be added.
+pub(crate) fn failure(error: &MixError, parts: &[Part]) -> Failure {
     let (number, remedy) = match error {
         MixError::Surfaces(k) => (*k, "add maps of one scene in different light"),
         MixError::Method(k) => (*k, "solve all of them by one method"),

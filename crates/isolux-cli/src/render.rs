@@ -10,7 +10,7 @@ use crate::meter::Meter;
 use crate::output::OutputPath;
 use crate::quantity::show_share;
 use crate::shown::name;
-use crate::{exposed, map_file, source, viewpoint};
+use crate::{exposed, map_file, source, viewpoint, walk};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_view::{
@@ -86,7 +86,8 @@ fn see(flags: &RenderFlags, look: Look) -> Result<Option<Seen>, Failure> {
     let (scene, map) = map_file::read(&flags.map)?;
     let camera = camera(&scene)?;
     let (view, gathered) = if flags.interpolated {
-        (bare(&scene, &map, &camera, flags.size)?, None)
+        let finer = flags.finer.map(|limit| walk::finer(&scene, &map, limit));
+        (bare(&scene, finer.as_ref().unwrap_or(&map), &camera, flags.size)?, None)
     } else {
         let (view, found) = view(&scene, &map, &camera, flags.size)?;
         (view, Some(found))

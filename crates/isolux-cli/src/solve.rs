@@ -12,6 +12,7 @@ use crate::notes::{Note, note, note_as_json};
 use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::report::Report;
+use crate::serving::Live;
 use crate::solving::{Run, Solved, estimate, solve};
 use crate::{cache_samples, explain, groups, kept, request, saved_run, source};
 use isolux::engine::{IrradianceCache, RunState, Solution, SolveRequest};
@@ -50,7 +51,16 @@ pub(crate) fn run(flags: &SolveFlags, json: bool) -> Result<Outcome, Failure> {
         let run = Run { source: &flags.scene, output: &output, request: &asked.request };
         return groups::run((&scene, &groups), (&run, clock), flags, json);
     }
-    one(flags, (&scene, &output), &mut asked.request, clock)?.print(json)
+    let mut live = match flags.live {
+        true => Some(Live::start(&flags.server, &scene, output.path())?),
+        false => None,
+    };
+    let written = one(flags, (&scene, &output), &mut asked.request, (clock, live.as_mut()))?;
+    let outcome = written.print(json)?;
+    if let Some(live) = live {
+        live.linger();
+    }
+    Ok(outcome)
 }
 
 /// A map written, and how that ended.
@@ -75,7 +85,7 @@ fn one(
     flags: &SolveFlags,
     (scene, output): (&Scene, &OutputPath),
     request: &mut SolveRequest,
-    clock: Clock,
+    (clock, mut live): (Clock, Option<&mut Live>),
 ) -> Result<Written, Failure> {
     saved_run::check_writable(output)?;
     let lightmap = Planned::ahead(&flags.layout, scene, (output, request.max_memory_bytes))?;
@@ -93,12 +103,15 @@ fn one(
         request.time_limit = lightmap.time_to_solve(scene, clock, 1);
     }
     let flux_lost = FluxLost::told(scene);
-    let run = Run { source: &flags.scene, output, request };
     let mut solved = match earlier {
         Some(earlier) => earlier,
-        None => solve(scene, &run, saved.as_ref(), &mut Reporter::new(flags.progress))?,
+        None => watched(flags, (scene, output), request, (saved.as_ref(), live.as_deref_mut()))?,
     };
+    let run = Run { source: &flags.scene, output, request };
     let less = kept::write((scene, &run), &mut solved, flags.resume)?;
+    if let Some(live) = live {
+        live.end(&solved.solution, output.path());
+    }
     if let Some(file) = &mut cache {
         cache_samples::keep(file, &solved.solution.cache);
     }
@@ -118,6 +131,28 @@ fn one(
     let report = Report::of(&solved.solution.map, solved.solution.time_s, output);
     let report = report.with_flux_lost(flux_lost);
     Ok(Written { outcome, report: report.with_lightmap(lightmap).instead_of(less) })
+}
+
+/// Runs, and anew for every other accuracy that a viewer asks for: the map is that of a run that was asked for it at once.
+fn watched(
+    flags: &SolveFlags,
+    (scene, output): (&Scene, &OutputPath),
+    request: &mut SolveRequest,
+    (mut saved, mut live): (Option<&RunState>, Option<&mut Live>),
+) -> Result<Solved, Failure> {
+    loop {
+        if let Some(live) = &mut live {
+            live.begin(request);
+        }
+        let run = Run { source: &flags.scene, output, request };
+        let mut reporter = Reporter::new(flags.progress);
+        let solved = solve(scene, &run, saved, (&mut reporter, live.as_deref_mut()))?;
+        let next = live.as_mut().and_then(|live| live.next_target());
+        match next.filter(|_| solved.outcome != Outcome::Interrupted) {
+            Some(accuracy) => (request.accuracy, saved) = (Some(accuracy), None),
+            None => return Ok(solved),
+        }
+    }
 }
 
 /// The map of an earlier run that was complete, and stopped only thereafter.

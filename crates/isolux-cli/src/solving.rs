@@ -8,6 +8,7 @@ use crate::output::OutputPath;
 use crate::progress::Reporter;
 use crate::quantity::{show_bytes, show_seconds, show_share, significant};
 use crate::saved_run::{self, Keeper};
+use crate::serving::Live;
 use crate::shown;
 use crate::source;
 use isolux::engine::{self, RunState, Solution, SolveError, SolveRequest, Watch};
@@ -51,10 +52,10 @@ pub(crate) fn solve(
     scene: &Scene,
     run: &Run,
     saved: Option<&RunState>,
-    reporter: &mut Reporter,
+    (reporter, live): (&mut Reporter, Option<&mut Live>),
 ) -> Result<Solved, Failure> {
     let mut keeper = Keeper::beside(run.output);
-    let follower = Follower { reporter, keeper: Some(&mut keeper) };
+    let follower = Follower { reporter, keeper: Some(&mut keeper), live };
     let solved = follow(scene, run.request, saved, follower, |error| failure(error, (scene, run)))?;
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
     tell_of_hot_spots(&solved.solution.map);
@@ -182,7 +183,7 @@ pub(crate) fn solve_here(
     (scene, source): (&Scene, &Path),
     request: &SolveRequest,
 ) -> Result<Solved, Failure> {
-    let follower = Follower { reporter: &mut Reporter::new(None), keeper: None };
+    let follower = Follower { reporter: &mut Reporter::new(None), keeper: None, live: None };
     follow(scene, request, None, follower, |error| unsolvable(error, (scene, source)))
 }
 
@@ -190,13 +191,14 @@ pub(crate) fn solve_here(
 struct Follower<'a, 'k> {
     reporter: &'a mut Reporter,
     keeper: Option<&'a mut Keeper<'k>>,
+    live: Option<&'a mut Live>,
 }
 
 fn follow(
     scene: &Scene,
     request: &SolveRequest,
     saved: Option<&RunState>,
-    Follower { reporter, mut keeper }: Follower<'_, '_>,
+    Follower { reporter, mut keeper, mut live }: Follower<'_, '_>,
     failure: impl Fn(SolveError) -> Failure,
 ) -> Result<Solved, Failure> {
     let interrupt = Interrupt::install()?;
@@ -205,11 +207,14 @@ fn follow(
         if let Some(keeper) = &mut keeper {
             keeper.look(so_far);
         }
-        if interrupt.is_requested() { Watch::Stop } else { Watch::Continue }
+        let is_interrupted = || interrupt.is_requested();
+        let wanted = live.as_mut().map(|live| live.look(progress, so_far, &is_interrupted));
+        if is_interrupted() { Watch::Stop } else { wanted.unwrap_or(Watch::Continue) }
     });
     reporter.finish();
     let solution = solved.map_err(failure)?;
-    let outcome = match (solution.map.provenance.complete, interrupt.is_requested()) {
+    let is_stopped = interrupt.is_requested() || live.is_some_and(|live| live.is_stopped());
+    let outcome = match (solution.map.provenance.complete, is_stopped) {
         (true, _) => Outcome::Done,
         (false, true) => Outcome::Interrupted,
         (false, false) => Outcome::StoppedEarly,

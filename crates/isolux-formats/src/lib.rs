@@ -34,6 +34,7 @@ pub mod scene_toml;
 mod source;
 mod srgb;
 pub mod stl;
+pub mod walk;
 
 pub use counted::counted;
 pub use load::load;

@@ -7,7 +7,7 @@ use isolux_formats::photometric_file::{Conversion, PhotometricFile, Target, conv
 use std::path::{Path, PathBuf};
 
 fn collection() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/photometry");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/photometry");
     let folders = std::fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path());
     let files = folders
         .filter(|path| path.is_dir())

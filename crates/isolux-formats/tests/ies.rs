@@ -12,7 +12,7 @@ use isolux_formats::{Loaded, Problem};
 use std::path::{Path, PathBuf};
 
 fn collection(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/photometry").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/photometry").join(name)
 }
 
 fn parsed(bytes: &[u8]) -> Loaded<IesFile> {

@@ -15,7 +15,7 @@ const COPIES: usize = 120;
 const WORK_BYTES: usize = 200_000;
 
 fn lamps() -> Vec<PathBuf> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/photometry");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/photometry");
     let folders = std::fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path());
     let files = folders
         .filter(|path| path.is_dir())

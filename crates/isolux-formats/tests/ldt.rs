@@ -8,7 +8,7 @@ use isolux_formats::{Loaded, Problems};
 use std::path::{Path, PathBuf};
 
 fn collection() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/photometry/photometric-viewer")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/photometry/photometric-viewer")
 }
 
 fn parsed(text: &str) -> Result<Loaded<LdtFile>, Problems> {

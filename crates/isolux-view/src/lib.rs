@@ -21,6 +21,7 @@ mod plan;
 mod polar;
 mod profile;
 mod srgb;
+mod tables;
 mod text;
 mod tone;
 mod trace;
@@ -30,13 +31,16 @@ pub use develop::{Development, develop};
 pub use difference::differences;
 pub use error::ViewError;
 pub use exposure::Exposure;
-pub use false_colour::{ColourMap, Contours, FalseColour, Quantity, Scale, false_colour};
+pub use false_colour::{
+    ColourMap, Contours, FalseColour, Quantity, Scale, false_colour, round_limits,
+};
 pub use gathered::{Gathered, ViewProgress, trace_map};
 pub use image::{LuminanceImage, Reading, Seen, Sight, Size, Surface};
 pub use picture::{Picture, UNKNOWN};
 pub use plan::plan;
 pub use polar::PolarDiagram;
 pub use profile::{MAX_ICC_BYTES, MonitorProfile, ProfileError};
+pub use tables::{Spaced, ToneTable, tone_table};
 pub use tone::{Levels, ToneMap, ToneOperator};
 pub use trace::{Read, SurfacePoint, TraceSettings, trace, trace_watched};
 pub use white::WhiteAdaptation;

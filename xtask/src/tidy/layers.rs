@@ -5,6 +5,9 @@ use super::tree::Tree;
 
 const READERS: &[&str] = &["isolux", "isolux-formats", "isolux-compare", "isolux-view"];
 
+const COMMAND: &[&str] =
+    &["isolux", "isolux-formats", "isolux-compare", "isolux-view", "isolux-serve"];
+
 /// Every crate and the crates of ours it may depend on.
 const ALLOWED: &[(&str, &[&str])] = &[
     ("isolux-geometry", &[]),
@@ -12,7 +15,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("isolux-formats", &["isolux"]),
     ("isolux-compare", &["isolux"]),
     ("isolux-view", &["isolux"]),
-    ("isolux-cli", READERS),
+    ("isolux-serve", &[]),
+    ("isolux-cli", COMMAND),
     ("isolux-python", READERS),
     ("isolux-bench", &["isolux-compare", "isolux-geometry"]),
 ];

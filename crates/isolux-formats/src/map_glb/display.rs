@@ -8,11 +8,11 @@ use std::collections::{BTreeMap, HashMap};
 
 /// One side of one shape, with a map or without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Layer {
-    pub(super) shape: u32,
-    pub(super) material: u32,
-    pub(super) mapped: bool,
-    pub(super) back: bool,
+pub(crate) struct Layer {
+    pub(crate) shape: u32,
+    pub(crate) material: u32,
+    pub(crate) mapped: bool,
+    pub(crate) back: bool,
 }
 
 /// Triangles of a layer; corners turn counter-clockwise seen from the displayed side.
@@ -54,14 +54,14 @@ pub(super) fn surfaces(scene: &Scene, map: &IlluminationMap) -> BTreeMap<Layer, 
     found
 }
 
-pub(super) fn layer(scene: &Scene, triangle: u32, mapped: bool, back: bool) -> Layer {
+pub(crate) fn layer(scene: &Scene, triangle: u32, mapped: bool, back: bool) -> Layer {
     let (shape, material) = (scene.shape_of(triangle), scene.material_index(triangle));
     Layer { shape, material, mapped, back }
 }
 
 /// Whether a side without map is worth a picture: glass once, for both its sides; black backs of
 /// one-sided materials not at all, so that one looks into a room from outside.
-pub(super) fn is_shown(scene: &Scene, triangle: u32, back: bool) -> bool {
+pub(crate) fn is_shown(scene: &Scene, triangle: u32, back: bool) -> bool {
     match &scene.material(triangle).body {
         Body::Dielectric(_) => !back,
         Body::Opaque { back: rear, .. } => !back || *rear != Finish::BLACK,
@@ -69,7 +69,7 @@ pub(super) fn is_shown(scene: &Scene, triangle: u32, back: bool) -> bool {
 }
 
 /// The texture that a side of a triangle shows.
-pub(super) fn texture_of(scene: &Scene, triangle: u32, back: bool) -> Option<u32> {
+pub(crate) fn texture_of(scene: &Scene, triangle: u32, back: bool) -> Option<u32> {
     scene.corner_uvs(triangle)?;
     scene.material(triangle).finish(back)?.diffuse.texture
 }
@@ -126,12 +126,12 @@ impl Surface {
     }
 }
 
-pub(super) fn turned<T: Copy>([a, b, c]: [T; 3], back: bool) -> [T; 3] {
+pub(crate) fn turned<T: Copy>([a, b, c]: [T; 3], back: bool) -> [T; 3] {
     if back { [a, c, b] } else { [a, b, c] }
 }
 
 /// Texture coordinates at a place on a triangle.
-fn uv_at(scene: &Scene, triangle: u32, place: Point) -> Option<[f32; 2]> {
+pub(crate) fn uv_at(scene: &Scene, triangle: u32, place: Point) -> Option<[f32; 2]> {
     let uvs = scene.corner_uvs(triangle)?;
     let whole = scene.triangle(triangle);
     let [a, b, c] = whole.corners;

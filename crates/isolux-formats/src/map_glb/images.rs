@@ -10,7 +10,7 @@ use std::io::Cursor;
 pub(super) const MOST_BYTES: u64 = 4 << 30;
 
 /// A texture as PNG; `None` where it exceeds what a PNG can hold.
-pub(super) fn encode(texture: &Texture) -> Option<Vec<u8>> {
+pub(crate) fn encode(texture: &Texture) -> Option<Vec<u8>> {
     let mut png = Vec::new();
     let encoder = image::codecs::png::PngEncoder::new(&mut png);
     encoder

@@ -96,7 +96,7 @@ fn example_of_the_book() {
     let root = scenes().join("..");
     let book = std::fs::read_to_string(root.join("docs/book/scenes.md")).unwrap();
     let example = book.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
-    let lamp = std::fs::read_to_string(root.join("data/photometry/own/linear_1200.ies")).unwrap();
+    let lamp = std::fs::read_to_string(root.join("scenes/photometry/own/linear_1200.ies")).unwrap();
     let loaded = read_with(example, &[("panel.ies", &lamp)]).unwrap_or_else(|p| panic!("{p}"));
     assert_eq!(loaded.warnings, []);
     assert_eq!(Scene::assemble(loaded.value).unwrap().luminaires().len(), 4);

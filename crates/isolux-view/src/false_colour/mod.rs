@@ -9,7 +9,7 @@ mod smooth;
 
 pub use colour_map::ColourMap;
 pub use field::Quantity;
-pub use scale::Scale;
+pub use scale::{Scale, round_limits};
 
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Seen, Sight};

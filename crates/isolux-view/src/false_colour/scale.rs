@@ -117,7 +117,8 @@ impl Axis {
     }
 }
 
-fn round_limits(scale: Scale, values: &[Option<f64>]) -> Result<(f64, f64), ViewError> {
+/// Round limits that hold all but the outermost half per cent of the values at either end; a linear scale begins at zero.
+pub fn round_limits(scale: Scale, values: &[Option<f64>]) -> Result<(f64, f64), ViewError> {
     let positive = |v: &f64| scale == Scale::Linear || *v > 0.0;
     let mut known: Vec<f64> = values.iter().flatten().copied().filter(positive).collect();
     known.sort_by(f64::total_cmp);

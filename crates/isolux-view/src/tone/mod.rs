@@ -111,14 +111,18 @@ enum Form {
 impl ToneMap {
     /// The display-linear colour, 0 to 1, of an exposed colour (luminance over the luminance of [`crate::Exposure`]).
     pub fn apply(&self, exposed: Rgb) -> Rgb {
-        let shown = match self.0 {
+        self.uncut(exposed).map(|channel| channel.clamp(0.0, 1.0))
+    }
+
+    /// The same before what is brighter than white is cut off.
+    pub(crate) fn uncut(&self, exposed: Rgb) -> Rgb {
+        match self.0 {
             Form::Scale(factor) => exposed * factor,
             Form::Knobs(knobs) => exposed.map(|channel| knobs.turn(channel)),
             Form::Reinhard(white) => reinhard::show(exposed, white),
             Form::Hable => exposed.map(hable::show),
             Form::Power(power) => power.show(exposed),
-        };
-        shown.map(|channel| channel.clamp(0.0, 1.0))
+        }
     }
 }
 

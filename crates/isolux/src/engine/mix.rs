@@ -7,7 +7,8 @@
 //! as they are: by the triangle inequality the sum is never worse than that.
 
 use super::probe::{MapReader, reference_lx};
-use crate::elements::{Elements, Split, Subdivision};
+use super::trees::{SidePlace, own_vertices, places_of_vertices, walk_both};
+use crate::elements::{Elements, Subdivision};
 use crate::map::{
     Accuracy, FilterReport, Fresh, Illuminance, IlluminationMap, Method, MixedPart, Provenance,
     Standing, Unshot,
@@ -51,6 +52,22 @@ pub enum MixError {
 /// The scene with all luminaires dimmed, and its map. Parts dimmed to nothing are left out with
 /// their luminaires.
 pub fn mix(parts: &[MixPart<'_>]) -> Result<(Scene, IlluminationMap), MixError> {
+    mix_apart(parts).map(|mixed| (mixed.scene, mixed.map))
+}
+
+/// A sum of maps, and what each part has at its vertices.
+#[derive(Clone, Debug)]
+pub struct Mixed {
+    /// The scene with all luminaires dimmed.
+    pub scene: Scene,
+    /// Its map.
+    pub map: IlluminationMap,
+    /// Of each part that is not dimmed to nothing, what it gives at every vertex before it is dimmed; `None` where it is not known.
+    pub parts: Vec<Vec<Option<Illuminance>>>,
+}
+
+/// As [`mix`], with the parts of the light apart.
+pub fn mix_apart(parts: &[MixPart<'_>]) -> Result<Mixed, MixError> {
     check(parts)?;
     let lit: Vec<Part<'_>> = parts.iter().filter(|p| p.dimming > 0.0).map(Part::new).collect();
     let dimmings: Vec<(&Scene, f64)> = lit.iter().map(|p| (p.scene, p.dimming)).collect();
@@ -75,7 +92,8 @@ pub fn mix(parts: &[MixPart<'_>]) -> Result<(Scene, IlluminationMap), MixError> 
     let provenance = first_provenance(&scene, &lit);
     let mut map = IlluminationMap { elements, values, provenance };
     map.provenance.accuracy = accuracy(&lit, &map, &columns, is_independent);
-    Ok((scene, map))
+    drop(lit);
+    Ok(Mixed { scene, map, parts: columns })
 }
 
 fn check(parts: &[MixPart<'_>]) -> Result<(), MixError> {
@@ -141,9 +159,6 @@ impl<'a> Part<'a> {
     }
 }
 
-/// A side of a triangle of the scene and the barycentric weights of its second and third corner.
-type SidePlace = (u32, bool, f64, f64);
-
 /// The elements of all parts in one, as far as each knows some light there, and, by part, which of its vertices is there what a
 /// vertex of the sum is.
 fn unite(scene: &Scene, parts: &[Part<'_>]) -> (Elements, Vec<Vec<Option<u32>>>) {
@@ -183,58 +198,6 @@ fn known_nodes(map: &IlluminationMap) -> Vec<bool> {
         known[node] = in_part || of.vertices.into_iter().any(is_known);
     }
     known
-}
-
-/// Visits the nodes that two trees share. Where an element is split at different edges (two of them are
-/// equally long) they share no more below.
-fn walk_both(a: &Elements, b: &Elements, visit: &mut impl FnMut(u32, u32)) {
-    let roots = a.roots().iter().flatten().zip(b.roots().iter().flatten());
-    let mut open: Vec<(u32, u32)> = roots.filter_map(|(&a, &b)| a.zip(b)).collect();
-    while let Some((of_a, of_b)) = open.pop() {
-        visit(of_a, of_b);
-        let splits = a.node(of_a).split.zip(b.node(of_b).split);
-        if let Some((a, b)) = splits.filter(|(a, b)| a.edge == b.edge) {
-            open.push((a.first_child, b.first_child));
-            open.push((a.first_child + 1, b.first_child + 1));
-        }
-    }
-}
-
-fn own_vertices(united: &Elements, part: &Elements) -> Vec<Option<u32>> {
-    let mut own = vec![None; united.vertices().len()];
-    walk_both(united, part, &mut |node, of_part| {
-        let (here, there) = (united.node(node).vertices, part.node(of_part).vertices);
-        for (vertex, of_part) in here.into_iter().zip(there) {
-            own[vertex as usize] = Some(of_part);
-        }
-    });
-    own
-}
-
-/// A side of a triangle that every vertex lies on, and where.
-fn places_of_vertices(elements: &Elements) -> Vec<SidePlace> {
-    let mut places = vec![(0, false, 0.0, 0.0); elements.vertices().len()];
-    for (triangle, sides) in elements.roots().iter().enumerate() {
-        for (root, back) in sides.iter().zip([false, true]) {
-            let Some(root) = *root else { continue };
-            let mut open = vec![(root, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])];
-            while let Some((node, corners)) = open.pop() {
-                let node = elements.node(node);
-                for (vertex, [u, v]) in node.vertices.into_iter().zip(corners) {
-                    places[vertex as usize] = (triangle as u32, back, u, v);
-                }
-                let Some(Split { edge, first_child }) = node.split else { continue };
-                let (a, b) = (usize::from(edge), (usize::from(edge) + 1) % 3);
-                let middle = [0, 1].map(|k| 0.5 * (corners[a][k] + corners[b][k]));
-                let (mut first, mut second) = (corners, corners);
-                first[b] = middle;
-                second[a] = middle;
-                open.push((first_child, first));
-                open.push((first_child + 1, second));
-            }
-        }
-    }
-    places
 }
 
 fn have_seeds_of_their_own(parts: &[Part<'_>]) -> bool {

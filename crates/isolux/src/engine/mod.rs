@@ -22,6 +22,7 @@ mod emission;
 mod energy;
 mod feelers;
 mod filter;
+mod finer;
 mod fit;
 mod flights;
 mod forecast;
@@ -62,6 +63,7 @@ mod state;
 mod surface;
 mod tally;
 mod torn;
+mod trees;
 mod trial;
 mod trust;
 mod views;
@@ -78,8 +80,9 @@ pub use cache::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
     IrradianceCache, SampleKind, Served,
 };
+pub use finer::{Fineness, Finer};
 pub use highlights::{Highlighted, Highlights, Shining};
-pub use mix::{MixError, MixPart, mix};
+pub use mix::{MixError, MixPart, Mixed, mix, mix_apart};
 pub use place::ProbePoint;
 pub use probe::{Allowance, ExactSettings, IndirectReading, MapReader, Told, reference_lx};
 pub use radiosity::{RadiosityLimits, RadiositySettings};

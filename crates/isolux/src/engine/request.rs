@@ -128,6 +128,8 @@ pub struct Foreseen {
 pub enum Watch {
     /// Go on.
     Continue,
+    /// Go on; so long it was held up by whoever watches, which is no time of the run.
+    After(Duration),
     /// Go on even where the run would end of itself, on the same elements.
     Insist,
     /// Stop after this increment, with a valid map.

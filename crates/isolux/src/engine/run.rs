@@ -249,6 +249,14 @@ impl<'s, 'r> Run<'s, 'r> {
         self.started.elapsed().as_secs_f64()
     }
 
+    /// Takes off what a watcher has held it up.
+    fn heed(&mut self, answer: Watch) -> Watch {
+        if let Watch::After(pause) = answer {
+            self.started += pause;
+        }
+        answer
+    }
+
     fn out_of_time(&self) -> bool {
         self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
     }
@@ -302,7 +310,7 @@ impl<'s, 'r> Run<'s, 'r> {
             let progress = Progress { prediction: self.foreseen(round), ..progress };
             // Who has said stop is not asked again.
             self.stopped = self.stopped
-                || watch(&progress, &SoFar::NOTHING) == Watch::Stop
+                || self.heed(watch(&progress, &SoFar::NOTHING)) == Watch::Stop
                 || self.out_of_time();
             // The elements of a saved run are made again, whole, or what it has would be lost.
             self.stage == self.saved_stage
@@ -377,6 +385,7 @@ impl<'s, 'r> Run<'s, 'r> {
                 state: &|| whole_mesh.then(|| self.state(Some(&work))),
             };
             let answer = watch(&progress, &so_far);
+            self.heed(answer);
             self.stopped |= answer == Watch::Stop || self.out_of_time();
             let done = end.is_some_and(|end| end != End::TooCoarse && answer != Watch::Insist)
                 || work.sums.increments >= MAX_INCREMENTS;

@@ -49,6 +49,21 @@ impl Illuminance {
         samples: 0,
     };
 
+    /// All of it times a factor, as of dimmed luminaires.
+    pub fn dimmed(self, factor: f64) -> Self {
+        Self {
+            direct_lx: self.direct_lx * factor,
+            caustic_lx: self.caustic_lx * factor,
+            indirect_lx: self.indirect_lx * factor,
+            standard_error_lx: self.standard_error_lx * factor,
+            indirect_standard_error_lx: self.indirect_standard_error_lx * factor,
+            common_error_lx: self.common_error_lx * factor,
+            interpolation_error_lx: self.interpolation_error_lx * factor,
+            bias_lx: self.bias_lx * factor,
+            ..self
+        }
+    }
+
     /// Direct plus indirect, lx.
     pub fn total_lx(&self) -> Rgb {
         self.direct_lx + self.indirect_lx

@@ -19,6 +19,7 @@ mod energy;
 mod errors;
 mod estimates;
 mod faces;
+mod finer;
 mod fit;
 mod fixed_point;
 mod foreseeing;

@@ -1,0 +1,171 @@
+//! What is under the pointer: as `probe` reads it.
+
+use isolux::engine::{MapReader, ProbePoint};
+use isolux::geometry::{Hit, Normal, Point, Ray, Vector};
+use isolux::map::{Illuminance, IlluminationMap};
+use isolux::scene::{Body, Finish, Scene};
+use isolux::units::Rgb;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::f64::consts::PI;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+/// Surfaces that are looked through at most.
+const MOST_LOOKED_THROUGH: usize = 64;
+/// Places are rounded to a tenth of a millimetre: what is shown is what is read.
+const ROUNDED: f64 = 1e4;
+/// Askers that wait at most.
+const WAITING: usize = 64;
+
+/// A ray in the coordinates of the scene as written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RayAsked {
+    /// Where it begins.
+    pub origin: [f64; 3],
+    /// Where it goes, of any length but zero.
+    pub direction: [f64; 3],
+}
+
+/// What is known of a place, as `web/src/wire.ts` has it.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Reading {
+    position: Option<[f64; 3]>,
+    normal: Option<[f64; 3]>,
+    shape: String,
+    material: String,
+    diffuse_reflectance: Option<f64>,
+    illuminance_lx: Option<f64>,
+    standard_error_lx: Option<f64>,
+    direct_lx: Option<f64>,
+    indirect_lx: Option<f64>,
+    rgb_lx: Option<[f64; 3]>,
+    luminance_cd_m2: Option<f64>,
+    found: &'static str,
+}
+
+/// Reads a map by rays, in a thread of its own, since what it prepares for that lives as long.
+pub(crate) struct Reader {
+    asked: SyncSender<Asked>,
+}
+
+/// Rays, whether the asker still waits, and where the answer goes.
+type Asked = (Vec<RayAsked>, Box<dyn Fn() -> bool + Send + Sync>, SyncSender<Vec<Reading>>);
+
+impl Reader {
+    /// Begins to prepare; readings wait until it has.
+    pub(crate) fn start(scene: Arc<Scene>, map: Arc<IlluminationMap>) -> Self {
+        let (asked, askers) = sync_channel(WAITING);
+        thread::spawn(move || answer(&scene, &map, &askers));
+        Self { asked }
+    }
+
+    /// The readings; `None` if too many ask, or the asker has gone.
+    pub(crate) fn read(
+        &self,
+        rays: Vec<RayAsked>,
+        is_wanted: Box<dyn Fn() -> bool + Send + Sync>,
+    ) -> Option<Vec<Reading>> {
+        let (answer, answered) = sync_channel(1);
+        self.asked.try_send((rays, is_wanted, answer)).ok()?;
+        answered.recv().ok()
+    }
+}
+
+fn answer(scene: &Scene, map: &IlluminationMap, askers: &Receiver<Asked>) {
+    let reader = MapReader::new(scene, map);
+    for (rays, is_wanted, answer) in askers {
+        let read = |ray: &RayAsked| is_wanted().then(|| by_probe(scene, &reader, ray));
+        let readings: Option<Vec<Reading>> = rays.par_iter().map(read).collect();
+        // Who has gone needs no answer.
+        if let Some(readings) = readings {
+            let _ = answer.send(readings);
+        }
+    }
+}
+
+fn by_probe(scene: &Scene, reader: &MapReader<'_>, ray: &RayAsked) -> Reading {
+    reading(scene, ray, "probe", &|_, at| reader.probe(at))
+}
+
+/// The same interpolated between the vertices of a map, which takes no time.
+pub(crate) fn from_vertices(scene: &Scene, map: &IlluminationMap, ray: &RayAsked) -> Reading {
+    let read =
+        |hit: &Hit, _| map.interpolate(hit.triangle, hit.back, f64::from(hit.u), f64::from(hit.v));
+    reading(scene, ray, "vertices", &read)
+}
+
+type Read<'a> = dyn Fn(&Hit, ProbePoint) -> Option<Illuminance> + 'a;
+
+fn reading(scene: &Scene, ray: &RayAsked, found: &'static str, read: &Read<'_>) -> Reading {
+    let nothing = Reading {
+        position: None,
+        normal: None,
+        shape: String::new(),
+        material: String::new(),
+        diffuse_reflectance: None,
+        illuminance_lx: None,
+        standard_error_lx: None,
+        direct_lx: None,
+        indirect_lx: None,
+        rgb_lx: None,
+        luminance_cd_m2: None,
+        found,
+    };
+    let Some(hit) = first_seen(scene, ray) else { return nothing };
+    let at = ProbePoint { position: rounded(scene.hit_point(&hit)), normal: side(scene, &hit) };
+    let value = read(&hit, at);
+    let finish = scene.material(hit.triangle).finish(hit.back);
+    let diffuse = finish.map(|finish| {
+        scene.diffuse_reflectance(finish, hit.triangle, f64::from(hit.u), f64::from(hit.v))
+    });
+    let emitted_cd_m2 = finish.map_or(Rgb::BLACK, |finish| finish.luminance_cd_m2);
+    let luminance = |value: Illuminance| {
+        (emitted_cd_m2 + diffuse.unwrap_or(Rgb::BLACK) * value.total_lx() / PI).luminance()
+    };
+    Reading {
+        position: Some(at.position.into()),
+        normal: Some(at.normal.to_vector().into()),
+        shape: scene.shape_names()[scene.shape_of(hit.triangle) as usize].clone(),
+        material: scene.material(hit.triangle).name.clone(),
+        diffuse_reflectance: diffuse.map(Rgb::luminance),
+        illuminance_lx: value.map(|value| value.illuminance_lx()),
+        standard_error_lx: value.map(|value| value.standard_error_lx),
+        direct_lx: value.map(|value| value.direct_lx.luminance()),
+        indirect_lx: value.map(|value| value.indirect_lx.luminance()),
+        rgb_lx: value.map(|value| value.total_lx().0),
+        luminance_cd_m2: value.map(luminance),
+        ..nothing
+    }
+}
+
+/// The first surface that is drawn along a ray: glass and the black backs of walls are looked through.
+fn first_seen(scene: &Scene, ray: &RayAsked) -> Option<Hit> {
+    let direction = Vector::from(ray.direction).direction()?;
+    let mut next = Ray::new(Point::from(ray.origin), direction);
+    for _ in 0..MOST_LOOKED_THROUGH {
+        let hit = scene.bvh().closest_hit(&next)?;
+        let is_drawn = match &scene.material(hit.triangle).body {
+            Body::Dielectric(_) => false,
+            Body::Opaque { back, .. } => !hit.back || *back != Finish::BLACK,
+        };
+        if is_drawn {
+            return Some(hit);
+        }
+        let behind = (-side(scene, &hit).to_direction()).to_normal();
+        let origin = scene.bvh().offset_origin(scene.hit_point(&hit), behind);
+        next = Ray::new(origin, direction).skipping(hit.triangle);
+    }
+    None
+}
+
+/// The normal of the side that is hit.
+fn side(scene: &Scene, hit: &Hit) -> Normal {
+    let front = scene.geometric_normal(hit.triangle);
+    if hit.back { (-front.to_direction()).to_normal() } else { front }
+}
+
+fn rounded(place: Point) -> Point {
+    Point::from(<[f64; 3]>::from(place).map(|c| (c * ROUNDED).round() / ROUNDED))
+}

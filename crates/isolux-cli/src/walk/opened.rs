@@ -1,0 +1,102 @@
+//! A map as it is opened for the walk-through.
+
+use super::fineness::finer;
+use super::told::{ALL_LIGHT, told};
+use crate::failure::Failure;
+use crate::{mix, viewpoint};
+use isolux::engine::{MixPart, mix_apart};
+use isolux::map::{Illuminance, IlluminationMap};
+use isolux::scene::Scene;
+use isolux_formats::walk::{self, Light, Mesh};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// A map with what can be dimmed in it.
+pub(crate) struct Opened {
+    path: PathBuf,
+    /// The scene in it.
+    pub(crate) scene: Arc<Scene>,
+    /// The map.
+    pub(crate) map: Arc<IlluminationMap>,
+    /// Names of the layers of its light.
+    layers: Vec<String>,
+    /// Of each layer the values at the vertices; none where there is one layer alone.
+    parts: Vec<Vec<Option<Illuminance>>>,
+}
+
+impl Opened {
+    /// Reads a map; if it is the sum of those of groups that lie beside it, those, too.
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let mut parts = mix::parts_of(path, 1.0)?;
+        if parts.len() > 1 {
+            return Self::of_groups(path, &parts);
+        }
+        let part = parts.remove(0);
+        let (scene, map) = (Arc::new(part.scene), Arc::new(part.map));
+        let layers = vec![ALL_LIGHT.to_owned()];
+        Ok(Self { path: path.to_owned(), scene, map, layers, parts: Vec::new() })
+    }
+
+    fn of_groups(path: &Path, parts: &[mix::Part]) -> Result<Self, Failure> {
+        let asked: Vec<MixPart<'_>> = parts.iter().map(mix::Part::asked).collect();
+        let mixed = mix_apart(&asked).map_err(|error| mix::failure(&error, parts))?;
+        let lit: Vec<&mix::Part> = parts.iter().filter(|part| part.dimming > 0.0).collect();
+        let dimmed = |(part, values): (&&mix::Part, Vec<Option<Illuminance>>)| {
+            values.into_iter().map(|value| value.map(|value| value.dimmed(part.dimming))).collect()
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            scene: Arc::new(mixed.scene),
+            map: Arc::new(mixed.map),
+            layers: lit.iter().map(|part| mix::lit_groups(&part.scene).join(", ")).collect(),
+            parts: lit.iter().zip(mixed.parts).map(dimmed).collect(),
+        })
+    }
+
+    /// The name of its file.
+    pub(crate) fn file(&self) -> String {
+        self.path.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned())
+    }
+
+    /// Whether its light is known by groups.
+    pub(crate) fn has_groups(&self) -> bool {
+        !self.parts.is_empty()
+    }
+
+    /// Whether another map is of the same surfaces.
+    pub(crate) fn is_alike(&self, other: &Self) -> bool {
+        self.scene.surfaces_hash() == other.scene.surfaces_hash()
+    }
+
+    /// Container of the scene.
+    pub(crate) fn scene_bytes(&self, other: Option<&Self>) -> Result<Vec<u8>, Failure> {
+        let camera = viewpoint::camera(&self.scene, None).map_err(Failure::bad_input)?;
+        let other = other.filter(|other| self.is_alike(other)).map(Self::file);
+        let names = (self.file(), other);
+        let names = (names.0.as_str(), names.1.as_deref());
+        let told = told((&self.scene, &self.map), &camera, names, self.layers.clone());
+        Ok(walk::scene(&self.scene, &told))
+    }
+
+    /// The mesh of its elements, and their light.
+    pub(crate) fn drawn(&self, other: Option<&Self>) -> (Mesh, Light) {
+        let mesh = Mesh::new(&self.scene, &self.map, 1);
+        let mut light = Light::new(&mesh, &self.map);
+        if self.has_groups() {
+            light = light.with_layers(&mesh, &self.parts);
+        }
+        if let Some(other) = other.filter(|other| self.is_alike(other)) {
+            light = light.beside((&self.scene, &mesh), &self.map, &other.map);
+        }
+        (mesh, light)
+    }
+
+    /// The same with finer shadows, as far as they are found within a time.
+    pub(crate) fn drawn_finer(&self, limit: Duration) -> (Mesh, Light) {
+        let map = finer(&self.scene, &self.map, limit);
+        let mesh = Mesh::new(&self.scene, &map, 1);
+        let light = Light::new(&mesh, &map);
+        (mesh, light)
+    }
+}

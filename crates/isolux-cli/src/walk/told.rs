@@ -1,0 +1,95 @@
+//! What the page is told beside the scene: how `render` would show it.
+
+use super::about;
+use isolux::map::IlluminationMap;
+use isolux::scene::{Camera, Scene};
+use isolux_formats::walk::{ColourMap, Steps, Told, Tone};
+use isolux_view::{
+    ColourMap as Map, Development, Exposure, Scale, Size, Spaced, SurfacePoint, ToneOperator,
+    TraceSettings, round_limits, tone_table, trace,
+};
+
+/// The layer of a map whose light is not known by groups.
+pub(crate) const ALL_LIGHT: &str = "all luminaires";
+
+/// The picture by which the first exposure is found, pixels.
+const GLIMPSE: (u32, u32) = (96, 54);
+
+/// Everything about a map but its surfaces and its light.
+pub(crate) fn told(
+    (scene, map): (&Scene, &IlluminationMap),
+    camera: &Camera,
+    (file, other): (&str, Option<&str>),
+    layers: Vec<String>,
+) -> Told {
+    Told {
+        file: file.to_owned(),
+        about: about::facts(map),
+        white_cd_m2: white_cd_m2((scene, map), camera),
+        tones: tones(),
+        colour_maps: colour_maps(),
+        scale_lx: limits_lx(map),
+        layers,
+        other: other.map(str::to_owned),
+    }
+}
+
+/// The luminance that automatic exposure shows as 1, by a small picture of the bare map.
+fn white_cd_m2((scene, map): (&Scene, &IlluminationMap), camera: &Camera) -> f64 {
+    let settings = TraceSettings {
+        samples_per_side: 1,
+        gloss_samples: 1,
+        highlights: false,
+        through_black_backs: true,
+        ..TraceSettings::FINE
+    };
+    let read = |at: SurfacePoint| map.interpolate(at.triangle, at.back, at.u, at.v);
+    let size = Size::new(GLIMPSE.0, GLIMPSE.1);
+    let view = size.and_then(|size| trace(scene, camera, size, &settings, &read));
+    view.and_then(|view| Exposure::Automatic.white_cd_m2(&view)).unwrap_or(1.0)
+}
+
+/// The tone operators of `render`, its usual one first.
+fn tones() -> Vec<Tone> {
+    let display_white_cd_m2 = Development::default().display_white_cd_m2;
+    let all = [
+        ("reinhard", "Reinhard 2002", ToneOperator::default()),
+        ("linear", "linear", ToneOperator::LINEAR),
+        ("hable", "filmic (Hable 2010)", ToneOperator::Hable),
+        ("ward", "Ward 1994: visible contrast", ToneOperator::Ward),
+        (
+            "tumblin-rushmeier",
+            "Tumblin, Rushmeier 1999: brightness",
+            ToneOperator::TumblinRushmeier,
+        ),
+    ];
+    let tone = |(name, label, operator)| {
+        // The operators above have parameters that are allowed.
+        let table = tone_table(operator, display_white_cd_m2).ok()?;
+        Some(Tone {
+            name,
+            label,
+            on_luminance: table.on_luminance,
+            whites: steps(table.whites),
+            exposed: steps(table.exposed),
+            values: table.values,
+        })
+    };
+    all.into_iter().filter_map(tone).collect()
+}
+
+fn steps(Spaced { first, step, count }: Spaced) -> Steps {
+    Steps { first, step, count }
+}
+
+fn colour_maps() -> Vec<ColourMap> {
+    let all = [("viridis", Map::Viridis), ("inferno", Map::Inferno), ("turbo", Map::Turbo)];
+    all.map(|(name, map)| (name, map.table().to_vec())).into()
+}
+
+/// Round limits about the illuminances at all vertices.
+fn limits_lx(map: &IlluminationMap) -> (f64, f64) {
+    let values: Vec<Option<f64>> =
+        map.values.iter().map(|value| value.map(|value| value.illuminance_lx())).collect();
+    round_limits(Scale::Linear, &values).unwrap_or((0.0, 1.0))
+}

@@ -1,0 +1,232 @@
+// The loop: it draws when something has changed, and rests otherwise.
+
+import type { WebGLRenderer } from 'three';
+import type { Settings } from '../contract';
+import { Edges } from './edges';
+import type { Emitter } from './emitter';
+import { Adaptation, logAverage, Meter, MIDDLE_GREY, whiteOfEv, type Sample } from './exposure';
+import type { Quality } from './graphics';
+import { labelsOf } from './labels';
+import type { Luminaires } from './luminaires';
+import type { Marks } from './marks';
+import type { Model } from './model';
+import type { Navigation } from './navigation';
+import { Painter, type Side } from './painter';
+import type { Shown } from './shown';
+import type { Uniforms } from './uniforms';
+import { mixesOf, type World } from './worlds';
+
+export type EventName = 'view' | 'settings' | 'light' | 'exposure' | 'legend' | 'navigation';
+
+/** Time for mixing light in a frame, ms. */
+const MIXING_MS = 10;
+/** Between readings of the exposure while something moves, ms. */
+const METER_MS = 150;
+
+export interface Parts {
+  renderer: WebGLRenderer;
+  uniforms: Uniforms;
+  quality: Quality;
+  navigation: Navigation;
+  shown: Shown;
+  marks: Marks;
+  luminaires: Luminaires;
+  worlds: World[];
+  events: Emitter<EventName>;
+  settings: Settings;
+  white: number;
+  canvas: HTMLCanvasElement;
+  /** Whether something is in the way; asked for marks. */
+  hidden: (model: Model) => (at: import('three').Vector3) => boolean;
+}
+
+export class Engine {
+  readonly adaptation: Adaptation;
+  readonly #painter: Painter;
+  readonly #meter: Meter;
+  readonly #edges = new Edges();
+  #isAsked = false;
+  #isDirty = true;
+  #isMeterOld = true;
+  #isScaleOld = true;
+  #before = 0;
+  #wasMoving = false;
+  #metered = 0;
+  #size = '';
+  #first: (() => void) | null = null;
+  #sample: Sample | null = null;
+  readonly ready = new Promise<void>((resolve) => (this.#first = resolve));
+
+  constructor(readonly parts: Parts) {
+    this.adaptation = new Adaptation(parts.white);
+    this.#painter = new Painter(parts.renderer, parts.uniforms, parts.quality, parts.navigation);
+    this.#meter = new Meter(parts.renderer);
+    new ResizeObserver(() => this.invalidate()).observe(parts.canvas);
+    document.addEventListener('visibilitychange', () => this.invalidate());
+  }
+
+  get #model(): Model | null {
+    return this.parts.worlds[0]!.model;
+  }
+
+  /** Something may look different: a frame is drawn soon. */
+  invalidate(): void {
+    this.#isDirty = true;
+    this.#ask();
+  }
+
+  /** Settings or light have changed. */
+  renew(): void {
+    this.#isScaleOld = true;
+    this.#isMeterOld = true;
+    this.invalidate();
+  }
+
+  #ask(): void {
+    if (this.#isAsked) return;
+    this.#isAsked = true;
+    requestAnimationFrame((now) => this.#frame(now));
+  }
+
+  #frame(now: number): void {
+    this.#isAsked = false;
+    const { navigation, quality } = this.parts;
+    const passed = this.#wasMoving ? Math.min(0.25, (now - this.#before) / 1000) : 1 / 60;
+    if (this.#wasMoving && quality.took(now - this.#before)) this.#isDirty = true;
+    this.#before = now;
+    this.#resize();
+    const moves = navigation.update(passed);
+    const hasMoved = navigation.hasMoved();
+    const mixed = this.#mix();
+    const adapts = this.#adapt(passed);
+    if (hasMoved) this.#moved();
+    if (this.#isDirty || hasMoved || mixed || adapts) this.#draw();
+    const rests = !moves && !hasMoved && !this.#model?.isWaiting;
+    this.#measure(now, rests);
+    this.#wasMoving = moves || hasMoved || adapts;
+    if (this.#wasMoving || this.#isDirty || this.#model?.isWaiting || this.#isMeterOld) this.#ask();
+  }
+
+  #moved(): void {
+    this.#isMeterOld = true;
+    this.parts.marks.labels = [];
+    this.parts.events.tell('view');
+  }
+
+  #resize(): void {
+    const { canvas, renderer, quality, navigation, luminaires, uniforms } = this.parts;
+    const [width, height, ratio] = [Math.max(1, canvas.clientWidth), Math.max(1, canvas.clientHeight), quality.pixelRatio];
+    const size = `${width} ${height} ${ratio}`;
+    if (size === this.#size) return;
+    this.#size = size;
+    renderer.setPixelRatio(ratio);
+    renderer.setSize(width, height, false);
+    navigation.resize(width, height);
+    luminaires.setHeight(height * ratio);
+    uniforms.uPixels.value = Math.max(0.75, ratio);
+    this.#isDirty = true;
+  }
+
+  /** Mixes waiting light; all of it before the first picture. */
+  #mix(): boolean {
+    const { worlds, settings } = this.parts;
+    let did = false;
+    for (const { model } of worlds) {
+      if (!model) continue;
+      const { own, second } = mixesOf(model, settings);
+      model.setSecond(second !== null);
+      if (!model.work(own, second, this.#first ? Infinity : MIXING_MS)) continue;
+      did = true;
+      if (!model.isWaiting) this.#lightChanged();
+    }
+    return did;
+  }
+
+  #lightChanged(): void {
+    this.#isScaleOld = true;
+    this.#isMeterOld = true;
+    this.#painter.outdate();
+    this.parts.events.tell('light');
+  }
+
+  #adapt(seconds: number): boolean {
+    const { settings, shown, events } = this.parts;
+    if (!settings.autoExposure) {
+      this.adaptation.want(whiteOfEv(settings.ev100));
+      this.adaptation.white = whiteOfEv(settings.ev100);
+    }
+    const before = shown.uniforms.uWhite.value;
+    if (!this.adaptation.isSettled) this.adaptation.step(seconds);
+    if (before === this.adaptation.white) return false;
+    shown.setWhite(settings, this.adaptation.white);
+    events.tell('exposure');
+    return settings.mode === 'seen';
+  }
+
+  #draw(): void {
+    this.#isDirty = false;
+    const { settings, shown, luminaires, worlds, events } = this.parts;
+    if (this.#isScaleOld) {
+      this.#isScaleOld = false;
+      shown.update(settings, this.#model, this.adaptation.white);
+      events.tell('legend');
+    }
+    if (settings.mesh) this.#edges.show(this.#model);
+    else this.#edges.clear();
+    luminaires.show(settings.luminaires, settings.mode === 'seen');
+    if (!worlds[0]!.model) return this.parts.renderer.clear();
+    this.#painter.paint(this.#sides(), settings.split);
+    this.drawMarks();
+    this.#first?.();
+    this.#first = null;
+  }
+
+  #sides(): Side[] {
+    const { worlds, settings } = this.parts;
+    const [own, other] = [{ world: worlds[0]!, side: 0 as const }, worlds[1]];
+    if (settings.compare === 'off' || settings.mode === 'difference') return [own];
+    if (settings.compare === 'maps' && other?.model) return [own, { world: other, side: 0 }];
+    return this.#model?.hasSecond ? [own, { ...own, side: 1 }] : [own];
+  }
+
+  drawMarks(): void {
+    const { marks, navigation, canvas, hidden } = this.parts;
+    if (this.#model) marks.draw(navigation.camera, canvas.clientWidth, canvas.clientHeight, hidden(this.#model));
+  }
+
+  /** Reads the exposure, and where isolux lines run; when all rests, once more. */
+  #measure(now: number, rests: boolean): void {
+    const { renderer, worlds, navigation, uniforms } = this.parts;
+    const model = this.#model;
+    if (!model) this.#isMeterOld = false;
+    if (!model || !this.#isMeterOld || this.#meter.isBusy || (!rests && now - this.#metered < METER_MS)) return;
+    this.#metered = now;
+    if (rests) this.#isMeterOld = false;
+    if (rests && this.#painter.renewSurroundings({ world: worlds[0]!, side: 0 })) this.#isDirty = true;
+    uniforms.uSide.value = 0;
+    model.materials.glassAdds(true);
+    const reading = this.#meter.read(renderer, worlds[0]!.root, navigation.camera, uniforms);
+    reading.then((sample) => this.#read(sample, rests), () => {});
+  }
+
+  #read(sample: Sample, rests: boolean): void {
+    const { settings, marks, shown, canvas } = this.parts;
+    this.#sample = sample;
+    const mean = logAverage(sample);
+    if (settings.autoExposure) this.adaptation.want((mean ?? MIDDLE_GREY) / MIDDLE_GREY);
+    const isStill = rests && !this.#wasMoving;
+    marks.labels = isStill && shown.lines.length > 0 && settings.compare === 'off' ? labelsOf(sample, shown.lines, canvas.clientWidth, canvas.clientHeight) : [];
+    this.drawMarks();
+    this.#ask();
+  }
+
+  /** The small picture read last. */
+  get sample(): Sample | null {
+    return this.#sample;
+  }
+
+  /** Draws at once, for a copy of the canvas. */
+  drawNow(): void {
+    this.#draw();
+  }
+}

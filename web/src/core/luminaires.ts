@@ -1,0 +1,171 @@
+// Luminaires without surface: small lamps that glow, or their photometric solids.
+
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, RawShaderMaterial, type Object3D,
+} from 'three';
+import type { Luminaire, SceneHeader, Solid } from '../wire';
+import { LAYER } from './model';
+
+/** Radius of a lamp, m, and of a solid at its peak. */
+const LAMP_M = 0.04;
+const SOLID_M = 0.5;
+
+const LAMP_VERTEX = /* glsl */ `
+precision highp float;
+in vec2 corner;
+in vec3 at, way, tint;
+uniform mat4 viewMatrix, projectionMatrix;
+uniform float uSize, uLeast;
+out vec2 vCorner;
+out vec3 vTint;
+out float vFacing;
+void main() {
+  vec4 eye = viewMatrix * vec4(at, 1.0);
+  float radius = max(uSize, uLeast * -eye.z / projectionMatrix[1][1]);
+  vFacing = dot((viewMatrix * vec4(way, 0.0)).xyz, normalize(-eye.xyz));
+  vCorner = corner * 5.0;
+  vTint = tint;
+  eye.xy += corner * 5.0 * radius;
+  eye.z += 1.5 * radius;
+  gl_Position = projectionMatrix * eye;
+}
+`;
+
+const LAMP_FRAGMENT = /* glsl */ `
+precision highp float;
+in vec2 vCorner;
+in vec3 vTint;
+in float vFacing;
+uniform float uGlow;
+out vec4 colour;
+void main() {
+  float r = length(vCorner);
+  float bright = smoothstep(-0.25, 0.25, vFacing);
+  float core = 1.0 - smoothstep(0.85, 1.1, r);
+  vec3 tint = vTint / max(vTint.r, max(vTint.g, vTint.b));
+  vec3 body = mix(vec3(0.22), mix(tint, vec3(1.0), 0.6), bright);
+  float halo = uGlow * bright * 0.35 * pow(max(0.0, 1.0 - r / 5.0), 3.0);
+  // Premultiplied: the core covers, the halo adds.
+  colour = vec4(body * core + tint * halo * (1.0 - core), core);
+}
+`;
+
+const SOLID_VERTEX = /* glsl */ `
+precision highp float;
+in vec3 point;
+in vec3 at, way, side, tint;
+uniform mat4 viewMatrix, projectionMatrix;
+uniform float uSize;
+out vec3 vTint, vPlace;
+void main() {
+  vec3 across = cross(side, way);
+  vec3 place = at + uSize * (side * point.x + across * point.y + way * point.z);
+  vec4 eye = viewMatrix * vec4(place, 1.0);
+  vPlace = eye.xyz;
+  vTint = tint;
+  gl_Position = projectionMatrix * eye;
+}
+`;
+
+const SOLID_FRAGMENT = /* glsl */ `
+precision highp float;
+in vec3 vTint, vPlace;
+out vec4 colour;
+void main() {
+  vec3 n = normalize(cross(dFdx(vPlace), dFdy(vPlace)));
+  float shade = 0.45 + 0.55 * abs(dot(n, normalize(vPlace)));
+  vec3 tint = vTint / max(vTint.r, max(vTint.g, vTint.b));
+  colour = vec4(mix(vec3(1.0, 0.78, 0.25), tint, 0.35) * shade * 0.8, 0.8);
+}
+`;
+
+export class Luminaires {
+  readonly #lamps: Mesh | null;
+  readonly #solids: Mesh[];
+
+  constructor(scene: SceneHeader, parent: Object3D) {
+    const placed = scene.luminaires.filter(({ kind, position }) => kind === 'point' && position);
+    this.#lamps = placed.length > 0 ? lamps(placed) : null;
+    this.#solids = scene.solids.map((solid, i) => solids(solid, placed.filter((l) => l.solid === i))).filter((mesh) => mesh !== null);
+    for (const mesh of [this.#lamps, ...this.#solids]) {
+      if (!mesh) continue;
+      mesh.frustumCulled = false;
+      mesh.matrixAutoUpdate = false;
+      mesh.layers.set(LAYER.marks);
+      mesh.renderOrder = 30;
+      parent.add(mesh);
+    }
+  }
+
+  show(how: 'off' | 'points' | 'solids', glows: boolean): void {
+    if (this.#lamps) {
+      this.#lamps.visible = how === 'points';
+      (this.#lamps.material as RawShaderMaterial).uniforms.uGlow!.value = glows ? 1 : 0;
+    }
+    this.#solids.forEach((mesh) => (mesh.visible = how === 'solids'));
+  }
+
+  /** Lamps are at least this many device pixels wide on pictures of this height. */
+  setHeight(pixels: number): void {
+    if (this.#lamps) (this.#lamps.material as RawShaderMaterial).uniforms.uLeast!.value = 3.5 / pixels;
+  }
+}
+
+function instances(geometry: InstancedBufferGeometry, all: Luminaire[]): void {
+  const each = (name: string, of: (l: Luminaire) => readonly number[]): void => {
+    const values = new Float32Array(3 * all.length);
+    all.forEach((l, i) => values.set(of(l), 3 * i));
+    geometry.setAttribute(name, new InstancedBufferAttribute(values, 3));
+  };
+  each('at', (l) => l.position!);
+  each('way', (l) => l.direction);
+  each('side', (l) => l.c0);
+  each('tint', (l) => l.colour);
+  geometry.instanceCount = all.length;
+}
+
+function lamps(all: Luminaire[]): Mesh {
+  const geometry = new InstancedBufferGeometry();
+  geometry.setAttribute('corner', new BufferAttribute(new Float32Array([-1, -1, 1, -1, 1, 1, -1, 1]), 2));
+  geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  instances(geometry, all);
+  const material = new RawShaderMaterial({
+    glslVersion: GLSL3, vertexShader: LAMP_VERTEX, fragmentShader: LAMP_FRAGMENT, transparent: true, depthWrite: false,
+    premultipliedAlpha: true, uniforms: { uSize: { value: LAMP_M }, uLeast: { value: 0.005 }, uGlow: { value: 1 } },
+  });
+  return new Mesh(geometry, material);
+}
+
+function solids(solid: Solid, all: Luminaire[]): Mesh | null {
+  if (all.length === 0 || solid.rows < 2 || solid.columns < 2) return null;
+  const geometry = new InstancedBufferGeometry();
+  const shape = solidShape(solid);
+  geometry.setAttribute('point', shape.getAttribute('point'));
+  geometry.setIndex(shape.index);
+  instances(geometry, all);
+  const material = new RawShaderMaterial({
+    glslVersion: GLSL3, vertexShader: SOLID_VERTEX, fragmentShader: SOLID_FRAGMENT, transparent: true, premultipliedAlpha: true, side: DoubleSide,
+    uniforms: { uSize: { value: SOLID_M } },
+  });
+  return new Mesh(geometry, material);
+}
+
+/** Points at the intensity of each direction; x is C 0, z is where the luminaire faces. */
+function solidShape({ rows, columns, values }: Solid): BufferGeometry {
+  const points = new Float32Array(3 * rows * columns);
+  const index: number[] = [];
+  for (let j = 0; j < rows; j++) {
+    const gamma = (Math.PI * j) / (rows - 1);
+    for (let i = 0; i < columns; i++) {
+      const c = (2 * Math.PI * i) / (columns - 1);
+      const far = values[j * columns + i]!;
+      points.set([far * Math.sin(gamma) * Math.cos(c), far * Math.sin(gamma) * Math.sin(c), far * Math.cos(gamma)], 3 * (j * columns + i));
+      const a = j * columns + i;
+      if (i + 1 < columns && j + 1 < rows) index.push(a, a + 1, a + columns, a + 1, a + columns + 1, a + columns);
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('point', new BufferAttribute(points, 3));
+  geometry.setIndex(index);
+  return geometry;
+}

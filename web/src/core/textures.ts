@@ -1,0 +1,39 @@
+// Textures of a scene: grey at once, their pictures as soon as they are decoded.
+
+import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping, RGBAFormat, SRGBColorSpace, Texture, type IUniform } from 'three';
+import type { SceneHeader } from '../wire';
+import type { Container } from './container';
+
+/** One texture each; `changed` is called whenever a picture has arrived. */
+export function openTextures({ header, numbers }: Container<SceneHeader>, changed: () => void): IUniform<Texture>[] {
+  return header.textures.map(({ png }) => {
+    const uniform: IUniform<Texture> = { value: plain() };
+    const blob = new Blob([numbers<Uint8Array<ArrayBuffer>>(png)], { type: 'image/png' });
+    // The values are used as they are stored; three.js tells WebGL that they are coded as sRGB.
+    createImageBitmap(blob, { colorSpaceConversion: 'none', premultiplyAlpha: 'none', imageOrientation: 'flipY' }).then((bitmap) => {
+      uniform.value.dispose();
+      uniform.value = pictured(bitmap);
+      changed();
+    }, () => console.warn('A texture of the scene cannot be decoded.'));
+    return uniform;
+  });
+}
+
+function plain(): Texture {
+  const texture = new DataTexture(new Uint8Array([188, 188, 188, 255]), 1, 1, RGBAFormat);
+  texture.colorSpace = SRGBColorSpace;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+function pictured(bitmap: ImageBitmap): Texture {
+  const texture = new Texture(bitmap);
+  texture.colorSpace = SRGBColorSpace;
+  texture.flipY = false;
+  texture.wrapS = texture.wrapT = RepeatWrapping;
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.magFilter = LinearFilter;
+  texture.anisotropy = 4;
+  texture.needsUpdate = true;
+  return texture;
+}

@@ -1,0 +1,72 @@
+// The maps that are shown, and how their data arrive.
+
+import { Scene, type IUniform, type Texture } from 'three';
+import type { Settings, Source } from '../contract';
+import type { SceneHeader } from '../wire';
+import { decodeMesh } from './batches';
+import { decode, type Container } from './container';
+import { openLight } from './light-store';
+import type { Mix } from './mixing';
+import { Model } from './model';
+import { Refused } from './server';
+import { openTextures } from './textures';
+import type { Uniforms } from './uniforms';
+
+export class World {
+  readonly scene: SceneHeader;
+  readonly root = new Scene();
+  readonly #textures: IUniform<Texture>[];
+  model: Model | null = null;
+
+  constructor(readonly number: number, readonly container: Container<SceneHeader>, readonly uniforms: Uniforms, changed: () => void) {
+    this.scene = container.header;
+    this.root.matrixWorldAutoUpdate = false;
+    this.#textures = openTextures(container, changed);
+  }
+
+  /** Fetches the mesh with its light; false where there is none yet. The old one is shown until both are there. */
+  async load(source: Source): Promise<boolean> {
+    const buffer = await orNotYet(source.mesh(this.number));
+    if (!buffer) return false;
+    const data = decodeMesh(buffer);
+    const light = await orNotYet(source.light(this.number, data.header.mesh, 0));
+    if (!light) return false;
+    const model = new Model(data, this.scene.finishes, this.#textures, this.uniforms, openLight(light, data.header.lit_vertices));
+    this.model?.dispose();
+    this.model = model;
+    this.root.add(model.group);
+    return true;
+  }
+
+  /** Fetches light that is newer than the one held; false where there is none. */
+  async renew(source: Source): Promise<boolean> {
+    const { model } = this;
+    if (!model) return false;
+    const buffer = await orNotYet(source.light(this.number, model.data.header.mesh, model.light.version));
+    if (!buffer || model !== this.model) return false;
+    const ranges = model.light.patch(buffer);
+    model.remix(ranges);
+    return ranges.length > 0;
+  }
+}
+
+export async function openWorld(source: Source, number: number, uniforms: Uniforms, changed: () => void): Promise<World> {
+  return new World(number, decode(await source.scene(number), 'scene'), uniforms, changed);
+}
+
+async function orNotYet(promise: Promise<ArrayBuffer>): Promise<ArrayBuffer | null> {
+  try {
+    return await promise;
+  } catch (error) {
+    if (error instanceof Refused && error.isNotYet) return null;
+    throw error;
+  }
+}
+
+/** The light of a model as the settings mix it; and the other light that it is compared with, on the same vertices. */
+export function mixesOf({ light }: Model, settings: Readonly<Settings>): { own: Mix; second: Mix | null } {
+  const own = { layers: light.layers, errors: light.errors, factors: settings.dimming };
+  if (settings.compare === 'dimmings') return { own, second: { ...own, factors: settings.otherDimming } };
+  const isOther = light.other && light.otherErrors && (settings.compare === 'maps' || settings.mode === 'difference');
+  return { own, second: isOther ? { layers: [light.other!], errors: light.otherErrors!, factors: [1] } : null };
+}

@@ -1,0 +1,77 @@
+// Dimmers of the layers of light, and two dimmings side by side.
+
+import { h, perFrame, segments, setText } from './dom';
+import { layerNames, type Ui } from './ui';
+
+const MOST = 1.5;
+type Side = 'dimming' | 'otherDimming';
+
+export function dimmers(ui: Ui): HTMLElement {
+  const { viewer } = ui;
+  let side: Side = 'dimming';
+  const names = layerNames(viewer);
+  // Changes since the last picture, so that two dimmers can move in one.
+  const moved = new Map<number, number>();
+  const set = perFrame((of: Side) => {
+    const values = names.map((_, k) => moved.get(k) ?? viewer.settings[of][k] ?? 1);
+    moved.clear();
+    viewer.set({ [of]: values });
+  });
+  const change = (i: number, factor: number): void => {
+    moved.set(i, factor);
+    set(side);
+  };
+  const rows = names.map((name, i) => dimmer(name, (factor) => change(i, factor)));
+  const reset = h('button', { type: 'button', onclick: () => viewer.set({ [side]: names.map(() => 1) }) }, 'Reset');
+  const compare = h('button', { type: 'button', onclick: () => {
+    const on = viewer.settings.compare !== 'dimmings';
+    viewer.set(on ? { compare: 'dimmings', otherDimming: [...viewer.settings.dimming] } : { compare: 'off' });
+    pick(on ? 'otherDimming' : 'dimming');
+  } });
+  const which = segments('Which side the dimmers change', [['dimming', 'Left: A'], ['otherDimming', 'Right: B']] as const, side, (v) => pick(v));
+  const refresh = perFrame(() => {
+    const comparing = viewer.settings.compare === 'dimmings';
+    if (!comparing && side === 'otherDimming') side = 'dimming';
+    which.row.hidden = !comparing;
+    which.show(side);
+    setText(compare, comparing ? 'End comparison' : 'Compare with another dimming');
+    rows.forEach((row, i) => row.show(viewer.settings[side][i] ?? 1));
+    reset.disabled = rows.every((_, i) => (viewer.settings[side][i] ?? 1) === 1);
+  });
+  const pick = (v: Side): void => {
+    side = v;
+    refresh();
+  };
+  viewer.on('settings', refresh);
+  refresh();
+  return h('section', { class: 'block' }, h('h3', {}, names.length > 1 ? 'Dimmers' : 'Dimmer'), which.row,
+    h('div', { class: 'dimmers' }, ...rows.map((r) => r.root)), h('div', { class: 'row' }, compare, reset));
+}
+
+function dimmer(name: string, change: (factor: number) => void): { root: HTMLElement; show(factor: number): void } {
+  const slider = h('input', { type: 'range', min: 0, max: MOST * 100, step: 1, 'aria-label': name, oninput: () => act(Number(slider.value) / 100) });
+  const text = h('input', { type: 'text', inputmode: 'decimal', class: 'percent', 'aria-label': `${name}, per cent`, onchange: () => {
+    const typed = Number(text.value.replace('%', '').replace(',', '.'));
+    if (text.value.trim() !== '' && Number.isFinite(typed)) act(Math.min(MOST, Math.max(0, typed / 100)));
+    else show(shown);
+  } });
+  const power = h('button', { type: 'button', class: 'quiet dimmer-name', title: 'On or off', onclick: () => act(shown > 0 ? 0 : 1) },
+    h('span', { class: 'lamp-dot', 'aria-hidden': 'true' }), h('span', {}, name));
+  let shown = 1;
+  const show = (factor: number): void => {
+    shown = factor;
+    slider.value = String(Math.round(factor * 100));
+    slider.setAttribute('aria-valuetext', factor === 0 ? 'off' : `${Math.round(factor * 100)} %`);
+    if (document.activeElement !== text) text.value = factor === 0 ? 'off' : `${Math.round(factor * 100)} %`;
+    power.setAttribute('aria-pressed', String(factor > 0));
+    root.style.setProperty('--on', String(Math.min(1, factor)));
+  };
+  const act = (factor: number): void => {
+    // A light catch at 100 %: the state that the map was computed in is easy to come back to.
+    const caught = Math.abs(factor - 1) < 0.015 ? 1 : factor;
+    show(caught);
+    change(caught);
+  };
+  const root = h('div', { class: 'dimmer' }, power, text, slider);
+  return { root, show };
+}
