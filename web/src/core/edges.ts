@@ -11,9 +11,10 @@ ${PLACES}
 void main() {
   int chunk = int(uFirstChunk + place.w);
   vec4 low = chunkTexel(2 * chunk), size = chunkTexel(2 * chunk + 1);
-  gl_Position = projectionMatrix * (viewMatrix * vec4(low.xyz + size.xyz * vec3(place.xyz), 1.0));
+  vec4 eye = viewMatrix * vec4(low.xyz + size.xyz * vec3(place.xyz), 1.0);
   // Lines lie a little before their surfaces, and surfaces without elements have none.
-  gl_Position.z -= 2e-4 * gl_Position.w;
+  eye.xyz *= 0.9985;
+  gl_Position = projectionMatrix * eye;
   if (size.w < 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }
 `;

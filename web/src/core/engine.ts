@@ -20,6 +20,8 @@ export type EventName = 'view' | 'settings' | 'light' | 'exposure' | 'legend' | 
 
 /** Time for mixing light in a frame, ms. */
 const MIXING_MS = 10;
+/** After so long without movement pictures rest, ms. */
+const REST_MS = 250;
 /** Between readings of the exposure while something moves, ms. */
 const METER_MS = 150;
 
@@ -52,6 +54,8 @@ export class Engine {
   #before = 0;
   #wasMoving = false;
   #metered = 0;
+  /** When something moved last. */
+  #moving = -1e9;
   #size = '';
   #first: (() => void) | null = null;
   #sample: Sample | null = null;
@@ -94,7 +98,7 @@ export class Engine {
     const passed = this.#wasMoving ? Math.min(0.25, (now - this.#before) / 1000) : 1 / 60;
     if (this.#wasMoving && quality.took(now - this.#before)) this.#isDirty = true;
     this.#before = now;
-    this.#resize();
+    this.#resize(!this.#wasMoving && now - this.#moving > REST_MS);
     const moves = navigation.update(passed);
     const hasMoved = navigation.hasMoved();
     const mixed = this.#mix();
@@ -103,7 +107,11 @@ export class Engine {
     if (this.#isDirty || hasMoved || mixed || adapts) this.#draw();
     const rests = !moves && !hasMoved && !this.#model?.isWaiting;
     this.#measure(now, rests);
-    this.#wasMoving = moves || hasMoved || adapts;
+    const isMoving = moves || hasMoved;
+    if (isMoving) this.#moving = now;
+    // What rests is drawn once more, finer.
+    else if (this.#wasMoving) setTimeout(() => this.#ask(), REST_MS + 20);
+    this.#wasMoving = isMoving || adapts;
     if (this.#wasMoving || this.#isDirty || this.#model?.isWaiting || this.#isMeterOld) this.#ask();
   }
 
@@ -113,9 +121,9 @@ export class Engine {
     this.parts.events.tell('view');
   }
 
-  #resize(): void {
+  #resize(rests: boolean): void {
     const { canvas, renderer, quality, navigation, luminaires, uniforms } = this.parts;
-    const [width, height, ratio] = [Math.max(1, canvas.clientWidth), Math.max(1, canvas.clientHeight), quality.pixelRatio];
+    const [width, height, ratio] = [Math.max(1, canvas.clientWidth), Math.max(1, canvas.clientHeight), quality.pixelRatio(rests)];
     const size = `${width} ${height} ${ratio}`;
     if (size === this.#size) return;
     this.#size = size;
@@ -165,12 +173,8 @@ export class Engine {
 
   #draw(): void {
     this.#isDirty = false;
-    const { settings, shown, luminaires, worlds, events } = this.parts;
-    if (this.#isScaleOld) {
-      this.#isScaleOld = false;
-      shown.update(settings, this.#model, this.adaptation.white);
-      events.tell('legend');
-    }
+    const { settings, luminaires, worlds } = this.parts;
+    this.freshen();
     if (settings.mesh) this.#edges.show(this.#model);
     else this.#edges.clear();
     luminaires.show(settings.luminaires, settings.mode === 'seen');
@@ -179,6 +183,15 @@ export class Engine {
     this.drawMarks();
     this.#first?.();
     this.#first = null;
+  }
+
+  /** Brings scale and colours up to date with settings and light. */
+  freshen(): void {
+    if (!this.#isScaleOld) return;
+    this.#isScaleOld = false;
+    const { settings, shown, events } = this.parts;
+    shown.update(settings, this.#model, this.adaptation.white);
+    events.tell('legend');
   }
 
   #sides(): Side[] {
@@ -220,6 +233,15 @@ export class Engine {
     this.#ask();
   }
 
+  /** Makes all shaders ready, now that something is seen. */
+  async refine(): Promise<void> {
+    const { worlds, renderer, navigation, luminaires } = this.parts;
+    for (const world of worlds) await world.refine(renderer, navigation.camera, () => this.invalidate());
+    luminaires.isReady = true;
+    this.#painter.outdate();
+    this.renew();
+  }
+
   /** The small picture read last. */
   get sample(): Sample | null {
     return this.#sample;
@@ -227,6 +249,7 @@ export class Engine {
 
   /** Draws at once, for a copy of the canvas. */
   drawNow(): void {
+    this.#resize(true);
     this.#draw();
   }
 }

@@ -1,7 +1,7 @@
 // Exposure: the small picture that it is read from, and how it follows.
 
 import { Color, FloatType, HalfFloatType, PerspectiveCamera, RGBAFormat, WebGLRenderTarget, type Scene, type WebGLRenderer } from 'three';
-import { fromHalf, luminance } from './codes';
+import { luminance } from './codes';
 import { LAYER } from './model';
 import { OUTPUT, type Uniforms } from './uniforms';
 
@@ -25,12 +25,11 @@ export interface Sample {
 
 export class Meter {
   readonly #target: WebGLRenderTarget;
-  readonly #isFloat: boolean;
   #isBusy = false;
 
   constructor(renderer: WebGLRenderer) {
-    this.#isFloat = renderer.extensions.has('EXT_color_buffer_float');
-    this.#target = new WebGLRenderTarget(WIDTH, 90, { type: this.#isFloat ? FloatType : HalfFloatType, format: RGBAFormat });
+    const isFloat = renderer.extensions.has('EXT_color_buffer_float');
+    this.#target = new WebGLRenderTarget(WIDTH, 90, { type: isFloat ? FloatType : HalfFloatType, format: RGBAFormat });
   }
 
   get isBusy(): boolean {
@@ -40,16 +39,15 @@ export class Meter {
   /** Draws the small picture and reads it when the GPU is done. */
   async read(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, uniforms: Uniforms): Promise<Sample> {
     this.#isBusy = true;
-    const [width, height] = [WIDTH, Math.max(1, Math.round(WIDTH / camera.aspect))];
-    this.#target.setSize(width, height);
-    this.#draw(renderer, scene, camera, uniforms);
-    const values = this.#isFloat ? new Float32Array(4 * width * height) : new Uint16Array(4 * width * height);
     try {
-      await renderer.readRenderTargetPixelsAsync(this.#target, 0, 0, width, height, values);
+      const [width, height] = [WIDTH, Math.max(1, Math.round(WIDTH / camera.aspect))];
+      this.#target.setSize(width, height);
+      this.#draw(renderer, scene, camera, uniforms);
+      const values = await readLater(renderer, this.#target, width, height);
+      return { width, height, values };
     } finally {
       this.#isBusy = false;
     }
-    return { width, height, values: values instanceof Float32Array ? values : Float32Array.from(values, fromHalf) };
   }
 
   #draw(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, uniforms: Uniforms): void {
@@ -61,12 +59,38 @@ export class Meter {
     uniforms.uOutput.value = OUTPUT.luminance;
     renderer.render(scene, camera);
     camera.layers.mask = mask;
-    renderer.setRenderTarget(null);
     renderer.setClearColor(clear, alpha);
   }
 
   dispose(): void {
     this.#target.dispose();
+  }
+}
+
+const POLL_MS = 4;
+
+/** Reads a target into memory without waiting for the GPU. */
+async function readLater(renderer: WebGLRenderer, target: WebGLRenderTarget, width: number, height: number): Promise<Float32Array> {
+  const gl = renderer.getContext() as WebGL2RenderingContext;
+  const buffer = gl.createBuffer();
+  renderer.setRenderTarget(target);
+  gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+  gl.bufferData(gl.PIXEL_PACK_BUFFER, 16 * width * height, gl.STREAM_READ);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.FLOAT, 0);
+  gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+  renderer.setRenderTarget(null);
+  const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0)!;
+  gl.flush();
+  try {
+    while (gl.clientWaitSync(fence, 0, 0) === gl.TIMEOUT_EXPIRED) await new Promise((resolve) => setTimeout(resolve, POLL_MS));
+    const values = new Float32Array(4 * width * height);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+    gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, values);
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, null);
+    return values;
+  } finally {
+    gl.deleteSync(fence);
+    gl.deleteBuffer(buffer);
   }
 }
 

@@ -13,30 +13,22 @@ export class Unsupported extends Error {}
 
 /** Makes a renderer; says clearly where there cannot be one. */
 export function makeRenderer(canvas: HTMLCanvasElement): { renderer: WebGLRenderer; isSoftware: boolean } {
-  const name = probe();
-  const isSoftware = /swiftshader|llvmpipe|software|basic render/i.test(name);
-  let renderer: WebGLRenderer;
-  try {
-    renderer = new WebGLRenderer({ canvas, antialias: !isSoftware, alpha: false, stencil: false, powerPreference: 'high-performance' });
-  } catch (error) {
-    throw new Unsupported(`WebGL 2 could not be started, so the map cannot be drawn: ${String(error)}`);
-  }
+  const { context, isSoftware } = makeContext(canvas);
+  const renderer = new WebGLRenderer({ canvas, context });
   renderer.outputColorSpace = LinearSRGBColorSpace;
-  renderer.autoClear = true;
   renderer.info.autoReset = false;
   renderer.setClearColor(0x14161a, 1);
   renderer.debug.checkShaderErrors = import.meta.env.DEV;
   return { renderer, isSoftware };
 }
 
-/** The name of what draws; throws where WebGL 2 is not to be had. */
-function probe(): string {
-  const gl = document.createElement('canvas').getContext('webgl2');
-  if (!gl) throw new Unsupported('This browser has no WebGL 2, which drawing the map needs. A current browser with graphics acceleration shows it.');
-  const info = gl.getExtension('WEBGL_debug_renderer_info');
-  const name = info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
-  gl.getExtension('WEBGL_lose_context')?.loseContext();
-  return name;
+/** A context without smooth edges: those are drawn aside where a graphics card does it. */
+function makeContext(canvas: HTMLCanvasElement): { context: WebGL2RenderingContext; isSoftware: boolean } {
+  const context = canvas.getContext('webgl2', { alpha: false, stencil: false, depth: true, antialias: false, powerPreference: 'high-performance' });
+  if (!context) throw new Unsupported('This browser has no WebGL 2, which drawing the map needs. A current browser with graphics acceleration shows it.');
+  const info = context.getExtension('WEBGL_debug_renderer_info');
+  const name = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  return { context, isSoftware: /swiftshader|llvmpipe|software|basic render/i.test(name) };
 }
 
 /** How fine pictures are: 0 coarse, 2 as fine as the screen. */
@@ -53,16 +45,22 @@ export class Quality {
     return this.how === 'low' ? 0 : this.how === 'high' ? 2 : this.#level;
   }
 
-  get pixelRatio(): number {
+  /** Device pixels of a CSS pixel; pictures that rest are finer. */
+  pixelRatio(rests: boolean): number {
     const own = globalThis.devicePixelRatio || 1;
     if (this.how === 'low') return 1;
     if (this.level === 2) return Math.min(own, 2);
-    return this.level === 1 ? Math.min(own, 1) : 0.7;
+    return this.level === 1 || rests ? Math.min(own, 1) : 0.7;
   }
 
   /** The share of the picture's resolution that mirrors are drawn with. */
   get mirrorScale(): number {
     return [0.4, 0.6, 1][this.level]!;
+  }
+
+  /** Samples of a pixel. */
+  get samples(): number {
+    return this.level === 2 && !this.isSoftware ? 4 : 0;
   }
 
   get fps(): number {

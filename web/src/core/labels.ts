@@ -57,4 +57,4 @@ function crossings({ width: columns, height: rows, values }: Sample, tick: numbe
   return found;
 }
 
-export const numberText = (value: number): string => (value >= 1e5 || value < 0.01 ? value.toExponential(1) : String(Number(value.toPrecision(3))));
+export const numberText = (value: number): string => (value !== 0 && (Math.abs(value) >= 1e5 || Math.abs(value) < 0.01) ? value.toExponential(1) : String(Number(value.toPrecision(3))));

@@ -22,11 +22,18 @@ out float vFacing;
 void main() {
   vec4 eye = viewMatrix * vec4(at, 1.0);
   float radius = max(uSize, uLeast * -eye.z / projectionMatrix[1][1]);
-  vFacing = dot((viewMatrix * vec4(way, 0.0)).xyz, normalize(-eye.xyz));
-  vCorner = corner * 5.0;
+  vec3 faces = (viewMatrix * vec4(way, 0.0)).xyz;
+  vFacing = dot(faces, normalize(-eye.xyz));
   vTint = tint;
-  eye.xy += corner * 5.0 * radius;
-  eye.z += 1.5 * radius;
+  // A lamp is flat: seen from the side it is narrower.
+  vec2 axis = length(faces.xy) > 1e-4 ? normalize(faces.xy) : vec2(0.0, 1.0);
+  vec2 from = corner * 5.0;
+  vCorner = from + axis * dot(from, axis) * (1.0 / mix(0.4, 1.0, abs(vFacing)) - 1.0);
+  // It lies a little before what it hangs from.
+  float nearer = min(8.0 * radius, 0.2 * -eye.z) / -eye.z;
+  eye.xyz *= 1.0 - nearer;
+  radius *= 1.0 - nearer;
+  eye.xy += from * radius;
   gl_Position = projectionMatrix * eye;
 }
 `;
@@ -82,6 +89,8 @@ void main() {
 export class Luminaires {
   readonly #lamps: Mesh | null;
   readonly #solids: Mesh[];
+  /** Lamps wait for the first picture. */
+  isReady = false;
 
   constructor(scene: SceneHeader, parent: Object3D) {
     const placed = scene.luminaires.filter(({ kind, position }) => kind === 'point' && position);
@@ -99,10 +108,10 @@ export class Luminaires {
 
   show(how: 'off' | 'points' | 'solids', glows: boolean): void {
     if (this.#lamps) {
-      this.#lamps.visible = how === 'points';
+      this.#lamps.visible = this.isReady && how === 'points';
       (this.#lamps.material as RawShaderMaterial).uniforms.uGlow!.value = glows ? 1 : 0;
     }
-    this.#solids.forEach((mesh) => (mesh.visible = how === 'solids'));
+    this.#solids.forEach((mesh) => (mesh.visible = this.isReady && how === 'solids'));
   }
 
   /** Lamps are at least this many device pixels wide on pictures of this height. */

@@ -26,6 +26,8 @@ export interface WorldUniforms {
   uFinishes: IUniform<Texture>;
 }
 
+const keyOf = ({ kind, texture, plane, firstChunk }: Batch, pass: 0 | 1): string => `${kind} ${texture} ${plane} ${firstChunk} ${pass}`;
+
 export class Materials {
   readonly #made = new Map<string, RawShaderMaterial>();
   readonly #planes: PlaneUniforms[] = [];
@@ -37,13 +39,19 @@ export class Materials {
   }
 
   /** The material of a batch; `pass` is for glass, which is drawn twice. */
-  of({ kind, texture, plane, firstChunk }: Batch, pass: 0 | 1 = 0): RawShaderMaterial {
-    const key = `${kind} ${texture} ${plane} ${firstChunk} ${pass}`;
+  of(batch: Batch, pass: 0 | 1 = 0): RawShaderMaterial {
+    const { kind, texture, plane, firstChunk } = batch;
+    const key = keyOf(batch, pass);
     const known = this.#made.get(key);
     if (known) return known;
     const made = kind === 'glass' ? this.#glass(firstChunk, pass) : this.#opaque(kind === 'shiny', texture, plane, firstChunk);
     this.#made.set(key, made);
     return made;
+  }
+
+  /** One that is ready soon: without textures and reflections. */
+  lean(batch: Batch): RawShaderMaterial {
+    return this.of({ ...batch, kind: 'plain', texture: -1, plane: -1 });
   }
 
   #opaque(reflects: boolean, texture: number, plane: number, firstChunk: number): RawShaderMaterial {

@@ -1,6 +1,6 @@
 // A mesh with its light on the GPU.
 
-import { Group, Mesh, type BufferAttribute, type BufferGeometry, type IUniform, type Texture } from 'three';
+import { Group, Mesh, Scene, type BufferAttribute, type BufferGeometry, type Camera, type IUniform, type Material, type Texture, type WebGLRenderer } from 'three';
 import type { Finish } from '../wire';
 import { packBatches, type Batch, type MeshData, type Slot } from './batches';
 import { makeGeometry, lightAttribute, setLight } from './geometry';
@@ -30,6 +30,9 @@ export class Model {
   readonly #waiting = { light: new Set<number>(), light2: new Set<number>() };
   readonly #lit: number[];
   hasSecond = false;
+  /** Whether it is drawn with all its shaders. */
+  isFine = false;
+  readonly #ready = new Set<Material>();
 
   constructor(readonly data: MeshData, readonly finishes: Finish[], textures: readonly IUniform<Texture>[], shared: Uniforms, public light: LightStore) {
     const { chunks } = data.header;
@@ -48,14 +51,39 @@ export class Model {
     const geometry = makeGeometry(this.data, batch, this.slots);
     const passes = batch.kind === 'glass' ? [0, 1] as const : [0] as const;
     const meshes = passes.map((pass) => {
-      const mesh = new Mesh(geometry, this.materials.of(batch, pass));
+      const isGlass = batch.kind === 'glass';
+      const mesh = new Mesh(geometry, isGlass ? this.materials.of(batch, pass) : this.materials.lean(batch));
+      mesh.visible = !isGlass;
       mesh.matrixAutoUpdate = false;
-      mesh.layers.set(batch.kind === 'glass' ? LAYER.glass : LAYER.surfaces);
-      mesh.renderOrder = batch.kind === 'glass' ? 10 + pass : 0;
+      mesh.layers.set(isGlass ? LAYER.glass : LAYER.surfaces);
+      mesh.renderOrder = isGlass ? 10 + pass : 0;
       return mesh;
     });
     this.group.add(...meshes);
     return { batch, geometry, meshes };
+  }
+
+  /**
+   * Makes the shaders ready one after another, and draws with each from then on: textures, reflections, glass. `shown` is called
+   * after each; without it nothing is waited for.
+   */
+  async refine(renderer: WebGLRenderer, camera: Camera, shown: (() => void) | null): Promise<void> {
+    const trial = new Scene();
+    for (const { batch, meshes, geometry } of this.parts) {
+      if (batch.kind === 'plain' && batch.texture < 0) continue;
+      for (const [pass, mesh] of meshes.entries()) {
+        const material = this.materials.of(batch, pass as 0 | 1);
+        const isNew = shown !== null && !this.#ready.has(material);
+        this.#ready.add(material);
+        trial.clear().add(new Mesh(geometry, material));
+        if (isNew) await renderer.compileAsync(trial, camera);
+        mesh.material = material;
+        mesh.visible = true;
+        // Between two shaders that take long the page stays alive.
+        if (isNew) await nextFrame(shown);
+      }
+    }
+    this.isFine = true;
   }
 
   /** Light of vertices is new: it is mixed when there is time. */
@@ -126,6 +154,11 @@ export class Model {
     this.group.removeFromParent();
   }
 }
+
+const nextFrame = (call: () => void): Promise<void> => new Promise((resolve) => setTimeout(() => {
+  call();
+  resolve();
+}, 20));
 
 const lightOf = (geometry: BufferGeometry, name: string): BufferAttribute => geometry.getAttribute(name) as BufferAttribute;
 

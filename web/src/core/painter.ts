@@ -1,11 +1,12 @@
 // Draws pictures: mirrors, surroundings, one side or two.
 
-import { Color, type PerspectiveCamera, type WebGLRenderer } from 'three';
+import { Color, type PerspectiveCamera, type WebGLRenderTarget, type WebGLRenderer } from 'three';
 import type { Quality } from './graphics';
 import { Mirrors } from './mirrors';
 import { LAYER } from './model';
 import { Surroundings } from './surroundings';
 import type { Navigation } from './navigation';
+import { Smooth } from './smooth';
 import { OUTPUT, type Uniforms } from './uniforms';
 import type { World } from './worlds';
 
@@ -17,6 +18,7 @@ export interface Side {
 
 export class Painter {
   readonly #mirrors = new Mirrors();
+  readonly #smooth = new Smooth();
   #surroundings: Surroundings | null = null;
 
   constructor(readonly renderer: WebGLRenderer, readonly uniforms: Uniforms, readonly quality: Quality, readonly navigation: Navigation) {
@@ -29,28 +31,26 @@ export class Painter {
     const { renderer } = this;
     const { width, height } = renderer.domElement;
     renderer.info.reset();
-    renderer.setRenderTarget(null);
-    const ratio = renderer.getPixelRatio();
+    const target = this.#smooth.target(renderer, this.quality.samples);
+    const at = Math.round(split * width);
     sides.forEach((side, k) => {
-      if (sides.length > 1) {
-        const at = Math.round(split * width) / ratio;
-        renderer.setScissorTest(true);
-        if (k === 0) renderer.setScissor(0, 0, at, height / ratio);
-        else renderer.setScissor(at, 0, width / ratio - at, height / ratio);
-      }
-      this.#paintSide(side);
+      this.#prepare(side);
+      renderer.setRenderTarget(target);
+      if (sides.length > 1) scissor(renderer, target, k === 0 ? [0, at] : [at, width - at], height);
+      renderer.render(side.world.root, this.navigation.camera);
     });
-    renderer.setScissorTest(false);
+    if (sides.length > 1) scissor(renderer, target, null, height);
+    this.#smooth.show(renderer);
   }
 
-  #paintSide({ world, side }: Side): void {
-    const { renderer, uniforms, navigation: { camera } } = this;
+  /** Draws the mirrors of a side, and sets what its picture needs. */
+  #prepare({ world, side }: Side): void {
+    const { uniforms, navigation: { camera } } = this;
     const { model } = world;
     uniforms.uSide.value = side;
-    if (model && model.planes.length > 0) this.#drawMirrors(world, camera);
+    if (model?.isFine && model.planes.length > 0) this.#drawMirrors(world, camera);
     uniforms.uOutput.value = OUTPUT.display;
     model?.materials.glassAdds(false);
-    renderer.render(world.root, camera);
   }
 
   #drawMirrors(world: World, camera: PerspectiveCamera): void {
@@ -60,10 +60,7 @@ export class Painter {
     uniforms.uOutput.value = isLuminance ? OUTPUT.luminance : OUTPUT.falseColour;
     model.materials.glassAdds(isLuminance);
     const { width, height } = renderer.domElement;
-    const hadScissor = renderer.getScissorTest();
-    renderer.setScissorTest(false);
     this.#mirrors.render(renderer, world.root, camera, model, { width: Math.max(1, Math.round(width * mirrorScale)), height: Math.max(1, Math.round(height * mirrorScale)) });
-    renderer.setScissorTest(hadScissor);
   }
 
   /** Light has changed: what is reflected is out of date. */
@@ -74,7 +71,7 @@ export class Painter {
   /** Draws the surroundings again if that is worth while; true if it did. */
   renewSurroundings({ world, side }: Side): boolean {
     const { renderer, uniforms, navigation: { camera, room } } = this;
-    if (!world.model?.parts.some(({ batch }) => batch.kind !== 'plain')) return false;
+    if (!world.model?.isFine || !world.model.parts.some(({ batch }) => batch.kind !== 'plain')) return false;
     this.#surroundings ??= new Surroundings(this.quality.isSoftware ? 64 : 128, room.min.distanceTo(room.max) * 2 + 10);
     if (!this.#surroundings.isOldAt(camera.position, room)) return false;
     uniforms.uSide.value = side;
@@ -85,4 +82,17 @@ export class Painter {
     renderer.setClearColor(clear, alpha);
     return true;
   }
+}
+
+/** Draws within some columns of the picture only, or everywhere. */
+function scissor(renderer: WebGLRenderer, target: WebGLRenderTarget | null, columns: [number, number] | null, height: number): void {
+  const ratio = renderer.getPixelRatio();
+  if (target) {
+    target.scissorTest = columns !== null;
+    target.scissor.set(columns?.[0] ?? 0, 0, columns?.[1] ?? target.width, height);
+    renderer.setRenderTarget(target);
+    return;
+  }
+  renderer.setScissorTest(columns !== null);
+  if (columns) renderer.setScissor(columns[0] / ratio, 0, columns[1] / ratio, height / ratio);
 }

@@ -14,8 +14,8 @@ export class Renewal {
   ) {}
 
   /** Fetches what there is at first. */
-  async loadAll(): Promise<void> {
-    const loaded = await Promise.all(this.worlds.map((world) => world.load(this.source)));
+  async loadAll(meshes: Promise<ArrayBuffer>[]): Promise<void> {
+    const loaded = await Promise.all(this.worlds.map((world, i) => world.load(this.source, meshes[i])));
     if (loaded.some((is) => is)) this.swapped();
   }
 

@@ -194,14 +194,18 @@ vec3 inFalseColour() {
 
 // Lines where illuminance has round values; white with a dark rim.
 vec3 withLines(vec3 below, float lux, float slope) {
-  float nearest = 1e9;
+  float nearest = 1e9, next = 1e9;
   for (int i = 0; i < 24; i++) {
     if (i >= uTickCount) break;
-    nearest = min(nearest, abs(lux - uTicks[i]));
+    float off = abs(lux - uTicks[i]);
+    next = min(next, max(off, nearest));
+    nearest = min(nearest, off);
   }
-  float pixels = nearest / max(slope, 1e-9) / uPixels;
-  vec3 rim = mix(below, vec3(0.0), 0.55 * (1.0 - smoothstep(1.0, 2.2, pixels)));
-  return mix(rim, vec3(1.0), 1.0 - smoothstep(0.35, 1.1, pixels));
+  float pixel = 1.0 / max(slope, 1e-9) / uPixels;
+  // Where lines would cover all, there are none.
+  float clear = smoothstep(4.0, 9.0, (nearest + next) * pixel);
+  vec3 rim = mix(below, vec3(0.0), clear * 0.5 * (1.0 - smoothstep(0.8, 2.0, nearest * pixel)));
+  return mix(rim, vec3(1.0), clear * (1.0 - smoothstep(0.35, 1.1, nearest * pixel)));
 }
 
 void main() {

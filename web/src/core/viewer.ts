@@ -15,7 +15,7 @@ import { Renewal } from './renewal';
 import { Shown } from './shown';
 import { snapshot } from './snapshot';
 import { makeUniforms } from './uniforms';
-import { openWorld, World } from './worlds';
+import { World } from './worlds';
 
 function startSettings(world: World): Settings {
   const { scene } = world;
@@ -28,33 +28,34 @@ function startSettings(world: World): Settings {
 }
 
 export async function createViewer(canvas: HTMLCanvasElement, overlay: HTMLElement, source: Source): Promise<Viewer> {
+  // Data travel while the graphics start.
+  const asked = source.hello.worlds.map((_, i) => ({ scene: source.scene(i), mesh: source.mesh(i) }));
+  asked.flatMap(({ scene, mesh }) => [scene, mesh]).forEach((promise) => promise.catch(() => {}));
   const { renderer, isSoftware } = makeRenderer(canvas);
   const uniforms = makeUniforms();
   const later: { changed: () => void } = { changed: () => {} };
   const changed = (): void => later.changed();
-  const container = decode(await source.scene(0), 'scene');
-  const first = new World(0, container, uniforms, changed);
+  const worlds = await Promise.all(asked.map(async ({ scene }, i) => new World(i, decode(await scene, 'scene'), uniforms, changed)));
+  const first = worlds[0]!;
   const errors = new Errors();
-  const second = source.hello.worlds.length > 1 ? await openWorld(source, 1, uniforms, changed) : null;
-  const worlds = second ? [first, second] : [first];
   const settings = startSettings(first);
   const navigation = new Navigation(canvas, first.scene, changed);
   const quality = new Quality(isSoftware, settings.quality);
   const finder = new Finder(source, first, navigation, canvas, (bvh) => (navigation.walk.bvh = bvh));
   const parts: Parts = {
-    renderer, uniforms, quality, navigation, shown: new Shown(container, uniforms), marks: new Marks(overlay), luminaires: new Luminaires(first.scene, first.root),
+    renderer, uniforms, quality, navigation, shown: new Shown(first.container, uniforms), marks: new Marks(overlay), luminaires: new Luminaires(first.scene, first.root),
     worlds, events: new Emitter<EventName>(), settings, white: first.scene.white_cd_m2 || 1, canvas, hidden: () => finder.hidden(),
   };
   const engine = new Engine(parts);
   later.changed = () => engine.invalidate();
   const renewal = new Renewal(source, worlds, () => modelsChanged(engine, finder), () => engine.renew(), (message) => errors.tell(message));
-  await renewal.loadAll();
+  await renewal.loadAll(asked.map(({ mesh }) => mesh));
   return assemble(source, parts, engine, finder, renewal, errors);
 }
 
 function modelsChanged(engine: Engine, finder: Finder): void {
   engine.renew();
-  void engine.ready.then(() => finder.build());
+  void engine.ready.then(() => engine.refine()).then(() => finder.build());
 }
 
 class Errors {
@@ -113,7 +114,10 @@ function assemble(source: Source, parts: Parts, engine: Engine, finder: Finder, 
       engine.invalidate();
     },
     grids: () => gridMarks.tables(),
-    legend: () => shown.legend(settings),
+    legend: () => {
+      engine.freshen();
+      return shown.legend(settings);
+    },
     exposure: () => ({ whiteCdM2: engine.adaptation.white, ev100: evOfWhite(engine.adaptation.white) }),
     snapshot: () => snapshot(parts, engine),
     stats: () => statsOf(parts, source),

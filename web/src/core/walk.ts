@@ -60,7 +60,7 @@ export class Walk {
 
   /** Goes on for some seconds; true while something moves. */
   update(seconds: number): boolean {
-    const dt = Math.min(seconds, 0.1);
+    const dt = Math.min(seconds, 0.25);
     const before = this.camera.position.clone();
     const [ahead, right, above] = this.#input.way();
     const side = this.#direction.clone().cross(this.up).normalize();

@@ -1,10 +1,10 @@
 // The maps that are shown, and how their data arrive.
 
-import { Scene, type IUniform, type Texture } from 'three';
+import { Scene, type Camera, type IUniform, type Texture, type WebGLRenderer } from 'three';
 import type { Settings, Source } from '../contract';
 import type { SceneHeader } from '../wire';
 import { decodeMesh } from './batches';
-import { decode, type Container } from './container';
+import type { Container } from './container';
 import { openLight } from './light-store';
 import type { Mix } from './mixing';
 import { Model } from './model';
@@ -17,6 +17,7 @@ export class World {
   readonly root = new Scene();
   readonly #textures: IUniform<Texture>[];
   model: Model | null = null;
+  #retired: Model | null = null;
 
   constructor(readonly number: number, readonly container: Container<SceneHeader>, readonly uniforms: Uniforms, changed: () => void) {
     this.scene = container.header;
@@ -25,17 +26,29 @@ export class World {
   }
 
   /** Fetches the mesh with its light; false where there is none yet. The old one is shown until both are there. */
-  async load(source: Source): Promise<boolean> {
-    const buffer = await orNotYet(source.mesh(this.number));
+  async load(source: Source, asked?: Promise<ArrayBuffer>): Promise<boolean> {
+    const buffer = await orNotYet(asked ?? source.mesh(this.number));
     if (!buffer) return false;
     const data = decodeMesh(buffer);
     const light = await orNotYet(source.light(this.number, data.header.mesh, 0));
     if (!light) return false;
     const model = new Model(data, this.scene.finishes, this.#textures, this.uniforms, openLight(light, data.header.lit_vertices));
-    this.model?.dispose();
+    // The old shaders are those of the new one as well: they stay until it has taken them over.
+    this.#retired?.dispose();
+    this.#retired = this.model;
+    this.#retired?.group.removeFromParent();
     this.model = model;
     this.root.add(model.group);
     return true;
+  }
+
+  /** Makes all shaders of the model ready; at once where they were ready before. */
+  async refine(renderer: WebGLRenderer, camera: Camera, shown: () => void): Promise<void> {
+    const { model } = this;
+    if (model && !model.isFine) await model.refine(renderer, camera, this.#retired?.isFine ? null : shown);
+    if (model !== this.model) return;
+    this.#retired?.dispose();
+    this.#retired = null;
   }
 
   /** Fetches light that is newer than the one held; false where there is none. */
@@ -48,10 +61,6 @@ export class World {
     model.remix(ranges);
     return ranges.length > 0;
   }
-}
-
-export async function openWorld(source: Source, number: number, uniforms: Uniforms, changed: () => void): Promise<World> {
-  return new World(number, decode(await source.scene(number), 'scene'), uniforms, changed);
 }
 
 async function orNotYet(promise: Promise<ArrayBuffer>): Promise<ArrayBuffer | null> {

@@ -26,7 +26,7 @@ import { watchPointer } from './pointer';
 import { sectionTool, type SectionTool } from './section';
 import { applyTheme } from './theme';
 import { topBar } from './topbar';
-import type { Ui } from './ui';
+import { readShown, type Ui } from './ui';
 
 /** Puts everything people press into `root`, around the canvas that the viewer draws on. */
 export function startUi(root: HTMLElement, viewer: Viewer, source: Source): void {
@@ -87,7 +87,7 @@ function fillPanel(ui: Ui, pins: Pins, section: SectionTool): void {
 
 async function pinAt(ui: Ui, pins: Pins, x: number, y: number, shown: (r: Parameters<Pins['add']>[0]) => void): Promise<void> {
   try {
-    const reading = await ui.viewer.readAt(x, y, new AbortController().signal);
+    const reading = await readShown(ui, x, y, new AbortController().signal);
     if (!reading?.position) return;
     pins.add(reading);
     shown(reading);
@@ -99,6 +99,7 @@ async function pinAt(ui: Ui, pins: Pins, x: number, y: number, shown: (r: Parame
 /** Closes one thing at a time: the tool, the pin chosen, the panel. */
 function escape(ui: Ui, pins: Pins, section: SectionTool, hide: () => void): void {
   hide();
+  if (document.pointerLockElement) return;
   if (ui.tool === 'section') {
     section.reset();
     ui.setTool('pin');
@@ -110,7 +111,9 @@ function escape(ui: Ui, pins: Pins, section: SectionTool, hide: () => void): voi
 function crosshair(canvas: HTMLCanvasElement): HTMLElement {
   const mark = h('div', { class: 'crosshair', hidden: true, 'aria-hidden': 'true' });
   const refresh = (): void => {
-    mark.hidden = document.pointerLockElement === null && !canvas.matches(':focus-visible');
+    const locked = document.pointerLockElement !== null;
+    mark.hidden = !locked && !canvas.matches(':focus-visible');
+    canvas.classList.toggle('locked', locked);
   };
   document.addEventListener('pointerlockchange', refresh);
   canvas.addEventListener('focus', refresh);

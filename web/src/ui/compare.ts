@@ -15,7 +15,9 @@ export function compareChoice(ui: Ui): HTMLElement {
   const refresh = (): void => {
     choice.show(viewer.settings.compare);
     const [left, right] = sideNames(viewer, viewer.settings.compare);
-    setText(hint, viewer.settings.compare === 'off' ? 'Two states of the light side by side, with a slider between.' : `Left: ${left}. Right: ${right}.`);
+    const { compare } = viewer.settings;
+    setText(hint, compare === 'off' ? 'Two states of the light side by side, with a slider between.'
+      : compare === 'maps' ? `Left: ${left}. Right: ${right}.` : 'The dimmers change the side that is chosen above them.');
   };
   viewer.on('settings', refresh);
   refresh();

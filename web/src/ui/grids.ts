@@ -8,7 +8,7 @@ import { intervalText, significant, valueAndError } from './format';
 import { icon } from './icons';
 import { download } from './notices';
 import { gridNormal, lookAt } from './project';
-import type { Ui } from './ui';
+import { undimmedNote, type Ui } from './ui';
 
 /** Rows of a table that are put on the page at once. */
 const MOST_ROWS = 2000;
@@ -20,7 +20,7 @@ export interface Grids {
 }
 
 export function grids(ui: Ui): Grids {
-  const body = h('div', {});
+  const body = h('div', { class: 'results' });
   let fresh = false;
   const load = async (): Promise<void> => {
     if (fresh) return;
@@ -28,7 +28,8 @@ export function grids(ui: Ui): Grids {
     replace(body, h('p', { class: 'faint', role: 'status' }, 'Reading the grids …'));
     try {
       const tables = await ui.viewer.grids();
-      replace(body, ...(tables.length > 0 ? tables.map((t, i) => table(ui, t, i === 0)) : [nothing()]));
+      const note = undimmedNote(ui);
+      replace(body, note && h('p', { class: 'faint' }, note), ...(tables.length > 0 ? tables.map((t, i) => table(ui, t, i === 0)) : [nothing()]));
     } catch (error) {
       fresh = false;
       replace(body, h('p', { class: 'problem' }, `The grids could not be read: ${words(error)}`),

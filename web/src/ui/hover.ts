@@ -3,7 +3,7 @@
 import type { Reading } from '../wire';
 import { h, perFrame, replace, throttled } from './dom';
 import { details, illuminanceLine, sourceText } from './reading';
-import type { Ui } from './ui';
+import { readShown, sideNames, type Ui } from './ui';
 
 const RESTS_MS = 80;
 const AGAIN_MS = 300;
@@ -31,7 +31,7 @@ export function hover(ui: Ui): Hover {
     const mine = new AbortController();
     asked = mine;
     try {
-      const reading = await viewer.readAt(x, y, mine.signal);
+      const reading = await readShown(ui, x, y, mine.signal);
       if (!mine.signal.aborted && reading?.position) show(reading, x, y);
     } catch {
       // A reading that failed leaves the interpolated value; the viewer tells what went wrong.
@@ -39,7 +39,7 @@ export function hover(ui: Ui): Hover {
   };
   const show = (reading: Reading, x: number, y: number, glance = false): void => {
     replace(root, illuminanceLine(reading), details(reading),
-      h('p', { class: 'faint' }, glance ? 'between vertices' : sourceText(reading)));
+      h('p', { class: 'faint' }, glance ? 'between vertices' : sourceText(reading)), sideNote(ui));
     root.hidden = false;
     place(root, stage, x, y);
   };
@@ -78,6 +78,12 @@ export function hover(ui: Ui): Hover {
       root.hidden = true;
     },
   };
+}
+
+/** Readings are those of the left side, also where the right one is seen. */
+function sideNote({ viewer }: Ui): HTMLElement | null {
+  const { compare } = viewer.settings;
+  return compare === 'off' ? null : h('p', { class: 'faint clip' }, `of ${sideNames(viewer, compare)[0]}`);
 }
 
 /** Beside the point, on the side where there is room. */

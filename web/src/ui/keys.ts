@@ -10,7 +10,8 @@ export function listenToKeys(ui: Ui, actions: Action[], escape: () => void): voi
   document.addEventListener('keydown', (event) => {
     if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) return;
     if (event.key === 'Escape') {
-      escape();
+      // A dialog closes by itself.
+      if (!document.querySelector('dialog[open]')) escape();
       return;
     }
     const action = byKey.get(keyOf(event));

@@ -1,6 +1,6 @@
 // Short messages that come and go at the foot of the view.
 
-import { h, setText } from './dom';
+import { h } from './dom';
 import { icon } from './icons';
 
 export type Kind = 'plain' | 'bad';
@@ -54,10 +54,4 @@ export function download(name: string, content: Blob | string, type = 'text/csv;
   const url = URL.createObjectURL(blob);
   h('a', { href: url, download: name }).click();
   window.setTimeout(() => URL.revokeObjectURL(url), 10_000);
-}
-
-/** A text that says whether something is going on. */
-export function busyText(of: HTMLElement, text: string | null): void {
-  setText(of, text ?? '');
-  of.hidden = text === null;
 }

@@ -30,6 +30,6 @@ function put(ui: Ui, { reading }: Pin, label: HTMLElement): void {
   const found = reading.position && seen(ui, reading.position);
   label.hidden = !found;
   if (!found) return;
-  label.classList.toggle('behind', found.reading === null);
+  label.classList.toggle('behind', found.hidden);
   label.style.transform = `translate(${found.at[0]}px, ${found.at[1]}px)`;
 }

@@ -4,7 +4,7 @@ import type { Reading, Vec3 } from '../wire';
 import { throttled } from './dom';
 import type { Pin, Pins } from './pins';
 import { project } from './project';
-import type { Ui } from './ui';
+import { isDimmed, type Ui } from './ui';
 
 const EVERY_MS = 1500;
 /** A ray onto a place begins that far off its surface, m. */
@@ -36,8 +36,7 @@ export function renewPins(ui: Ui, pins: Pins): void {
 async function again(ui: Ui, { reading: { position, normal } }: Pin): Promise<Reading | null> {
   if (!position || !normal) return null;
   const { viewer, source } = ui;
-  const isUndimmed = viewer.settings.dimming.every((factor) => factor === 1);
-  if (source.hello.readings !== 'probe' || !isUndimmed) return seen(ui, position)?.reading ?? null;
+  if (source.hello.readings !== 'probe' || isDimmed(viewer)) return seen(ui, position)?.reading ?? null;
   const origin = position.map((v, i) => v + OFF_M * normal[i]!) as Vec3;
   const direction = normal.map((v) => -v) as Vec3;
   try {
@@ -48,13 +47,14 @@ async function again(ui: Ui, { reading: { position, normal } }: Pin): Promise<Re
   }
 }
 
-/** Where a place is on the canvas, null if not on it; with what is read there, null if something hides it. */
-export function seen({ viewer, canvas }: Ui, position: Vec3): { at: [number, number]; reading: Reading | null } | null {
+/** Where a place is on the canvas, null if not on it; with what is read there, if that is known and nothing hides it. */
+export function seen({ viewer, canvas }: Ui, position: Vec3): { at: [number, number]; reading: Reading | null; hidden: boolean } | null {
   const { clientWidth: width, clientHeight: height } = canvas;
   const at = project(position, viewer.view(), viewer.scene.up, width, height);
   if (!at || at[0] < 0 || at[1] < 0 || at[0] > width || at[1] > height) return null;
   const reading = viewer.glanceAt(at[0], at[1]);
   const distance = (a: Vec3): number => Math.hypot(...a.map((v, i) => v - position[i]!));
-  const hidden = reading?.position && distance(reading.position) > NEAR_M + NEAR_SHARE * distance(viewer.view().position);
-  return { at, reading: hidden ? null : reading };
+  const away = reading?.position ? distance(reading.position) : 0;
+  const hidden = away > NEAR_M + NEAR_SHARE * distance(viewer.view().position);
+  return { at, reading: hidden || !reading?.position ? null : reading, hidden };
 }

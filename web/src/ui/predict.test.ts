@@ -11,6 +11,8 @@ describe('what a run says', () => {
     expect(timeLeft(at(25, 22, 18, 30))).toBe('up to 5 s left');
     expect(timeLeft(at(31, 22, 18, 30))).toBe('about to end');
     expect(timeLeft(at(0, 90, 60, 190))).toBe('about 90 s left, 60 s to 3 min 10 s');
+    expect(timeLeft(at(0, 387, 297, 577))).toBe('about 6 min left, 5 to 10 min');
+    expect(timeLeft(at(0, 121, 118, 7300))).toBe('about 2 min left, 118 s to 2 h 2 min');
   });
   it('says so where nothing is predicted', () => {
     expect(timeLeft({ phase: 'elements', elapsed_s: 1, prediction: null })).toBe('time left not known yet');

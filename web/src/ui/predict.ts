@@ -13,9 +13,12 @@ export function seconds(value: number): string {
   return `${Math.floor(whole / 3600)} h ${Math.floor((whole % 3600) / 60)} min`;
 }
 
-/** A remaining time: whole seconds are enough. */
+/** A remaining time needs few digits: `48 s`, `2 min 30 s`, `6 min`, `3 h 10 min`. */
 function left(value: number): string {
-  return value < 1 ? '1 s' : value < 120 ? `${Math.round(value)} s` : seconds(value);
+  if (value < 1) return '1 s';
+  if (value < 119.5) return `${Math.round(value)} s`;
+  if (value < 295) return seconds(10 * Math.round(value / 10)).replace(' 0 s', '');
+  return value < 7170 ? `${Math.round(value / 60)} min` : seconds(60 * Math.round(value / 60));
 }
 
 /** When the run will end: `about 12 s left, 8 to 20 s`. */
@@ -33,8 +36,8 @@ export function timeLeft(state: Pick<LiveState, 'prediction' | 'elapsed_s' | 'ph
 /** `8 to 20 s`: the unit once where it is the same. */
 function between(early: number, late: number): string {
   const [a, b] = [left(early), left(late)];
-  const plain = /^(\d+) s$/;
-  return plain.test(a) && plain.test(b) ? `${a.replace(' s', '')} to ${b}` : `${a} to ${b}`;
+  const unit = (text: string): string | undefined => /^\d+ (s|min)$/.exec(text)?.[1];
+  return unit(a) && unit(a) === unit(b) ? `${a.split(' ')[0]} to ${b}` : `${a} to ${b}`;
 }
 
 /** Share of the predicted time that has passed. */

@@ -23,14 +23,16 @@ export function project(at: Vec3, view: View, up: Vec3, width: number, height: n
   return [width / 2 + dot(to, right) * scale, height / 2 - dot(to, above) * scale];
 }
 
-/** A place to look at another from: up and back along the way one looks now, inside of the bounds. */
+/** A place to look at another from: above it, and back towards the middle of the bounds, where there is room. */
 export function lookAt(at: Vec3, normal: Vec3, view: View, bounds: { min: Vec3; max: Vec3 }): View {
-  const back = unit(sub(view.position, view.target));
-  const flat = unit(sub(back, scaled(normal, dot(back, normal))));
+  const middle = bounds.min.map((v, i) => (v + bounds.max[i]!) / 2) as Vec3;
+  const inward = sub(middle, at);
+  const flat = sub(inward, scaled(normal, dot(inward, normal)));
+  const back = Math.hypot(...flat) > 0.5 ? flat : sub(view.position, view.target);
+  const away = unit(sub(back, scaled(normal, dot(back, normal))));
   const from = at.map((v, i) => {
     const margin = 0.05 * (bounds.max[i]! - bounds.min[i]!);
-    const wanted = v + 2 * flat[i]! + 1.2 * normal[i]!;
-    return Math.min(Math.max(wanted, bounds.min[i]! + margin), bounds.max[i]! - margin);
+    return Math.min(Math.max(v + 2 * away[i]! + 1.2 * normal[i]!, bounds.min[i]! + margin), bounds.max[i]! - margin);
   }) as Vec3;
   return { position: from, target: at, fovDeg: view.fovDeg };
 }

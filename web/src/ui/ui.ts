@@ -1,6 +1,7 @@
 // What the parts of the page share.
 
 import type { Mode, Settings, Source, Viewer } from '../contract';
+import type { Reading } from '../wire';
 import type { Notices } from './notices';
 import type { Panel } from './panel';
 
@@ -65,4 +66,18 @@ export function sideNames(viewer: Viewer, compare: Settings['compare']): [string
   const left = viewer.scene.file || viewer.scene.name;
   const right = viewer.otherScene?.file ?? viewer.scene.other ?? 'other map';
   return [left, right];
+}
+
+export function isDimmed({ settings }: Viewer): boolean {
+  return settings.dimming.some((factor) => factor !== 1);
+}
+
+/** Reads the light as it is shown: a server knows the map undimmed only, so dimmed light is interpolated. */
+export async function readShown({ viewer }: Ui, x: number, y: number, signal: AbortSignal): Promise<Reading | null> {
+  return (isDimmed(viewer) ? viewer.glanceAt(x, y) : null) ?? viewer.readAt(x, y, signal);
+}
+
+/** What has to be said of figures that a server finds: they are of the map as it was computed. */
+export function undimmedNote({ viewer, source }: Ui): string | null {
+  return isDimmed(viewer) && source.hello.readings === 'probe' ? 'These are values of the map undimmed; the dimmers do not act on them.' : null;
 }

@@ -15,3 +15,5 @@ mod lint;
 mod pictures;
 mod ran;
 mod results;
+#[cfg(unix)]
+mod walking;

@@ -10,6 +10,7 @@ use super::steering::Steering;
 use super::world::World;
 use crate::failure::Failure;
 use crate::flags::ServerFlags;
+use crate::interrupt::Interrupt;
 use crate::notes::{Note, note};
 use crate::viewpoint;
 use crate::walk::{ALL_LIGHT, Hello, grids_of_map, told};
@@ -141,7 +142,9 @@ impl Live {
             return;
         }
         note(Note::Info, "the page is served until it is closed, or until Ctrl-C");
-        while self.server.viewers() > 0 {
+        let interrupt = Interrupt::install();
+        let is_interrupted = || interrupt.as_ref().is_ok_and(Interrupt::is_requested);
+        while self.server.viewers() > 0 && !is_interrupted() {
             thread::sleep(LINGERS);
         }
     }
