@@ -5,7 +5,7 @@
 //! of other origins; where others can connect, they must know a token.
 //!
 //! ```no_run
-//! use isolux_serve::{Control, Feed, Gone, Page, RayAsked, Settings, Shown, serve};
+//! use isolux_serve::{Control, Feed, Gone, Page, Question, Settings, Shown, serve};
 //! use std::sync::Arc;
 //!
 //! struct Nothing;
@@ -16,7 +16,7 @@
 //!     fn scene(&self, _: usize) -> Option<Arc<[u8]>> { None }
 //!     fn mesh(&self, _: usize) -> Option<Arc<[u8]>> { None }
 //!     fn light(&self, _: usize, _: u64, _: u64) -> Option<Vec<u8>> { None }
-//!     fn read(&self, _: usize, _: &[RayAsked], _: &Gone) -> Result<Vec<u8>, String> {
+//!     fn read(&self, _: usize, _: &Question, _: &Gone) -> Result<Vec<u8>, String> {
 //!         Err("nothing is shown".to_owned())
 //!     }
 //!     fn grids(&self, _: usize) -> Result<Arc<[u8]>, String> {
@@ -58,5 +58,5 @@ pub use feed::{Feed, Point};
 pub use page::Page;
 pub use server::{Server, serve};
 pub use settings::{Limits, Settings};
-pub use shown::{Control, Gone, RayAsked, Shown};
+pub use shown::{Control, Gone, Question, RayAsked, Shown};
 pub use stopping::Stopper;

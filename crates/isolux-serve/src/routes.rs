@@ -5,7 +5,7 @@ use crate::body;
 use crate::events;
 use crate::page;
 use crate::query::number;
-use crate::shown::{Control, Gone, RayAsked};
+use crate::shown::{Control, Gone, Question};
 use crate::site::Site;
 use axum::Router;
 use axum::body::{Body, Bytes};
@@ -13,11 +13,7 @@ use axum::extract::State;
 use axum::http::{StatusCode, Uri};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{MethodFilter, MethodRouter, on, post};
-use serde::Deserialize;
 use std::sync::Arc;
-
-/// More rays are not asked for at once.
-const MAX_RAYS: usize = 256;
 
 const NOT_FOUND: Refusal = Refusal::new(StatusCode::NOT_FOUND, "there is nothing here");
 const NOT_ALLOWED: Refusal =
@@ -93,26 +89,15 @@ async fn watch(State(site): Here) -> Answer {
     Ok(events::stream(&site.feed, seat, site.stopping.clone(), site.limits.keep_alive))
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Question {
-    world: u64,
-    rays: Vec<RayAsked>,
-}
-
 async fn read(State(site): Here, body: Body) -> Answer {
-    let Question { world, rays } = body::json(body, site.limits.patience).await?;
-    if !(1..=MAX_RAYS).contains(&rays.len()) {
-        return Err(Refusal::bad(format!("from 1 to {MAX_RAYS} rays can be asked for at once")));
+    let asked: Question = body::json(body, site.limits.patience).await?;
+    if let Some(problem) = asked.problem() {
+        return Err(Refusal::bad(problem));
     }
-    if let Some(k) = rays.iter().position(|ray| !ray.is_ray()) {
-        return Err(Refusal::bad(format!(
-            "rays[{k}] has no origin or no direction of some length"
-        )));
-    }
+    let world = asked.world;
     let asker = Asker::default();
     let gone = asker.0.clone();
-    let call = site.about(&site.gates.readings, world, move |s, w| s.read(w, &rays, &gone));
+    let call = site.about(&site.gates.readings, world, move |s, w| s.read(w, &asked, &gone));
     call.await?.map(json).map_err(Refusal::not_now)
 }
 

@@ -25,13 +25,44 @@ pub trait Shown: Send + Sync + 'static {
 
     /// Readings along rays, one for each, as JSON: `{"readings": [...]}`. Work for somebody who
     /// is gone may be given up, with any result.
-    fn read(&self, world: usize, rays: &[RayAsked], gone: &Gone) -> Result<Vec<u8>, String>;
+    fn read(&self, world: usize, asked: &Question, gone: &Gone) -> Result<Vec<u8>, String>;
 
     /// The tables of the measuring grids of a world, as JSON.
     fn grids(&self, world: usize) -> Result<Arc<[u8]>, String>;
 
     /// Does with the run what is asked; an error where no run is under way.
     fn control(&self, what: Control) -> Result<(), String>;
+}
+
+/// More rays are not asked for at once, and more layers of light are dimmed by nobody.
+const MAX_RAYS: usize = 256;
+const MAX_LAYERS: usize = 256;
+
+/// What somebody wants to read.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Question {
+    pub(crate) world: u64,
+    /// Along which rays.
+    pub rays: Vec<RayAsked>,
+    /// What each layer of light is multiplied by: finite, not negative; none: as they are.
+    #[serde(default)]
+    pub dimming: Vec<f64>,
+}
+
+impl Question {
+    /// What is wrong with it.
+    pub(crate) fn problem(&self) -> Option<String> {
+        if !(1..=MAX_RAYS).contains(&self.rays.len()) {
+            return Some(format!("from 1 to {MAX_RAYS} rays can be asked for at once"));
+        }
+        if let Some(k) = self.rays.iter().position(|ray| !ray.is_ray()) {
+            return Some(format!("rays[{k}] has no origin or no direction of some length"));
+        }
+        let is_dimming = |by: &f64| by.is_finite() && *by >= 0.0;
+        let is_sound = self.dimming.len() <= MAX_LAYERS && self.dimming.iter().all(is_dimming);
+        (!is_sound).then(|| "`dimming` must hold numbers that are not negative".to_owned())
+    }
 }
 
 /// A ray along which somebody wants a reading: finite numbers, and the square of the length of

@@ -4,7 +4,7 @@ use super::fineness::finer;
 use super::told::{ALL_LIGHT, told};
 use crate::failure::Failure;
 use crate::{mix, viewpoint};
-use isolux::engine::{MixPart, mix_apart};
+use isolux::engine::{MixPart, Mixed, mix_apart};
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::Scene;
 use isolux_formats::walk::{self, Light, Mesh};
@@ -22,7 +22,9 @@ pub(crate) struct Opened {
     /// Names of the layers of its light.
     layers: Vec<String>,
     /// Of each layer the values at the vertices; none where there is one layer alone.
-    parts: Vec<Vec<Option<Illuminance>>>,
+    values: Vec<Vec<Option<Illuminance>>>,
+    /// The maps of the layers; none where there is one layer alone.
+    parts: Vec<mix::Part>,
 }
 
 impl Opened {
@@ -30,28 +32,46 @@ impl Opened {
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let mut parts = mix::parts_of(path, 1.0)?;
         if parts.len() > 1 {
-            return Self::of_groups(path, &parts);
+            return Self::of_groups(path, parts);
         }
         let part = parts.remove(0);
         let (scene, map) = (Arc::new(part.scene), Arc::new(part.map));
         let layers = vec![ALL_LIGHT.to_owned()];
-        Ok(Self { path: path.to_owned(), scene, map, layers, parts: Vec::new() })
+        let path = path.to_owned();
+        Ok(Self { path, scene, map, layers, values: Vec::new(), parts: Vec::new() })
     }
 
-    fn of_groups(path: &Path, parts: &[mix::Part]) -> Result<Self, Failure> {
-        let asked: Vec<MixPart<'_>> = parts.iter().map(mix::Part::asked).collect();
-        let mixed = mix_apart(&asked).map_err(|error| mix::failure(&error, parts))?;
-        let lit: Vec<&mix::Part> = parts.iter().filter(|part| part.dimming > 0.0).collect();
-        let dimmed = |(part, values): (&&mix::Part, Vec<Option<Illuminance>>)| {
+    fn of_groups(path: &Path, mut parts: Vec<mix::Part>) -> Result<Self, Failure> {
+        parts.retain(|part| part.dimming > 0.0);
+        let mixed = mixed(&parts)?;
+        let dimmed = |(part, values): (&mix::Part, Vec<Option<Illuminance>>)| {
             values.into_iter().map(|value| value.map(|value| value.dimmed(part.dimming))).collect()
         };
         Ok(Self {
             path: path.to_owned(),
             scene: Arc::new(mixed.scene),
             map: Arc::new(mixed.map),
-            layers: lit.iter().map(|part| mix::lit_groups(&part.scene).join(", ")).collect(),
-            parts: lit.iter().zip(mixed.parts).map(dimmed).collect(),
+            layers: parts.iter().map(|part| mix::lit_groups(&part.scene).join(", ")).collect(),
+            values: parts.iter().zip(mixed.parts).map(dimmed).collect(),
+            parts,
         })
+    }
+
+    /// Scene and map with each layer dimmed, as `mix` makes them; those of the file if none is named. `None`: nothing is left of the light.
+    pub(crate) fn dimmed(&self, dimming: &[f64]) -> Option<(Arc<Scene>, Arc<IlluminationMap>)> {
+        if dimming.iter().all(|by| *by == 1.0) || !self.has_groups() {
+            return Some((Arc::clone(&self.scene), Arc::clone(&self.map)));
+        }
+        let part = |(part, by): (&'_ mix::Part, &f64)| (part.dimming * by).max(0.0);
+        let factors: Vec<f64> = self.parts.iter().zip(dimming).map(part).collect();
+        let asked: Vec<MixPart<'_>> = self
+            .parts
+            .iter()
+            .zip(factors)
+            .map(|(part, dimming)| MixPart { dimming, ..part.asked() })
+            .collect();
+        let (scene, map) = isolux::engine::mix(&asked).ok()?;
+        Some((Arc::new(scene), Arc::new(map)))
     }
 
     /// The name of its file.
@@ -84,7 +104,7 @@ impl Opened {
         let mesh = Mesh::new(&self.scene, &self.map, 1);
         let mut light = Light::new(&mesh, &self.map);
         if self.has_groups() {
-            light = light.with_layers(&mesh, &self.parts);
+            light = light.with_layers(&mesh, &self.values);
         }
         if let Some(other) = other.filter(|other| self.is_alike(other)) {
             light = light.beside((&self.scene, &mesh), &self.map, &other.map);
@@ -99,4 +119,9 @@ impl Opened {
         let light = Light::new(&mesh, &map);
         (mesh, light)
     }
+}
+
+fn mixed(parts: &[mix::Part]) -> Result<Mixed, Failure> {
+    let asked: Vec<MixPart<'_>> = parts.iter().map(mix::Part::asked).collect();
+    mix_apart(&asked).map_err(|error| mix::failure(&error, parts))
 }

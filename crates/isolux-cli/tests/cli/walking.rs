@@ -108,6 +108,49 @@ fn what_is_under_the_pointer_is_what_probe_says() {
     assert_eq!(serving.end(), 0);
 }
 
+const ROOM: &str = r#"
+name = "room"
+[materials.paint]
+diffuse = 0.6
+[[geometry]]
+name = "room"
+box = { min = [0, 0, 0], max = [4, 5, 2.8], inward = true }
+material = "paint"
+[[luminaire]]
+position = [1, 2.5, 2.5]
+spot = { peak_cd = 900, inner_deg = 30, outer_deg = 60 }
+group = "left"
+[[luminaire]]
+position = [3, 2.5, 2.5]
+spot = { peak_cd = 400, inner_deg = 30, outer_deg = 60 }
+group = "right"
+"#;
+
+#[test]
+fn what_is_read_in_dimmed_light_is_what_mix_makes() {
+    let home = Home::new();
+    home.file("room.toml", ROOM);
+    let ran = home.run(&["solve", "room.toml", "-o", "room.glb", "--accuracy", "4%", "--group"]);
+    assert_eq!(ran.code, 0, "{ran:?}");
+    let serving = Serving::start(&home, &["view", "room.glb", "--no-open"]);
+    let ray = json!({ "origin": [2.0, 2.0, 1.0], "direction": [0.1, 0.2, -1.0] });
+    let asked = json!({ "world": 0, "rays": [ray], "dimming": [0.3, 1.0] });
+    let reading = &serving.json("POST", "/api/read", &asked)["readings"][0];
+    let mixed = home.run(&["mix", "room.glb", "--dim", "left=30%", "-o", "evening.glb"]);
+    assert_eq!(mixed.code, 0, "{mixed:?}");
+    let place = reading["position"].as_array().unwrap().iter().map(Value::to_string);
+    home.file("p.pts", format!("{} 0 0 1\n", place.collect::<Vec<_>>().join(" ")));
+    let said = home.run(&["probe", "evening.glb", "--points", "p.pts", "--json"]).json();
+    for name in ["illuminance_lx", "standard_error_lx"] {
+        assert_eq!(reading[name], said["points"][0][name], "{name}");
+    }
+    let dark = json!({ "world": 0, "rays": [ray], "dimming": [0.0, 0.0] });
+    assert_eq!(serving.ask("POST", "/api/read", &dark.to_string()).0, 409);
+    let wrong = json!({ "world": 0, "rays": [ray], "dimming": [-1.0, 0.0] });
+    assert_eq!(serving.ask("POST", "/api/read", &wrong.to_string()).0, 400);
+    assert_eq!(serving.end(), 0);
+}
+
 #[test]
 fn a_run_that_is_watched_paused_and_aimed_anew_has_the_bits_of_one_that_is_not() {
     let home = Home::new();

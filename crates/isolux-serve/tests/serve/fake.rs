@@ -1,6 +1,6 @@
 //! Something to show: two worlds, the second without a mesh.
 
-use isolux_serve::{Control, Feed, Gone, Limits, Page, RayAsked, Server, Settings, Shown, serve};
+use isolux_serve::{Control, Feed, Gone, Limits, Page, Question, Server, Settings, Shown, serve};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::sleep;
@@ -52,9 +52,9 @@ impl Shown for Fake {
         (mesh == 1).then(|| format!("light {world} since {since}").into_bytes())
     }
 
-    fn read(&self, _: usize, rays: &[RayAsked], gone: &Gone) -> Result<Vec<u8>, String> {
+    fn read(&self, _: usize, asked: &Question, gone: &Gone) -> Result<Vec<u8>, String> {
         self.begun.fetch_add(1, Ordering::SeqCst);
-        let first = rays[0].origin[0];
+        let first = asked.rays[0].origin[0];
         if first == FAILING {
             return Err("no surface has light yet".to_owned());
         }
@@ -63,7 +63,7 @@ impl Shown for Fake {
             until(|| gone.is_gone() || self.go.load(Ordering::SeqCst));
             self.left.fetch_add(usize::from(gone.is_gone()), Ordering::SeqCst);
         }
-        Ok(format!("{{\"readings\":[{}]}}", rays.len()).into_bytes())
+        Ok(format!("{{\"readings\":[{}]}}", asked.rays.len()).into_bytes())
     }
 
     fn grids(&self, world: usize) -> Result<Arc<[u8]>, String> {

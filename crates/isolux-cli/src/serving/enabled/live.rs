@@ -124,7 +124,8 @@ impl Live {
         }
         let scene = Arc::clone(place.world.scene());
         // A run ends once.
-        let _ = place.reader.set(Reader::start(Arc::clone(&scene), Arc::clone(&map)));
+        let lit = (Arc::clone(&scene), Arc::clone(&map));
+        let _ = place.reader.set(Reader::start(Box::new(move |_| Some(lit.clone()))));
         let of_grids = Arc::clone(&map);
         let _ = place.grids.set(Box::new(move || grids_of_map(&scene, &of_grids)));
         let is_complete = map.provenance.complete;

@@ -21,7 +21,7 @@ const WAITING: usize = 64;
 
 /// A ray in the coordinates of the scene as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct RayAsked {
+pub(super) struct RayAsked {
     /// Where it begins.
     pub origin: [f64; 3],
     /// Where it goes, of any length but zero.
@@ -30,7 +30,7 @@ pub(crate) struct RayAsked {
 
 /// What is known of a place, as `web/src/wire.ts` has it.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Reading {
+pub(super) struct Reading {
     position: Option<[f64; 3]>,
     normal: Option<[f64; 3]>,
     shape: String,
@@ -45,42 +45,74 @@ pub(crate) struct Reading {
     found: &'static str,
 }
 
+/// What is read: the scene and its map with layers of light dimmed; `None` where no light is left.
+pub(super) type Dimmed =
+    Box<dyn Fn(&[f64]) -> Option<(Arc<Scene>, Arc<IlluminationMap>)> + Send + Sync>;
+
 /// Reads a map by rays, in a thread of its own, since what it prepares for that lives as long.
-pub(crate) struct Reader {
+pub(super) struct Reader {
     asked: SyncSender<Asked>,
 }
 
-/// Rays, whether the asker still waits, and where the answer goes.
-type Asked = (Vec<RayAsked>, Box<dyn Fn() -> bool + Send + Sync>, SyncSender<Vec<Reading>>);
+/// Rays in dimmed light, whether the asker still waits, and where the answer goes.
+struct Asked {
+    rays: Vec<RayAsked>,
+    dimming: Vec<f64>,
+    is_wanted: Box<dyn Fn() -> bool + Send + Sync>,
+    answer: SyncSender<Vec<Reading>>,
+}
 
 impl Reader {
     /// Begins to prepare; readings wait until it has.
-    pub(crate) fn start(scene: Arc<Scene>, map: Arc<IlluminationMap>) -> Self {
+    pub(super) fn start(dimmed: Dimmed) -> Self {
         let (asked, askers) = sync_channel(WAITING);
-        thread::spawn(move || answer(&scene, &map, &askers));
+        thread::spawn(move || answer(&dimmed, &askers));
         Self { asked }
     }
 
-    /// The readings; `None` if too many ask, or the asker has gone.
-    pub(crate) fn read(
+    /// The readings; `None` if too many ask, the asker has gone, or no light is left.
+    pub(super) fn read(
         &self,
-        rays: Vec<RayAsked>,
+        (rays, dimming): (Vec<RayAsked>, Vec<f64>),
         is_wanted: Box<dyn Fn() -> bool + Send + Sync>,
     ) -> Option<Vec<Reading>> {
         let (answer, answered) = sync_channel(1);
-        self.asked.try_send((rays, is_wanted, answer)).ok()?;
+        self.asked.try_send(Asked { rays, dimming, is_wanted, answer }).ok()?;
         answered.recv().ok()
     }
 }
 
-fn answer(scene: &Scene, map: &IlluminationMap, askers: &Receiver<Asked>) {
-    let reader = MapReader::new(scene, map);
-    for (rays, is_wanted, answer) in askers {
-        let read = |ray: &RayAsked| is_wanted().then(|| by_probe(scene, &reader, ray));
-        let readings: Option<Vec<Reading>> = rays.par_iter().map(read).collect();
+fn answer(dimmed: &Dimmed, askers: &Receiver<Asked>) {
+    let mut dimming = Vec::new();
+    let mut waiting: Option<Asked> = None;
+    loop {
+        let lit = dimmed(&dimming);
+        let reader = lit.as_ref().map(|(scene, map)| (&**scene, MapReader::new(scene, map)));
+        loop {
+            let Some(asked) = waiting.take().or_else(|| askers.recv().ok()) else { return };
+            if asked.dimming != dimming {
+                // Whoever has gone meanwhile needs no other light.
+                if (asked.is_wanted)() {
+                    dimming.clone_from(&asked.dimming);
+                    waiting = Some(asked);
+                    break;
+                }
+                continue;
+            }
+            if let Some((scene, reader)) = &reader {
+                asked.answer_by(scene, reader);
+            }
+        }
+    }
+}
+
+impl Asked {
+    fn answer_by(&self, scene: &Scene, reader: &MapReader<'_>) {
+        let read = |ray: &RayAsked| (self.is_wanted)().then(|| by_probe(scene, reader, ray));
+        let readings: Option<Vec<Reading>> = self.rays.par_iter().map(read).collect();
         // Who has gone needs no answer.
         if let Some(readings) = readings {
-            let _ = answer.send(readings);
+            let _ = self.answer.send(readings);
         }
     }
 }
@@ -90,7 +122,7 @@ fn by_probe(scene: &Scene, reader: &MapReader<'_>, ray: &RayAsked) -> Reading {
 }
 
 /// The same interpolated between the vertices of a map, which takes no time.
-pub(crate) fn from_vertices(scene: &Scene, map: &IlluminationMap, ray: &RayAsked) -> Reading {
+pub(super) fn from_vertices(scene: &Scene, map: &IlluminationMap, ray: &RayAsked) -> Reading {
     let read =
         |hit: &Hit, _| map.interpolate(hit.triangle, hit.back, f64::from(hit.u), f64::from(hit.v));
     reading(scene, ray, "vertices", &read)

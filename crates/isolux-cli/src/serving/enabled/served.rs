@@ -5,7 +5,7 @@ use super::state::State;
 use super::steering::Steering;
 use super::world::World;
 use crate::walk::Hello;
-use isolux_serve::{Control, Feed, Gone, RayAsked, Shown};
+use isolux_serve::{Control, Feed, Gone, Question, Shown};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// What makes the calculation grids of a world, as JSON.
@@ -75,9 +75,10 @@ impl Shown for Served {
         self.place(world)?.world.light_bytes(mesh, since)
     }
 
-    fn read(&self, world: usize, rays: &[RayAsked], gone: &Gone) -> Result<Vec<u8>, String> {
+    fn read(&self, world: usize, asked: &Question, gone: &Gone) -> Result<Vec<u8>, String> {
         let place = self.place(world).ok_or("there is no such map")?;
-        let asked: Vec<readings::RayAsked> = rays
+        let rays: Vec<readings::RayAsked> = asked
+            .rays
             .iter()
             .map(|ray| readings::RayAsked { origin: ray.origin, direction: ray.direction })
             .collect();
@@ -85,12 +86,15 @@ impl Shown for Served {
             Some(reader) => {
                 let gone = gone.clone();
                 let is_wanted = Box::new(move || !gone.is_gone());
-                reader.read(asked, is_wanted).ok_or("too many ask at once; ask again")?
+                let dimming = asked.dimming.clone();
+                reader
+                    .read((rays, dimming), is_wanted)
+                    .ok_or("no light is left, or too many ask")?
             }
             None => {
                 let map = place.world.map().ok_or("there is no light yet")?;
                 let read = |ray| readings::from_vertices(place.world.scene(), &map, ray);
-                asked.iter().map(read).collect()
+                rays.iter().map(read).collect()
             }
         };
         let answer = serde_json::json!({ "readings": readings });

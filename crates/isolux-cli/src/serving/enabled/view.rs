@@ -31,7 +31,7 @@ pub(crate) fn view(flags: &ViewFlags, json: bool) -> Result<Outcome, Failure> {
     let names = maps.iter().map(|map| (map.scene.name().to_owned(), map.file())).collect();
     let places = maps.iter().enumerate().map(|(number, map)| {
         let other = maps.iter().enumerate().find(|(k, _)| *k != number).map(|(_, map)| &**map);
-        Ok(place(map, other)?)
+        place(map, other)
     });
     let method = maps[0].map.provenance.method;
     let served = Arc::new(Served {
@@ -65,8 +65,8 @@ fn place(map: &Arc<Opened>, other: Option<&Opened>) -> Result<Place, Failure> {
     let (mesh, light) = map.drawn(other);
     world.draw(mesh, light, Arc::clone(&map.map));
     let place = Place::new(world);
-    let reader = Reader::start(Arc::clone(&map.scene), Arc::clone(&map.map));
-    let of_grids = Arc::clone(map);
+    let (of_reader, of_grids) = (Arc::clone(map), Arc::clone(map));
+    let reader = Reader::start(Box::new(move |dimming| of_reader.dimmed(dimming)));
     // Both are set here alone.
     let _ = place.reader.set(reader);
     let _ = place.grids.set(Box::new(move || grids_of_map(&of_grids.scene, &of_grids.map)));

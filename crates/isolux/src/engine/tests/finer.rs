@@ -46,7 +46,7 @@ fn off_lx(scene: &Scene, of: &IlluminationMap, map: &IlluminationMap) -> f64 {
         let ([a, b], pick) = (dice.pair(), dice.pair()[0]);
         let (u, v) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
         let triangle = floor[(pick * floor.len() as f64) as usize];
-        let back = !map.interpolate(triangle, false, u, v).is_some();
+        let back = map.interpolate(triangle, false, u, v).is_none();
         let true_lx = reader.glance((triangle, back, [u, v]), 0, None)?.illuminance_lx();
         let shown_lx = of.interpolate(triangle, back, u, v)?.illuminance_lx();
         Some((shown_lx - true_lx).powi(2))
