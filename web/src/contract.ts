@@ -11,9 +11,11 @@ export interface Source {
   scene(world: number): Promise<ArrayBuffer>;
   mesh(world: number): Promise<ArrayBuffer>;
   light(world: number, mesh: number, since: number): Promise<ArrayBuffer>;
-  /** Only where `hello.readings` is `probe`. A new request ends the one before (AbortSignal). */
-  read(world: number, ray: RayAsked, signal: AbortSignal): Promise<Reading>;
-  section(world: number, rays: RayAsked[], signal: AbortSignal): Promise<Reading[]>;
+  /**
+   * Readings along rays, only where `hello.readings` is `probe`; with each layer of light dimmed, if `dimming` holds a factor for each. A new
+   * request ends the one before (AbortSignal).
+   */
+  read(world: number, rays: RayAsked[], dimming: number[], signal: AbortSignal): Promise<Reading[]>;
   grids(world: number): Promise<GridTable[]>;
   control(what: Control): Promise<void>;
   /** Follows a run: calls back with every state; reconnects by itself and says whether it is connected. */

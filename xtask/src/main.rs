@@ -9,6 +9,7 @@ mod grids;
 mod hall;
 mod judge;
 mod lamps;
+mod page;
 mod peers;
 mod smoke;
 mod test;
@@ -23,6 +24,7 @@ const USAGE: &str = "\
 cargo xtask test    everything that must hold before a change lands
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
+cargo xtask page    of it, the tests of the walk-through's page, and whether its built file is that of its sources
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask compared      of it, all systems by error against time, as short as it can be
@@ -45,6 +47,7 @@ fn main() -> ExitCode {
         ["test"] => test::run(root),
         ["tidy"] => tidy::run(root),
         ["smoke"] => test::smoke_and_judge(root),
+        ["page"] => page::run(root),
         ["lamps"] => lamps::run(root),
         ["colours"] => colours::run(root),
         ["compared"] => compared::run(root),

@@ -10,7 +10,7 @@ export function embeddedSource(hello: string): Source {
     scene: (world) => unpacked(`isolux-scene-${world}`),
     mesh: (world) => unpacked(`isolux-mesh-${world}`),
     light: (world) => unpacked(`isolux-light-${world}`),
-    read: none, section: none, control: none,
+    read: none, control: none,
     grids: async (world) => JSON.parse(new TextDecoder().decode(await unpacked(`isolux-grids-${world}`, '[]'))) as GridTable[],
     follow: () => {},
   };

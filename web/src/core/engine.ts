@@ -1,22 +1,12 @@
 // The loop: it draws when something has changed, and rests otherwise.
 
-import type { WebGLRenderer } from 'three';
-import type { Settings } from '../contract';
 import { Edges } from './edges';
-import type { Emitter } from './emitter';
 import { Adaptation, logAverage, Meter, MIDDLE_GREY, whiteOfEv, type Sample } from './exposure';
-import type { Quality } from './graphics';
 import { labelsOf } from './labels';
-import type { Luminaires } from './luminaires';
-import type { Marks } from './marks';
 import type { Model } from './model';
-import type { Navigation } from './navigation';
 import { Painter, type Side } from './painter';
-import type { Shown } from './shown';
-import type { Uniforms } from './uniforms';
-import { mixesOf, type World } from './worlds';
-
-export type EventName = 'view' | 'settings' | 'light' | 'exposure' | 'legend' | 'navigation';
+import type { Parts } from './parts';
+import { mixesOf } from './worlds';
 
 /** Time for mixing light in a frame, ms. */
 const MIXING_MS = 10;
@@ -24,23 +14,10 @@ const MIXING_MS = 10;
 const REST_MS = 250;
 /** Between readings of the exposure while something moves, ms. */
 const METER_MS = 150;
-
-export interface Parts {
-  renderer: WebGLRenderer;
-  uniforms: Uniforms;
-  quality: Quality;
-  navigation: Navigation;
-  shown: Shown;
-  marks: Marks;
-  luminaires: Luminaires;
-  worlds: World[];
-  events: Emitter<EventName>;
-  settings: Settings;
-  white: number;
-  canvas: HTMLCanvasElement;
-  /** Whether something is in the way; asked for marks. */
-  hidden: (model: Model) => (at: import('three').Vector3) => boolean;
-}
+/** And at least so many frames. */
+const METER_FRAMES = 5;
+/** With fewer frames in a second exposure does not follow smoothly: it jumps. */
+const SMOOTH_FPS = 8;
 
 export class Engine {
   readonly adaptation: Adaptation;
@@ -54,6 +31,7 @@ export class Engine {
   #before = 0;
   #wasMoving = false;
   #metered = 0;
+  #hasJumped = true;
   /** When something moved last. */
   #moving = -1e9;
   #size = '';
@@ -95,11 +73,11 @@ export class Engine {
   #frame(now: number): void {
     this.#isAsked = false;
     const { navigation, quality } = this.parts;
-    const passed = this.#wasMoving ? Math.min(0.25, (now - this.#before) / 1000) : 1 / 60;
+    const passed = this.#wasMoving ? Math.min(1, (now - this.#before) / 1000) : 1 / 60;
     if (this.#wasMoving && quality.took(now - this.#before)) this.#isDirty = true;
     this.#before = now;
     this.#resize(!this.#wasMoving && now - this.#moving > REST_MS);
-    const moves = navigation.update(passed);
+    const moves = navigation.update(Math.min(0.25, passed));
     const hasMoved = navigation.hasMoved();
     const mixed = this.#mix();
     const adapts = this.#adapt(passed);
@@ -107,12 +85,25 @@ export class Engine {
     if (this.#isDirty || hasMoved || mixed || adapts) this.#draw();
     const rests = !moves && !hasMoved && !this.#model?.isWaiting;
     this.#measure(now, rests);
-    const isMoving = moves || hasMoved;
+    this.#goOn(now, moves || hasMoved, adapts);
+  }
+
+  #goOn(now: number, isMoving: boolean, adapts: boolean): void {
     if (isMoving) this.#moving = now;
-    // What rests is drawn once more, finer.
-    else if (this.#wasMoving) setTimeout(() => this.#ask(), REST_MS + 20);
+    else if (this.#wasMoving) setTimeout(() => this.#settle(), REST_MS + 20);
     this.#wasMoving = isMoving || adapts;
     if (this.#wasMoving || this.#isDirty || this.#model?.isWaiting || this.#isMeterOld) this.#ask();
+  }
+
+  /** What rests is drawn once more, finer. */
+  #settle(): void {
+    if (this.parts.quality.level === 0) this.#isDirty = true;
+    this.#ask();
+  }
+
+  /** The camera has been put elsewhere: exposure does not follow slowly. */
+  jump(): void {
+    this.#hasJumped = true;
   }
 
   #moved(): void {
@@ -179,7 +170,7 @@ export class Engine {
     else this.#edges.clear();
     luminaires.show(settings.luminaires, settings.mode === 'seen');
     if (!worlds[0]!.model) return this.parts.renderer.clear();
-    this.#painter.paint(this.#sides(), settings.split);
+    this.#painter.paint(this.#sides(), settings.split, this.#wasMoving);
     this.drawMarks();
     this.#first?.();
     this.#first = null;
@@ -204,28 +195,31 @@ export class Engine {
 
   drawMarks(): void {
     const { marks, navigation, canvas, hidden } = this.parts;
-    if (this.#model) marks.draw(navigation.camera, canvas.clientWidth, canvas.clientHeight, hidden(this.#model));
+    if (this.#model) marks.draw(navigation.camera, canvas.clientWidth, canvas.clientHeight, hidden());
   }
 
   /** Reads the exposure, and where isolux lines run; when all rests, once more. */
   #measure(now: number, rests: boolean): void {
-    const { renderer, worlds, navigation, uniforms } = this.parts;
+    const { renderer, worlds, navigation, uniforms, quality } = this.parts;
     const model = this.#model;
     if (!model) this.#isMeterOld = false;
-    if (!model || !this.#isMeterOld || this.#meter.isBusy || (!rests && now - this.#metered < METER_MS)) return;
+    if (!model || !this.#isMeterOld || this.#meter.isBusy || (!rests && now - this.#metered < Math.max(METER_MS, METER_FRAMES * quality.frameMs))) return;
     this.#metered = now;
     if (rests) this.#isMeterOld = false;
     if (rests && this.#painter.renewSurroundings({ world: worlds[0]!, side: 0 })) this.#isDirty = true;
     uniforms.uSide.value = 0;
     model.materials.glassAdds(true);
     const reading = this.#meter.read(renderer, worlds[0]!.root, navigation.camera, uniforms);
-    reading.then((sample) => this.#read(sample, rests), () => {});
+    const jumps = this.#hasJumped;
+    this.#hasJumped = false;
+    reading.then((sample) => this.#read(sample, rests, jumps), () => {});
   }
 
-  #read(sample: Sample, rests: boolean): void {
-    const { settings, marks, shown, canvas } = this.parts;
+  #read(sample: Sample, rests: boolean, jumps: boolean): void {
+    const { settings, marks, shown, canvas, quality } = this.parts;
     this.#sample = sample;
     const mean = logAverage(sample);
+    if (jumps || quality.fps < SMOOTH_FPS) this.adaptation.jump();
     if (settings.autoExposure) this.adaptation.want((mean ?? MIDDLE_GREY) / MIDDLE_GREY);
     const isStill = rests && !this.#wasMoving;
     marks.labels = isStill && shown.lines.length > 0 && settings.compare === 'off' ? labelsOf(sample, shown.lines, canvas.clientWidth, canvas.clientHeight) : [];

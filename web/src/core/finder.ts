@@ -19,7 +19,10 @@ export class Finder {
   #model: Model | null = null;
   #building: AbortController | null = null;
 
-  constructor(readonly source: Source, readonly world: World, readonly navigation: Navigation, readonly canvas: HTMLCanvasElement, readonly built: (bvh: MeshBVH) => void) {}
+  constructor(
+    readonly source: Source, readonly world: World, readonly navigation: Navigation, readonly canvas: HTMLCanvasElement, readonly dimming: () => number[],
+    readonly built: (bvh: MeshBVH) => void,
+  ) {}
 
   /** Builds the tree of triangles of the mesh that is shown, unless a server can be asked instead. */
   async build(): Promise<void> {
@@ -56,8 +59,8 @@ export class Finder {
   async readAt(x: number, y: number, signal: AbortSignal): Promise<Reading | null> {
     const ray = this.#ray(x, y);
     if (!this.#asksServer) return this.glanceAt(x, y);
-    const reading = await this.source.read(0, this.#asked(...ray), signal);
-    return reading.position ? reading : null;
+    const [reading] = await this.#read([ray], signal);
+    return reading?.position ? reading : null;
   }
 
   #ray(x: number, y: number): [Vector3, Vector3] {
@@ -82,9 +85,17 @@ export class Finder {
       const t = i / (SECTION_RAYS - 1);
       return this.#ray(x0 + t * (x1 - x0), y0 + t * (y1 - y0));
     });
-    const all = this.#asksServer ? await this.source.section(0, rays.map((ray) => this.#asked(...ray)), signal) : rays.map((ray) => this.#glance(ray));
+    const all = this.#asksServer ? await this.#read(rays, signal) : rays.map((ray) => this.#glance(ray));
     signal.throwIfAborted();
     return { readings: measured(all), line: all.map((r) => (r.position ? this.inScene(r.position).addScaledVector(this.direction(r.normal ?? [0, 0, 0]), OFF) : null)) };
+  }
+
+  /** What the server reads in the light as it is dimmed; where that leaves no light, what the vertices tell. */
+  async #read(rays: [Vector3, Vector3][], signal: AbortSignal): Promise<Reading[]> {
+    const factors = this.dimming();
+    if (factors.every((factor) => factor === 0)) return rays.map((ray) => this.#glance(ray));
+    const dimming = factors.every((factor) => factor === 1) ? [] : factors;
+    return this.source.read(0, rays.map((ray) => this.#asked(...ray)), dimming, signal);
   }
 
   #glance(ray: [Vector3, Vector3]): Reading {

@@ -63,14 +63,18 @@ export class Quality {
     return this.level === 2 && !this.isSoftware ? 4 : 0;
   }
 
+  get frameMs(): number {
+    return this.#mean;
+  }
+
   get fps(): number {
     return 1000 / this.#mean;
   }
 
   /** A frame of a movement took so long; true if pictures are coarser from now on. */
   took(milliseconds: number): boolean {
-    if (milliseconds > 1000) return false;
-    this.#mean += 0.15 * (milliseconds - this.#mean);
+    if (milliseconds > 3000) return false;
+    this.#mean += 0.25 * (milliseconds - this.#mean);
     this.#slow = milliseconds > SLOW_MS ? this.#slow + 1 : Math.max(0, this.#slow - 2);
     if (this.how !== 'auto' || this.#slow < SLOW_FRAMES || this.#level === 0) return false;
     this.#level -= 1;

@@ -3,7 +3,7 @@
 import { Vector3 } from 'three';
 import type { Source } from '../contract';
 import type { GridTable } from '../wire';
-import type { Parts } from './engine';
+import type { Parts } from './parts';
 import { numberText } from './labels';
 import { colourOf } from './scale';
 

@@ -14,12 +14,14 @@ const LAMP_VERTEX = /* glsl */ `
 precision highp float;
 in vec2 corner;
 in vec3 at, way, tint;
+in float power;
 uniform mat4 viewMatrix, projectionMatrix;
 uniform float uSize, uLeast;
 out vec2 vCorner;
 out vec3 vTint;
-out float vFacing;
+out float vFacing, vPower;
 void main() {
+  vPower = power;
   vec4 eye = viewMatrix * vec4(at, 1.0);
   float radius = max(uSize, uLeast * -eye.z / projectionMatrix[1][1]);
   vec3 faces = (viewMatrix * vec4(way, 0.0)).xyz;
@@ -42,12 +44,12 @@ const LAMP_FRAGMENT = /* glsl */ `
 precision highp float;
 in vec2 vCorner;
 in vec3 vTint;
-in float vFacing;
+in float vFacing, vPower;
 uniform float uGlow;
 out vec4 colour;
 void main() {
   float r = length(vCorner);
-  float bright = smoothstep(-0.25, 0.25, vFacing);
+  float bright = smoothstep(-0.25, 0.25, vFacing) * min(1.0, vPower);
   float core = 1.0 - smoothstep(0.85, 1.1, r);
   vec3 tint = vTint / max(vTint.r, max(vTint.g, vTint.b));
   vec3 body = mix(vec3(0.22), mix(tint, vec3(1.0), 0.6), bright);
@@ -89,11 +91,14 @@ void main() {
 export class Luminaires {
   readonly #lamps: Mesh | null;
   readonly #solids: Mesh[];
+  /** The layer of light of each lamp, or -1. */
+  readonly #groups: number[];
   /** Lamps wait for the first picture. */
   isReady = false;
 
   constructor(scene: SceneHeader, parent: Object3D) {
     const placed = scene.luminaires.filter(({ kind, position }) => kind === 'point' && position);
+    this.#groups = placed.map(({ group }) => scene.layers.indexOf(scene.groups[group] ?? ''));
     this.#lamps = placed.length > 0 ? lamps(placed) : null;
     this.#solids = scene.solids.map((solid, i) => solids(solid, placed.filter((l) => l.solid === i))).filter((mesh) => mesh !== null);
     for (const mesh of [this.#lamps, ...this.#solids]) {
@@ -114,6 +119,14 @@ export class Luminaires {
     this.#solids.forEach((mesh) => (mesh.visible = this.isReady && how === 'solids'));
   }
 
+  /** Lamps of layers that are dimmed glow less. */
+  dim(factors: readonly number[]): void {
+    if (!this.#lamps) return;
+    const power = this.#lamps.geometry.getAttribute('power') as InstancedBufferAttribute;
+    this.#groups.forEach((layer, i) => power.setX(i, factors[layer] ?? 1));
+    power.needsUpdate = true;
+  }
+
   /** Lamps are at least this many device pixels wide on pictures of this height. */
   setHeight(pixels: number): void {
     if (this.#lamps) (this.#lamps.material as RawShaderMaterial).uniforms.uLeast!.value = 3.5 / pixels;
@@ -130,6 +143,7 @@ function instances(geometry: InstancedBufferGeometry, all: Luminaire[]): void {
   each('way', (l) => l.direction);
   each('side', (l) => l.c0);
   each('tint', (l) => l.colour);
+  geometry.setAttribute('power', new InstancedBufferAttribute(new Float32Array(all.length).fill(1), 1));
   geometry.instanceCount = all.length;
 }
 

@@ -17,6 +17,8 @@ const PIN_M = 0.25;
 /** With more points in sight than this, they have no numbers. */
 const MOST_NUMBERS = 400;
 const NEAREST_NUMBERS_PX = 26;
+/** More points than this are not asked whether something hides them. */
+const MOST_HIDDEN = 1500;
 
 export class Marks {
   readonly canvas = document.createElement('canvas');
@@ -50,7 +52,7 @@ export class Marks {
   }
 
   #drawGrids(project: Project, hidden: Hidden): void {
-    const seen = this.grids.map((mark) => ({ mark, at: project(mark.at) })).filter(({ at, mark }) => at && !hidden(mark.at));
+    const seen = this.grids.map((mark) => ({ mark, at: project(mark.at) })).filter(({ at, mark }) => at && (this.grids.length > MOST_HIDDEN || !hidden(mark.at)));
     const context = this.#context;
     for (const { mark, at } of seen) {
       const [x, y] = at!;

@@ -8,6 +8,7 @@ import type { LightStore, Range } from './light-store';
 import { Materials } from './materials';
 import { mix, WORDS, type Mix } from './mixing';
 import type { Plane } from './planes';
+import type { SceneTexture } from './textures';
 import { table, type Uniforms } from './uniforms';
 
 /** Layers of objects: what is drawn in every picture, and marks that are on the display alone. */
@@ -34,7 +35,7 @@ export class Model {
   isFine = false;
   readonly #ready = new Set<Material>();
 
-  constructor(readonly data: MeshData, readonly finishes: Finish[], textures: readonly IUniform<Texture>[], shared: Uniforms, public light: LightStore) {
+  constructor(readonly data: MeshData, readonly finishes: Finish[], readonly textures: readonly SceneTexture[], shared: Uniforms, public light: LightStore) {
     const { chunks } = data.header;
     const packed = packBatches(data, finishes);
     this.slots = packed.slots;

@@ -26,15 +26,15 @@ export class Painter {
     navigation.camera.layers.enable(LAYER.marks);
   }
 
-  /** Draws what is seen: one side, or two that meet at `split`. */
-  paint(sides: Side[], split: number): void {
+  /** Draws what is seen: one side, or two that meet at `split`. Where drawing is slow, mirrors wait until nothing moves. */
+  paint(sides: Side[], split: number, moves: boolean): void {
     const { renderer } = this;
     const { width, height } = renderer.domElement;
     renderer.info.reset();
     const target = this.#smooth.target(renderer, this.quality.samples);
     const at = Math.round(split * width);
     sides.forEach((side, k) => {
-      this.#prepare(side);
+      this.#prepare(side, !moves || this.quality.level > 0);
       renderer.setRenderTarget(target);
       if (sides.length > 1) scissor(renderer, target, k === 0 ? [0, at] : [at, width - at], height);
       renderer.render(side.world.root, this.navigation.camera);
@@ -44,11 +44,14 @@ export class Painter {
   }
 
   /** Draws the mirrors of a side, and sets what its picture needs. */
-  #prepare({ world, side }: Side): void {
+  #prepare({ world, side }: Side, mirrors: boolean): void {
     const { uniforms, navigation: { camera } } = this;
     const { model } = world;
     uniforms.uSide.value = side;
-    if (model?.isFine && model.planes.length > 0) this.#drawMirrors(world, camera);
+    if (model?.isFine && model.planes.length > 0) {
+      if (mirrors) this.#drawMirrors(world, camera);
+      else model.planes.forEach((_, i) => (model.materials.plane(i).uIsReflected.value = 0));
+    }
     uniforms.uOutput.value = OUTPUT.display;
     model?.materials.glassAdds(false);
   }
@@ -72,7 +75,7 @@ export class Painter {
   renewSurroundings({ world, side }: Side): boolean {
     const { renderer, uniforms, navigation: { camera, room } } = this;
     if (!world.model?.isFine || !world.model.parts.some(({ batch }) => batch.kind !== 'plain')) return false;
-    this.#surroundings ??= new Surroundings(this.quality.isSoftware ? 64 : 128, room.min.distanceTo(room.max) * 2 + 10);
+    this.#surroundings ??= new Surroundings(this.quality.isSoftware ? 64 : 128, this.quality.isSoftware ? 4 : 0.75, room.min.distanceTo(room.max) * 2 + 10);
     if (!this.#surroundings.isOldAt(camera.position, room)) return false;
     uniforms.uSide.value = side;
     world.model.planes.forEach((_, i) => (world.model!.materials.plane(i).uIsReflected.value = 0));

@@ -78,15 +78,23 @@ export function readingOf(model: Model, scene: SceneHeader, hit: Hit): Reading {
   if (!light) return place;
   const rgb = light.direct.map((d, k) => d + light.indirect[k]!) as Vec3;
   const lux = luminance(rgb);
-  const reflected = rgb.map((e, k) => (finish.diffuse[k]! * e) / Math.PI + finish.luminance_cd_m2[k]!);
-  const isTextured = finish.texture !== null;
-  const diffuse = rgb.map((e, k) => e * finish.diffuse[k]!);
+  const colour = diffuseAt(model, hit);
   return {
     ...place, illuminance_lx: lux, standard_error_lx: Number.isFinite(light.error) ? light.error : null, rgb_lx: rgb,
     direct_lx: luminance(light.direct), indirect_lx: luminance(light.indirect),
-    diffuse_reflectance: isTextured ? null : lux > 0 ? luminance(diffuse) / lux : luminance(finish.diffuse),
-    luminance_cd_m2: isTextured ? null : luminance(reflected),
+    diffuse_reflectance: colour && (lux > 0 ? luminance(rgb.map((e, k) => e * colour[k]!)) / lux : luminance(colour)),
+    luminance_cd_m2: colour && luminance(rgb.map((e, k) => (colour[k]! * e) / Math.PI + finish.luminance_cd_m2[k]!)),
   };
+}
+
+/** Diffuse reflectance in three channels; null where the texture is not there yet. */
+function diffuseAt({ data, finishes, textures }: Model, { chunk, vertices, weights }: Hit): Vec3 | null {
+  const { finish, first_uv, first_vertex } = data.header.chunks[chunk]!;
+  const { diffuse, texture } = finishes[finish]!;
+  if (texture === null || first_uv === null) return diffuse;
+  const uv = [0, 1].map((k) => vertices.reduce((sum, v, i) => sum + weights[i]! * data.uvs[2 * (first_uv + v - first_vertex) + k]!, 0));
+  const colour = textures[texture]?.texels?.at(uv[0]!, uv[1]!);
+  return colour ? (colour.map((c, k) => c * diffuse[k]!) as Vec3) : null;
 }
 
 function normalOf({ data }: Model, { vertices, weights }: Hit): Vec3 {

@@ -4,9 +4,14 @@ import type { Source } from '../contract';
 import type { LiveState } from '../wire';
 import type { World } from './worlds';
 
+/** After a failure it is tried again after so long, ms. */
+const AGAIN_MS = 3000;
+
 export class Renewal {
   #wanted: LiveState | null = null;
+  #last: LiveState | null = null;
   #isBusy = false;
+  #hasFailed = false;
 
   /** `swapped` after there is another mesh, `patched` after there is newer light. */
   constructor(
@@ -30,10 +35,15 @@ export class Renewal {
       while (this.#wanted) {
         const state = this.#wanted;
         this.#wanted = null;
+        this.#last = state;
         await this.#fetch(state);
       }
+      this.#hasFailed = false;
     } catch (error) {
-      this.failed(`New light could not be fetched: ${error instanceof Error ? error.message : String(error)}`);
+      // It is told once, and tried again.
+      if (!this.#hasFailed) this.failed(`New light could not be fetched: ${error instanceof Error ? error.message : String(error)}`);
+      this.#hasFailed = true;
+      setTimeout(() => this.refresh(this.#wanted ?? this.#last!), AGAIN_MS);
     } finally {
       this.#isBusy = false;
     }

@@ -51,15 +51,14 @@ async function send<T>(name: string, body: unknown, signal?: AbortSignal): Promi
 
 export async function serverSource(): Promise<Source> {
   const hello = (await (await ask('hello')).json()) as Hello;
-  const read = async (world: number, rays: RayAsked[], signal: AbortSignal): Promise<Reading[]> =>
-    (await send<{ readings: Reading[] }>('read', { world, rays }, signal)).readings;
+  const read = async (world: number, rays: RayAsked[], dimming: number[], signal: AbortSignal): Promise<Reading[]> =>
+    (await send<{ readings: Reading[] }>('read', { world, rays, dimming }, signal)).readings;
   return {
     hello,
     scene: (world) => bytes('scene', { world }),
     mesh: (world) => bytes('mesh', { world }),
     light: (world, mesh, since) => bytes('light', { world, mesh, since }),
-    read: async (world, ray, signal) => (await read(world, [ray], signal))[0]!,
-    section: read,
+    read,
     grids: async (world) => (await (await ask('grids', { world })).json()) as GridTable[],
     control: async (what: Control) => void (await send('control', what)),
     follow: (on) => follow(on, FIRST_WAIT_MS),

@@ -12,7 +12,8 @@ vec4 chunkTexel(int i) { return texelFetch(uChunks, ivec2(i & 1023, i >> 10), 0)
 export const CODES = /* glsl */ `
 vec3 rgb9e5(uint code) {
   vec3 mantissa = vec3(uvec3(code, code >> 9u, code >> 18u) & 511u);
-  return mantissa * exp2(float(int(code >> 27u) - 24));
+  // Two to the power of the exponent less 24, put together from its bits.
+  return mantissa * uintBitsToFloat(((code >> 27u) + 103u) << 23u);
 }
 const vec3 GREY = vec3(0.2126, 0.7152, 0.0722);
 `;

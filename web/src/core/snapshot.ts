@@ -1,6 +1,7 @@
 // A picture of what is shown, with the legend in false colour.
 
-import type { Engine, Parts } from './engine';
+import type { Engine } from './engine';
+import type { Parts } from './parts';
 import { positionOf } from './axis';
 import { numberText } from './labels';
 

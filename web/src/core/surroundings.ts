@@ -4,15 +4,13 @@ import { CubeCamera, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, Vect
 import type { Uniforms } from './uniforms';
 import { OUTPUT } from './uniforms';
 
-/** Moving so far, m, makes it worth another look. */
-const FAR = 0.75;
-
 export class Surroundings {
   readonly #target: WebGLCubeRenderTarget;
   readonly #camera: CubeCamera;
   #isOld = true;
 
-  constructor(readonly size: number, far: number) {
+  /** Moving by `enough`, m, makes it worth another look. */
+  constructor(readonly size: number, readonly enough: number, far: number) {
     this.#target = new WebGLCubeRenderTarget(size, { type: HalfFloatType, generateMipmaps: true, minFilter: LinearMipmapLinearFilter, magFilter: LinearFilter });
     this.#camera = new CubeCamera(0.02, far, this.#target);
     this.#camera.matrixAutoUpdate = true;
@@ -24,7 +22,7 @@ export class Surroundings {
   }
 
   isOldAt(eye: Vector3, room: Box3): boolean {
-    return this.#isOld || this.#camera.position.distanceTo(placeIn(room, eye)) > FAR;
+    return this.#isOld || this.#camera.position.distanceTo(placeIn(room, eye)) > this.enough;
   }
 
   render(renderer: WebGLRenderer, scene: Scene, uniforms: Uniforms, eye: Vector3, room: Box3): void {

@@ -3,16 +3,23 @@
 import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping, RGBAFormat, SRGBColorSpace, Texture, type IUniform } from 'three';
 import type { SceneHeader } from '../wire';
 import type { Container } from './container';
+import { Texels } from './texels';
+
+/** A texture for shaders, and its colours for readings once they are there. */
+export interface SceneTexture extends IUniform<Texture> {
+  texels: Texels | null;
+}
 
 /** One texture each; `changed` is called whenever a picture has arrived. */
-export function openTextures({ header, numbers }: Container<SceneHeader>, changed: () => void): IUniform<Texture>[] {
+export function openTextures({ header, numbers }: Container<SceneHeader>, changed: () => void): SceneTexture[] {
   return header.textures.map(({ png }) => {
-    const uniform: IUniform<Texture> = { value: plain() };
+    const uniform: SceneTexture = { value: plain(), texels: null };
     const blob = new Blob([numbers<Uint8Array<ArrayBuffer>>(png)], { type: 'image/png' });
     // The values are used as they are stored; three.js tells WebGL that they are coded as sRGB.
     createImageBitmap(blob, { colorSpaceConversion: 'none', premultiplyAlpha: 'none', imageOrientation: 'flipY' }).then((bitmap) => {
       uniform.value.dispose();
       uniform.value = pictured(bitmap);
+      uniform.texels = new Texels(bitmap);
       changed();
     }, () => console.warn('A texture of the scene cannot be decoded.'));
     return uniform;

@@ -3,7 +3,7 @@
 import type { Settings, Source, Viewer } from '../contract';
 import { decode } from './container';
 import { Emitter } from './emitter';
-import { Engine, type EventName, type Parts } from './engine';
+import { Engine } from './engine';
 import { evOfWhite } from './exposure';
 import { Finder } from './finder';
 import { GridMarks } from './grid-marks';
@@ -11,6 +11,7 @@ import { makeRenderer, Quality } from './graphics';
 import { Luminaires } from './luminaires';
 import { Marks } from './marks';
 import { Navigation } from './navigation';
+import type { EventName, Parts } from './parts';
 import { Renewal } from './renewal';
 import { Shown } from './shown';
 import { snapshot } from './snapshot';
@@ -41,7 +42,7 @@ export async function createViewer(canvas: HTMLCanvasElement, overlay: HTMLEleme
   const settings = startSettings(first);
   const navigation = new Navigation(canvas, first.scene, changed);
   const quality = new Quality(isSoftware, settings.quality);
-  const finder = new Finder(source, first, navigation, canvas, (bvh) => (navigation.walk.bvh = bvh));
+  const finder = new Finder(source, first, navigation, canvas, () => settings.dimming, (bvh) => (navigation.walk.bvh = bvh));
   const parts: Parts = {
     renderer, uniforms, quality, navigation, shown: new Shown(first.container, uniforms), marks: new Marks(overlay), luminaires: new Luminaires(first.scene, first.root),
     worlds, events: new Emitter<EventName>(), settings, white: first.scene.white_cd_m2 || 1, canvas, hidden: () => finder.hidden(),
@@ -79,7 +80,7 @@ function assemble(source: Source, parts: Parts, engine: Engine, finder: Finder, 
   const gridMarks = new GridMarks(source, parts, () => engine.invalidate());
   parts.canvas.addEventListener('webglcontextlost', () => errors.tell('The graphics card has been lost. Loading the page again helps.'));
   const jump = (animate: boolean): void => {
-    if (!animate) engine.adaptation.jump();
+    if (!animate) engine.jump();
   };
   return {
     scene: worlds[0]!.scene,
@@ -136,7 +137,10 @@ function change_(parts: Parts, engine: Engine, gridMarks: GridMarks, change: Par
   if (change.autoExposure === false && settings.autoExposure && change.ev100 === undefined) settings.ev100 = evOfWhite(engine.adaptation.white);
   Object.assign(settings, change);
   quality.how = settings.quality;
-  if (isMixed && ('dimming' in change || 'otherDimming' in change)) worlds.forEach(({ model }) => model?.remix());
+  if (isMixed && ('dimming' in change || 'otherDimming' in change)) {
+    worlds.forEach(({ model }) => model?.remix());
+    parts.luminaires.dim(settings.dimming);
+  }
   gridMarks.update();
   if (isSplitOnly) engine.invalidate();
   else engine.renew();

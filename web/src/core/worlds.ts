@@ -1,6 +1,6 @@
 // The maps that are shown, and how their data arrive.
 
-import { Scene, type Camera, type IUniform, type Texture, type WebGLRenderer } from 'three';
+import { Scene, type Camera, type WebGLRenderer } from 'three';
 import type { Settings, Source } from '../contract';
 import type { SceneHeader } from '../wire';
 import { decodeMesh } from './batches';
@@ -9,13 +9,13 @@ import { openLight } from './light-store';
 import type { Mix } from './mixing';
 import { Model } from './model';
 import { Refused } from './server';
-import { openTextures } from './textures';
+import { openTextures, type SceneTexture } from './textures';
 import type { Uniforms } from './uniforms';
 
 export class World {
   readonly scene: SceneHeader;
   readonly root = new Scene();
-  readonly #textures: IUniform<Texture>[];
+  readonly #textures: SceneTexture[];
   model: Model | null = null;
   #retired: Model | null = null;
 

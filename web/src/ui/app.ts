@@ -26,7 +26,7 @@ import { watchPointer } from './pointer';
 import { sectionTool, type SectionTool } from './section';
 import { applyTheme } from './theme';
 import { topBar } from './topbar';
-import { readShown, type Ui } from './ui';
+import type { Ui } from './ui';
 
 /** Puts everything people press into `root`, around the canvas that the viewer draws on. */
 export function startUi(root: HTMLElement, viewer: Viewer, source: Source): void {
@@ -42,6 +42,8 @@ export function startUi(root: HTMLElement, viewer: Viewer, source: Source): void
   const actions = actionsOf(ui, () => link?.link() ?? location.href, () => help.toggle());
   const help = helpDialog(actions);
   fillPanel(ui, pins, section);
+  // Finer shadows come while somebody looks at a finished map, too.
+  if (!source.hello.live) source.follow({ state: (state) => viewer.refresh(state), history: () => {}, connected: () => {} });
   replace(root, topBar(ui, actions), ui.stage, ui.panel.root, help.root);
   document.documentElement.classList.add('started');
   link = syncLink(ui, pins);
@@ -82,12 +84,12 @@ function fillPanel(ui: Ui, pins: Pins, section: SectionTool): void {
   ui.panel.add({ id: 'section', label: 'Section', icon: 'ruler', body: section.root });
   ui.panel.add({ id: 'grids', label: 'Grids', icon: 'grid', body: tables.root, shown: (is) => is && tables.load() });
   ui.panel.add({ id: 'about', label: 'Map', icon: 'map', body: facts.root, shown: facts.shown });
-  if (matchMedia('(min-width: 1000px)').matches) ui.panel.open(ui.source.hello.live ? 'run' : 'readings');
+  if (ui.source.hello.live && matchMedia('(min-width: 1000px)').matches) ui.panel.open('run');
 }
 
 async function pinAt(ui: Ui, pins: Pins, x: number, y: number, shown: (r: Parameters<Pins['add']>[0]) => void): Promise<void> {
   try {
-    const reading = await readShown(ui, x, y, new AbortController().signal);
+    const reading = await ui.viewer.readAt(x, y, new AbortController().signal);
     if (!reading?.position) return;
     pins.add(reading);
     shown(reading);

@@ -3,7 +3,7 @@
 import type { Reading } from '../wire';
 import { h, perFrame, replace, throttled } from './dom';
 import { details, illuminanceLine, sourceText } from './reading';
-import { readShown, sideNames, type Ui } from './ui';
+import { sideNames, type Ui } from './ui';
 
 const RESTS_MS = 80;
 const AGAIN_MS = 300;
@@ -31,7 +31,7 @@ export function hover(ui: Ui): Hover {
     const mine = new AbortController();
     asked = mine;
     try {
-      const reading = await readShown(ui, x, y, mine.signal);
+      const reading = await ui.viewer.readAt(x, y, mine.signal);
       if (!mine.signal.aborted && reading?.position) show(reading, x, y);
     } catch {
       // A reading that failed leaves the interpolated value; the viewer tells what went wrong.

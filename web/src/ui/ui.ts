@@ -72,11 +72,6 @@ export function isDimmed({ settings }: Viewer): boolean {
   return settings.dimming.some((factor) => factor !== 1);
 }
 
-/** Reads the light as it is shown: a server knows the map undimmed only, so dimmed light is interpolated. */
-export async function readShown({ viewer }: Ui, x: number, y: number, signal: AbortSignal): Promise<Reading | null> {
-  return (isDimmed(viewer) ? viewer.glanceAt(x, y) : null) ?? viewer.readAt(x, y, signal);
-}
-
 /** What has to be said of figures that a server finds: they are of the map as it was computed. */
 export function undimmedNote({ viewer, source }: Ui): string | null {
   return isDimmed(viewer) && source.hello.readings === 'probe' ? 'These are values of the map undimmed; the dimmers do not act on them.' : null;

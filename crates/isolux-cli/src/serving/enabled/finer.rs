@@ -1,8 +1,10 @@
 //! While somebody looks, the map is shown with finer shadows.
 
 use super::served::Served;
-use crate::walk::{Opened, fineness};
+use crate::walk::fineness;
 use isolux::engine::Finer;
+use isolux::map::IlluminationMap;
+use isolux::scene::Scene;
 use std::sync::{Arc, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -11,13 +13,13 @@ use std::time::{Duration, Instant};
 const FIRST: Duration = Duration::from_secs(2);
 
 /// Makes the map that is shown finer, in a thread of its own, as long as it is served.
-pub(super) fn start(map: Arc<Opened>, served: Weak<Served>) {
-    thread::spawn(move || refine(&map, &served));
+pub(super) fn start(scene: Arc<Scene>, map: Arc<IlluminationMap>, served: Weak<Served>) {
+    thread::spawn(move || refine((&scene, &map), &served));
 }
 
-fn refine(opened: &Opened, served: &Weak<Served>) {
-    let how = fineness(&opened.scene);
-    let mut finer = Finer::new(&opened.scene, &opened.map);
+fn refine((scene, map): (&Scene, &IlluminationMap), served: &Weak<Served>) {
+    let how = fineness(scene);
+    let mut finer = Finer::new(scene, map);
     let mut pause = FIRST;
     loop {
         let (started, vertices) = (Instant::now(), finer.vertices());

@@ -1,6 +1,7 @@
 //! `isolux solve --live`: a run in a browser.
 
 use super::even::even_light;
+use super::finer;
 use super::painter::Painter;
 use super::readings::Reader;
 use super::served::{Place, Served};
@@ -135,6 +136,10 @@ impl Live {
             state.paused = false;
             state.saved = Some(path.display().to_string());
         });
+        if self.server.viewers() > 0 {
+            let scene = Arc::clone(self.served.places[0].world.scene());
+            finer::start(scene, map, Arc::downgrade(&self.served));
+        }
     }
 
     /// Serves the map as long as somebody looks.

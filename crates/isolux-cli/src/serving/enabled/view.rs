@@ -53,7 +53,8 @@ pub(crate) fn view(flags: &ViewFlags, json: bool) -> Result<Outcome, Failure> {
     if let [map] = &maps[..]
         && !map.has_groups()
     {
-        finer::start(Arc::clone(map), Arc::downgrade(&served));
+        let (scene, map) = (Arc::clone(&map.scene), Arc::clone(&map.map));
+        finer::start(scene, map, Arc::downgrade(&served));
     }
     server.wait();
     Ok(Outcome::Done)

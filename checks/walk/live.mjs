@@ -1,0 +1,1 @@
+export async function liveCases(home, runAll) { return runAll([]); }

@@ -1,0 +1,151 @@
+// What people press, on a phone and by keys, and links.
+import { complete, leave, set } from './browser.mjs';
+import { require } from './cases.mjs';
+import { meanDifference, settled } from './pictures.mjs';
+
+const DESK = { width: 1280, height: 800, bare: false };
+const PHONE = { width: 390, height: 844, bare: false, phone: true };
+const BAR = [/^Shown/, 'Cameras', 'Orbit', 'Walk', 'More'];
+const TABS = ['Readings', 'Light', 'Section', 'Grids', 'Map'];
+const MODES = ['seen', 'illuminance', 'luminance', 'direct', 'indirect', 'error', 'relative'];
+// From the top of the page; the canvas takes the focus, too.
+const MOST_TABS = 4;
+// Places of a link are rounded to a millimetre.
+const LINK_ROUNDING_M = 0.0006;
+
+export async function screenCases({ command, browser }, runAll) {
+  const served = await command.serve('view', 'map.glb');
+  const failed = await runAll([
+    ['a phone has room for all', () => visit(browser, served.url, PHONE, phone)],
+    ['panels open on a phone', () => visit(browser, served.url, PHONE, panels)],
+    ['Tab comes to the bar', () => visit(browser, served.url, DESK, tabs)],
+    ['digits change what is shown', () => visit(browser, served.url, DESK, digits)],
+    ['a click keeps a reading', () => visit(browser, served.url, DESK, pins)],
+    ['a link shows the same again', () => link(browser, served.url)],
+  ]);
+  await served.stop();
+  return failed;
+}
+
+async function visit(browser, url, how, look) {
+  const page = await browser.open(url, how);
+  try {
+    await complete(page);
+    return await look(page);
+  } finally {
+    await leave(page);
+  }
+}
+
+async function requireNoOverflow(page, where) {
+  const { scroll, width, wide } = await page.evaluate(overflow);
+  require(scroll <= width, `${where} is ${scroll} pixels wide in a window of ${width}`);
+  require(wide.length === 0, `${where}, out of the window of ${width}: ${wide[0]}`);
+}
+
+/** How far the page reaches, and what is pressed beyond the sides of the window. */
+function overflow() {
+  const width = window.innerWidth;
+  const boxes = [...document.querySelectorAll('button, input, select, a')].filter((e) => e.checkVisibility()).map((e) => [e, e.getBoundingClientRect()]);
+  const out = boxes.filter(([, box]) => box.width > 0 && (box.left < -1 || box.right > width + 1));
+  const wide = out.map(([e, box]) => `${e.getAttribute('aria-label') ?? e.textContent.trim()} from ${box.left.toFixed(0)} to ${box.right.toFixed(0)}`);
+  return { scroll: document.documentElement.scrollWidth, width: document.documentElement.clientWidth, wide };
+}
+
+/** A finger at the middle of a button meets it. */
+async function requireReachable(button, name) {
+  const meets = await button.evaluate((e) => {
+    const box = e.getBoundingClientRect();
+    const met = document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
+    return e.contains(met);
+  });
+  require(meets, `${name} cannot be reached`);
+}
+
+const named = (page, name) => page.getByRole('button', { name, exact: typeof name === 'string' });
+
+async function phone(page) {
+  await requireNoOverflow(page, 'the page');
+  for (const name of [...BAR, ...TABS]) await requireReachable(named(page, name), `the button ${name}`);
+  await named(page, 'More').tap();
+  await requireNoOverflow(page, 'the menu');
+  const items = await page.getByRole('menu', { name: 'More' }).getByRole('menuitem').count();
+  require(items > 0, 'the menu has nothing in it');
+  return `${BAR.length + TABS.length} buttons reachable at 390 x 844`;
+}
+
+async function panels(page) {
+  const sheet = page.locator('.panel');
+  for (const name of TABS) {
+    await named(page, name).tap();
+    await sheet.getByRole('heading', { name, exact: true, level: 2 }).waitFor();
+    await requireNoOverflow(page, `the panel ${name}`);
+  }
+  await page.getByRole('button', { name: 'Close the panel' }).tap();
+  await sheet.waitFor({ state: 'hidden' });
+  return `${TABS.length} panels open and close`;
+}
+
+async function tabs(page) {
+  const isInBar = () => page.evaluate(() => document.activeElement?.closest('.top-bar') !== null);
+  let pressed = 0;
+  while (!(await isInBar())) {
+    require(pressed < MOST_TABS, `not reached by ${MOST_TABS} presses of Tab`);
+    await page.keyboard.press('Tab');
+    pressed += 1;
+  }
+  const name = await page.evaluate(() => document.activeElement.getAttribute('aria-label'));
+  await page.keyboard.press('Enter');
+  await page.getByRole('menu', { name: 'Shown' }).waitFor();
+  return `${pressed} presses to "${name}", which opens by Enter`;
+}
+
+async function digits(page) {
+  for (const [k, mode] of [...MODES.entries()].reverse()) {
+    await page.keyboard.press(String(k + 1));
+    await page.waitForFunction((mode) => window.isoluxViewer.settings.mode === mode, mode);
+  }
+  return `${MODES.length} modes`;
+}
+
+/** The panel of readings tells what was read where somebody clicked. */
+async function pins(page) {
+  const box = await page.locator('#view').boundingBox();
+  const [x, y] = [Math.round(box.width / 2), Math.round(0.6 * box.height)];
+  const answer = page.waitForResponse((response) => response.url().includes('api/read') && response.request().postData().length > 0);
+  await page.mouse.click(box.x + x, box.y + y);
+  const { readings } = await (await answer).json();
+  await page.locator('.pin-label').first().waitFor();
+  const shown = Number(/[\d.]+(?= )/.exec(await page.locator('.side .value b').first().innerText())?.[0] ?? await page.locator('.side .value b').first().innerText());
+  const { illuminance_lx: lux } = readings[0];
+  require(Math.abs(shown - lux) <= 0.05 * lux, `${shown} lx in the panel, ${lux} lx by the server`);
+  return `${shown} lx kept, ${lux.toFixed(2)} lx told`;
+}
+
+async function link(browser, url) {
+  const page = await browser.open(url);
+  await complete(page);
+  await page.evaluate(() => {
+    const { position, target, fovDeg } = window.isoluxViewer.view();
+    window.isoluxViewer.goTo({ position: [position[0] + 0.7, position[1] + 0.4, position[2]], target, fovDeg }, false);
+  });
+  await set(page, { mode: 'illuminance', contours: true, luminaires: 'off', limits: { low: 0, high: 300 }, dimming: [0.5, 1] });
+  const picture = await settled(page);
+  await page.waitForFunction(() => location.hash.includes('mode=illuminance') && location.hash.includes('lim=0,300'));
+  const [address, before] = [page.url(), await shown(page)];
+  const again = await browser.open(address);
+  const difference = meanDifference(picture, await settled(again));
+  const after = await shown(again);
+  await Promise.all([page, again].map(leave));
+  require(JSON.stringify(after.settings) === JSON.stringify(before.settings), `settings ${JSON.stringify(after.settings)} after ${JSON.stringify(before.settings)}`);
+  const off = Math.max(...before.numbers.map((n, k) => Math.abs(n - after.numbers[k])));
+  require(off <= LINK_ROUNDING_M, `the view is ${off} m off`);
+  require(difference < 0.5, `mean CIE94 ${difference.toFixed(3)} from the picture before`);
+  return `view within ${(1000 * off).toFixed(2)} mm, settings the same, mean CIE94 ${difference.toFixed(3)}`;
+}
+
+const shown = (page) => page.evaluate(() => {
+  const { position, target, fovDeg } = window.isoluxViewer.view();
+  const { mode, contours, luminaires, limits, dimming, autoExposure, tone } = window.isoluxViewer.settings;
+  return { numbers: [...position, ...target, fovDeg], settings: { mode, contours, luminaires, limits, dimming, autoExposure, tone } };
+});
