@@ -36,12 +36,14 @@ export function renewPins(ui: Ui, pins: Pins): void {
 async function again(ui: Ui, { reading: { position, normal } }: Pin): Promise<Reading | null> {
   if (!position || !normal) return null;
   const { viewer, source } = ui;
-  if (source.hello.readings !== 'probe' || isDimmed(viewer)) return seen(ui, position)?.reading ?? null;
+  const { dimming } = viewer.settings;
+  if (source.hello.readings !== 'probe' || dimming.every((factor) => factor === 0)) return seen(ui, position)?.reading ?? null;
   const origin = position.map((v, i) => v + OFF_M * normal[i]!) as Vec3;
   const direction = normal.map((v) => -v) as Vec3;
   try {
-    const reading = await source.read(0, { origin, direction }, new AbortController().signal);
-    return reading.position ? reading : null;
+    const factors = isDimmed(viewer) ? dimming : [];
+    const [reading] = await source.read(0, [{ origin, direction }], factors, new AbortController().signal);
+    return reading?.position ? reading : null;
   } catch {
     return null;
   }

@@ -1,7 +1,6 @@
 // What the parts of the page share.
 
 import type { Mode, Settings, Source, Viewer } from '../contract';
-import type { Reading } from '../wire';
 import type { Notices } from './notices';
 import type { Panel } from './panel';
 
