@@ -6,9 +6,10 @@ const BROWSERS = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/go
 // Software rendering is the same on every machine.
 const FLAGS = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--force-color-profile=srgb'];
 // What Chromium says of its own graphics.
-const NOT_OURS = /GL Driver Message|software WebGL|GPU stall/;
+const NOT_OURS = /GL Driver Message|software WebGL|GPU stall|extension not supported/;
 /** Until something of a page has come about; a machine without a graphics card draws in software. */
-export const PATIENCE_MS = 60_000;
+export const PATIENCE_MS = 30_000;
+const POLLING_MS = 50;
 
 export function findBrowser() {
   return process.env.CHROMIUM ?? BROWSERS.find(existsSync);
@@ -51,11 +52,22 @@ function strip() {
   for (const id of ['view', 'overlay']) put(id, { inset: '0', width: '100%', height: '100%' });
 }
 
+/** Resolves once a page has drawn light; the time of that since it was asked for, ms. */
+export async function lit(page) {
+  await page.evaluate(() => void window.isoluxViewer.ready.then(() => (window.isLit ??= performance.now())));
+  return (await until(page, () => window.isLit)).jsonValue();
+}
+
 /** Resolves once a page has drawn light, made its shaders and sorted its triangles. */
 export async function complete(page) {
-  await page.evaluate(() => window.isoluxViewer.ready);
-  await page.waitForFunction(() => window.isoluxViewer.glanceAt(innerWidth / 2, innerHeight / 2));
+  await lit(page);
+  await until(page, () => window.isoluxViewer.glanceAt(innerWidth / 2, innerHeight / 2));
 }
+
+/** Waits until something holds in a page, also in one that draws nothing. */
+export const until = (page, holds, argument) => page.waitForFunction(holds, argument, { polling: POLLING_MS });
+
+export const vertices = (page) => page.evaluate(() => window.isoluxViewer.stats().vertices);
 
 /** Closes a page and all that it keeps. */
 export const leave = (page) => page.context().close();

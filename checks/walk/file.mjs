@@ -44,7 +44,7 @@ async function interpolated(browser, url) {
 async function alike(command, browser, url) {
   const served = await command.serve('view', 'alone/map.glb');
   const [file, page] = [await browser.open(url), await browser.open(served.url)];
-  const ev100 = await fixedExposure(file);
+const ev100 = await fixedExposure(file);
   for (const each of [file, page]) await set(each, { luminaires: 'off', autoExposure: false, ev100 });
   const picture = await settled(file);
   const vertices = (page) => page.evaluate(() => window.isoluxViewer.stats().vertices);

@@ -11,14 +11,26 @@ export interface Scale extends Limits {
   ticks: number[];
 }
 
+/** A share of the mean illuminance of the vertices from which on a place is not dark. */
+const SOME_LIGHT = 0.05;
 /** Values of at most so many vertices decide on automatic limits. */
 const MOST_SAMPLES = 100_000;
 
 /** What false colour shows of a mode, without `limits` of people: round numbers about the values of all vertices. */
 export function automaticScale(model: Model, mode: Mode, logarithmic: boolean): Scale {
   if (mode === 'difference') return symmetric(model);
-  const limits = roundLimits(sample(model, mode), logarithmic);
+  const limits = roundLimits(mode === 'relative' ? relative(model) : sample(model, mode), logarithmic);
   return { ...limits, logarithmic, ticks: ticksOf(limits, logarithmic) };
+}
+
+/** Relative errors where there is some light: without any they have no limit. */
+function relative(model: Model): Float64Array {
+  const errors = sample(model, 'error');
+  const totals = sample(model, 'illuminance');
+  const mean = totals.reduce((sum, e) => sum + e, 0) / Math.max(1, totals.length);
+  // Standard errors that are not known leave the two of different length.
+  if (errors.length !== totals.length) return sample(model, 'relative');
+  return errors.map((error, k) => (100 * error) / totals[k]!).filter((_, k) => totals[k]! > SOME_LIGHT * mean);
 }
 
 export function givenScale(limits: Limits, logarithmic: boolean): Scale {

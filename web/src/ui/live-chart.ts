@@ -68,14 +68,14 @@ function options(width: number, height: number, ink: Ink, state: () => LiveState
   };
 }
 
-/** Logarithmic axes are labelled at 1, 2 and 5 only. */
+/** Logarithmic axes are labelled at 1, 2 and 5 only, unless they are short. */
 function logAxes(ink: Ink): uPlot.Axis[] {
   const isRound = (v: number): boolean => [1, 2, 5].includes(Number((v / 10 ** Math.floor(Math.log10(v) + 1e-9)).toPrecision(3)));
   return axes(ink, 's', '%').map((axis, i) => ({
     ...axis, filter: (plot: uPlot, splits: number[]) => {
       const [least, most] = [plot.scales[i === 0 ? 'x' : 'y']!.min ?? 1, plot.scales[i === 0 ? 'x' : 'y']!.max ?? 10];
-      const wide = most / least > 300;
-      return splits.map((v) => (v > 0 && (wide ? Number.isInteger(Number(Math.log10(v).toFixed(6))) : isRound(v)) ? v : null));
+      const [wide, narrow] = [most / least > 300, most / least < 8];
+      return splits.map((v) => (v > 0 && (narrow || (wide ? Number.isInteger(Number(Math.log10(v).toFixed(6))) : isRound(v))) ? v : null));
     },
   }));
 }

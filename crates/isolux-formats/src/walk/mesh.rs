@@ -3,6 +3,7 @@
 use super::container::Sections;
 use super::numbers::octahedral;
 use super::origin::origin;
+use super::planes::Planes;
 use super::record::{Chunk, MeshHeader};
 use crate::map_glb::display::{Layer, is_shown, layer, texture_of, turned, uv_at};
 use isolux::elements::{Element, FewNumbers};
@@ -60,10 +61,10 @@ impl Mesh {
         let lit: Vec<_> = lit.into_iter().collect();
         let built: Vec<Vec<Piece>> = lit
             .par_iter()
-            .map(|(layer, elements)| Pieces::of_elements((scene, map), *layer, elements))
+            .map(|((layer, _), elements)| Pieces::of_elements((scene, map), *layer, elements))
             .collect();
         built.into_iter().flatten().for_each(|piece| made.add(piece));
-        for (layer, triangles) in bare {
+        for ((layer, _), triangles) in bare {
             Pieces::of_triangles(scene, layer, &triangles)
                 .into_iter()
                 .for_each(|piece| made.add(piece));
@@ -151,23 +152,28 @@ fn quantized(value: f64, low: f64, step: f64) -> u16 {
     if step > 0.0 { libm::round((value - low) / step).clamp(0.0, LARGEST) as u16 } else { 0 }
 }
 
-type Lit = BTreeMap<Layer, Vec<Element>>;
-type Bare = BTreeMap<Layer, Vec<u32>>;
+/// A layer, or what of it lies in one of a few planes that show what they face.
+type Part = (Layer, usize);
+type Lit = BTreeMap<Part, Vec<Element>>;
+type Bare = BTreeMap<Part, Vec<u32>>;
 
 /// Elements and triangles without, by what they are part of.
 fn layers(scene: &Scene, map: &IlluminationMap) -> (Lit, Bare) {
     let (mut lit, mut bare) = (Lit::new(), Bare::new());
     let mut is_mapped = vec![[false; 2]; scene.triangle_count() as usize];
+    let planes = Planes::new(scene);
     for element in map.elements.elements() {
         is_mapped[element.triangle as usize][usize::from(element.back)] = true;
         let layer = layer(scene, element.triangle, true, element.back);
-        lit.entry(layer).or_default().push(element);
+        let part = (layer, planes.of(scene, layer, element.triangle));
+        lit.entry(part).or_default().push(element);
     }
     for triangle in 0..scene.triangle_count() {
         for back in [false, true] {
             if !is_mapped[triangle as usize][usize::from(back)] && is_shown(scene, triangle, back) {
                 let layer = layer(scene, triangle, false, back);
-                bare.entry(layer).or_default().push(triangle);
+                let part = (layer, planes.of(scene, layer, triangle));
+                bare.entry(part).or_default().push(triangle);
             }
         }
     }

@@ -10,6 +10,7 @@ mod luminaires;
 mod mesh;
 mod numbers;
 mod origin;
+mod planes;
 mod record;
 mod scene;
 

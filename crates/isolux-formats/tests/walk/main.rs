@@ -100,6 +100,32 @@ fn chunks_have_as_many_vertices_as_an_index_can_tell_and_meet() {
 }
 
 #[test]
+fn mirrors_come_plane_by_plane_unless_they_are_curved() {
+    let facet = |k: usize, all: usize| {
+        let (s, c) = (std::f64::consts::TAU * k as f64 / all as f64).sin_cos();
+        let at = |by: f64, z: f64| [3.0 * c - by * s, 3.0 * s + by * c, z];
+        [at(-0.1, 0.0), at(0.1, 0.0), at(0.0, 0.2)]
+    };
+    let chunks = |all: usize| {
+        let shape = Shape {
+            name: "mirrors".into(),
+            positions: (0..all).flat_map(|k| facet(k, all)).collect(),
+            triangles: (0..all as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
+            material: 0,
+            ..Shape::default()
+        };
+        let mirror = Material::one_sided("mirror", Finish::mirror(Rgb::grey(0.9)));
+        let parts =
+            SceneParts { shapes: vec![shape], materials: vec![mirror], ..SceneParts::default() };
+        let scene = Scene::assemble(parts).unwrap();
+        let drawn = Container::read(&Mesh::new(&scene, &lit::map(&scene, along_x), 1).to_bytes());
+        drawn.header["chunks"].as_array().unwrap().len()
+    };
+    assert_eq!((chunks(1), chunks(2), chunks(5)), (1, 2, 5));
+    assert_eq!(chunks(200), 1);
+}
+
+#[test]
 fn only_blocks_that_change_are_sent_again() {
     let scene = sheet(60);
     let map = lit::map(&scene, along_x);
