@@ -1,1 +1,177 @@
-export async function liveCases(home, runAll) { return runAll([]); }
+// A run that is watched, paused and aimed anew.
+import { readFile } from 'node:fs/promises';
+import { leave, lit, PATIENCE_MS, set, until } from './browser.mjs';
+import { require } from './cases.mjs';
+import { PNG } from 'pngjs';
+import { meanDifference } from './pictures.mjs';
+
+// Some seconds: long enough to join late, to cut a connection and to restore it.
+const ACCURACY = '0.5%';
+// Nobody waits for this one.
+const FAR_ACCURACY = '0.01%';
+const DESK = { width: 1280, height: 800, bare: false };
+const EV = 6;
+// Light that is spread evenly, as it is at first, looks quite different from that of lamps.
+const LEAST_CHANGE = 2;
+
+export async function liveCases(home, runAll) {
+  await home.command.run('solve', 'scene.toml', '-o', 'plain.glb', '--accuracy', ACCURACY, '--progress', 'none');
+  return (await watched(home, runAll)) + (await steered(home, runAll));
+}
+
+async function watched(home, runAll) {
+  const { browser, command } = home;
+  const served = await command.serve('solve', 'scene.toml', '-o', 'watched.glb', '--accuracy', ACCURACY, '--live');
+  const first = await visit(browser, served.url);
+  const start = await picture(first);
+  const run = { home, browser, served, first, start, late: null };
+  const failed = await runAll([
+    ['light comes while it is computed', () => comes(run)],
+    ['a connection that is cut comes back', () => comesBack(run)],
+    ['all pages show the newest light', () => newest(run)],
+    ['a run that is watched has the bytes of one that is not', () => ends(run, 'watched.glb')],
+  ]);
+  await served.stop();
+  return failed;
+}
+
+async function steered(home, runAll) {
+  const { browser, command } = home;
+  const served = await command.serve('solve', 'scene.toml', '-o', 'steered.glb', '--accuracy', FAR_ACCURACY, '--live');
+  const run = { home, served, first: await visit(browser, served.url), late: null };
+  const failed = await runAll([
+    ['a run is paused and goes on', () => pauses(run)],
+    ['a run is aimed anew', () => aims(run)],
+    ['a run that is aimed anew has the bytes of one that was so at once', () => ends(run, 'steered.glb')],
+  ]);
+  await served.stop();
+  return failed;
+}
+
+/** A page of a run that keeps what light it has got, with its exposure fixed. */
+async function visit(browser, url) {
+  const got = { mesh: 0, version: 0 };
+  const page = await browser.open(url, { ...DESK, before: (page) => page.on('response', (response) => keep(response, got)) });
+  page.got = got;
+  await lit(page);
+  await set(page, { autoExposure: false, ev100: EV, luminaires: 'off' });
+  return page;
+}
+
+async function keep(response, got) {
+  if (!response.url().includes('api/light') || !response.ok()) return;
+  const bytes = await response.body().catch(() => null);
+  if (!bytes) return;
+  const { mesh, version } = JSON.parse(bytes.subarray(16, 16 + bytes.readUInt32LE(8)).toString());
+  Object.assign(got, { mesh, version });
+}
+
+async function picture(page) {
+  const base64 = await page.evaluate(async () => {
+    const bytes = new Uint8Array(await (await window.isoluxViewer.snapshot()).arrayBuffer());
+    return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
+  });
+  return PNG.sync.read(Buffer.from(base64, 'base64'));
+}
+
+const phase = (page) => page.locator('.phase');
+const isDone = (page) => phase(page).filter({ hasText: /^Done$/ }).waitFor();
+
+async function comes(run) {
+  const { first, start } = run;
+  await phase(first).filter({ hasText: /^(Gathering light|Testing the error.*|Done)$/ }).waitFor();
+  const had = { ...first.got };
+  await soon(() => first.got.version > had.version || first.got.mesh > had.mesh, 'no newer light comes');
+  const change = meanDifference(start, await picture(first));
+  require(change >= LEAST_CHANGE, `the picture changes by a mean CIE94 of ${change.toFixed(2)} only`);
+  return `mean CIE94 ${change.toFixed(2)} from the first light, "${await phase(first).innerText()}"`;
+}
+
+/** A second page joins, loses its connection for the rest of the run, and finds it again. */
+async function comesBack(run) {
+  const { browser, served, first } = run;
+  run.late = await visit(browser, served.url);
+  const joined = { ...run.late.got };
+  const lost = run.late.getByText('Connection lost, trying again.');
+  run.late.isCutOff = true;
+  await run.late.context().setOffline(true);
+  await lost.waitFor();
+  await isDone(first);
+  await run.late.context().setOffline(false);
+  await isDone(run.late);
+  await lost.waitFor({ state: 'hidden' });
+  run.late.isCutOff = false;
+  return `joined at light ${joined.mesh}.${joined.version}, cut until the run was done, has ${run.late.got.mesh}.${run.late.got.version}`;
+}
+
+async function newest({ served, first, late, start }) {
+  const isNewest = async (page) => {
+    const { mesh, light } = await stateOf(served.url);
+    return page.got.mesh === mesh && page.got.version === light;
+  };
+  for (const page of [first, late]) await soon(() => isNewest(page), 'the newest light does not come');
+  const [one, other] = [await picture(first), await picture(late)];
+  const [alike, change] = [meanDifference(one, other), meanDifference(start, one)];
+  require(alike < 0.1, `mean CIE94 ${alike.toFixed(3)} between two pages of ${JSON.stringify(first.got)}, ${JSON.stringify(late.got)}`);
+  return `light ${late.got.mesh}.${late.got.version} in both, mean CIE94 ${alike.toFixed(3)} between them, ${change.toFixed(2)} from the first light`;
+}
+
+/** The newest state of a run, as the server tells whoever joins. */
+async function stateOf(url) {
+  const leaving = new AbortController();
+  const { body } = await fetch(new URL('api/events', url), { signal: leaving.signal });
+  let text = '';
+  for await (const part of body.pipeThrough(new TextDecoderStream())) {
+    text += part;
+    const state = /event: ?state\ndata: ?(.*)\n/.exec(text) ?? /data: ?(\{.*\})\n\n/.exec(text);
+    if (!state) continue;
+    leaving.abort();
+    return JSON.parse(state[1]);
+  }
+  throw new Error('the server tells no state');
+}
+
+async function soon(holds, otherwise) {
+  const until = Date.now() + PATIENCE_MS;
+  while (!(await holds())) {
+    if (Date.now() > until) throw new Error(otherwise);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
+/** The run ends once nobody looks any more. */
+async function ends({ home, served, first, late }, file) {
+  await Promise.all([first, late].filter(Boolean).map(leave));
+  const code = await served.ended;
+  require(code === 0, `exit code ${code}`);
+  const [plain, other] = await Promise.all(['plain.glb', file].map((name) => readFile(home.at(name))));
+  require(plain.equals(other), `${file} differs from the map of a run without viewers`);
+  return `${other.length} bytes the same, exit code 0`;
+}
+
+const button = (page, name) => page.getByRole('button', { name, exact: true });
+
+async function increments(page) {
+  const text = await page.locator('dt', { hasText: /^Increments$/ }).locator('xpath=following-sibling::dd[1]').innerText();
+  return Number(text);
+}
+
+async function pauses({ first }) {
+  await button(first, 'Pause').click();
+  await phase(first).filter({ hasText: /^Paused/ }).waitFor();
+  const held = await increments(first);
+  await button(first, 'Go on').click();
+  await phase(first).filter({ hasText: /^(?!Paused)/ }).waitFor();
+  await soon(async () => (await increments(first)) > held, 'no further increment comes');
+  return `paused after ${held} increments, then ${await increments(first)}`;
+}
+
+async function aims({ first }) {
+  const text = `of ${ACCURACY}`.replace('%', '');
+  await first.getByRole('textbox', { name: 'Error to reach' }).fill(ACCURACY);
+  await button(first, 'Set target').click();
+  await isDone(first);
+  const error = (await first.locator('.error-now').innerText()).replace(/\s+/g, ' ');
+  require(error.includes(text), `the panel tells ${error}`);
+  return `done, "${error}"`;
+}

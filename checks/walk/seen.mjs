@@ -1,5 +1,5 @@
 // What is seen, beside what `render` draws.
-import { complete, leave, PATIENCE_MS, set } from './browser.mjs';
+import { complete, leave, lit, set, until, vertices } from './browser.mjs';
 import { atMost, require } from './cases.mjs';
 import { EVENING } from './room.mjs';
 import { cropped, meanDifference, read, settled, shareWithin } from './pictures.mjs';
@@ -20,7 +20,6 @@ export async function seenCases(home, runAll) {
   const [grouped, alone] = await Promise.all(['map.glb', 'alone/map.glb'].map((map) => command.serve('view', map)));
   const page = await browser.open(alone.url);
   const bare = await browser.open(grouped.url);
-  const evening = { dimmed: bare };
   const failed = await runAll([
     ['time to the first light', () => timeToReady(browser, alone.url)],
     ['false colour', () => falseColour(home, bare)],
@@ -28,7 +27,7 @@ export async function seenCases(home, runAll) {
     ['as seen', () => asSeen(home, page, 'door', 0)],
     ['as seen, with a mirror', () => asSeen(home, page, 'mirror', 1)],
     ...(await names(page)).map((tone) => [`tone operator ${tone}`, () => toned(home, page, tone)]),
-    ['dimmed light is that of a mixed map', () => dimmed(home, evening.dimmed)],
+    ['dimmed light is that of a mixed map', () => dimmed(home, bare)],
   ]);
   await Promise.all([page, bare].map(leave));
   await Promise.all([grouped, alone].map(({ stop }) => stop()));
@@ -39,7 +38,7 @@ const names = (page) => page.evaluate(() => window.isoluxViewer.scene.tones.map(
 
 async function timeToReady(browser, url) {
   const page = await browser.open(url);
-  const ms = await page.evaluate(() => window.isoluxViewer.ready.then(() => performance.now()));
+  const ms = await lit(page);
   await complete(page);
   const all = await page.evaluate(() => performance.now());
   await leave(page);
@@ -92,9 +91,8 @@ async function falseColour(home, page) {
 
 /** A map with groups is shown as it is, one without gets more vertices after a while. */
 async function finer(page, bare) {
-  const vertices = (page) => page.evaluate(() => window.isoluxViewer.stats().vertices);
   const few = await vertices(bare);
-  await page.waitForFunction((few) => window.isoluxViewer.stats().vertices > few, few, { timeout: PATIENCE_MS / 2 });
+  await until(page, (few) => window.isoluxViewer.stats().vertices > few, few);
   await complete(page);
   return `${await vertices(page)} vertices after ${few}`;
 }

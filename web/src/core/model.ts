@@ -70,6 +70,7 @@ export class Model {
    */
   async refine(renderer: WebGLRenderer, camera: Camera, shown: (() => void) | null): Promise<void> {
     const trial = new Scene();
+    const canWait = renderer.extensions.has('KHR_parallel_shader_compile');
     for (const { batch, meshes, geometry } of this.parts) {
       if (batch.kind === 'plain' && batch.texture < 0) continue;
       for (const [pass, mesh] of meshes.entries()) {
@@ -77,7 +78,8 @@ export class Model {
         const isNew = shown !== null && !this.#ready.has(material);
         this.#ready.add(material);
         trial.clear().add(new Mesh(geometry, material));
-        if (isNew) await renderer.compileAsync(trial, camera);
+        // Without the extension, which three.js would complain of, it is made when it is first drawn with.
+        if (isNew && canWait) await renderer.compileAsync(trial, camera);
         mesh.material = material;
         mesh.visible = true;
         // Between two shaders that take long the page stays alive.

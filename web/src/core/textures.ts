@@ -15,8 +15,8 @@ export function openTextures({ header, numbers }: Container<SceneHeader>, change
   return header.textures.map(({ png }) => {
     const uniform: SceneTexture = { value: plain(), texels: null };
     const blob = new Blob([numbers<Uint8Array<ArrayBuffer>>(png)], { type: 'image/png' });
-    // The values are used as they are stored; three.js tells WebGL that they are coded as sRGB.
-    createImageBitmap(blob, { colorSpaceConversion: 'none', premultiplyAlpha: 'none', imageOrientation: 'flipY' }).then((bitmap) => {
+    // The first row is at v = 0, as in glTF. The values are used as they are stored; three.js tells WebGL that they are coded as sRGB.
+    createImageBitmap(blob, { colorSpaceConversion: 'none', premultiplyAlpha: 'none' }).then((bitmap) => {
       uniform.value.dispose();
       uniform.value = pictured(bitmap);
       uniform.texels = new Texels(bitmap);

@@ -59,7 +59,7 @@ function encodeSettings(s: Partial<Settings>, put: (key: string, value: string) 
   if (s.limits) put('lim', `${short(s.limits.low)},${short(s.limits.high)}`);
   const flags = FLAGS.filter(([, name]) => s[name]).map(([letter]) => letter).join('');
   if (flags) put('on', flags);
-  if (s.luminaires && s.luminaires !== 'off') put('lum', s.luminaires);
+  if (s.luminaires) put('lum', s.luminaires);
   if (s.dimming) put('dim', s.dimming.map((v) => short(v, 3)).join(','));
   if (s.otherDimming) put('dim2', s.otherDimming.map((v) => short(v, 3)).join(','));
   if (s.compare && s.compare !== 'off') put('cmp', `${s.compare},${short(s.split ?? 0.5, 3)}`);
@@ -113,7 +113,7 @@ const READERS: Record<string, Reader> = {
     for (const [letter, flag] of FLAGS) into.settings[flag] = text.includes(letter);
     return true;
   },
-  lum: (text, into) => oneOf(text, ['points', 'solids'] as const, (v) => { into.settings.luminaires = v; }),
+  lum: (text, into) => oneOf(text, ['off', 'points', 'solids'] as const, (v) => { into.settings.luminaires = v; }),
   dim: (text, into) => layers(text, (v) => { into.settings.dimming = v; }),
   dim2: (text, into) => layers(text, (v) => { into.settings.otherDimming = v; }),
   cmp: (text, into) => {
