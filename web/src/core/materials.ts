@@ -63,7 +63,10 @@ export class Materials {
       ...this.shared, ...this.world, uFirstChunk: { value: firstChunk },
       ...(texture >= 0 ? { uTexture: this.textures[texture]! } : {}), ...(plane >= 0 ? this.plane(plane) : {}),
     };
-    return new RawShaderMaterial({ glslVersion: GLSL3, vertexShader: SURFACE_VERTEX, fragmentShader: SURFACE_FRAGMENT, defines, uniforms, side: FrontSide });
+    const material = new RawShaderMaterial({ glslVersion: GLSL3, vertexShader: SURFACE_VERTEX, fragmentShader: SURFACE_FRAGMENT, defines, uniforms, side: FrontSide });
+    // Mirrors hang close before what holds them: from afar they are to win.
+    if (plane >= 0) Object.assign(material, { polygonOffset: true, polygonOffsetFactor: -4, polygonOffsetUnits: -16 });
+    return material;
   }
 
   #glass(firstChunk: number, pass: 0 | 1): RawShaderMaterial {

@@ -13,24 +13,35 @@ const BIAS = new Matrix4().set(0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0
 
 export class Mirrors {
   readonly #targets: WebGLRenderTarget[] = [];
-  readonly #camera = new PerspectiveCamera();
-
-  constructor() {
-    this.#camera.layers.enable(LAYER.glass);
-    this.#camera.matrixAutoUpdate = false;
-  }
+  readonly #cameras: PerspectiveCamera[] = [];
 
   /** Draws what the largest mirrors in sight show, for pictures of this many pixels. */
   render(renderer: WebGLRenderer, scene: Object3D, camera: PerspectiveCamera, model: Model, size: { width: number; height: number }): void {
     const seen = seenPlanes(model, camera).slice(0, MOST);
     const all = model.planes.map((_, i) => model.materials.plane(i));
-    all.forEach((uniforms) => (uniforms.uIsReflected.value = 0));
+    // While one is drawn none is read: a target that is read and drawn to at once stays black.
+    all.forEach(({ uIsReflected, uReflection }) => {
+      uIsReflected.value = 0;
+      uReflection.value = null;
+    });
     const [before, clear, alpha] = [renderer.getRenderTarget(), renderer.getClearColor(new Color()), renderer.getClearAlpha()];
     renderer.setClearColor(BLACK, 0);
-    seen.forEach((index, k) => this.#draw(renderer, scene, camera, model, index, this.#target(k, size), all[index]!));
+    seen.forEach((index, k) => this.#draw(renderer, scene, camera, model, index, k, this.#target(k, size), all[index]!));
     renderer.setRenderTarget(before);
     renderer.setClearColor(clear, alpha);
-    seen.forEach((index) => (all[index]!.uIsReflected.value = 1));
+    seen.forEach((index, k) => {
+      all[index]!.uReflection.value = this.#targets[k]!.texture;
+      all[index]!.uIsReflected.value = 1;
+    });
+  }
+
+  #camera(k: number): PerspectiveCamera {
+    const known = this.#cameras[k];
+    if (known) return known;
+    const made = (this.#cameras[k] = new PerspectiveCamera());
+    made.layers.enable(LAYER.glass);
+    made.matrixAutoUpdate = false;
+    return made;
   }
 
   #target(k: number, { width, height }: { width: number; height: number }): WebGLRenderTarget {
@@ -39,16 +50,15 @@ export class Mirrors {
     return target;
   }
 
-  #draw(renderer: WebGLRenderer, scene: Object3D, camera: PerspectiveCamera, model: Model, index: number, target: WebGLRenderTarget, uniforms: PlaneUniforms): void {
+  #draw(renderer: WebGLRenderer, scene: Object3D, camera: PerspectiveCamera, model: Model, index: number, k: number, target: WebGLRenderTarget, uniforms: PlaneUniforms): void {
     const { normal, point } = model.planes[index]!;
-    place(this.#camera, camera, normal, point);
-    uniforms.uReflectionMatrix.value.copy(BIAS).multiply(this.#camera.projectionMatrix).multiply(this.#camera.matrixWorldInverse);
-    clip(this.#camera, normal, point);
-    uniforms.uReflection.value = null;
+    const virtual = this.#camera(k);
+    place(virtual, camera, normal, point);
+    uniforms.uReflectionMatrix.value.copy(BIAS).multiply(virtual.projectionMatrix).multiply(virtual.matrixWorldInverse);
+    clip(virtual, normal, point);
     renderer.setRenderTarget(target);
     renderer.clear();
-    renderer.render(scene, this.#camera);
-    uniforms.uReflection.value = target.texture;
+    renderer.render(scene, virtual);
   }
 
   dispose(): void {
@@ -94,7 +104,11 @@ function place(virtual: PerspectiveCamera, camera: PerspectiveCamera, normal: Ve
   virtual.updateMatrix();
   virtual.matrixWorld.copy(virtual.matrix);
   virtual.matrixWorldInverse.copy(virtual.matrixWorld).invert();
-  virtual.projectionMatrix.copy(camera.projectionMatrix);
+  // It sees as far as the camera does, from behind the mirror.
+  const behind = 2 * Math.abs(normal.dot(camera.position) - normal.dot(point));
+  const { fov, aspect, near, zoom, view } = camera;
+  Object.assign(virtual, { fov, aspect, near, zoom, view, far: camera.far + behind });
+  virtual.updateProjectionMatrix();
 }
 
 /** Makes the mirror the near plane (Lengyel 2005, "Oblique view frustum depth projection and clipping"). */

@@ -61,10 +61,13 @@ void main() {
   vec4 low = chunkTexel(2 * chunk), size = chunkTexel(2 * chunk + 1);
   int finish = 5 * int(low.w);
   vec3 at = low.xyz + size.xyz * vec3(place.xyz);
-  gl_Position = projectionMatrix * (viewMatrix * vec4(at, 1.0));
+  vec4 eye = viewMatrix * vec4(at, 1.0);
   vDiffuse = vec4(finishTexel(finish).rgb, size.w);
   vEmission = finishTexel(finish + 3).rgb;
   if (uSide == 1) shade(light2, light); else shade(light, light2);
+  // Without known light is what lies behind or inside of something: it recedes, or from afar it would show through what covers it.
+  if (size.w > 0.5 && vTotal.a < 0.5) eye.xyz *= 1.002;
+  gl_Position = projectionMatrix * eye;
 #ifdef TEXTURED
   vUv = uv;
 #endif
