@@ -4,7 +4,7 @@ import { PNG } from 'pngjs';
 import { complete, PATIENCE_MS } from './browser.mjs';
 
 // So many pictures in a row are the same once a page rests.
-const SAME = 3;
+const SAME = 2;
 
 /** The picture of a page once nothing in it changes any more. */
 export async function settled(page) {

@@ -75,7 +75,7 @@ function logAxes(ink: Ink): uPlot.Axis[] {
     ...axis, filter: (plot: uPlot, splits: number[]) => {
       const [least, most] = [plot.scales[i === 0 ? 'x' : 'y']!.min ?? 1, plot.scales[i === 0 ? 'x' : 'y']!.max ?? 10];
       const [wide, narrow] = [most / least > 300, most / least < 8];
-      return splits.map((v) => (v > 0 && (narrow || (wide ? Number.isInteger(Number(Math.log10(v).toFixed(6))) : isRound(v))) ? v : null));
+      return splits.map((v) => (v > 0 && ((narrow && Number(v.toPrecision(2)) === v) || (wide ? Number.isInteger(Number(Math.log10(v).toFixed(6))) : isRound(v))) ? v : null));
     },
   }));
 }
