@@ -8,7 +8,7 @@ const FLAGS = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swift
 // What Chromium says of its own graphics.
 const NOT_OURS = /GL Driver Message|software WebGL|GPU stall|extension not supported/;
 /** Until something of a page has come about; a machine without a graphics card draws in software. */
-export const PATIENCE_MS = 30_000;
+export const PATIENCE_MS = 60_000;
 const POLLING_MS = 50;
 
 export function findBrowser() {

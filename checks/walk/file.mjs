@@ -7,7 +7,7 @@ import { fixedExposure } from './seen.mjs';
 
 // Both show the same map with shadows about as fine.
 const MOST_ALIKE = 1;
-const FINER = '4s';
+const FINER = '2s';
 
 export async function fileCases({ command, browser, at }, runAll) {
   await command.run('export', 'alone/map.glb', '-o', 'room.html', '--finer', FINER);

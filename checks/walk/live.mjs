@@ -89,24 +89,33 @@ async function comes({ first, start }) {
   return `mean CIE94 ${change.toFixed(2)} from the first light, "${await phase(first).innerText()}"`;
 }
 
-/** A second page joins, loses its connection for the rest of the run, and finds it again. */
+/** A second page joins, loses its connection for the rest of the run, and finds it again. The run is held until that is lost. */
 async function comesBack(run) {
   const { browser, served, first } = run;
-  const gate = await gateBefore(served.url);
-  run.late = await visit(browser, gate.url);
+  await pauseUnlessDone(first);
+  run.gate = await gateBefore(served.url);
+  run.late = await visit(browser, run.gate.url);
   const joined = { ...run.late.got };
   const lost = run.late.getByText('Connection lost, trying again.');
   run.late.isCutOff = true;
-  await gate.cut();
+  await run.gate.cut();
   await lost.waitFor();
   const was = await phase(first).innerText();
+  if (was.startsWith('Paused')) await button(first, 'Go on').click();
   await isDone(first);
-  await gate.open();
+  await run.gate.open();
   await isDone(run.late);
-  run.gate = gate;
   await lost.waitFor({ state: 'hidden' });
   run.late.isCutOff = false;
-  return `joined at light ${joined.mesh}.${joined.version}, cut from "${was}" until the run was done, has ${run.late.got.mesh}.${run.late.got.version}`;
+  return `joined at light ${joined.mesh}.${joined.version}, cut while "${was}", done at ${run.late.got.mesh}.${run.late.got.version}`;
+}
+
+/** On a fast machine the run may be over. */
+async function pauseUnlessDone(page) {
+  const isOver = isDone(page);
+  await Promise.race([button(page, 'Pause').click().catch(() => isOver), isOver]);
+  await phase(page).filter({ hasText: /^(Paused|Done)/ }).waitFor();
+  isOver.catch(() => {});
 }
 
 /** Finer shadows may still come once a run is done, so that pictures count which were taken of one light. */

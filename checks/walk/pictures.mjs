@@ -3,8 +3,8 @@ import { readFileSync } from 'node:fs';
 import { PNG } from 'pngjs';
 import { complete, PATIENCE_MS } from './browser.mjs';
 
-// So many pictures in a row are the same once a page rests.
-const SAME = 2;
+// So many pictures in a row are the same once a page rests; a page that reads its exposure shows some of the old one before.
+const SAME = 5;
 
 /** The picture of a page once nothing in it changes any more. */
 export async function settled(page) {
@@ -35,13 +35,16 @@ function requireSameSize(a, b) {
 }
 
 const LINEAR = Array.from({ length: 256 }, (_, code) => (code <= 0.04045 * 255 ? code / 255 / 12.92 : ((code / 255 + 0.055) / 1.055) ** 2.4));
-// IEC 61966-2-1: CIE XYZ of the primaries over that of D65.
-const XYZ_OVER_WHITE = [[0.4124, 0.3576, 0.1805].map((c) => c / 0.9505), [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505].map((c) => c / 1.089)];
+// The kink of CIE 1976 lightness, and its slope below.
+const [DARK, SLOPE] = [216 / 24389, 24389 / 27];
+const root = (t) => (t > DARK ? Math.cbrt(t) : (SLOPE * t + 16) / 116);
 
-/** CIE 1976 L*a*b* of codes of sRGB. */
+/** CIE 1976 L*a*b* of codes of sRGB (IEC 61966-2-1), white D65. */
 function lab(data, at) {
-  const f = (t) => (t > 216 / 24389 ? Math.cbrt(t) : (24389 / 27 * t + 16) / 116);
-  const [x, y, z] = XYZ_OVER_WHITE.map((row) => f(row.reduce((sum, c, k) => sum + c * LINEAR[data[at + k]], 0)));
+  const [r, g, b] = [LINEAR[data[at]], LINEAR[data[at + 1]], LINEAR[data[at + 2]]];
+  const x = root((0.4124 * r + 0.3576 * g + 0.1805 * b) / 0.9505);
+  const y = root(0.2126 * r + 0.7152 * g + 0.0722 * b);
+  const z = root((0.0193 * r + 0.1192 * g + 0.9505 * b) / 1.089);
   return [116 * y - 16, 500 * (x - y), 200 * (y - z)];
 }
 

@@ -15,6 +15,7 @@ mod smoke;
 mod test;
 mod tidy;
 mod truth;
+mod walk;
 mod worlds;
 
 use std::path::Path;
@@ -25,6 +26,7 @@ cargo xtask test    everything that must hold before a change lands
 cargo xtask tidy    of it, layers, module cycles, sizes, paths and unsafe code
 cargo xtask smoke   of it, the command line from scene to values, and the outside judges
 cargo xtask page    of it, the tests of the walk-through's page, and whether its built file is that of its sources
+cargo xtask walk    of it, the walk-through in Chromium, beside what the command says of the same maps
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask compared      of it, all systems by error against time, as short as it can be
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
         ["tidy"] => tidy::run(root),
         ["smoke"] => test::smoke_and_judge(root),
         ["page"] => page::run(root),
+        ["walk"] => walk::run(root),
         ["lamps"] => lamps::run(root),
         ["colours"] => colours::run(root),
         ["compared"] => compared::run(root),

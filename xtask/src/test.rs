@@ -1,6 +1,6 @@
 //! Everything that must hold before a change lands, in one command.
 
-use crate::{colours, compared, grids, judge, lamps, page, peers, smoke, tidy, worlds};
+use crate::{colours, compared, grids, judge, lamps, page, peers, smoke, tidy, walk, worlds};
 use std::path::Path;
 use std::process::Command;
 
@@ -20,6 +20,8 @@ pub(crate) fn run(root: &Path) -> Result<String, String> {
     println!("{}", smoke_and_judge(root)?);
     announce("page of the walk-through");
     println!("{}", page::run(root)?);
+    announce("outside judge of the walk-through: Chromium");
+    println!("{}", walk::run(root)?);
     announce("comparison of all systems, as short as it can be");
     println!("{}", compared::run(root)?);
     announce("outside judges of photometric files: ies2rad, photompy");

@@ -45,7 +45,8 @@ fn missing_for_view3dscene() -> Option<String> {
 const BROWSERS: [&str; 3] =
     ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 
-fn missing_browser() -> Option<String> {
+/// What keeps Chromium from drawing.
+pub(crate) fn missing_browser() -> Option<String> {
     let is_named = std::env::var_os("CHROMIUM").is_some();
     let is_there = is_named || BROWSERS.iter().any(|path| Path::new(path).is_file());
     (!is_there).then(|| "Chromium is not installed, nor named in CHROMIUM".to_owned())

@@ -27,6 +27,12 @@ fn started(flags: &ServerFlags, served: Arc<Served>, feed: Feed) -> Result<Serve
     let settings = Settings { address: flags.address, port: flags.port, ..Settings::default() };
     let server = serve(settings, &Page { html: PAGE.into() }, served, feed)
         .map_err(|error| Failure::bad_input(error.to_string()))?;
+    if !flags.address.is_loopback() {
+        note(
+            Note::Info,
+            "others reach the page by the name or address of this machine, with the same port and token",
+        );
+    }
     if !flags.no_open && open::that_detached(server.url()).is_err() {
         note(Note::Info, "no browser can be opened from here: open the address in one");
     }
