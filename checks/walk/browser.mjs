@@ -39,11 +39,16 @@ async function open(browser, heard, url, { width = 640, height = 360, bare = tru
 function listen(page, heard) {
   heard.pages += 1;
   page.on('console', (message) => {
-    if (!['error', 'warning'].includes(message.type()) || NOT_OURS.test(message.text()) || page.isCutOff) return;
+    if (!['error', 'warning'].includes(message.type()) || NOT_OURS.test(message.text()) || page.isCutOff || isLate(message)) return;
     heard.complaints.push(`${message.text()} (${message.location().url})`);
   });
   page.on('pageerror', (error) => heard.complaints.push(String(error)));
   page.on('request', (request) => heard.requests.push(request.url()));
+}
+
+/** Chromium tells of an answer that pages await: the mesh has changed since they heard of it, and they ask again. */
+function isLate(message) {
+  return message.text().includes('status of 409') && /api\/(light|mesh)/.test(message.location().url);
 }
 
 /** Leaves the canvas alone in the window. */

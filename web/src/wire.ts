@@ -224,6 +224,8 @@ export interface GridTable {
   v: Vec3;
   columns: number;
   rows: number;
+  /** The share of the initial light that is left when the installation is maintained; values are maintained ones. */
+  maintenance_factor: number;
   /** Positions of the points, row after row. */
   points: Vec3[];
   illuminance_lx: (number | null)[];

@@ -9,14 +9,18 @@ use crate::output::{OutputPath, create_folder};
 use crate::progress::Reporter;
 use crate::solving::Run;
 use crate::summary::{self, Lit};
+use crate::walk::{self, Opened};
 use crate::{explain, map_file, render, report, repository, solving, source, viewpoint};
 use isolux::engine::SolveRequest;
 use isolux_view::{Contours, FalseColour};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 const SCENE: &str = "scenes/demo/scene.toml";
 const PICTURE: (u32, u32) = (1280, 720);
+/// Time to look for finer shadows in the walk-through.
+const FINER: Duration = Duration::from_secs(5);
 
 /// Runs the subcommand.
 pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
@@ -36,10 +40,13 @@ pub(crate) fn run(flags: &DemoFlags, json: bool) -> Result<Outcome, Failure> {
     let picture = Look::Picture(Box::default());
     render::write(&files.picture, &picture.show(&view)?)?;
     render::write(&files.false_colour, &chart.show(&view)?)?;
+    let walk = walk::file(&[Opened::read(files.map.path())?], FINER)?;
+    files.walk.write(walk.as_bytes())?;
     let results = Results {
         solution: report::Report::of(&solved.solution.map, solved.solution.time_s, &files.map),
         picture: files.picture.path().display().to_string(),
         false_colour: files.false_colour.path().display().to_string(),
+        walk_through: files.walk.path().display().to_string(),
         surfaces: summary::by_shape(&scene, &solved.solution.map),
     };
     if json {
@@ -55,6 +62,7 @@ struct Files {
     map: OutputPath,
     picture: OutputPath,
     false_colour: OutputPath,
+    walk: OutputPath,
 }
 
 impl Files {
@@ -64,6 +72,7 @@ impl Files {
             map: OutputPath::check(&folder.join("map.glb"), "glb")?,
             picture: OutputPath::check(&folder.join("picture.png"), "png")?,
             false_colour: OutputPath::check(&folder.join("false-colour.png"), "png")?,
+            walk: OutputPath::check(&folder.join("walk.html"), "html")?,
         })
     }
 }
@@ -84,6 +93,8 @@ struct Results {
     solution: report::Report,
     picture: String,
     false_colour: String,
+    /// To be opened in a browser.
+    walk_through: String,
     surfaces: Vec<Lit>,
 }
 
@@ -92,6 +103,7 @@ impl Results {
         let pictures = facts(&[
             ("picture", self.picture.clone()),
             ("false colour", self.false_colour.clone()),
+            ("walk-through", format!("{}, to be opened in a browser", self.walk_through)),
         ]);
         format!("{}{pictures}\n{}", self.solution.text(), summary::text(&self.surfaces))
     }

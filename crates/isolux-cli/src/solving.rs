@@ -52,11 +52,15 @@ pub(crate) fn solve(
     scene: &Scene,
     run: &Run,
     saved: Option<&RunState>,
-    (reporter, live): (&mut Reporter, Option<&mut Live>),
+    (reporter, mut live): (&mut Reporter, Option<&mut Live>),
 ) -> Result<Solved, Failure> {
     let mut keeper = Keeper::beside(run.output);
-    let follower = Follower { reporter, keeper: Some(&mut keeper), live };
+    let follower = Follower { reporter, keeper: Some(&mut keeper), live: live.as_deref_mut() };
     let solved = follow(scene, run.request, saved, follower, |error| failure(error, (scene, run)))?;
+    // Nobody asks any more how a run ended that begins anew.
+    if live.is_some_and(|live| live.begins_anew()) {
+        return Ok(solved);
+    }
     tell_of_bare_map(&solved.solution.map, run.request.mesh_accuracy);
     tell_of_hot_spots(&solved.solution.map);
     tell_of_time(&solved.solution, run.request.time_limit);

@@ -2,7 +2,7 @@
 
 import { Vector2, Vector3, Raycaster } from 'three';
 import type { MeshBVH } from 'three-mesh-bvh';
-import type { Source } from '../contract';
+import type { Settings, Source } from '../contract';
 import type { RayAsked, Reading, Vec3 } from '../wire';
 import { buildBvh, MOST_FOR_SERVER } from './bvh';
 import type { Model } from './model';
@@ -20,7 +20,7 @@ export class Finder {
   #building: AbortController | null = null;
 
   constructor(
-    readonly source: Source, readonly world: World, readonly navigation: Navigation, readonly canvas: HTMLCanvasElement, readonly dimming: () => number[],
+    readonly source: Source, readonly world: World, readonly navigation: Navigation, readonly canvas: HTMLCanvasElement, readonly settings: () => Readonly<Settings>,
     readonly built: (bvh: MeshBVH) => void,
   ) {}
 
@@ -51,7 +51,15 @@ export class Finder {
     return new Vector3(...normal).normalize();
   }
 
+  /** Whether a place of the picture shows the second map. */
+  #isOther(x: number): boolean {
+    const { compare, split } = this.settings();
+    return compare === 'maps' && this.source.hello.worlds.length > 1 && x > split * this.canvas.clientWidth;
+  }
+
+  /** Nothing of the second map, whose vertices are not kept for that. */
   glanceAt(x: number, y: number): Reading | null {
+    if (this.#isOther(x)) return null;
     const hit = this.#cast(...this.#ray(x, y));
     return hit && this.#model ? readingOf(this.#model, this.world.scene, hit) : null;
   }
@@ -59,7 +67,7 @@ export class Finder {
   async readAt(x: number, y: number, signal: AbortSignal): Promise<Reading | null> {
     const ray = this.#ray(x, y);
     if (!this.#asksServer) return this.glanceAt(x, y);
-    const [reading] = await this.#read([ray], signal);
+    const [reading] = await this.#read([ray], signal, this.#isOther(x) ? 1 : 0);
     return reading?.position ? reading : null;
   }
 
@@ -91,11 +99,11 @@ export class Finder {
   }
 
   /** What the server reads in the light as it is dimmed; where that leaves no light, what the vertices tell. */
-  async #read(rays: [Vector3, Vector3][], signal: AbortSignal): Promise<Reading[]> {
-    const factors = this.dimming();
-    if (factors.every((factor) => factor === 0)) return rays.map((ray) => this.#glance(ray));
+  async #read(rays: [Vector3, Vector3][], signal: AbortSignal, world: 0 | 1 = 0): Promise<Reading[]> {
+    const factors = world === 0 ? this.settings().dimming : [];
+    if (factors.length > 0 && factors.every((factor) => factor === 0)) return rays.map((ray) => this.#glance(ray));
     const dimming = factors.every((factor) => factor === 1) ? [] : factors;
-    return this.source.read(0, rays.map((ray) => this.#asked(...ray)), dimming, signal);
+    return this.source.read(world, rays.map((ray) => this.#asked(...ray)), dimming, signal);
   }
 
   #glance(ray: [Vector3, Vector3]): Reading {

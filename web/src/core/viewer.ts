@@ -18,13 +18,13 @@ import { snapshot } from './snapshot';
 import { makeUniforms } from './uniforms';
 import { World } from './worlds';
 
-function startSettings(world: World): Settings {
+function startSettings(world: World, isAlone: boolean): Settings {
   const { scene } = world;
   const ones = (scene.layers.length > 0 ? scene.layers : ['']).map(() => 1);
   return {
     mode: 'seen', tone: scene.tones[0]?.name ?? '', autoExposure: true, ev100: evOfWhite(scene.white_cd_m2 || 1), colourMap: scene.colour_maps[0]?.name ?? '',
     limits: null, logarithmic: false, mesh: false, contours: false, luminaires: 'points', grids: false, dimming: ones, otherDimming: [...ones],
-    compare: 'off', split: 0.5, quality: 'auto',
+    compare: isAlone ? 'off' : 'maps', split: 0.5, quality: 'auto',
   };
 }
 
@@ -39,10 +39,10 @@ export async function createViewer(canvas: HTMLCanvasElement, overlay: HTMLEleme
   const worlds = await Promise.all(asked.map(async ({ scene }, i) => new World(i, decode(await scene, 'scene'), uniforms, changed)));
   const first = worlds[0]!;
   const errors = new Errors();
-  const settings = startSettings(first);
+  const settings = startSettings(first, worlds.length === 1);
   const navigation = new Navigation(canvas, first.scene, changed);
   const quality = new Quality(isSoftware, settings.quality);
-  const finder = new Finder(source, first, navigation, canvas, () => settings.dimming, (bvh) => (navigation.walk.bvh = bvh));
+  const finder = new Finder(source, first, navigation, canvas, () => settings, (bvh) => (navigation.walk.bvh = bvh));
   const parts: Parts = {
     renderer, uniforms, quality, navigation, shown: new Shown(first.container, uniforms), marks: new Marks(overlay), luminaires: new Luminaires(first.scene, first.root),
     worlds, events: new Emitter<EventName>(), settings, white: first.scene.white_cd_m2 || 1, canvas, hidden: () => finder.hidden(),

@@ -1,10 +1,10 @@
 // What can be done by a key, a button or a menu: one list for all three, and for the list of keys.
 
-import type { Settings } from '../contract';
+import type { Mode, Settings } from '../contract';
 import { download, copy } from './notices';
 import { fileName } from './csv';
 import type { IconName } from './icons';
-import { MODE_NAMES, modesOf, type Ui } from './ui';
+import { isComparable, MODE_NAMES, modesOf, type Ui } from './ui';
 
 export interface Action {
   id: string;
@@ -29,8 +29,13 @@ export function actionsOf(ui: Ui, link: () => string, help: () => void): Action[
 
 function modes({ viewer }: Ui): Action[] {
   return modesOf(viewer).map((mode, i) => ({
-    id: `mode-${mode}`, label: MODE_NAMES[mode], key: String(i + 1), run: () => viewer.set({ mode }), on: () => viewer.settings.mode === mode,
+    id: `mode-${mode}`, label: MODE_NAMES[mode], key: String(i + 1), run: () => viewer.set(compared(viewer, mode)), on: () => viewer.settings.mode === mode,
   }));
+}
+
+/** A difference is that of two maps, or else of two dimmings. */
+function compared(viewer: Ui['viewer'], mode: Mode): Partial<Settings> {
+  return mode === 'difference' && !isComparable(viewer) ? { mode, compare: 'dimmings' } : { mode };
 }
 
 function layers({ viewer }: Ui): Action[] {

@@ -88,6 +88,11 @@ function fillPanel(ui: Ui, pins: Pins, section: SectionTool): void {
 }
 
 async function pinAt(ui: Ui, pins: Pins, x: number, y: number, shown: (r: Parameters<Pins['add']>[0]) => void): Promise<void> {
+  const { compare, split } = ui.viewer.settings;
+  if (compare === 'maps' && ui.viewer.otherScene && x > split * ui.canvas.clientWidth) {
+    ui.say('Readings are kept of the map on the left. Move the slider, or open the maps the other way round.');
+    return;
+  }
   try {
     const reading = await ui.viewer.readAt(x, y, new AbortController().signal);
     if (!reading?.position) return;

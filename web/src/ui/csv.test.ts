@@ -18,7 +18,7 @@ describe('lines of files', () => {
   });
   it('go through grids row after row', () => {
     const lines = gridCsv({
-      name: 'desk', corner: [0, 0, 0], u: [2, 0, 0], v: [0, 2, 0], columns: 2, rows: 2,
+      name: 'desk', corner: [0, 0, 0], u: [2, 0, 0], v: [0, 2, 0], maintenance_factor: 1, columns: 2, rows: 2,
       points: [[0.5, 0.5, 0], [1.5, 0.5, 0], [0.5, 1.5, 0], [1.5, 1.5, 0]],
       illuminance_lx: [1, 2, null, 4], standard_error_lx: [0.1, 0.1, null, 0.1], figures: [],
     }).split('\n');

@@ -55,10 +55,14 @@ function table(ui: Ui, grid: GridTable, open: boolean): HTMLElement {
   } }, h('summary', {}, `${grid.points.length} points`), points);
   return h('details', { class: 'grid-table', open },
     h('summary', {}, h('b', {}, grid.name), h('span', { class: 'faint' }, `${grid.columns} × ${grid.rows}`)),
-    figures(grid), list,
+    figures(grid), maintained(grid), list,
     h('div', { class: 'row' },
       h('button', { type: 'button', onclick: () => go(ui, grid, centre(grid)) }, icon('frame'), 'Go there'),
       h('button', { type: 'button', onclick: () => download(fileName([ui.viewer.scene.name, grid.name], 'csv'), gridCsv(grid)) }, icon('download'), 'CSV')));
+}
+
+function maintained({ maintenance_factor: factor }: GridTable): HTMLElement | null {
+  return factor === 1 ? null : h('p', { class: 'faint' }, `Maintained values: ${significant(factor, 3)} of the initial ones, which the picture shows.`);
 }
 
 function figures(grid: GridTable): HTMLElement {

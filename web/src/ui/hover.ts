@@ -39,7 +39,7 @@ export function hover(ui: Ui): Hover {
   };
   const show = (reading: Reading, x: number, y: number, glance = false): void => {
     replace(root, illuminanceLine(reading), details(reading),
-      h('p', { class: 'faint' }, glance ? 'between vertices' : sourceText(reading)), sideNote(ui));
+      h('p', { class: 'faint' }, glance ? 'between vertices' : sourceText(reading)), sideNote(ui, x));
     root.hidden = false;
     place(root, stage, x, y);
   };
@@ -81,9 +81,11 @@ export function hover(ui: Ui): Hover {
 }
 
 /** Readings are those of the left side, also where the right one is seen. */
-function sideNote({ viewer }: Ui): HTMLElement | null {
-  const { compare } = viewer.settings;
-  return compare === 'off' ? null : h('p', { class: 'faint clip' }, `of ${sideNames(viewer, compare)[0]}`);
+/** Whose value it is, where two are shown. */
+function sideNote({ viewer, canvas }: Ui, x: number): HTMLElement | null {
+  const { compare, split } = viewer.settings;
+  const isRight = compare === 'maps' && viewer.otherScene !== null && x > split * canvas.clientWidth;
+  return compare === 'off' ? null : h('p', { class: 'faint clip' }, `of ${sideNames(viewer, compare)[isRight ? 1 : 0]}`);
 }
 
 /** Beside the point, on the side where there is room. */

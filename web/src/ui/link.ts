@@ -29,7 +29,7 @@ function short(value: number, digits = 5): string {
 
 /** Metres to a millimetre. */
 function place(at: number[]): string {
-  return at.map((v) => String(Number(v.toFixed(3)))).join(',');
+  return at.map((v) => String(Number(v.toFixed(4)))).join(',');
 }
 
 export function encodeLink(state: LinkState): string {
@@ -62,7 +62,7 @@ function encodeSettings(s: Partial<Settings>, put: (key: string, value: string) 
   if (s.luminaires) put('lum', s.luminaires);
   if (s.dimming) put('dim', s.dimming.map((v) => short(v, 3)).join(','));
   if (s.otherDimming) put('dim2', s.otherDimming.map((v) => short(v, 3)).join(','));
-  if (s.compare && s.compare !== 'off') put('cmp', `${s.compare},${short(s.split ?? 0.5, 3)}`);
+  if (s.compare) put('cmp', `${s.compare},${short(s.split ?? 0.5, 3)}`);
 }
 
 /** What a link says, or null where it is none of this version. Parts that make no sense are left out and named in `bad`. */
@@ -121,7 +121,7 @@ const READERS: Record<string, Reader> = {
     const split = numbers(at, 1, 0, 1);
     if (!split) return false;
     into.settings.split = split[0]!;
-    return oneOf(what, ['maps', 'dimmings'] as const, (v) => { into.settings.compare = v; });
+    return oneOf(what, ['off', 'maps', 'dimmings'] as const, (v) => { into.settings.compare = v; });
   },
   pin: (text, into) => {
     const cells = text.split(',');

@@ -141,7 +141,7 @@ function targetForm(send: (accuracy: number) => void): { root: HTMLElement; show
       send(parsed.accuracy);
       input.value = '';
     }
-  } }, h('label', { class: 'row' }, h('span', {}, 'Go on to'), input, h('button', { type: 'submit' }, 'Set target')), problem);
+  } }, h('label', { class: 'row' }, h('span', {}, 'Anew for'), input, h('button', { type: 'submit' }, 'Set target')), problem);
   input.addEventListener('input', () => tell(''));
   return { root, show: (now) => {
     input.placeholder = now === null ? '1%' : share(now).replace(/\.0 |\s/g, '');

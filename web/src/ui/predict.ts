@@ -66,9 +66,9 @@ export function isOver(phase: Phase): boolean {
 }
 
 /** `1.34 % of 1.0 %`, without the word before it. */
-export function errorText(state: Pick<LiveState, 'error' | 'target'>): { now: string; of: string } {
+export function errorText(state: Pick<LiveState, 'error' | 'target'> & { phase?: Phase }): { now: string; of: string } {
   return {
-    now: state.error === null ? 'not known yet' : share(state.error, 3),
+    now: state.error !== null ? share(state.error, 3) : state.phase && isOver(state.phase) ? 'not known' : 'not known yet',
     of: state.target === null ? '' : `of ${share(state.target)}`,
   };
 }

@@ -14,7 +14,7 @@ export function illuminanceLine(r: Reading): HTMLElement {
 
 /** Where the value is from. */
 export function sourceText(r: Reading): string {
-  return r.found === 'probe' ? 'as probe reads it: direct light afresh' : 'interpolated between vertices of the map';
+  return r.found === 'probe' ? 'as probe reads it: direct light afresh' : 'interpolated between vertices of the map; ± is their noise alone';
 }
 
 export function placeText(at: Vec3 | null): string {

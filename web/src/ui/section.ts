@@ -45,6 +45,15 @@ export function sectionTool(ui: Ui): SectionTool {
     if (at) mark.style.transform = `translate(${at[0]}px, ${at[1]}px)`;
   };
   ui.viewer.on('view', place);
+  let dimming = ui.viewer.settings.dimming.join();
+  ui.viewer.on('settings', () => {
+    const now = ui.viewer.settings.dimming.join();
+    if (now !== dimming && chart) {
+      clear();
+      replace(body, h('p', { class: 'faint', role: 'status' }, 'The light has changed: draw the section again.'));
+    }
+    dimming = now;
+  });
   const clear = (): void => {
     asked?.abort();
     chart?.close();

@@ -37,7 +37,7 @@ export function isComparable(viewer: Viewer): boolean {
 /** Modes that this scene can show, in the order of their keys. */
 export function modesOf(viewer: Viewer): Mode[] {
   const all: Mode[] = ['seen', 'illuminance', 'luminance', 'direct', 'indirect', 'error', 'relative'];
-  return isComparable(viewer) ? [...all, 'difference'] : all;
+  return isComparable(viewer) || viewer.scene.layers.length > 1 ? [...all, 'difference'] : all;
 }
 
 /** Names of the layers of light. */

@@ -30,6 +30,10 @@ impl Live {
         match *self {}
     }
 
+    pub(crate) fn begins_anew(&self) -> bool {
+        match *self {}
+    }
+
     pub(crate) fn next_target(&mut self) -> Option<f64> {
         match *self {}
     }

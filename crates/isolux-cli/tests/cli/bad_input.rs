@@ -214,7 +214,7 @@ fn bad_input_is_refused_with_a_reason() {
 #[test]
 fn every_subcommand_has_help_with_an_example() {
     let home = Home::new();
-    let all = "solve info probe grid render export mix check lint validate scene demo";
+    let all = "solve info probe grid render view export mix check lint validate scene demo";
     for subcommand in all.split(' ') {
         let ran = home.run(&[subcommand, "--help"]);
         assert_eq!(ran.code, 0, "{ran:?}");

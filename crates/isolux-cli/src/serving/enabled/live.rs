@@ -30,6 +30,9 @@ const PAUSE: Duration = Duration::from_millis(100);
 /// Once a run has ended it looks this often whether somebody still looks.
 const LINGERS: Duration = Duration::from_millis(200);
 
+/// Somebody may begin to look until so long after the start, however soon the run has ended.
+const FIRST_VIEWER: Duration = Duration::from_secs(10);
+
 /// A run that is shown.
 pub(crate) struct Live {
     served: Arc<Served>,
@@ -38,6 +41,7 @@ pub(crate) struct Live {
     file: String,
     told: Option<Instant>,
     was_seen: bool,
+    started: Instant,
 }
 
 impl Live {
@@ -63,7 +67,15 @@ impl Live {
         let server = started(flags, Arc::clone(&served), served.feed.clone())?;
         note(Note::Info, format!("watch it at {}", server.url()));
         let painter = Painter::start(Arc::downgrade(&served));
-        Ok(Self { served, server, painter, file, told: None, was_seen: false })
+        Ok(Self {
+            served,
+            server,
+            painter,
+            file,
+            told: None,
+            was_seen: false,
+            started: Instant::now(),
+        })
     }
 
     /// A run begins, perhaps anew.
@@ -82,7 +94,7 @@ impl Live {
         so_far: &SoFar<'_>,
         is_interrupted: &dyn Fn() -> bool,
     ) -> Watch {
-        self.was_seen |= self.server.viewers() > 0;
+        self.is_seen();
         let is_due = self.told.is_none_or(|told| told.elapsed() >= PAUSE) || progress.ends;
         if is_due {
             self.told = Some(Instant::now());
@@ -102,6 +114,12 @@ impl Live {
             Duration::ZERO => Watch::Continue,
             waited => Watch::After(waited),
         }
+    }
+
+    /// Whether the run is to begin anew.
+    pub(crate) fn begins_anew(&self) -> bool {
+        let wishes = self.served.steering.as_ref().map(Steering::wishes);
+        wishes.is_some_and(|wishes| wishes.target.is_some() && !wishes.stopped)
     }
 
     /// Another accuracy that the run is to begin anew for.
@@ -142,17 +160,26 @@ impl Live {
         }
     }
 
-    /// Serves the map as long as somebody looks.
-    pub(crate) fn linger(self) {
-        if self.server.viewers() == 0 {
-            return;
-        }
-        note(Note::Info, "the page is served until it is closed, or until Ctrl-C");
+    /// Serves the map as long as somebody looks, or may still begin to.
+    pub(crate) fn linger(mut self) {
         let interrupt = Interrupt::install();
         let is_interrupted = || interrupt.as_ref().is_ok_and(Interrupt::is_requested);
+        // A short run is over before a browser has opened.
+        while !self.is_seen() && self.started.elapsed() < FIRST_VIEWER && !is_interrupted() {
+            thread::sleep(LINGERS);
+        }
+        if self.server.viewers() > 0 {
+            note(Note::Info, "the page is served until it is closed, or until Ctrl-C");
+        }
         while self.server.viewers() > 0 && !is_interrupted() {
             thread::sleep(LINGERS);
         }
+    }
+
+    /// Whether somebody has looked.
+    fn is_seen(&mut self) -> bool {
+        self.was_seen |= self.server.viewers() > 0;
+        self.was_seen
     }
 }
 
