@@ -5,7 +5,7 @@
 mod error;
 mod exr;
 mod ktx2;
-mod shared_exponent;
+pub(crate) mod shared_exponent;
 mod target;
 mod vertex_colours;
 

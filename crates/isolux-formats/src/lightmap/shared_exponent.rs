@@ -8,7 +8,7 @@ const LARGEST_EXPONENT: i32 = 31;
 pub(super) const LARGEST: f64 = 65_408.0;
 
 /// The nearest that can be had, channels cut between nothing and [`LARGEST`].
-pub(super) fn encode(rgb: [f64; 3]) -> u32 {
+pub(crate) fn encode(rgb: [f64; 3]) -> u32 {
     // NaN is nothing.
     let rgb = rgb.map(|c| if c > 0.0 { c.min(LARGEST) } else { 0.0 });
     let largest = rgb[0].max(rgb[1]).max(rgb[2]);

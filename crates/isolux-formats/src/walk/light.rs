@@ -2,10 +2,10 @@
 
 use super::container::Sections;
 use super::mesh::{Mesh, Source};
-use super::numbers::{half, shared_exponent};
 use super::record::{LayerRecord, LightHeader};
+use crate::lightmap::shared_exponent;
+use half::f16;
 use isolux::elements::Elements;
-use isolux::geometry::{Point, Triangle, Vector};
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::Scene;
 use isolux::units::Rgb;
@@ -153,8 +153,8 @@ fn read(
         let [direct, indirect] =
             value.map_or([Rgb::BLACK; 2], |value| [value.direct_lx, value.indirect_lx]);
         let error_lx = value.map_or(f64::NAN, |value| value.standard_error_lx);
-        let [direct, indirect] = [direct, indirect].map(shared_exponent);
-        (Value { direct, indirect }, half(error_lx))
+        let [direct, indirect] = [direct, indirect].map(|lx| shared_exponent::encode(lx.0));
+        (Value { direct, indirect }, f16::from_f64(error_lx).to_bits())
     };
     let (values, errors) = mesh.sources.par_iter().map(coded).unzip();
     (Column { values }, errors)
@@ -192,17 +192,7 @@ impl Places<'_> {
         let middle = a + ((b - a) + (c - a)) / 3.0;
         let corner = corners[usize::from(source.corner)];
         let place = corner + (middle - corner) * INWARDS;
-        let [u, v] = weights(&self.scene.triangle(element.triangle), place);
+        let [u, v] = self.scene.triangle(element.triangle).barycentric(place);
         map.interpolate(element.triangle, element.back, u, v)
     }
-}
-
-/// The weights of the second and third corner of a triangle at a place on it.
-fn weights(triangle: &Triangle, place: Point) -> [f64; 2] {
-    let [a, b, c] = triangle.corners;
-    let along = (b - a).cross(c - a);
-    let share = |weighted: Vector| along.dot(weighted) / along.length_squared();
-    let u = share((place - a).cross(c - a)).clamp(0.0, 1.0);
-    let v = share((b - a).cross(place - a)).clamp(0.0, 1.0 - u);
-    [u, v]
 }

@@ -1,7 +1,7 @@
 //! The elements of a map as chunks of quantized triangles.
 
 use super::container::Sections;
-use super::numbers::octahedral;
+use super::octahedral::octahedral;
 use super::origin::origin;
 use super::planes::Planes;
 use super::record::{Chunk, MeshHeader};

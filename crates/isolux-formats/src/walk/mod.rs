@@ -8,7 +8,7 @@ mod html;
 mod light;
 mod luminaires;
 mod mesh;
-mod numbers;
+mod octahedral;
 mod origin;
 mod planes;
 mod record;

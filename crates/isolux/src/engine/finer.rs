@@ -10,7 +10,6 @@ use crate::elements::{Subdivision, edge_key};
 use crate::map::{Illuminance, IlluminationMap};
 use crate::scene::Scene;
 use crate::units::Rgb;
-use isolux_geometry::Vector;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
@@ -158,11 +157,8 @@ impl<'a> Finer<'a> {
     /// Where the middle of an edge lies on a side of a triangle.
     fn middle_on(&self, (triangle, back): (u32, bool), edge: [u32; 2]) -> SidePlace {
         let [p, q] = edge.map(|v| self.subdivision.vertices()[v as usize].position);
-        let whole = self.scene.triangle(triangle);
-        let [a, b, c] = whole.corners;
-        let (along, from_a) = (whole.area_vector(), p.lerp(q, 0.5) - a);
-        let share = |of: Vector| (of.dot(along) / along.length_squared()).clamp(0.0, 1.0);
-        let (u, v) = (share(from_a.cross(c - a)), share((b - a).cross(from_a)));
+        let [u, v] = self.scene.triangle(triangle).barycentric(p.lerp(q, 0.5));
+        let (u, v) = (u.clamp(0.0, 1.0), v.clamp(0.0, 1.0));
         (triangle, back, u, v.min(1.0 - u))
     }
 

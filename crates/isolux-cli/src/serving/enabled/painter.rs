@@ -2,7 +2,7 @@
 
 use super::served::Served;
 use isolux::map::IlluminationMap;
-use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Weak};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -39,10 +39,8 @@ impl Painter {
 
     /// Shows a map that took so long to make.
     pub(super) fn show(&mut self, map: IlluminationMap, took: Duration) {
-        match self.maps.try_send((Arc::new(map), took)) {
-            Ok(()) => self.busy = true,
-            Err(TrySendError::Full(_) | TrySendError::Disconnected(_)) => {}
-        }
+        // None waits: it is shown only when the one before is done.
+        self.busy = self.maps.try_send((Arc::new(map), took)).is_ok();
     }
 }
 

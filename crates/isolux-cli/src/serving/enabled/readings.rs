@@ -5,6 +5,7 @@ use isolux::geometry::{Hit, Normal, Point, Ray, Vector};
 use isolux::map::{Illuminance, IlluminationMap};
 use isolux::scene::{Body, Finish, Scene};
 use isolux::units::Rgb;
+use isolux_serve::RayAsked;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::f64::consts::PI;
@@ -18,15 +19,6 @@ const MOST_LOOKED_THROUGH: usize = 64;
 const ROUNDED: f64 = 1e4;
 /// Askers that wait at most.
 const WAITING: usize = 64;
-
-/// A ray in the coordinates of the scene as written.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct RayAsked {
-    /// Where it begins.
-    pub origin: [f64; 3],
-    /// Where it goes, of any length but zero.
-    pub direction: [f64; 3],
-}
 
 /// What is known of a place, as `web/src/wire.ts` has it.
 #[derive(Clone, Debug, Serialize)]

@@ -77,24 +77,18 @@ impl Shown for Served {
 
     fn read(&self, world: usize, asked: &Question, gone: &Gone) -> Result<Vec<u8>, String> {
         let place = self.place(world).ok_or("there is no such map")?;
-        let rays: Vec<readings::RayAsked> = asked
-            .rays
-            .iter()
-            .map(|ray| readings::RayAsked { origin: ray.origin, direction: ray.direction })
-            .collect();
         let readings = match place.reader.get() {
             Some(reader) => {
                 let gone = gone.clone();
                 let is_wanted = Box::new(move || !gone.is_gone());
-                let dimming = asked.dimming.clone();
                 reader
-                    .read((rays, dimming), is_wanted)
+                    .read((asked.rays.clone(), asked.dimming.clone()), is_wanted)
                     .ok_or("no light is left, or too many ask")?
             }
             None => {
                 let map = place.world.map().ok_or("there is no light yet")?;
                 let read = |ray| readings::from_vertices(place.world.scene(), &map, ray);
-                rays.iter().map(read).collect()
+                asked.rays.iter().map(read).collect()
             }
         };
         let answer = serde_json::json!({ "readings": readings });
