@@ -29,6 +29,7 @@ mod lightmap_export;
 mod lightmap_files;
 mod lint;
 mod look;
+mod map_facts;
 mod map_file;
 mod meter;
 mod mix;

@@ -4,8 +4,8 @@ use super::scene::list;
 use crate::audit;
 use crate::console::{facts, print, print_json};
 use crate::failure::Failure;
-use crate::quantity::{show_count, show_share, significant};
-use crate::request::method_name;
+use crate::map_facts;
+use crate::quantity::{show_share, significant};
 use crate::shown::name;
 use crate::summary::{self, Lit};
 use isolux::map::{IlluminationMap, MixedPart, Provenance, Unshot};
@@ -42,22 +42,9 @@ struct Contents<'a> {
 impl Contents<'_> {
     fn text(&self) -> String {
         let from = self.provenance;
-        let share = |s: Option<f64>| s.map_or("not known".to_owned(), show_share);
-        let target = from.accuracy_target.map_or("none".to_owned(), show_share);
-        let reached = if from.complete { "reached" } else { "not reached" };
-        let mut all = vec![
-            ("map of", name(&from.scene)),
-            ("computed by", format!("isolux {}, {}", from.version, method_name(from.method))),
-            ("seed", from.seed.to_string()),
-            ("error", share(from.accuracy.map(|a| a.reached))),
-            ("error asked for", format!("{target}, {reached}")),
-            ("error audited", from.audit.as_ref().map_or("not audited".to_owned(), audit::line)),
-            ("error of the bare map", share(from.accuracy.map(|a| a.interpolated))),
-            ("increments", from.increments.to_string()),
-            ("rays", show_count(from.rays as f64)),
-            ("receivers", format!("{}, {} of them unknown", self.receivers, self.unknown)),
-            ("cameras", list(&self.cameras)),
-        ];
+        let mut all = vec![("map of", name(&from.scene))];
+        all.extend(map_facts::of(from, (self.receivers, self.unknown)));
+        all.push(("cameras", list(&self.cameras)));
         if let Some(Unshot { share, ambient_lx, doubt_lx }) = from.unshot {
             let [lx, doubt] = [ambient_lx.luminance(), doubt_lx].map(|lx| significant(lx, 3));
             all.push((

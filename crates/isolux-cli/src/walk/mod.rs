@@ -1,6 +1,5 @@
 //! The walk-through: what the page in the browser is given, from a map or from a run.
 
-mod about;
 mod fineness;
 mod grids;
 mod hello;

@@ -1,6 +1,6 @@
 //! What the page is told beside the scene: how `render` would show it.
 
-use super::about;
+use crate::map_facts;
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_formats::walk::{ColourMap, Steps, Told, Tone};
@@ -24,7 +24,7 @@ pub(crate) fn told(
 ) -> Told {
     Told {
         file: file.to_owned(),
-        about: about::facts(map),
+        about: about(map),
         white_cd_m2: white_cd_m2((scene, map), camera),
         tones: tones(),
         colour_maps: colour_maps(),
@@ -32,6 +32,13 @@ pub(crate) fn told(
         layers,
         other: other.map(str::to_owned),
     }
+}
+
+/// Facts of a map.
+fn about(map: &IlluminationMap) -> Vec<(String, String)> {
+    let unknown = map.values.iter().filter(|value| value.is_none()).count();
+    let facts = map_facts::of(&map.provenance, (map.values.len(), unknown));
+    facts.map(|(name, value)| (name.to_owned(), value)).into()
 }
 
 /// The luminance that automatic exposure shows as 1, by a small picture of the bare map.
