@@ -58,6 +58,7 @@ impl Opened {
     }
 
     /// Scene and map with each layer dimmed, as `mix` makes them; those of the file if none is named. `None`: nothing is left of the light.
+    #[cfg(feature = "serve")]
     pub(crate) fn dimmed(&self, dimming: &[f64]) -> Option<(Arc<Scene>, Arc<IlluminationMap>)> {
         if dimming.iter().all(|by| *by == 1.0) || !self.has_groups() {
             return Some((Arc::clone(&self.scene), Arc::clone(&self.map)));

@@ -1,12 +1,11 @@
 //! What the page is told beside the scene: how `render` would show it.
 
-use crate::map_facts;
+use crate::{map_facts, render};
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_formats::walk::{ColourMap, Steps, Told, Tone};
 use isolux_view::{
-    ColourMap as Map, Development, Exposure, Scale, Size, Spaced, SurfacePoint, ToneOperator,
-    TraceSettings, round_limits, tone_table, trace,
+    ColourMap as Map, Development, Exposure, Scale, Spaced, ToneOperator, round_limits, tone_table,
 };
 
 /// The layer of a map whose light is not known by groups.
@@ -43,17 +42,8 @@ fn about(map: &IlluminationMap) -> Vec<(String, String)> {
 
 /// The luminance that automatic exposure shows as 1, by a small picture of the bare map.
 fn white_cd_m2((scene, map): (&Scene, &IlluminationMap), camera: &Camera) -> f64 {
-    let settings = TraceSettings {
-        samples_per_side: 1,
-        gloss_samples: 1,
-        highlights: false,
-        through_black_backs: true,
-        ..TraceSettings::FINE
-    };
-    let read = |at: SurfacePoint| map.interpolate(at.triangle, at.back, at.u, at.v);
-    let size = Size::new(GLIMPSE.0, GLIMPSE.1);
-    let view = size.and_then(|size| trace(scene, camera, size, &settings, &read));
-    view.and_then(|view| Exposure::Automatic.white_cd_m2(&view)).unwrap_or(1.0)
+    let view = render::bare(scene, map, camera, GLIMPSE).ok();
+    view.and_then(|view| Exposure::Automatic.white_cd_m2(&view).ok()).unwrap_or(1.0)
 }
 
 /// The tone operators of `render`, its usual one first.
