@@ -1,22 +1,16 @@
 //! Judge of the walk-through: its page in Chromium, beside what the command says of the same maps.
 
-use crate::judge::{is_ci, missing_for_node};
 use crate::lamps::built;
 use crate::peers::wait;
-use crate::worlds::missing_browser;
+use crate::worlds::missing_for_pages;
 use std::path::Path;
 use std::process::Command;
 
 /// Walks through maps as people do. Without Node or a browser it is left out; where `CI` is `true`, without a browser alone.
 pub(crate) fn run(root: &Path) -> Result<String, String> {
     let checks = root.join("checks");
-    match missing_for_node(&checks).map(str::to_owned) {
-        Some(missing) if is_ci() => return Err(format!("not optional with CI=true: {missing}")),
-        missing => {
-            if let Some(missing) = missing.or_else(missing_browser) {
-                return Ok(format!("skipped, as it is optional: {missing}"));
-            }
-        }
+    if let Some(missing) = missing_for_pages(&checks)? {
+        return Ok(format!("skipped, as it is optional: {missing}"));
     }
     let mut node = Command::new("node");
     node.arg("walk.mjs").arg(built(root)?).current_dir(&checks);

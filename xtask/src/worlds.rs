@@ -16,15 +16,12 @@ pub(crate) fn run(root: &Path, room: &Room) -> Result<String, String> {
         None => pictures.push(by_view3dscene(&room.worlds)?),
     }
     let checks = root.join("checks");
-    match missing_for_node(&checks).map(str::to_owned) {
-        Some(missing) if is_ci() => return Err(format!("not optional with CI=true: {missing}")),
-        missing => match missing.or_else(missing_browser) {
-            None => pictures.extend(by_x_ite(&checks, &room.worlds)?),
-            Some(missing) => {
-                said.push(format!("X_ITE and three.js skipped, as they are optional: {missing}"));
-                return Ok(said.join("\n"));
-            }
-        },
+    match missing_for_pages(&checks)? {
+        None => pictures.extend(by_x_ite(&checks, &room.worlds)?),
+        Some(missing) => {
+            said.push(format!("X_ITE and three.js skipped, as they are optional: {missing}"));
+            return Ok(said.join("\n"));
+        }
     }
     compare(&checks, room, &pictures, &[])?;
     let shown = room.map.with_file_name("three-map.png");
@@ -45,8 +42,15 @@ fn missing_for_view3dscene() -> Option<String> {
 const BROWSERS: [&str; 3] =
     ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 
-/// What keeps Chromium from drawing.
-pub(crate) fn missing_browser() -> Option<String> {
+/// What keeps pages from being shown; an error where `CI` is `true` and it is not the browser alone.
+pub(crate) fn missing_for_pages(checks: &Path) -> Result<Option<String>, String> {
+    match missing_for_node(checks).map(str::to_owned) {
+        Some(missing) if is_ci() => Err(format!("not optional with CI=true: {missing}")),
+        missing => Ok(missing.or_else(missing_browser)),
+    }
+}
+
+fn missing_browser() -> Option<String> {
     let is_named = std::env::var_os("CHROMIUM").is_some();
     let is_there = is_named || BROWSERS.iter().any(|path| Path::new(path).is_file());
     (!is_there).then(|| "Chromium is not installed, nor named in CHROMIUM".to_owned())

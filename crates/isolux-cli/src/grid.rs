@@ -5,6 +5,7 @@ mod warnings;
 use crate::console::{print, print_json, table};
 use crate::failure::{Failure, Outcome};
 use crate::flags::GridFlags;
+use crate::grid_values::GridValues;
 use crate::output::OutputPath;
 use crate::quantity::significant;
 use crate::shown::{name, names};
@@ -14,7 +15,6 @@ use isolux::geometry::{Point, Vector};
 use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
 use isolux::scene::{CalculationGrid, Scene, UpAxis};
 use isolux_view::{Contours, FalseColour, false_colour, plan};
-use rayon::prelude::*;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -54,8 +54,12 @@ pub(crate) fn run(flags: &GridFlags, json: bool) -> Result<Outcome, Failure> {
     let reader = MapReader::new(&scene, &map);
     let results: Vec<GridResult> =
         grids.into_iter().map(|grid| GridResult::of(grid, &reader)).collect();
-    for GridResult { grid, values, in_space, outside, .. } in &results {
-        warnings::warn(&grid.name, (values, *outside), in_space.then(|| map.caustic_share()));
+    for GridResult { read, in_space, outside } in &results {
+        warnings::warn(
+            &read.grid.name,
+            (&read.values, *outside),
+            in_space.then(|| map.caustic_share()),
+        );
     }
     if let Some(csv) = csv {
         csv.write(rows(&results).as_bytes())?;
@@ -178,40 +182,27 @@ fn solved(flags: &GridFlags, scene: &Scene) -> Result<(IlluminationMap, Outcome)
     Ok((solved.solution.map, solved.outcome))
 }
 
-/// A grid with its values.
+/// A grid with its values, and what its figures do not say.
 struct GridResult {
-    grid: CalculationGrid,
-    points: Vec<Point>,
-    /// Whether some lie in free space, where caustics are unknown.
+    read: GridValues,
+    /// Whether some points lie in free space, where caustics are unknown.
     in_space: bool,
-    /// Initial illuminance.
-    values: Vec<Option<Illuminance>>,
-    figures: Option<GridFigures>,
     outside: warnings::Outside,
 }
 
 impl GridResult {
     fn of(grid: CalculationGrid, reader: &MapReader) -> Self {
-        let normal = grid.normal().expect("a grid without problems has a normal");
-        let points = grid.points();
-        let read = |&position: &Point| reader.measure(ProbePoint { position, normal });
-        let in_space =
-            points.iter().any(|&position| !reader.is_on_surface(ProbePoint { position, normal }));
-        let values: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
-        let figures = GridFigures::of(&grid, &values);
-        let outside = warnings::Outside::of((&points, &values), normal, reader);
-        Self { grid, points, in_space, values, figures, outside }
-    }
-
-    /// Values as they are maintained.
-    fn maintained(&self) -> impl Iterator<Item = Option<Illuminance>> + '_ {
-        let factor = self.grid.maintenance_factor;
-        self.values.iter().map(move |value| value.map(|value| value.dimmed(factor)))
+        let read = GridValues::of(grid, reader).expect("a grid without problems has a normal");
+        let on_surface =
+            |&position: &Point| reader.is_on_surface(ProbePoint { position, normal: read.normal });
+        let in_space = !read.points.iter().all(on_surface);
+        let outside = warnings::Outside::of((&read.points, &read.values), read.normal, reader);
+        Self { read, in_space, outside }
     }
 
     fn picture(&self) -> Result<isolux_view::Picture, Failure> {
-        let values: Vec<Option<Illuminance>> = self.maintained().collect();
-        let (counts, sides_m) = (self.grid.counts(), self.grid.sides_m());
+        let values: Vec<Option<Illuminance>> = self.read.maintained().collect();
+        let (counts, sides_m) = (self.read.grid.counts(), self.read.grid.sides_m());
         let view = plan(&values, counts, sides_m, LONGEST_PIXELS).map_err(Failure::bad_input)?;
         let how = FalseColour { contours: Some(Contours::AtTicks), ..FalseColour::default() };
         false_colour(&view, &how).map_err(Failure::bad_input)
@@ -265,29 +256,29 @@ struct Value {
 impl Report {
     fn of(result: &GridResult) -> Self {
         let interval = |read: fn(&GridFigures) -> Figure| {
-            result.figures.as_ref().map(read).map(|Figure { value, low, high }| Interval {
+            result.read.figures.as_ref().map(read).map(|Figure { value, low, high }| Interval {
                 value,
                 low,
                 high,
             })
         };
-        let (counts, sides_m) = (result.grid.counts(), result.grid.sides_m());
+        let (counts, sides_m) = (result.read.grid.counts(), result.read.grid.sides_m());
         Self {
-            name: result.grid.name.clone(),
-            maintenance_factor: result.grid.maintenance_factor,
+            name: result.read.grid.name.clone(),
+            maintenance_factor: result.read.grid.maintenance_factor,
             counts,
             spacing_m: [0, 1].map(|k| sides_m[k] / f64::from(counts[k])),
-            border_m: result.grid.border_m,
-            points: result.points.len(),
-            known: result.figures.map_or(0, |f| f.known),
+            border_m: result.read.grid.border_m,
+            points: result.read.points.len(),
+            known: result.read.figures.map_or(0, |f| f.known),
             mean_lx: interval(|f| f.mean_lx),
             least_lx: interval(|f| f.least_lx),
             greatest_lx: interval(|f| f.greatest_lx),
             uniformity: interval(|f| f.uniformity),
             diversity: interval(|f| f.diversity),
-            direct_lx: result.figures.map(|f| f.direct_lx),
-            indirect_lx: result.figures.map(|f| f.indirect_lx),
-            values: result.points.iter().zip(result.maintained()).map(value).collect(),
+            direct_lx: result.read.figures.map(|f| f.direct_lx),
+            indirect_lx: result.read.figures.map(|f| f.indirect_lx),
+            values: result.read.points.iter().zip(result.read.maintained()).map(value).collect(),
         }
     }
 }
@@ -307,14 +298,14 @@ fn text(results: &[GridResult]) -> String {
     let header =
         ["grid", "points", "spacing", "Em", "Emin", "Emax", "U0", "Ud", "direct", "indirect"];
     let row = |result: &GridResult| {
-        let (counts, sides_m) = (result.grid.counts(), result.grid.sides_m());
+        let (counts, sides_m) = (result.read.grid.counts(), result.read.grid.sides_m());
         let cell_m = [0, 1].map(|k| significant(sides_m[k] / f64::from(counts[k]), 2));
         let mut row = vec![
-            name(&result.grid.name),
+            name(&result.read.grid.name),
             format!("{} x {}", counts[0], counts[1]),
             format!("{} x {} m", cell_m[0], cell_m[1]),
         ];
-        let Some(f) = &result.figures else {
+        let Some(f) = &result.read.figures else {
             row.extend((0..7).map(|_| "-".to_owned()));
             return row;
         };
@@ -326,13 +317,13 @@ fn text(results: &[GridResult]) -> String {
     };
     let rows: Vec<Vec<String>> = results.iter().map(row).collect();
     let mut text = table(&header, &rows);
-    for result in results.iter().filter(|r| r.grid.maintenance_factor != 1.0) {
+    for result in results.iter().filter(|r| r.read.grid.maintenance_factor != 1.0) {
         // Writing to a string cannot fail.
         let _ = writeln!(
             text,
             "grid `{}`: maintained values, {} of the initial ones",
-            name(&result.grid.name),
-            significant(result.grid.maintenance_factor, 3)
+            name(&result.read.grid.name),
+            significant(result.read.grid.maintenance_factor, 3)
         );
     }
     text
@@ -351,15 +342,17 @@ const HEADER: &str =
 fn rows(results: &[GridResult]) -> String {
     let mut text = HEADER.to_owned();
     for result in results {
-        let across = result.grid.counts()[0] as usize;
-        let name = format!("\"{}\"", result.grid.name.replace('"', "\"\""));
-        for (index, (&position, of)) in result.points.iter().zip(result.maintained()).enumerate() {
+        let across = result.read.grid.counts()[0] as usize;
+        let name = format!("\"{}\"", result.read.grid.name.replace('"', "\"\""));
+        for (index, (&position, of)) in
+            result.read.points.iter().zip(result.read.maintained()).enumerate()
+        {
             let Value { illuminance_lx, standard_error_lx, direct_lx, indirect_lx, .. } =
                 value((&position, of));
             let fields = [illuminance_lx, standard_error_lx, direct_lx, indirect_lx]
                 .map(|field| field.map_or(String::new(), |v| v.to_string()));
             let (i, j, Point { x, y, z }) = (index % across, index / across, position);
-            let factor = result.grid.maintenance_factor;
+            let factor = result.read.grid.maintenance_factor;
             let _ = writeln!(text, "{name},{i},{j},{x},{y},{z},{},{factor}", fields.join(","));
         }
     }

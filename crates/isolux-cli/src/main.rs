@@ -19,6 +19,7 @@ mod exposed;
 mod failure;
 mod flags;
 mod grid;
+mod grid_values;
 mod groups;
 mod info;
 mod interrupt;

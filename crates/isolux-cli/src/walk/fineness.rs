@@ -1,6 +1,6 @@
 //! How fine the map is made that is shown.
 
-use isolux::engine::{Fineness, Finer};
+use isolux::engine::{Finer, FinerSettings};
 use isolux::geometry::Point;
 use isolux::map::IlluminationMap;
 use isolux::scene::Scene;
@@ -12,9 +12,9 @@ const PIXELS: f64 = 2000.0;
 const MOST_VERTICES: usize = 1_000_000;
 
 /// How fine a scene is shown.
-pub(crate) fn fineness(scene: &Scene) -> Fineness {
+pub(crate) fn fineness(scene: &Scene) -> FinerSettings {
     let (low, high) = scene.bvh().mesh().bounds().unwrap_or((Point::ORIGIN, Point::ORIGIN));
-    Fineness { least_edge_m: (high - low).length() / PIXELS, most_vertices: MOST_VERTICES }
+    FinerSettings { least_edge_m: (high - low).length() / PIXELS, most_vertices: MOST_VERTICES }
 }
 
 /// A map with finer shadows, as fine as it becomes in a time.

@@ -1,10 +1,9 @@
 //! Calculation grids as the page shows them.
 
-use isolux::engine::{MapReader, ProbePoint};
-use isolux::geometry::Point;
-use isolux::map::{Figure, GridFigures, Illuminance, IlluminationMap};
-use isolux::scene::{CalculationGrid, Scene};
-use rayon::prelude::*;
+use crate::grid_values::GridValues;
+use isolux::engine::MapReader;
+use isolux::map::{Figure, Illuminance, IlluminationMap};
+use isolux::scene::Scene;
 use serde::Serialize;
 
 /// A grid as `web/src/wire.ts` has it.
@@ -44,18 +43,15 @@ pub(crate) fn grids_of_map(scene: &Scene, map: &IlluminationMap) -> Vec<u8> {
 /// The grids of a scene with the values of its map; those that have problems are left out.
 fn tables(scene: &Scene, reader: &MapReader<'_>) -> Vec<GridTable> {
     let sound = scene.grids().iter().filter(|grid| grid.problem().is_none());
-    sound.filter_map(|grid| table(grid, reader)).collect()
+    let read = sound.filter_map(|grid| GridValues::of(grid.clone(), reader));
+    read.map(|read| table(&read)).collect()
 }
 
-fn table(grid: &CalculationGrid, reader: &MapReader<'_>) -> Option<GridTable> {
+fn table(read: &GridValues) -> GridTable {
+    let grid = &read.grid;
     let [columns, rows] = grid.counts();
-    let (normal, points) = (grid.normal()?, grid.points());
-    let read = |&position: &Point| reader.measure(ProbePoint { position, normal });
-    let initial: Vec<Option<Illuminance>> = points.par_iter().map(read).collect();
-    let figures = GridFigures::of(grid, &initial);
-    let maintained = |value: &Option<Illuminance>| value.map(|v| v.dimmed(grid.maintenance_factor));
-    let values: Vec<Option<Illuminance>> = initial.iter().map(maintained).collect();
-    let figures = figures.iter().flat_map(|figures| {
+    let values: Vec<Option<Illuminance>> = read.maintained().collect();
+    let figures = read.figures.iter().flat_map(|figures| {
         [
             ("Em", "lx", figures.mean_lx),
             ("Emin", "lx", figures.least_lx),
@@ -66,7 +62,7 @@ fn table(grid: &CalculationGrid, reader: &MapReader<'_>) -> Option<GridTable> {
     });
     let figure =
         |(name, unit, Figure { value, low, high })| FigureRecord { name, unit, value, low, high };
-    Some(GridTable {
+    GridTable {
         name: grid.name.clone(),
         corner: grid.corner.into(),
         u: grid.u.into(),
@@ -74,9 +70,9 @@ fn table(grid: &CalculationGrid, reader: &MapReader<'_>) -> Option<GridTable> {
         columns,
         rows,
         maintenance_factor: grid.maintenance_factor,
-        points: points.into_iter().map(Into::into).collect(),
+        points: read.points.iter().map(|&point| point.into()).collect(),
         illuminance_lx: values.iter().map(|v| v.map(|v| v.illuminance_lx())).collect(),
         standard_error_lx: values.iter().map(|v| v.map(|v| v.standard_error_lx)).collect(),
         figures: figures.map(figure).collect(),
-    })
+    }
 }

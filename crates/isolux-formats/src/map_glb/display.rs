@@ -36,32 +36,49 @@ type Key = (u32, [u32; 2]);
 /// All layers that are shown, in the order of the shapes.
 pub(super) fn surfaces(scene: &Scene, map: &IlluminationMap) -> BTreeMap<Layer, Surface> {
     let mut found: BTreeMap<Layer, Surface> = BTreeMap::new();
+    visit(scene, map, &mut |layer, shown| {
+        let surface = found.entry(layer).or_default();
+        match shown {
+            Shown::Element(element) => surface.add_element(scene, map, &element),
+            Shown::Bare(triangle) => surface.add_bare(scene, triangle, layer.back),
+        }
+    });
+    found
+}
+
+/// A piece of a layer.
+pub(crate) enum Shown {
+    /// With light.
+    Element(Element),
+    /// A triangle without.
+    Bare(u32),
+}
+
+/// Shows all elements, and then the triangles without a map, each with its layer.
+pub(crate) fn visit(scene: &Scene, map: &IlluminationMap, see: &mut dyn FnMut(Layer, Shown)) {
     let mut is_mapped = vec![[false; 2]; scene.triangle_count() as usize];
     for element in map.elements.elements() {
         is_mapped[element.triangle as usize][usize::from(element.back)] = true;
         let layer = layer(scene, element.triangle, true, element.back);
-        found.entry(layer).or_default().add_element(scene, map, &element);
+        see(layer, Shown::Element(element));
     }
     for triangle in 0..scene.triangle_count() {
         for back in [false, true] {
-            if is_mapped[triangle as usize][usize::from(back)] || !is_shown(scene, triangle, back) {
-                continue;
+            if !is_mapped[triangle as usize][usize::from(back)] && is_shown(scene, triangle, back) {
+                see(layer(scene, triangle, false, back), Shown::Bare(triangle));
             }
-            let layer = layer(scene, triangle, false, back);
-            found.entry(layer).or_default().add_bare(scene, triangle, back);
         }
     }
-    found
 }
 
-pub(crate) fn layer(scene: &Scene, triangle: u32, mapped: bool, back: bool) -> Layer {
+pub(super) fn layer(scene: &Scene, triangle: u32, mapped: bool, back: bool) -> Layer {
     let (shape, material) = (scene.shape_of(triangle), scene.material_index(triangle));
     Layer { shape, material, mapped, back }
 }
 
 /// Whether a side without map is worth a picture: glass once, for both its sides; black backs of
 /// one-sided materials not at all, so that one looks into a room from outside.
-pub(crate) fn is_shown(scene: &Scene, triangle: u32, back: bool) -> bool {
+pub(super) fn is_shown(scene: &Scene, triangle: u32, back: bool) -> bool {
     match &scene.material(triangle).body {
         Body::Dielectric(_) => !back,
         Body::Opaque { back: rear, .. } => !back || *rear != Finish::BLACK,

@@ -5,7 +5,7 @@ use super::octahedral::octahedral;
 use super::origin::origin;
 use super::planes::Planes;
 use super::record::{Chunk, MeshHeader};
-use crate::map_glb::display::{Layer, is_shown, layer, texture_of, turned, uv_at};
+use crate::map_glb::display::{Layer, Shown, texture_of, turned, uv_at, visit};
 use isolux::elements::{Element, FewNumbers};
 use isolux::geometry::{Point, Vector};
 use isolux::map::{IlluminationMap, Standing};
@@ -160,23 +160,17 @@ type Bare = BTreeMap<Part, Vec<u32>>;
 /// Elements and triangles without, by what they are part of.
 fn layers(scene: &Scene, map: &IlluminationMap) -> (Lit, Bare) {
     let (mut lit, mut bare) = (Lit::new(), Bare::new());
-    let mut is_mapped = vec![[false; 2]; scene.triangle_count() as usize];
     let planes = Planes::new(scene);
-    for element in map.elements.elements() {
-        is_mapped[element.triangle as usize][usize::from(element.back)] = true;
-        let layer = layer(scene, element.triangle, true, element.back);
-        let part = (layer, planes.of(scene, layer, element.triangle));
-        lit.entry(part).or_default().push(element);
-    }
-    for triangle in 0..scene.triangle_count() {
-        for back in [false, true] {
-            if !is_mapped[triangle as usize][usize::from(back)] && is_shown(scene, triangle, back) {
-                let layer = layer(scene, triangle, false, back);
-                let part = (layer, planes.of(scene, layer, triangle));
-                bare.entry(part).or_default().push(triangle);
-            }
+    visit(scene, map, &mut |layer, shown| match shown {
+        Shown::Element(element) => {
+            let part = (layer, planes.of(scene, layer, element.triangle));
+            lit.entry(part).or_default().push(element);
         }
-    }
+        Shown::Bare(triangle) => {
+            let part = (layer, planes.of(scene, layer, triangle));
+            bare.entry(part).or_default().push(triangle);
+        }
+    });
     (lit, bare)
 }
 

@@ -27,7 +27,7 @@ const TOGETHER: usize = 2048;
 
 /// Where to end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fineness {
+pub struct FinerSettings {
     /// No edge shorter than this is bisected, m.
     pub least_edge_m: f64,
     /// Vertices at most.
@@ -72,7 +72,8 @@ impl PartialOrd for Waiting {
 impl<'a> Finer<'a> {
     /// Begins with the elements of a map.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
-        let subdivision = bisected_like(scene, &map.elements);
+        let all = vec![true; map.elements.node_count()];
+        let subdivision = bisected_like(scene, &[(&map.elements, all)]);
         let elements = subdivision.elements();
         let own = own_vertices(&elements, &map.elements);
         let values = own.into_iter().map(|own| own.and_then(|v| map.values[v as usize])).collect();
@@ -101,7 +102,7 @@ impl<'a> Finer<'a> {
     }
 
     /// Goes on as long as `wanted` says so; false once nothing is left to do.
-    pub fn refine(&mut self, how: &Fineness, wanted: &mut dyn FnMut() -> bool) -> bool {
+    pub fn refine(&mut self, how: &FinerSettings, wanted: &mut dyn FnMut() -> bool) -> bool {
         while wanted() {
             let nodes = self.next_elements(how);
             if nodes.is_empty() {
@@ -121,7 +122,7 @@ impl<'a> Finer<'a> {
     }
 
     /// The next elements to look at: those with the longest edges.
-    fn next_elements(&mut self, how: &Fineness) -> Vec<u32> {
+    fn next_elements(&mut self, how: &FinerSettings) -> Vec<u32> {
         let mut nodes = Vec::new();
         while nodes.len() < TOGETHER {
             let Some(next) = self.waiting.pop() else { break };

@@ -7,8 +7,8 @@
 //! as they are: by the triangle inequality the sum is never worse than that.
 
 use super::probe::{MapReader, reference_lx};
-use super::trees::{SidePlace, own_vertices, places_of_vertices, walk_both};
-use crate::elements::{Elements, Subdivision};
+use super::trees::{SidePlace, bisected_like, own_vertices, places_of_vertices};
+use crate::elements::Elements;
 use crate::map::{
     Accuracy, FilterReport, Fresh, Illuminance, IlluminationMap, Method, MixedPart, Provenance,
     Standing, Unshot,
@@ -162,27 +162,11 @@ impl<'a> Part<'a> {
 /// The elements of all parts in one, as far as each knows some light there, and, by part, which of its vertices is there what a
 /// vertex of the sum is.
 fn unite(scene: &Scene, parts: &[Part<'_>]) -> (Elements, Vec<Vec<Option<u32>>>) {
-    let mut subdivision = Subdivision::new(scene);
-    let known: Vec<Vec<bool>> = parts.iter().map(|part| known_nodes(part.map)).collect();
-    loop {
-        let united = subdivision.elements();
-        let mut finer: Vec<u32> = Vec::new();
-        for (part, known) in parts.iter().zip(&known) {
-            walk_both(&united, &part.map.elements, &mut |node, of_part| {
-                let is_split = part.map.elements.node(of_part).split.is_some();
-                if known[of_part as usize] && is_split && united.node(node).split.is_none() {
-                    finer.push(node);
-                }
-            });
-        }
-        if finer.is_empty() {
-            let own = parts.iter().map(|part| own_vertices(&united, &part.map.elements)).collect();
-            return (united, own);
-        }
-        // In the order of nodes, whatever the order of parts.
-        finer.sort_unstable();
-        finer.iter().for_each(|&node| subdivision.bisect(node));
-    }
+    let likes: Vec<(&Elements, Vec<bool>)> =
+        parts.iter().map(|part| (&part.map.elements, known_nodes(part.map))).collect();
+    let united = bisected_like(scene, &likes).elements();
+    let own = parts.iter().map(|part| own_vertices(&united, &part.map.elements)).collect();
+    (united, own)
 }
 
 /// By node, whether a map knows light there or in a part of it.

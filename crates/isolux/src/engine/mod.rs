@@ -80,7 +80,7 @@ pub use cache::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
     IrradianceCache, SampleKind, Served,
 };
-pub use finer::{Fineness, Finer};
+pub use finer::{Finer, FinerSettings};
 pub use highlights::{Highlighted, Highlights, Shining};
 pub use mix::{MixError, MixPart, Mixed, mix, mix_apart};
 pub use place::ProbePoint;

@@ -59,20 +59,24 @@ pub(super) fn places_of_vertices(elements: &Elements) -> Vec<SidePlace> {
     places
 }
 
-/// The triangles of a scene, bisected as elements of it are.
-pub(super) fn bisected_like(scene: &Scene, elements: &Elements) -> Subdivision {
+/// The triangles of a scene, bisected wherever some elements of it are, at the nodes that count.
+pub(super) fn bisected_like(scene: &Scene, parts: &[(&Elements, Vec<bool>)]) -> Subdivision {
     let mut subdivision = Subdivision::new(scene);
     loop {
         let so_far = subdivision.elements();
         let mut finer: Vec<u32> = Vec::new();
-        walk_both(&so_far, elements, &mut |node, wanted| {
-            if elements.node(wanted).split.is_some() && so_far.node(node).split.is_none() {
-                finer.push(node);
-            }
-        });
+        for (part, counts) in parts {
+            walk_both(&so_far, part, &mut |node, of_part| {
+                let is_split = part.node(of_part).split.is_some();
+                if counts[of_part as usize] && is_split && so_far.node(node).split.is_none() {
+                    finer.push(node);
+                }
+            });
+        }
         if finer.is_empty() {
             return subdivision;
         }
+        // In the order of nodes, whatever the order of parts.
         finer.sort_unstable();
         finer.iter().for_each(|&node| subdivision.bisect(node));
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::engine::{
-    Fineness, Finer, MapReader, Solution, SolveRequest, Watch, reference_lx, solve,
+    Finer, FinerSettings, MapReader, Solution, SolveRequest, Watch, reference_lx, solve,
 };
 use crate::map::IlluminationMap;
 use crate::sampling::{Key, Sequence};
@@ -29,7 +29,7 @@ fn coarse(scene: &Scene) -> IlluminationMap {
 
 fn finer(scene: &Scene, map: &IlluminationMap, least_edge_m: f64) -> IlluminationMap {
     let mut finer = Finer::new(scene, map);
-    let how = Fineness { least_edge_m, most_vertices: 200_000 };
+    let how = FinerSettings { least_edge_m, most_vertices: 200_000 };
     assert!(!finer.refine(&how, &mut || true), "nothing is left to do");
     finer.map()
 }
@@ -95,7 +95,7 @@ fn it_stops_when_told_and_at_its_limit() {
     let scene = room();
     let map = coarse(&scene);
     let mut finer = Finer::new(&scene, &map);
-    let how = Fineness { least_edge_m: 1e-3, most_vertices: map.values.len() + 100 };
+    let how = FinerSettings { least_edge_m: 1e-3, most_vertices: map.values.len() + 100 };
     assert!(finer.refine(&how, &mut || false), "it was not let");
     assert_eq!(finer.vertices(), map.values.len());
     assert!(!finer.refine(&how, &mut || true));
