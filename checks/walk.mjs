@@ -7,14 +7,17 @@ import { findBrowser, launch } from './walk/browser.mjs';
 import { runAll } from './walk/cases.mjs';
 import { commandIn } from './walk/command.mjs';
 import { fileCases } from './walk/file.mjs';
+import { graphicsCases } from './walk/graphics.mjs';
 import { heardCases } from './walk/heard.mjs';
 import { liveCases } from './walk/live.mjs';
 import { readingCases } from './walk/readings.mjs';
 import { makeRoom } from './walk/room.mjs';
 import { screenCases } from './walk/screen.mjs';
 import { seenCases } from './walk/seen.mjs';
+import { sideCases } from './walk/sides.mjs';
+import { stepCases } from './walk/steps.mjs';
 
-const GROUPS = { seen: seenCases, readings: readingCases, screen: screenCases, file: fileCases, live: liveCases };
+const GROUPS = { seen: seenCases, readings: readingCases, screen: screenCases, sides: sideCases, steps: stepCases, graphics: graphicsCases, file: fileCases, live: liveCases };
 
 const [binary, word = ''] = process.argv.slice(2);
 if (!binary) {

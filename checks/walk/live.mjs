@@ -205,8 +205,17 @@ async function aims({ first }) {
   const text = `of ${ACCURACY}`.replace('%', '');
   await first.getByRole('textbox', { name: 'Error to reach' }).fill(ACCURACY);
   await button(first, 'Set target').click();
+  const sure = first.getByRole('group', { name: 'Begin the run anew?' });
+  const question = await sure.innerText();
+  require(/is lost/.test(question), `before a run is begun anew it says "${question}"`);
+  await button(first, 'Keep this run').click();
+  await sure.waitFor({ state: 'hidden' });
+  const before = await increments(first);
+  await soon(async () => (await increments(first)) > before, 'the run does not go on');
+  await button(first, 'Set target').click();
+  await button(first, 'Begin anew').click();
   await isDone(first);
   const error = (await first.locator('.error-now').innerText()).replace(/\s+/g, ' ');
   require(error.includes(text), `the panel tells ${error}`);
-  return `done, "${error}"`;
+  return `"${question.split('\n')[0]}", done, "${error}"`;
 }

@@ -22,9 +22,11 @@ export async function screenCases({ command, browser }, runAll) {
   const failed = await runAll([
     ['a phone has room for all', () => phone(pages.phone)],
     ['panels open on a phone', () => panels(pages.phone)],
+    ['picture, scale, reading and sheet lie side by side on a phone', () => apart(pages.phone)],
     ['Tab comes to the bar', () => tabs(pages.desk)],
     ['digits change what is shown', () => digits(pages.desk)],
     ['a click keeps a reading', () => pins(pages.desk)],
+    ['the box of a dimmer refuses what is none', () => refuses(pages.desk)],
     ['a link shows the same again', () => link(browser, served.url)],
   ]);
   await Promise.all(Object.values(pages).map(leave));
@@ -80,6 +82,74 @@ async function panels(page) {
   await page.getByRole('button', { name: 'Close the panel' }).tap();
   await sheet.waitFor({ state: 'hidden' });
   return `${TABS.length} panels open and close`;
+}
+
+/** Boxes of parts that are on the page. */
+const boxes = (page, parts) => page.evaluate((parts) => Object.fromEntries(Object.entries(parts).map(([name, selector]) => {
+  const { left, top, right, bottom } = document.querySelector(selector).getBoundingClientRect();
+  return [name, { left, top, right, bottom }];
+})), parts);
+
+/** With a section in its sheet: the view above the sheet, and in it a scale and a reading that leave most of it free. */
+async function apart(page) {
+  await set(page, { mode: 'illuminance' });
+  await named(page, 'Section').tap();
+  await named(page, 'Draw a section').tap();
+  await page.touchscreen.tap(60, 280);
+  await page.touchscreen.tap(330, 300);
+  await page.locator('.panel .u-over').waitFor();
+  const free = [];
+  for (const y of [120, 340]) {
+    await page.touchscreen.tap(200, y);
+    await page.locator('.hover').filter({ hasText: 'lx' }).waitFor();
+    const all = await boxes(page, { view: '#view', sheet: '.panel', scale: '.legend', reading: '.hover', bar: '.tabs' });
+    requireApart(all);
+    const { view, scale, reading } = all;
+    free.push(1 - (scale.bottom - scale.top + reading.bottom - reading.top) / (view.bottom - view.top));
+    require(reading.bottom < y + 48 || reading.top > y, `the reading from ${reading.top} to ${reading.bottom} hides its place at ${y}`);
+  }
+  const least = Math.min(...free);
+  require(least > 0.5, `only ${(100 * least).toFixed(0)} % of the view are free`);
+  await page.getByRole('button', { name: 'Close the panel' }).tap();
+  await set(page, { mode: 'seen' });
+  return `${(100 * least).toFixed(0)} % of the view are free beside scale and reading`;
+}
+
+function requireApart({ view, sheet, scale, reading, bar }) {
+  const text = (box) => `${box.top.toFixed(0)} to ${box.bottom.toFixed(0)}`;
+  const order = (name, upper, other, lower) => require(upper.bottom <= lower.top + 0.5, `${name} ${text(upper)} lies over ${other} ${text(lower)}`);
+  order('the view', view, 'the sheet', sheet);
+  order('the sheet', sheet, 'the tabs', bar);
+  order('the reading', reading, 'the scale', scale);
+  for (const [name, part] of [['the scale', scale], ['the reading', reading]]) {
+    require(part.top >= view.top && part.bottom <= view.bottom, `${name} ${text(part)} leaves the view ${text(view)}`);
+  }
+}
+
+/** What is no percentage is told to be none, and the light stays as it is. */
+async function refuses(page) {
+  await named(page, 'Light').click();
+  const box = page.getByRole('textbox', { name: 'spots, per cent' });
+  const write = async (text) => {
+    await box.fill(text);
+    await box.press('Enter');
+  };
+  const factor = () => page.evaluate(() => window.isoluxViewer.settings.dimming[0]);
+  await write('60');
+  await page.waitForFunction(() => window.isoluxViewer.settings.dimming[0] === 0.6);
+  for (const text of ['abc', '-5', '200']) {
+    await write(text);
+    const told = page.getByRole('alert').filter({ hasText: 'It stays at 60 %.' });
+    await told.waitFor();
+    require((await box.getAttribute('aria-invalid')) === 'true', `"${text}" is not marked as wrong`);
+    require((await factor()) === 0.6, `"${text}" dims to ${await factor()}`);
+    await box.press('Escape');
+    require((await box.inputValue()) === '60 %' && (await told.count()) === 0, 'Escape does not bring the value back');
+  }
+  await write('off');
+  await page.waitForFunction(() => window.isoluxViewer.settings.dimming[0] === 0);
+  await set(page, { dimming: [1, 1] });
+  return '60 % stays where abc, -5 and 200 are written';
 }
 
 async function tabs(page) {

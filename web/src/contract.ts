@@ -64,6 +64,15 @@ export interface Settings {
   quality: 'auto' | 'low' | 'high';
 }
 
+/** Whose light is meant where two are compared: that of the map as it is dimmed, of the other map, or of the other dimming. */
+export type Whose = 'own' | 'map' | 'dimming';
+
+/** What a difference is made of, at one place. */
+export interface Both {
+  own: Reading;
+  other: Reading;
+}
+
 export interface View {
   position: Vec3;
   target: Vec3;
@@ -96,10 +105,15 @@ export interface Viewer {
   navigation: 'orbit' | 'walk';
   /** Walking: pointer lock with WASD and arrow keys, Shift for speed, Q/E or Page up/down for height; touch: left half moves, right half looks. Collides. */
   setNavigation(how: 'orbit' | 'walk'): void;
-  /** The reading under a point of the canvas (CSS pixels): from the server, or interpolated. */
+  /** Whose light is seen at a point of the canvas. */
+  whoseAt(x: number): Whose;
+  /** The reading under a point of the canvas (CSS pixels) of the light that is seen there: from the server, or interpolated. */
   readAt(x: number, y: number, signal: AbortSignal): Promise<Reading | null>;
-  /** Interpolated between vertices at once, without asking anybody. */
-  glanceAt(x: number, y: number): Reading | null;
+  /** Interpolated between vertices at once, without asking anybody; of the light that is seen there, or of that which is meant. */
+  glanceAt(x: number, y: number, whose?: Whose): Reading | null;
+  /** The same of both sides of a difference. */
+  readBothAt(x: number, y: number, signal: AbortSignal): Promise<Both | null>;
+  glanceBothAt(x: number, y: number): Both | null;
   /** Marks a place with a pin; null takes it away. */
   pin(reading: Reading | null): void;
   /** A section along what is seen between two points of the canvas; draws its line. `at` is the length along the surface from the start, m. */
@@ -109,12 +123,14 @@ export interface Viewer {
   legend(): Legend | null;
   /** What exposure is in force: luminance shown as 1, cd/m2, and its EV100. */
   exposure(): { whiteCdM2: number; ev100: number };
-  /** A PNG of what is shown, with the legend in false colour. */
-  snapshot(): Promise<Blob>;
+  /** A PNG of what is shown, with the legend in false colour; `draw` draws more over it, in CSS pixels of the canvas. */
+  snapshot(draw?: (context: CanvasRenderingContext2D) => void): Promise<Blob>;
   stats(): { triangles: number; vertices: number; bytes: number; fps: number; found: Finding };
   /** A run has newer light or another mesh: fetch and show it. */
   refresh(state: LiveState): void;
-  on(event: 'view' | 'settings' | 'light' | 'exposure' | 'legend' | 'navigation', call: () => void): void;
+  on(event: 'view' | 'settings' | 'light' | 'exposure' | 'legend' | 'navigation' | 'graphics', call: () => void): void;
+  /** Whether the graphics card has been lost, and nothing can be drawn; the event `graphics` tells of changes. */
+  isLost(): boolean;
   /** Something went wrong that people must know. */
   onError(call: (message: string) => void): void;
   /** Resolves once the first picture is drawn with light. */

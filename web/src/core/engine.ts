@@ -18,6 +18,8 @@ const METER_MS = 150;
 const METER_FRAMES = 5;
 /** With fewer frames in a second exposure does not follow smoothly: it jumps. */
 const SMOOTH_FPS = 8;
+/** How often it is looked whether the exposure can be read, ms. */
+const BUSY_MS = 4;
 
 export class Engine {
   readonly adaptation: Adaptation;
@@ -37,6 +39,7 @@ export class Engine {
   #size = '';
   #first: (() => void) | null = null;
   #sample: Sample | null = null;
+  #isLost = false;
   readonly ready = new Promise<void>((resolve) => (this.#first = resolve));
 
   constructor(readonly parts: Parts) {
@@ -79,7 +82,7 @@ export class Engine {
     this.#resize(!this.#wasMoving && now - this.#moving > REST_MS);
     const moves = navigation.update(Math.min(0.25, passed));
     const hasMoved = navigation.hasMoved();
-    const mixed = this.#mix();
+    const mixed = this.#mix(this.#first ? Infinity : MIXING_MS);
     const adapts = this.#adapt(passed);
     if (hasMoved) this.#moved();
     if (this.#isDirty || hasMoved || mixed || adapts) this.#draw();
@@ -126,15 +129,16 @@ export class Engine {
     this.#isDirty = true;
   }
 
-  /** Mixes waiting light; all of it before the first picture. */
-  #mix(): boolean {
+  /** Mixes waiting light, for so long; all of it before the first picture. */
+  #mix(milliseconds: number): boolean {
     const { worlds, settings } = this.parts;
     let did = false;
-    for (const { model } of worlds) {
+    for (const world of worlds) {
+      const { model } = world;
       if (!model) continue;
-      const { own, second } = mixesOf(model, settings);
+      const { own, second } = mixesOf(world, model, settings);
       model.setSecond(second !== null);
-      if (!model.work(own, second, this.#first ? Infinity : MIXING_MS)) continue;
+      if (!model.work(own, second, milliseconds)) continue;
       did = true;
       if (!model.isWaiting) this.#lightChanged();
     }
@@ -149,14 +153,21 @@ export class Engine {
   }
 
   #adapt(seconds: number): boolean {
-    const { settings, shown, events } = this.parts;
-    if (!settings.autoExposure) {
-      this.adaptation.want(whiteOfEv(settings.ev100));
-      this.adaptation.white = whiteOfEv(settings.ev100);
-    }
-    const before = shown.uniforms.uWhite.value;
+    if (!this.parts.settings.autoExposure) this.#expose();
     if (!this.adaptation.isSettled) this.adaptation.step(seconds);
-    if (before === this.adaptation.white) return false;
+    return this.#showWhite();
+  }
+
+  /** Exposure by its value, at once. */
+  #expose(): void {
+    this.adaptation.want(whiteOfEv(this.parts.settings.ev100));
+    this.adaptation.finish();
+  }
+
+  /** Brings the white of the shaders up to date; true if the picture is another one now. */
+  #showWhite(): boolean {
+    const { settings, shown, events } = this.parts;
+    if (shown.uniforms.uWhite.value === this.adaptation.white) return false;
     shown.setWhite(settings, this.adaptation.white);
     events.tell('exposure');
     return settings.mode === 'seen';
@@ -169,6 +180,7 @@ export class Engine {
     if (settings.mesh) this.#edges.show(this.#model);
     else this.#edges.clear();
     luminaires.show(settings.luminaires, settings.mode === 'seen');
+    if (this.#isLost) return;
     if (!worlds[0]!.model) return this.parts.renderer.clear();
     this.#painter.paint(this.#sides(), settings.split, this.#wasMoving);
     this.drawMarks();
@@ -200,27 +212,32 @@ export class Engine {
 
   /** Reads the exposure, and where isolux lines run; when all rests, once more. */
   #measure(now: number, rests: boolean): void {
-    const { renderer, worlds, navigation, uniforms, quality } = this.parts;
+    const { worlds, quality } = this.parts;
     const model = this.#model;
-    if (!model) this.#isMeterOld = false;
+    if (!model || this.#isLost) this.#isMeterOld = false;
     if (!model || !this.#isMeterOld || this.#meter.isBusy || (!rests && now - this.#metered < Math.max(METER_MS, METER_FRAMES * quality.frameMs))) return;
     this.#metered = now;
     if (rests) this.#isMeterOld = false;
     if (rests && this.#painter.renewSurroundings({ world: worlds[0]!, side: 0 })) this.#isDirty = true;
-    uniforms.uSide.value = 0;
-    model.materials.glassAdds(true);
-    const reading = this.#meter.read(renderer, worlds[0]!.root, navigation.camera, uniforms);
+    const reading = this.#meterNow(model);
     const jumps = this.#hasJumped;
     this.#hasJumped = false;
     reading.then((sample) => this.#read(sample, rests, jumps), () => {});
   }
 
+  #meterNow(model: Model): Promise<Sample> {
+    const { renderer, worlds, navigation, uniforms } = this.parts;
+    uniforms.uSide.value = 0;
+    model.materials.glassAdds(true);
+    return this.#meter.read(renderer, worlds[0]!.root, navigation.camera, uniforms);
+  }
+
   #read(sample: Sample, rests: boolean, jumps: boolean): void {
+    if (this.#isLost) return;
     const { settings, marks, shown, canvas, quality } = this.parts;
     this.#sample = sample;
-    const mean = logAverage(sample);
     if (jumps || quality.fps < SMOOTH_FPS) this.adaptation.jump();
-    if (settings.autoExposure) this.adaptation.want((mean ?? MIDDLE_GREY) / MIDDLE_GREY);
+    if (settings.autoExposure) this.adaptation.want(whiteOf(sample));
     const isStill = rests && !this.#wasMoving;
     marks.labels = isStill && shown.lines.length > 0 && settings.compare === 'off' ? labelsOf(sample, shown.lines, canvas.clientWidth, canvas.clientHeight) : [];
     this.drawMarks();
@@ -241,9 +258,47 @@ export class Engine {
     return this.#sample;
   }
 
+  /** Brings light and exposure to what is asked for now, without taking time as eyes do. */
+  async settle(): Promise<void> {
+    if (this.#isLost) throw new Error('The graphics card has been lost.');
+    this.#mix(Infinity);
+    if (!this.parts.settings.autoExposure) return this.#expose();
+    this.freshen();
+    while (this.#meter.isBusy) await new Promise((resolve) => setTimeout(resolve, BUSY_MS));
+    if (!this.#model || this.#isLost) return;
+    this.adaptation.want(whiteOf(await this.#meterNow(this.#model)));
+    this.adaptation.finish();
+  }
+
   /** Draws at once, for a copy of the canvas. */
   drawNow(): void {
     this.#resize(true);
+    this.#showWhite();
     this.#draw();
   }
+
+  get isLost(): boolean {
+    return this.#isLost;
+  }
+
+  /** The graphics card has gone, and all that it had. */
+  lose(): void {
+    const { worlds, shown } = this.parts;
+    this.#isLost = true;
+    // What belongs to the old context is let go of while it is lost: later that would be an error.
+    worlds.forEach((world) => world.lose());
+    [this.#painter, this.#meter, shown].forEach((held) => held.dispose());
+    this.#edges.clear();
+    this.parts.events.tell('graphics');
+  }
+
+  /** It is there again: what it had is given to it anew. */
+  restore(): void {
+    this.#isLost = false;
+    this.parts.worlds.forEach((world) => world.restore());
+    this.parts.events.tell('graphics');
+  }
 }
+
+/** The luminance of white for which the mean of a picture is middle grey. */
+const whiteOf = (sample: Sample): number => (logAverage(sample) ?? MIDDLE_GREY) / MIDDLE_GREY;

@@ -126,6 +126,11 @@ export class Adaptation {
     this.#jumps = false;
   }
 
+  /** What is wanted is there at once. */
+  finish(): void {
+    this.white = this.#wanted;
+  }
+
   get isSettled(): boolean {
     return this.white === this.#wanted;
   }

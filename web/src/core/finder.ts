@@ -2,12 +2,13 @@
 
 import { Vector2, Vector3, Raycaster } from 'three';
 import type { MeshBVH } from 'three-mesh-bvh';
-import type { Settings, Source } from '../contract';
+import type { Both, Settings, Source, Whose } from '../contract';
 import type { RayAsked, Reading, Vec3 } from '../wire';
 import { buildBvh, MOST_FOR_SERVER } from './bvh';
 import type { Model } from './model';
 import type { Navigation } from './navigation';
 import { castRay, nothingHit, readingOf, type Hit } from './pick';
+import { comparedWith, whoseAt } from './whose';
 import type { World } from './worlds';
 
 const SECTION_RAYS = 64;
@@ -28,6 +29,11 @@ export class Finder {
   async build(): Promise<void> {
     const { model } = this.world;
     if (!model || model === this.#model) return;
+    if (model.data === this.#model?.data) {
+      // The same triangles on another graphics card.
+      this.#model = model;
+      if (this.#bvh) return;
+    }
     this.#building?.abort();
     const { signal } = (this.#building = new AbortController());
     this.#bvh = null;
@@ -51,24 +57,48 @@ export class Finder {
     return new Vector3(...normal).normalize();
   }
 
-  /** Whether a place of the picture shows the second map. */
-  #isOther(x: number): boolean {
-    const { compare, split } = this.settings();
-    return compare === 'maps' && this.source.hello.worlds.length > 1 && x > split * this.canvas.clientWidth;
+  /** Whose light the picture shows there. */
+  whoseAt(x: number): Whose {
+    return whoseAt(this.settings(), this.source.hello.worlds.length > 1, x / this.canvas.clientWidth);
   }
 
-  /** Nothing of the second map, whose vertices are not kept for that. */
-  glanceAt(x: number, y: number): Reading | null {
-    if (this.#isOther(x)) return null;
+  /** What vertices tell at once; nothing of a second map with other surfaces. */
+  glanceAt(x: number, y: number, whose: Whose = this.whoseAt(x)): Reading | null {
     const hit = this.#cast(...this.#ray(x, y));
-    return hit && this.#model ? readingOf(this.#model, this.world.scene, hit) : null;
+    return hit && this.#between(hit, whose);
+  }
+
+  glanceBothAt(x: number, y: number): Both | null {
+    const hit = this.#cast(...this.#ray(x, y));
+    const [own, other] = [hit && this.#between(hit, 'own'), hit && this.#between(hit, this.#compared)];
+    return own && other && { own, other };
+  }
+
+  #between(hit: Hit, whose: Whose): Reading | null {
+    const model = this.#model;
+    if (!model) return null;
+    if (whose === 'own') return readingOf(model, this.world.scene, hit);
+    return model.hasSecond && whose === this.#compared ? readingOf(model, this.world.scene, hit, 'light2') : null;
+  }
+
+  get #compared(): Whose {
+    return comparedWith(this.settings(), this.world.scene.other !== null) ?? 'own';
   }
 
   async readAt(x: number, y: number, signal: AbortSignal): Promise<Reading | null> {
     const ray = this.#ray(x, y);
     if (!this.#asksServer) return this.glanceAt(x, y);
-    const [reading] = await this.#read([ray], signal, this.#isOther(x) ? 1 : 0);
+    const [reading] = await this.#read([ray], signal, this.whoseAt(x));
     return reading?.position ? reading : null;
+  }
+
+  /** Both sides of a difference, one after the other. */
+  async readBothAt(x: number, y: number, signal: AbortSignal): Promise<Both | null> {
+    const [ray, compared] = [this.#ray(x, y), this.#compared];
+    if (!this.#asksServer || (compared === 'map' && this.source.hello.worlds.length < 2)) return this.glanceBothAt(x, y);
+    const [own] = await this.#read([ray], signal, 'own');
+    const [other] = own?.position ? await this.#read([ray], signal, compared) : [];
+    return own?.position && other?.position ? { own, other } : null;
   }
 
   #ray(x: number, y: number): [Vector3, Vector3] {
@@ -99,16 +129,17 @@ export class Finder {
   }
 
   /** What the server reads in the light as it is dimmed; where that leaves no light, what the vertices tell. */
-  async #read(rays: [Vector3, Vector3][], signal: AbortSignal, world: 0 | 1 = 0): Promise<Reading[]> {
-    const factors = world === 0 ? this.settings().dimming : [];
-    if (factors.length > 0 && factors.every((factor) => factor === 0)) return rays.map((ray) => this.#glance(ray));
+  async #read(rays: [Vector3, Vector3][], signal: AbortSignal, whose: Whose = 'own'): Promise<Reading[]> {
+    const { dimming: own, otherDimming } = this.settings();
+    const factors = { own, dimming: otherDimming, map: [] }[whose];
+    if (factors.length > 0 && factors.every((factor) => factor === 0)) return rays.map((ray) => this.#glance(ray, whose));
     const dimming = factors.every((factor) => factor === 1) ? [] : factors;
-    return this.source.read(world, rays.map((ray) => this.#asked(...ray)), dimming, signal);
+    return this.source.read(whose === 'map' ? 1 : 0, rays.map((ray) => this.#asked(...ray)), dimming, signal);
   }
 
-  #glance(ray: [Vector3, Vector3]): Reading {
+  #glance(ray: [Vector3, Vector3], whose: Whose = 'own'): Reading {
     const hit = this.#cast(...ray);
-    return hit && this.#model ? readingOf(this.#model, this.world.scene, hit) : nothingHit();
+    return (hit && this.#between(hit, whose)) ?? nothingHit();
   }
 
   /** Whether something is between the eye and a place. */

@@ -66,6 +66,14 @@ export class Painter {
     this.#mirrors.render(renderer, world.root, camera, model, { width: Math.max(1, Math.round(width * mirrorScale)), height: Math.max(1, Math.round(height * mirrorScale)) });
   }
 
+  /** Gives up all targets; they are made again when they are drawn to. */
+  dispose(): void {
+    this.#mirrors.dispose();
+    this.#smooth.dispose();
+    this.#surroundings?.dispose();
+    this.#surroundings?.outdate();
+  }
+
   /** Light has changed: what is reflected is out of date. */
   outdate(): void {
     this.#surroundings?.outdate();

@@ -11,7 +11,7 @@ import type { Shown } from './shown';
 import type { Uniforms } from './uniforms';
 import type { World } from './worlds';
 
-export type EventName = 'view' | 'settings' | 'light' | 'exposure' | 'legend' | 'navigation';
+export type EventName = 'view' | 'settings' | 'light' | 'exposure' | 'legend' | 'navigation' | 'graphics';
 
 export interface Parts {
   renderer: WebGLRenderer;

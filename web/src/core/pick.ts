@@ -65,7 +65,7 @@ function shares(at: Vector3, p: Vector3, q: Vector3, r: Vector3): Vec3 {
 }
 
 /** The reading at a hit: means of the vertices whose light is known. Positions are as the scene has them, `origin` added. */
-export function readingOf(model: Model, scene: SceneHeader, hit: Hit): Reading {
+export function readingOf(model: Model, scene: SceneHeader, hit: Hit, which: 'light' | 'light2' = 'light'): Reading {
   const chunk = model.data.header.chunks[hit.chunk]!;
   const finish = model.finishes[chunk.finish]!;
   const place = {
@@ -74,7 +74,7 @@ export function readingOf(model: Model, scene: SceneHeader, hit: Hit): Reading {
     shape: scene.shapes[chunk.shape] ?? '', material: finish.material,
   };
   if (!chunk.lit) return { ...place, luminance_cd_m2: Math.max(...finish.luminance_cd_m2) > 0 ? luminance(finish.luminance_cd_m2) : null };
-  const light = lightOf(model, hit);
+  const light = lightOf(model, hit, which);
   if (!light) return place;
   const rgb = light.direct.map((d, k) => d + light.indirect[k]!) as Vec3;
   const lux = luminance(rgb);
@@ -103,11 +103,11 @@ function normalOf({ data }: Model, { vertices, weights }: Hit): Vec3 {
   return sum.normalize().toArray() as Vec3;
 }
 
-function lightOf(model: Model, { chunk, vertices, weights }: Hit): { direct: Vec3; indirect: Vec3; error: number } | null {
+function lightOf(model: Model, { chunk, vertices, weights }: Hit, which: 'light' | 'light2'): { direct: Vec3; indirect: Vec3; error: number } | null {
   const [direct, indirect, part]: Vec3[] = [[0, 0, 0], [0, 0, 0], [0, 0, 0]];
   let [known, square] = [0, 0];
   vertices.forEach((vertex, k) => {
-    const { words, at } = model.wordsOf(chunk, vertex);
+    const { words, at } = model.wordsOf(chunk, vertex, which);
     const [weight, code] = [weights[k]!, words[at + 2]!];
     if (isUnknown(code)) return;
     known += weight;

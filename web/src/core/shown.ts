@@ -76,6 +76,12 @@ export class Shown {
     uniforms.uToneOnChannels.value = table.on === 'channels';
   }
 
+  /** Takes tables off the graphics card; they come to it again when they are drawn with. */
+  dispose(): void {
+    this.uniforms.uToneRow.value.dispose();
+    this.uniforms.uColours.value.dispose();
+  }
+
   #setColours(codes: Uint8Array): void {
     if (codes === this.#colours) return;
     this.#colours = codes;

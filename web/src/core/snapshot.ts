@@ -8,19 +8,29 @@ import { numberText } from './labels';
 const WIDTH = 84;
 const MARGIN = 16;
 
-export async function snapshot(parts: Parts, engine: Engine): Promise<Blob> {
+export async function snapshot(parts: Parts, engine: Engine, draw?: (context: CanvasRenderingContext2D) => void): Promise<Blob> {
   const { canvas, marks } = parts;
+  await engine.settle();
+  engine.drawNow();
   const picture = document.createElement('canvas');
   [picture.width, picture.height] = [canvas.width, canvas.height];
   const context = picture.getContext('2d')!;
-  engine.drawNow();
   // The canvas keeps its pixels only until the browser shows them: they are copied at once.
   context.drawImage(canvas, 0, 0);
   if (marks.canvas.width > 0) context.drawImage(marks.canvas, 0, 0, picture.width, picture.height);
+  if (draw) drawOver(canvas, context, draw);
   if (parts.settings.mode !== 'seen') drawLegend(parts, context, parts.renderer.getPixelRatio());
   return new Promise((resolve, reject) => {
     picture.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The picture could not be written.'))), 'image/png');
   });
+}
+
+/** In CSS pixels of the canvas. */
+function drawOver(canvas: HTMLCanvasElement, context: CanvasRenderingContext2D, draw: (context: CanvasRenderingContext2D) => void): void {
+  context.save();
+  context.scale(canvas.width / canvas.clientWidth, canvas.height / canvas.clientHeight);
+  draw(context);
+  context.restore();
 }
 
 function drawLegend({ shown, settings }: Parts, context: CanvasRenderingContext2D, ratio: number): void {

@@ -78,7 +78,12 @@ class Errors {
 function assemble(source: Source, parts: Parts, engine: Engine, finder: Finder, renewal: Renewal, errors: Errors): Viewer {
   const { worlds, settings, navigation, events, marks, shown } = parts;
   const gridMarks = new GridMarks(source, parts, () => engine.invalidate());
-  parts.canvas.addEventListener('webglcontextlost', () => errors.tell('The graphics card has been lost. Loading the page again helps.'));
+  parts.canvas.addEventListener('webglcontextlost', () => engine.lose());
+  // Heard after three.js has made itself at home again.
+  parts.canvas.addEventListener('webglcontextrestored', () => {
+    engine.restore();
+    modelsChanged(engine, finder);
+  });
   const jump = (animate: boolean): void => {
     if (!animate) engine.jump();
   };
@@ -99,7 +104,11 @@ function assemble(source: Source, parts: Parts, engine: Engine, finder: Finder, 
       events.tell('navigation');
     },
     readAt: (x, y, signal) => finder.readAt(x, y, signal),
-    glanceAt: (x, y) => finder.glanceAt(x, y),
+    whoseAt: (x) => finder.whoseAt(x),
+    glanceAt: (x, y, whose) => finder.glanceAt(x, y, whose),
+    readBothAt: (x, y, signal) => finder.readBothAt(x, y, signal),
+    glanceBothAt: (x, y) => finder.glanceBothAt(x, y),
+    isLost: () => engine.isLost,
     pin: (reading) => {
       marks.pin = reading?.position && reading.normal ? { at: finder.inScene(reading.position), normal: finder.direction(reading.normal) } : null;
       engine.invalidate();
@@ -120,7 +129,7 @@ function assemble(source: Source, parts: Parts, engine: Engine, finder: Finder, 
       return shown.legend(settings);
     },
     exposure: () => ({ whiteCdM2: engine.adaptation.white, ev100: evOfWhite(engine.adaptation.white) }),
-    snapshot: () => snapshot(parts, engine),
+    snapshot: (draw) => snapshot(parts, engine, draw),
     stats: () => statsOf(parts, source),
     refresh: (state) => renewal.refresh(state),
     on: (event, call) => events.on(event, call),
@@ -132,12 +141,13 @@ function assemble(source: Source, parts: Parts, engine: Engine, finder: Finder, 
 function change_(parts: Parts, engine: Engine, gridMarks: GridMarks, change: Partial<Settings>): void {
   const { settings, worlds, events, quality } = parts;
   const isMixed = (['dimming', 'otherDimming', 'compare', 'mode'] as const).some((name) => name in change && String(change[name]) !== String(settings[name]));
+  const isComparedAnew = isMixed && ('compare' in change || (change.mode === 'difference') !== (settings.mode === 'difference'));
   const isSplitOnly = Object.keys(change).every((name) => name === 'split');
   // Switching automatic exposure off keeps what is seen.
   if (change.autoExposure === false && settings.autoExposure && change.ev100 === undefined) settings.ev100 = evOfWhite(engine.adaptation.white);
   Object.assign(settings, change);
   quality.how = settings.quality;
-  if (isMixed && ('dimming' in change || 'otherDimming' in change)) {
+  if (isComparedAnew || (isMixed && ('dimming' in change || 'otherDimming' in change))) {
     worlds.forEach(({ model }) => model?.remix());
     parts.luminaires.dim(settings.dimming);
   }

@@ -2,7 +2,7 @@
 
 import { Vector3, type PerspectiveCamera } from 'three';
 import type { MeshBVH } from 'three-mesh-bvh';
-import { floorBelow, pushOut, RADIUS, roomAbove, STEP } from './collide';
+import { floorBelow, RADIUS, roomAbove, slide, STEP } from './collide';
 import { WalkInput } from './walk-input';
 
 /** Height of eyes above the floor at first, m. */
@@ -79,8 +79,8 @@ export class Walk {
     const eye = this.camera.position;
     const steps = Math.ceil((this.#velocity.length() * dt) / (RADIUS / 2));
     for (let i = 0; i < steps; i++) {
-      eye.addScaledVector(this.#velocity, dt / steps);
-      if (this.bvh) eye.copy(pushOut(this.bvh, eye, this.up, this.#eyes));
+      const way = this.#velocity.clone().multiplyScalar(dt / steps);
+      eye.copy(this.bvh ? slide(this.bvh, eye, way, this.up, this.#eyes) : eye.clone().add(way));
     }
   }
 

@@ -11,6 +11,7 @@ import { Model } from './model';
 import { Refused } from './server';
 import { openTextures, type SceneTexture } from './textures';
 import type { Uniforms } from './uniforms';
+import { comparedWith } from './whose';
 
 export class World {
   readonly scene: SceneHeader;
@@ -32,14 +33,33 @@ export class World {
     const data = decodeMesh(buffer);
     const light = await orNotYet(source.light(this.number, data.header.mesh, 0));
     if (!light) return false;
-    const model = new Model(data, this.scene.finishes, this.#textures, this.uniforms, openLight(light, data.header.lit_vertices));
+    this.#take(new Model(data, this.scene.finishes, this.#textures, this.uniforms, openLight(light, data.header.lit_vertices)));
+    return true;
+  }
+
+  /** All that the graphics card had is gone. */
+  lose(): void {
+    this.#retired?.dispose();
+    this.#retired = null;
+    this.model?.dispose();
+    this.#textures.forEach(({ value }) => value.dispose());
+  }
+
+  /** Makes the model anew of what is in memory. */
+  restore(): void {
+    if (!this.model) return;
+    const { data, light } = this.model;
+    this.#take(new Model(data, this.scene.finishes, this.#textures, this.uniforms, light));
+    this.#retired = null;
+  }
+
+  #take(model: Model): void {
     // The old shaders are those of the new one as well: they stay until it has taken them over.
     this.#retired?.dispose();
     this.#retired = this.model;
     this.#retired?.group.removeFromParent();
     this.model = model;
     this.root.add(model.group);
-    return true;
   }
 
   /** Makes all shaders of the model ready; at once where they were ready before. */
@@ -72,10 +92,16 @@ async function orNotYet(promise: Promise<ArrayBuffer>): Promise<ArrayBuffer | nu
   }
 }
 
-/** The light of a model as the settings mix it; and the other light that it is compared with, on the same vertices. */
-export function mixesOf({ light }: Model, settings: Readonly<Settings>): { own: Mix; second: Mix | null } {
-  const own = { layers: light.layers, errors: light.errors, factors: settings.dimming };
-  if (settings.compare === 'dimmings') return { own, second: { ...own, factors: settings.otherDimming } };
-  const isOther = light.other && light.otherErrors && (settings.compare === 'maps' || settings.mode === 'difference');
-  return { own, second: isOther ? { layers: [light.other!], errors: light.otherErrors!, factors: [1] } : null };
+/**
+ * The light of a world as the settings mix it; and the other light that it is compared with, on the same vertices. Dimmers are
+ * those of the first map.
+ */
+export function mixesOf({ number }: World, { light }: Model, settings: Readonly<Settings>): { own: Mix; second: Mix | null } {
+  const own = { layers: light.layers, errors: light.errors, factors: number === 0 ? settings.dimming : [] };
+  const hasOther = light.other !== null && light.otherErrors !== null;
+  switch (number === 0 ? comparedWith(settings, hasOther) : null) {
+    case 'dimming': return { own, second: { ...own, factors: settings.otherDimming } };
+    case 'map': return { own, second: { layers: [light.other!], errors: light.otherErrors!, factors: [1] } };
+    default: return { own, second: null };
+  }
 }

@@ -4,7 +4,9 @@ import type { Mode, Settings } from '../contract';
 import { download, copy } from './notices';
 import { fileName } from './csv';
 import type { IconName } from './icons';
-import { isComparable, MODE_NAMES, modesOf, type Ui } from './ui';
+import { pinPicture } from './pin-picture';
+import type { Pins } from './pins';
+import { MODE_NAMES, modesOf, type Ui } from './ui';
 
 export interface Action {
   id: string;
@@ -23,8 +25,8 @@ const LUMINAIRES: Settings['luminaires'][] = ['off', 'points', 'solids'];
 export const LUMINAIRE_NAMES: Record<Settings['luminaires'], string> =
   { off: 'Luminaires: off', points: 'Luminaires: lamps', solids: 'Luminaires: photometric solids' };
 
-export function actionsOf(ui: Ui, link: () => string, help: () => void): Action[] {
-  return [...modes(ui), ...layers(ui), ...views(ui), ...exposures(ui), ...outputs(ui, link, help)];
+export function actionsOf(ui: Ui, pins: Pins, link: () => string, help: () => void): Action[] {
+  return [...modes(ui), ...layers(ui), ...views(ui), ...exposures(ui), ...outputs(ui, pins, link, help)];
 }
 
 function modes({ viewer }: Ui): Action[] {
@@ -35,7 +37,7 @@ function modes({ viewer }: Ui): Action[] {
 
 /** A difference is that of two maps, or else of two dimmings. */
 function compared(viewer: Ui['viewer'], mode: Mode): Partial<Settings> {
-  return mode === 'difference' && !isComparable(viewer) ? { mode, compare: 'dimmings' } : { mode };
+  return mode === 'difference' && viewer.scene.other === null ? { mode, compare: 'dimmings' } : { mode };
 }
 
 function layers({ viewer }: Ui): Action[] {
@@ -93,19 +95,20 @@ function exposures({ viewer }: Ui): Action[] {
   ];
 }
 
-function outputs(ui: Ui, link: () => string, help: () => void): Action[] {
+function outputs(ui: Ui, pins: Pins, link: () => string, help: () => void): Action[] {
   return [
-    { id: 'snapshot', label: 'Save a picture (PNG)', key: 'p', icon: 'picture', run: () => void saveSnapshot(ui) },
+    { id: 'snapshot', label: 'Save a picture (PNG)', key: 'p', icon: 'picture', run: () => void saveSnapshot(ui, pins) },
     { id: 'link', label: 'Copy a link to this view', key: 'k', icon: 'link', run: () => void copy(link(), 'Link', ui.say) },
     { id: 'full', label: 'Full screen', key: 'f', icon: 'full', on: () => document.fullscreenElement !== null, run: () => void fullScreen(ui) },
     { id: 'help', label: 'Keys and help', key: 'h', icon: 'help', run: help },
   ];
 }
 
-async function saveSnapshot({ viewer, say }: Ui): Promise<void> {
+async function saveSnapshot(ui: Ui, pins: Pins): Promise<void> {
+  const { viewer, say } = ui;
   const name = fileName([viewer.scene.name, viewer.settings.mode], 'png');
   try {
-    download(name, await viewer.snapshot());
+    download(name, await viewer.snapshot(pinPicture(ui, pins)));
     say(`${name} saved.`);
   } catch (error) {
     say(`The picture could not be made: ${words(error)}`, 'bad');

@@ -2,7 +2,8 @@
 
 import 'uplot/dist/uPlot.min.css';
 import '../style.css';
-import type { Source, Viewer } from '../contract';
+import type { Both, Source, Viewer } from '../contract';
+import type { Reading } from '../wire';
 import { about } from './about';
 import { actionsOf, words } from './actions';
 import { compareChoice, compareSlider } from './compare';
@@ -16,6 +17,7 @@ import { listenToKeys } from './keys';
 import { legend } from './legend';
 import { syncLink, type LinkSync } from './link-sync';
 import { live } from './live';
+import { lostNote } from './lost';
 import { notices } from './notices';
 import { panel } from './panel';
 import { pinLabels } from './pin-labels';
@@ -37,9 +39,9 @@ export function startUi(root: HTMLElement, viewer: Viewer, source: Source): void
   const pins = pinsOf(ui);
   const section = sectionTool(ui);
   const tip = hover(ui);
-  ui.stage.append(pinLabels(ui, pins), section.mark, compareSlider(ui), legend(ui), crosshair(ui.canvas), waiting(viewer), tip.root, messages.root);
+  ui.stage.append(pinLabels(ui, pins), section.mark, compareSlider(ui), crosshair(ui.canvas), waiting(viewer), lostNote(viewer), h('div', { class: 'stage-foot' }, tip.root, legend(ui)), messages.root);
   let link: LinkSync | null = null;
-  const actions = actionsOf(ui, () => link?.link() ?? location.href, () => help.toggle());
+  const actions = actionsOf(ui, pins, () => link?.link() ?? location.href, () => help.toggle());
   const help = helpDialog(actions);
   fillPanel(ui, pins, section);
   // Finer shadows come while somebody looks at a finished map, too.
@@ -51,7 +53,7 @@ export function startUi(root: HTMLElement, viewer: Viewer, source: Source): void
   listenToKeys(ui, actions, () => escape(ui, pins, section, tip.hide));
   watchPointer(ui, {
     hover: tip.at, leave: tip.hide,
-    click: (x, y, touch) => (ui.tool === 'section' ? section.click(x, y) : void pinAt(ui, pins, x, y, (r) => touch && tip.show(r, x, y))),
+    click: (x, y, touch) => (ui.tool === 'section' ? section.click(x, y) : void pinAt(ui, pins, x, y).then((found) => touch && found && tip.show(found, x, y))),
   });
 }
 
@@ -87,19 +89,19 @@ function fillPanel(ui: Ui, pins: Pins, section: SectionTool): void {
   if (ui.source.hello.live && matchMedia('(min-width: 1000px)').matches) ui.panel.open('run');
 }
 
-async function pinAt(ui: Ui, pins: Pins, x: number, y: number, shown: (r: Parameters<Pins['add']>[0]) => void): Promise<void> {
-  const { compare, split } = ui.viewer.settings;
-  if (compare === 'maps' && ui.viewer.otherScene && x > split * ui.canvas.clientWidth) {
-    ui.say('Readings are kept of the map on the left. Move the slider, or open the maps the other way round.');
-    return;
-  }
+/** Keeps what is read at a point of the canvas; what is to be shown of it. */
+async function pinAt(ui: Ui, pins: Pins, x: number, y: number): Promise<Reading | Both | null> {
+  const { viewer } = ui;
+  const [{ signal }, whose] = [new AbortController(), viewer.whoseAt(x)];
   try {
-    const reading = await ui.viewer.readAt(x, y, new AbortController().signal);
-    if (!reading?.position) return;
-    pins.add(reading);
-    shown(reading);
+    const both = viewer.settings.mode === 'difference' ? await viewer.readBothAt(x, y, signal) : null;
+    const reading = both?.own ?? (await viewer.readAt(x, y, signal));
+    if (!reading?.position) return null;
+    pins.add(reading, whose);
+    return both ?? reading;
   } catch (error) {
     ui.say(`The reading failed: ${words(error)}`, 'bad');
+    return null;
   }
 }
 
@@ -130,7 +132,7 @@ function crosshair(canvas: HTMLCanvasElement): HTMLElement {
 
 /** Said until there is a first picture with light. */
 function waiting(viewer: Viewer): HTMLElement {
-  const note = h('p', { class: 'waiting card', role: 'status', hidden: true }, 'Waiting for the first light …');
+  const note = h('p', { class: 'first-light card', role: 'status', hidden: true }, 'Waiting for the first light …');
   const timer = window.setTimeout(() => { note.hidden = false; }, 600);
   const done = (): void => {
     window.clearTimeout(timer);

@@ -2,7 +2,7 @@
 
 import type { Settings } from '../contract';
 import { h, perFrame, segments, setText } from './dom';
-import { isComparable, sideNames, type Ui } from './ui';
+import { differenceNames, isComparable, sideNames, type Ui } from './ui';
 
 /** The choice, in the panel. */
 export function compareChoice(ui: Ui): HTMLElement {
@@ -33,12 +33,14 @@ export function compareSlider(ui: Ui): HTMLElement {
   const root = h('div', { class: 'split', hidden: true }, left, right, grip);
   const set = perFrame((split: number) => viewer.set({ split: Math.min(1, Math.max(0, split)) }));
   const refresh = (): void => {
-    const { compare, split } = viewer.settings;
-    root.hidden = compare === 'off';
+    const { compare, mode, split } = viewer.settings;
+    const isDifference = mode === 'difference';
+    root.hidden = compare === 'off' && !isDifference;
+    root.classList.toggle('difference', isDifference);
     root.style.setProperty('--split', `${100 * split}%`);
     grip.setAttribute('aria-valuenow', String(Math.round(100 * split)));
-    const names = sideNames(viewer, compare);
-    setText(left, names[0]);
+    const names = isDifference ? differenceNames(viewer) : sideNames(viewer, compare);
+    setText(left, isDifference ? names.join('  −  ') : names[0]);
     setText(right, names[1]);
   };
   grip.addEventListener('pointerdown', (event) => {

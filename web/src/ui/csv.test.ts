@@ -14,6 +14,8 @@ describe('lines of files', () => {
     expect(pinLine(reading(null, Infinity))).toBe('1.2346,2,-0.5,0,0,1,,');
     expect(ptsLine(reading(1, 1))).toBe('1.2346 2 -0.5  0 0 1');
     expect(pinsCsv([reading(1, 2)])).toBe('x,y,z,nx,ny,nz,illuminance_lx,standard_error_lx\n1.2346,2,-0.5,0,0,1,1,2\n');
+    expect(pinsCsv([reading(1, 2)], [null])).toBe(pinsCsv([reading(1, 2)]));
+    expect(pinsCsv([reading(1, 2)], ['B: "spots", off'])).toContain(',1,2,"B: ""spots"", off"\n');
     expect(sectionCsv([{ at: 0.25, reading: reading(1, 2) }]).split('\n')[1]).toBe('0.25,1.2346,2,-0.5,0,0,1,1,2');
   });
   it('go through grids row after row', () => {

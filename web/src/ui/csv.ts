@@ -30,8 +30,10 @@ export function ptsLine(r: Reading): string {
   return `${metres(r.position).join(' ')}  ${normal(r.normal).join(' ')}`;
 }
 
-export function pinsCsv(readings: Reading[]): string {
-  return [PIN_COLUMNS, ...readings.map(pinLine), ''].join('\n');
+/** All readings, and of what they are where that is to be said. */
+export function pinsCsv(readings: Reading[], of: (string | null)[] = []): string {
+  if (of.every((name) => name === null)) return [PIN_COLUMNS, ...readings.map(pinLine), ''].join('\n');
+  return [`${PIN_COLUMNS},of`, ...readings.map((r, i) => `${pinLine(r)},"${(of[i] ?? '').replaceAll('"', '""')}"`), ''].join('\n');
 }
 
 export function sectionCsv(samples: { at: number; reading: Reading }[]): string {

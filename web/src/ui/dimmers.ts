@@ -1,9 +1,9 @@
 // Dimmers of the layers of light, and two dimmings side by side.
 
 import { h, perFrame, segments, setText } from './dom';
+import { MOST, parsePercent, percentText } from './percent';
 import { layerNames, type Ui } from './ui';
 
-const MOST = 1.5;
 type Side = 'dimming' | 'otherDimming';
 
 export function dimmers(ui: Ui): HTMLElement {
@@ -48,21 +48,36 @@ export function dimmers(ui: Ui): HTMLElement {
     h('div', { class: 'dimmers' }, ...rows.map((r) => r.root)), h('div', { class: 'row' }, compare, reset));
 }
 
+let dimmersMade = 0;
+
 function dimmer(name: string, change: (factor: number) => void): { root: HTMLElement; show(factor: number): void } {
   const slider = h('input', { type: 'range', min: 0, max: MOST * 100, step: 1, 'aria-label': name, oninput: () => act(Number(slider.value) / 100) });
-  const text = h('input', { type: 'text', inputmode: 'decimal', class: 'percent', 'aria-label': `${name}, per cent`, onchange: () => {
-    const typed = Number(text.value.replace('%', '').replace(',', '.'));
-    if (text.value.trim() !== '' && Number.isFinite(typed)) act(Math.min(MOST, Math.max(0, typed / 100)));
-    else show(shown);
+  const problem = h('p', { class: 'problem', role: 'alert', hidden: true, id: `dimmer-problem-${++dimmersMade}` });
+  const tell = (said: string): void => {
+    setText(problem, said);
+    problem.hidden = said === '';
+    text.setAttribute('aria-invalid', String(said !== ''));
+  };
+  const text = h('input', { type: 'text', inputmode: 'decimal', class: 'percent', 'aria-label': `${name}, per cent`, 'aria-describedby': problem.id, oninput: () => tell(''), onchange: () => {
+    const typed = parsePercent(text.value);
+    if ('factor' in typed) {
+      act(typed.factor);
+      write();
+    } else tell(`${typed.problem} It stays at ${percentText(shown)}.`);
   } });
+  text.addEventListener('keydown', (event) => {
+    if (event.key === 'Escape') write();
+  });
   const power = h('button', { type: 'button', class: 'quiet dimmer-name', title: 'On or off', onclick: () => act(shown > 0 ? 0 : 1) },
     h('span', { class: 'lamp-dot', 'aria-hidden': 'true' }), h('span', {}, name));
   let shown = 1;
   const show = (factor: number): void => {
+    const isSame = factor === shown;
     shown = factor;
+    // What is wrong stays to be mended, until there is another value.
+    if (!isSame || problem.hidden) write(document.activeElement === text);
     slider.value = String(Math.round(factor * 100));
-    slider.setAttribute('aria-valuetext', factor === 0 ? 'off' : `${Math.round(factor * 100)} %`);
-    if (document.activeElement !== text) text.value = factor === 0 ? 'off' : `${Math.round(factor * 100)} %`;
+    slider.setAttribute('aria-valuetext', percentText(factor));
     power.setAttribute('aria-pressed', String(factor > 0));
     root.style.setProperty('--on', String(Math.min(1, factor)));
   };
@@ -72,6 +87,10 @@ function dimmer(name: string, change: (factor: number) => void): { root: HTMLEle
     show(caught);
     change(caught);
   };
-  const root = h('div', { class: 'dimmer' }, power, text, slider);
+  const write = (isTyped = false): void => {
+    tell('');
+    if (!isTyped) text.value = percentText(shown);
+  };
+  const root = h('div', { class: 'dimmer' }, power, text, slider, problem);
   return { root, show };
 }

@@ -1,9 +1,11 @@
 // The reading under the pointer: at once from vertices, and as `probe` reads it once the pointer rests.
 
+import type { Both } from '../contract';
 import type { Reading } from '../wire';
+import { differenceLines } from './difference';
 import { h, perFrame, replace, throttled } from './dom';
 import { details, illuminanceLine, sourceText } from './reading';
-import { sideNames, type Ui } from './ui';
+import { differenceNames, whoseName, type Ui } from './ui';
 
 const RESTS_MS = 80;
 const AGAIN_MS = 300;
@@ -13,7 +15,7 @@ export interface Hover {
   /** The pointer is here now (CSS pixels of the canvas). */
   at(x: number, y: number): void;
   /** Shows a reading that is known already, near a point. */
-  show(reading: Reading, x: number, y: number): void;
+  show(reading: Reading | Both, x: number, y: number): void;
   hide(): void;
 }
 
@@ -31,22 +33,27 @@ export function hover(ui: Ui): Hover {
     const mine = new AbortController();
     asked = mine;
     try {
-      const reading = await ui.viewer.readAt(x, y, mine.signal);
-      if (!mine.signal.aborted && reading?.position) show(reading, x, y);
+      const found = isDifference() ? await viewer.readBothAt(x, y, mine.signal) : await viewer.readAt(x, y, mine.signal);
+      if (!mine.signal.aborted && found) present(found, x, y);
     } catch {
       // A reading that failed leaves the interpolated value; the viewer tells what went wrong.
     }
   };
-  const show = (reading: Reading, x: number, y: number, glance = false): void => {
-    replace(root, illuminanceLine(reading), details(reading),
-      h('p', { class: 'faint' }, glance ? 'between vertices' : sourceText(reading)), sideNote(ui, x));
+  const isDifference = (): boolean => viewer.settings.mode === 'difference';
+  const present = (found: Reading | Both, x: number, y: number, glance = false): void => {
+    if ('other' in found) {
+      replace(root, ...differenceLines(found, differenceNames(viewer)),
+        h('p', { class: 'faint' }, glance ? 'between vertices' : `${sourceText(found.own)}; ± as if both erred by themselves`));
+    } else {
+      replace(root, illuminanceLine(found), details(found), h('p', { class: 'faint' }, glance ? 'between vertices' : sourceText(found)), sideNote(ui, x));
+    }
     root.hidden = false;
     place(root, stage, x, y);
   };
   const glance = perFrame((x: number, y: number, mine: number) => {
     if (mine !== moves) return;
-    const reading = viewer.glanceAt(x, y);
-    if (reading?.position) show(reading, x, y, true);
+    const found = isDifference() ? viewer.glanceBothAt(x, y) : viewer.glanceAt(x, y);
+    if (found) present(found, x, y, true);
     else root.hidden = true;
   });
   let moves = 0;
@@ -69,7 +76,7 @@ export function hover(ui: Ui): Hover {
       here = null;
       forget();
       moves++;
-      show(reading, x, y);
+      present(reading, x, y);
     },
     hide: () => {
       here = null;
@@ -80,12 +87,9 @@ export function hover(ui: Ui): Hover {
   };
 }
 
-/** Readings are those of the left side, also where the right one is seen. */
 /** Whose value it is, where two are shown. */
-function sideNote({ viewer, canvas }: Ui, x: number): HTMLElement | null {
-  const { compare, split } = viewer.settings;
-  const isRight = compare === 'maps' && viewer.otherScene !== null && x > split * canvas.clientWidth;
-  return compare === 'off' ? null : h('p', { class: 'faint clip' }, `of ${sideNames(viewer, compare)[isRight ? 1 : 0]}`);
+function sideNote({ viewer }: Ui, x: number): HTMLElement | null {
+  return viewer.settings.compare === 'off' ? null : h('p', { class: 'faint clip' }, `of ${whoseName(viewer, viewer.whoseAt(x))}`);
 }
 
 /** Beside the point, on the side where there is room. */
@@ -94,5 +98,7 @@ function place(card: HTMLElement, stage: HTMLElement, x: number, y: number): voi
   const left = x + 18 + width < stage.clientWidth ? x + 18 : x - 18 - width;
   const top = y + 18 + height < stage.clientHeight ? y + 18 : y - 18 - height;
   const inside = (v: number, most: number): number => Math.max(6, Math.min(v, most));
+  // On phones it lies at the foot, above the scale, or at the head where that would hide what is read.
+  card.classList.toggle('at-head', y > stage.clientHeight / 2);
   card.style.transform = `translate(${inside(left, stage.clientWidth - width - 6)}px, ${inside(top, stage.clientHeight - height - 6)}px)`;
 }

@@ -31,7 +31,7 @@ export function legend(ui: Ui): HTMLElement {
     setText(title, MODE_NAMES[viewer.settings.mode]);
     title.dataset.unit = now.unit;
     units.forEach((u) => setText(u, now.unit));
-    bar.style.background = `linear-gradient(to top, ${now.colours.join(', ')})`;
+    bar.style.setProperty('--colours', now.colours.join(', '));
     ticks.replaceChildren(...placed(now));
     high.show(now.high);
     low.show(now.low);
@@ -53,11 +53,22 @@ export function position(of: Legend, value: number): number {
 
 function placed(of: Legend): HTMLElement[] {
   const marks = of.ticks.map((value) => ({ value, at: position(of, value) })).filter(({ at }) => at >= 0 && at <= 1);
-  return marks.map(({ value, at }) => {
-    const mark = h('span', { class: at < 0.04 || at > 0.96 ? 'end' : null }, tick(value));
-    mark.style.bottom = `${100 * at}%`;
+  const spare = spareTicks(marks.map(({ value }) => value));
+  return marks.map(({ value, at }, i) => {
+    const mark = h('span', { class: [at < 0.04 || at > 0.96 ? 'end' : '', spare.has(i) ? 'spare' : ''].join(' ').trim() || null }, tick(value));
+    mark.style.setProperty('--at', `${100 * at}%`);
     return mark;
   });
+}
+
+/** Width of a scale that lies on a phone, and of a sign on it, CSS pixels. */
+const [LYING, SIGN] = [320, 7.5];
+
+/** Every other tick, where all of them have no room side by side; nought and the first one stay. */
+export function spareTicks(values: number[]): Set<number> {
+  const width = values.reduce((sum, value) => sum + SIGN * (tick(value).length + 1), 0);
+  const kept = Math.max(0, values.indexOf(0)) % 2;
+  return new Set(width > LYING ? [...values.keys()].filter((i) => i % 2 !== kept) : []);
 }
 
 /** Changes one limit; says why where that cannot be. */

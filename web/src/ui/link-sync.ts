@@ -4,7 +4,7 @@ import type { Settings } from '../contract';
 import { throttled } from './dom';
 import { decodeLink, encodeLink, type LinkState } from './link';
 import type { Pins } from './pins';
-import { isComparable, layerNames, type Ui } from './ui';
+import { isComparable, layerNames, modesOf, type Ui } from './ui';
 
 /** Browsers allow some hundred changes of the address in half a minute. */
 const EVERY_MS = 400;
@@ -62,7 +62,9 @@ function apply(ui: Ui, pins: Pins, start: Readonly<Settings>, hash: string): voi
   ui.viewer.set({ ...start, ...settings });
   if (state.navigation) ui.viewer.setNavigation(state.navigation);
   if (state.view) ui.viewer.goTo(state.view, false);
-  pins.restore(state.pins);
+  const known = state.pins.filter(({ whose }) => whose !== 'map' || ui.viewer.otherScene !== null);
+  if (known.length < state.pins.length) bad.push('pin');
+  pins.restore(known);
   if (bad.length > 0) ui.say(`Some of the address could not be used: ${[...new Set(bad)].join(', ')}.`);
 }
 
@@ -79,7 +81,7 @@ function fitting({ viewer }: Ui, asked: Partial<Settings>, bad: string[]): Parti
   leave('colourMap', viewer.scene.colour_maps.some((m) => m.name === settings.colourMap));
   leave('dimming', settings.dimming?.length === layers);
   leave('otherDimming', settings.otherDimming?.length === layers);
-  leave('mode', settings.mode !== 'difference' || isComparable(viewer));
+  leave('mode', settings.mode === undefined || modesOf(viewer).includes(settings.mode));
   leave('compare', settings.compare !== 'maps' || isComparable(viewer));
   return settings;
 }

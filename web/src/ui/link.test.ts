@@ -9,8 +9,8 @@ const full: LinkState = {
     logarithmic: true, contours: true, mesh: false, grids: true, luminaires: 'solids', dimming: [1, 0.5], otherDimming: [0, 1.25],
     compare: 'dimmings', split: 0.25,
   },
-  pins: [{ position: [1, 2, 0], normal: [0, 0, 1], illuminance_lx: 512.3, standard_error_lx: 6.2 },
-    { position: [-1, 2, 0], normal: [0, -1, 0], illuminance_lx: null, standard_error_lx: Infinity }],
+  pins: [{ position: [1, 2, 0], normal: [0, 0, 1], illuminance_lx: 512.3, standard_error_lx: 6.2, whose: 'own' },
+    { position: [-1, 2, 0], normal: [0, -1, 0], illuminance_lx: null, standard_error_lx: Infinity, whose: 'map' }],
 };
 
 describe('a link', () => {
@@ -39,6 +39,11 @@ describe('a bad link', () => {
     expect(back?.state.settings.luminaires).toBe('points');
     expect(back?.state.view).toBeUndefined();
     expect(back?.bad).toEqual(['mode', 'at', 'dim', 'lim', 'cmp', 'on', '__proto__', 'pin', 'tone', '']);
+  });
+  it('has no pins of light that there is not', () => {
+    const pin = (end: string): string => `#v1&pin=1,2,0,0,0,1,5,1${end}`;
+    expect(['', ',', ',m', ',d'].map((end) => decodeLink(pin(end))?.state.pins[0]?.whose)).toEqual(['own', 'own', 'map', 'dimming']);
+    for (const end of [',x', ',m,', ',own']) expect(decodeLink(pin(end))?.bad).toEqual(['pin']);
   });
   it('takes no numbers that are none', () => {
     for (const text of ['NaN', 'Infinity', '1e999', '0x10', '', ' 1', '1'.repeat(400)]) {

@@ -1,6 +1,6 @@
 // What is shown as the part of an address after "#": short, and of a version. Reading one never throws.
 
-import type { Mode, Settings, View } from '../contract';
+import type { Mode, Settings, View, Whose } from '../contract';
 import type { Vec3 } from '../wire';
 
 /** A pin of a link: its place, and what was read there when the link was made. */
@@ -9,6 +9,7 @@ export interface LinkPin {
   normal: Vec3;
   illuminance_lx: number | null;
   standard_error_lx: number | null;
+  whose: Whose;
 }
 
 export interface LinkState {
@@ -19,6 +20,8 @@ export interface LinkState {
 }
 
 export const MODES: Mode[] = ['seen', 'illuminance', 'luminance', 'direct', 'indirect', 'error', 'relative', 'difference'];
+/** Pins of other light than that of the map have a letter at their end. */
+const LETTERS: Record<Whose, string> = { own: '', map: 'm', dimming: 'd' };
 const VERSION = 'v1';
 const MOST_PINS = 64;
 const MOST_LAYERS = 256;
@@ -44,7 +47,7 @@ export function encodeLink(state: LinkState): string {
 
 function encodePin(pin: LinkPin): string {
   const numbers = [pin.illuminance_lx, pin.standard_error_lx].map((v) => (v === null || !Number.isFinite(v) ? '' : short(v)));
-  return `${place(pin.position)},${pin.normal.map((v) => short(v, 3)).join(',')},${numbers.join(',')}`;
+  return `${place(pin.position)},${pin.normal.map((v) => short(v, 3)).join(',')},${numbers.join(',')}${pin.whose === 'own' ? '' : `,${LETTERS[pin.whose]}`}`;
 }
 
 const FLAGS: [string, 'contours' | 'mesh' | 'grids' | 'logarithmic'][] =
@@ -126,11 +129,12 @@ const READERS: Record<string, Reader> = {
   pin: (text, into) => {
     const cells = text.split(',');
     const at = numbers(cells.slice(0, 6).join(','), 6, -1e7, 1e7);
-    if (!at || cells.length !== 8 || into.pins.length >= MOST_PINS) return false;
+    const whose = (['own', 'map', 'dimming'] as const).find((w) => LETTERS[w] === (cells[8] ?? ''));
+    if (!at || !whose || cells.length < 8 || cells.length > 9 || into.pins.length >= MOST_PINS) return false;
     const value = (cell: string): number | null => numbers(cell, 1, 0, 1e12)?.[0] ?? null;
     into.pins.push({
       position: [at[0]!, at[1]!, at[2]!], normal: [at[3]!, at[4]!, at[5]!],
-      illuminance_lx: value(cells[6]!), standard_error_lx: value(cells[7]!),
+      illuminance_lx: value(cells[6]!), standard_error_lx: value(cells[7]!), whose,
     });
     return true;
   },

@@ -6,7 +6,7 @@ import { h, setText } from './dom';
 import { count, share } from './format';
 import { icon } from './icons';
 import { liveChart } from './live-chart';
-import { auditText, done, errorText, isOver, parseTarget, phaseText, seconds, timeLeft } from './predict';
+import { auditText, done, errorText, isOver, lossText, parseTarget, phaseText, seconds, timeLeft } from './predict';
 import type { Ui } from './ui';
 
 export interface Live {
@@ -111,21 +111,23 @@ function controls(ui: Ui): { root: HTMLElement; show(state: LiveState): void } {
     stop.disabled = is;
     (is ? sure.querySelector('button') : stop)?.focus();
   };
-  const target = targetForm((accuracy) => void send({ action: 'target', accuracy }));
+  const target = targetForm((accuracy) => void send({ action: 'target', accuracy }), () => last);
   const root = h('section', { class: 'block' }, h('div', { class: 'row' }, pause, stop), sure, target.root);
+  let last: LiveState | null = null;
   const show = (state: LiveState): void => {
+    last = state;
     root.hidden = isOver(state.phase);
     if (pause.childElementCount === 0 || paused !== state.paused) {
       paused = state.paused;
       pause.replaceChildren(icon(paused ? 'play' : 'pause'), paused ? 'Go on' : 'Pause');
     }
-    target.show(state.target);
+    target.show(state);
   };
   return { root, show };
 }
 
-/** Another accuracy to reach. */
-function targetForm(send: (accuracy: number) => void): { root: HTMLElement; show(target: number | null): void } {
+/** Another accuracy to reach; what is lost by it is said before. */
+function targetForm(send: (accuracy: number) => void, now: () => LiveState | null): { root: HTMLElement; show(state: LiveState): void } {
   const input = h('input', { type: 'text', inputmode: 'decimal', class: 'percent', placeholder: '1%', 'aria-label': 'Error to reach', 'aria-describedby': 'target-problem' });
   const problem = h('p', { class: 'problem', id: 'target-problem', role: 'alert', hidden: true });
   const tell = (text: string): void => {
@@ -133,18 +135,43 @@ function targetForm(send: (accuracy: number) => void): { root: HTMLElement; show
     problem.hidden = text === '';
     input.setAttribute('aria-invalid', String(text !== ''));
   };
+  let wanted: number | null = null;
+  const set = h('button', { type: 'submit' }, 'Set target');
+  const lost = h('p', {});
+  const anew = h('button', { type: 'button', class: 'primary', onclick: () => {
+    const accuracy = wanted;
+    ask(null);
+    input.value = '';
+    if (accuracy !== null) send(accuracy);
+  } }, 'Begin anew');
+  const keep = h('button', { type: 'button', onclick: () => {
+    ask(null);
+    set.focus();
+  } }, 'Keep this run');
+  const sure = h('div', { class: 'sure', hidden: true, role: 'group', 'aria-label': 'Begin the run anew?' },
+    lost, h('div', { class: 'row' }, anew, keep));
+  const ask = (accuracy: number | null): void => {
+    wanted = accuracy;
+    sure.hidden = accuracy === null;
+    const state = now();
+    if (accuracy === null || !state) return;
+    setText(lost, lossText(state, accuracy));
+    // A second Enter loses nothing.
+    keep.focus();
+  };
   const root = h('form', { class: 'target', onsubmit: (event) => {
     event.preventDefault();
     const parsed = parseTarget(input.value);
     tell('problem' in parsed ? parsed.problem : '');
-    if ('accuracy' in parsed) {
-      send(parsed.accuracy);
-      input.value = '';
-    }
-  } }, h('label', { class: 'row' }, h('span', {}, 'Anew for'), input, h('button', { type: 'submit' }, 'Set target')), problem);
-  input.addEventListener('input', () => tell(''));
-  return { root, show: (now) => {
-    input.placeholder = now === null ? '1%' : share(now).replace(/\.0 |\s/g, '');
+    if ('accuracy' in parsed) ask(parsed.accuracy);
+  } }, h('label', { class: 'row' }, h('span', {}, 'Anew for'), input, set), problem, sure);
+  input.addEventListener('input', () => {
+    tell('');
+    ask(null);
+  });
+  return { root, show: (state) => {
+    input.placeholder = state.target === null ? '1%' : share(state.target).replace(/\.0 |\s/g, '');
+    if (wanted !== null) setText(lost, lossText(state, wanted));
   } };
 }
 

@@ -93,11 +93,11 @@ function dragSheet(head: HTMLElement, sheet: HTMLElement, close: () => void): vo
     head.setPointerCapture(event.pointerId);
   });
   head.addEventListener('pointermove', (event) => {
-    if (from) sheet.style.setProperty('--sheet', `${Math.max(90, from.height + from.y - event.clientY)}px`);
+    if (from) document.documentElement.style.setProperty('--sheet', `${Math.max(90, from.height + from.y - event.clientY)}px`);
   });
   const end = (): void => {
     if (from && sheet.offsetHeight < 130) {
-      sheet.style.removeProperty('--sheet');
+      document.documentElement.style.removeProperty('--sheet');
       close();
     }
     from = null;

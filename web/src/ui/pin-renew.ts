@@ -1,10 +1,11 @@
 // Pins are read again when the light changes: by the server where it can be, else where they are seen.
 
+import type { Whose } from '../contract';
 import type { Reading, Vec3 } from '../wire';
 import { throttled } from './dom';
 import type { Pin, Pins } from './pins';
 import { project } from './project';
-import { isDimmed, type Ui } from './ui';
+import type { Ui } from './ui';
 
 const EVERY_MS = 1500;
 /** A ray onto a place begins that far off its surface, m. */
@@ -23,26 +24,28 @@ export function renewPins(ui: Ui, pins: Pins): void {
     }
   };
   const soon = throttled(() => void all(), EVERY_MS);
-  let dimming = ui.viewer.settings.dimming.join();
+  const dimmed = (): string => [ui.viewer.settings.dimming, ui.viewer.settings.otherDimming].join(';');
+  let dimming = dimmed();
   ui.viewer.on('light', soon);
   ui.viewer.on('settings', () => {
-    const now = ui.viewer.settings.dimming.join();
+    const now = dimmed();
     if (now !== dimming) soon();
     dimming = now;
   });
   void ui.viewer.ready.then(soon, () => {});
 }
 
-async function again(ui: Ui, { reading: { position, normal } }: Pin): Promise<Reading | null> {
+async function again(ui: Ui, { whose, reading: { position, normal } }: Pin): Promise<Reading | null> {
   if (!position || !normal) return null;
   const { viewer, source } = ui;
-  const { dimming } = viewer.settings;
-  if (source.hello.readings !== 'probe' || dimming.every((factor) => factor === 0)) return seen(ui, position)?.reading ?? null;
+  const { dimming: own, otherDimming } = viewer.settings;
+  const factors = { own, dimming: otherDimming, map: [1] }[whose];
+  if (source.hello.readings !== 'probe' || factors.every((factor) => factor === 0)) return seen(ui, position, whose)?.reading ?? null;
   const origin = position.map((v, i) => v + OFF_M * normal[i]!) as Vec3;
   const direction = normal.map((v) => -v) as Vec3;
   try {
-    const factors = isDimmed(viewer) ? dimming : [];
-    const [reading] = await source.read(0, [{ origin, direction }], factors, new AbortController().signal);
+    const dimming = factors.every((factor) => factor === 1) ? [] : factors;
+    const [reading] = await source.read(whose === 'map' ? 1 : 0, [{ origin, direction }], dimming, new AbortController().signal);
     return reading?.position ? reading : null;
   } catch {
     return null;
@@ -50,13 +53,13 @@ async function again(ui: Ui, { reading: { position, normal } }: Pin): Promise<Re
 }
 
 /** Where a place is on the canvas, null if not on it; with what is read there, if that is known and nothing hides it. */
-export function seen({ viewer, canvas }: Ui, position: Vec3): { at: [number, number]; reading: Reading | null; hidden: boolean } | null {
+export function seen({ viewer, canvas }: Ui, position: Vec3, whose: Whose = 'own'): { at: [number, number]; reading: Reading | null; hidden: boolean } | null {
   const { clientWidth: width, clientHeight: height } = canvas;
   const at = project(position, viewer.view(), viewer.scene.up, width, height);
   if (!at || at[0] < 0 || at[1] < 0 || at[0] > width || at[1] > height) return null;
-  const reading = viewer.glanceAt(at[0], at[1]);
+  const [there, reading] = [viewer.glanceAt(at[0], at[1], 'own'), viewer.glanceAt(at[0], at[1], whose)];
   const distance = (a: Vec3): number => Math.hypot(...a.map((v, i) => v - position[i]!));
-  const away = reading?.position ? distance(reading.position) : 0;
+  const away = there?.position ? distance(there.position) : 0;
   const hidden = away > NEAR_M + NEAR_SHARE * distance(viewer.view().position);
   return { at, reading: hidden || !reading?.position ? null : reading, hidden };
 }

@@ -1,5 +1,6 @@
 // Readings that are kept: which there are, and which of them is chosen.
 
+import type { Whose } from '../contract';
 import type { Reading } from '../wire';
 import type { LinkPin } from './link';
 import type { Ui } from './ui';
@@ -8,6 +9,8 @@ export interface Pin {
   /** What people call it: 1, 2, 3. */
   number: number;
   reading: Reading;
+  /** Whose light was read. */
+  whose: Whose;
   /** The light has changed since. */
   stale: boolean;
 }
@@ -15,7 +18,7 @@ export interface Pin {
 export interface Pins {
   all(): readonly Pin[];
   chosen(): Pin | null;
-  add(reading: Reading): Pin;
+  add(reading: Reading, whose: Whose): Pin;
   /** A newer reading of the same place; null: there is none, and the one there is has become old. */
   renew(pin: Pin, reading: Reading | null): void;
   choose(pin: Pin | null): void;
@@ -41,8 +44,8 @@ export function pinsOf(ui: Ui): Pins {
     chosen = pin;
     changed();
   };
-  const add = (reading: Reading): Pin => {
-    const pin = { number: (pins.at(-1)?.number ?? 0) + 1, reading, stale: false };
+  const add = (reading: Reading, whose: Whose): Pin => {
+    const pin = { number: (pins.at(-1)?.number ?? 0) + 1, reading, whose, stale: false };
     if (pins.length >= MOST) ui.say(`At most ${MOST} pins: the oldest is gone.`);
     pins = [...pins, pin].slice(-MOST);
     choose(pin);
@@ -65,18 +68,18 @@ export function pinsOf(ui: Ui): Pins {
       choose(null);
     },
     restore: (links) => {
-      pins = links.map((link, i) => ({ number: i + 1, reading: asReading(link), stale: true }));
+      pins = links.map((link, i) => ({ number: i + 1, reading: asReading(link), whose: link.whose, stale: true }));
       choose(null);
     },
-    links: () => pins.flatMap(({ reading: r }) => (r.position && r.normal
-      ? [{ position: r.position, normal: r.normal, illuminance_lx: r.illuminance_lx, standard_error_lx: r.standard_error_lx }] : [])),
+    links: () => pins.flatMap(({ reading: r, whose }) => (r.position && r.normal
+      ? [{ position: r.position, normal: r.normal, illuminance_lx: r.illuminance_lx, standard_error_lx: r.standard_error_lx, whose }] : [])),
   };
 }
 
 /** What a link tells of a pin, until it has been read again. */
-function asReading(link: LinkPin): Reading {
+function asReading({ whose: _, ...known }: LinkPin): Reading {
   return {
-    ...link, shape: '', material: '', diffuse_reflectance: null, direct_lx: null, indirect_lx: null, rgb_lx: null, luminance_cd_m2: null,
+    ...known, shape: '', material: '', diffuse_reflectance: null, direct_lx: null, indirect_lx: null, rgb_lx: null, luminance_cd_m2: null,
     found: 'vertices',
   };
 }

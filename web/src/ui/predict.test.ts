@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { auditText, done, errorText, parseTarget, phaseText, seconds, timeLeft } from './predict';
+import { auditText, done, errorText, lossText, parseTarget, phaseText, seconds, timeLeft } from './predict';
 
 const at = (elapsed_s: number, finish_s: number, earliest_s: number, latest_s: number) =>
   ({ phase: 'increments' as const, elapsed_s, prediction: { finish_s, earliest_s, latest_s } });
@@ -36,6 +36,11 @@ describe('what a run says', () => {
 });
 
 describe('a target', () => {
+  it('says what is lost by another', () => {
+    const state = { elapsed_s: 125, increments: 12, error: 0.0134 };
+    expect(lossText(state, 0.005)).toBe('Begin the run anew for 0.50 %? The light of 2 min 5 s so far (12 increments, with an error of 1.3 %) is lost. Nothing of it is saved.');
+    expect(lossText({ ...state, increments: 1, error: null }, 0.01)).toContain('(1 increment) is lost');
+  });
   it('is a percentage', () => {
     expect(parseTarget('1%')).toEqual({ accuracy: 0.01 });
     expect(parseTarget(' 0,5 % ')).toEqual({ accuracy: 0.005 });

@@ -80,6 +80,13 @@ export function auditText(audit: NonNullable<LiveState['audit']>): string {
   return `${share(audit.error)} (${range}), by ${audit.places} places: ${verdict} the ${share(audit.told)} told`;
 }
 
+/** What is lost by another target. */
+export function lossText(state: Pick<LiveState, 'elapsed_s' | 'increments' | 'error'>, accuracy: number): string {
+  const error = state.error === null ? '' : `, with an error of ${share(state.error)}`;
+  const many = state.increments === 1 ? '1 increment' : `${state.increments} increments`;
+  return `Begin the run anew for ${share(accuracy)}? The light of ${seconds(state.elapsed_s)} so far (${many}${error}) is lost. Nothing of it is saved.`;
+}
+
 /** The accuracy that somebody typed, or what is wrong with it. */
 export function parseTarget(text: string): { accuracy: number } | { problem: string } {
   const clean = text.trim().replace(',', '.');

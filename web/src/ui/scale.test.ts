@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { Legend } from '../contract';
 import { keyText } from './keys';
-import { position } from './legend';
+import { position, spareTicks } from './legend';
 import { dimmingName } from './ui';
 
 describe('the scale', () => {
@@ -11,6 +11,11 @@ describe('the scale', () => {
     expect(position(scale(true), 10)).toBeCloseTo(0.5);
     expect(position({ ...scale(true), low: 0 }, 50)).toBeCloseTo(0.5);
     expect(position({ ...scale(false), high: 1 }, 5)).toBe(0);
+  });
+  it('leaves out every other tick where they have no room side by side, but not nought', () => {
+    expect(spareTicks([0, 50, 100, 150, 200, 250, 300, 350, 400, 450, 500])).toEqual(new Set());
+    expect(spareTicks([-250, -200, -150, -100, -50, 0, 50, 100, 150, 200, 250])).toEqual(new Set([0, 2, 4, 6, 8, 10]));
+    expect(spareTicks([10000, 20000, 30000, 40000, 50000, 60000, 70000])).toEqual(new Set([1, 3, 5]));
   });
 });
 

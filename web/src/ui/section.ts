@@ -10,7 +10,7 @@ import { icon } from './icons';
 import { download } from './notices';
 import { project } from './project';
 import { sectionChart, type Chart } from './section-chart';
-import type { Ui } from './ui';
+import { whoseName, type Ui } from './ui';
 
 export interface SectionTool {
   root: HTMLElement;
@@ -111,7 +111,7 @@ function present(ui: Ui, body: HTMLElement, samples: Sample[], clear: () => void
   const name = fileName([ui.viewer.scene.name, 'section'], 'csv');
   replace(body, plot, table(figures),
     figures.unknown > 0 ? h('p', { class: 'faint' }, `${figures.unknown} of ${samples.length} places have no value.`) : null,
-    h('p', { class: 'faint' }, 'Band and intervals: ± 2 standard errors.'),
+    h('p', { class: 'faint' }, `Band and intervals: ± 2 standard errors.${ui.viewer.settings.compare === 'off' ? '' : ` Of ${whoseName(ui.viewer, 'own')}.`}`),
     h('div', { class: 'row' },
       h('button', { type: 'button', onclick: () => download(name, sectionCsv(samples)) }, icon('download'), 'CSV'),
       h('button', { type: 'button', onclick: clear, class: 'end' }, 'Remove')));

@@ -1,6 +1,6 @@
 // What the parts of the page share.
 
-import type { Mode, Settings, Source, Viewer } from '../contract';
+import type { Mode, Settings, Source, Viewer, Whose } from '../contract';
 import type { Notices } from './notices';
 import type { Panel } from './panel';
 
@@ -37,7 +37,8 @@ export function isComparable(viewer: Viewer): boolean {
 /** Modes that this scene can show, in the order of their keys. */
 export function modesOf(viewer: Viewer): Mode[] {
   const all: Mode[] = ['seen', 'illuminance', 'luminance', 'direct', 'indirect', 'error', 'relative'];
-  return isComparable(viewer) || viewer.scene.layers.length > 1 ? [...all, 'difference'] : all;
+  // Maps of other surfaces have no places in common.
+  return viewer.scene.other !== null || viewer.scene.layers.length > 1 ? [...all, 'difference'] : all;
 }
 
 /** Names of the layers of light. */
@@ -64,7 +65,26 @@ export function sideNames(viewer: Viewer, compare: Settings['compare']): [string
   }
   const left = viewer.scene.file || viewer.scene.name;
   const right = viewer.otherScene?.file ?? viewer.scene.other ?? 'other map';
-  return [left, right];
+  return left === right ? [`left: ${left}`, `right: ${right}`] : [left, right];
+}
+
+/** What a difference is of, the first less the second. */
+export function differenceNames(viewer: Viewer): [string, string] {
+  const { compare } = viewer.settings;
+  return sideNames(viewer, compare === 'dimmings' || viewer.scene.other === null ? 'dimmings' : 'maps');
+}
+
+/** Of what a reading is, in words; null where there is nothing else that it could be of. */
+export function whoseName(viewer: Viewer, whose: Whose): string | null {
+  if (whose === 'dimming') return sideNames(viewer, 'dimmings')[1];
+  if (whose === 'map' || viewer.otherScene) return sideNames(viewer, 'maps')[whose === 'map' ? 1 : 0];
+  return viewer.settings.compare === 'dimmings' ? sideNames(viewer, 'dimmings')[0] : null;
+}
+
+/** The same as short as a pin needs it. */
+export function whoseMark(viewer: Viewer, whose: Whose): string | null {
+  const name = whoseName(viewer, whose);
+  return name && (whose === 'dimming' || !viewer.otherScene ? name.slice(0, 1) : name);
 }
 
 export function isDimmed({ settings }: Viewer): boolean {
