@@ -74,6 +74,13 @@ export function sectionTool(ui: Ui): SectionTool {
       if (!mine.signal.aborted) replace(body, h('p', { class: 'problem' }, `The section could not be measured: ${words(error)}`));
     }
   };
+  /** Of large maps the server alone knows where a section begins. */
+  const begin = (at: Vec3 | null): void => {
+    if (ui.tool !== 'section') return;
+    from = at;
+    if (!from) ui.say('There is no surface here. Begin the section on one.');
+    tell();
+  };
   ui.onTool(() => {
     from = null;
     if (ui.tool === 'section') ui.panel.open('section');
@@ -93,9 +100,9 @@ export function sectionTool(ui: Ui): SectionTool {
         ui.setTool('pin');
         return;
       }
-      from = ui.viewer.glanceAt(x, y)?.position ?? null;
-      if (!from) ui.say('There is no surface here. Begin the section on one.');
-      tell();
+      const glance = ui.viewer.glanceAt(x, y, 'own');
+      if (glance?.position) begin(glance.position);
+      else void ui.viewer.readAt(x, y, new AbortController().signal).then((read) => begin(read?.position ?? null), () => begin(null));
     },
   };
 }
