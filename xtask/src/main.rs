@@ -5,6 +5,7 @@ mod bench;
 mod colours;
 mod compared;
 mod consumers;
+mod golden;
 mod grids;
 mod hall;
 mod judge;
@@ -30,6 +31,8 @@ cargo xtask walk    of it, the walk-through in Chromium, beside what the command
 cargo xtask lamps   of it, photometric files beside Radiance's ies2rad and photompy
 cargo xtask colours of it, differences of colours beside colour-science
 cargo xtask compared      of it, all systems by error against time, as short as it can be
+cargo xtask golden        forty small maps beside their hashes: has a change of the code changed any result?
+                          [--only PART] [--isolux PATH] [--save]
 cargo xtask consumers     light in Blender, Godot and Bevy, by hand
 cargo xtask bench setup   download Embree 4.4 into target/embree, and Radiance, Mitsuba and LuxCore into target/peers
 cargo xtask bench rays    rays a second beside Embree [--json] [--quick] [--leaks 1e8] [--save]
@@ -40,7 +43,9 @@ cargo xtask bench peers   error against time beside Radiance, Mitsuba and LuxCor
                           [--json] [--quick] [--only NAME ...] [--scene NAME ...] [--save]
 cargo xtask bench truth   maps of sixty unknown scenes beside long paths [--only NAME ...] [--half tuning|judging]
                           [--seeds 1,2,3] [--methods hybrid,cache,forward,radiosity] [--accuracy 2%]
-                          [--time-limit 60s] [--isolux PATH] [--fresh] [--json] [--save]";
+                          [--time-limit 60s] [--isolux PATH] [--fresh] [--json] [--save]
+cargo xtask bench ablation  the same scenes without each mechanism of the engines in turn: what is it worth?
+                          [--without NAME ...] and the flags of bench truth";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -52,6 +57,7 @@ fn main() -> ExitCode {
         ["page"] => page::run(root),
         ["walk"] => walk::run(root),
         ["lamps"] => lamps::run(root),
+        ["golden", ref arguments @ ..] => golden::run(root, arguments),
         ["colours"] => colours::run(root),
         ["compared"] => compared::run(root),
         ["consumers"] => consumers::run(root),
@@ -59,6 +65,7 @@ fn main() -> ExitCode {
         ["bench", "hall", ref arguments @ ..] => hall::run(root, arguments),
         ["bench", "rays", ref arguments @ ..] => bench::rays(root, arguments),
         ["bench", "peers", ref arguments @ ..] => peers::run(root, arguments),
+        ["bench", "ablation", ref arguments @ ..] => truth::ablation::run(root, arguments),
         ["bench", "truth", ref arguments @ ..] => truth::run(root, arguments),
         _ => Err(USAGE.to_owned()),
     };

@@ -10,6 +10,7 @@
 
 pub use isolux_geometry as geometry;
 
+mod ablation;
 pub mod elements;
 pub mod engine;
 pub mod lightmap;

@@ -7,8 +7,11 @@ mod finding;
 mod layers;
 mod lints;
 mod machine;
+mod methods;
 mod module_order;
+mod modules;
 mod paths;
+mod rooms;
 mod root;
 mod safety;
 mod sizes;
@@ -21,9 +24,10 @@ use tree::Tree;
 /// One check: all it finds in the files of the repository.
 type Check = fn(&Tree) -> Vec<Finding>;
 
-const CHECKS: [(&str, Check); 9] = [
+const CHECKS: [(&str, Check); 10] = [
     ("layers", layers::check),
     ("module order", module_order::check),
+    ("rooms of the engine", rooms::check),
     ("module cycles", cycles::check),
     ("lints", lints::check),
     ("machine paths", machine::check),

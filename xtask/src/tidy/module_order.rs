@@ -6,7 +6,8 @@ use super::paths::{Path, expressions, uses};
 use super::tree::{File, Tree};
 
 const SOURCES: &str = "crates/isolux/src/";
-const ORDER: [&str; 9] = [
+const ORDER: [&str; 10] = [
+    "ablation",
     "units",
     "quadrature",
     "photometry",

@@ -14,6 +14,8 @@ pub(super) struct Isolux {
     program: PathBuf,
     /// Where what it says is kept.
     folder: PathBuf,
+    /// The mechanism that runs leave out, in a command that is built for that.
+    without: Option<String>,
 }
 
 /// How a run of it ended.
@@ -23,6 +25,8 @@ pub(super) struct Ended {
     pub(super) stdout: String,
     pub(super) last_words: String,
     pub(super) time_s: f64,
+    /// Time of all processors, s; that of the clock where the system does not tell.
+    pub(super) cpu_s: f64,
 }
 
 impl Isolux {
@@ -30,7 +34,16 @@ impl Isolux {
     pub(super) fn new(root: &Path, given: Option<&Path>, folder: &Path) -> Result<Self, String> {
         std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
         let program = given.map_or_else(|| peers::build(root), |path| Ok(path.to_owned()))?;
-        Ok(Self { program, folder: folder.to_owned() })
+        Ok(Self { program, folder: folder.to_owned(), without: None })
+    }
+
+    /// The same, whose runs leave a mechanism out.
+    pub(super) fn without(&self, mechanism: Option<&str>) -> Self {
+        Self {
+            program: self.program.clone(),
+            folder: self.folder.clone(),
+            without: mechanism.map(str::to_owned),
+        }
     }
 
     /// What it calls itself.
@@ -46,7 +59,11 @@ impl Isolux {
         let [stdout, stderr] =
             [File::create(&said[0]).map_err(fail)?, File::create(&said[1]).map_err(fail)?];
         let start = Instant::now();
+        let cpu_before_s = cpu_of_children_s();
         let mut command = Command::new(&self.program);
+        if let Some(mechanism) = &self.without {
+            command.env("ISOLUX_WITHOUT", mechanism);
+        }
         command.args(words).stdin(Stdio::null()).stdout(stdout).stderr(stderr);
         let mut child = command.spawn().map_err(fail)?;
         let status = loop {
@@ -61,11 +78,22 @@ impl Isolux {
             std::thread::sleep(LOOK);
         };
         let time_s = start.elapsed().as_secs_f64();
+        let cpu_s =
+            cpu_of_children_s().zip(cpu_before_s).map_or(time_s, |(now, before)| now - before);
         let [stdout, stderr] = said.map(|path| std::fs::read(path).unwrap_or_default());
         let [stdout, stderr] = [stdout, stderr].map(|b| String::from_utf8_lossy(&b).into_owned());
         let last_words = stderr.lines().last().unwrap_or_default().to_owned();
-        Ok(Ended { code: status.and_then(|s| s.code()), stdout, last_words, time_s })
+        Ok(Ended { code: status.and_then(|s| s.code()), stdout, last_words, time_s, cpu_s })
     }
+}
+
+/// Time that children have taken so far which were waited for, s: user and system, in hundredths (Linux, proc(5)).
+fn cpu_of_children_s() -> Option<f64> {
+    let stat = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The name of the command, in parentheses, may hold spaces.
+    let mut after = stat.rsplit_once(')')?.1.split_whitespace().skip(13);
+    let ticks = |field: Option<&str>| field?.parse::<f64>().ok();
+    Some((ticks(after.next())? + ticks(after.next())?) / 100.0)
 }
 
 impl Ended {

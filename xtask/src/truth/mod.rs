@@ -1,5 +1,6 @@
 //! The bench of maps against long paths, on scenes that nothing is known of: is what a map tells of itself true?
 
+pub(crate) mod ablation;
 mod bounded;
 mod exported;
 mod flags;

@@ -56,6 +56,7 @@ fn summary(ended: &Ended, said: &Value, reading_s: f64) -> Value {
     json!({
         "exit": ended.code,
         "time_s": ended.time_s,
+        "cpu_s": ended.cpu_s,
         "reading_s": reading_s,
         "rays": said["rays"],
         "receivers": said["receivers"],

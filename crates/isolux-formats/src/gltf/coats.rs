@@ -1,8 +1,8 @@
 //! What reflects at the surface of a material, in or above its colour: index of refraction, specular, clear coat.
 
 use super::finish::{self, ClearCoat};
-use super::material::{Reading, share};
 use super::notes::Flaw;
+use super::reading::{Reading, share};
 use gltf_json::texture::Info;
 use isolux::units::Rgb;
 use serde::Deserialize;

@@ -2,8 +2,8 @@
 
 use super::coats::DEFAULT_IOR;
 use super::finish::MetallicRoughness;
-use super::material::{Reading, share};
 use super::notes::Flaw;
+use super::reading::{Reading, share};
 use gltf_json::texture::Info;
 use isolux::scene::{Body, Dielectric};
 use isolux::units::Rgb;
@@ -36,6 +36,7 @@ impl Reading<'_, '_> {
         &mut self,
         pbr: &MetallicRoughness,
         transmission: f64,
+        has_texture: bool,
     ) -> Result<Body, Flaw> {
         if transmission < 1.0 {
             let what =
@@ -45,7 +46,7 @@ impl Reading<'_, '_> {
         if pbr.roughness > 0.0 {
             self.warn(TRANSMISSION, "rough glass is taken as smooth", "use a roughness of 0");
         }
-        if self.base_info()?.0.is_some() {
+        if has_texture {
             let what = "a transparent material is tinted by the mean of its texture";
             self.warn(TRANSMISSION, what, "split the surface where its colour changes");
         }

@@ -1,33 +1,14 @@
 //! One glTF material to a [`Body`].
 
-use super::buffers::Document;
 use super::finish::{self, MetallicRoughness};
-use super::notes::{Flaw, Notes};
-use super::pictures::{Means, Pictures};
+use super::notes::Flaw;
+use super::reading::{Reading, share, share_colour};
 use super::texcoord::TexCoord;
 use gltf_json::material::AlphaMode;
 use gltf_json::texture::Info;
 use gltf_json::validation::Checked;
 use isolux::scene::{Body, Finish, Reflectance};
 use isolux::units::Rgb;
-use serde::de::DeserializeOwned;
-
-/// Factors may exceed one by this much: the rounding of decimal fractions.
-const SHARE_ROUNDING: f64 = 1e-6;
-
-/// A material while it is read.
-pub(super) struct Reading<'r, 'a> {
-    pub(super) document: &'a Document<'a>,
-    pub(super) record: &'r gltf_json::Material,
-    /// Where it is in the file.
-    pub(super) place: &'r str,
-    pub(super) pictures: &'r mut Pictures<'a>,
-    pub(super) notes: &'r mut Notes,
-    /// Luminance of unlit white, if unlit materials shine.
-    pub(super) unlit_luminance_cd_m2: Option<f64>,
-    /// What its surface shows of the emissive texture in the mean.
-    pub(super) glow: Option<Rgb>,
-}
 
 impl Reading<'_, '_> {
     /// The texture coordinates its base colour asks for.
@@ -71,7 +52,8 @@ impl Reading<'_, '_> {
                     "make it opaque",
                 );
             }
-            return self.dielectric(&pbr, transmission);
+            let has_texture = self.base_info()?.0.is_some();
+            return self.dielectric(&pbr, transmission, has_texture);
         }
         Ok(self.opaque(Finish { luminance_cd_m2, ..finish::finish(&pbr) }))
     }
@@ -99,18 +81,10 @@ impl Reading<'_, '_> {
         let what = "an unlit material is taken as diffuse: its base colour is the reflectance";
         let remedy = "if it shines, refer to the file from a scene.toml with unlit_luminance_cd_m2";
         self.warn(MEMBER, what, remedy);
-        let (texture, _) = self.base_texture(0.0)?;
+        let base_info = self.base_info()?;
+        let (texture, _) = self.base_texture(base_info, 0.0)?;
         let diffuse = Reflectance { colour: base, texture };
         Ok(self.opaque(Finish { diffuse, ..Finish::BLACK }))
-    }
-
-    pub(super) fn warn(&mut self, member: &str, what: &str, remedy: &str) {
-        let place = if member.is_empty() {
-            self.place.to_owned()
-        } else {
-            format!("{}.{member}", self.place)
-        };
-        self.notes.warn(Flaw::new(what, remedy).at(place));
     }
 
     fn warn_of_what_is_left_out(&mut self) {
@@ -142,7 +116,8 @@ impl Reading<'_, '_> {
         let roughness = share(pbr.roughness_factor.0, "roughnessFactor").map_err(at)?;
         let data = self.metallic_roughness_means()?;
         let metallic = metallic * data[2];
-        let (texture, texture_mean) = self.base_texture(metallic)?;
+        let base_info = self.base_info()?;
+        let (texture, texture_mean) = self.base_texture(base_info, metallic)?;
         Ok(MetallicRoughness {
             base: base * tint,
             texture_mean,
@@ -154,43 +129,11 @@ impl Reading<'_, '_> {
         })
     }
 
-    /// Index of the base colour texture, where something will show it, and its mean.
-    pub(super) fn base_texture(&mut self, metallic: f64) -> Result<(Option<u32>, Rgb), Flaw> {
-        let (info, member) = self.base_info()?;
-        let Some(info) = info else { return Ok((None, Rgb::WHITE)) };
-        let texture = info.index.value();
-        let mean = self.pictures.means(texture).map_err(|flaw| flaw.at(&member))?.colour;
-        let index = match metallic < 1.0 {
-            true => Some(self.pictures.texture(texture).map_err(|flaw| flaw.at(&member))?),
-            false => None,
-        };
-        if metallic > 0.0 {
-            let what =
-                "the specular colour of a textured metal is taken as the mean of its texture";
-            self.warn(&member, what, "split the surface where its colour changes");
-        }
-        Ok((index, mean))
-    }
-
     /// Means of the channels of the metallic-roughness texture: green roughness, blue metal.
     fn metallic_roughness_means(&mut self) -> Result<[f64; 3], Flaw> {
         const MEMBER: &str = "pbrMetallicRoughness.metallicRoughnessTexture";
         let info = self.record.pbr_metallic_roughness.metallic_roughness_texture.as_ref();
         Ok(self.mean(info, MEMBER)?.map_or([1.0; 3], |means| means.data))
-    }
-
-    /// The means of a texture that cannot be used pixel by pixel.
-    pub(super) fn mean(
-        &mut self,
-        info: Option<&Info>,
-        member: &str,
-    ) -> Result<Option<Means>, Flaw> {
-        let Some(info) = info else { return Ok(None) };
-        let means = self.pictures.means(info.index.value()).map_err(|flaw| flaw.at(member))?;
-        let name = member.rsplit('.').next().unwrap_or(member);
-        let what = format!("only the mean of the {name} is used");
-        self.warn(member, &what, "split the surface where it changes");
-        Ok(Some(means))
     }
 
     fn luminance_cd_m2(&mut self) -> Result<Rgb, Flaw> {
@@ -204,31 +147,4 @@ impl Reading<'_, '_> {
         }
         Ok(self.glow.map_or(luminance, |glow| luminance * glow))
     }
-
-    /// What an extension says that the typed model does not know.
-    pub(super) fn extension<T: DeserializeOwned>(&self, name: &str) -> Result<Option<T>, Flaw> {
-        let extensions = self.record.extensions.as_ref().map(|e| &e.others);
-        let Some(value) = extensions.and_then(|others| others.get(name)) else { return Ok(None) };
-        let read = T::deserialize(value).map(Some);
-        read.map_err(|error| {
-            Flaw::new(error.to_string(), "export the file again").at(format!("extensions.{name}"))
-        })
-    }
-
-    pub(super) fn has_extension(&self, name: &str) -> bool {
-        self.record.extensions.as_ref().is_some_and(|e| e.others.contains_key(name))
-    }
-}
-
-pub(super) fn share(value: f32, member: &str) -> Result<f64, Flaw> {
-    let value = f64::from(value);
-    if (0.0..=1.0 + SHARE_ROUNDING).contains(&value) {
-        return Ok(value.min(1.0));
-    }
-    Err(Flaw::new(format!("{value} is not between 0 and 1"), "give a share").at(member))
-}
-
-pub(super) fn share_colour(colour: [f32; 3], member: &str) -> Result<Rgb, Flaw> {
-    let [r, g, b] = colour;
-    Ok(Rgb::new(share(r, member)?, share(g, member)?, share(b, member)?))
 }

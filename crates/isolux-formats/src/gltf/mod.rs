@@ -30,6 +30,7 @@ mod pictures;
 mod placeholders;
 mod primitive;
 mod punctual;
+mod reading;
 mod record;
 mod shown;
 mod skin;

@@ -1,8 +1,8 @@
 //! KHR_materials_pbrSpecularGlossiness, the older kind of material, which goes before metallic-roughness.
 
 use super::finish::MetallicRoughness;
-use super::material::{Reading, share, share_colour};
 use super::notes::Flaw;
+use super::reading::{Reading, share, share_colour};
 use gltf_json::texture::Info;
 use isolux::units::Rgb;
 use serde::Deserialize;
@@ -50,7 +50,8 @@ impl Reading<'_, '_> {
         let diffuse = share_colour([r, g, b], "diffuseFactor").map_err(at)?;
         let specular = share_colour(read.specular_factor, "specularFactor").map_err(at)?;
         let glossiness = share(read.glossiness_factor, "glossinessFactor").map_err(at)?;
-        let (texture, texture_mean) = self.base_texture(0.0)?;
+        let base = (read.diffuse_texture, format!("{PLACE}.diffuseTexture"));
+        let (texture, texture_mean) = self.base_texture(base, 0.0)?;
         let member = format!("{PLACE}.specularGlossinessTexture");
         let means = self.mean(read.specular_glossiness_texture.as_ref(), &member)?;
         Ok(Some(MetallicRoughness {

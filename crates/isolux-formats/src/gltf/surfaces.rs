@@ -1,9 +1,9 @@
 //! Materials, as far as shapes of the scene use them.
 
 use super::buffers::Document;
-use super::material::Reading;
 use super::notes::{Flaw, Notes, no_such};
 use super::pictures::Pictures;
+use super::reading::Reading;
 use super::texcoord::TexCoord;
 use isolux::scene::{Body, Material, Texture};
 use isolux::units::Rgb;

@@ -15,7 +15,7 @@ fn assert_refused(name: &str, read: Result<impl Sized, Problems>, place: &str, w
 
 type Change = fn(&mut File);
 
-// long: a table
+#[expect(clippy::too_many_lines, reason = "a table")]
 #[test]
 fn accessors() {
     let table: &[(&str, Change, &str, &str)] = &[
@@ -257,7 +257,7 @@ fn sparse_accessors() {
     assert_refused("many zeros", zeros.read(), "accessors[0]", "without a bufferView");
 }
 
-// long: a table
+#[expect(clippy::too_many_lines, reason = "a table")]
 #[test]
 fn nodes() {
     let table: &[(&str, Change, &str, &str)] = &[

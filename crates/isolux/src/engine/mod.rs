@@ -1,92 +1,36 @@
 //! Engines: from a scene to an illumination map.
+//!
+//! Rooms, each of which knows only those before it: [`ray`], [`mesh`], [`light`], [`occlusion`], [`gather`], [`particle`],
+//! [`plan`], [`judge`], [`read`], [`method`], [`combine`], [`audit`], [`pilot`], [`run`].
 
-mod accumulate;
-mod accuracy;
-mod aim;
-mod allot;
-mod anderson;
-mod arrivals;
 mod audit;
-mod backdrop;
-mod bright;
-mod cache;
-mod carriers;
-mod caustics;
-mod checks;
-mod coarsening;
-mod cuts;
-mod deadline;
-mod detail;
-mod direct;
-mod emission;
-mod energy;
-mod feelers;
-mod filter;
-mod finer;
-mod fit;
-mod flights;
-mod forecast;
-mod forward;
+mod combine;
 mod gather;
-mod hats;
-mod held;
-mod hidden;
-mod highlights;
-mod hybrid;
-mod judged;
-mod kept;
-mod landed;
-mod look;
-mod means;
-mod mirror_chain;
-mod mix;
-mod neighbours;
-pub mod net;
-mod noise;
+mod judge;
+mod light;
+mod mesh;
+mod method;
+mod occlusion;
 mod particle;
-mod parts;
-mod path;
 mod pilot;
-mod place;
 mod plan;
-mod predict;
-mod probe;
-mod radiosity;
-mod reference;
-mod reflectance;
-mod request;
+mod ray;
+mod read;
 mod run;
-mod scale;
-mod scatter;
-mod shrink;
-mod state;
-mod surface;
-mod tally;
-mod torn;
-mod trees;
-mod trial;
-mod trust;
-mod views;
-mod walls;
-mod work;
 
 #[cfg(test)]
 mod tests;
 
-pub use accumulate::Sums;
-pub use arrivals::{Arrival, arrivals};
 pub use audit::{AuditSettings, audit};
-pub use cache::{
+pub use combine::{Finer, FinerSettings, MixError, MixPart, Mixed, mix, mix_apart};
+pub use light::{Arrival, Highlighted, Highlights, Shining, arrivals};
+pub use method::{
     CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
-    IrradianceCache, SampleKind, Served,
+    IrradianceCache, PathTracer, RadiosityLimits, RadiositySettings, SampleKind, Served,
 };
-pub use finer::{Finer, FinerSettings};
-pub use highlights::{Highlighted, Highlights, Shining};
-pub use mix::{MixError, MixPart, Mixed, mix, mix_apart};
-pub use place::ProbePoint;
-pub use probe::{Allowance, ExactSettings, IndirectReading, MapReader, Told, reference_lx};
-pub use radiosity::{RadiosityLimits, RadiositySettings};
-pub use reference::PathTracer;
-pub use request::{Foreseen, Prediction, Progress, SolveError, SolveRequest, Stage, Watch};
-pub use run::{SoFar, Solution, Watcher, foresee, solve, solve_looked_at};
-pub use state::{Audited, RunIdentity, RunState};
+pub use ray::{ProbePoint, Sums};
+pub use read::{Allowance, ExactSettings, IndirectReading, MapReader, Told, net, reference_lx};
+pub use run::{
+    Audited, Foreseen, Prediction, Progress, RunIdentity, RunState, SoFar, Solution, SolveError,
+    SolveRequest, Stage, Watch, Watcher, foresee, solve, solve_looked_at,
+};

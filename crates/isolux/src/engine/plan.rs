@@ -1,23 +1,15 @@
 //! What the pilot has fixed: the elements, and all that increments over them share.
 
-use super::aim::Aim;
-use super::allot::areas_m2;
-use super::backdrop::Backdrop;
-use super::bright::Bright;
-use super::carriers::{Carriers, Waiting};
-use super::cuts::Cuts;
-use super::detail::LeafError;
-use super::direct::Lighting;
-use super::fit::Fit;
-use super::flights::{self, CausticNoise, LEAST_SHARE};
-use super::gather::{DirectAtEnds, Gatherer, Gathering, known_at};
-use super::kept::Over;
-use super::means::{Means, Places};
-use super::parts::Parts;
-use super::surface::SurfacePoint;
-use super::trial::Trial;
-use super::trust::{self, Trust, Trusts};
 use crate::elements::{Elements, Subdivision};
+use crate::engine::gather::{
+    Backdrop, Bright, DirectAtEnds, Gatherer, Gathering, Means, Over, Places, Trial, areas_m2,
+    known_at,
+};
+use crate::engine::light::Lighting;
+use crate::engine::mesh::{Carriers, Fit, LeafError, Trust, Trusts, Waiting, trust};
+use crate::engine::occlusion::Cuts;
+use crate::engine::particle::{Aim, CausticNoise, LEAST_SHARE, Parts, flights};
+use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
 use crate::sampling::Key;
 use crate::scene::Scene;

@@ -37,7 +37,7 @@ fn parallel(direction: [f64; 3]) -> Scene {
     scene(vec![floor(1.0)], vec![painted(0.5)], vec![sun])
 }
 
-// long: a table.
+#[expect(clippy::too_many_lines, reason = "a table")]
 fn table() -> Vec<(&'static str, Scene)> {
     let up = [0.3, 0.3, 1.0];
     let twice = || vec![floor(1.0), floor(1.0)];

@@ -1,9 +1,9 @@
 //! A place read and estimated afresh.
 
 use super::places::{Drawn, Where};
-use crate::engine::probe::MapReader;
-use crate::engine::reference::{PathTracer, Traced};
-use crate::engine::surface::SurfacePoint;
+use crate::engine::method::{PathTracer, Traced};
+use crate::engine::ray::SurfacePoint;
+use crate::engine::read::MapReader;
 use crate::map::{Illuminance, IlluminationMap};
 use crate::sampling::Key;
 

@@ -4,7 +4,7 @@ use super::compared::Compared;
 use crate::map::{Audit, AuditedError, AuditedReadings};
 
 /// Audits of a run at most.
-pub(in crate::engine) const MOST_AUDITS: u32 = 3;
+pub(crate) const MOST_AUDITS: u32 = 3;
 
 /// Quantile of the normal distribution for intervals of 95 %.
 const TWO_SIDED: f64 = 1.96;
@@ -152,7 +152,7 @@ pub(super) fn tail_index(values: impl Iterator<Item = f64>) -> Option<f64> {
 }
 
 /// The power of the number of increments that noise falls with, by least squares of logarithms; `None` of fewer than three figures.
-pub(in crate::engine) fn trend(noise: &[(u64, f64)]) -> Option<f64> {
+pub(crate) fn trend(noise: &[(u64, f64)]) -> Option<f64> {
     let points: Vec<(f64, f64)> = noise
         .iter()
         .filter(|(_, noise)| *noise > 0.0)

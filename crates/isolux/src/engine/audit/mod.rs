@@ -19,10 +19,10 @@ mod compared;
 mod figures;
 mod places;
 
-use super::bright::Bright;
-use super::direct::Lighting;
-use super::probe::{MapReader, reference_lx};
-use super::reference::PathTracer;
+use crate::engine::gather::Bright;
+use crate::engine::light::Lighting;
+use crate::engine::method::PathTracer;
+use crate::engine::read::{MapReader, reference_lx};
 use crate::map::{Audit, AuditTrust, AuditedPlace, AuditedSurface, IlluminationMap};
 use crate::sampling::Key;
 use crate::scene::Scene;

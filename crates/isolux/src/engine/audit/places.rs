@@ -1,8 +1,8 @@
 //! Places that an audit compares.
 
 use crate::elements::carries_map;
-use crate::engine::emission::Emission;
-use crate::engine::surface::SurfacePoint;
+use crate::engine::light::Emission;
+use crate::engine::ray::SurfacePoint;
 use crate::map::IlluminationMap;
 use crate::sampling::{CosineHemisphere, Key};
 use crate::scene::{LuminaireKind, Scene};

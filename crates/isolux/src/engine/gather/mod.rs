@@ -1,201 +1,32 @@
-//! Gathering: what a receiver sees, as a row of a linear operator over the vertices of the map.
-//!
-//! From a receiver, cosine-distributed rays are followed to diffuse surfaces. There the direct light
-//! is evaluated at once (or read from the map, where luminaires are many), and the indirect light
-//! is left open: the ray becomes an entry of a sparse matrix, so that the light of all further
-//! reflections is the fixed point of `E = source + A E`, solved without tracing the rays again.
+//! Final gathering: what a receiver sees, by rays that read the map where they end.
 
-mod legs;
+mod allotment;
+mod bright_surfaces;
+pub(crate) mod control_variate;
+mod direct_residual;
+mod element_means;
+mod gatherer;
+mod hidden_places;
 mod operator;
+pub(crate) mod ray_trial;
+mod waves;
 
 #[cfg(test)]
-pub(super) use operator::GivenRow;
-pub(super) use operator::{Fitting, Operator, Reading};
-
-use super::backdrop::{Backdrop, Stand};
-use super::bright::Bright;
-use super::cuts::{Cut, Cuts};
-use super::direct::Lighting;
-use super::surface::SurfacePoint;
-use crate::elements::{Elements, Receiver};
-use crate::map::Standing;
-use crate::scene::Scene;
-use crate::units::Rgb;
-use isolux_geometry::{Normal, Point};
-
-/// A place that gathers.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Gatherer {
-    /// Where rays start.
-    pub(super) origin: Point,
-    /// About what they are distributed.
-    pub(super) normal: Normal,
-    /// The place for direct light.
-    pub(super) surface: SurfacePoint,
-    /// How many rays.
-    pub(super) rays: u32,
-    /// Whether it lies in a gap: what its rays meet close by does not lie in the open.
-    pub(super) in_gap: bool,
-    /// What it gets from the [`Backdrop`] with nothing between, lx, if rays are judged by that.
-    pub(super) behind: Option<Rgb>,
-}
-
-impl Gatherer {
-    /// The receiver of a vertex. Its normal is that of the smooth surface, whose facets meet at it.
-    pub(super) fn at_vertex(scene: &Scene, receiver: &Receiver, rays: u32) -> Self {
-        let Receiver { point, normal, triangle, back } = *receiver;
-        let flat = SurfacePoint::new(scene, triangle, back, 0.0, 0.0);
-        let surface = SurfacePoint { point, shading: normal, geometric: normal, ..flat };
-        let origin = SurfacePoint { point, ..flat }.start();
-        Self { origin, normal, surface, rays, in_gap: false, behind: None }
-    }
-
-    /// The same, in a gap or not.
-    pub(super) const fn in_gap(self, in_gap: bool) -> Self {
-        Self { in_gap, ..self }
-    }
-
-    /// The same with another number of rays.
-    pub(super) const fn with_rays(self, rays: u32) -> Self {
-        Self { rays, ..self }
-    }
-
-    /// A place inside a triangle.
-    pub(super) fn on_surface(surface: SurfacePoint, rays: u32) -> Self {
-        Self {
-            origin: surface.start(),
-            normal: surface.shading,
-            surface,
-            rays,
-            in_gap: false,
-            behind: None,
-        }
-    }
-
-    /// Where its rays start, and how.
-    pub(super) const fn stand(&self) -> Stand {
-        Stand { origin: self.origin, normal: self.normal, triangle: self.surface.triangle }
-    }
-
-    /// Whether it lies where another does.
-    fn is_at(&self, other: &Self) -> bool {
-        self.origin == other.origin && self.surface.triangle == other.surface.triangle
-    }
-
-    /// A place in space that faces a way.
-    pub(super) fn in_space(scene: &Scene, point: Point, normal: Normal, rays: u32) -> Self {
-        Self {
-            origin: point,
-            normal,
-            surface: SurfacePoint::in_space(point, normal, scene.bvh().offset_m(point)),
-            rays,
-            in_gap: false,
-            behind: None,
-        }
-    }
-}
-
-/// Everything gathering reads.
-pub(super) struct Gathering<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) lighting: &'a Lighting<'a>,
-    pub(super) elements: &'a Elements,
-    /// Nodes of the elements from this number on are finer than the level gathered over.
-    pub(super) level: u32,
-    /// What vertices stand for; those without have no value to be read.
-    pub(super) standings: &'a [Option<Standing>],
-    pub(super) direct: DirectAtEnds<'a>,
-    /// Whether a ray that ends nearer than the element there is long gathers again from there, instead of
-    /// reading a map that tells little of places so close to something: a few times.
-    pub(super) regathers: bool,
-    /// What is so bright that rays are sent there.
-    pub(super) bright: Option<&'a Bright>,
-    /// Elements that something stands across, if they were looked for.
-    pub(super) cuts: Option<&'a Cuts>,
-    /// Walls that rays are judged by, for gatherers that know them.
-    pub(super) backdrop: Option<&'a Backdrop>,
-}
-
-/// Where rays get the direct light of the surfaces that they end on.
-#[derive(Clone, Copy)]
-pub(super) enum DirectAtEnds<'a> {
-    /// Evaluated there: no bias, but a source is drawn where there are many.
-    Evaluated,
-    /// Read from these values of vertices, nodes from number `level` on left out.
-    Read {
-        /// A value a vertex, lx.
-        values: &'a [Rgb],
-        /// As for indirect light, or finer.
-        level: u32,
-    },
-    /// Read, but evaluated where a ray that regathers ends nearer than the element there is long, as what stands that
-    /// close may throw shadows that the map does not resolve, and on elements that some shadow ends on.
-    ReadFarOff {
-        /// A value a vertex, lx.
-        values: &'a [Rgb],
-        /// Elements that light may vary on whatever their vertices tell, by node: who evaluated it only where vertices differ would
-        /// read it where all of them lie in the dark.
-        varying: Option<&'a [bool]>,
-    },
-}
-
-/// Known vertices and their weights at a place, nodes from number `level` on left out.
-pub(super) fn known_at(
-    elements: &Elements,
-    level: u32,
-    standings: &[Option<Standing>],
-    at: &SurfacePoint,
-) -> Option<[(u32, f64); 3]> {
-    let corners = elements.locate_above(level, at.triangle, at.back, at.u, at.v)?;
-    let weights = known_weights(corners, standings)?;
-    Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
-}
-
-/// Interpolation weights over the known vertices of the highest standing alone.
-pub(super) fn known_weights(
-    corners: [(u32, f64); 3],
-    standings: &[Option<Standing>],
-) -> Option<[f64; 3]> {
-    weights_of_highest(corners, corners.map(|(vertex, _)| standings[vertex as usize]))
-}
-
-/// The same over those in gaps; without any, light there is as little as none.
-fn weights_in_gap(corners: [(u32, f64); 3], standings: &[Option<Standing>]) -> Option<[f64; 3]> {
-    let in_gap = |standing: &Standing| *standing != Standing::Open;
-    weights_of_highest(
-        corners,
-        corners.map(|(vertex, _)| standings[vertex as usize].filter(in_gap)),
-    )
-}
-
-/// Those on the side of a cut that a place lies on; `None` if none is known.
-pub(super) fn known_on_side(
-    corners: [(u32, f64); 3],
-    standings: &[Option<Standing>],
-    cut: &Cut,
-) -> Option<[(u32, f64); 3]> {
-    let side = cut.side(corners.map(|(_, weight)| weight));
-    let of = [0, 1, 2].map(|k| standings[corners[k].0 as usize].filter(|_| side[k]));
-    let weights = weights_of_highest(corners, of)?;
-    Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
-}
-
-fn weights_of_highest(corners: [(u32, f64); 3], of: [Option<Standing>; 3]) -> Option<[f64; 3]> {
-    let highest = Standing::highest(of)?;
-    Some(weights_over(corners, of.map(|standing| standing == Some(highest))))
-}
-
-/// Interpolation weights over some of the vertices, at least one, alone.
-fn weights_over(corners: [(u32, f64); 3], read: [bool; 3]) -> [f64; 3] {
-    if read == [true; 3] {
-        return corners.map(|(_, weight)| weight);
-    }
-    let weights = [0, 1, 2].map(|k| if read[k] { corners[k].1 } else { 0.0 });
-    let sum: f64 = weights.iter().sum();
-    // On the far side of the element only other vertices have weight.
-    if sum < 1e-9 {
-        let count = read.iter().filter(|&&read| read).count();
-        return read.map(|read| if read { 1.0 / count as f64 } else { 0.0 });
-    }
-    weights.map(|w| w / sum)
-}
+pub(crate) use allotment::Shared;
+pub(crate) use allotment::{allot, allot_by_noise, areas_m2, mean_of};
+pub(crate) use bright_surfaces::{Bright, Seen};
+pub(crate) use control_variate::Backdrop;
+#[cfg(test)]
+pub(crate) use control_variate::lacking;
+pub(crate) use direct_residual::{Kept, Over};
+pub(crate) use element_means::{Means, Places};
+pub(crate) use gatherer::{
+    DirectAtEnds, Gatherer, Gathering, known_at, known_on_side, known_weights,
+};
+pub(crate) use hidden_places::{CutOff, Element, Sight, Unlit, sees};
+#[cfg(test)]
+pub(crate) use operator::GivenRow;
+pub(crate) use operator::{Fitting, Operator, Reading};
+pub(crate) use ray_trial::{
+    FEWEST_UNJUDGED, NET_ORDER, NOISE_SHARE, OF_INTERPOLATED, Trial, noise_for,
+};

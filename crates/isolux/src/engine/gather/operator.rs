@@ -1,14 +1,13 @@
 //! What gathering gives: a sparse matrix and what needs no further reflection, and the fixed point of both.
 
-use crate::engine::anderson::Anderson;
-use crate::engine::carriers::Waiting;
-use crate::engine::held::corrected;
+use crate::engine::mesh::{Waiting, corrected};
+use crate::engine::ray::Anderson;
 use crate::units::Rgb;
 use rayon::prelude::*;
 
 /// From the light at receivers to what rays read at them: each value a mean of the light of some, with weights that are not
 /// negative and sum to one.
-pub(in crate::engine) trait Fitting {
+pub(crate) trait Fitting {
     /// What rays read.
     fn read(&self, light: &[Rgb]) -> Vec<Rgb>;
 
@@ -17,7 +16,7 @@ pub(in crate::engine) trait Fitting {
 }
 
 /// What rays read of some light.
-pub(in crate::engine) type Reading<'a> = Box<dyn Fn(&[Rgb]) -> Vec<Rgb> + 'a>;
+pub(crate) type Reading<'a> = Box<dyn Fn(&[Rgb]) -> Vec<Rgb> + 'a>;
 
 /// Rays read the first so many receivers as they are.
 struct AsItIs(usize);
@@ -34,9 +33,9 @@ impl Fitting for AsItIs {
 
 /// What a ray reads from the map: the light of three vertices.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Entry {
-    pub(super) vertices: [u32; 3],
-    pub(super) weights: [f32; 3],
+pub(crate) struct Entry {
+    pub(crate) vertices: [u32; 3],
+    pub(crate) weights: [f32; 3],
 }
 
 /// Entries of one row, one after the other, that reflect alike: rays end on few materials.
@@ -50,8 +49,8 @@ struct Run {
 
 /// Rows of the operator for consecutive receivers.
 #[derive(Debug, Default)]
-pub(super) struct Rows {
-    pub(super) entries: Vec<Entry>,
+pub(crate) struct Rows {
+    pub(crate) entries: Vec<Entry>,
     runs: Vec<Run>,
     /// End of the runs of every row.
     ends: Vec<usize>,
@@ -63,27 +62,27 @@ pub(super) struct Rows {
     /// Of every row, the share of a unit of light that is read close by.
     close: Vec<f64>,
     /// Sum of the shares of rays that were given up on their way over specular surfaces.
-    pub(super) given_up: f64,
+    pub(crate) given_up: f64,
     /// Rays beside those of the receivers.
-    pub(super) further_rays: u64,
+    pub(crate) further_rays: u64,
 }
 
 /// A row that a test gives: its light, and the vertices and weights of each of its rays.
 #[cfg(test)]
-pub(in crate::engine) type GivenRow = (Rgb, Vec<([u32; 3], [f32; 3])>);
+pub(crate) type GivenRow = (Rgb, Vec<([u32; 3], [f32; 3])>);
 
 /// The operator of all receivers: one noisy sample of light transport.
-pub(in crate::engine) struct Operator {
-    pub(super) chunks: Vec<Rows>,
+pub(crate) struct Operator {
+    pub(crate) chunks: Vec<Rows>,
     /// Rows that have rays.
-    pub(super) receivers: usize,
-    pub(in crate::engine) rays: u64,
+    pub(crate) receivers: usize,
+    pub(crate) rays: u64,
 }
 
 impl Operator {
     /// Of rows that are given: of each its light, and the vertices and weights of its rays, which all reflect alike.
     #[cfg(test)]
-    pub(in crate::engine) fn of_rows(rows: &[GivenRow], reflectance: f64) -> Self {
+    pub(crate) fn of_rows(rows: &[GivenRow], reflectance: f64) -> Self {
         let mut all = Rows::default();
         for (source, rays) in rows {
             let share = [(reflectance / rays.len() as f64) as f32; 3];
@@ -95,7 +94,7 @@ impl Operator {
     }
 
     /// `source + A light`, one value a receiver.
-    pub(in crate::engine) fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
+    pub(crate) fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
         let count = self.chunks.iter().map(|rows| rows.ends.len()).sum();
         let mut values = vec![Rgb::BLACK; count];
         let parts = parts(&self.chunks, &mut values);
@@ -104,7 +103,7 @@ impl Operator {
     }
 
     /// `A light` alone, one value a receiver.
-    pub(in crate::engine) fn reflected(&self, light: &[Rgb]) -> Vec<Rgb> {
+    pub(crate) fn reflected(&self, light: &[Rgb]) -> Vec<Rgb> {
         let reflected = |rows: &Rows| {
             let mut values = vec![Rgb::BLACK; rows.ends.len()];
             rows.add(light, &mut values);
@@ -114,7 +113,7 @@ impl Operator {
     }
 
     /// Of every vertex, how much of such values of receivers its light is read for: `A` transposed, of white light.
-    pub(in crate::engine) fn read_by(&self, receivers: &[f64]) -> Vec<f64> {
+    pub(crate) fn read_by(&self, receivers: &[f64]) -> Vec<f64> {
         let mut read = vec![0.0; receivers.len()];
         let mut left = receivers;
         for rows in &self.chunks {
@@ -126,31 +125,31 @@ impl Operator {
     }
 
     /// Adds the receivers of another.
-    pub(in crate::engine) fn append(&mut self, other: Self) {
+    pub(crate) fn append(&mut self, other: Self) {
         self.chunks.extend(other.chunks);
         self.receivers += other.receivers;
         self.rays += other.rays;
     }
 
     /// Whether each receiver is open: not closed in by black backs.
-    pub(in crate::engine) fn open(&self) -> Vec<bool> {
+    pub(crate) fn open(&self) -> Vec<bool> {
         self.chunks.iter().flat_map(|rows| rows.open.iter().copied()).collect()
     }
 
     /// Of every receiver, the share of a unit of light everywhere that it reads close by all the same.
-    pub(in crate::engine) fn close(&self) -> impl Iterator<Item = f64> + '_ {
+    pub(crate) fn close(&self) -> impl Iterator<Item = f64> + '_ {
         self.chunks.iter().flat_map(|rows| rows.close.iter().copied())
     }
 
     /// The share of all that is gathered whose rays were given up.
-    pub(in crate::engine) fn given_up(&self) -> f64 {
+    pub(crate) fn given_up(&self) -> f64 {
         self.chunks.iter().map(|rows| rows.given_up).sum::<f64>() / self.receivers.max(1) as f64
     }
 
     /// The fixed point `E = source + A (E + given)` over the first `given.len()` receivers, then one
     /// application for all of them. Starts from `guess`. Ends when a sweep changes nothing beyond
     /// `tolerance`, relative to the root mean square.
-    pub(in crate::engine) fn solve(
+    pub(crate) fn solve(
         &self,
         guess: &[Rgb],
         given: &[Rgb],
@@ -169,7 +168,7 @@ impl Operator {
     /// that are not negative, and rows sum to no more than surfaces reflect: so no sweep returns more than it receives. Which weights
     /// interpolation and fit have depends on the light; once so many sweeps have not settled, they stay
     /// ([`Held`](super::super::held::Held)), and what is left shrinks in every sweep.
-    pub(in crate::engine) fn solve_or_give_up(
+    pub(crate) fn solve_or_give_up(
         &self,
         guess: &[Rgb],
         given: &[Rgb],
@@ -442,7 +441,7 @@ const STORED: f64 = 1e-6;
 
 impl Rows {
     /// Adds an entry to the row that is being made.
-    pub(super) fn push(&mut self, entry: Entry, share: [f32; 3]) {
+    pub(crate) fn push(&mut self, entry: Entry, share: [f32; 3]) {
         self.entries.push(entry);
         // As many as 32 bits count are 100 GB, more than a part of the receivers is ever given.
         let end = self.entries.len() as u32;
@@ -454,7 +453,7 @@ impl Rows {
     }
 
     /// Ends the row that is being made.
-    pub(super) fn end_row(&mut self, [source, lacking]: [Rgb; 2], open: bool, close: f64) {
+    pub(crate) fn end_row(&mut self, [source, lacking]: [Rgb; 2], open: bool, close: f64) {
         self.hold_row();
         self.ends.push(self.runs.len());
         self.sources.push(source);

@@ -6,12 +6,12 @@
 //! own, and no more.
 
 use super::direct::USUAL_MESH;
+use super::look::{Look, PilotRequest};
 use super::{Bare, Pilot};
+use crate::ablation::without;
 use crate::elements::Elements;
-use crate::engine::carriers::Carriers;
-use crate::engine::detail::{Details, LeafError};
 use crate::engine::gather::{Gatherer, Gathering};
-use crate::engine::look::{Look, PilotRequest};
+use crate::engine::mesh::{Carriers, Details, LeafError};
 use crate::map::Standing;
 use crate::units::Rgb;
 use std::time::Instant;
@@ -43,7 +43,8 @@ impl Pilot<'_> {
         if self.bare.is_some() {
             return true;
         }
-        let is_asked_for = request.has_means && request.mesh_target < USUAL_MESH;
+        let is_asked_for =
+            request.has_means && request.mesh_target < USUAL_MESH && !without("bare-map-vertices");
         if !is_asked_for || self.is_smoothed {
             return false;
         }

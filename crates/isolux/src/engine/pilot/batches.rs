@@ -2,10 +2,9 @@
 
 use super::Pilot;
 use crate::elements::Elements;
-use crate::engine::flights::Flights;
 use crate::engine::gather::known_weights;
-use crate::engine::hats::Hats;
-use crate::engine::parts::{PARTS, part_of};
+use crate::engine::mesh::Hats;
+use crate::engine::particle::{Flights, PARTS, part_of};
 use crate::map::Standing;
 use crate::sampling::Key;
 use rayon::prelude::*;

@@ -10,16 +10,15 @@
 use super::Pilot;
 use super::batches::{BATCHES, Batches, Brought};
 use super::direct::MOST_REFLECTANCE;
+use super::forecast::{FINE, GoOn};
+use super::look::{Look, PilotRequest};
 use crate::elements::Subdivision;
-use crate::engine::accuracy::Light;
-use crate::engine::flights::{CausticNoise, DOUBT, Flights};
-use crate::engine::forecast::{FINE, GoOn};
-use crate::engine::hats::Hats;
-use crate::engine::look::{Look, PilotRequest};
-use crate::engine::noise::Noise;
-use crate::engine::parts::{PARTS, Parts, Squared, read_in_parts, squared_error};
-use crate::engine::reflectance;
-use crate::engine::surface::SurfacePoint;
+use crate::engine::judge::Light;
+use crate::engine::mesh::Hats;
+use crate::engine::particle::{
+    CausticNoise, DOUBT, Flights, PARTS, Parts, Squared, read_in_parts, squared_error,
+};
+use crate::engine::ray::{Noise, SurfacePoint, reflectance};
 use crate::map::Standing;
 use rayon::prelude::*;
 use std::cell::RefCell;

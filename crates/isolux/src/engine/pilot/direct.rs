@@ -1,17 +1,17 @@
 //! Direct light, and elements for it.
 
+use super::forecast::{FINE, GoOn};
+use super::look::{Look, PilotRequest};
 use super::surroundings::LEAST_DIM;
 use super::{MAX_ROUNDS, MOST_STALLS, Pilot};
+use crate::ablation::without;
 use crate::elements::{Elements, Origin};
-use crate::engine::carriers::Carriers;
-use crate::engine::detail::{Details, LeafError, Refinement, refine_worst};
-use crate::engine::direct::{Goal, Measured};
-use crate::engine::forecast::{FINE, GoOn};
 use crate::engine::gather::Gatherer;
-use crate::engine::look::{Look, PilotRequest};
-use crate::engine::reflectance;
-use crate::engine::shrink::beyond_noise;
-use crate::engine::trust;
+use crate::engine::light::{Goal, Measured};
+use crate::engine::mesh::{
+    Carriers, Details, LeafError, Refinement, beyond_noise, refine_worst, trust,
+};
+use crate::engine::ray::reflectance;
 use crate::sampling::Sequence;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -130,6 +130,9 @@ impl Pilot<'_> {
     /// Photometric direct light at the known vertices, without details that may be noise.
     fn direct_signal(&self, elements: &Elements) -> Vec<Option<f64>> {
         let luminances = self.in_the_open(&self.direct);
+        if without("shrinkage") {
+            return luminances;
+        }
         beyond_noise(elements, &luminances, &self.direct_variance)
     }
 
@@ -145,6 +148,9 @@ impl Pilot<'_> {
             least_edge_m: self.least_edge_m,
             max_vertices: self.most_for_direct_light(request),
         };
+        if without("direct-refinement") {
+            return;
+        }
         self.look_at_bare(look, request);
         let (mut before, mut stalls) = (f64::INFINITY, 0);
         for _ in 0..MAX_ROUNDS {

@@ -1,18 +1,14 @@
 //! The end of the pilot: what increments share is put together.
 
 use super::Pilot;
+use super::forecast::{FINE, GoOn};
+use super::look::{Look, PilotRequest};
 use crate::elements::{Elements, Subdivision};
-use crate::engine::allot::areas_m2;
-use crate::engine::carriers::Carriers;
-use crate::engine::cuts::{Cuts, Side};
-use crate::engine::fit::Fit;
-use crate::engine::forecast::{FINE, GoOn};
-use crate::engine::gather::Gatherer;
-use crate::engine::look::{Look, PilotRequest};
-use crate::engine::means::Means;
+use crate::engine::gather::{Gatherer, Means, Trial, areas_m2};
+use crate::engine::mesh::{Carriers, Fit};
+use crate::engine::occlusion::{Cuts, Side};
 use crate::engine::plan::Plan;
-use crate::engine::reflectance;
-use crate::engine::trial::Trial;
+use crate::engine::ray::reflectance;
 use crate::map::Standing;
 
 impl<'s> Pilot<'s> {

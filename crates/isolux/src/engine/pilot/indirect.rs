@@ -1,12 +1,13 @@
 //! Indirect light on the elements of the pilot.
 
+use super::forecast::GoOn;
+use super::look::PilotRequest;
 use super::{FIRST_PART, PILOT_TOLERANCE, Pilot};
+use crate::ablation::without;
 use crate::elements::Elements;
-use crate::engine::carriers::Carriers;
-use crate::engine::forecast::GoOn;
 use crate::engine::gather::Gatherer;
-use crate::engine::look::PilotRequest;
-use crate::engine::trust;
+use crate::engine::mesh::Carriers;
+use crate::engine::occlusion::nearby;
 use crate::map::Standing;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -81,7 +82,7 @@ impl Pilot<'_> {
         self.extend_known(elements, gatherers);
         self.complete_standings(gatherers);
         self.costs.first.add(started.elapsed(), gatherers.len() as f64);
-        if self.spacing_m > 0.0 {
+        if self.spacing_m > 0.0 && !without("carriers") {
             let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
             let open: Vec<bool> = self.standings.iter().map(is_open).collect();
             self.carriers = Carriers::sparse(&self.subdivision, self.spacing_m, &open);
@@ -103,7 +104,7 @@ impl Pilot<'_> {
             let gatherer = &gatherers[vertex as usize];
             let edge_m = edges_m[vertex as usize];
             let rays = if self.carriers.is_active(vertex) { self.rays[vertex as usize] } else { 0 };
-            let in_gap = trust::is_closed_in(self.scene, &gatherer.surface, edge_m);
+            let in_gap = nearby::is_closed_in(self.scene, &gatherer.surface, edge_m);
             let gatherer = gatherer.with_rays(rays).in_gap(in_gap);
             if rays > 0 { self.before_walls(vertex, gatherer) } else { gatherer }
         };

@@ -5,11 +5,11 @@
 //! noise. Particles come where the light does: elements to which clearly more or less of it comes than vertices tell are bisected.
 
 use super::Pilot;
+use super::look::PilotRequest;
+use crate::ablation::without;
 use crate::elements::Elements;
-use crate::engine::emission::Emission;
 use crate::engine::gather::Gatherer;
-use crate::engine::landed::{self, BELIEVED, FIRST, Landed, MORE, Sum};
-use crate::engine::look::PilotRequest;
+use crate::engine::light::{BELIEVED, Emission, FIRST, Landed, MORE, Sum, landings};
 use crate::sampling::Sequence;
 
 /// Of all light that lands, the part that is left where it is.
@@ -27,8 +27,11 @@ impl Pilot<'_> {
         (elements, gatherers): (&mut Elements, &mut Vec<Gatherer>),
         request: &PilotRequest,
     ) -> bool {
+        if without("landing-check") {
+            return false;
+        }
         let Some(emission) = Emission::new(self.scene) else { return false };
-        let times = landed::times(&emission);
+        let times = landings::times(&emission);
         let [few, many] = [FIRST * times, MORE * times];
         let each_lm = |count: u32| emission.flux_lm() / f64::from(count);
         let first = self.landed(&emission, few, 0);
@@ -60,7 +63,7 @@ impl Pilot<'_> {
     fn landed(&mut self, emission: &Emission<'_>, count: u32, number: u64) -> Vec<Landed> {
         self.traced += u64::from(count);
         let sequence = Sequence::new(self.key.with(12).with(number));
-        landed::landed((self.scene, self.lighting), emission, count, sequence)
+        landings::landed((self.scene, self.lighting), emission, count, sequence)
     }
 
     /// Elements to which clearly more or less comes than their vertices tell, if that is much: by where particles came, each of which was

@@ -3,9 +3,8 @@
 use super::Pilot;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::Gatherer;
-use crate::engine::path::Dice;
-use crate::engine::surface::SurfacePoint;
-use crate::engine::trust;
+use crate::engine::occlusion::nearby;
+use crate::engine::ray::{Dice, SurfacePoint};
 use crate::map::Standing;
 use crate::sampling::Sequence;
 use rayon::prelude::*;
@@ -30,7 +29,7 @@ impl Pilot<'_> {
             let edge_m = self.subdivision.longest_edge_m(node);
             let corner = self.subdivision.node(node).0.vertices[0];
             let gatherer = Gatherer::on_surface(place, self.rays[corner as usize]);
-            let in_gap = trust::is_closed_in(self.scene, &place, edge_m);
+            let in_gap = nearby::is_closed_in(self.scene, &place, edge_m);
             let asks = !in_gap || self.is_lit_up(node, &place);
             asks.then_some((node, gatherer.in_gap(in_gap)))
         };

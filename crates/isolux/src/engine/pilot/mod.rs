@@ -9,8 +9,10 @@ mod batches;
 mod caustics;
 mod direct;
 mod finish;
+mod forecast;
 mod indirect;
 mod landing;
+mod look;
 mod middles;
 mod opening;
 mod round;
@@ -20,32 +22,29 @@ mod standings;
 mod surroundings;
 mod walls;
 
-use super::accuracy::Light;
-use super::aim::Aim;
-use super::backdrop::Backdrop;
-use super::bright::Bright;
-use super::carriers::Carriers;
-use super::detail::{Details, Refinement, refine_worst};
-use super::direct::Lighting;
-use super::flights::CausticNoise;
-use super::forecast::{Costs, GoOn, LONGER};
-use super::gather::{DirectAtEnds, Gatherer, Gathering};
-use super::hidden::{Sight, Unlit};
-pub(super) use super::look::PilotRequest;
-use super::look::{Look, Read, Surroundings};
-use super::plan::Plan;
-use super::scale::bisect_to_scale;
-use super::surface::SurfacePoint;
-use super::torn::Torn;
-use super::trial::Trial;
-use super::trust::{self, Felt, Worst};
-use super::walls::Walls;
+use crate::ablation::without;
 use crate::elements::{Elements, FewNumbers, Subdivision, TOGETHER};
+use crate::engine::gather::Trial;
+use crate::engine::gather::{Backdrop, Bright, DirectAtEnds, Gatherer, Gathering, Sight, Unlit};
+use crate::engine::judge::Light;
+use crate::engine::light::Lighting;
+use crate::engine::mesh::{Carriers, Details, Refinement, refine_worst};
+use crate::engine::mesh::{Walls, Worst, bisect_to_scale};
+use crate::engine::occlusion::{Felt, Torn, nearby};
+use crate::engine::particle::{Aim, CausticNoise};
+use crate::engine::plan::Plan;
+use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
 use crate::sampling::Key;
 use crate::scene::Scene;
 use crate::units::Rgb;
+use forecast::LONGER;
+#[cfg(test)]
+pub(super) use forecast::Outlook;
+pub(super) use forecast::{Costs, GoOn, Left, Round};
 use isolux_geometry::Point;
+pub(super) use look::{Look, PilotRequest};
+use look::{Read, Surroundings};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::mem;
@@ -211,9 +210,10 @@ fn first_mesh(scene: &Scene, request: &PilotRequest) -> (Subdivision, f64, bool)
     let first = if request.is_fitted { FIRST_VERTICES } else { FIRST_UNFITTED };
     let more = MORE_A_VERTEX * subdivision.vertex_count() as f64;
     let edge_m = (2.0 * area_m2 / (first + more)).sqrt();
-    let start_m = if request.has_means { edge_m / COARSE.sqrt() } else { edge_m };
+    let start_m =
+        if request.has_means && !without("coarse-start") { edge_m / COARSE.sqrt() } else { edge_m };
     subdivision.bisect_to(start_m, request.max_vertices);
-    if request.is_fitted {
+    if request.is_fitted && !without("room-scale") {
         bisect_to_scale(scene, &mut subdivision, request.max_vertices);
     }
     (subdivision, edge_m, more > first)
@@ -250,7 +250,7 @@ impl<'s> Pilot<'s> {
             felt: Felt::default(),
             torn: Torn::default(),
             carriers: Carriers::all(),
-            usual_edge_m: request.has_means.then_some(edge_m),
+            usual_edge_m: (request.has_means && !without("coarse-start")).then_some(edge_m),
             has_many_things,
             spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
             gathered: Vec::new(),
@@ -339,12 +339,16 @@ impl<'s> Pilot<'s> {
         let started = Instant::now();
         let luminances = self.in_the_open(&self.indirect);
         self.complete_hemmed(&gatherers);
-        self.complete_middles(&elements, &luminances);
+        if !without("midpoints") {
+            self.complete_middles(&elements, &luminances);
+        }
         let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
         let middle = |node: u32| self.middles.get(&node).copied().flatten();
         let beset = |node: u32| self.beset[node as usize];
         let details = self.details(&elements, &luminances);
-        let hemmed = |vertex: u32, edge_m: f64| self.hemmed_in_m[vertex as usize] < HEM * edge_m;
+        let hemmed = |vertex: u32, edge_m: f64| {
+            self.hemmed_in_m[vertex as usize] < HEM * edge_m && !without("hemmed-errors")
+        };
         let mut errors = details.leaf_errors(middle, beset, hemmed);
         let reference_lx = Light::of_vertices(&elements, &self.standings, lx).reference_lx();
         for error in &mut errors {
@@ -371,7 +375,7 @@ impl<'s> Pilot<'s> {
             dim_m2: self.surroundings.dim_m2,
             is_noisy: self.direct_noise.is_some(),
         };
-        if look.is_smooth(request) {
+        if look.is_smooth(request) && !without("edge-falloff") {
             self.look_for_walls(&mut look, request, &luminances);
         }
         look
@@ -420,7 +424,7 @@ impl<'s> Pilot<'s> {
         let new = self.beset.len() as u32..self.subdivision.node_count() as u32;
         let is_beset = |node: u32| {
             let place = SurfacePoint::amid_node(self.scene, &self.subdivision, node);
-            trust::is_beset(self.scene, &place, self.subdivision.longest_edge_m(node))
+            nearby::is_beset(self.scene, &place, self.subdivision.longest_edge_m(node))
         };
         let new: Vec<bool> = new.into_par_iter().map(is_beset).collect();
         self.beset.extend(new);
@@ -434,7 +438,7 @@ impl<'s> Pilot<'s> {
             if on_border[vertex] {
                 return f64::INFINITY;
             }
-            trust::hemmed_in_m(self.scene, &gatherers[vertex].surface, HEM * edges_m[vertex])
+            nearby::hemmed_in_m(self.scene, &gatherers[vertex].surface, HEM * edges_m[vertex])
         };
         let new: Vec<f64> =
             (self.hemmed_in_m.len()..gatherers.len()).into_par_iter().map(stands_in_m).collect();
@@ -447,7 +451,7 @@ impl<'s> Pilot<'s> {
         let new: Vec<u32> = self.carriers.parents().into_iter().filter(is_new).collect();
         let beset_from_m = |&vertex: &u32| {
             let place = &gatherers[vertex as usize].surface;
-            (vertex, trust::beset_from_m(self.scene, place, self.spacing_m))
+            (vertex, nearby::beset_from_m(self.scene, place, self.spacing_m))
         };
         let new: Vec<(u32, f64)> = new.par_iter().map(beset_from_m).collect();
         self.beset_from_m.extend(new);

@@ -2,9 +2,8 @@
 
 use super::Pilot;
 use crate::elements::Elements;
-use crate::engine::hidden::{CutOff, Element, Sight};
-use crate::engine::path::Dice;
-use crate::engine::surface::SurfacePoint;
+use crate::engine::gather::{CutOff, Element, Sight};
+use crate::engine::ray::{Dice, SurfacePoint};
 use crate::map::Standing;
 use crate::sampling::Sequence;
 use isolux_geometry::Point;

@@ -1,16 +1,15 @@
 //! What the pilot tells of itself.
 
+use super::forecast::{Excess, FINE, GoOn, Outlook, Round};
+use super::look::{Look, PilotRequest};
 use super::{FIRST_PART, Pilot};
 use crate::elements::Elements;
-use crate::engine::accuracy::BELIEVED_INCREMENTS;
-use crate::engine::allot::{allot, areas_m2, mean_of};
-use crate::engine::checks;
-use crate::engine::forecast::{Excess, FINE, GoOn, Outlook, Round};
-use crate::engine::gather::Gatherer;
-use crate::engine::hybrid;
-use crate::engine::look::{Look, PilotRequest};
-use crate::engine::path::Dice;
-use crate::engine::trial::{FEWEST_UNJUDGED, Trial, noise_for};
+use crate::engine::gather::{
+    FEWEST_UNJUDGED, Gatherer, Trial, allot, areas_m2, mean_of, noise_for,
+};
+use crate::engine::judge::{BELIEVED_INCREMENTS, check_points};
+use crate::engine::method::hybrid;
+use crate::engine::ray::Dice;
 use crate::sampling::{CosineHemisphere, Sequence};
 use isolux_geometry::Ray;
 use rayon::prelude::*;
@@ -97,7 +96,7 @@ impl Pilot<'_> {
         let wanted = trial.wanted(noise, reference_lx, BELIEVED_INCREMENTS);
         let rays = look.map_or(wanted, |_| self.mean_allotted(wanted));
         let of_one = f64::from(trial.rays_anywhere(noise, reference_lx, BELIEVED_INCREMENTS));
-        let checks = checks::count(carriers) as f64;
+        let checks = check_points::count(carriers) as f64;
         let smoothed = look
             .filter(|look| !self.is_smoothed && look.is_smooth(request))
             .map_or(1.0, Look::smoothed);

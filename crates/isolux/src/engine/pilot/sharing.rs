@@ -1,15 +1,12 @@
 //! How many rays the pilot spends where, and what it tries to tell how many increments will take.
 
 use super::Pilot;
+use super::look::Look;
 use crate::elements::Subdivision;
-use crate::engine::accuracy::BELIEVED_INCREMENTS;
-use crate::engine::allot::allot;
-use crate::engine::flights::CausticNoise;
-use crate::engine::gather::{Gatherer, known_at};
-use crate::engine::look::Look;
-use crate::engine::path::Dice;
-use crate::engine::surface::SurfacePoint;
-use crate::engine::trial::{self, Trial};
+use crate::engine::gather::{Gatherer, Trial, allot, known_at, ray_trial};
+use crate::engine::judge::BELIEVED_INCREMENTS;
+use crate::engine::particle::CausticNoise;
+use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::Sequence;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
@@ -43,7 +40,7 @@ impl Pilot<'_> {
         let vertices = look.elements.vertices();
         let carries = |&v: &usize| self.standings[v].is_some() && self.carriers.is_active(v as u32);
         let all: Vec<usize> = (0..vertices.len()).filter(carries).collect();
-        let every = all.len().div_ceil(trial::RECEIVERS).max(1);
+        let every = all.len().div_ceil(ray_trial::RECEIVERS).max(1);
         let gatherers = self.gatherers();
         self.look_at_walls_again(&look.elements, target);
         let some = all.into_iter().step_by(every);

@@ -1,9 +1,9 @@
 //! Quadratic functions between the vertices that carry light, where it is smooth.
 
 use super::Pilot;
+use super::look::Look;
 use crate::elements::Elements;
-use crate::engine::cuts;
-use crate::engine::look::Look;
+use crate::engine::occlusion::barriers;
 use crate::map::Standing;
 use crate::units::Rgb;
 use std::time::Instant;
@@ -41,7 +41,7 @@ impl Pilot<'_> {
         };
         let keep_seen = |from: u32, some: &mut Vec<u32>| {
             let above = &gatherers[from as usize].surface;
-            cuts::keep_seen(self.scene, (of(from).0, above), of, some);
+            barriers::keep_seen(self.scene, (of(from).0, above), of, some);
         };
         let before_walls = (&look.walls, rows.as_slice());
         self.carriers.smooth(&self.subdivision, first, &corners, &open, before_walls, keep_seen);

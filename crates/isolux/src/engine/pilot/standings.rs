@@ -1,8 +1,9 @@
 //! What vertices stand for: the open, gaps, nothing.
 
 use super::Pilot;
-use crate::engine::cuts::{self, Side};
+use crate::ablation::without;
 use crate::engine::gather::Gatherer;
+use crate::engine::occlusion::{Side, barriers};
 use crate::map::Standing;
 use crate::units::Rgb;
 
@@ -50,6 +51,10 @@ impl Pilot<'_> {
 
     /// Whether something stands on vertices that were not looked at yet; where nobody looked at elements, it may stand close to them.
     pub(super) fn look_for_torn(&mut self) {
+        if without("footprints") {
+            self.torn.skip(&self.subdivision);
+            return;
+        }
         let is_beset = |node: u32| self.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
         self.torn.look(self.scene, &self.subdivision, is_beset);
     }
@@ -67,7 +72,7 @@ impl Pilot<'_> {
         let is_beside = |node: &u32| self.beset.get(*node as usize).is_none_or(|&beset| beset);
         let leaves = self.subdivision.leaves().filter(is_beside);
         let sides: Vec<Side> = leaves.map(|node| Side::of(&self.subdivision, node)).collect();
-        for vertex in cuts::shaded(self.scene, &self.subdivision, &sides, light_lx) {
+        for vertex in barriers::shaded(self.scene, &self.subdivision, &sides, light_lx) {
             self.standings[vertex as usize] = Some(Standing::Rim);
         }
     }

@@ -2,12 +2,11 @@
 //! seen from there.
 
 use super::Pilot;
+use crate::ablation::without;
 use crate::elements::Elements;
-use crate::engine::accuracy::Light;
-use crate::engine::allot::areas_m2;
-use crate::engine::detail::LeafError;
-use crate::engine::gather::{Gatherer, Operator};
-use crate::engine::scale::is_in_room;
+use crate::engine::gather::{Gatherer, Operator, areas_m2};
+use crate::engine::judge::Light;
+use crate::engine::mesh::{LeafError, is_in_room};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
@@ -128,6 +127,9 @@ impl Pilot<'_> {
     /// Has errors in dim surroundings, and of what is seen from there, count by what they are there.
     pub(super) fn weigh(&mut self, errors: &mut [LeafError]) {
         self.surroundings.weights = self.completed_weights();
+        if without("surroundings") {
+            return;
+        }
         for error in errors {
             let corners = self.subdivision.node(error.node).0.vertices;
             let weights = corners.map(|v| self.surroundings.weights[v as usize]);

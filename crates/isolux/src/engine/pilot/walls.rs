@@ -1,13 +1,13 @@
 //! Walls that rays are judged by: whether there are any, and how much noise that takes off.
 
 use super::{PILOT_TOLERANCE, Pilot};
+use crate::ablation::without;
 use crate::elements::Elements;
-use crate::engine::accuracy::Light;
-use crate::engine::backdrop::{self, Backdrop};
-use crate::engine::gather::{Gatherer, known_at};
-use crate::engine::path::Dice;
-use crate::engine::surface::SurfacePoint;
-use crate::engine::trial::{self, NET_ORDER, Trial};
+use crate::engine::gather::{
+    Backdrop, Gatherer, NET_ORDER, Trial, control_variate, known_at, ray_trial,
+};
+use crate::engine::judge::Light;
+use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::Sequence;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -23,13 +23,16 @@ const FINE: f64 = 2e-3;
 impl Pilot<'_> {
     /// Looks whether rays are to be judged by walls, and how many of them do then.
     pub(super) fn find_walls(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        if without("control-variate") {
+            return;
+        }
         let lit: Vec<usize> = (0..gatherers.len())
             .filter(|&v| self.standings[v].is_some() && self.known[v])
             .collect();
-        let every = lit.len().div_ceil(backdrop::SOME).max(1);
+        let every = lit.len().div_ceil(control_variate::SOME).max(1);
         let place = |&v: &usize| (gatherers[v], elements.vertices()[v].area_m2);
         let places: Vec<(Gatherer, f64)> = lit.iter().step_by(every).map(place).collect();
-        let Some(mut backdrop) = Backdrop::seen_by(self.scene, trial::stands(&places)) else {
+        let Some(mut backdrop) = Backdrop::seen_by(self.scene, ray_trial::stands(&places)) else {
             return;
         };
         self.indirect = vec![Rgb::BLACK; gatherers.len()];
@@ -42,7 +45,7 @@ impl Pilot<'_> {
             let at = SurfacePoint::new(self.scene, triangle, back, a, b);
             (stand, m2, (self.direct[v] * at.reflectance(self.scene)).luminance())
         });
-        if left_out.max(backdrop.leaves_out(reflected)) > backdrop::LEFT_OUT {
+        if left_out.max(backdrop.leaves_out(reflected)) > control_variate::LEFT_OUT {
             self.indirect.clear();
             return;
         }
@@ -50,7 +53,7 @@ impl Pilot<'_> {
         self.look_at_walls(&mut backdrop, elements);
         self.backdrop = Some(backdrop);
         let left = self.noise_left_by_walls(elements, &places);
-        if left.is_none_or(|left| left > backdrop::WORTH) {
+        if left.is_none_or(|left| left > control_variate::WORTH) {
             (self.backdrop, self.trial) = (None, None);
         }
         if let Some(left) = left.filter(|&left| left < MUCH) {

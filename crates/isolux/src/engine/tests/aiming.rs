@@ -1,10 +1,8 @@
 //! Particles aimed at specular surfaces bring what those let go bring.
 
 use super::*;
-use crate::engine::aim::Aim;
-use crate::engine::direct::Lighting;
-use crate::engine::emission::Emission;
-use crate::engine::flights::Flights;
+use crate::engine::light::{Emission, Lighting};
+use crate::engine::particle::{Aim, Flights};
 use crate::scene::{Body, Dielectric, Gloss};
 use std::cell::Cell;
 

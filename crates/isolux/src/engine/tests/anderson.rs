@@ -1,7 +1,7 @@
 //! Fixed points of known maps.
 
 use super::*;
-use crate::engine::anderson::Anderson;
+use crate::engine::ray::Anderson;
 
 /// `x -> b + A x` with the eigenvalues 0.9 and, for all else, 0.3 down to 0; a different channel each.
 fn image(light: &[Rgb]) -> Vec<Rgb> {

@@ -1,7 +1,7 @@
 //! What of the light of luminaires comes to the scene.
 
 use super::*;
-use crate::engine::arrivals::{Arrival, arrivals};
+use crate::engine::light::{Arrival, arrivals};
 
 /// Particles that tell of a luminaire among few.
 const PARTICLES: f64 = 4096.0;

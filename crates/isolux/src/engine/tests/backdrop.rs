@@ -1,10 +1,8 @@
 //! Walls that rays are judged by.
 
 use super::*;
-use crate::engine::backdrop::{Backdrop, lacking};
-use crate::engine::direct::Lighting;
-use crate::engine::gather::{Gatherer, Gathering};
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::{Backdrop, Gatherer, Gathering, Unlit, lacking};
+use crate::engine::light::Lighting;
 use crate::engine::pilot::pilot;
 use crate::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest, Watch, solve};
 use crate::map::Fresh;

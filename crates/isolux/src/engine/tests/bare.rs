@@ -1,16 +1,14 @@
 //! Vertices that gather for the bare map alone.
 
 use super::*;
-use crate::engine::checks;
-use crate::engine::deadline::Deadline;
-use crate::engine::direct::Lighting;
-use crate::engine::hidden::Unlit;
-use crate::engine::hybrid::Hybrid;
+use crate::engine::gather::Unlit;
+use crate::engine::judge::check_points;
+use crate::engine::light::Lighting;
+use crate::engine::method::{Hybrid, PathTracer};
 use crate::engine::pilot::{PilotRequest, pilot};
-use crate::engine::place::ProbePoint;
 use crate::engine::plan::Plan;
-use crate::engine::probe::ExactSettings;
-use crate::engine::reference::PathTracer;
+use crate::engine::ray::{Deadline, ProbePoint};
+use crate::engine::read::ExactSettings;
 
 /// A room with shelves before a wall, which take more elements than there may be.
 fn room_with_shelves() -> Scene {
@@ -40,7 +38,7 @@ fn vertices_gather_for_the_bare_map_where_it_is_coarse() {
     let own = &plan.gathering_for_bare;
     assert!(own.len() > 50, "{}", own.len());
     assert!(own.is_sorted() && own[0] as usize >= plan.indirect_vertices);
-    let checks = checks::draw(&plan, 64, Key::new(5));
+    let checks = check_points::draw(&plan, 64, Key::new(5));
     let mut hybrid = Hybrid::new(&plan, &checks, (64.0, 0, 0.02, 0), 1 << 10, 1);
     let increments: Vec<_> = (0..8)
         .map(|index| hybrid.increment(index, &checks, [Deadline::NEVER; 2]).unwrap().receivers)

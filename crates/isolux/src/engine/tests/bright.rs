@@ -2,10 +2,9 @@
 
 use super::*;
 use crate::elements::{Elements, Subdivision, Vertex};
-use crate::engine::bright::Bright;
-use crate::engine::direct::Lighting;
-use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering};
-use crate::engine::surface::SurfacePoint;
+use crate::engine::gather::{Bright, DirectAtEnds, Gatherer, Gathering};
+use crate::engine::light::Lighting;
+use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
 use crate::scene::{Body, Dielectric};
 use std::sync::Arc;

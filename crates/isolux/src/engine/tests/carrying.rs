@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::elements::{Subdivision, Vertex};
-use crate::engine::carriers::Carriers;
+use crate::engine::mesh::Carriers;
 
 /// A unit square of so many small squares a side, slightly bent into a paraboloid, its shading normals
 /// smooth.

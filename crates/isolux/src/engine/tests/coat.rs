@@ -2,8 +2,7 @@
 
 use super::gloss::{ANGLES_DEG, incoming, place};
 use super::*;
-use crate::engine::path::specular_step;
-use crate::engine::scatter::specular_share;
+use crate::engine::ray::{specular_share, specular_step};
 use crate::sampling::Ggx;
 use crate::scene::{Body, Coat, Gloss};
 use isolux_geometry::Direction;

@@ -2,13 +2,12 @@
 
 use super::*;
 use crate::elements::Vertex;
-use crate::engine::cuts::{Cuts, Side};
-use crate::engine::direct::Lighting;
-use crate::engine::gather::{known_at, known_on_side};
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::{Unlit, known_at, known_on_side};
+use crate::engine::light::Lighting;
+use crate::engine::occlusion::{Cuts, Side};
 use crate::engine::pilot::pilot;
-use crate::engine::place::ProbePoint;
-use crate::engine::probe::{ExactSettings, MapReader};
+use crate::engine::ray::ProbePoint;
+use crate::engine::read::{ExactSettings, MapReader};
 use crate::engine::{SolveRequest, Watch, solve};
 use crate::map::Method;
 use crate::scene::{Body, Dielectric};

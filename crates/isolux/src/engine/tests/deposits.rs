@@ -2,15 +2,12 @@
 
 use super::errors::{room, small_plan};
 use super::*;
-use crate::engine::accumulate::Accumulator;
-use crate::engine::direct::Lighting;
-use crate::engine::emission::Emission;
-use crate::engine::forward::Forward;
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::Unlit;
+use crate::engine::light::{Emission, Lighting};
+use crate::engine::method::{Forward, Tally};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::surface::SurfacePoint;
-use crate::engine::tally::Tally;
+use crate::engine::ray::{Accumulator, SurfacePoint};
 
 /// Deposits an illuminance over all elements, on a fine lattice of each.
 fn light_up(plan: &Plan, tally: &Tally, lux: impl Fn(Point) -> f64) -> f64 {

@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::elements::Subdivision;
-use crate::engine::carriers::Carriers;
-use crate::engine::detail::{Details, LeafError, Refinement, refine_worst};
+use crate::engine::mesh::{Carriers, Details, LeafError, Refinement, refine_worst};
 
 fn patch(edge_m: f64) -> Subdivision {
     let shape = rectangle([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0);

@@ -2,8 +2,8 @@
 
 use super::fixed_point::corner_form_factor;
 use super::*;
-use crate::engine::direct::Lighting;
-use crate::engine::surface::SurfacePoint;
+use crate::engine::light::Lighting;
+use crate::engine::ray::SurfacePoint;
 use crate::photometry::PhotometricWeb;
 use isolux_geometry::Normal;
 use std::f64::consts::PI;

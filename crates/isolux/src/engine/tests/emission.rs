@@ -1,8 +1,7 @@
 //! Particles leave in proportion to flux.
 
 use super::*;
-use crate::engine::direct::LuminaireId;
-use crate::engine::emission::{Emission, Emitted};
+use crate::engine::light::{Emission, Emitted, LuminaireId};
 use std::f64::consts::PI;
 
 /// A lamp, a spot that is coloured, the sun, and a glowing square on the floor that faces up.

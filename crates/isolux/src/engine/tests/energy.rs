@@ -1,9 +1,9 @@
 //! What energy allows, and maps that have more.
 
 use super::*;
-use crate::engine::direct::Lighting;
-use crate::engine::energy::{Allowed, allowed_lx};
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::Unlit;
+use crate::engine::judge::{Allowed, allowed_lx};
+use crate::engine::light::Lighting;
 use crate::engine::pilot::pilot;
 use std::f64::consts::PI;
 

@@ -1,18 +1,14 @@
 //! Errors of the scene from numbers whose error is known.
 
 use super::*;
-use crate::engine::accumulate::{Accumulator, Sample};
-use crate::engine::accuracy::{Pooled, accuracy};
-use crate::engine::checks::{self, Check, InterpolationErrors};
-use crate::engine::direct::Lighting;
-use crate::engine::filter::filter;
-use crate::engine::hidden::Unlit;
-use crate::engine::noise::Noise;
+use crate::engine::gather::Unlit;
+use crate::engine::judge::{Check, InterpolationErrors, Pooled, accuracy, check_points, filter};
+use crate::engine::light::Lighting;
 use crate::engine::pilot::{PilotRequest, pilot};
-use crate::engine::place::ProbePoint;
 use crate::engine::plan::Plan;
-use crate::engine::predict;
-use crate::engine::probe::{ExactSettings, MapReader};
+use crate::engine::ray::{Accumulator, Noise, ProbePoint, Sample};
+use crate::engine::read::{ExactSettings, MapReader};
+use crate::engine::run::prediction;
 use crate::engine::{SolveRequest, Watch, solve};
 use crate::map::Accuracy;
 
@@ -49,7 +45,7 @@ pub(super) fn check_sums(
     common: impl Fn(&Check) -> f64,
     sigma: f64,
 ) -> Accumulator {
-    let mut sums = Accumulator::new(checks::places(checks, true), plan.reference_lx);
+    let mut sums = Accumulator::new(check_points::places(checks, true), plan.reference_lx);
     let vertices = plan.elements.vertices().len();
     let (coarse, fine) = (vec![Rgb::grey(5.0); plan.indirect_vertices], vec![Rgb::BLACK; vertices]);
     for increment in 0..16 {
@@ -60,16 +56,20 @@ pub(super) fn check_sums(
             .map(|(k, c)| Rgb::grey(5.0 - common(c) + sigma * noise(key.with(k as u64))))
             .collect();
         let direct = vec![Rgb::BLACK; checks.len()];
-        sums.add(checks::samples(checks, (&fresh, &direct), [&fine, &fine, &coarse], None));
+        sums.add(check_points::samples(checks, (&fresh, &direct), [&fine, &fine, &coarse], None));
     }
     sums
 }
 
 /// The share of the surface where readers interpolate: what an error of one everywhere comes to there.
 fn trusted_share(checks: &[Check], plan: &Plan) -> f64 {
-    checks::errors(&check_sums(checks, plan, |_| 1.0, 0.0), checks, (plan.trust(), Noise::Counted))
-        .indirect_lx
-        .powi(2)
+    check_points::errors(
+        &check_sums(checks, plan, |_| 1.0, 0.0),
+        checks,
+        (plan.trust(), Noise::Counted),
+    )
+    .indirect_lx
+    .powi(2)
 }
 
 /// Mean square of the error over all the surface, where readers interpolate and where not.
@@ -82,11 +82,11 @@ fn check_points_stand_for_the_whole_surface() {
     let scene = room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let checks = checks::draw(&plan, 0, Key::new(2));
+    let checks = check_points::draw(&plan, 0, Key::new(2));
     assert!(checks.len() > 100);
     // Floor against all, by the same weights: their common error is one on the floor, zero elsewhere.
     let on_floor = |c: &Check| if c.gatherer.surface.point.z < 1e-3 { 1.0 } else { 0.0 };
-    let found = checks::errors(
+    let found = check_points::errors(
         &check_sums(&checks, &plan, on_floor, 0.0),
         &checks,
         (plan.trust(), Noise::Counted),
@@ -108,9 +108,9 @@ fn what_is_seen_of_errors_is_what_comes_from_afar() {
     let scene = room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let checks = checks::draw(&plan, 0, Key::new(2));
+    let checks = check_points::draw(&plan, 0, Key::new(2));
     let found = |error: &dyn Fn(&Check) -> f64| {
-        checks::errors(
+        check_points::errors(
             &check_sums(&checks, &plan, error, 0.0),
             &checks,
             (plan.trust(), Noise::Counted),
@@ -135,12 +135,16 @@ fn common_errors_are_seen_through_noise() {
     let scene = room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let checks = checks::draw(&plan, 0, Key::new(2));
+    let checks = check_points::draw(&plan, 0, Key::new(2));
     let near = |found: f64, expected: f64, allowed: f64| {
         assert!((found - expected).abs() < allowed, "{found} {expected}");
     };
     let found_if = |error: &dyn Fn(&Check) -> f64, sigma: f64, noise_is: Noise| {
-        checks::errors(&check_sums(&checks, &plan, error, sigma), &checks, (plan.trust(), noise_is))
+        check_points::errors(
+            &check_sums(&checks, &plan, error, sigma),
+            &checks,
+            (plan.trust(), noise_is),
+        )
     };
     // Without noise the error is what it is.
     let trusted = trusted_share(&checks, &plan);
@@ -203,8 +207,8 @@ fn noise_is_that_of_readings_over_the_surface() {
     let scene = room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let checks = checks::draw(&plan, 0, Key::new(2));
-    let mut sums = Accumulator::new(checks::places(&checks, true), plan.reference_lx);
+    let checks = check_points::draw(&plan, 0, Key::new(2));
+    let mut sums = Accumulator::new(check_points::places(&checks, true), plan.reference_lx);
     let black = vec![Rgb::BLACK; plan.elements.vertices().len().max(checks.len())];
     for increment in 0..16 {
         let key = Key::new(5).with(increment);
@@ -212,9 +216,10 @@ fn noise_is_that_of_readings_over_the_surface() {
             .map(|k| Rgb::grey(5.0 + noise(key.with(k as u64))))
             .collect();
         let fresh = &black[..checks.len()];
-        sums.add(checks::samples(&checks, (fresh, fresh), [&black, &black, &coarse], None));
+        sums.add(check_points::samples(&checks, (fresh, fresh), [&black, &black, &coarse], None));
     }
-    let noise_lx = checks::errors(&sums, &checks, (plan.trust(), Noise::Counted)).noise_lx.unwrap();
+    let noise_lx =
+        check_points::errors(&sums, &checks, (plan.trust(), Noise::Counted)).noise_lx.unwrap();
     // Barycentric weights have a mean square of 1/6 each; 16 increments; some hundred vertices tell.
     let expected = (3.0 / 6.0_f64).sqrt() / 4.0;
     assert!((noise_lx / expected - 1.0).abs() < 0.2, "{noise_lx} {expected}");
@@ -286,7 +291,7 @@ fn parts(statistical: f64, discretization: f64, bias: f64) -> Accuracy {
 
 #[test]
 fn increments_needed_follow_the_inverse_square() {
-    let needed = |a: Accuracy, target| predict::increments_needed(&a, 20, target);
+    let needed = |a: Accuracy, target| prediction::increments_needed(&a, 20, target);
     let near = |found: Option<f64>, expected: f64| {
         assert!(found.is_some_and(|n| (n / expected - 1.0).abs() < 1e-12), "{found:?} {expected}");
     };
@@ -300,20 +305,21 @@ fn increments_needed_follow_the_inverse_square() {
 
 #[test]
 fn what_is_in_doubt_falls_with_the_noise() {
-    let needed =
-        |a: Accuracy, seen: Accuracy| predict::increments_needed_beyond_doubt(&a, &seen, 20, 0.01);
+    let needed = |a: Accuracy, seen: Accuracy| {
+        prediction::increments_needed_beyond_doubt(&a, &seen, 20, 0.01)
+    };
     // Of 1.2 % that elements are said to err by, 0.6 % are seen: 4e-4 and 1.08e-4 have to fall to 6.4e-5.
     let found = needed(parts(0.02, 0.012, 0.0), parts(0.02, 0.006, 0.0)).unwrap();
     assert!((found / (20.0 * (4e-4 + 1.08e-4) / 6.4e-5) - 1.0).abs() < 1e-12, "{found}");
     // Without doubt, as ever; where what is seen is too much, none are enough.
     let certain = parts(0.02, 0.006, 0.0);
-    assert_eq!(needed(certain, certain), predict::increments_needed(&certain, 20, 0.01));
+    assert_eq!(needed(certain, certain), prediction::increments_needed(&certain, 20, 0.01));
     assert_eq!(needed(parts(0.001, 0.012, 0.0), parts(0.001, 0.01, 0.0)), None);
 }
 
 #[test]
 fn predictions_lie_in_their_interval_and_sharpen() {
-    let at = |increments| predict::finish(100.0, increments, 0.5, 3.0 + 0.5 * increments as f64);
+    let at = |increments| prediction::finish(100.0, increments, 0.5, 3.0 + 0.5 * increments as f64);
     for increments in [1, 8, 50, 99] {
         let p = at(increments);
         assert!((p.finish_s - 53.0).abs() < 1e-9);
@@ -322,7 +328,7 @@ fn predictions_lie_in_their_interval_and_sharpen() {
     }
     assert!(at(50).latest_s - at(50).earliest_s < at(8).latest_s - at(8).earliest_s);
     // Done already: now.
-    let done = predict::finish(5.0, 20, 0.5, 10.0);
+    let done = prediction::finish(5.0, 20, 0.5, 10.0);
     assert_eq!((done.earliest_s, done.finish_s, done.latest_s), (10.0, 10.0, 10.0));
 }
 

@@ -2,9 +2,9 @@
 
 use super::direct_light::facing;
 use super::*;
-use crate::engine::direct::Lighting;
-use crate::engine::place::ProbePoint;
-use crate::engine::probe::MapReader;
+use crate::engine::light::Lighting;
+use crate::engine::ray::ProbePoint;
+use crate::engine::read::MapReader;
 use crate::engine::{SolveRequest, Watch, solve};
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];

@@ -2,7 +2,7 @@
 
 use super::many::{hall_of_panels, receivers};
 use super::*;
-use crate::engine::direct::{Goal, Lighting, Patches};
+use crate::engine::light::{Goal, Lighting, Patches};
 
 /// Estimates a receiver, and looks at all surfaces by so many shadow rays to each.
 const TRIALS: u64 = 1000;

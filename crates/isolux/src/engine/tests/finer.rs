@@ -42,7 +42,7 @@ fn off_lx(scene: &Scene, of: &IlluminationMap, map: &IlluminationMap) -> f64 {
         .filter(|&t| scene.triangle(t).corners.iter().all(|c| c.z == 0.0))
         .collect();
     let squares = (0..4000).filter_map(|k| {
-        let mut dice = crate::engine::path::Dice::new(sequence, k);
+        let mut dice = crate::engine::ray::Dice::new(sequence, k);
         let ([a, b], pick) = (dice.pair(), dice.pair()[0]);
         let (u, v) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
         let triangle = floor[(pick * floor.len() as f64) as usize];

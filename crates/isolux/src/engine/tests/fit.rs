@@ -2,8 +2,7 @@
 
 use super::*;
 use crate::elements::{Elements, Subdivision};
-use crate::engine::carriers::Carriers;
-use crate::engine::fit::Fit;
+use crate::engine::mesh::{Carriers, Fit};
 use isolux_geometry::Point;
 
 /// A floor of 4 m by 3 m in many elements, some of them finer.

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::elements::{Elements, Subdivision};
-use crate::engine::carriers::Carriers;
-use crate::engine::direct::Lighting;
 use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, GivenRow, Operator, known_weights};
+use crate::engine::light::Lighting;
+use crate::engine::mesh::Carriers;
 use crate::map::Standing;
 use std::f64::consts::PI;
 

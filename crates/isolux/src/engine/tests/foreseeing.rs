@@ -2,10 +2,9 @@
 
 use super::errors::room;
 use super::usual_request;
-use crate::engine::direct::Lighting;
-use crate::engine::forecast::{Costs, GoOn, Outlook, Round};
-use crate::engine::hidden::Unlit;
-use crate::engine::pilot::pilot;
+use crate::engine::gather::Unlit;
+use crate::engine::light::Lighting;
+use crate::engine::pilot::{Costs, GoOn, Outlook, Round, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::{SolveRequest, Stage, Watch, foresee, solve};
 use std::time::Duration;

@@ -1,9 +1,7 @@
 //! Fresnel, Snell, and what is left of the light.
 
 use super::*;
-use crate::engine::path::specular_step;
-use crate::engine::scatter::{Scattered, pane, refract};
-use crate::engine::surface::SurfacePoint;
+use crate::engine::ray::{Scattered, SurfacePoint, pane, refract, specular_step};
 use crate::scene::{Body, Dielectric};
 use isolux_geometry::{Direction, Normal};
 

@@ -1,9 +1,7 @@
 //! Mirrors and microfacets.
 
 use super::*;
-use crate::engine::path::specular_step;
-use crate::engine::scatter::{reflect, specular_share};
-use crate::engine::surface::SurfacePoint;
+use crate::engine::ray::{SurfacePoint, reflect, specular_share, specular_step};
 use crate::sampling::Ggx;
 use crate::scene::{Body, Gloss};
 use isolux_geometry::{Direction, Normal};

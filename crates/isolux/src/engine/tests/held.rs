@@ -2,10 +2,8 @@
 
 use super::*;
 use crate::elements::{Elements, Subdivision};
-use crate::engine::carriers::Carriers;
 use crate::engine::gather::{GivenRow, Operator};
-use crate::engine::hats::Hats;
-use crate::engine::held::corrected;
+use crate::engine::mesh::{Carriers, Hats, corrected};
 use crate::map::Standing;
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -3,10 +3,9 @@
 use super::errors::{check_sums, room, small_plan};
 use super::trusting::errors;
 use super::*;
-use crate::engine::checks::{self, InterpolationErrors};
-use crate::engine::direct::Lighting;
-use crate::engine::judged::Judged;
-use crate::engine::trust::{Trust, Trusts, Worst};
+use crate::engine::judge::{InterpolationErrors, Judged, check_points};
+use crate::engine::light::Lighting;
+use crate::engine::mesh::{Trust, Trusts, Worst};
 use crate::map::Accuracy;
 
 /// A map whose error grows with trust, by a tenth of it.
@@ -54,10 +53,10 @@ fn gathering_is_worth_while_where_interpolation_errs_by_more_than_the_map() {
     let scene = room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let points = checks::draw(&plan, 0, Key::new(2));
+    let points = check_points::draw(&plan, 0, Key::new(2));
     let is_worth_while = |error: f64, trust: Trust| {
         let sums = check_sums(&points, &plan, |_| error, 0.0);
-        checks::is_gathering_worth_while(&sums, &points, trust, [1.0; 2])
+        check_points::is_gathering_worth_while(&sums, &points, trust, [1.0; 2])
     };
     // Half as much again as the squared error of the map is allowed.
     assert!(!is_worth_while(1.22, plan.trust()));

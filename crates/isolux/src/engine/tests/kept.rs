@@ -2,9 +2,8 @@
 
 use super::*;
 use crate::elements::{Elements, Subdivision};
-use crate::engine::direct::{Goal, Lighting};
-use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering};
-use crate::engine::kept::{Kept, Over};
+use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, Kept, Over};
+use crate::engine::light::{Goal, Lighting};
 use crate::map::Standing;
 
 const ROOM_M: [f64; 3] = [12.6, 12.6, 3.0];

@@ -1,13 +1,13 @@
 //! Lamps close to surfaces: their light lands between the vertices of any first mesh.
 
 use super::*;
-use crate::engine::accuracy::Light;
-use crate::engine::direct::Lighting;
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::Unlit;
+use crate::engine::judge::Light;
+use crate::engine::light::Lighting;
+use crate::engine::method::PathTracer;
 use crate::engine::pilot::pilot;
-use crate::engine::place::ProbePoint;
-use crate::engine::probe::{ExactSettings, MapReader};
-use crate::engine::reference::PathTracer;
+use crate::engine::ray::ProbePoint;
+use crate::engine::read::{ExactSettings, MapReader};
 use crate::engine::{SolveRequest, Watch, solve};
 use crate::map::Method;
 use std::f64::consts::PI;

@@ -1,11 +1,11 @@
 //! Many luminaires by few shadow rays, against all of them one by one.
 
 use super::*;
-use crate::engine::checks;
-use crate::engine::direct::{Goal, Lighting, Measured, Patches};
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::Unlit;
+use crate::engine::judge::check_points;
+use crate::engine::light::{Goal, Lighting, Measured, Patches};
 use crate::engine::pilot::pilot;
-use crate::engine::surface::SurfacePoint;
+use crate::engine::ray::SurfacePoint;
 use crate::engine::{SolveRequest, Watch, solve};
 use crate::photometry::PhotometricWeb;
 use std::sync::Arc;
@@ -275,9 +275,9 @@ fn noise_of_direct_light_is_part_of_the_accuracy() {
     let scene = scene(floor, vec![painted(Rgb::grey(0.5))], lamps(700));
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
-    let checks = checks::draw(&plan, 0, Key::new(2));
+    let checks = check_points::draw(&plan, 0, Key::new(2));
     let noise = |accuracy: f64| {
-        let noise_lx2 = checks::direct(&plan, &checks, accuracy, Key::new(3)).noise_lx2;
+        let noise_lx2 = check_points::direct(&plan, &checks, accuracy, Key::new(3)).noise_lx2;
         noise_lx2.sqrt() / plan.reference_lx
     };
     let told = noise(0.01);

@@ -2,12 +2,11 @@
 
 use super::*;
 use crate::elements::Subdivision;
-use crate::engine::carriers::Carriers;
-use crate::engine::direct::Lighting;
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::Unlit;
+use crate::engine::light::Lighting;
+use crate::engine::mesh::{Carriers, Walls};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
-use crate::engine::walls::Walls;
 use isolux_geometry::{Point, Triangle};
 
 /// A room with a block in it: light is resolved towards the walls of empty ones.
@@ -80,7 +79,7 @@ fn what_is_measured_is_given_to_elements_that_nobody_trusts() {
     let mut measured_m2 = 0.0;
     for gatherer in &places.gatherers {
         let at = gatherer.surface.point;
-        let of = |e: &&crate::engine::detail::LeafError| {
+        let of = |e: &&crate::engine::mesh::LeafError| {
             e.is_beset && is_in(&plan.subdivision.triangle(e.node), at)
         };
         let found = plan.indirect_errors.iter().find(of).expect("places lie in beset elements");

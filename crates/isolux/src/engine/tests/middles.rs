@@ -1,8 +1,8 @@
 //! Light in gaps, told by the middles of elements.
 
 use super::*;
-use crate::engine::direct::Lighting;
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::Unlit;
+use crate::engine::light::Lighting;
 use crate::engine::pilot::pilot;
 
 const REFLECTANCE: f64 = 0.6;

@@ -2,8 +2,8 @@
 
 use super::direct_light::{facing, lux};
 use super::*;
-use crate::engine::direct::Lighting;
-use crate::engine::scatter::pane;
+use crate::engine::light::Lighting;
+use crate::engine::ray::pane;
 use crate::photometry::PhotometricWeb;
 use crate::scene::{Body, Dielectric};
 use std::sync::Arc;

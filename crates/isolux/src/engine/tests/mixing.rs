@@ -1,8 +1,9 @@
 //! Maps added.
 
 use super::*;
+use crate::engine::combine::mix;
 use crate::engine::{
-    MapReader, MixError, MixPart, ProbePoint, Solution, SolveRequest, Watch, mix, solve,
+    MapReader, MixError, MixPart, ProbePoint, Solution, SolveRequest, Watch, solve,
 };
 use crate::map::IlluminationMap;
 use isolux_geometry::Normal;

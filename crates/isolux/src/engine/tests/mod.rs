@@ -49,11 +49,10 @@ mod ties;
 mod trusting;
 mod walls;
 
-use super::fit::Fit;
-use super::gather::{Fitting, Reading};
-use super::path::Dice;
-use super::pilot::PilotRequest;
-use super::surface::SurfacePoint;
+use crate::engine::gather::{Fitting, Reading};
+use crate::engine::mesh::Fit;
+use crate::engine::pilot::PilotRequest;
+use crate::engine::ray::{Dice, SurfacePoint};
 use crate::photometry::IntensityDistribution;
 use crate::sampling::{Key, Sequence};
 use crate::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape};

@@ -1,16 +1,13 @@
 //! Light that comes in through openings.
 
 use super::*;
-use crate::engine::deadline::Deadline;
-use crate::engine::direct::{Goal, Lighting};
-use crate::engine::gather::{Gatherer, Gathering};
-use crate::engine::hidden::Unlit;
-use crate::engine::hybrid::Hybrid;
-use crate::engine::neighbours::{LEAST, lend_noise};
+use crate::engine::gather::{Gatherer, Gathering, Unlit};
+use crate::engine::light::{Goal, Lighting};
+use crate::engine::mesh::{LEAST, lend_noise};
+use crate::engine::method::{Hybrid, PathTracer};
 use crate::engine::pilot::pilot;
-use crate::engine::place::ProbePoint;
-use crate::engine::probe::{ExactSettings, MapReader};
-use crate::engine::reference::PathTracer;
+use crate::engine::ray::{Deadline, ProbePoint};
+use crate::engine::read::{ExactSettings, MapReader};
 use crate::engine::{SolveRequest, Watch, solve};
 use crate::map::{Illuminance, Standing};
 

@@ -3,14 +3,13 @@
 use super::errors::room;
 use super::*;
 use crate::elements::Subdivision;
-use crate::engine::accumulate::Accumulator;
-use crate::engine::caustics::deposit;
-use crate::engine::direct::Lighting;
-use crate::engine::hidden::Unlit;
-use crate::engine::noise::Noise;
-use crate::engine::parts::{PARTS, Parts, Squared, part_of, read_in_parts, samples};
+use crate::engine::gather::Unlit;
+use crate::engine::light::Lighting;
+use crate::engine::method::deposit;
+use crate::engine::particle::{PARTS, Parts, Squared, part_of, read_in_parts, samples};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
+use crate::engine::ray::{Accumulator, Noise};
 use crate::map::Standing;
 use crate::scene::{Body, Dielectric};
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::elements::Subdivision;
-use crate::engine::reflectance;
+use crate::engine::ray::reflectance;
 use crate::scene::Texture;
 
 #[test]

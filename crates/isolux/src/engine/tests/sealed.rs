@@ -1,8 +1,8 @@
 //! Luminous boxes, and what shines inside of them.
 
 use super::*;
-use crate::engine::direct::Lighting;
-use crate::engine::surface::SurfacePoint;
+use crate::engine::light::Lighting;
+use crate::engine::ray::SurfacePoint;
 use crate::engine::{SolveRequest, Watch, solve};
 use isolux_geometry::Vector;
 
@@ -67,7 +67,7 @@ fn the_inside_of_a_lamp_is_no_part_of_the_accuracy() {
         let scene = with(lamp(false), true, is_two_sided, vec![]);
         let request = SolveRequest { accuracy: Some(0.02), ..SolveRequest::default() };
         let map = solve(&scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
-        super::super::probe::reference_lx(&map)
+        crate::engine::reference_lx(&map)
     };
     let [two, one] = [true, false].map(reference);
     // Each is good to 2 %.

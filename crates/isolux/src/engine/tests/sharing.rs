@@ -2,14 +2,11 @@
 
 use super::errors::{noise as normal, small_plan};
 use super::*;
-use crate::engine::allot::{Shared, allot, allot_by_noise, mean_of};
-use crate::engine::caustics::deposit;
-use crate::engine::direct::Lighting;
-use crate::engine::flights::{CausticNoise, particles};
-use crate::engine::gather::known_weights;
-use crate::engine::hybrid::Hybrid;
-use crate::engine::surface::SurfacePoint;
-use crate::engine::trial::Trial;
+use crate::engine::gather::{Shared, Trial, allot, allot_by_noise, known_weights, mean_of};
+use crate::engine::light::Lighting;
+use crate::engine::method::{Hybrid, deposit};
+use crate::engine::particle::{CausticNoise, particles};
+use crate::engine::ray::SurfacePoint;
 use crate::scene::Gloss;
 
 /// Noise over all areas of nets of n rays, in the square.

@@ -1,6 +1,6 @@
 //! Sums of increments against sums of real numbers.
 
-use crate::engine::accumulate::{Accumulator, Estimate, MAX_INCREMENTS, Sample, Sums};
+use crate::engine::ray::{Accumulator, Estimate, MAX_INCREMENTS, Sample, Sums};
 use crate::sampling::Key;
 use crate::units::Rgb;
 

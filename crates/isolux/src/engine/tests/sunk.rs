@@ -2,12 +2,12 @@
 
 use super::*;
 use crate::elements::Vertex;
-use crate::engine::checks;
-use crate::engine::direct::Lighting;
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::Unlit;
+use crate::engine::judge::check_points;
+use crate::engine::light::Lighting;
 use crate::engine::pilot::pilot;
-use crate::engine::place::ProbePoint;
-use crate::engine::probe::MapReader;
+use crate::engine::ray::ProbePoint;
+use crate::engine::read::MapReader;
 use crate::engine::{SolveRequest, Watch, solve};
 use crate::map::{IlluminationMap, Standing};
 
@@ -91,8 +91,8 @@ fn check_points_judge_cut_elements_as_rays_read_them() {
     let rays_only = |scene: &Scene| {
         let lighting = Lighting::new(scene);
         let plan = pilot(scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
-        let checks = checks::draw(&plan, 8, Key::new(2));
-        checks::places(&checks, true) - 2 * checks.len()
+        let checks = check_points::draw(&plan, 8, Key::new(2));
+        check_points::places(&checks, true) - 2 * checks.len()
     };
     let lamps = || vec![isotropic([0.7, 1.0, 1.5], 100.0), isotropic([2.2, 1.0, 1.5], 1.0)];
     let room = || inward_box([3.0, 2.0, 2.5], 0);

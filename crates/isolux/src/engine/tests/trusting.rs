@@ -2,12 +2,12 @@
 
 use super::*;
 use crate::elements::Subdivision;
-use crate::engine::detail::LeafError;
-use crate::engine::direct::Lighting;
-use crate::engine::hidden::Unlit;
+use crate::engine::gather::Unlit;
+use crate::engine::light::Lighting;
+use crate::engine::mesh::{LeafError, Trust, Trusts, Worst, trust};
+use crate::engine::occlusion::nearby;
 use crate::engine::pilot::{PilotRequest, pilot};
-use crate::engine::surface::SurfacePoint;
-use crate::engine::trust::{self, Trust, Trusts, Worst};
+use crate::engine::ray::SurfacePoint;
 
 pub(super) fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
     let error = |(node, &(area_m2, error)): (usize, &(f64, f64))| LeafError {
@@ -162,7 +162,7 @@ fn gaps_are_closed_in_and_edges_are_not() {
     let scene = scene(shapes, vec![painted(Rgb::WHITE)], vec![]);
     let closed = |triangle: u32, [x, y, z]: [f64; 3]| {
         let [u, v] = scene.triangle(triangle).barycentric(Point::new(x, y, z));
-        trust::is_closed_in(&scene, &SurfacePoint::new(&scene, triangle, false, u, v), 0.5)
+        nearby::is_closed_in(&scene, &SurfacePoint::new(&scene, triangle, false, u, v), 0.5)
     };
     let wall_at = |x: f64, z: f64| {
         let near = |t: &u32| {

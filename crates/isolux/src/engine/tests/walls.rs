@@ -2,11 +2,8 @@
 
 use super::*;
 use crate::elements::{Subdivision, Vertex};
-use crate::engine::carriers::Carriers;
-use crate::engine::detail::LeafError;
-use crate::engine::look::Look;
-use crate::engine::trust::Worst;
-use crate::engine::walls::{Beside, Walls};
+use crate::engine::mesh::{Beside, Carriers, LeafError, Walls, Worst};
+use crate::engine::pilot::Look;
 
 const SIDE_M: f64 = 4.0;
 

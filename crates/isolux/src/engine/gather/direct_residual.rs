@@ -1,0 +1,242 @@
+//! Direct light as rays read it from a map: right in the mean, where it varies between vertices.
+//!
+//! Where luminaires are many, rays read direct light between vertices. That errs where it varies from element to element, as on a
+//! ceiling close above rows of lamps, and errs alike over many elements where these and the lamps both lie in rows, so that means
+//! over what is seen err, too: in all increments by the same, of which their spread tells nothing. So increments take samples of
+//! the light that lands on such elements, each of its own, and hand it to the vertices around: what elements reflect is then right in the mean
+//! over increments, and their spread tells how well it is known. A vertex has the mean of light weighted by its hat function, where all that
+//! other elements add is its own value; so light is kept, and never negative.
+
+use super::bright_surfaces::Bright;
+use super::gatherer::known_weights;
+use crate::ablation::without;
+use crate::elements::Elements;
+use crate::engine::light::{Goal, Lighting};
+use crate::engine::ray::{Dice, SurfacePoint};
+use crate::map::Standing;
+use crate::sampling::{Key, Sequence};
+use crate::scene::Scene;
+use crate::units::Rgb;
+use isolux_geometry::Point;
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// Places that tell by how much light differs from what is read there: enough to know that of one surface in a hundred.
+const PLACES: usize = 1024;
+
+/// A map of direct light, and what it is of.
+#[derive(Clone, Copy)]
+pub(crate) struct Over<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) lighting: &'a Lighting<'a>,
+    pub(crate) elements: &'a Elements,
+    pub(crate) standings: &'a [Option<Standing>],
+    pub(crate) direct: &'a [Rgb],
+    /// There rays evaluate it.
+    pub(crate) bright: Option<&'a Bright>,
+}
+
+/// Elements that samples are taken of.
+pub(crate) struct Kept {
+    leaves: Vec<Leaf>,
+    /// Whether they are, by node.
+    pub(crate) varying: Vec<bool>,
+    /// Integrals of the functions that vertices stand for where rays read, m2.
+    hats_m2: Vec<f64>,
+}
+
+#[derive(Clone, Copy)]
+struct Leaf {
+    node: u32,
+    triangle: u32,
+    back: bool,
+    vertices: [u32; 3],
+    area_m2: f64,
+    /// By how much what is reflected differs between vertices, or from what is read, lx: in the mean over the element it errs by half of
+    /// that at most, if vertices tell all.
+    varies_lx: f64,
+}
+
+/// What lands on an element, and which vertices it is handed to.
+struct Lit {
+    lm: Rgb,
+    corners: [(u32, f64); 3],
+}
+
+impl Kept {
+    /// Where so many lux are allowed to lack in the mean; `None` where rays do not read direct light or vertices tell it well enough.
+    pub(crate) fn of(over: &Over<'_>, allowed_lx: f64, key: Key) -> Option<Self> {
+        if !over.lighting.are_read_at_ends() || without("direct-residual") {
+            return None;
+        }
+        let mut hats_m2 = vec![0.0; over.elements.vertices().len()];
+        let (mut leaves, mut lit_m2) = (Vec::new(), 0.0);
+        for (node, triangle, back) in over.elements.leaves() {
+            let vertices = over.elements.node(node).vertices;
+            let Some(thirds) = over.thirds(vertices) else { continue };
+            let leaf = over.leaf((node, vertices), triangle, back);
+            thirds.iter().for_each(|&(v, w)| hats_m2[v as usize] += w * leaf.area_m2);
+            if vertices.iter().any(|&v| !over.direct[v as usize].is_black()) {
+                lit_m2 += leaf.area_m2;
+            }
+            leaves.push(leaf);
+        }
+        over.look(&mut leaves, key);
+        let needs = |leaf: &Leaf| leaf.area_m2 * leaf.varies_lx;
+        leaves.sort_by(|a, b| needs(b).total_cmp(&needs(a)));
+        let mut left: f64 = leaves.iter().map(needs).sum();
+        let is_left = |leaf: &Leaf| {
+            let is_left = left <= allowed_lx * lit_m2;
+            left -= needs(leaf);
+            is_left
+        };
+        let count = leaves.iter().position(is_left).unwrap_or(leaves.len());
+        leaves.truncate(count);
+        let mut varying = vec![false; over.elements.node_count()];
+        leaves.iter().for_each(|leaf| varying[leaf.node as usize] = true);
+        (count > 0).then_some(Self { leaves, varying, hats_m2 })
+    }
+
+    /// Rays that finding out where they are and so many samples of each take, about.
+    pub(crate) const fn rays(&self, samples: u64) -> u64 {
+        PLACES as u64 + samples * self.leaves.len() as u64
+    }
+
+    /// Direct light at vertices as rays are to read it, by so many samples of an element.
+    pub(crate) fn read(&self, over: &Over<'_>, (samples, key): (u64, Key)) -> Vec<Rgb> {
+        let one = |(number, leaf): (usize, &Leaf)| {
+            let sequence = Sequence::new(key.with(number as u64));
+            (0..samples).map(|k| over.sample(leaf, &mut Dice::new(sequence, k as u32))).collect()
+        };
+        let all: Vec<Vec<Lit>> = self.leaves.par_iter().enumerate().map(one).collect();
+        let mut sums_lm = vec![Rgb::BLACK; over.direct.len()];
+        let mut sampled_m2 = vec![0.0; over.direct.len()];
+        for (leaf, all) in self.leaves.iter().zip(all) {
+            for (vertex, weight) in over.thirds(leaf.vertices).into_iter().flatten() {
+                sampled_m2[vertex as usize] += weight * leaf.area_m2;
+            }
+            for Lit { lm, corners } in all {
+                for (vertex, weight) in corners {
+                    sums_lm[vertex as usize] += lm * (weight / samples as f64);
+                }
+            }
+        }
+        let read = |v: usize| {
+            let (own, hat_m2) = (over.direct[v], self.hats_m2[v]);
+            if sampled_m2[v] == 0.0 {
+                return own;
+            }
+            // Rounding may leave less than nothing of what others add.
+            own * (1.0 - sampled_m2[v] / hat_m2).max(0.0) + sums_lm[v] / hat_m2
+        };
+        (0..over.direct.len()).map(read).collect()
+    }
+}
+
+impl Over<'_> {
+    /// The parts of an element that vertices stand for where rays read.
+    fn thirds(&self, vertices: [u32; 3]) -> Option<[(u32, f64); 3]> {
+        let weights = known_weights(vertices.map(|v| (v, 1.0 / 3.0)), self.standings)?;
+        Some([0, 1, 2].map(|k| (vertices[k], weights[k])))
+    }
+
+    fn corners(&self, vertices: [u32; 3]) -> [Point; 3] {
+        vertices.map(|vertex| self.elements.vertices()[vertex as usize].position)
+    }
+
+    fn leaf(&self, (node, vertices): (u32, [u32; 3]), triangle: u32, back: bool) -> Leaf {
+        let [a, b, c] = self.corners(vertices);
+        let area_m2 = 0.5 * (b - a).cross(c - a).length();
+        let lx = vertices.map(|v| self.direct[v as usize].luminance());
+        let [high, low] =
+            [lx.into_iter().fold(f64::MIN, f64::max), lx.into_iter().fold(f64::MAX, f64::min)];
+        let middle = self.place(vertices, (triangle, back), [1.0 / 3.0; 3]);
+        let reflectance = middle.reflectance(self.scene).luminance();
+        Leaf { node, triangle, back, vertices, area_m2, varies_lx: reflectance * (high - low) }
+    }
+
+    fn place(
+        &self,
+        vertices: [u32; 3],
+        (triangle, back): (u32, bool),
+        weights: [f64; 3],
+    ) -> SurfacePoint {
+        let [p, q, r] = self.corners(vertices);
+        let point = p + (q - p) * weights[1] + (r - p) * weights[2];
+        let [u, v] = self.scene.triangle(triangle).barycentric(point);
+        SurfacePoint::new(self.scene, triangle, back, u, v)
+    }
+
+    /// Looks at some places: vertices may all have the same light, and have other light between them.
+    fn look(&self, leaves: &mut [Leaf], key: Key) {
+        let sums: Vec<f64> = leaves
+            .iter()
+            .scan(0.0, |sum, leaf| {
+                *sum += leaf.area_m2;
+                Some(*sum)
+            })
+            .collect();
+        let Some(&all_m2) = sums.last() else { return };
+        let shift = key.with(u64::MAX).uniform();
+        let one = |k: usize| {
+            let within = (k as f64 + shift) / PLACES as f64 * all_m2;
+            let number = sums.partition_point(|&sum| sum <= within).min(leaves.len() - 1);
+            let leaf = &leaves[number];
+            let sequence = Sequence::new(key.with(k as u64));
+            let place = self.somewhere_on(leaf, &mut Dice::new(sequence, 0));
+            let (at, corners) = place.filter(|(at, _)| !self.is_bright(at))?;
+            let measured = self.lighting.measured(&at, Goal::ANY, sequence);
+            let lacking_lx = (measured.lx - self.told(corners)).luminance();
+            let share = at.reflectance(self.scene).luminance();
+            let square_lx2 = share * share * (lacking_lx * lacking_lx - measured.variance);
+            Some(((leaf.triangle, leaf.back), square_lx2))
+        };
+        let looks: Vec<_> = (0..PLACES).into_par_iter().map(one).collect();
+        let mut sides: HashMap<(u32, bool), (f64, f64)> = HashMap::new();
+        for (side, square_lx2) in looks.into_iter().flatten() {
+            let (sum, count) = sides.entry(side).or_default();
+            (*sum, *count) = (*sum + square_lx2, *count + 1.0);
+        }
+        for leaf in leaves {
+            let side = sides.get(&(leaf.triangle, leaf.back));
+            let of_side_lx = side.map_or(0.0, |(sum, count)| (sum / count).max(0.0).sqrt());
+            leaf.varies_lx = leaf.varies_lx.max(of_side_lx);
+        }
+    }
+
+    /// A place of an element, evenly over its area, and its vertices with their weights there; none where vertices are not known.
+    fn somewhere_on(
+        &self,
+        leaf: &Leaf,
+        dice: &mut Dice,
+    ) -> Option<(SurfacePoint, [(u32, f64); 3])> {
+        let Leaf { triangle, back, vertices, .. } = *leaf;
+        let [a, b] = dice.pair();
+        let root = a.sqrt();
+        let weights = [1.0 - root, root * (1.0 - b), root * b];
+        let at = self.place(vertices, (triangle, back), weights);
+        let weights = known_weights([0, 1, 2].map(|k| (vertices[k], weights[k])), self.standings)?;
+        Some((at, [0, 1, 2].map(|k| (vertices[k], weights[k]))))
+    }
+
+    fn told(&self, corners: [(u32, f64); 3]) -> Rgb {
+        corners.iter().map(|&(vertex, weight)| self.direct[vertex as usize] * weight).sum()
+    }
+
+    /// What lands on an element, by one place of it.
+    fn sample(&self, leaf: &Leaf, dice: &mut Dice) -> Lit {
+        let Some((at, corners)) = self.somewhere_on(leaf, dice) else {
+            return Lit { lm: Rgb::BLACK, corners: leaf.vertices.map(|v| (v, 0.0)) };
+        };
+        let lx = match self.is_bright(&at) {
+            true => self.told(corners),
+            false => self.lighting.estimate(&at, dice),
+        };
+        Lit { lm: lx * leaf.area_m2, corners }
+    }
+
+    /// Whether rays evaluate direct light there and read none.
+    fn is_bright(&self, at: &SurfacePoint) -> bool {
+        self.bright.is_some_and(|bright| bright.at(at).is_some())
+    }
+}

@@ -1,0 +1,514 @@
+//! The rays of a row: many at a time, one step of all of them after the other.
+//!
+//! While one ray waits for memory, or for the result of an instruction, others go on: all are traced together, their
+//! places are sought together, and what is read there lies ready when it is asked for.
+
+use super::bright_surfaces;
+use super::control_variate;
+use super::gatherer::{
+    DirectAtEnds, Gatherer, Gathering, known_on_side, known_weights, weights_in_gap,
+};
+use super::operator::{Entry, Operator, Rows};
+use crate::elements::Place;
+use crate::engine::light::{About, Shadows};
+use crate::engine::occlusion::nearby;
+use crate::engine::ray::{Deadline, Dice, PathEnd, SurfacePoint, follow_on};
+use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::scene::Finish;
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
+use rayon::prelude::*;
+
+/// Receivers of one task: enough work to be worth handing out, few enough to share evenly.
+const CHUNK: usize = 64;
+/// Where there are few, tasks at least, and the least of one.
+const FEWEST_CHUNKS: usize = 16;
+const LEAST_CHUNK: usize = 4;
+
+/// Rays of a row that are followed together.
+const TOGETHER: u32 = 64;
+
+/// Random numbers of rays that are sent to what is bright.
+const SENT: u64 = 0x6272_6967_6874;
+
+/// How often a ray goes on from surfaces that are close by. In a corner half of the rays meet the other wall close
+/// by, and half of those the first again: with usual reflectances a hundredth of the light is left.
+const REGATHERED: u32 = 3;
+/// How often at most it does where nothing is known in the gap that it may still be in: by Russian roulette, so that few come to
+/// the end of it.
+const LOST_IN_GAP: u32 = 32;
+
+/// A shadow ends on an element whose vertices have light that differs by more than this share, and who reads it there errs by as much.
+/// From farther away than so many of its edges many such are seen, and their errors balance.
+const UNEVEN: f64 = 0.25;
+const NEARBY: f64 = 4.0;
+
+/// A row while it is made.
+#[derive(Default)]
+struct Row {
+    source: Rgb,
+    /// What walls tell that is lacking of all that rays find.
+    lacking: Rgb,
+    open: bool,
+    close: f64,
+    /// What is seen from about the receiver, once it was asked for.
+    about: Option<Option<About>>,
+}
+
+/// Rays that are followed together; kept, as to ask for memory at every row takes its time.
+#[derive(Default)]
+struct Wave {
+    /// Numbers of the rays that the row has begun.
+    dice: Vec<Dice>,
+    legs: Vec<Leg>,
+    directions: Vec<Direction>,
+    rays: Vec<Ray>,
+    hits: Vec<Option<Hit>>,
+    /// Diffuse surfaces that they have come to, and where those are on the level gathered over.
+    met: Vec<Met>,
+    places: Vec<Option<Place>>,
+    located: Vec<Option<Located>>,
+    /// What they wait for to know of direct light there.
+    shadows: Shadows,
+    /// Rays that go on from there.
+    next: Vec<Leg>,
+}
+
+/// A ray of a row, or what goes on from where one has ended.
+#[derive(Clone, Copy)]
+struct Leg {
+    /// Where it starts, and the triangle there.
+    origin: Point,
+    triangle: u32,
+    /// About what its direction is distributed.
+    normal: Normal,
+    /// What of the light there arrives at the receiver.
+    share: Rgb,
+    /// Whether it starts in a gap.
+    in_gap: bool,
+    /// The ray that it is part of.
+    ray: u32,
+}
+
+/// What all rays of a row have in common.
+struct Receiver<'a> {
+    place: &'a SurfacePoint,
+    /// What is bright, as seen from there, if rays are sent to it, too.
+    bright: Option<&'a bright_surfaces::Seen<'a>>,
+}
+
+/// A diffuse surface that a ray has come to, and what it reflects along it.
+#[derive(Clone, Copy)]
+struct Met {
+    leg: u32,
+    surface: SurfacePoint,
+    reflectance: Rgb,
+    /// Whether nothing specular was between.
+    straight: bool,
+}
+
+/// A place on the level gathered over, and the vertices and weights there.
+#[derive(Clone, Copy)]
+struct Located {
+    place: Place,
+    corners: [(u32, f64); 3],
+}
+
+/// The end of a ray.
+struct End {
+    surface: SurfacePoint,
+    located: Option<Located>,
+    distance_m: f64,
+    /// Whether the map tells little there, so close to where the ray starts.
+    is_close: bool,
+    /// How far the ray has come if it starts in a gap.
+    out_of_gap_m: Option<f64>,
+}
+
+/// What a surface is to a gathering ray.
+enum Side {
+    /// It reflects.
+    Lit(Rgb),
+    /// It could be lit, but reflects nothing diffusely.
+    Black,
+    /// It is the black back of something: nothing is ever lit there.
+    Closed,
+}
+
+impl Row {
+    /// With what is known of about the receiver.
+    fn after(about: Option<Option<About>>) -> Self {
+        Self { about, ..Self::default() }
+    }
+}
+
+impl Gathering<'_> {
+    /// Traces the rays of all receivers; `key_of` gives each its random numbers.
+    pub(crate) fn operator(
+        &self,
+        gatherers: &[Gatherer],
+        key_of: impl Fn(usize) -> Key + Sync,
+    ) -> Operator {
+        let whole = self.operator_until(Deadline::NEVER, gatherers, key_of);
+        whole.expect("without a deadline nothing is given up")
+    }
+
+    /// The same; `None` if the deadline passes meanwhile.
+    pub(crate) fn operator_until(
+        &self,
+        deadline: Deadline,
+        gatherers: &[Gatherer],
+        key_of: impl Fn(usize) -> Key + Sync,
+    ) -> Option<Operator> {
+        let size = gatherers.len().div_ceil(FEWEST_CHUNKS).clamp(LEAST_CHUNK, CHUNK);
+        let chunk = |(index, part): (usize, &[Gatherer])| {
+            if deadline.has_passed() {
+                return None;
+            }
+            let mut rows = Rows::default();
+            rows.entries.reserve(part.iter().map(|g| g.rays as usize).sum());
+            let (mut row, mut wave) = (Row::default(), Wave::default());
+            for (k, gatherer) in part.iter().enumerate() {
+                // Readers have many rows of one place.
+                let before = k.checked_sub(1).map(|k| &part[k]);
+                let about = row.about.filter(|_| before.is_some_and(|b| b.is_at(gatherer)));
+                row = Row::after(about);
+                let key = key_of(index * size + k);
+                self.row(gatherer, key, (&mut row, &mut wave), &mut rows);
+            }
+            Some(rows)
+        };
+        let chunks: Option<Vec<Rows>> = gatherers.par_chunks(size).enumerate().map(chunk).collect();
+        let chunks = chunks?;
+        let further: u64 = chunks.iter().map(|rows| rows.further_rays).sum();
+        let rays = gatherers.iter().map(|g| u64::from(g.rays)).sum::<u64>() + further;
+        let receivers = gatherers.iter().filter(|g| g.rays > 0).count();
+        Some(Operator { chunks, receivers, rays })
+    }
+
+    fn row(
+        &self,
+        gatherer: &Gatherer,
+        key: Key,
+        (row, wave): (&mut Row, &mut Wave),
+        rows: &mut Rows,
+    ) {
+        let sequence = Sequence::new(key);
+        let Gatherer { origin, normal, rays, in_gap, .. } = *gatherer;
+        let behind = gatherer.behind.filter(|_| rays > 0).zip(self.backdrop);
+        let bright = self.bright.and_then(|bright| bright.seen_from(origin, normal, rays));
+        let receiver = Receiver { place: &gatherer.surface, bright: bright.as_ref() };
+        let share = Rgb::WHITE / f64::from(rays.max(1));
+        let walls =
+            behind.map_or(Vec::new(), |(_, backdrop)| backdrop.seen_from(&gatherer.stand()));
+        row.lacking = behind.map_or(Rgb::BLACK, |(whole, _)| whole);
+        let triangle = gatherer.surface.triangle;
+        let first = Leg { origin, triangle, normal, share, in_gap, ray: 0 };
+        for start in (0..rays).step_by(TOGETHER as usize) {
+            let some = start..rays.min(start + TOGETHER);
+            wave.legs.clear();
+            wave.legs.extend((0..some.len() as u32).map(|ray| Leg { ray, ..first }));
+            wave.dice.clear();
+            wave.dice.extend(some.map(|index| Dice::new(sequence, index)));
+            for number in 0..=LOST_IN_GAP {
+                self.trace(wave, row, rows);
+                if number == 0 {
+                    row.lacking += control_variate::lacking(&walls, &wave.directions) * share;
+                }
+                self.locate(wave);
+                self.read(&receiver, number, (row, wave), rows);
+                if wave.legs.is_empty() {
+                    break;
+                }
+            }
+        }
+        if let Some(bright) = &bright {
+            let sequence = Sequence::new(key.with(SENT));
+            for index in 0..bright.sent {
+                row.source += self.sent(&first, bright, &mut Dice::new(sequence, index), rows);
+            }
+            rows.further_rays += u64::from(bright.sent);
+        }
+        rows.end_row([row.source, row.lacking], row.open, row.close);
+    }
+
+    /// Finds the diffuse surfaces that rays come to.
+    fn trace(&self, wave: &mut Wave, row: &mut Row, rows: &mut Rows) {
+        let Wave { dice, legs, directions, rays, hits, met, .. } = wave;
+        directions.clear();
+        directions.extend(legs.iter().map(|leg| {
+            let local = CosineHemisphere::sample(dice[leg.ray as usize].pair());
+            leg.normal.to_direction().from_local(local)
+        }));
+        rays.clear();
+        let begun = legs.iter().zip(&*directions);
+        rays.extend(begun.map(|(l, &d)| Ray::new(l.origin, d).skipping(l.triangle)));
+        hits.clear();
+        hits.resize(rays.len(), None);
+        self.scene.bvh().closest_hits(rays, hits);
+        met.clear();
+        for (k, leg) in legs.iter().enumerate() {
+            let dice = &mut dice[leg.ray as usize];
+            let note = |number: u32, at: &SurfacePoint, finish: &Finish, throughput: Rgb| match self
+                .side(at, finish, throughput)
+            {
+                Side::Lit(reflectance) => {
+                    let (leg, straight) = (k as u32, number == 0);
+                    met.push(Met { leg, surface: *at, reflectance, straight });
+                }
+                Side::Black => row.open = true,
+                Side::Closed => {}
+            };
+            match follow_on(self.scene, hits[k], directions[k], dice, note) {
+                PathEnd::Left => row.open = true,
+                PathEnd::Absorbed => {}
+                PathEnd::GivenUp(share) => rows.given_up += share * leg.share.luminance(),
+            }
+        }
+    }
+
+    /// Finds where those surfaces are on the level gathered over.
+    fn locate(&self, wave: &mut Wave) {
+        let Wave { met, places, located, .. } = wave;
+        places.clear();
+        places.extend(met.iter().map(|met| {
+            let SurfacePoint { triangle, back, u, v, .. } = met.surface;
+            self.elements.place(self.level, triangle, back, [u, v])
+        }));
+        // What is known of them lies far apart in memory: all is asked for at once.
+        located.clear();
+        located.extend(places.iter().map(|place| place.map(|place| self.located(place))));
+    }
+
+    /// Reads the light there, or has the rays go on.
+    fn read(
+        &self,
+        receiver: &Receiver<'_>,
+        number: u32,
+        (row, wave): (&mut Row, &mut Wave),
+        rows: &mut Rows,
+    ) {
+        let Wave { dice, legs, met, located, shadows, next, .. } = wave;
+        next.clear();
+        for (met, &located) in met.iter().zip(&*located) {
+            let leg = &legs[met.leg as usize];
+            let share = met.reflectance * leg.share;
+            let end = self.end(leg, met.surface, located);
+            let dice = &mut dice[leg.ray as usize];
+            let spot = self.bright.and_then(|bright| bright.at(&end.surface));
+            let is_evaluated = spot.is_some() || matches!(self.direct, DirectAtEnds::Evaluated);
+            // What rays that are sent there find, too.
+            let beside_sent = spot.filter(|_| met.straight).map_or(1.0, |spot| {
+                let seen = if number == 0 { None } else { self.bright_from(leg) };
+                let seen = if number == 0 { receiver.bright } else { seen.as_ref() };
+                seen.map_or(1.0, |seen| seen.share(spot, &end.surface))
+            });
+            let of_direct = share * beside_sent;
+            row.source += if is_evaluated {
+                self.lighting.estimate_later(&end.surface, of_direct, dice, shadows)
+            } else {
+                of_direct * self.direct_at(&end, receiver.place, &mut row.about, dice)
+            };
+            let goes_on = |share: Rgb, in_gap: bool| Leg {
+                origin: end.surface.start(),
+                triangle: end.surface.triangle,
+                normal: end.surface.shading,
+                share,
+                in_gap,
+                ray: leg.ray,
+            };
+            if end.is_close && number < REGATHERED {
+                let in_gap = leg.in_gap && self.is_in_gap(&end.surface, end.distance_m);
+                let leg = goes_on(share, in_gap);
+                row.source += self.sent_on(&leg, dice, rows);
+                next.push(leg);
+            } else if let Some(entry) = located.and_then(|l| self.entry(&l, end.out_of_gap_m)) {
+                row.close += if end.is_close { share.luminance() } else { 0.0 };
+                if end.is_close || bright_surfaces::sent_alone(beside_sent).is_none() {
+                    rows.push(entry, share.0.map(|c| c as f32));
+                }
+            } else if self.is_lost(&end) && number < LOST_IN_GAP {
+                let survival = met.reflectance.max_channel().min(1.0);
+                if dice.pair()[0] < survival {
+                    let leg = goes_on(share / survival, true);
+                    row.source += self.sent_on(&leg, dice, rows);
+                    next.push(leg);
+                }
+            }
+        }
+        row.source += self.lighting.answer(shadows);
+        rows.further_rays += next.len() as u64;
+        std::mem::swap(legs, next);
+    }
+
+    /// What is bright as seen from where a ray goes on.
+    fn bright_from(&self, leg: &Leg) -> Option<bright_surfaces::Seen<'_>> {
+        self.bright.and_then(|bright| bright.seen_from(leg.origin, leg.normal, 1))
+    }
+
+    /// What is found of it from there.
+    fn sent_on(&self, leg: &Leg, dice: &mut Dice, rows: &mut Rows) -> Rgb {
+        let Some(bright) = self.bright_from(leg) else { return Rgb::BLACK };
+        rows.further_rays += u64::from(bright.sent);
+        (0..bright.sent).map(|_| self.sent(leg, &bright, dice, rows)).sum()
+    }
+
+    /// A ray to what is bright: what comes there straight from luminaires, and what is read there where others seldom come; close by, where
+    /// others go on, the former alone.
+    fn sent(
+        &self,
+        leg: &Leg,
+        bright: &bright_surfaces::Seen<'_>,
+        dice: &mut Dice,
+        rows: &mut Rows,
+    ) -> Rgb {
+        let [pick, within] = [dice.pair(), dice.pair()];
+        let Some((to, spot)) = bright.draw((self.scene, leg.triangle), pick, within) else {
+            return Rgb::BLACK;
+        };
+        let Some(finish) = self.scene.material(to.triangle).finish(to.back) else {
+            return Rgb::BLACK;
+        };
+        let Side::Lit(reflectance) = self.side(&to, finish, Rgb::WHITE) else { return Rgb::BLACK };
+        let reflected = leg.share * reflectance;
+        let beside_others = bright.share(spot, &to);
+        let place = self.elements.place(self.level, to.triangle, to.back, [to.u, to.v]);
+        let located = place.map(|place| self.located(place));
+        let end = self.end(leg, to, located);
+        let entry = located.and_then(|l| self.entry(&l, end.out_of_gap_m));
+        let alone = bright_surfaces::sent_alone(beside_others).filter(|_| !end.is_close);
+        if let Some((entry, alone)) = entry.zip(alone) {
+            rows.push(entry, (reflected * alone).0.map(|c| c as f32));
+        }
+        reflected * beside_others * self.lighting.estimate(&end.surface, dice)
+    }
+
+    /// The end of a ray at a place.
+    fn end(&self, leg: &Leg, surface: SurfacePoint, located: Option<Located>) -> End {
+        let distance_m = (surface.point - leg.origin).length();
+        let is_near =
+            |located: Located| distance_m <= self.edge_m(self.corners(&located, u32::MAX));
+        let is_close = self.regathers && located.is_some_and(is_near);
+        let out_of_gap_m = leg.in_gap.then_some(distance_m);
+        End { surface, located, distance_m, is_close, out_of_gap_m }
+    }
+
+    fn located(&self, place: Place) -> Located {
+        Located { place, corners: self.elements.corners(place) }
+    }
+
+    /// Vertices and weights of a place on that level or a finer one.
+    fn corners(&self, of: &Located, level: u32) -> [(u32, f64); 3] {
+        if level == self.level {
+            return of.corners;
+        }
+        self.elements.corners(self.elements.below(of.place, level))
+    }
+
+    /// Whether a ray from within a gap may still be in it.
+    fn is_in_gap(&self, at: &SurfacePoint, distance_m: f64) -> bool {
+        distance_m < nearby::NEAR * nearby::edge_at_m(self.elements, at)
+    }
+
+    /// Whether nothing is known of the gap that a ray has ended in.
+    fn is_lost(&self, end: &End) -> bool {
+        let Some((from_m, located)) = end.out_of_gap_m.zip(end.located) else { return false };
+        let may_be_in_gap = from_m < nearby::NEAR * self.edge_m(located.corners);
+        may_be_in_gap && weights_in_gap(located.corners, self.standings).is_none()
+    }
+
+    /// Whether values differ so much over the element at an end nearby that they tell little of what is between, or may.
+    fn is_uneven(&self, end: &End, values: &[Rgb], varying: Option<&[bool]>) -> bool {
+        let Some(located) = end.located else { return false };
+        let corners = self.corners(&located, u32::MAX);
+        if end.distance_m > NEARBY * self.edge_m(corners) {
+            return false;
+        }
+        if varying.is_some_and(|varying| varying[located.place.node() as usize]) {
+            return true;
+        }
+        let all = corners.map(|(vertex, _)| values[vertex as usize].luminance());
+        let high = all.into_iter().fold(0.0, f64::max);
+        let low = all.into_iter().fold(high, f64::min);
+        high - low > UNEVEN * high
+    }
+
+    fn direct_at(
+        &self,
+        end: &End,
+        receiver: &SurfacePoint,
+        about: &mut Option<Option<About>>,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let read = |values: &[Rgb], level: u32| {
+            let corners = end.located.map(|located| self.corners(&located, level));
+            let known = corners.and_then(|corners| self.known(corners, end.out_of_gap_m));
+            known.map_or(Rgb::BLACK, |corners| {
+                corners.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
+            })
+        };
+        let is_known = !self.is_lost(end);
+        match self.direct {
+            DirectAtEnds::Evaluated => self.lighting.estimate(&end.surface, dice),
+            DirectAtEnds::Read { values, level } if is_known => read(values, level),
+            DirectAtEnds::ReadFarOff { values, varying } if is_known && !end.is_close => {
+                if self.is_uneven(end, values, varying) {
+                    return self.lighting.estimate(&end.surface, dice);
+                }
+                read(values, u32::MAX)
+            }
+            DirectAtEnds::Read { .. } | DirectAtEnds::ReadFarOff { .. } => {
+                let about = about.get_or_insert_with(|| {
+                    self.lighting.about(receiver.point, nearby::edge_at_m(self.elements, receiver))
+                });
+                match about {
+                    Some(about) => self.lighting.estimate_by(about, &end.surface, dice),
+                    None => self.lighting.estimate(&end.surface, dice),
+                }
+            }
+        }
+    }
+
+    fn side(&self, surface: &SurfacePoint, finish: &Finish, throughput: Rgb) -> Side {
+        if surface.back && *finish == Finish::BLACK {
+            return Side::Closed;
+        }
+        let SurfacePoint { triangle, u, v, .. } = *surface;
+        let reflectance = throughput * self.scene.diffuse_reflectance(finish, triangle, u, v);
+        if reflectance.is_black() { Side::Black } else { Side::Lit(reflectance) }
+    }
+
+    /// The entry for an end, over the known vertices of its element; `None` if there is none.
+    fn entry(&self, at: &Located, out_of_gap_m: Option<f64>) -> Option<Entry> {
+        let cut = self.cuts.and_then(|cuts| cuts.of_node(at.place.node()));
+        // Beyond a cut nothing of this side is seen, whether anything is known there or not.
+        let corners = match cut {
+            Some(cut) => known_on_side(at.corners, self.standings, cut),
+            None => self.known(at.corners, out_of_gap_m),
+        }?;
+        Some(Entry {
+            vertices: corners.map(|(vertex, _)| vertex),
+            weights: corners.map(|(_, weight)| weight as f32),
+        })
+    }
+
+    /// Vertices and weights of a place, over the known ones; for a ray that has come so far from within a
+    /// gap, over those in gaps as long as it may still be there.
+    fn known(
+        &self,
+        corners: [(u32, f64); 3],
+        out_of_gap_m: Option<f64>,
+    ) -> Option<[(u32, f64); 3]> {
+        let weights = if out_of_gap_m.is_some_and(|m| m < nearby::NEAR * self.edge_m(corners)) {
+            weights_in_gap(corners, self.standings)?
+        } else {
+            known_weights(corners, self.standings)?
+        };
+        Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
+    }
+
+    /// Longest edge of the element of some corners, m.
+    fn edge_m(&self, corners: [(u32, f64); 3]) -> f64 {
+        nearby::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex))
+    }
+}

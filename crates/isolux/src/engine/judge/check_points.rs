@@ -1,0 +1,519 @@
+//! Check points: how wrong interpolation is, measured.
+//!
+//! At random places of the surfaces each increment gathers afresh and compares with its own map,
+//! interpolated. The mean difference over increments is the discretization error there, with a
+//! known variance that is subtracted: an unbiased estimate of the squared error of the scene. Points are
+//! drawn by area, where details are large (most of the error lies in little of the area), where they are
+//! large among elements that readers trust, and in proportion to details for the sake of the mean error, a
+//! fourth each, and weighted accordingly.
+
+use super::seen_errors;
+use super::seen_errors::{Read, View, views};
+use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, known_at, known_on_side};
+use crate::engine::light::{Goal, Measured};
+use crate::engine::mesh::{LeafError, STRIPS, Trust};
+use crate::engine::occlusion::nearby;
+use crate::engine::plan::Plan;
+use crate::engine::ray::{Accumulator, Dice, Noise, Sample, Sums, SurfacePoint};
+use crate::sampling::{Key, Sequence};
+use crate::units::Rgb;
+use rayon::prelude::*;
+
+/// Check points: a part of the vertices that carry light, within limits.
+const SHARE: usize = 8;
+const FEWEST: usize = 256;
+const MOST: usize = 1024;
+
+/// Points of one task: some take a hundred times as long as others.
+const AT_ONCE: usize = 8;
+
+/// Squared errors of the map that interpolation may have where readers would else gather: in rooms with little indirect light it
+/// has no more than that everywhere, among furniture eight times as much and more. Where light is resolved, so many of what was asked for.
+const NOT_WORTH: f64 = 1.5;
+
+/// Rays that tell how much a reader reads close by.
+const CLOSE_RAYS: u32 = 16;
+
+/// A place where the map is checked.
+pub(crate) struct Check {
+    pub(crate) gatherer: Gatherer,
+    /// Vertices and weights of the indirect map there, over the known ones.
+    read: [(u32, f64); 3],
+    /// The same of the whole map.
+    fine: [(u32, f64); 3],
+    /// What rays read of the indirect map where that differs: where something stands across its element, which readers do not look for,
+    /// and where vertices gather for the bare map.
+    by_rays: Option<[(u32, f64); 3]>,
+    /// Surface that the point stands for, m2.
+    area_m2: f64,
+    /// Error expected of the element, lx.
+    expected_lx: f64,
+    /// Whether readers interpolate there if they trust its element: it has vertices in the open, and is no gap.
+    may_be_trusted: bool,
+    /// Whether something stands close before it.
+    is_beset: bool,
+    /// Whether light is resolved there: in rooms where it is towards walls, and nothing else stands close.
+    is_resolved: bool,
+    /// The strip before a wall that it lies in.
+    strip: usize,
+    /// The share of a unit of light that readers who gather there read close by all the same.
+    close: f64,
+    /// The longest edge of the element there, m.
+    edge_m: f64,
+    /// Whether rays read direct light, too.
+    reads_direct: bool,
+    /// Whether parts of its element are checked for caustics, whose noise they tell, too.
+    has_parts: bool,
+    /// What it shows and sees of others.
+    view: View,
+}
+
+/// All places where a map is checked, and what is summed there.
+pub(crate) struct Checks {
+    pub(crate) points: Vec<Check>,
+    pub(crate) sums: Accumulator,
+    /// What caustics lack in parts of elements.
+    pub(crate) lacking: Accumulator,
+}
+
+/// Direct light at the check points.
+pub(crate) struct DirectThere {
+    pub(crate) lx: Vec<Rgb>,
+    /// Variance of readings of it, in the mean over the surface, that increments do not tell, as all have the same; lx2.
+    pub(crate) noise_lx2: f64,
+    /// Of the map whose readings these are.
+    accuracy: f64,
+}
+
+impl DirectThere {
+    /// The same with other random numbers.
+    pub(crate) fn again(&self, plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
+        direct(plan, checks, self.accuracy, key).lx
+    }
+}
+
+/// Errors beyond noise, lx: of interpolation over the surface, root mean squares and the signed
+/// mean; and of paths given up.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct InterpolationErrors {
+    /// Of the indirect part, where readers interpolate it.
+    pub(crate) indirect_lx: f64,
+    /// What of it lies in caustics and is told at the vertices there.
+    pub(crate) caustics_lx: f64,
+    /// The same where they do not.
+    pub(crate) untrusted_lx: f64,
+    /// What is read close by there of a unit of light, root mean square over all the surface.
+    pub(crate) close: f64,
+    /// Of direct and indirect together, in gaps and all: of the bare map.
+    pub(crate) total_lx: f64,
+    /// Mean of the indirect error, with its sign and standard error.
+    pub(crate) indirect_mean_lx: f64,
+    /// What of it lies where readers interpolate, likewise.
+    pub(crate) trusted_mean_lx: f64,
+    /// What arrives of errors that rays read from afar: its mean over the surface, with its sign.
+    pub(crate) seen_mean_lx: f64,
+    /// By how much that differs from place to place, root mean square.
+    pub(crate) seen_spread_lx: f64,
+    /// Mean of the interpolation error of direct light, with its sign.
+    pub(crate) direct_mean_lx: f64,
+    /// What paths given up would bring in the mean, before it is reflected.
+    pub(crate) given_up_lx: f64,
+    /// Of what is read over the surface, by the spread of increments; `None` where it was not looked
+    /// at.
+    pub(crate) noise_lx: Option<f64>,
+    /// By how much more elements err than expected; `None` where nobody looked.
+    pub(crate) over_expected: Option<f64>,
+    /// The same of each strip before walls.
+    pub(crate) over_in_strips: [Option<f64>; STRIPS],
+}
+
+impl Checks {
+    /// All sums.
+    pub(crate) fn all(&self) -> Vec<Sums> {
+        [&self.sums, &self.lacking].iter().flat_map(|of| &of.sums).copied().collect()
+    }
+}
+
+/// Places in the sums: of differences first, then of what the map reads, then of differences of what rays read where
+/// that is something else.
+pub(crate) fn places(checks: &[Check], is_map_read_by_rays: bool) -> usize {
+    let is_read_alike = is_map_read_by_rays && !are_cut(checks);
+    if is_read_alike { 2 * checks.len() } else { 3 * checks.len() }
+}
+
+/// The light of vertices there, at every place in the sums, lx.
+pub(crate) fn about_lx(checks: &[Check], light: &[Rgb]) -> impl Iterator<Item = f64> {
+    let of = |check: &Check| {
+        check.fine.iter().map(|&(v, weight)| weight * light[v as usize].luminance()).sum::<f64>()
+    };
+    (0..3).flat_map(move |_| checks.iter().map(of))
+}
+
+/// Whether rays read something else than readers anywhere.
+fn are_cut(checks: &[Check]) -> bool {
+    checks.iter().any(|check| check.by_rays.is_some())
+}
+
+/// How many there are for so many vertices that carry light.
+pub(crate) fn count(carriers: usize) -> usize {
+    (carriers / SHARE).clamp(FEWEST, MOST)
+}
+
+/// Draws the check points of a plan.
+pub(crate) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
+    let errors = &plan.indirect_errors;
+    let count = count(plan.carriers.count(plan.indirect_vertices));
+    let area: f64 = errors.iter().map(|e| e.area_m2).sum();
+    let squared: f64 = errors.iter().map(|e| e.squared()).sum();
+    let whole: f64 = errors.iter().map(|e| e.error * e.area_m2).sum();
+    let is_trusted = |e: &LeafError| plan.trust().includes(e.error, e.is_beset);
+    let trusted = errors.iter().filter(|e| is_trusted(e)).map(|e| e.squared()).sum::<f64>();
+    // Density of the draw over elements: an even mixture of area, squared error, squared error where the map
+    // is trusted, and error, which tells the mean best (Kahn and Marshall 1953: with the signs unknown).
+    let density = |k: usize| {
+        let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
+        let own = errors[k].squared();
+        let own_trusted = if is_trusted(&errors[k]) { own } else { 0.0 };
+        share(errors[k].area_m2, area)
+            + share(own, squared)
+            + share(own_trusted, trusted)
+            + share(errors[k].error * errors[k].area_m2, whole)
+    };
+    let mut sums = Vec::with_capacity(errors.len());
+    let mut sum = 0.0;
+    for k in 0..errors.len() {
+        sum += density(k);
+        sums.push(sum);
+    }
+    let sequence = Sequence::new(key);
+    let one = |index: usize| {
+        let mut dice = Dice::new(sequence, index as u32);
+        let [pick, _] = dice.pair();
+        // Stratified: one point in each of `count` equal parts.
+        let at = (index as f64 + pick) / count as f64 * sum;
+        let k = sums.partition_point(|&s| s <= at).min(errors.len() - 1);
+        let surface =
+            SurfacePoint::in_node(plan.scene, &plan.subdivision, errors[k].node, dice.pair());
+        let area_m2 = errors[k].area_m2 / (count as f64 * density(k) / sum);
+        check(plan, Gatherer::on_surface(surface, rays), area_m2, &errors[k])
+    };
+    let mut checks: Vec<Check> = (0..count).into_par_iter().filter_map(one).collect();
+    let is_gathered = |check: &Check| !check.is_trusted(plan.trusts.least());
+    let rows = checks.iter().filter(|check| is_gathered(check));
+    let rows: Vec<Gatherer> = rows.map(|c| c.gatherer.with_rays(CLOSE_RAYS)).collect();
+    // Where rays go is asked, not what comes along them.
+    let direct = DirectAtEnds::Read { values: &plan.direct, level: u32::MAX };
+    let gathering = Gathering { regathers: true, direct, ..Gathering::of(plan, &plan.direct) };
+    let operator = gathering.operator(&rows, |k| key.with(1).with(k as u64));
+    let gathered = checks.iter_mut().filter(|check| is_gathered(check));
+    gathered.zip(operator.close()).for_each(|(check, close)| check.close = close);
+    let places: Vec<Read> = checks.iter().map(Check::as_read).collect();
+    checks.iter_mut().zip(views(plan.scene, &places)).for_each(|(check, view)| check.view = view);
+    checks
+}
+
+/// The same for light that no rays read from the map.
+pub(crate) fn draw_for_map(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
+    let as_map = |check| Check { by_rays: None, ..check };
+    draw(plan, rays, key).into_iter().map(as_map).collect()
+}
+
+fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Option<Check> {
+    let weights = |level: u32| known_at(&plan.elements, level, &plan.standings, &gatherer.surface);
+    // As readers interpolate, who do not look for what stands across elements: rays, who do, err less.
+    let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
+    let edge_m = nearby::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
+    let is_beset = nearby::is_beset(plan.scene, &gatherer.surface, edge_m);
+    let in_gap = is_beset && nearby::is_closed_in(plan.scene, &gatherer.surface, edge_m);
+    let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
+    let expected_lx = of.error;
+    let is_beset = is_beset || of.is_beset_afar;
+    let may_be_trusted = reads_open && !in_gap;
+    let mut gatherer = gatherer.in_gap(in_gap);
+    gatherer.behind = plan.backdrop.as_ref().and_then(|b| b.behind(plan.scene, &gatherer.stand()));
+    let reads_direct = plan.lighting.are_read_at_ends();
+    let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
+    let node = plan.elements.place(plan.level, triangle, back, [u, v]).map(|place| place.node());
+    let has_parts = node.is_some_and(|node| plan.parts.has(node));
+    let cut = node.and_then(|node| plan.cuts.of_node(node));
+    let on_side = cut.and_then(|cut| {
+        let corners = plan.elements.locate_above(plan.level, triangle, back, u, v)?;
+        // Beyond a cut they read nothing where nothing is known.
+        let none = corners.map(|(vertex, _)| (vertex, 0.0));
+        Some(known_on_side(corners, &plan.standings, cut).unwrap_or(none))
+    });
+    // Readers read what vertices have gathered for the bare map, rays do not.
+    let is_alike = plan.gathering_for_bare.is_empty();
+    let (by_rays, read) =
+        if is_alike { (on_side, coarse) } else { (on_side.or(Some(coarse)), fine) };
+    let (close, view) = (0.0, View::default());
+    let place = Check {
+        gatherer,
+        read,
+        fine,
+        by_rays,
+        area_m2,
+        expected_lx,
+        may_be_trusted,
+        is_beset,
+        is_resolved: plan.resolves_walls && (of.is_at_wall || !is_beset),
+        strip: plan.strip(fine.iter().map(|&(vertex, _)| vertex)),
+        close,
+        edge_m,
+        reads_direct,
+        has_parts,
+        view,
+    };
+    Some(place)
+}
+
+impl Check {
+    /// Whether readers with such trust interpolate there.
+    fn is_trusted(&self, trust: Trust) -> bool {
+        self.may_be_trusted && trust.includes(self.expected_lx, self.is_beset)
+    }
+
+    /// As rays read it.
+    const fn as_read(&self) -> Read {
+        let Self { gatherer, edge_m, area_m2, .. } = *self;
+        Read { surface: gatherer.surface, edge_m, area_m2 }
+    }
+}
+
+/// Direct light at the check points, as readings of a map of such an accuracy evaluate it; `key` only matters where it has noise.
+pub(crate) fn direct(plan: &Plan, checks: &[Check], accuracy: f64, key: Key) -> DirectThere {
+    let sequence = |k: usize| Sequence::new(key.with(k as u64));
+    let reading = Goal::reading(accuracy);
+    // What counts is the error of the scene: in the dark a small share of its light will do.
+    let goal = Goal { lx: reading.share * plan.reference_lx, ..reading };
+    let one = |(k, check): (usize, &Check)| {
+        plan.lighting.measured(&check.gatherer.surface, goal, sequence(k))
+    };
+    let measured: Vec<Measured> =
+        checks.par_iter().with_max_len(AT_ONCE).enumerate().map(one).collect();
+    let is_told = plan.lighting.is_measured_once() && !checks.is_empty();
+    let noise = || {
+        let of_each = checks.iter().zip(&measured).map(|(check, m)| check.area_m2 * m.variance);
+        of_each.sum::<f64>() / area_m2(checks)
+    };
+    let noise_lx2 = if is_told { noise() } else { 0.0 };
+    DirectThere { lx: measured.iter().map(|m| m.lx).collect(), noise_lx2, accuracy }
+}
+
+/// What one increment adds to the sums: `fresh` is what was gathered at the points, `direct` what luminaires give
+/// there, then the increment's map: direct light, caustics and indirect light. `lookups` is by what rays
+/// that end there would be wrong, where they do not read the map.
+pub(crate) fn samples(
+    checks: &[Check],
+    (fresh, fresh_direct): (&[Rgb], &[Rgb]),
+    [direct, caustic, indirect]: [&[Rgb]; 3],
+    lookups: Option<&[Rgb]>,
+) -> Vec<Sample> {
+    let read = |values: &[Rgb], at: &[(u32, f64); 3]| -> Rgb {
+        at.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
+    };
+    let readings = checks.iter().zip(fresh_direct).map(|(check, &direct)| Sample {
+        direct,
+        caustic: read(caustic, &check.fine),
+        indirect: read(indirect, &check.read),
+        passed_on: 0.0,
+    });
+    let difference = |k: usize, of: &[(u32, f64); 3]| {
+        let hidden = fresh[k].is_black() && fresh_direct[k].is_black();
+        if hidden {
+            return Sample::default();
+        }
+        Sample {
+            direct: read(direct, &checks[k].fine) - fresh_direct[k],
+            caustic: Rgb::BLACK,
+            indirect: read(indirect, of) - fresh[k],
+            passed_on: 0.0,
+        }
+    };
+    let differences = checks.iter().enumerate().map(|(k, check)| difference(k, &check.read));
+    let by_rays = |(k, check): (usize, &Check)| match lookups {
+        Some(lookups) => Sample { indirect: lookups[k], ..Sample::default() },
+        // Neither rays nor views come to what is closed in.
+        None if check.gatherer.in_gap => Sample::default(),
+        None => difference(k, check.by_rays.as_ref().unwrap_or(&check.read)),
+    };
+    let is_asked = lookups.is_some() || are_cut(checks);
+    let by_rays = checks.iter().enumerate().filter(|_| is_asked).map(by_rays);
+    differences.chain(readings).chain(by_rays).collect()
+}
+
+/// The errors seen so far, of readers with such trust.
+pub(crate) fn errors(
+    sums: &Accumulator,
+    checks: &[Check],
+    (trust, noise_is): (Trust, Noise),
+) -> InterpolationErrors {
+    let area = area_m2(checks);
+    let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    // Of the mean: what lies where the map is trusted, and the variance of all of it.
+    let [mut expected, mut trusted_mean, mut of_mean] = [0.0; 3];
+    let [mut untrusted, mut close, mut share_untrusted] = [0.0; 3];
+    for (k, check) in checks.iter().enumerate() {
+        let estimate = sums.estimate(k);
+        let (indirect, share) = (estimate.mean.indirect.luminance(), check.area_m2 / area);
+        if check.is_trusted(trust) {
+            expected += share * check.expected_lx * check.expected_lx;
+            trusted_mean += share * indirect;
+        } else {
+            share_untrusted += share;
+            untrusted += share * (indirect * indirect - estimate.indirect_variance);
+            close += share * check.close * check.close;
+        }
+        let all = indirect + estimate.mean.direct.luminance();
+        let both = [(indirect, estimate.indirect_variance), (all, estimate.variance)];
+        for (part, (value, variance)) in both.into_iter().enumerate() {
+            // Neither rays nor readers of interpolated light come to what is closed in.
+            if !check.gatherer.in_gap {
+                mean[part] += share * value;
+                of_mean += if part == 0 { share * share * variance } else { 0.0 };
+            }
+            if part == 1 || check.is_trusted(trust) {
+                squared[part] += share * (value * value - variance);
+                // Variance of `value^2 - variance` for a normal value of mean zero.
+                spread[part] += share * share * 2.0 * variance * variance;
+            }
+        }
+    }
+    let root = |part: usize| noise_is.of_squared(squared[part], spread[part].sqrt()).sqrt();
+    let believed = |mean: f64| noise_is.of_mean(mean, of_mean.sqrt());
+    if sums.sums.len() > 2 * checks.len() {
+        mean = mean_by_rays(sums, checks, area);
+    }
+    let [seen_mean_lx, seen_spread_lx] = seen(sums, checks, noise_is);
+    InterpolationErrors {
+        indirect_lx: root(0),
+        total_lx: root(1),
+        indirect_mean_lx: believed(mean[0]),
+        trusted_mean_lx: believed(trusted_mean),
+        seen_mean_lx,
+        seen_spread_lx,
+        direct_mean_lx: mean[1] - mean[0],
+        untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
+        close: close.sqrt(),
+        noise_lx: (!checks.is_empty()).then(|| (noise_of_readings(sums, checks) / area).sqrt()),
+        over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),
+        over_in_strips: over_in_strips(sums, checks, (trust, noise_is)),
+        ..InterpolationErrors::default()
+    }
+}
+
+/// Means of what rays read wrongly, of indirect light and of all, where that is something else than readers do: all of it, whichever
+/// light is read there.
+fn mean_by_rays(sums: &Accumulator, checks: &[Check], area_m2: f64) -> [f64; 2] {
+    let mut mean = [0.0; 2];
+    for (k, check) in checks.iter().enumerate() {
+        let read = sums.estimate(2 * checks.len() + k).mean;
+        let indirect = read.indirect.luminance();
+        mean[0] += check.area_m2 / area_m2 * indirect;
+        mean[1] += check.area_m2 / area_m2 * (indirect + read.direct.luminance());
+    }
+    mean
+}
+
+/// By how much more than expected elements err in every strip before walls, as far as readers with such trust interpolate there.
+fn over_in_strips(
+    sums: &Accumulator,
+    checks: &[Check],
+    (trust, noise_is): (Trust, Noise),
+) -> [Option<f64>; STRIPS] {
+    let mut strips = [[0.0; 3]; STRIPS];
+    for (k, check) in checks.iter().enumerate().filter(|(_, check)| check.is_trusted(trust)) {
+        let (own_m2, estimate) = (check.area_m2, sums.estimate(k));
+        let (error, variance) = (estimate.mean.indirect.luminance(), estimate.indirect_variance);
+        let [expected, squared, spread] = &mut strips[check.strip];
+        *expected += own_m2 * check.expected_lx * check.expected_lx;
+        *squared += own_m2 * (error * error - variance);
+        *spread += own_m2 * own_m2 * 2.0 * variance * variance;
+    }
+    strips.map(|[expected, squared, spread]| {
+        let seen = noise_is.of_squared(squared, spread.sqrt());
+        (expected > 0.0).then(|| (seen / expected).sqrt())
+    })
+}
+
+/// The surface that all points stand for.
+fn area_m2(checks: &[Check]) -> f64 {
+    checks.iter().map(|c| c.area_m2).sum()
+}
+
+/// Variance of what the map reads, summed over the surface, lx2 m2.
+fn noise_of_readings(sums: &Accumulator, checks: &[Check]) -> f64 {
+    (0..checks.len()).map(|k| checks[k].area_m2 * noise_of_reading(sums, checks, k)).sum()
+}
+
+/// The same at one of the points, but for caustics, of which parts tell.
+fn noise_of_reading(sums: &Accumulator, checks: &[Check], k: usize) -> f64 {
+    if checks[k].has_parts { 0.0 } else { sums.estimate(checks.len() + k).variance }
+}
+
+/// Whether to gather is worth while anywhere but in gaps: whether places that readers with such trust gather at would have, by noise
+/// and interpolation, more than [`NOT_WORTH`] times the squared error `goal_lx` where light is resolved, or `error_lx`, that of
+/// the map, elsewhere.
+pub(crate) fn is_gathering_worth_while(
+    sums: &Accumulator,
+    checks: &[Check],
+    trust: Trust,
+    [goal_lx, error_lx]: [f64; 2],
+) -> bool {
+    let errs = |resolved: bool, lx: f64| errs_where_gathered(sums, checks, (trust, resolved), lx);
+    errs(true, goal_lx) || errs(false, error_lx)
+}
+
+fn errs_where_gathered(
+    sums: &Accumulator,
+    checks: &[Check],
+    (trust, resolved): (Trust, bool),
+    error_lx: f64,
+) -> bool {
+    let is_asked = |k: &usize| {
+        let check = &checks[*k];
+        check.is_resolved == resolved && check.may_be_trusted && !check.is_trusted(trust)
+    };
+    let (mut area_m2, mut squared, mut spread) = (0.0, 0.0, 0.0);
+    for k in (0..checks.len()).filter(is_asked) {
+        let (own_m2, estimate) = (checks[k].area_m2, sums.estimate(k));
+        let (error, variance) = (estimate.mean.indirect.luminance(), estimate.indirect_variance);
+        area_m2 += own_m2;
+        squared += own_m2 * (error * error - variance + noise_of_reading(sums, checks, k));
+        spread += own_m2 * own_m2 * 2.0 * variance * variance;
+    }
+    Noise::Counted.of_squared(squared, spread.sqrt()) > NOT_WORTH * error_lx * error_lx * area_m2
+}
+
+/// What arrives of errors that rays read from afar: its mean, and by how much it differs from place to place.
+fn seen(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> [f64; 2] {
+    let area = area_m2(checks);
+    let reads_other_light = sums.sums.len() > 2 * checks.len();
+    let (mut errors, mut shares) = (Vec::new(), Vec::new());
+    let (mut mean, mut of_mean) = (0.0, 0.0);
+    for (k, check) in checks.iter().enumerate() {
+        let place = if reads_other_light { 2 * checks.len() + k } else { k };
+        let estimate = sums.estimate(place);
+        let (indirect, direct) = (estimate.mean.indirect, estimate.mean.direct);
+        // Neither rays nor views come to what is closed in.
+        let is_closed_in = check.gatherer.in_gap && !reads_other_light;
+        let (error, variance) = match check.reads_direct {
+            _ if is_closed_in => (0.0, 0.0),
+            true => ((indirect + direct).luminance(), estimate.variance),
+            false => (indirect.luminance(), estimate.indirect_variance),
+        };
+        let share = check.area_m2 / area;
+        mean += share * check.view.shown * error;
+        of_mean += (share * check.view.shown).powi(2) * variance;
+        shares.push(share);
+        errors.push(error);
+    }
+    let spread = match noise_is {
+        // A few hundred points tell its order and no more.
+        Noise::RuledOut => 0.0,
+        Noise::Counted | Noise::TakenOff => {
+            seen_errors::spread(shares.into_iter().zip(checks.iter().map(|c| &c.view)), &errors)
+        }
+    };
+    [noise_is.of_mean(mean, of_mean.sqrt()), spread]
+}

@@ -1,0 +1,18 @@
+//! How good a map is: its error by replicates, check points and details, the filter, and the bound of energy.
+
+mod accuracy;
+pub(crate) mod check_points;
+pub(crate) mod energy_bound;
+mod filter;
+mod seen_errors;
+mod verdict;
+
+pub(crate) use accuracy::{
+    BELIEVED_INCREMENTS, FEWEST_TO_MISS, Light, Pooled, accuracy, accuracy_of_map,
+    early_statistical,
+};
+pub(crate) use check_points::{Check, Checks, DirectThere, InterpolationErrors};
+#[cfg(test)]
+pub(crate) use energy_bound::{Allowed, allowed_lx};
+pub(crate) use filter::filter;
+pub(crate) use verdict::{Judged, OF_GOAL};

@@ -1,0 +1,114 @@
+//! What rays read wrongly, as other places see it.
+//!
+//! Check points tell what a map is wrong by where they lie. Rays do not see all of that alike: what lies below and
+//! behind things is hidden from nearly everywhere, and those that end close by gather again. Where elements reach from
+//! the open to below a cupboard, they are too bright there and too dark in the open, right in the mean and wrong for
+//! everyone who looks. And what is seen from one place is not what is seen from another. So every check point knows
+//! which share of its surroundings sees it from afar, and some of them, which others they see: as discs of the area
+//! that those stand for.
+
+use crate::ablation::without;
+use crate::engine::ray::{Feelers, SurfacePoint};
+use crate::sampling::Key;
+use crate::scene::Scene;
+use isolux_geometry::Ray;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
+/// Rays that tell from how much of its surroundings a place is seen.
+const FEELERS: usize = 16;
+static DIRECTIONS: LazyLock<Feelers<FEELERS>> = LazyLock::new(|| Feelers::of(Key::new(0).with(9)));
+
+/// One place in so many looks about. (Of 64 in the hall, what was seen differed from seed to seed by as much as it was.)
+const LOOKING: usize = 4;
+
+/// A place that rays read at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Read {
+    pub(crate) surface: SurfacePoint,
+    /// The longest edge of the element there: rays that have come less far gather again, m.
+    pub(crate) edge_m: f64,
+    /// The surface that it stands for, m2.
+    pub(crate) area_m2: f64,
+}
+
+/// What places see of each other.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct View {
+    /// Of a unit of light at the place, what arrives from afar elsewhere, in the mean over its surroundings.
+    pub(crate) shown: f64,
+    /// If it looks about: other places, and what arrives from them of a unit of light there.
+    seen: Option<Vec<(u32, f64)>>,
+}
+
+/// What each of some places sees and shows.
+pub(crate) fn views(scene: &Scene, places: &[Read]) -> Vec<View> {
+    let reflected: Vec<f64> =
+        places.iter().map(|place| place.surface.reflectance(scene).luminance()).collect();
+    let seen = |from: usize| {
+        let share = |at: &Read| share(&places[from], at);
+        let of = places.iter().zip(&reflected).map(|(at, reflected)| reflected * share(at));
+        let facing: Vec<(u32, f64)> = (0..).zip(of).filter(|(_, share)| *share > 0.0).collect();
+        let ray =
+            |k: u32| Ray::between(places[from].surface.start(), places[k as usize].surface.start());
+        let rays: Vec<Ray> = facing.iter().map(|&(k, _)| ray(k)).collect();
+        let mut are_hidden = vec![false; rays.len()];
+        scene.bvh().any_hits(&rays, &mut are_hidden);
+        let of = facing.into_iter().zip(are_hidden).filter(|(_, is_hidden)| !is_hidden);
+        of.map(|(seen, _)| seen).collect()
+    };
+    let view = |k: usize| View {
+        shown: if without("seen-errors") { 0.0 } else { reflected[k] * far(scene, &places[k]) },
+        seen: (k.is_multiple_of(LOOKING) && !without("seen-errors")).then(|| seen(k)),
+    };
+    (0..places.len()).into_par_iter().map(view).collect()
+}
+
+/// By how much what places see of errors differs from place to place, root mean square; each view is that of a share
+/// of the surface. Errors at different places are independent draws: products of two of them tell the square without
+/// their noise.
+pub(crate) fn spread<'a>(views: impl Iterator<Item = (f64, &'a View)>, errors: &[f64]) -> f64 {
+    let mut of_mean = vec![0.0; errors.len()];
+    let (mut squared, mut whole) = (0.0, 0.0);
+    for (share, seen) in views.filter_map(|(share, view)| Some((share, view.seen.as_ref()?))) {
+        let (mut sum, mut own) = (0.0, 0.0);
+        for &(k, weight) in seen {
+            let error = weight * errors[k as usize];
+            sum += error;
+            own += error * error;
+            of_mean[k as usize] += share * error;
+        }
+        squared += share * (sum * sum - own);
+        whole += share;
+    }
+    let mean: f64 = of_mean.iter().sum();
+    let own: f64 = of_mean.iter().map(|error| error * error).sum();
+    let squared = squared - (mean * mean - own) / whole;
+    if whole > 0.0 { (squared.max(0.0) / whole).sqrt() } else { 0.0 }
+}
+
+/// The share of its surroundings that sees a place from farther away than its element is long.
+fn far(scene: &Scene, place: &Read) -> f64 {
+    let at = &place.surface;
+    let axis = at.geometric;
+    let rays: [Ray; FEELERS] = std::array::from_fn(|k| {
+        DIRECTIONS.ray(k, (at.start(), axis, at.triangle)).up_to(place.edge_m as f32)
+    });
+    let mut are_hit = [false; FEELERS];
+    scene.bvh().any_hits(&rays, &mut are_hit);
+    are_hit.iter().filter(|&&is_hit| !is_hit).count() as f64 / FEELERS as f64
+}
+
+/// The share of what one place sees that another is, as a disc, if it is seen from afar and nothing is between.
+fn share(from: &Read, at: &Read) -> f64 {
+    let between = at.surface.point - from.surface.point;
+    let distance_m = between.length();
+    let there = from.surface.geometric.to_vector().dot(between);
+    let back = -at.surface.geometric.to_vector().dot(between);
+    if distance_m <= at.edge_m || there <= 0.0 || back <= 0.0 {
+        return 0.0;
+    }
+    let cosines = there * back / (distance_m * distance_m);
+    at.area_m2 * cosines / (PI * distance_m * distance_m + at.area_m2)
+}

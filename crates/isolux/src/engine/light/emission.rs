@@ -1,0 +1,339 @@
+//! Particles leaving luminaires in proportion to flux.
+
+use super::sources::LuminaireId;
+use crate::engine::ray::{Dice, SurfacePoint};
+use crate::sampling::CosineHemisphere;
+use crate::scene::{AreaLuminaire, Luminaire, LuminaireKind, Scene};
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Normal, Point, Ray};
+use std::f64::consts::PI;
+
+/// The least intensity that a luminaire is taken to have towards something as large as to reach into other directions, too, as a
+/// share of its mean.
+const LEAST_INTENSITY: f64 = 0.1;
+
+/// All luminaires of a scene as emitters of particles.
+pub(crate) struct Emission<'s> {
+    scene: &'s Scene,
+    /// Running sums of the fluxes, lm: luminaires without surface, then emitting surfaces.
+    sums_lm: Vec<f64>,
+    /// Running sums of the areas of the triangles of every emitting surface, m2.
+    sums_m2: Vec<Vec<f64>>,
+    /// Sphere around the scene, which parallel light has to cover.
+    centre: Point,
+    radius_m: f64,
+}
+
+impl Emitted {
+    /// Whether it has left an emitting surface.
+    pub(crate) const fn is_of_surface(&self) -> bool {
+        self.normal.is_some()
+    }
+}
+
+/// A particle as it leaves.
+pub(crate) struct Emitted {
+    pub(crate) ray: Ray,
+    pub(crate) direction: Direction,
+    pub(crate) luminaire: LuminaireId,
+    /// Flux it carries, of photometric value one.
+    pub(crate) colour: Rgb,
+    /// Of the surface that it leaves.
+    normal: Option<Normal>,
+}
+
+impl<'s> Emission<'s> {
+    /// `None` where there is no light.
+    pub(crate) fn new(scene: &'s Scene) -> Option<Self> {
+        let (low, high) = scene.bvh().mesh().bounds()?;
+        let radius_m = 0.5 * (high - low).length() * (1.0 + 1e-3);
+        let points = scene.luminaires().iter().map(|luminaire| {
+            let white = match &luminaire.kind {
+                LuminaireKind::Point { intensity, .. } => intensity.luminous_flux_lm(),
+                LuminaireKind::Directional { illuminance_lx, .. } => {
+                    illuminance_lx * PI * radius_m * radius_m
+                }
+            };
+            white * luminaire.colour.luminance()
+        });
+        let areas = scene.area_luminaires().iter().map(AreaLuminaire::luminous_flux_lm);
+        let mut sum = 0.0;
+        let sums_lm: Vec<f64> = points
+            .chain(areas)
+            .map(|lm| {
+                sum += lm;
+                sum
+            })
+            .collect();
+        if sum <= 0.0 {
+            return None;
+        }
+        let sums_m2 = scene.area_luminaires().iter().map(|area| sums_m2(scene, area)).collect();
+        Some(Self { scene, sums_lm, sums_m2, centre: low.lerp(high, 0.5), radius_m })
+    }
+
+    /// Flux of all, lm.
+    pub(crate) fn flux_lm(&self) -> f64 {
+        self.sums_lm.last().copied().unwrap_or(0.0)
+    }
+
+    /// One particle; `None` where a distribution has no flux after all.
+    pub(crate) fn emit(&self, dice: &mut Dice) -> Option<Emitted> {
+        let [pick, other] = dice.pair();
+        let square = dice.pair();
+        let place = dice.pair();
+        let number = self.sums_lm.partition_point(|&sum| sum <= pick * self.flux_lm());
+        self.emit_from(number.min(self.sums_lm.len() - 1), other, square, place)
+    }
+
+    /// One particle of a luminaire: from a part of it, and for points of the unit square a direction and a place.
+    pub(crate) fn emit_from(
+        &self,
+        number: usize,
+        other: f64,
+        square: [f64; 2],
+        place: [f64; 2],
+    ) -> Option<Emitted> {
+        let luminaire = match self.luminaire(number) {
+            Emitter::Surface(area) => {
+                let start = self.start(number, area, other, place);
+                let direction =
+                    start.normal.to_direction().from_local(CosineHemisphere::sample(square));
+                return Some(self.leave(number, area, &start, direction));
+            }
+            Emitter::Other(luminaire) => luminaire,
+        };
+        let (origin, direction) = match &luminaire.kind {
+            LuminaireKind::Point { position, world_from_luminaire, intensity } => {
+                let local = intensity.sample(square)?;
+                (*position, world_from_luminaire.vector(local.to_vector()).direction()?)
+            }
+            LuminaireKind::Directional { direction, .. } => {
+                (self.on_disc(*direction, place), *direction)
+            }
+        };
+        Some(self.sent(number, luminaire, origin, direction))
+    }
+
+    /// A ray from a place of an emitting surface, told by its number among all luminaires, cosine-distributed.
+    pub(crate) fn leaving(
+        &self,
+        number: usize,
+        pick: f64,
+        place: [f64; 2],
+        square: [f64; 2],
+    ) -> Option<Ray> {
+        let Emitter::Surface(area) = self.luminaire(number) else { return None };
+        let start = self.start(number, area, pick, place);
+        let direction = start.normal.to_direction().from_local(CosineHemisphere::sample(square));
+        Some(self.leave(number, area, &start, direction).ray)
+    }
+
+    /// How much of all particles lands where luminaires without surface bring so much light straight, 1/m2.
+    pub(crate) fn landing(&self, direct_lx: Rgb) -> f64 {
+        direct_lx.luminance() / self.flux_lm()
+    }
+
+    /// How many luminaires there are; they have numbers, emitting surfaces the last.
+    pub(crate) const fn count(&self) -> usize {
+        self.sums_lm.len()
+    }
+
+    /// The part of all flux that is a luminaire's.
+    pub(crate) fn part(&self, number: usize) -> f64 {
+        let before = number.checked_sub(1).map_or(0.0, |before| self.sums_lm[before]);
+        (self.sums_lm[number] - before) / self.flux_lm()
+    }
+
+    /// One particle of a luminaire that flies towards a place; `None` where it emits no light that way.
+    pub(crate) fn towards(
+        &self,
+        number: usize,
+        to: Point,
+        pick: f64,
+        place: [f64; 2],
+    ) -> Option<Emitted> {
+        match self.luminaire(number) {
+            Emitter::Surface(area) => {
+                let start = self.start(number, area, pick, place);
+                let direction = (to - start.origin).direction()?;
+                (direction.cos(start.normal) > 0.0)
+                    .then(|| self.leave(number, area, &start, direction))
+            }
+            Emitter::Other(luminaire) => {
+                let (origin, direction) = match &luminaire.kind {
+                    LuminaireKind::Point { position, .. } => {
+                        (*position, (to - *position).direction()?)
+                    }
+                    LuminaireKind::Directional { direction, .. } => {
+                        let beyond_m = (to - self.centre).dot(direction.to_vector());
+                        (to - *direction * (2.0 * self.radius_m + beyond_m), *direction)
+                    }
+                };
+                Some(self.sent(number, luminaire, origin, direction))
+            }
+        }
+    }
+
+    /// How many of all particles that [`Emission::emit`] sends out arrive at a place, of those that leave where this one did, per area
+    /// there, 1/m2.
+    pub(crate) fn density(&self, emitted: &Emitted, at: &SurfacePoint) -> f64 {
+        let Emitted { direction, luminaire, normal, .. } = emitted;
+        let number = self.number(*luminaire);
+        let cos = direction.cos(at.geometric).abs();
+        let distance2 = (at.point - emitted.ray.origin).length_squared();
+        let one_m2 = match self.luminaire(number) {
+            Emitter::Surface(_) => {
+                let cos = normal.map_or(0.0, |normal| direction.cos(normal).max(0.0));
+                self.part(number) * cos / PI / distance2
+            }
+            Emitter::Other(luminaire) => self.on_one_m2(number, luminaire, *direction, distance2),
+        };
+        one_m2 * cos
+    }
+
+    /// The same of a luminaire and a surface of one square metre, roughly, at a place no nearer than this.
+    pub(crate) fn reach(&self, number: usize, at: Point, least_m: f64) -> f64 {
+        let from = |origin: Point| {
+            let way = at - origin;
+            (way.direction(), way.length_squared().max(least_m * least_m))
+        };
+        let evenly = |distance2: f64| self.part(number) / (4.0 * PI) / distance2;
+        let one_m2 = match self.luminaire(number) {
+            Emitter::Surface(area) => {
+                let start = self.start(number, area, 0.5, [4.0 / 9.0, 0.5]);
+                let (direction, distance2) = from(start.origin);
+                let cos = direction.map_or(1.0, |direction| direction.cos(start.normal));
+                evenly(distance2) * (4.0 * cos).max(LEAST_INTENSITY)
+            }
+            Emitter::Other(luminaire) => {
+                let origin = match &luminaire.kind {
+                    LuminaireKind::Point { position, .. } => *position,
+                    LuminaireKind::Directional { direction, .. } => at - direction.to_vector(),
+                };
+                let (direction, distance2) = from(origin);
+                let told = direction.map(|d| self.on_one_m2(number, luminaire, d, distance2));
+                told.unwrap_or(0.0).max(LEAST_INTENSITY * evenly(distance2))
+            }
+        };
+        0.5 * one_m2
+    }
+
+    /// The share of all particles that fall from a luminaire without surface on a square metre that faces it, so far in the
+    /// square, m2.
+    fn on_one_m2(
+        &self,
+        number: usize,
+        luminaire: &Luminaire,
+        direction: Direction,
+        distance2: f64,
+    ) -> f64 {
+        match &luminaire.kind {
+            LuminaireKind::Directional { .. } => {
+                self.part(number) / (PI * self.radius_m * self.radius_m)
+            }
+            LuminaireKind::Point { world_from_luminaire, intensity, .. } => {
+                let local_from_world = world_from_luminaire.inverse();
+                let local =
+                    local_from_world.and_then(|of| of.vector(direction.to_vector()).direction());
+                let candela = local.map_or(0.0, |local| intensity.intensity_cd(local));
+                candela * luminaire.colour.luminance() / self.flux_lm() / distance2
+            }
+        }
+    }
+
+    pub(crate) fn number(&self, luminaire: LuminaireId) -> usize {
+        match luminaire {
+            LuminaireId::Luminaire(k) => k as usize,
+            LuminaireId::Area(k) => self.scene.luminaires().len() + k as usize,
+        }
+    }
+
+    fn luminaire(&self, number: usize) -> Emitter<'s> {
+        let others = self.scene.luminaires();
+        match others.get(number) {
+            Some(luminaire) => Emitter::Other(luminaire),
+            None => Emitter::Surface(&self.scene.area_luminaires()[number - others.len()]),
+        }
+    }
+
+    fn sent(
+        &self,
+        number: usize,
+        luminaire: &Luminaire,
+        origin: Point,
+        direction: Direction,
+    ) -> Emitted {
+        Emitted {
+            ray: self.ray(origin, direction),
+            direction,
+            luminaire: LuminaireId::Luminaire(number as u32),
+            colour: luminaire.colour.chromaticity(),
+            normal: None,
+        }
+    }
+
+    /// A ray from where the kernel has it start: there its way is counted from.
+    fn ray(&self, origin: Point, direction: Direction) -> Ray {
+        Ray::new(self.scene.bvh().mesh().rounded(origin), direction)
+    }
+
+    /// A start of parallel light: uniform over a disc that covers the scene.
+    fn on_disc(&self, direction: Direction, [a, b]: [f64; 2]) -> Point {
+        let (u, v) = direction.frame();
+        let radius = self.radius_m * a.sqrt();
+        let (s, c) = libm::sincos(2.0 * PI * b);
+        self.centre + u * (radius * c) + v * (radius * s) - direction * (2.0 * self.radius_m)
+    }
+
+    /// A place of an emitting surface, evenly over its area.
+    fn start(&self, number: usize, area: &AreaLuminaire, pick: f64, [a, b]: [f64; 2]) -> Start {
+        let sums_m2 = &self.sums_m2[number - self.scene.luminaires().len()];
+        let drawn = sums_m2.partition_point(|&sum| sum <= pick * area.area_m2);
+        let triangle = area.triangles[drawn.min(area.triangles.len() - 1)];
+        let root = a.sqrt();
+        let point = self.scene.triangle(triangle).point(root * (1.0 - b), root * b);
+        let front = self.scene.geometric_normal(triangle);
+        let normal = if area.back { -front } else { front };
+        Start { origin: self.scene.bvh().offset_origin(point, normal), triangle, normal }
+    }
+
+    fn leave(
+        &self,
+        number: usize,
+        area: &AreaLuminaire,
+        start: &Start,
+        direction: Direction,
+    ) -> Emitted {
+        Emitted {
+            ray: self.ray(start.origin, direction).skipping(start.triangle),
+            direction,
+            luminaire: LuminaireId::Area((number - self.scene.luminaires().len()) as u32),
+            colour: area.luminance_cd_m2.chromaticity(),
+            normal: Some(start.normal),
+        }
+    }
+}
+
+/// Running sums of the areas of the triangles of an emitting surface, m2.
+fn sums_m2(scene: &Scene, area: &AreaLuminaire) -> Vec<f64> {
+    let mut sum = 0.0;
+    let add = |&triangle: &u32| {
+        sum += scene.triangle(triangle).area();
+        sum
+    };
+    area.triangles.iter().map(add).collect()
+}
+
+/// A luminaire of either kind.
+enum Emitter<'s> {
+    Other(&'s Luminaire),
+    Surface(&'s AreaLuminaire),
+}
+
+/// Where a particle leaves an emitting surface.
+struct Start {
+    origin: Point,
+    triangle: u32,
+    normal: Normal,
+}

@@ -1,0 +1,121 @@
+//! What glossy surfaces show of luminaires.
+//!
+//! Whoever looks along the facets of a rough surface meets a small bright luminaire once in hundreds of looks, and then
+//! far too bright. So directions are drawn to luminaires, too, and what either way finds is weighted by how likely both would have
+//! found it (Veach and Guibas 1995, the balance heuristic). Luminaires without surface only show so: all of them are looked at, as long
+//! as they are few.
+
+use super::lighting::Lighting;
+use super::sample::area::Shape;
+use crate::engine::ray::{Dice, SurfacePoint};
+use crate::sampling::{Key, Sequence};
+use crate::scene::{Material, Scene};
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Hit};
+use std::collections::HashMap;
+
+/// Looks that a place has for all emitting surfaces together, at least one for each of them.
+const LOOKS: usize = 16;
+
+/// The luminaires of a scene as they show on glossy surfaces.
+pub struct Highlights<'s> {
+    scene: &'s Scene,
+    lighting: Lighting<'s>,
+    /// By triangle and side: the number of the emitting surface, and of the triangle in it.
+    emitters: HashMap<(u32, bool), (u32, usize)>,
+    has_points: bool,
+}
+
+/// What is to be seen of them from a place of a surface.
+pub struct Highlighted<'h> {
+    highlights: &'h Highlights<'h>,
+    at: SurfacePoint,
+    shapes: Vec<Option<Shape<'h>>>,
+    samples: usize,
+}
+
+/// Light that comes to a place from a direction.
+#[derive(Clone, Copy, Debug)]
+pub enum Shining {
+    /// Of an emitting surface.
+    Surface {
+        /// Luminance, cd/m2.
+        luminance_cd_m2: Rgb,
+        /// Of directions that are drawn to it, all looks together, 1/sr.
+        density: f64,
+    },
+    /// Of a luminaire without: illuminance of what faces it, lx.
+    Point(Rgb),
+}
+
+impl<'s> Highlights<'s> {
+    /// `None` where nothing shows any.
+    pub fn new(scene: &'s Scene) -> Option<Self> {
+        if !scene.materials().iter().any(Material::is_glossy) {
+            return None;
+        }
+        let emitters = scene.area_luminaires().iter().zip(0..).flat_map(|(area, number)| {
+            let triangles = area.triangles.iter().enumerate();
+            triangles.map(move |(index, &triangle)| ((triangle, area.back), (number, index)))
+        });
+        let emitters: HashMap<_, _> = emitters.collect();
+        let lighting = Lighting::new(scene);
+        let has_points = lighting.shows_points();
+        (has_points || !emitters.is_empty()).then_some(Self {
+            scene,
+            lighting,
+            emitters,
+            has_points,
+        })
+    }
+
+    /// What is to be seen from where a ray has arrived, with up to `looks` looks at every emitting surface.
+    pub fn at(&self, hit: &Hit, looks: u32) -> Highlighted<'_> {
+        let at = SurfacePoint::from_hit(self.scene, hit);
+        let count = self.scene.area_luminaires().len();
+        let shapes = (0..count).map(|number| self.lighting.shape(number, &at)).collect();
+        let samples = (LOOKS / count.max(1)).clamp(1, looks.max(1) as usize);
+        Highlighted { highlights: self, at, shapes, samples }
+    }
+}
+
+impl Highlighted<'_> {
+    /// Looks at the luminaires: tells of each that is met, where, and what comes from there. Of emitting surfaces in proportion to the
+    /// density, with panes before them left to whoever looks along facets.
+    pub fn look(&self, key: Key, mut found: impl FnMut(Direction, Shining)) {
+        let Highlights { scene, lighting, has_points, .. } = self.highlights;
+        let areas = scene.area_luminaires();
+        for (number, shape) in self.shapes.iter().enumerate() {
+            let Some(shape) = shape else { continue };
+            let sequence = Sequence::new(key.with(number as u64));
+            for sample in 0..self.samples {
+                let drawn = shape.draw(&mut Dice::new(sequence, sample as u32));
+                let Some((direction, density)) = drawn else { continue };
+                let hit = scene.bvh().closest_hit(&self.at.leave(direction));
+                if hit.and_then(|hit| self.emitter(&hit)).is_some_and(|(met, _)| met == number) {
+                    let luminance_cd_m2 = areas[number].luminance_cd_m2;
+                    let density = density * self.samples as f64;
+                    found(direction, Shining::Surface { luminance_cd_m2, density });
+                }
+            }
+        }
+        if *has_points {
+            lighting.points_at(&self.at, |direction, lx| found(direction, Shining::Point(lx)));
+        }
+    }
+
+    /// The density of what is met in a direction among those drawn, all looks together, 1/sr; zero where it is no emitting surface.
+    pub fn density(&self, hit: &Hit, direction: Direction) -> f64 {
+        let met = self.emitter(hit);
+        let density = met.and_then(|(number, index)| {
+            let shape = self.shapes[number].as_ref()?;
+            shape.density(index, direction * f64::from(hit.t))
+        });
+        density.unwrap_or(0.0) * self.samples as f64
+    }
+
+    fn emitter(&self, hit: &Hit) -> Option<(usize, usize)> {
+        let met = self.highlights.emitters.get(&(hit.triangle, hit.back));
+        met.map(|&(number, index)| (number as usize, index))
+    }
+}

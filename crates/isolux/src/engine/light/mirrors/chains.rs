@@ -1,0 +1,101 @@
+//! Chains of planar mirrors as such, for light that does not come from a luminaire.
+
+use super::super::lighting::Lighting;
+use super::super::sources::Target;
+use crate::engine::ray::SurfacePoint;
+use crate::units::Rgb;
+use isolux_geometry::{Point, Vector};
+
+/// Mirrors in a row, and chains in all; the others are left to rays.
+const MAX_CHAIN: usize = 6;
+const MAX_CHAINS: usize = 64;
+
+/// Chains that leave less than this of the light are left to rays, too.
+const LEAST_REFLECTANCE: f64 = 1e-2;
+
+/// Planar mirrors that light meets one after the other; none for light that comes straight.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Chain {
+    /// In the order the light meets them.
+    pub(crate) planes: Vec<u32>,
+    /// What they leave of it.
+    pub(crate) reflectance: Rgb,
+}
+
+impl Lighting<'_> {
+    /// The chains that images are made by, the empty one first, and whether there are others.
+    pub(crate) fn chains(&self) -> (Vec<Chain>, bool) {
+        let mut found = vec![Chain { planes: Vec::new(), reflectance: Rgb::WHITE }];
+        // Where the scene is after these reflections, by the corners of a box about it.
+        let mut boxes = vec![self.corners_of_scene()];
+        let mut leaves_some_out = self.mirrors.leaves_some_out;
+        let mut next = 0;
+        // Breadth first: longer chains are appended and looked at in turn.
+        while next < found.len() {
+            let (before, corners) = (found[next].clone(), boxes[next]);
+            next += 1;
+            for (plane, mirror) in (0..).zip(&self.mirrors.planes) {
+                let meets = before.planes.last().is_none_or(|&last| {
+                    let from = &self.mirrors.planes[last as usize];
+                    last != plane && from.can_light(mirror, self.mirrors.tolerance_m)
+                });
+                let reflectance = before.reflectance * mirror.reflectance;
+                let is_before = |&corner: &Point| mirror.height(corner) > self.mirrors.tolerance_m;
+                if !(meets && corners.iter().any(is_before)) {
+                    continue;
+                }
+                let is_short = before.planes.len() < MAX_CHAIN && found.len() < MAX_CHAINS;
+                if is_short && reflectance.max_channel() >= LEAST_REFLECTANCE {
+                    let planes = before.planes.iter().copied().chain([plane]).collect();
+                    found.push(Chain { planes, reflectance });
+                    boxes.push(corners.map(|corner| mirror.image(corner)));
+                } else {
+                    leaves_some_out = true;
+                }
+            }
+        }
+        (found, leaves_some_out)
+    }
+
+    fn corners_of_scene(&self) -> [Point; 8] {
+        let bounds = self.scene.bvh().mesh().bounds();
+        let (low, high) = bounds.unwrap_or((Point::ORIGIN, Point::ORIGIN));
+        let pick =
+            |bit: usize, k: usize, low: f64, high: f64| if k & bit == 0 { low } else { high };
+        std::array::from_fn(|k| {
+            let (x, y) = (pick(1, k, low.x, high.x), pick(2, k, low.y, high.y));
+            Point::new(x, y, pick(4, k, low.z, high.z))
+        })
+    }
+
+    /// From where, and facing where, a receiver would see what it sees by a chain if there were no
+    /// mirrors; `None` where it does not face the mirror that it would see.
+    pub(crate) fn image_of_receiver(
+        &self,
+        chain: &Chain,
+        at: &SurfacePoint,
+    ) -> Option<(Point, Vector)> {
+        let (mut point, mut normal) = (at.point, at.shading.to_vector());
+        for &plane in chain.planes.iter().rev() {
+            let mirror = &self.mirrors.planes[plane as usize];
+            if mirror.height(point) <= 0.0 {
+                return None;
+            }
+            (point, normal) = (mirror.image(point), mirror.image_vector(normal));
+        }
+        Some((point, normal))
+    }
+
+    /// The share of light that comes to a receiver from a place on a triangle by a chain.
+    pub(crate) fn share_from(
+        &self,
+        chain: &Chain,
+        at: &SurfacePoint,
+        place: Point,
+        triangle: u32,
+    ) -> Rgb {
+        let image = |place: Point, &plane: &u32| self.mirrors.planes[plane as usize].image(place);
+        let target = Target::Point(chain.planes.iter().fold(place, image));
+        self.visibility(&chain.planes, at, target, Some(triangle))
+    }
+}

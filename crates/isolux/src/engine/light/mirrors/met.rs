@@ -1,0 +1,58 @@
+//! Which planar mirrors a path has met.
+
+use super::super::lighting::Lighting;
+use super::super::sources::LuminaireId;
+use crate::engine::ray::{Scattered, SurfacePoint};
+use crate::scene::Body;
+use isolux_geometry::Direction;
+
+/// The planar mirrors that a path has met so far, in order; nothing once it has met another specular surface.
+/// Passing straight through a pane leaves it as it is.
+#[derive(Clone, Debug)]
+pub(crate) struct MirrorChain(Option<Vec<u32>>);
+
+impl Default for MirrorChain {
+    /// No mirror met yet.
+    fn default() -> Self {
+        Self(Some(Vec::new()))
+    }
+}
+
+impl MirrorChain {
+    /// Goes on over a specular surface.
+    pub(crate) fn pass(
+        &mut self,
+        (at, incoming): (&SurfacePoint, Direction),
+        body: &Body,
+        lighting: &Lighting,
+        next: &Scattered,
+    ) {
+        let straight =
+            next.direction == incoming && matches!(body, Body::Dielectric(glass) if glass.thin);
+        if straight {
+            return;
+        }
+        let plane = if next.mirrored { lighting.mirror_of(at.triangle, at.back) } else { None };
+        self.0 = match (self.0.take(), plane) {
+            (Some(mut chain), Some(plane)) => {
+                chain.push(plane);
+                Some(chain)
+            }
+            _ => None,
+        };
+    }
+
+    /// Whether the light of a luminaire that has come this way is part of direct light as evaluated at points.
+    pub(crate) fn is_covered(&self, lighting: &Lighting, luminaire: LuminaireId) -> bool {
+        self.0.as_ref().is_some_and(|chain| lighting.covers(luminaire, chain))
+    }
+
+    /// The same for a path that was followed from the place towards the luminaire.
+    pub(crate) fn is_covered_backwards(&self, lighting: &Lighting, luminaire: LuminaireId) -> bool {
+        let covers = |chain: &Vec<u32>| {
+            let from_luminaire: Vec<u32> = chain.iter().rev().copied().collect();
+            lighting.covers(luminaire, &from_luminaire)
+        };
+        self.0.as_ref().is_some_and(covers)
+    }
+}

@@ -1,0 +1,8 @@
+//! Planar mirrors and the chains of them that light takes.
+
+pub(super) mod chains;
+pub(super) mod met;
+pub(super) mod planar;
+mod seams;
+pub(super) mod twins;
+pub(super) mod windows;

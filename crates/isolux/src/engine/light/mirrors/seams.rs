@@ -1,0 +1,141 @@
+//! Ways exactly through the edge or the corner where mirrors meet.
+//!
+//! Two mirrors at right angles make one image by way of either and then the other, and so do, in general, the chains that come to
+//! the same motion: twins. A straight way to that image goes through the mirrors in one order, and so by one of the twins, unless
+//! it goes through the edge where they meet. Then all are the way of it, and rounding would tell which of them are open: none, one,
+//! or all. Here all of them are open, and the first counts:
+//!
+//! - What mirrors of the chain a place of reflection lies on but for rounding do not hide it, and one is met where it reaches to within that.
+//!   Anything else does: a way that comes to a mirror just above a floor from below is none.
+//! - A chain counts if none of its twins before it is open.
+//!
+//! The images of a luminaire are found breadth first, so that with a chain all its twins before it are there.
+
+use super::super::lighting::Lighting;
+use super::super::sources::Target;
+use super::super::visibility::{MAX_PANES, segment};
+use super::planar::Plane;
+use super::twins::Twins;
+use crate::ablation::without;
+use crate::engine::ray::SurfacePoint;
+use crate::units::Rgb;
+use isolux_geometry::{Normal, Point, Ray, Vector};
+use std::f64::consts::FRAC_PI_4;
+
+/// What is nearer than so many bounds of rounding to a place of reflection lies there: its own, that of where the ray started, those of
+/// its direction and of the plane.
+const ROUNDINGS: f64 = 4.0;
+
+/// The cosine from which on a surface lies along a mirror, and hides all of it, however near: of one that is as much inclined, no more than
+/// a strip of some hundred roundings does not count.
+const ALONG: f64 = 1.0 - 1e-4;
+
+/// A place of reflection and the normal of the mirror there, of a way over a chain of mirrors.
+type Reflection<'c> = (Point, Normal, &'c [u32]);
+
+impl Lighting<'_> {
+    /// The twins among the chains that images are made by.
+    pub(crate) fn find_twins(&self) -> Twins {
+        let Some((low, high)) = self.scene.bvh().mesh().bounds() else { return Twins::default() };
+        let of_sources = self.sources.iter().map(|source| source.chain.clone());
+        let of_surfaces = self.chains().0.into_iter().map(|chain| chain.planes);
+        Twins::of(&self.mirrors, [low, high], of_sources.chain(of_surfaces).collect())
+    }
+
+    /// Where a way to an image meets a mirror if rounding hides the place, and what panes before it leave. `reflected` says whether the
+    /// way starts on a mirror.
+    #[cold]
+    pub(crate) fn meet_at_edge(
+        &self,
+        (from, reflected): (&SurfacePoint, bool),
+        target: Target,
+        (chain, plane): (&[u32], u32),
+    ) -> Option<(Rgb, SurfacePoint)> {
+        if without("mirror-seams") {
+            return None;
+        }
+        let mirror = &self.mirrors.planes[plane as usize];
+        // Offsets of starts from mirrors would add up from one to the next.
+        let start = if reflected { from.point } else { from.start() };
+        let crossing = mirror.crossing(start, target.towards(start), self.mirrors.tolerance_m)?;
+        let ends = [
+            Some((crossing, mirror.normal, chain)),
+            reflected.then_some((from.point, from.geometric, chain)),
+        ];
+        let share = self.passed(from, (Target::Point(crossing), None), ends)?;
+        Some((share, self.mirror_near(mirror, plane, crossing)?))
+    }
+
+    /// What panes leave of what comes straight to a mirror; nothing if something is between that it does not lie on.
+    #[cold]
+    pub(crate) fn leave_edge(
+        &self,
+        from: &SurfacePoint,
+        towards: (Target, Option<u32>),
+        chain: &[u32],
+    ) -> Option<Rgb> {
+        self.passed(from, towards, [Some((from.point, from.geometric, chain)), None])
+    }
+
+    /// What panes leave on a way that meets nothing but mirrors of its chain that some of its ends lie on, across the mirrors of these.
+    fn passed(
+        &self,
+        from: &SurfacePoint,
+        (target, emitter): (Target, Option<u32>),
+        ends: [Option<Reflection<'_>>; 2],
+    ) -> Option<Rgb> {
+        let bvh = self.scene.bvh();
+        let mut ray = segment(from, target);
+        let mut share = Rgb::WHITE;
+        for _ in 0..MAX_PANES {
+            let Some(hit) = bvh.closest_hit(&ray).filter(|hit| Some(hit.triangle) != emitter)
+            else {
+                return Some(share);
+            };
+            let surface = SurfacePoint::from_hit(self.scene, &hit);
+            let plane_of = |back: bool| self.mirrors.of(surface.triangle, back);
+            let lies_on = |(end, mirror, chain): Reflection<'_>| {
+                let is_across = surface.geometric.dot(mirror).abs() < ALONG;
+                let off_m = (end - surface.point).dot(surface.geometric.to_vector()).abs();
+                let is_of_chain =
+                    [false, true].into_iter().filter_map(plane_of).any(|p| chain.contains(&p));
+                is_of_chain && is_across && off_m <= ROUNDINGS * bvh.offset_m(end)
+            };
+            match self.pane_share(&surface, &ray) {
+                Some(passed) => share = share * passed,
+                None if ends.into_iter().flatten().any(lies_on) => (),
+                None => return None,
+            }
+            ray = segment(&surface.other_side(), target);
+        }
+        None
+    }
+
+    /// A place on a plane's mirrors if they reach to within rounding of it: looked for there and in eight directions about it.
+    fn mirror_near(&self, mirror: &Plane, plane: u32, at: Point) -> Option<SurfacePoint> {
+        let beside_m = ROUNDINGS * self.scene.bvh().offset_m(at);
+        let above_m = beside_m + self.mirrors.tolerance_m;
+        let (u, v) = mirror.normal.to_direction().frame();
+        let beside = (0..8).map(|k| {
+            let (s, c) = libm::sincos(f64::from(k) * FRAC_PI_4);
+            u * (beside_m * c) + v * (beside_m * s)
+        });
+        let down = -mirror.normal.to_direction();
+        let met = |shift: Vector| {
+            let mut ray = Ray::new(at + shift + mirror.normal * above_m, down);
+            let mut left_m = 2.0 * above_m;
+            // Where mirrors meet at a sharp angle the other one lies before it.
+            for _ in 0..MAX_PANES {
+                let hit = self.scene.bvh().closest_hit(&ray.up_to(left_m as f32))?;
+                let surface = SurfacePoint::from_hit(self.scene, &hit);
+                if self.mirrors.of(hit.triangle, hit.back) == Some(plane) {
+                    return Some(SurfacePoint { point: at, ..surface });
+                }
+                left_m -= f64::from(hit.t);
+                ray = surface.other_side().leave(down);
+            }
+            None
+        };
+        std::iter::once(Vector::ZERO).chain(beside).find_map(met)
+    }
+}

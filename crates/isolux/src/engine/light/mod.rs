@@ -1,0 +1,31 @@
+//! Light from luminaires and emitting surfaces: sources, their mirror images, and how they are sampled.
+
+mod arrivals;
+mod emission;
+mod highlights;
+pub(crate) mod landings;
+mod lighting;
+mod mirrors;
+mod opening_search;
+mod openings;
+mod panes;
+mod particle;
+mod polygon;
+mod sample;
+mod sources;
+mod tree;
+mod visibility;
+
+pub use arrivals::{Arrival, arrivals};
+pub(crate) use emission::{Emission, Emitted};
+pub use highlights::{Highlighted, Highlights, Shining};
+pub(crate) use landings::{BELIEVED, FIRST, Landed, MORE, Sum};
+pub(crate) use lighting::Lighting;
+pub(crate) use mirrors::chains::Chain;
+pub(crate) use mirrors::met::MirrorChain;
+pub(crate) use particle::{Particle, scatterings};
+pub(crate) use sample::adaptive::{Goal, Measured, REPLICATES};
+pub(crate) use sample::nearby::About;
+pub(crate) use sample::patches::Patches;
+pub(crate) use sources::LuminaireId;
+pub(crate) use visibility::shadows::Shadows;

@@ -1,0 +1,253 @@
+//! Looks ahead that find the openings before emitting surfaces.
+
+mod planes;
+mod seen;
+
+use super::lighting::Lighting;
+use super::openings::{Before, Opening, Openings};
+use super::sample::area::Shape;
+use super::sources::{Emitter, SourceKind, Target};
+use crate::ablation::without;
+use crate::elements::carries_map;
+use crate::engine::ray::{Dice, SurfacePoint};
+use crate::sampling::{Key, Sequence};
+use isolux_geometry::Point;
+use planes::{Plane, Way, planes};
+use rayon::prelude::*;
+use seen::{Looked, ThroughOpenings};
+use std::f64::consts::PI;
+
+/// Places that look, and how often each, until enough is seen.
+const ROUNDS: [(usize, usize); 4] = [(64, 8), (512, 8), (4096, 8), (4096, 24)];
+
+/// Of more triangles than this, every so many tell where places are.
+const TRIANGLES: u32 = 1 << 20;
+
+/// Looks for all emitters of a scene together.
+const MOST_LOOKS: usize = 1 << 20;
+
+/// Openings are looked for where this share of the places is in the dark, and emitters are of so much projected solid angle from
+/// there if nothing were in the way, sr: rays to smaller ones bring little noise.
+const LEAST_DARK: f64 = 0.2;
+const LEAST_SR: f64 = 0.2;
+
+/// An emitter is all around where so much of the hemisphere would be it.
+const SURROUNDED: f64 = 0.99;
+
+/// Ways from dark places to the emitter, that tell where openings are: so many are enough, and fewer than those do not do.
+const ENOUGH: usize = 512;
+const FEWEST: usize = 16;
+
+/// Ways that something stands in, which tell what.
+const STOPPED: usize = 4096;
+
+/// Openings before an emitter at most, and the least share of the ways that makes another one worth while.
+const MOST: usize = 16;
+const WORTH: f64 = 0.02;
+
+/// Ways of either kind that tell of the openings in a plane.
+const TELLING: usize = 1024;
+
+/// The least share of ways through an opening that get to the emitter.
+const LEAST_FREE: f64 = 0.1;
+
+impl Lighting<'_> {
+    /// The openings before all emitting surfaces: they depend on the scene alone.
+    pub(crate) fn look_out(&self) -> Openings {
+        let areas = self.scene.area_luminaires();
+        if areas.is_empty() || without("opening-search") {
+            return Openings::default();
+        }
+        let surface = Surface::of(self);
+        let mut left = MOST_LOOKS;
+        let before = |number: usize| {
+            let source = &self.sources[self.starts[self.scene.luminaires().len() + number]];
+            let SourceKind::Area { emitter, triangles } = &source.kind else { return None };
+            let key = Key::new(number as u64);
+            let finder = Finder { lighting: self, emitter, triangles, key };
+            finder.before(&surface, areas[number].back, &mut left)
+        };
+        Openings::new((0..areas.len()).map(before).collect())
+    }
+}
+
+/// Where there is a map: half of the places by area, half in every triangle as often.
+struct Surface {
+    sides: Vec<(u32, bool)>,
+    sums_m2: Vec<f64>,
+}
+
+impl Surface {
+    fn of(lighting: &Lighting) -> Self {
+        let scene = lighting.scene;
+        let step = scene.triangle_count().div_ceil(TRIANGLES).max(1);
+        let all = (0..scene.triangle_count()).step_by(step as usize);
+        let all = all.flat_map(|triangle| [(triangle, false), (triangle, true)]);
+        let sides: Vec<_> = all.filter(|&(t, back)| carries_map(scene, t, back)).collect();
+        let mut sum_m2 = 0.0;
+        let sums_m2 = sides.iter().map(|&(triangle, _)| {
+            sum_m2 += scene.triangle(triangle).area();
+            sum_m2
+        });
+        let sums_m2 = sums_m2.collect();
+        Self { sides, sums_m2 }
+    }
+
+    fn place(&self, lighting: &Lighting, k: usize, dice: &mut Dice) -> SurfacePoint {
+        let [pick, _] = dice.pair();
+        let side = if k.is_multiple_of(2) {
+            let at_m2 = pick * self.sums_m2.last().copied().unwrap_or(0.0);
+            self.sums_m2.partition_point(|&sum_m2| sum_m2 <= at_m2).min(self.sides.len() - 1)
+        } else {
+            (pick * self.sides.len() as f64) as usize
+        };
+        let (triangle, back) = self.sides[side];
+        let [a, b] = dice.pair();
+        let root = a.sqrt();
+        SurfacePoint::new(lighting.scene, triangle, back, root * (1.0 - b), root * b)
+    }
+}
+
+/// Looks for openings before an emitter.
+struct Finder<'a> {
+    lighting: &'a Lighting<'a>,
+    emitter: &'a Emitter,
+    triangles: &'a [[Point; 3]],
+    key: Key,
+}
+
+impl Finder<'_> {
+    /// What is known of the emitter, where that is of use.
+    fn before(&self, surface: &Surface, back: bool, left: &mut usize) -> Option<Before> {
+        if surface.sides.is_empty() {
+            return None;
+        }
+        // Of small ones, as most are, no more needs to be known.
+        let places = self.looked_from(surface, (ROUNDS[0].0, 0), self.key);
+        let whole: f64 = places.iter().map(|looked| looked.whole).sum();
+        if whole <= LEAST_DARK * LEAST_SR * places.len() as f64 {
+            return None;
+        }
+        let first = self.looks(surface, 0, left)?;
+        let surrounds =
+            first.len() == ROUNDS[0].0 && first.iter().all(|l| l.whole >= SURROUNDED * PI);
+        let mut before = Before::new(self.emitter.indices.clone(), back, surrounds);
+        if let Some(looked) = self.ways(first, surface, left) {
+            before.openings = self.openings(&looked);
+            let key = self.key.with(u64::MAX);
+            before.zones = ThroughOpenings::of(self.lighting, &before, &looked, key).zones();
+        }
+        (surrounds || before.zones.are_some()).then_some(before)
+    }
+
+    /// Those of a round; none after the last, and where all emitters together have taken too many.
+    fn looks(&self, surface: &Surface, round: usize, left: &mut usize) -> Option<Vec<Looked>> {
+        let &(places, looks) =
+            ROUNDS.get(round).filter(|(places, looks)| places * looks <= *left)?;
+        *left -= places * looks;
+        Some(self.looked_from(surface, (places, looks), self.key.with(round as u64)))
+    }
+
+    fn looked_from(
+        &self,
+        surface: &Surface,
+        (places, looks): (usize, usize),
+        key: Key,
+    ) -> Vec<Looked> {
+        let one = |k: usize| self.looked(surface, (k, looks), key);
+        (0..places).into_par_iter().filter_map(one).collect()
+    }
+
+    /// Looks at the emitter from places all over the scene, after some first ones; `None` where that is not worth while.
+    fn ways(&self, first: Vec<Looked>, surface: &Surface, left: &mut usize) -> Option<Vec<Looked>> {
+        let mut looked = first;
+        for round in 1.. {
+            let dark = || looked.iter().filter(|looked| looked.is_dark());
+            let (count, whole) = (dark().count(), dark().map(|looked| looked.whole).sum::<f64>());
+            let is_dark = count > 0 && count as f64 >= LEAST_DARK * looked.len() as f64;
+            if !is_dark || whole < LEAST_SR * count as f64 {
+                return None;
+            }
+            let ways: usize = dark().map(|looked| looked.free.len()).sum();
+            if ways >= ENOUGH {
+                break;
+            }
+            match self.looks(surface, round, left) {
+                Some(more) => looked = more,
+                None if ways >= FEWEST => break,
+                None => return None,
+            }
+        }
+        Some(looked)
+    }
+
+    fn looked(&self, surface: &Surface, (k, looks): (usize, usize), key: Key) -> Option<Looked> {
+        let mut dice = Dice::new(Sequence::new(key), k as u32);
+        let at = surface.place(self.lighting, k, &mut dice);
+        let shape = Shape::new(&at, (self.emitter, self.triangles), looks.max(1))?;
+        let sequence = dice.fork();
+        let mut found =
+            Looked { at, whole: shape.whole(), looks, free: Vec::new(), stopped: Vec::new() };
+        for k in 0..looks {
+            let place = shape.place(&mut Dice::new(sequence, k as u32));
+            let Some(place) = place else { continue };
+            let triangle = Some(self.emitter.indices[place.triangle]);
+            let target = Target::Point(place.point);
+            let is_free = !self.lighting.visibility(&[], &at, target, triangle).is_black();
+            if is_free { &mut found.free } else { &mut found.stopped }.push(place.point);
+        }
+        Some(found)
+    }
+
+    /// Openings by ways to the emitter from dark places.
+    fn openings(&self, looked: &[Looked]) -> Vec<Opening> {
+        let dark = || looked.iter().filter(|looked| looked.is_dark());
+        let ways = |to: fn(&Looked) -> &Vec<Point>| {
+            let all = dark().flat_map(|l| to(l).iter().map(|&to| Way { from: l.at.point, to }));
+            all.collect::<Vec<Way>>()
+        };
+        let (mut free, stopped) = (ways(|l| &l.free), ways(|l| &l.stopped));
+        let stopped_at = dark().flat_map(|l| l.stopped.iter().map(|to| (&l.at, *to)));
+        let stopped_at = stopped_at.take(STOPPED).filter_map(|(at, to)| {
+            let direction = (to - at.point).direction()?;
+            self.lighting.first_opaque(at, direction).map(|(_, surface)| surface.triangle)
+        });
+        let planes = planes(self.lighting.scene, stopped_at);
+        let worth = WORTH * free.len() as f64;
+        let mut found = Vec::new();
+        while found.len() < MOST {
+            let shares = [free.len() as f64, stopped.len() as f64];
+            let spread = |ways: &[Way]| {
+                let step = ways.len().div_ceil(TELLING).max(1);
+                ways.iter().step_by(step).copied().collect::<Vec<Way>>()
+            };
+            let tell = [spread(&free), spread(&stopped)];
+            let tried = planes.iter().map(|plane| worth_of(plane, &tell, shares));
+            let best = tried.max_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((_, openings)) = best.filter(|best| best.0 >= worth) else { break };
+            free.retain(|way| !openings.iter().any(|opening| way.passes(opening)));
+            found.extend(openings);
+        }
+        found.truncate(MOST);
+        found
+    }
+}
+
+/// How many ways to the emitter go through openings in a plane, each counted by the share of all ways through its opening that get
+/// there, and the openings; some tell of so many free ways, others of so many that something stands in.
+fn worth_of(plane: &Plane, tell: &[Vec<Way>; 2], counts: [f64; 2]) -> (f64, Vec<Opening>) {
+    let mut openings = plane.openings(&tell[0]);
+    let mut worth = 0.0;
+    openings.retain(|opening| {
+        let count = |k: usize| {
+            let passing = tell[k].iter().filter(|way| way.passes(opening)).count();
+            passing as f64 * counts[k] / tell[k].len().max(1) as f64
+        };
+        let [free, stopped] = [count(0), count(1)];
+        let share = free / (free + stopped).max(1.0);
+        let is_one = share >= LEAST_FREE;
+        worth += if is_one { free * share } else { 0.0 };
+        is_one
+    });
+    (worth, openings)
+}

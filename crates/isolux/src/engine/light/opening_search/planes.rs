@@ -1,0 +1,302 @@
+//! Openings in the planes of what stands in the way.
+
+use super::super::openings::Opening;
+use crate::scene::Scene;
+use isolux_geometry::{Normal, Point, Vector};
+use std::collections::BTreeMap;
+
+/// Planes looked at, those that hide most first, and the triangles of one that tell how openings in it may lie.
+const PLANES: usize = 24;
+const TELLING: usize = 8;
+
+/// The triangles of a plane that tell where openings in it may end.
+const BORDERING: usize = 256;
+
+/// Sides of an opening are this share of its length further out for every way through it than the last of these ways, unless a
+/// corner is so many times as near: then they are there.
+const BEYOND: f64 = 3.0;
+
+/// What rounding may leave out where they end at a corner.
+const ROUNDING: f64 = 1e-6;
+
+/// Normals of one plane agree to this cosine, distances to this share of what the scene measures.
+const ALIKE_COS: f64 = 1.0 - 1e-6;
+const ALIKE: f64 = 1e-5;
+
+/// Ways through an opening at least, and openings in one plane at most.
+const FEWEST: usize = 8;
+const MOST: usize = 16;
+
+/// Two openings are smaller by so much than one around both, or they are one; and between them lies so much more than its share
+/// for every way: in an opening one of thirty would do so by chance.
+const APART: f64 = 0.95;
+const GAP: f64 = 8.0;
+
+/// A straight way to a place of an emitter.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    pub(super) from: Point,
+    pub(super) to: Point,
+}
+
+impl Way {
+    pub(super) fn passes(&self, opening: &Opening) -> bool {
+        opening.is_passed(self.from, self.to - self.from)
+    }
+}
+
+/// A plane of what stands in the way.
+#[derive(Clone, Debug)]
+pub(super) struct Plane {
+    through: Point,
+    normal: Normal,
+    hits: usize,
+    /// How openings in it may lie: along these.
+    edges: Vec<Vector>,
+    /// Where they may end.
+    corners: Vec<Point>,
+}
+
+/// The planes that hide most, by the triangle that each of the ways to the emitter ends at.
+pub(super) fn planes(scene: &Scene, stopped_at: impl Iterator<Item = u32>) -> Vec<Plane> {
+    let mut hits = BTreeMap::<u32, usize>::new();
+    for triangle in stopped_at {
+        *hits.entry(triangle).or_default() += 1;
+    }
+    let mut hits: Vec<(u32, usize)> = hits.into_iter().collect();
+    hits.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+    let extent_m = scene.bvh().mesh().bounds().map_or(0.0, |(low, high)| (high - low).length());
+    let mut planes = Vec::<Plane>::new();
+    for (triangle, hits) in hits {
+        let [a, b, c] = scene.triangle(triangle).corners;
+        let normal = scene.geometric_normal(triangle);
+        let is_alike = |plane: &Plane| {
+            plane.normal.dot(normal).abs() >= ALIKE_COS
+                && (a - plane.through).dot(plane.normal.to_vector()).abs() <= ALIKE * extent_m
+        };
+        let edges = [b - a, c - b, a - c];
+        match planes.iter().position(is_alike) {
+            Some(known) => {
+                let plane = &mut planes[known];
+                plane.hits += hits;
+                if plane.corners.len() < 3 * BORDERING {
+                    plane.corners.extend([a, b, c]);
+                }
+                if plane.edges.len() < 3 * TELLING {
+                    plane.edges.extend(edges);
+                }
+            }
+            None if planes.len() < 4 * PLANES => {
+                let (edges, corners) = (edges.to_vec(), vec![a, b, c]);
+                planes.push(Plane { through: a, normal, hits, edges, corners });
+            }
+            None => {}
+        }
+    }
+    planes.sort_by_key(|plane| std::cmp::Reverse(plane.hits));
+    planes.truncate(PLANES);
+    planes
+}
+
+impl Plane {
+    /// Openings that these ways go through, and which of them do.
+    pub(super) fn openings(&self, ways: &[Way]) -> Vec<Opening> {
+        let normal = self.normal.to_vector();
+        let height_m = |p: Point| (p - self.through).dot(normal);
+        let crossing = |way: &Way| {
+            let [from, to] = [height_m(way.from), height_m(way.to)];
+            (from * to < 0.0).then(|| (way.from + (way.to - way.from) * (from / (from - to)), to))
+        };
+        let all: Vec<(Point, f64)> = ways.iter().filter_map(crossing).collect();
+        let upwards = all.iter().filter(|(_, to)| *to > 0.0).count();
+        let goes_up = 2 * upwards >= all.len();
+        let places = all
+            .iter()
+            .filter(|(_, to)| (*to > 0.0) == goes_up)
+            .map(|(place, _)| *place - self.through);
+        let outwards = if goes_up { normal } else { -normal };
+        let Some(([first, second], corners)) = self.axes(outwards) else { return Vec::new() };
+        let extent = Rectangle::of(&corners);
+        let places = places.map(|place| [place.dot(first), place.dot(second)]);
+        let places: Vec<[f64; 2]> = places.filter(|&place| extent.has(place)).collect();
+        if places.len() < FEWEST {
+            return Vec::new();
+        }
+        let boxes = apart(places).into_iter().map(|of| Rectangle::ending(&of, &corners));
+        let opening = |of: Rectangle| Opening {
+            corner: self.through + first * of.low[0] + second * of.low[1],
+            sides: [first * (of.high[0] - of.low[0]), second * (of.high[1] - of.low[1])],
+            outwards,
+        };
+        boxes.map(opening).collect()
+    }
+
+    /// Two axes that what stands in the way is best enclosed along, right-handed with the way inwards, and where its corners are.
+    fn axes(&self, outwards: Vector) -> Option<([Vector; 2], Vec<[f64; 2]>)> {
+        let along = |edge: &Vector| {
+            let first = edge.direction()?.to_vector();
+            let second = first.cross(outwards);
+            let corners = self.corners.iter().map(|&corner| corner - self.through);
+            let corners = corners.map(|corner| [corner.dot(first), corner.dot(second)]);
+            Some(([first, second], corners.collect()))
+        };
+        let area = |(_, corners): &(_, Vec<[f64; 2]>)| Rectangle::of(corners).area();
+        self.edges.iter().filter_map(along).min_by(|a, b| area(a).total_cmp(&area(b)))
+    }
+}
+
+/// A rectangle along two axes.
+#[derive(Clone, Copy, Debug)]
+struct Rectangle {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Rectangle {
+    fn of(places: &[[f64; 2]]) -> Self {
+        let mut of = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+        for &[x, y] in places {
+            of.low = [of.low[0].min(x), of.low[1].min(y)];
+            of.high = [of.high[0].max(x), of.high[1].max(y)];
+        }
+        of
+    }
+
+    fn has(&self, [x, y]: [f64; 2]) -> bool {
+        (self.low[0]..=self.high[0]).contains(&x) && (self.low[1]..=self.high[1]).contains(&y)
+    }
+
+    /// Around places that may be anywhere in it: the farthest ones do not lie at its edge.
+    fn around(places: &[[f64; 2]]) -> Self {
+        let mut of = Self::of(places);
+        for axis in 0..2 {
+            let beyond = (of.high[axis] - of.low[axis]) / places.len() as f64;
+            of.low[axis] -= beyond;
+            of.high[axis] += beyond;
+        }
+        of
+    }
+
+    /// The opening that these places lie in, which may end at some corner.
+    fn ending(places: &[[f64; 2]], corners: &[[f64; 2]]) -> Self {
+        let mut of = Self::around(places);
+        for axis in 0..2 {
+            let long = of.high[axis] - of.low[axis];
+            let beyond = BEYOND * long / places.len() as f64;
+            let end = |from: f64, sign: f64| {
+                let away = corners.iter().map(|corner| (corner[axis] - from) * sign);
+                let near = away.filter(|away| (-beyond..=2.0 * beyond).contains(away));
+                let nearest = near.min_by(|a, b| a.abs().total_cmp(&b.abs()));
+                from + sign * nearest.map_or(beyond, |away| away + ROUNDING * long)
+            };
+            let (low, high) = (end(of.low[axis], -1.0), end(of.high[axis], 1.0));
+            (of.low[axis], of.high[axis]) = (low, high);
+        }
+        of
+    }
+
+    fn area(&self) -> f64 {
+        (self.high[0] - self.low[0]) * (self.high[1] - self.low[1])
+    }
+}
+
+/// Places that lie in one opening each.
+fn apart(places: Vec<[f64; 2]>) -> Vec<Vec<[f64; 2]>> {
+    let mut waiting = vec![places];
+    let mut found = Vec::new();
+    while let Some(places) = waiting.pop() {
+        let whole = Rectangle::around(&places);
+        match divided(&places, &whole) {
+            Some(halves) if found.len() + waiting.len() + 2 <= MOST => waiting.extend(halves),
+            _ => found.push(places),
+        }
+    }
+    found
+}
+
+/// Two parts that lie apart.
+fn divided(places: &[[f64; 2]], whole: &Rectangle) -> Option<[Vec<[f64; 2]>; 2]> {
+    let mut best = (APART * whole.area(), None);
+    for axis in 0..2 {
+        let mut sorted = places.to_vec();
+        sorted
+            .sort_by(|a, b| a[axis].total_cmp(&b[axis]).then(a[1 - axis].total_cmp(&b[1 - axis])));
+        // Between the farthest neighbours.
+        let last = sorted.len().checked_sub(FEWEST)?;
+        let gap = |k: &usize| sorted[*k][axis] - sorted[*k - 1][axis];
+        let Some(at) = (FEWEST..=last).max_by(|a, b| gap(a).total_cmp(&gap(b)).then(b.cmp(a)))
+        else {
+            continue;
+        };
+        let long = sorted[sorted.len() - 1][axis] - sorted[0][axis];
+        if gap(&at) * (sorted.len() as f64) < GAP * long {
+            continue;
+        }
+        let (first, second) = sorted.split_at(at);
+        let area = Rectangle::around(first).area() + Rectangle::around(second).area();
+        if area < best.0 {
+            best = (area, Some([first.to_vec(), second.to_vec()]));
+        }
+    }
+    best.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampling::Key;
+
+    /// Places of a rectangle, spread at random.
+    fn spread(key: Key, count: u64, low: [f64; 2], sides: [f64; 2]) -> Vec<[f64; 2]> {
+        let at =
+            |k: u64, axis: usize| low[axis] + sides[axis] * key.with(k).with(axis as u64).uniform();
+        (0..count).map(|k| [at(k, 0), at(k, 1)]).collect()
+    }
+
+    #[test]
+    fn openings_are_divided_where_they_lie_apart() {
+        let openings =
+            [([0.0, 1.0], [1.2, 1.0]), ([1.9, 1.0], [1.2, 1.0]), ([0.4, 3.0], [2.0, 0.3])];
+        let mut as_they_are = 0;
+        for trial in 0..200 {
+            let of = |k: usize, (low, sides)| {
+                spread(Key::new(trial).with(k as u64), 30 + 10 * k as u64, low, sides)
+            };
+            let places = openings.iter().enumerate().flat_map(|(k, opening)| of(k, *opening));
+            let found = apart(places.collect());
+            as_they_are += u32::from(found.len() == openings.len());
+            // Some are divided by chance, none are joined.
+            for part in found {
+                let Rectangle { low, high } = Rectangle::of(&part);
+                let lies_in = |(corner, sides): &([f64; 2], [f64; 2])| {
+                    (0..2).all(|k| corner[k] <= low[k] && high[k] <= corner[k] + sides[k])
+                };
+                assert!(openings.iter().any(lies_in), "{trial}: {low:?} to {high:?}");
+            }
+        }
+        assert!(as_they_are > 150, "{as_they_are}");
+    }
+
+    #[test]
+    fn one_opening_is_seldom_divided() {
+        let trials = 1000;
+        let divided = (0..trials).filter(|&trial| {
+            let count = 16 + trial % 100;
+            apart(spread(Key::new(trial), count, [0.0; 2], [3.0, 1.0])).len() > 1
+        });
+        // Gaps of more than eight times their share: once in thirty, along two axes.
+        assert!(divided.count() < trials as usize / 10);
+    }
+
+    #[test]
+    fn openings_end_at_corners_that_are_near_and_farther_out_without() {
+        let places = spread(Key::new(3), 100, [0.0; 2], [1.0, 2.0]);
+        let around = Rectangle::of(&places);
+        let ending = Rectangle::ending(&places, &[[0.0, 0.0], [1.0, 0.0], [0.5, 7.0]]);
+        for (found, expected) in [(ending.low[0], 0.0), (ending.high[0], 1.0), (ending.low[1], 0.0)]
+        {
+            assert!((found - expected).abs() < 1e-5, "{ending:?}");
+        }
+        assert!(around.high[1] < ending.high[1] && ending.high[1] < 2.2, "{ending:?}");
+    }
+}

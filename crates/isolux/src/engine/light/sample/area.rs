@@ -1,0 +1,426 @@
+//! Light from emitting surfaces.
+
+use super::super::lighting::Lighting;
+use super::super::polygon::{Piece, Place, drawn, pieces, target};
+use super::super::sources::{Emitter, Source, SourceKind, TRIANGLES_A_SAMPLE, Target, facing_cos};
+use super::adaptive::{Measured, OF_FEW, REPLICATES};
+use super::clusters::Parted;
+use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
+use crate::sampling::Sequence;
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Point, Vector};
+use std::borrow::Cow;
+
+/// So many times the shadow rays where those before tell too little.
+const MORE: usize = 4;
+
+/// Places of a large emitter that tell roughly what it gives.
+const LOOKED_AT: usize = 16;
+
+/// What a place sees of an emitting surface, obstacles left out, as directions are drawn to it: one by one.
+pub(crate) struct Shape<'a> {
+    at: SurfacePoint,
+    triangles: &'a [[Point; 3]],
+    seen: Seen<'a>,
+    /// Projected solid angle of what is seen, sr; where it is parted, an estimate.
+    whole: f64,
+}
+
+enum Seen<'a> {
+    Pieces(Vec<Piece>),
+    Parted(Parted<'a>),
+}
+
+impl<'a> Shape<'a> {
+    /// For so many looks at it; `None` where nothing of it is above the horizon.
+    pub(crate) fn new(
+        at: &SurfacePoint,
+        (emitter, triangles): (&'a Emitter, &'a [[Point; 3]]),
+        samples: usize,
+    ) -> Option<Self> {
+        let (seen, whole) = if triangles.len() > TRIANGLES_A_SAMPLE * samples {
+            let parted = Parted::new(at, &emitter.clusters, triangles, samples);
+            let whole = parted.whole;
+            (Seen::Parted(parted), whole)
+        } else {
+            let pieces = pieces(at, triangles.iter().copied().enumerate());
+            let whole = pieces.iter().map(|p| p.steradians).sum();
+            (Seen::Pieces(pieces), whole)
+        };
+        (whole > 0.0).then_some(Self { at: *at, triangles, seen, whole })
+    }
+
+    /// Projected solid angle of what is seen, sr; where it is parted, an estimate.
+    pub(crate) const fn whole(&self) -> f64 {
+        self.whole
+    }
+
+    /// A place on one of its triangles; `None` where that is not seen.
+    pub(crate) fn place(&self, dice: &mut Dice) -> Option<Place> {
+        let [pick, accept] = dice.pair();
+        let (piece, share) = match &self.seen {
+            Seen::Pieces(pieces) => (Cow::Borrowed(drawn(pieces, pick * self.whole)?), 1.0),
+            Seen::Parted(parted) => parted.drawn(pick)?,
+        };
+        let triangle = piece.triangle;
+        let point = target(&piece, self.triangles[triangle], &self.at, accept, dice);
+        Place::seen(&self.at, triangle, point, share)
+    }
+
+    /// A direction to some place of it, and its density, 1/sr.
+    pub(crate) fn draw(&self, dice: &mut Dice) -> Option<(Direction, f64)> {
+        let place = self.place(dice)?;
+        let direction = (place.point - self.at.point).direction()?;
+        let cos = facing_cos(direction, self.at.shading, self.at.geometric)?;
+        Some((direction, cos / (place.share * self.whole)))
+    }
+
+    /// The density of directions to a place on one of its triangles, 1/sr.
+    pub(crate) fn density(&self, triangle: usize, to_place: Vector) -> Option<f64> {
+        let cos = facing_cos(to_place.direction()?, self.at.shading, self.at.geometric)?;
+        let share = match &self.seen {
+            Seen::Pieces(_) => 1.0,
+            Seen::Parted(parted) => parted.share(triangle)?,
+        };
+        Some(cos / (share * self.whole))
+    }
+}
+
+impl Lighting<'_> {
+    /// How directions are drawn to an emitting surface, itself and no image of it, that a place sees.
+    pub(crate) fn shape(&self, number: usize, at: &SurfacePoint) -> Option<Shape<'_>> {
+        let source = &self.sources[self.starts[self.scene.luminaires().len() + number]];
+        match &source.kind {
+            SourceKind::Area { emitter, triangles } => Shape::new(at, (emitter, triangles), 1),
+            _ => None,
+        }
+    }
+
+    /// Illuminance from those of some sources that are emitting surfaces, with the variance of its mean. A first look at all of them
+    /// tells which error may be left, lx; where that is less than there is, those that err by more than their part of it have more
+    /// shadow rays.
+    pub(crate) fn of_surfaces(
+        &self,
+        which: impl Iterator<Item = u32>,
+        at: &SurfacePoint,
+        goal_lx: impl Fn(Rgb) -> f64,
+        [fewest, most]: [usize; 2],
+        sequence: Sequence,
+    ) -> Measured {
+        let surface = |k: u32| {
+            let source = &self.sources[k as usize];
+            match &source.kind {
+                SourceKind::Area { emitter, triangles } => {
+                    Some((k, (source, emitter, triangles.as_slice())))
+                }
+                _ => None,
+            }
+        };
+        let surfaces: Vec<_> = which.filter_map(surface).collect();
+        let measured = |&(k, surface): &(u32, _), samples: usize| {
+            let numbers = [sequence.fork(k, samples as u32), sequence];
+            self.of_surface(surface, at, samples, numbers)
+        };
+        let mut found: Vec<Measured> = surfaces.iter().map(|of| measured(of, fewest)).collect();
+        let sum = |found: &[Measured]| Measured {
+            lx: found.iter().map(|m| m.lx).sum(),
+            variance: found.iter().map(|m| OF_FEW * OF_FEW * m.variance).sum(),
+        };
+        let first = sum(&found);
+        let goal = goal_lx(first.lx).powi(2);
+        if first.variance > goal {
+            let goal = goal / surfaces.len() as f64;
+            for (found, of) in found.iter_mut().zip(&surfaces) {
+                let mut samples = fewest;
+                while found.variance > goal && samples < most {
+                    samples = (MORE * samples).min(most);
+                    *found = measured(of, samples);
+                }
+            }
+        }
+        sum(&found)
+    }
+
+    /// The same from one of them, by so many shadow rays in each replicate. What none of them have seen may still be there: it counts
+    /// as if the next one did.
+    fn of_surface(
+        &self,
+        (source, emitter, triangles): (&Source, &Emitter, &[[Point; 3]]),
+        at: &SurfacePoint,
+        samples: usize,
+        [own, of_looks]: [Sequence; 2],
+    ) -> Measured {
+        if !source.may_be_seen(emitter, at) {
+            return Measured { lx: Rgb::BLACK, variance: 0.0 };
+        }
+        let of_each: [Rgb; REPLICATES as usize] = std::array::from_fn(|replicate| {
+            let mut dice = Dice::new(own, replicate as u32);
+            self.lit_by_area(source, emitter, triangles, at, samples, &mut dice)
+        });
+        let (lx, variance) = mean_and_variance(&of_each);
+        if !lx.is_black() {
+            return Measured { lx, variance };
+        }
+        let samples = samples as f64 * f64::from(REPLICATES);
+        let unseen_lx = match self.openings.view(source, at) {
+            Some(view) => source.colour.luminance() * view.unseen(samples),
+            None => {
+                unhidden_lx(source, (emitter, triangles), at, &mut Dice::new(of_looks, 0)) / samples
+            }
+        };
+        Measured { lx, variance: unseen_lx * unseen_lx }
+    }
+
+    /// Illuminance from one emitting surface, by `samples` shadow rays.
+    ///
+    /// Directions are drawn in proportion to the cosine at the receiver, so the share of them that is
+    /// free, times the exact illuminance without obstacles, is an unbiased estimate, and one without
+    /// variance where nothing or everything is hidden. Where there are many triangles they are drawn in
+    /// about that proportion, and every one counts as the inverse of its chance.
+    pub(crate) fn lit_by_area(
+        &self,
+        source: &Source,
+        emitter: &Emitter,
+        triangles: &[[Point; 3]],
+        at: &SurfacePoint,
+        samples: usize,
+        dice: &mut Dice,
+    ) -> Rgb {
+        if !source.may_be_seen(emitter, at) {
+            return Rgb::BLACK;
+        }
+        if let Some(view) = self.openings.view(source, at) {
+            let seen = |direction| self.seen_along(&view, direction);
+            return source.colour * view.steradians(samples, dice, seen);
+        }
+        let seen = |place: &Place| {
+            let index = emitter.indices[place.triangle];
+            self.visibility(&source.chain, at, Target::Point(place.point), Some(index))
+        };
+        if samples == 1 && emitter.facets.are_some() {
+            let look = emitter.facets.look(at, triangles, dice);
+            return look.map_or(Rgb::BLACK, |(place, steradians)| {
+                source.colour * seen(&place) * steradians
+            });
+        }
+        let Some(shape) = Shape::new(at, (emitter, triangles), samples) else {
+            return Rgb::BLACK;
+        };
+        let one = |dice: &mut Dice| {
+            shape.place(dice).map_or(Rgb::BLACK, |place| seen(&place) * place.share)
+        };
+        source.colour * mean(samples, dice, one) * shape.whole
+    }
+}
+
+/// What an emitting surface gives a place that nothing hides it from, lx; roughly where it is parted.
+fn unhidden_lx(
+    source: &Source,
+    of: (&Emitter, &[[Point; 3]]),
+    at: &SurfacePoint,
+    dice: &mut Dice,
+) -> f64 {
+    let Some(shape) = Shape::new(at, of, 1) else { return 0.0 };
+    let one = |dice: &mut Dice| Rgb::grey(shape.place(dice).map_or(0.0, |place| place.share));
+    let samples = if let Seen::Pieces(_) = shape.seen { 1 } else { LOOKED_AT };
+    source.colour.luminance() * mean(samples, dice, one).luminance() * shape.whole
+}
+
+/// Mean of samples that are spread evenly.
+fn mean(samples: usize, dice: &mut Dice, mut one: impl FnMut(&mut Dice) -> Rgb) -> Rgb {
+    if samples == 1 {
+        return one(dice);
+    }
+    let sequence = dice.fork();
+    let sum: Rgb = (0..samples).map(|k| one(&mut Dice::new(sequence, k as u32))).sum();
+    sum / samples as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::light::{sources::facets::Facets, sources::triangle_tree::Clusters};
+    use crate::sampling::Key;
+    use isolux_geometry::Normal;
+    use std::f64::consts::TAU;
+
+    /// Draws of every emitter for every receiver.
+    const DRAWS: u32 = 4000;
+
+    /// Means of as many: so many standard errors are exceeded once in ten million, and a hundred are compared.
+    const DEVIATIONS: f64 = 5.5;
+
+    /// What is expected as often in all draws is missing in one out of three thousand.
+    const SELDOM: f64 = 8.0;
+
+    fn emitter(triangles: &[[Point; 3]]) -> Emitter {
+        Emitter {
+            indices: (0..triangles.len() as u32).collect(),
+            area_m2: 1.0,
+            centre: Point::ORIGIN,
+            radius_m: 0.0,
+            facets: Facets::of(triangles),
+            clusters: Clusters::of(triangles),
+        }
+    }
+
+    /// A surface over a square of angles or lengths, in two triangles for each of so many cells.
+    fn sheet(cells: [usize; 2], place: impl Fn(f64, f64) -> Vector) -> Vec<[Point; 3]> {
+        let [rows, columns] = cells;
+        let corner = |i: usize, k: usize| {
+            Point::ORIGIN + place(i as f64 / rows as f64, k as f64 / columns as f64)
+        };
+        let all = (0..rows).flat_map(|i| (0..columns).map(move |k| (i, k)));
+        all.flat_map(|(i, k)| {
+            let (a, b) = (corner(i, k), corner(i + 1, k));
+            let (c, d) = (corner(i + 1, k + 1), corner(i, k + 1));
+            [[a, b, c], [a, c, d]]
+        })
+        .collect()
+    }
+
+    /// A ring that faces down, a ball, a long thin tube, a floor, any triangles anywhere, all in one place and of no area.
+    fn shapes() -> Vec<(&'static str, Vec<[Point; 3]>)> {
+        let turn = |radius_m: f64, turn: f64| {
+            Vector::new(radius_m * libm::cos(TAU * turn), radius_m * libm::sin(TAU * turn), 0.0)
+        };
+        let up = |height_m: f64| Vector::new(0.0, 0.0, height_m);
+        let ring = sheet([48, 1], |u, v| turn(2.0 + 0.1 * v, u) + up(1.0));
+        let ball = sheet([12, 24], |u, v| {
+            turn(0.5 * libm::sin(TAU * u / 2.0), v) + up(0.7 - 0.5 * libm::cos(TAU * u / 2.0))
+        });
+        let tube = sheet([64, 3], |u, v| {
+            let around = turn(0.01, u);
+            Vector::new(3.0 * v - 1.0, around.x, 0.4 + around.y)
+        });
+        let floor = sheet([10, 10], |u, v| Vector::new(u - 0.3, v - 0.3, 0.0));
+        let any = |k: u64| {
+            let key = Key::new(7).with(k);
+            let c = |n: u64| 2.0 * key.with(n).uniform() - 1.0;
+            let first = Point::new(c(0), c(1), c(2));
+            let [b, r] = [Vector::new(c(3), c(4), c(5)), Vector::new(c(6), c(7), c(8))];
+            [first, first + b * 0.3, first + r * 0.3]
+        };
+        let soup = (0..500).map(any).collect();
+        let same = vec![any(1); 100];
+        let none = vec![[Point::ORIGIN; 3]; 100];
+        let mixed = (0..200).map(|k| if k % 3 == 0 { any(k) } else { [any(k)[0]; 3] }).collect();
+        let away = Vector::new(1e5, -1e5, 1e5);
+        let far = ring.iter().map(|t| t.map(|p| p + away)).collect();
+        vec![
+            ("ring", ring),
+            ("ball", ball),
+            ("tube", tube),
+            ("floor", floor),
+            ("soup", soup),
+            ("same", same),
+            ("none", none),
+            ("mixed", mixed),
+            ("far", far),
+        ]
+    }
+
+    /// Below, beside, on, in and above them.
+    fn receivers() -> impl Iterator<Item = SurfacePoint> {
+        let place = |k: u64| {
+            let c = |n: u64| 2.0 * Key::new(9).with(k).with(n).uniform() - 1.0;
+            let point = match k {
+                0 => Point::new(0.0, 0.0, 0.0),
+                1 => Point::new(2.05, 0.0, 0.0),
+                2 => Point::new(2.05, 0.0, 0.99),
+                3 => Point::new(0.0, 0.5, 0.7),
+                4 => Point::new(0.1, 0.1, 1e-3),
+                5 => Point::new(1e5, -1e5, 1e5),
+                _ => Point::new(2.5 * c(0), 2.5 * c(1), 1.5 * c(2)),
+            };
+            let normal = if k < 5 { up() } else { Vector::new(c(3), c(4), c(5)) };
+            SurfacePoint::in_space(point, normal.normal().unwrap(), 0.0)
+        };
+        (0..16).map(place)
+    }
+
+    fn up() -> Vector {
+        Normal::Z.to_vector()
+    }
+
+    fn check(found: &[f64], expected: f64, what: &str) {
+        let count = found.len() as f64;
+        let mean = found.iter().sum::<f64>() / count;
+        let square = found.iter().map(|f| (f - mean) * (f - mean)).sum::<f64>();
+        let error = (square / (count * (count - 1.0))).sqrt();
+        // What is drawn as seldom as once in so many may be missing, and be given wrongly by half. Half the digits of the arcs are
+        // lost in thin triangles.
+        let tolerance = DEVIATIONS * error + 0.5 * SELDOM / count * expected + 1e-7;
+        assert!((mean - expected).abs() <= tolerance, "{what}: {mean} +- {error}, not {expected}");
+    }
+
+    /// A chance that is drawn seldom shows in the density, not in the mean: all that gives light has one. The values of draws spread by 0.6
+    /// about their mean (in November 2026).
+    #[test]
+    fn many_triangles_are_drawn_without_bias_and_with_their_density() {
+        let (mut compared, mut spread) = (0, 0.0);
+        for (name, triangles) in shapes() {
+            let emitter = emitter(&triangles);
+            for (k, at) in receivers().enumerate() {
+                let what = format!("{name} from {k}");
+                let all = pieces(&at, triangles.iter().copied().enumerate());
+                let exact: f64 = all.iter().map(|p| p.steradians).sum();
+                let Some(shape) = Shape::new(&at, (&emitter, &triangles), 1) else {
+                    assert!(exact == 0.0, "{what}: {exact} is not seen");
+                    continue;
+                };
+                let Seen::Parted(parted) = &shape.seen else { panic!("{what} is not parted") };
+                let mut sum = 0.0;
+                for piece in &all {
+                    let share = parted.share(piece.triangle);
+                    let share =
+                        share.unwrap_or_else(|| panic!("{what}: {} unseen", piece.triangle));
+                    sum += piece.steradians / (share * shape.whole);
+                }
+                let (mut seen, mut found) = (Vec::new(), Vec::new());
+                for n in 0..DRAWS {
+                    let dice = || Dice::new(Sequence::new(Key::new(3).with(k as u64)), n);
+                    let place = shape.place(&mut dice());
+                    seen.push(f64::from(u8::from(place.is_some())));
+                    found.push(place.as_ref().map_or(0.0, |p| p.share * shape.whole));
+                    let Some(place) = place else { continue };
+                    let to_place = place.point - at.point;
+                    let density = shape.density(place.triangle, to_place);
+                    let drawn = shape.draw(&mut dice()).map(|(_, density)| density);
+                    assert_eq!(density, drawn, "{what}");
+                }
+                check(&found, exact, &what);
+                check(&seen, sum, &format!("density of {what}"));
+                let square = found.iter().map(|f| (f / exact - 1.0).powi(2)).sum::<f64>();
+                if exact > 0.0 {
+                    (compared, spread) = (compared + 1, spread + square / f64::from(DRAWS));
+                }
+            }
+        }
+        let spread = (spread / f64::from(compared)).sqrt();
+        assert!(compared > 50 && spread < 1.0, "{compared}: {spread}");
+    }
+
+    /// As far away triangles are drawn by their middles, and near ones by all of them.
+    #[test]
+    fn one_look_has_no_bias() {
+        let mut compared = 0;
+        for (name, triangles) in shapes() {
+            let facets = Facets::of(&triangles);
+            for (k, at) in receivers().enumerate().filter(|_| facets.are_some()) {
+                let all = pieces(&at, triangles.iter().copied().enumerate());
+                let exact: f64 = all.iter().map(|p| p.steradians).sum();
+                let look = |n: u32| {
+                    let mut dice = Dice::new(Sequence::new(Key::new(5).with(k as u64)), n);
+                    facets
+                        .look(&at, &triangles, &mut dice)
+                        .map_or(0.0, |(_, steradians)| steradians)
+                };
+                let found: Vec<f64> = (0..DRAWS).map(look).collect();
+                check(&found, exact, &format!("{name} from {k}"));
+                compared += u32::from(exact > 0.0);
+            }
+        }
+        assert!(compared > 10, "{compared}");
+    }
+}

@@ -1,0 +1,295 @@
+//! Direct light of many luminaires by few shadow rays.
+//!
+//! A comb of evenly spaced teeth, shifted at random, is laid over all luminaires and images, each as
+//! wide as what it is expected to give: in the order of the tree, so that neighbours in space are
+//! neighbours under the comb. Those under a tooth are evaluated exactly and looked at; of a cluster under
+//! a tooth, one of a few. What is found is divided by the chance of having been chosen (Hansen and
+//! Hurwitz 1943), so there is no bias whatever the widths are, and no noise where the widths are right and
+//! nothing is hidden. Of a triangle of an emitting surface a look tells one point, drawn by projected solid angle where it is near, so
+//! that of its light alone what hides it is noise.
+
+use super::super::lighting::{Lighting, RAYS_TO_MANY, drawn};
+use super::super::polygon;
+use super::super::polygon::{Place, pieces, target};
+use super::super::sources;
+use super::super::sources::Target;
+use super::super::sources::triangle_lamps::{Face, middle_and_twice_m2};
+use super::super::tree::Node;
+use super::super::tree::cut::{Cut, Part, Parts, Seen, View};
+use super::patches::Patches;
+use crate::engine::ray::{Dice, SurfacePoint};
+use crate::units::Rgb;
+use isolux_geometry::{Point, Vector};
+
+/// So many times as many points as rays are looked at one by one, without noise.
+const MORE_POINTS: usize = 4;
+
+/// Luminaires of a cluster among which one is chosen.
+const CHOICE: usize = 8;
+
+/// Faces that reach no further than this share of their distance are drawn from by area, which takes a third of the time.
+const FAR: f64 = 0.25;
+
+/// The teeth of a comb: whole numbers plus a shift.
+#[derive(Clone, Copy)]
+struct Comb(f64);
+
+impl Comb {
+    /// The number of the first tooth at or after a place of zero or more.
+    fn tooth_from(self, place: f64) -> u32 {
+        let teeth = place - self.0;
+        let whole = teeth as u32;
+        whole + u32::from(teeth > f64::from(whole))
+    }
+}
+
+impl Lighting<'_> {
+    /// [`Lighting::sampled`] where many readings of a surface lie close by.
+    pub(crate) fn sampled_on(
+        &self,
+        patches: &Patches,
+        at: &SurfacePoint,
+        samples: usize,
+        dice: &mut Dice,
+    ) -> Rgb {
+        if !self.has_many() {
+            return self.by_all(at, samples, dice);
+        }
+        self.lit_by_cut(&self.cut_on(patches, at), at, (RAYS_TO_MANY, samples), dice)
+    }
+
+    /// An unbiased estimate by about `rays` shadow rays, where many readings of a surface lie close by; where points are
+    /// not many more, by one to each of them.
+    pub(crate) fn by_rays_on(
+        &self,
+        patches: &Patches,
+        at: &SurfacePoint,
+        rays: usize,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let samples = (rays / self.area_sources.max(1)).max(1);
+        let is_exact = self.tree.faces.is_empty() && self.points <= MORE_POINTS * rays;
+        if self.tree.lamps.is_empty() || is_exact {
+            return self.by_all(at, samples, dice);
+        }
+        self.lit_by_cut(&self.cut_on(patches, at), at, (rays, samples), dice)
+    }
+
+    /// Direct illuminance from luminaires without surface and their images, by `rays` shadow rays;
+    /// `cut` is that of the place.
+    pub(crate) fn lit_by_many(
+        &self,
+        cut: &Cut,
+        at: &SurfacePoint,
+        rays: usize,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let mut sum = Rgb::BLACK;
+        self.look(cut, at, rays, dice, |found| sum += found);
+        sum / rays as f64
+    }
+
+    /// Direct illuminance by so many shadow rays to the luminaires of a cut, and so many to every emitting surface.
+    pub(crate) fn lit_by_cut(
+        &self,
+        cut: &Cut,
+        at: &SurfacePoint,
+        (rays, samples): (usize, usize),
+        dice: &mut Dice,
+    ) -> Rgb {
+        let points = self.lit_by_many(cut, at, rays, dice);
+        self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
+    }
+
+    /// Looks along a comb of `rays` teeth, one more or less: each tells what all would give if they gave
+    /// as it does.
+    pub(crate) fn look(
+        &self,
+        cut: &Cut,
+        at: &SurfacePoint,
+        rays: usize,
+        dice: &mut Dice,
+        mut found: impl FnMut(Rgb),
+    ) {
+        let comb = Comb(dice.pair()[0]);
+        let choices = dice.fork();
+        let Parts { seen, total } = &*cut.parts;
+        let scale = rays as f64 / total;
+        let mut place = 0.0;
+        let mut next = comb.tooth_from(0.0);
+        for seen in seen {
+            place += seen.weight * scale;
+            let teeth = next..comb.tooth_from(place);
+            if teeth.is_empty() {
+                continue;
+            }
+            next = teeth.end;
+            let Some(view) = &cut.views[seen.chain] else { continue };
+            let of_all = total / seen.weight;
+            let dice = |tooth: u32| Dice::new(choices, tooth);
+            match seen.part {
+                Part::Lamp(lamp) if self.is_exact(lamp) => {
+                    let lit = self.lit_by_lamp(view, lamp, at, &mut dice(next)) * of_all;
+                    teeth.for_each(|_| found(lit));
+                }
+                Part::Lamp(lamp) => teeth.for_each(|tooth| {
+                    found(self.lit_by_lamp(view, lamp, at, &mut dice(tooth)) * of_all);
+                }),
+                Part::Node(node) => teeth.for_each(|tooth| {
+                    found(self.lit_by_one_of(node, view, at, &mut dice(tooth)) * of_all);
+                }),
+            }
+        }
+    }
+
+    /// Whether one look tells all that comes from a lamp.
+    fn is_exact(&self, lamp: u32) -> bool {
+        self.tree.face(&self.tree.lamps[lamp as usize]).is_none()
+    }
+
+    /// The same with a look at each of them; of faces, by more of so many rays where more is expected.
+    pub(crate) fn lit_by_each(
+        &self,
+        cut: &Cut,
+        at: &SurfacePoint,
+        rays: usize,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let looks = dice.fork();
+        let scale = rays as f64 / cut.parts.total;
+        let lit = |seen: &Seen, lamps: std::ops::Range<u32>| -> Rgb {
+            let Some(view) = cut.views[seen.chain].as_ref() else { return Rgb::BLACK };
+            let rays = ((seen.weight * scale / lamps.len() as f64).round() as u32).max(1);
+            lamps
+                .map(|k| {
+                    let rays = if self.is_exact(k) { 1 } else { rays };
+                    let sequence = looks.fork(k, 0);
+                    let one = |ray| self.lit_by_lamp(view, k, at, &mut Dice::new(sequence, ray));
+                    (0..rays).map(one).sum::<Rgb>() / f64::from(rays)
+                })
+                .sum()
+        };
+        let parts = cut.parts.seen.iter().map(|seen| match seen.part {
+            Part::Lamp(lamp) => lit(seen, lamp..lamp + 1),
+            Part::Node(number) => {
+                let node = &self.tree.nodes[number as usize];
+                lit(seen, node.first..node.first + node.count)
+            }
+        });
+        parts.sum()
+    }
+
+    /// How many luminaires and images a cut holds.
+    pub(crate) fn count(&self, cut: &Cut) -> usize {
+        let count = |part| match part {
+            Part::Lamp(_) => 1,
+            Part::Node(number) => self.tree.nodes[number as usize].count as usize,
+        };
+        cut.parts.seen.iter().map(|seen| count(seen.part)).sum()
+    }
+
+    /// An unbiased estimate of what a cluster gives, by one of its lamps: chosen in proportion to what it
+    /// is expected to give among some that a comb over their power brings.
+    fn lit_by_one_of(&self, node: u32, view: &View, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+        let [shift, pick] = dice.pair();
+        let node: &Node = &self.tree.nodes[node as usize];
+        let lamps: [u32; CHOICE] =
+            std::array::from_fn(|k| self.tree.member(node, (k as f64 + shift) / CHOICE as f64));
+        let share = |lamp: u32| {
+            let lamp = &self.tree.lamps[lamp as usize];
+            view.lamp_weight(lamp) / lamp.peak_cd
+        };
+        let shares = lamps.map(share);
+        let total: f64 = shares.iter().sum();
+        let Some(k) = drawn(&shares, pick * total) else { return Rgb::BLACK };
+        let peak_cd = self.tree.lamps[lamps[k] as usize].peak_cd;
+        let chance = CHOICE as f64 * (peak_cd / node.peak_cd) * (shares[k] / total);
+        self.lit_by_lamp(view, lamps[k], at, dice) / chance
+    }
+
+    /// Direct illuminance from one lamp in a view; from a face by one shadow ray.
+    pub(crate) fn lit_by_lamp(
+        &self,
+        view: &View,
+        lamp: u32,
+        at: &SurfacePoint,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let chain: &[u32] = &self.chains[view.chain];
+        if !chain.is_empty() && !self.images.has(lamp, view.chain) {
+            return Rgb::BLACK;
+        }
+        let lamp = &self.tree.lamps[lamp as usize];
+        if let Some(face) = self.tree.face(lamp) {
+            return self.lit_by_face(view.chain, (face, lamp.colour), at, dice);
+        }
+        let kind = &self.tree.kinds[lamp.kind as usize];
+        let Some(reaching) = view.reaching(lamp.position, &kind.frame) else {
+            return Rgb::BLACK;
+        };
+        let planes = chain.iter().map(|&p| &self.mirrors.planes[p as usize]);
+        let target = Target::Point(planes.clone().fold(lamp.position, |p, plane| plane.image(p)));
+        let share = self.visibility(chain, at, target, None);
+        if share.is_black() {
+            return Rgb::BLACK;
+        }
+        let candela = sources::intensity(self.scene, kind.luminaire).intensity_cd(reaching.local);
+        let colour = planes.fold(lamp.colour, |colour, plane| colour * plane.reflectance);
+        colour * share * (candela * reaching.per_cd)
+    }
+
+    /// An unbiased estimate of the direct illuminance from a face by way of a chain of mirrors, by one shadow ray.
+    pub(crate) fn lit_by_face(
+        &self,
+        chain: usize,
+        (face, colour): (&Face, Rgb),
+        at: &SurfacePoint,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let chain: &[u32] = &self.chains[chain];
+        let mut corners = face.corners(self.scene);
+        let mut colour = colour;
+        for &plane in chain {
+            let plane = &self.mirrors.planes[plane as usize];
+            corners = plane.image_of_triangle(corners);
+            colour = colour * plane.reflectance;
+        }
+        let (middle, twice_m2) = middle_and_twice_m2(corners);
+        let is_far = face.radius_m <= FAR * (middle - at.point).length();
+        let drawn = if is_far {
+            by_area(corners, twice_m2, at, dice)
+        } else {
+            by_direction(corners, at, dice)
+        };
+        let Some((point, steradians)) = drawn else { return Rgb::BLACK };
+        let seen = self.visibility(chain, at, Target::Point(point), Some(face.triangle));
+        colour * seen * steradians
+    }
+}
+
+/// A point of a triangle, uniformly by area, and the projected solid angle that it stands for, sr; `None` where that is nothing.
+fn by_area(
+    [a, b, c]: [Point; 3],
+    twice_m2: Vector,
+    at: &SurfacePoint,
+    dice: &mut Dice,
+) -> Option<(Point, f64)> {
+    let [along, across] = dice.pair();
+    let along = along.sqrt();
+    let point = a + (b - a) * (along * (1.0 - across)) + (c - a) * (along * across);
+    let to = point - at.point;
+    let (height, depth) = (to.dot(at.shading.to_vector()), -to.dot(twice_m2));
+    let is_seen = height > 0.0 && depth > 0.0 && to.dot(at.geometric.to_vector()) > 0.0;
+    let distance2 = to.length_squared();
+    is_seen.then(|| (point, 0.5 * height * depth / (distance2 * distance2)))
+}
+
+/// The same in proportion to the cosine at the receiver by direction.
+fn by_direction(corners: [Point; 3], at: &SurfacePoint, dice: &mut Dice) -> Option<(Point, f64)> {
+    let pieces = pieces(at, std::iter::once((0, corners)));
+    let steradians: f64 = pieces.iter().map(|piece| piece.steradians).sum();
+    let [pick, accept] = dice.pair();
+    let piece = polygon::drawn(&pieces, pick * steradians)?;
+    let point = target(piece, corners, at, accept, dice);
+    Place::seen(at, 0, point, steradians).map(|place| (place.point, place.share))
+}

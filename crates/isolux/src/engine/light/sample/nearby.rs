@@ -1,0 +1,161 @@
+//! Luminaires as seen from about a place, to draw one of them for each of many places close by.
+//!
+//! A cut of the tree of luminaires for every place takes ten times as long as the shadow ray that it is
+//! for. Places close to each other see much the same: a distribution over clusters, made once for all
+//! of them, brings a few candidates to each, and what these would give there, unhidden, decides
+//! (resampled importance sampling: Talbot, Cline, Egbert 2005). The estimate has no bias, whatever the
+//! distribution, as long as it leaves nothing out.
+
+use super::super::lighting::{Lighting, drawn};
+use super::super::tree::cut::Part;
+use super::super::tree::lobe::turned;
+use super::super::tree::{Lamp, Node};
+use crate::ablation::without;
+use crate::engine::ray::{Dice, SurfacePoint};
+use crate::units::Rgb;
+use isolux_geometry::Point;
+
+/// Candidates, evenly over the distribution.
+const CANDIDATES: usize = 8;
+
+/// Clusters are taken as one if their radius is at most this share of their distance.
+const TIGHTNESS: f64 = 0.4;
+
+/// What a cluster is expected to give at least, as a share of what it would at its highest intensity:
+/// elsewhere it may be seen from another side.
+const LEAST_SHAPE: f64 = 0.03;
+
+/// Clusters and single luminaires, by chain of mirrors, and the running sums of what they are expected to give.
+pub(crate) struct About {
+    place: Point,
+    parts: Vec<(usize, Part)>,
+    sums: Vec<f64>,
+}
+
+/// Where a cluster or a luminaire is, and how strong at most.
+#[derive(Clone, Copy)]
+struct Extent {
+    centre: Point,
+    radius_m: f64,
+    peak_cd: f64,
+}
+
+impl Lighting<'_> {
+    /// What is seen from about a place, as far as `reach_m`; `None` where luminaires are too few to be drawn so.
+    pub(crate) fn about(&self, place: Point, reach_m: f64) -> Option<About> {
+        if self.tree.lamps.is_empty() || without("nearby-luminaires") {
+            return None;
+        }
+        let mut about = About { place, parts: Vec::new(), sums: vec![0.0] };
+        let mut waiting = Vec::new();
+        for chain in 0..self.chains.len() {
+            let (from, reflectance) = self.image_of(place, chain);
+            waiting.push(0_u32);
+            while let Some(number) = waiting.pop() {
+                let node = &self.tree.nodes[number as usize];
+                let distance_m = (node.centre - from).length().max(reach_m);
+                let weight =
+                    |extent: Extent| reflectance * self.expected(node, extent, from, reach_m);
+                if node.radius_m <= TIGHTNESS * distance_m {
+                    let Node { centre, radius_m, peak_cd, .. } = *node;
+                    about.push(
+                        chain,
+                        Part::Node(number),
+                        weight(Extent { centre, radius_m, peak_cd }),
+                    );
+                } else if let Some(second) = node.second {
+                    waiting.extend([second, number + 1]);
+                } else {
+                    for lamp in node.first..node.first + node.count {
+                        let of = &self.tree.lamps[lamp as usize];
+                        let &Lamp { position: centre, peak_cd, .. } = of;
+                        let extent = Extent { centre, radius_m: self.tree.radius_m(of), peak_cd };
+                        about.push(chain, Part::Lamp(lamp), weight(extent));
+                    }
+                }
+            }
+        }
+        (about.total() > 0.0).then_some(about)
+    }
+
+    /// A place as reflected by a chain of mirrors, back to where the luminaires are, and what the mirrors leave.
+    fn image_of(&self, place: Point, chain: usize) -> (Point, f64) {
+        let planes = self.chains[chain].iter().map(|&p| &self.mirrors.planes[p as usize]);
+        planes.rev().fold((place, 1.0), |(point, left), plane| {
+            (plane.image(point), left * plane.reflectance.max_channel())
+        })
+    }
+
+    /// What a cluster, or a part of it, may give about a place, any way it faces.
+    fn expected(&self, node: &Node, part: Extent, from: Point, reach_m: f64) -> f64 {
+        let to = part.centre - from;
+        let extent_m = (part.radius_m + reach_m).max(f64::MIN_POSITIVE);
+        let distance_m = to.length().max(extent_m);
+        let local = match node.kind {
+            Some(kind) => turned(&self.tree.kinds[kind as usize].frame, -to),
+            None => -to,
+        };
+        let shape = self.tree.lobes.towards(node.lobe, extent_m / distance_m, local);
+        part.peak_cd * shape.max(LEAST_SHAPE) / (distance_m * distance_m)
+    }
+
+    /// An unbiased estimate of the direct illuminance at a place by one shadow ray, or two where some sources are not
+    /// luminaires without surface. Where a luminaire is nearer than the place that others are seen from, it gives far more than is
+    /// expected there, as on a ceiling close above it: such places have a cut of their own. Elsewhere none is nearer than half as
+    /// far as it is from there, so that it gives no more than some times what is expected.
+    pub(crate) fn estimate_by(&self, about: &About, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+        let away_m = (at.point - about.place).length();
+        if self.tree.nearest_m(at.point, away_m) < away_m {
+            return self.estimate(at, dice);
+        }
+        let [shift, pick] = dice.pair();
+        let candidates: [(usize, u32, f64); CANDIDATES] =
+            std::array::from_fn(|k| self.candidate(about, (k as f64 + shift) / CANDIDATES as f64));
+        let ratio = |&(chain, lamp, chance): &(usize, u32, f64)| {
+            let is_there = self.chains[chain].is_empty() || self.images.has(lamp, chain);
+            let view = self.view(chain, at, 0.0).filter(|_| is_there);
+            view.map_or(0.0, |v| v.lamp_weight(&self.tree.lamps[lamp as usize])) / chance
+        };
+        let ratios = candidates.each_ref().map(ratio);
+        let total: f64 = ratios.iter().sum();
+        let lit = drawn(&ratios, pick * total).and_then(|k| {
+            let (chain, lamp, chance) = candidates[k];
+            let view = self.view(chain, at, 0.0)?;
+            let share = CANDIDATES as f64 * chance * ratios[k] / total;
+            Some(self.lit_by_lamp(&view, lamp, at, dice) / share)
+        });
+        lit.unwrap_or(Rgb::BLACK) + self.estimate_of_others(at, dice)
+    }
+
+    /// The chain and luminaire at a place from 0 to 1 of a distribution, and how likely they are.
+    fn candidate(&self, about: &About, place: f64) -> (usize, u32, f64) {
+        let sum = place * about.total();
+        let k = about.sums.partition_point(|&s| s <= sum).clamp(1, about.parts.len()) - 1;
+        let (from, weight) = (about.sums[k], about.sums[k + 1] - about.sums[k]);
+        let (chain, part) = about.parts[k];
+        let chance = weight / about.total();
+        match part {
+            Part::Lamp(lamp) => (chain, lamp, chance),
+            Part::Node(number) => {
+                let node = &self.tree.nodes[number as usize];
+                let inside = ((sum - from) / weight).clamp(0.0, 1.0);
+                let lamp = self.tree.member(node, inside);
+                let of_node = self.tree.lamps[lamp as usize].peak_cd / node.peak_cd;
+                (chain, lamp, chance * of_node)
+            }
+        }
+    }
+}
+
+impl About {
+    fn push(&mut self, chain: usize, part: Part, weight: f64) {
+        if weight > 0.0 {
+            self.parts.push((chain, part));
+            self.sums.push(self.total() + weight);
+        }
+    }
+
+    fn total(&self) -> f64 {
+        self.sums.last().copied().unwrap_or(0.0)
+    }
+}

@@ -1,0 +1,340 @@
+//! Luminaires and their images in planar mirrors.
+
+pub(super) mod facets;
+pub(super) mod triangle_lamps;
+pub(super) mod triangle_tree;
+
+use super::mirrors::planar::{Ball, Mirrors};
+use super::mirrors::windows::Windows;
+use crate::engine::ray::SurfacePoint;
+use crate::photometry::IntensityDistribution;
+use crate::scene::{LuminaireKind, Scene};
+use crate::units::Rgb;
+use facets::Facets;
+use isolux_geometry::{Direction, Normal, Point, Transform, Vector};
+use triangle_tree::Clusters;
+
+/// Reflections in a row that virtual luminaires follow; longer chains are left to particles.
+const MAX_CHAIN: usize = 6;
+/// Chains whose mirrors leave less than this of the light are left out, and counted as error.
+const LEAST_REFLECTANCE: f64 = 1e-3;
+/// Virtual luminaires for every real one, at most; the others are left to particles.
+const MAX_IMAGES: usize = 64;
+
+/// A luminaire of the scene: those without surface first, then emitting surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum LuminaireId {
+    Luminaire(u32),
+    Area(u32),
+}
+
+/// A luminaire or its image.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    pub(crate) luminaire: LuminaireId,
+    /// Planes that reflect its light, in the order the light meets them.
+    pub(crate) chain: Vec<u32>,
+    /// Colour of the luminaire times reflectance of the chain.
+    pub(crate) colour: Rgb,
+    pub(crate) kind: SourceKind,
+    /// What an image is seen through.
+    pub(crate) windows: Windows,
+}
+
+/// What it looks like from a receiver.
+#[derive(Clone, Debug)]
+pub(crate) enum SourceKind {
+    /// A point; `local_from_world` is linear and orthogonal (a mirror image is left-handed).
+    Point { luminaire: u32, position: Point, local_from_world: Transform },
+    /// Parallel light.
+    Directional { towards: Direction, illuminance_lx: f64 },
+    /// Emitting triangles, reflected by the chain, their emitting side counter-clockwise.
+    Area { emitter: Emitter, triangles: Vec<[Point; 3]> },
+}
+
+/// Totals of an emitting surface.
+#[derive(Clone, Debug)]
+pub(crate) struct Emitter {
+    pub(crate) indices: Vec<u32>,
+    pub(crate) area_m2: f64,
+    pub(crate) centre: Point,
+    /// All of it is within so much of the centre, m.
+    pub(crate) radius_m: f64,
+    /// For one look, and for many where they are many.
+    pub(crate) facets: Facets,
+    pub(crate) clusters: Clusters,
+}
+
+/// Light on its way to a surface, obstacles left out.
+pub(crate) struct Arriving {
+    pub(crate) illuminance_lx: Rgb,
+    pub(crate) target: Target,
+}
+
+/// Emitters of at most so many triangles a sample are sampled by solid angle, with the exact
+/// unoccluded illuminance as control; of larger ones only those triangles that are near.
+pub(crate) const TRIANGLES_A_SAMPLE: usize = 32;
+
+/// Where a source is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Target {
+    Point(Point),
+    Infinity(Direction),
+}
+
+impl Target {
+    /// The way to it.
+    pub(crate) fn towards(self, from: Point) -> Vector {
+        match self {
+            Self::Point(place) => place - from,
+            Self::Infinity(direction) => direction.to_vector(),
+        }
+    }
+}
+
+/// All sources of a scene.
+#[derive(Debug, Default)]
+pub(crate) struct Sources {
+    pub(crate) all: Vec<Source>,
+    /// Where those of every luminaire start, and where the last ones end.
+    pub(crate) starts: Vec<usize>,
+    /// Whether some chain of mirrors goes on where images end.
+    pub(crate) leaves_chains: bool,
+    /// Bound of the share of all light that is left out because mirrors have dimmed it so much:
+    /// what leaves a luminaire in one direction follows one chain, so the largest share of any.
+    pub(crate) left_out: f64,
+}
+
+impl Sources {
+    /// The luminaires of a scene and their images.
+    pub(crate) fn of(scene: &Scene, mirrors: &Mirrors) -> Self {
+        let mut found = Self::default();
+        for real in real_sources(scene) {
+            let first = found.all.len();
+            found.starts.push(first);
+            found.all.push(real);
+            let mut next = first;
+            // Breadth first: images are appended and looked at in turn.
+            while next < found.all.len() {
+                let full = found.all.len() - first >= MAX_IMAGES;
+                found.reflect(next, mirrors, full);
+                next += 1;
+            }
+        }
+        found.starts.push(found.all.len());
+        found
+    }
+
+    fn reflect(&mut self, source: usize, mirrors: &Mirrors, full: bool) {
+        for plane in 0..mirrors.planes.len() as u32 {
+            let source = &self.all[source];
+            let Some(image) = image(source, plane, mirrors) else { continue };
+            let kept = chain_reflectance(&image, mirrors);
+            if kept < LEAST_REFLECTANCE {
+                self.left_out = self.left_out.max(kept);
+            } else if full || image.chain.len() > MAX_CHAIN {
+                self.leaves_chains = true;
+            } else {
+                self.all.push(image);
+            }
+        }
+    }
+}
+
+impl Source {
+    /// Whether it is an emitting surface.
+    pub(crate) const fn is_area(&self) -> bool {
+        matches!(self.kind, SourceKind::Area { .. })
+    }
+
+    /// Whether something of an emitting surface may be seen through the mirrors; surely not where it does not.
+    pub(crate) fn may_be_seen(&self, emitter: &Emitter, at: &SurfacePoint) -> bool {
+        let Emitter { centre, radius_m, .. } = *emitter;
+        self.windows.may_show(at.point, Ball { centre, radius_m })
+    }
+}
+
+/// Corners of a side of a triangle, counter-clockwise as seen from there.
+pub(crate) fn corners_seen(scene: &Scene, triangle: u32, back: bool) -> [Point; 3] {
+    let [a, b, c] = scene.triangle(triangle).corners;
+    if back { [a, c, b] } else { [a, b, c] }
+}
+
+fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
+    let points = scene.luminaires().iter().enumerate().map(|(index, luminaire)| {
+        let kind = match &luminaire.kind {
+            LuminaireKind::Point { position, world_from_luminaire, .. } => SourceKind::Point {
+                luminaire: index as u32,
+                position: *position,
+                local_from_world: transposed(world_from_luminaire),
+            },
+            LuminaireKind::Directional { direction, illuminance_lx } => {
+                SourceKind::Directional { towards: -*direction, illuminance_lx: *illuminance_lx }
+            }
+        };
+        let luminaire_id = LuminaireId::Luminaire(index as u32);
+        Source {
+            luminaire: luminaire_id,
+            chain: Vec::new(),
+            colour: luminaire.colour,
+            kind,
+            windows: Windows::default(),
+        }
+    });
+    let areas = scene.area_luminaires().iter().enumerate().map(|(index, area)| {
+        let triangles = area.triangles.iter().map(|&t| corners_seen(scene, t, area.back));
+        Source {
+            luminaire: LuminaireId::Area(index as u32),
+            chain: Vec::new(),
+            colour: area.luminance_cd_m2,
+            kind: area_kind(area.triangles.clone(), triangles.collect()),
+            windows: Windows::default(),
+        }
+    });
+    points.chain(areas)
+}
+
+fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
+    let area = |&[a, b, c]: &[Point; 3]| 0.5 * (b - a).cross(c - a).length();
+    let (mut sum_m2, mut moment) = (0.0, Vector::ZERO);
+    for triangle in &triangles {
+        let m2 = area(triangle);
+        sum_m2 += m2;
+        let [a, b, c] = triangle.map(Point::to_vector);
+        moment += (a + b + c) * (m2 / 3.0);
+    }
+    let centre = Point::ORIGIN + moment / sum_m2;
+    // Those of few triangles are looked at one by one.
+    let is_large = triangles.len() > TRIANGLES_A_SAMPLE;
+    let clusters = if is_large { Clusters::of(&triangles) } else { Clusters::default() };
+    let facets = Facets::of(&triangles);
+    let away_m = |corner: &Point| (*corner - centre).length();
+    let radius_m = triangles.iter().flatten().map(away_m).fold(0.0, f64::max);
+    let emitter = Emitter { indices, area_m2: sum_m2, centre, radius_m, facets, clusters };
+    SourceKind::Area { emitter, triangles }
+}
+
+/// The image of a source in a plane; `None` where its light cannot reach the reflecting side.
+fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
+    let mirror = &mirrors.planes[plane as usize];
+    let colour = source.colour * mirror.reflectance;
+    let meets = source.chain.last().is_none_or(|&last| {
+        last != plane && mirrors.planes[last as usize].can_light(mirror, mirrors.tolerance_m)
+    });
+    if !meets {
+        return None;
+    }
+    let kind = match &source.kind {
+        SourceKind::Point { luminaire, position, local_from_world } => {
+            (mirror.height(*position) > 0.0).then(|| SourceKind::Point {
+                luminaire: *luminaire,
+                position: mirror.image(*position),
+                local_from_world: Transform {
+                    columns: Transform::IDENTITY
+                        .columns
+                        .map(|axis| local_from_world.vector(mirror.image_vector(axis))),
+                    translation: Vector::ZERO,
+                },
+            })
+        }
+        SourceKind::Directional { towards, illuminance_lx } => (towards.cos(mirror.normal) > 0.0)
+            .then(|| SourceKind::Directional {
+                towards: towards.reflect(mirror.normal),
+                illuminance_lx: *illuminance_lx,
+            }),
+        SourceKind::Area { emitter, triangles } => {
+            // Triangles behind the mirror have no image; of those that cross its plane, what lies
+            // behind is told by the mirror not being met before the image.
+            let in_front =
+                |t: &[Point; 3]| t.iter().any(|&p| mirror.height(p) > mirrors.tolerance_m);
+            let kept = || emitter.indices.iter().zip(triangles).filter(|(_, t)| in_front(t));
+            let indices: Vec<u32> = kept().map(|(&index, _)| index).collect();
+            (!indices.is_empty()).then(|| {
+                area_kind(indices, kept().map(|(_, &t)| mirror.image_of_triangle(t)).collect())
+            })
+        }
+    }?;
+    let chain = source.chain.iter().copied().chain([plane]).collect();
+    let windows = source.windows.and(mirror, mirrors.tolerance_m);
+    Some(Source { luminaire: source.luminaire, chain, colour, kind, windows })
+}
+
+fn chain_reflectance(source: &Source, mirrors: &Mirrors) -> f64 {
+    source.chain.iter().map(|&p| mirrors.planes[p as usize].reflectance.max_channel()).product()
+}
+
+/// The inverse of a rotation: its linear part transposed.
+fn transposed(rotation: &Transform) -> Transform {
+    let [a, b, c] = rotation.columns;
+    let row = |k: usize| Vector::new(a.component(k), b.component(k), c.component(k));
+    Transform { columns: [row(0), row(1), row(2)], translation: Vector::ZERO }
+}
+
+/// What a point or parallel source would give without obstacles; `None` where it faces away, or is
+/// not in view.
+pub(crate) fn unoccluded_if(
+    scene: &Scene,
+    source: &Source,
+    at: &SurfacePoint,
+    is_in_view: impl Fn(Target) -> bool,
+) -> Option<Arriving> {
+    let (towards, target) = match &source.kind {
+        SourceKind::Point { position, .. } => {
+            ((*position - at.point).direction()?, Target::Point(*position))
+        }
+        SourceKind::Directional { towards, .. } => (*towards, Target::Infinity(*towards)),
+        SourceKind::Area { .. } => return None,
+    };
+    let cos = facing_cos(towards, at.shading, at.geometric)?;
+    if !is_in_view(target) {
+        return None;
+    }
+    let lx = match &source.kind {
+        SourceKind::Point { luminaire, position, local_from_world } => {
+            let local = local_from_world.vector(-towards.to_vector()).direction()?;
+            let candela = intensity(scene, *luminaire).intensity_cd(local);
+            candela / (*position - at.point).length_squared()
+        }
+        SourceKind::Directional { illuminance_lx, .. } => *illuminance_lx,
+        SourceKind::Area { .. } => return None,
+    };
+    let illuminance_lx = source.colour * (lx * cos);
+    (!illuminance_lx.is_black()).then_some(Arriving { illuminance_lx, target })
+}
+
+/// Cosine at the receiver, if both its normals see the direction.
+pub(crate) fn facing_cos(towards: Direction, shading: Normal, geometric: Normal) -> Option<f64> {
+    let cos = towards.cos(shading);
+    (cos > 0.0 && towards.cos(geometric) > 0.0).then_some(cos)
+}
+
+/// The distribution of a luminaire that is a point.
+pub(crate) fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution {
+    match &scene.luminaires()[luminaire as usize].kind {
+        LuminaireKind::Point { intensity, .. } => intensity,
+        LuminaireKind::Directional { .. } => {
+            unreachable!("sources of points are made from points")
+        }
+    }
+}
+
+/// How likely a source should be drawn at a point: in proportion to what it would give without
+/// obstacles, exactly for points, roughly (and never zero) for surfaces. Images that `is_in_view`
+/// does not see through their mirrors are not drawn.
+pub(crate) fn importance(
+    scene: &Scene,
+    source: &Source,
+    at: &SurfacePoint,
+    is_in_view: impl Fn(Target) -> bool,
+) -> f64 {
+    match &source.kind {
+        SourceKind::Area { emitter, .. } if !source.may_be_seen(emitter, at) => 0.0,
+        SourceKind::Area { emitter, .. } => {
+            let area_m2 = emitter.area_m2;
+            let distance_squared = (emitter.centre - at.point).length_squared();
+            source.colour.luminance() * area_m2 / (distance_squared + area_m2)
+        }
+        _ => unoccluded_if(scene, source, at, is_in_view)
+            .map_or(0.0, |arriving| arriving.illuminance_lx.luminance()),
+    }
+}

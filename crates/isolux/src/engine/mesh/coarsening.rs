@@ -1,0 +1,397 @@
+//! Which vertices of finely tessellated surfaces are left when they are thinned out, and what the others are interpolated from.
+//!
+//! Surfaces have nothing to do with each other, so that each is thinned out for itself.
+
+use super::edge_falloff::{MOST_NEAR, Wall};
+use crate::elements::{FewNumbers, Subdivision, Vertex};
+use isolux_geometry::{Point, Vector};
+use rayon::prelude::*;
+use std::collections::HashMap;
+
+/// Levels at most: spacings a factor of two apart.
+const MOST_LEVELS: u8 = 12;
+
+/// Surfaces with fewer vertices are left as they are.
+const FEWEST_VERTICES: usize = 32;
+
+/// Neighbours face ways no farther apart than this, 45 degrees: over more, a tangent plane is none.
+const LEAST_COS: f64 = 0.7;
+
+/// Neighbours that a value is interpolated from, and how far from it they are at most, in spacings.
+const NEIGHBOURS: usize = 12;
+/// The same where light falls off towards walls, which takes two functions more.
+const NEIGHBOURS_AT_WALLS: usize = 16;
+const REACH: f64 = 2.5;
+
+/// Weights whose magnitudes add up to more extrapolate.
+const MOST_WEIGHT: f64 = 1.6;
+/// The same before walls, where functions that fall off without bound reach beyond the nearest row.
+const MOST_WEIGHT_AT_WALLS: f64 = 2.2;
+
+/// Columns of least squares of which less than this is left by those before depend on them.
+const LEAST_PIVOT: f64 = 1e-3;
+
+/// How far samples may lie beside a line to be on it, as a share of how far they reach: as coordinates are rounded. And
+/// how many of the nearest are tried to tell one.
+const OFF_LINE: f64 = 1e-4;
+const LINES: usize = 4;
+
+/// Where a border turns by more than some 25 degrees it has a corner.
+const STRAIGHT_COS: f64 = -0.9;
+
+/// What a vertex that need not carry light is interpolated from.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Link {
+    pub(crate) parents: Vec<(u32, f64)>,
+    /// How far carriers of the level before are from each other, m.
+    pub(crate) spacing_m: f64,
+}
+
+/// Levels of vertices, and what they are interpolated from.
+pub(crate) struct Coarsening {
+    /// Zero for the coarsest.
+    pub(crate) levels: Vec<u8>,
+    /// None for those that are not interpolated.
+    pub(crate) links: Vec<Option<Link>>,
+}
+
+impl Coarsening {
+    /// Vertices of level zero lie no farther apart than `spacing_m`, those of each next half as far. Vertices that are not
+    /// `open` are not interpolated, nor is anything from them.
+    pub(crate) fn of(subdivision: &Subdivision, spacing_m: f64, open: &[bool]) -> Self {
+        let vertices = subdivision.vertices();
+        let found: Vec<Vec<(u32, u8, Option<Link>)>> = surfaces(subdivision, open)
+            .into_par_iter()
+            .map(|surface| surface.thinned_out(vertices, spacing_m))
+            .collect();
+        let mut levels = vec![0; vertices.len()];
+        let mut links = vec![None; vertices.len()];
+        for (vertex, level, link) in found.into_iter().flatten() {
+            levels[vertex as usize] = level;
+            links[vertex as usize] = link;
+        }
+        Self { levels, links }
+    }
+}
+
+/// A smooth surface: vertices that edges connect.
+struct Surface {
+    /// Those in the open, corners of borders first, then the rest of borders, as what lies between is interpolated best.
+    members: Vec<u32>,
+    /// Whether they may be interpolated.
+    can_wait: Vec<bool>,
+}
+
+/// The surfaces that have vertices enough.
+fn surfaces(subdivision: &Subdivision, open: &[bool]) -> Vec<Surface> {
+    let of = subdivision.least_connected();
+    let rank = ranks(subdivision);
+    let mut waits = vec![true; of.len()];
+    for (v, vertex) in subdivision.vertices().iter().enumerate() {
+        for end in vertex.parents.into_iter().flatten() {
+            (waits[v], waits[end as usize]) = (false, false);
+        }
+    }
+    let mut order: Vec<u32> = (0..of.len() as u32).collect();
+    order.par_sort_unstable_by_key(|&v| (of[v as usize], rank[v as usize], v));
+    let alike = order.chunk_by(|&a, &b| of[a as usize] == of[b as usize]);
+    let surface = |all: &[u32]| {
+        let members: Vec<u32> = all.iter().copied().filter(|&v| open[v as usize]).collect();
+        let can_wait = members.iter().map(|&v| waits[v as usize]).collect();
+        Surface { members, can_wait }
+    };
+    alike.filter(|all| all.len() >= FEWEST_VERTICES).map(surface).collect()
+}
+
+/// Of every vertex, whether it lies at a corner of a border (0), on one (1), or within (2).
+fn ranks(subdivision: &Subdivision) -> Vec<u8> {
+    let vertices = subdivision.vertices();
+    let mut beside: Vec<[u32; 2]> = vec![[NONE; 2]; vertices.len()];
+    let mut ranks = vec![2; vertices.len()];
+    for [a, b] in subdivision.border_edges() {
+        for (own, other) in [(a, b), (b, a)] {
+            match beside[own as usize].iter_mut().find(|of| **of == NONE) {
+                Some(free) => *free = other,
+                // Borders meet.
+                None => ranks[own as usize] = 0,
+            }
+        }
+    }
+    for (v, &[a, b]) in beside.iter().enumerate() {
+        if a == NONE || ranks[v] == 0 {
+            continue;
+        }
+        let to = |other: u32| {
+            let to = vertices[other as usize].position - vertices[v].position;
+            to * (1.0 / to.length())
+        };
+        ranks[v] = u8::from(b != NONE && to(a).dot(to(b)) < STRAIGHT_COS);
+    }
+    ranks
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Surface {
+    /// Levels of its vertices and what they are interpolated from.
+    fn thinned_out(&self, vertices: &[Vertex], spacing_m: f64) -> Vec<(u32, u8, Option<Link>)> {
+        let own: Vec<Vertex> = self.members.iter().map(|&v| vertices[v as usize]).collect();
+        let mut levels = self.levels(&own, spacing_m);
+        let links = self.links(&own, spacing_m, &mut levels);
+        let of = self.members.iter().zip(levels).zip(links);
+        of.map(|((&v, level), link)| (v, level, link)).collect()
+    }
+
+    /// The level of every vertex, zero for the coarsest: on every level, no vertex that is added is
+    /// nearer to another one that faces its way than the spacing.
+    fn levels(&self, own: &[Vertex], coarsest_m: f64) -> Vec<u8> {
+        let mut levels: Vec<u8> =
+            self.can_wait.iter().map(|&waits| if waits { MOST_LEVELS } else { 0 }).collect();
+        let mut left: Vec<usize> = (0..own.len()).filter(|&v| self.can_wait[v]).collect();
+        for level in 0..MOST_LEVELS {
+            let spacing_m = spacing_of(coarsest_m, level);
+            let mut grid = Grid::of(own, spacing_m, |v| levels[v] < MOST_LEVELS);
+            left.retain(|&v| {
+                let Vertex { position, normal, .. } = own[v];
+                let mut is_free = true;
+                grid.visit(position, |other| {
+                    let near = (own[other].position - position).length() < spacing_m;
+                    is_free = !(near && own[other].normal.dot(normal) >= LEAST_COS);
+                    is_free
+                });
+                if is_free {
+                    levels[v] = level;
+                    grid.insert(v, position);
+                }
+                !is_free
+            });
+            if left.is_empty() {
+                break;
+            }
+        }
+        levels
+    }
+
+    /// What vertices are interpolated from. A vertex that comes to have no link is as coarse as any.
+    fn links(&self, own: &[Vertex], coarsest_m: f64, levels: &mut [u8]) -> Vec<Option<Link>> {
+        let mut links: Vec<Option<Link>> = vec![None; levels.len()];
+        let finest = levels.iter().copied().max().unwrap_or(0);
+        for level in 1..=finest {
+            let spacing_m = spacing_of(coarsest_m, level - 1);
+            let grid = Grid::of(own, REACH * spacing_m, |v| levels[v] < level);
+            let added: Vec<usize> = (0..levels.len()).filter(|&v| levels[v] == level).collect();
+            let link = |&v: &usize| self.link(own, v, &grid, spacing_m);
+            let found: Vec<Option<Link>> = added.par_iter().map(link).collect();
+            for (v, link) in added.into_iter().zip(found) {
+                if link.is_none() {
+                    levels[v] = 0;
+                }
+                links[v] = link;
+            }
+        }
+        links
+    }
+
+    fn link(&self, own: &[Vertex], vertex: usize, grid: &Grid, spacing_m: f64) -> Option<Link> {
+        let Vertex { position, normal, .. } = own[vertex];
+        let mut near: Vec<(f64, usize)> = Vec::new();
+        grid.visit(position, |other| {
+            let distance_m = (own[other].position - position).length();
+            if distance_m < grid.reach_m && own[other].normal.dot(normal) >= LEAST_COS {
+                near.push((distance_m, other));
+            }
+            true
+        });
+        let of = weights_at(&own[vertex], near, |other| own[other].position, &[])?;
+        let parents = of.into_iter().map(|(other, weight)| (self.members[other], weight)).collect();
+        Some(Link { parents, spacing_m })
+    }
+}
+
+/// Neighbours near a place, each with its distance, and the weights of their values that give the value there, where light falls
+/// off towards these walls.
+pub(crate) fn weights_at(
+    at: &Vertex,
+    mut near: Vec<(f64, usize)>,
+    position: impl Fn(usize) -> Point,
+    walls: &[Wall],
+) -> Option<Vec<(usize, f64)>> {
+    let order = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    let most = if walls.is_empty() { NEIGHBOURS } else { NEIGHBOURS_AT_WALLS };
+    if near.len() > most {
+        near.select_nth_unstable_by(most, order);
+        near.truncate(most);
+    }
+    near.sort_unstable_by(order);
+    let axis = at.normal.to_direction();
+    let [x, y] =
+        [[1.0, 0.0], [0.0, 1.0]].map(|[x, y]| axis.from_local(Vector::new(x, y, 0.0)).to_vector());
+    let width_m = (1.0 + 1e-3) * near.last()?.0;
+    let fall = |wall: &Wall, place: Point| {
+        let d = wall.distance_m(place) / width_m;
+        if d > 0.0 { d * libm::log(d) } else { 0.0 }
+    };
+    let mut falls_here = [0.0; MOST_NEAR];
+    falls_here.iter_mut().zip(walls).for_each(|(own, wall)| *own = fall(wall, at.position));
+    let sample = |&(distance_m, other): &(f64, usize)| {
+        let to = position(other) - at.position;
+        let share = distance_m / width_m;
+        let bump = 1.0 - share * share;
+        let mut falls = [0.0; MOST_NEAR];
+        for ((own, wall), here) in falls.iter_mut().zip(walls).zip(falls_here) {
+            *own = fall(wall, position(other)) - here;
+        }
+        Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump, falls }
+    };
+    let mut samples = [Sample::default(); NEIGHBOURS_AT_WALLS];
+    samples.iter_mut().zip(&near).for_each(|(own, near)| *own = sample(near));
+    let samples = &samples[..near.len()];
+    let over_plane = (0..=walls.len()).rev().flat_map(|walls| &OVER_PLANE[walls]);
+    let over_plane = over_plane.into_iter().find_map(|beside| weights(samples, beside));
+    let weights = over_plane.or_else(|| weights_along_line(samples))?;
+    let of = near.iter().zip(weights).filter(|(_, weight)| *weight != 0.0);
+    let mut told = Vec::with_capacity(near.len());
+    told.extend(of.map(|(&(_, other), weight)| (other, weight)));
+    Some(told)
+}
+
+fn spacing_of(coarsest_m: f64, level: u8) -> f64 {
+    coarsest_m / f64::from(1_u32 << level)
+}
+
+/// Vertices by the cells of a grid.
+struct Grid {
+    reach_m: f64,
+    cells: HashMap<[i64; 3], Vec<usize>, FewNumbers>,
+}
+
+impl Grid {
+    /// A grid of some of the vertices, to be asked for those within reach of a place.
+    fn of(vertices: &[Vertex], reach_m: f64, some: impl Fn(usize) -> bool) -> Self {
+        let mut grid = Self { reach_m, cells: HashMap::default() };
+        for (v, vertex) in vertices.iter().enumerate().filter(|&(v, _)| some(v)) {
+            grid.insert(v, vertex.position);
+        }
+        grid
+    }
+
+    /// Cells are twice as long as the reach: what is within reach of a place lies in two of them each way.
+    fn cell(&self, c: f64) -> i64 {
+        libm::floor(0.5 * c / self.reach_m) as i64
+    }
+
+    fn insert(&mut self, vertex: usize, at: Point) {
+        let cell = [at.x, at.y, at.z].map(|c| self.cell(c));
+        self.cells.entry(cell).or_default().push(vertex);
+    }
+
+    /// Visits all within reach of a place and some beyond, until told to stop.
+    fn visit(&self, at: Point, mut go_on: impl FnMut(usize) -> bool) {
+        let [x, y, z] =
+            [at.x, at.y, at.z].map(|c| self.cell(c - self.reach_m)..=self.cell(c + self.reach_m));
+        for x in x {
+            for y in y.clone() {
+                for z in z.clone() {
+                    for &vertex in self.cells.get(&[x, y, z]).into_iter().flatten() {
+                        if !go_on(vertex) {
+                            return;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A place in the tangent plane, and how much it counts.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sample {
+    at: [f64; 2],
+    weight: f64,
+    /// How light that falls off towards walls differs from that at the origin.
+    falls: [f64; MOST_NEAR],
+}
+
+/// A number of every sample, zeros after the last.
+type Column = [f64; NEIGHBOURS_AT_WALLS];
+
+const NO_COLUMN: Column = [0.0; NEIGHBOURS_AT_WALLS];
+
+/// A constant, five of a quadratic function, and what falls off towards walls.
+const MOST_TERMS: usize = 6 + MOST_NEAR;
+
+/// Terms over a plane before so many walls, those to be tried first.
+const OVER_PLANE: [[&[usize]; 2]; 1 + MOST_NEAR] = [
+    [&[1, 2, 3, 4, 5], &[1, 2]],
+    [&[1, 2, 3, 4, 5, 6], &[1, 2, 6]],
+    [&[1, 2, 3, 4, 5, 6, 7], &[1, 2, 6, 7]],
+];
+
+/// Weights of the values at some places that give the value at the origin of the polynomial of best
+/// fit of a constant and some terms beside it of `1, x, y, x2, xy, y2` and what falls off towards walls; `None` where they do not tell it, or
+/// extrapolate. By orthogonal columns (modified Gram-Schmidt).
+fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
+    if samples.len() <= beside.len() {
+        return None;
+    }
+    let mut roots = NO_COLUMN;
+    roots.iter_mut().zip(samples).for_each(|(root, s)| *root = s.weight.sqrt());
+    let column = |term: usize| -> Column {
+        let value = |s: &Sample| {
+            let [x, y] = s.at;
+            let [first, second] = s.falls;
+            [1.0, x, y, x * x, x * y, y * y, first, second][term]
+        };
+        let mut column = NO_COLUMN;
+        let of = samples.iter().zip(&roots).map(|(s, root)| value(s) * root);
+        column.iter_mut().zip(of).for_each(|(own, value)| *own = value);
+        column
+    };
+    // The constant column comes last: what the others leave of it is what tells the value.
+    let mut columns = [NO_COLUMN; MOST_TERMS];
+    let mut squares = [0.0; MOST_TERMS];
+    for (k, &term) in beside.iter().chain(&[0]).enumerate() {
+        let mut own = column(term);
+        let before = dot(&own, &own);
+        for (other, square) in columns[..k].iter().zip(squares) {
+            let share = dot(&own, other) / square;
+            own.iter_mut().zip(other).for_each(|(a, b)| *a -= share * b);
+        }
+        (columns[k], squares[k]) = (own, dot(&own, &own));
+        if squares[k] <= LEAST_PIVOT * before {
+            return None;
+        }
+    }
+    let (mut weights, length) = (columns[beside.len()], squares[beside.len()]);
+    weights.iter_mut().zip(roots).for_each(|(weight, root)| *weight *= root / length);
+    let size: f64 = weights.iter().map(|w| w.abs()).sum();
+    let most = if beside.iter().any(|&term| term > 5) { MOST_WEIGHT_AT_WALLS } else { MOST_WEIGHT };
+    (size <= most).then_some(weights)
+}
+
+/// The same of a polynomial along a line through the origin that some of the samples lie on, as others on the same border do;
+/// the line is told by one of the nearest.
+fn weights_along_line(samples: &[Sample]) -> Option<Column> {
+    samples.iter().take(LINES).find_map(|towards| {
+        let [x, y] = towards.at;
+        let length = libm::hypot(x, y);
+        let (cos, sin) = (x / length, y / length);
+        let along = |s: &Sample| Sample { at: [s.at[0] * cos + s.at[1] * sin, 0.0], ..*s };
+        let is_on = |s: &Sample| (s.at[1] * cos - s.at[0] * sin).abs() < OFF_LINE;
+        let on: Vec<usize> = (0..samples.len()).filter(|&k| is_on(&samples[k])).collect();
+        let line: Vec<Sample> = on.iter().map(|&k| along(&samples[k])).collect();
+        let found = [&[1, 3][..], &[1]].into_iter().find_map(|beside| weights(&line, beside))?;
+        let mut all = NO_COLUMN;
+        on.into_iter().zip(found).for_each(|(k, weight)| all[k] = weight);
+        Some(all)
+    })
+}
+
+/// Four sums side by side, as processors add.
+fn dot(a: &Column, b: &Column) -> f64 {
+    let mut sums = [0.0; 4];
+    for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {
+        (0..4).for_each(|k| sums[k] += a[k] * b[k]);
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}

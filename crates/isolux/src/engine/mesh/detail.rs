@@ -1,0 +1,278 @@
+//! Where elements are too coarse: detail coefficients of a function on the tree of bisections.
+//!
+//! A vertex made by bisection has a detail coefficient: its value minus the mean of the ends of its
+//! edge. A quantity that is smooth has a quarter of it at the next level, one with a kink a half, a
+//! shadow border all of it. So details at the finest level tell the error that interpolation still
+//! makes there.
+
+use super::carriers::{Carriers, ERROR_OF_DETAIL, Told};
+use crate::elements::{Elements, Subdivision};
+use rayon::prelude::*;
+
+/// As [`ERROR_OF_DETAIL`], for an element of the input, which has no detail, as a share of the spread of its
+/// vertices: what a detail of half the spread would give.
+const ERROR_OF_SPREAD: f64 = 0.15;
+
+/// The same, as a share of what interpolation errs by in the middle. A quadratic function errs by a
+/// twenty-fourth of its three second differences along the edges in the mean, by an eighteenth in the
+/// middle, and somewhat more in the root mean square; a gap that only the vertices on its rim see
+/// light from, by all of it.
+const ERROR_OF_MIDDLE: f64 = 0.9;
+
+/// A detail belongs to an element if the edge it was made on is at most so many times its own.
+const RECENT: f64 = 2.9;
+
+/// Elements of one task.
+const TOGETHER: usize = 1024;
+
+/// The error estimated for an element.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LeafError {
+    pub(crate) node: u32,
+    pub(crate) area_m2: f64,
+    /// Root mean square over the element, in the unit of the values.
+    pub(crate) error: f64,
+    /// By how much the values exceed their interpolation in the mean, roughly; zero where that is not told.
+    pub(crate) excess: f64,
+    /// Whether readers gather there anyway, as something stands close.
+    pub(crate) is_beset: bool,
+    /// Whether that is so only because its light is carried by vertices farther apart than its own, or at the rim of something
+    /// that stands closer before them.
+    pub(crate) is_beset_afar: bool,
+    /// Whether what stands close is a wall, which light is resolved towards.
+    pub(crate) is_at_wall: bool,
+    /// By how much more than elsewhere its error counts: dim rooms beside bright ones are to be right, too.
+    pub(crate) weight: f64,
+    /// The same for those who see it from where it is dim; nothing where that is no more.
+    pub(crate) seen: f64,
+}
+
+impl LeafError {
+    /// Contribution to the squared error of the scene.
+    pub(crate) fn squared(&self) -> f64 {
+        let counted = self.weight * self.error;
+        self.area_m2 * counted * counted
+    }
+
+    /// The same as it counts for those who see it from where it is dim.
+    pub(crate) fn seen_from_dim(&self) -> Self {
+        Self { weight: self.seen, ..*self }
+    }
+}
+
+/// What is known of a function on elements: values at the vertices, `None` where they say nothing,
+/// and which of them carry it.
+pub(crate) struct Details<'a> {
+    subdivision: &'a Subdivision,
+    elements: &'a Elements,
+    values: &'a [Option<f64>],
+    carriers: &'a Carriers,
+    told: Vec<Option<Told>>,
+}
+
+impl<'a> Details<'a> {
+    /// Of a function that all vertices carry.
+    pub(crate) fn of(
+        subdivision: &'a Subdivision,
+        elements: &'a Elements,
+        values: &'a [Option<f64>],
+        carriers: &'a Carriers,
+        is_beset: impl Fn(u32, f64) -> bool + Sync,
+    ) -> Self {
+        let told = carriers.told(values, is_beset);
+        Self { subdivision, elements, values, carriers, told }
+    }
+
+    fn told_at(&self, vertex: u32) -> Option<Told> {
+        self.told.get(vertex as usize).copied().flatten()
+    }
+
+    /// Errors of all elements, from the details and the values in the middle of those without, where
+    /// known; `is_beset` says where readers gather anyway, `is_hemmed` of a vertex whether something stands so close before it
+    /// that it tells nothing of such a distance.
+    pub(crate) fn leaf_errors(
+        &self,
+        in_the_middle: impl Fn(u32) -> Option<f64> + Sync,
+        is_beset: impl Fn(u32) -> bool + Sync,
+        is_hemmed: impl Fn(u32, f64) -> bool + Sync,
+    ) -> Vec<LeafError> {
+        let leaf = |node: u32| {
+            let area_m2 = self.subdivision.triangle(node).area();
+            let corners = self.subdivision.node(node).0.vertices;
+            let (error, excess) = self.told_error(node).unwrap_or_else(|| {
+                untold_error(corners.map(|v| self.values[v as usize]), in_the_middle(node))
+            });
+            let beset = is_beset(node);
+            let edge_m = self.subdivision.longest_edge_m(node);
+            let is_told = |v: u32| self.told_at(v).is_some_and(|told| told.is_beset);
+            let is_beset_afar =
+                !beset && corners.iter().any(|&v| is_told(v) || is_hemmed(v, edge_m));
+            LeafError {
+                node,
+                area_m2,
+                error,
+                excess,
+                is_beset: beset || is_beset_afar,
+                is_beset_afar,
+                is_at_wall: false,
+                weight: 1.0,
+                seen: 0.0,
+            }
+        };
+        let leaves: Vec<u32> = self.subdivision.leaves().collect();
+        leaves.into_par_iter().with_min_len(TOGETHER).map(leaf).collect()
+    }
+
+    /// The error of an element that details tell, and by how much it is exceeded; `None` if it has none, or vertices
+    /// that say nothing.
+    pub(crate) fn told_error(&self, node: u32) -> Option<(f64, f64)> {
+        let corners = self.subdivision.node(node).0.vertices;
+        if corners.iter().any(|&v| self.values[v as usize].is_none()) {
+            return None;
+        }
+        let reach = RECENT * self.subdivision.longest_edge_m(node);
+        let of_corner = |v: u32| match self.told_at(v) {
+            Some(told) => Some((told.error, 0.0)),
+            None => self.detail(v, reach).map(|detail| told(ERROR_OF_DETAIL * detail)),
+        };
+        let greater = |a: (f64, f64), b: (f64, f64)| if b.0 > a.0 { b } else { a };
+        corners.into_iter().filter_map(of_corner).reduce(greater)
+    }
+
+    /// The detail of a vertex made on an edge no longer than `reach_m`, or between carriers no farther apart.
+    fn detail(&self, vertex: u32, reach_m: f64) -> Option<f64> {
+        let vertices = self.elements.vertices();
+        let Some(ends) = vertices[vertex as usize].parents else {
+            let (detail, spacing_m) = self.carriers.detail(self.values, vertex)?;
+            return (spacing_m <= reach_m).then_some(detail);
+        };
+        let [a, b] = ends.map(|end| vertices[end as usize].position);
+        if (b - a).length() > reach_m {
+            return None;
+        }
+        let [a, b] = ends.map(|end| self.values[end as usize]);
+        Some(self.values[vertex as usize]? - 0.5 * (a? + b?))
+    }
+
+    /// The share of the error of all elements that a fit leaves: told by how details shrink from one level
+    /// to the next. Elements that have no two levels of details keep their errors.
+    pub(crate) fn left_by_fit(&self, errors: &[LeafError]) -> f64 {
+        let (mut newer, mut older) = (0.0, 0.0);
+        let (mut told, mut untold) = (0.0, 0.0);
+        for leaf in errors {
+            let reach = RECENT * self.subdivision.longest_edge_m(leaf.node);
+            let corners = self.subdivision.node(leaf.node).0.vertices;
+            let levels = corners.iter().filter_map(|&vertex| {
+                let ends = self.elements.vertices()[vertex as usize].parents?;
+                let own = self.detail(vertex, reach)?.abs();
+                let above = ends.iter().filter_map(|&end| self.detail(end, 2.0 * reach));
+                Some((own, above.map(f64::abs).reduce(f64::max)?))
+            });
+            match levels.max_by(|a, b| a.0.total_cmp(&b.0)) {
+                Some((own, above)) => {
+                    newer += leaf.area_m2 * own * own;
+                    older += leaf.area_m2 * above * above;
+                    told += leaf.squared();
+                }
+                None => untold += leaf.squared(),
+            }
+        }
+        if told + untold == 0.0 || older == 0.0 {
+            return 1.0;
+        }
+        let shrinking = (newer / older).sqrt();
+        let left = LEFT_OF_SMOOTH + (shrinking - SMOOTH) * LEFT_FOR_ROUGH;
+        let left = left.clamp(LEFT_OF_SMOOTH, 1.0);
+        ((told * left * left + untold) / (told + untold)).sqrt()
+    }
+}
+
+/// An error, and by how much it is exceeded.
+const fn told(excess: f64) -> (f64, f64) {
+    (excess.abs(), excess)
+}
+
+/// The error of an element without details, and by how much it is exceeded.
+fn untold_error(values: [Option<f64>; 3], in_the_middle: Option<f64>) -> (f64, f64) {
+    let known: Vec<f64> = values.into_iter().flatten().collect();
+    let Some(high) = known.iter().copied().reduce(f64::max) else { return (0.0, 0.0) };
+    let low = known.iter().copied().fold(high, f64::min);
+    match in_the_middle {
+        Some(middle) => {
+            let read = known.iter().sum::<f64>() / known.len() as f64;
+            told(ERROR_OF_MIDDLE * (middle - read))
+        }
+        None if known.len() == 3 => (ERROR_OF_SPREAD * (high - low), 0.0),
+        // Extrapolation over a vertex that says nothing: as uncertain as the value is large.
+        None => (ERROR_OF_SPREAD * high, 0.0),
+    }
+}
+
+/// What a fit to the light over elements leaves of the error of interpolation, where details shrink
+/// to a quarter from level to level (smooth: a parabola is 2.4 times as near), and by how much more
+/// for each unit by which they shrink less: all of it at three quarters, between kinks and borders.
+const LEFT_OF_SMOOTH: f64 = 0.42;
+const SMOOTH: f64 = 0.25;
+const LEFT_FOR_ROUGH: f64 = (1.0 - LEFT_OF_SMOOTH) / (0.75 - SMOOTH);
+
+/// Share of the squared error that one round of refinement removes at most by marking the worst
+/// elements (Dörfler 1996).
+const MARKED_SHARE: f64 = 0.75;
+
+/// What bisecting an element twice leaves of its squared error where light is smooth.
+const LEFT: f64 = 1.0 / 16.0;
+
+/// How far refinement goes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Refinement {
+    /// How far the error of the scene is to fall.
+    pub(crate) wanted: f64,
+    /// Elements with edges below this are left alone, m.
+    pub(crate) least_edge_m: f64,
+    pub(crate) max_vertices: usize,
+}
+
+/// Refines the worst elements, and returns whether there was anything to refine: carriers nearer to each
+/// other where there are vertices for them, else two bisections each so that both directions are halved.
+pub(crate) fn refine_worst(
+    subdivision: &mut Subdivision,
+    carriers: &mut Carriers,
+    errors: &[LeafError],
+    how_far: Refinement,
+) -> bool {
+    let Refinement { wanted, least_edge_m, max_vertices } = how_far;
+    // No more than it takes, if all goes well.
+    let share = ((1.0 - wanted * wanted) / (1.0 - LEFT)).clamp(0.0, MARKED_SHARE);
+    let waits = |carriers: &Carriers, corners: [u32; 3]| {
+        corners.into_iter().any(|vertex| !carriers.is_active(vertex))
+    };
+    let can_be = |e: &&LeafError| {
+        e.error > 0.0
+            && (waits(carriers, subdivision.node(e.node).0.vertices)
+                || subdivision.longest_edge_m(e.node) > 2.0 * least_edge_m)
+    };
+    let mut worst: Vec<&LeafError> = errors.iter().filter(can_be).collect();
+    // Ties in the order of the nodes: the same mesh on every machine.
+    worst
+        .par_sort_unstable_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
+    let total: f64 = worst.iter().map(|e| e.squared()).sum();
+    let (mut marked, mut any) = (0.0, false);
+    let mut asked: Vec<u32> = Vec::new();
+    for error in worst {
+        if marked >= share * total {
+            break;
+        }
+        let corners = subdivision.node(error.node).0.vertices;
+        if waits(carriers, corners) {
+            asked.extend(corners);
+        } else if subdivision.vertex_count() < max_vertices {
+            subdivision.bisect_twice(error.node);
+        } else {
+            continue;
+        }
+        marked += error.squared();
+        any = true;
+    }
+    carriers.activate(&asked);
+    any
+}

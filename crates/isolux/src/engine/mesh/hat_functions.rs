@@ -1,0 +1,151 @@
+//! Hat functions of the elements: what flux on vertices means, and how it blurs.
+
+use crate::elements::Subdivision;
+use crate::map::Standing;
+use crate::units::Rgb;
+use std::ops::{Add, AddAssign, Div, Mul, Sub};
+
+/// Integrals of the hat functions of elements, over those vertices of each that are read.
+pub(crate) struct Hats {
+    areas_m2: Vec<f64>,
+    /// Elements all of whose vertices are known and of one standing, and their areas.
+    known: Vec<([u32; 3], f64)>,
+}
+
+/// Powers of half of a blur after which nothing is left that integers of sums would hold.
+const HALVINGS: u32 = 32;
+
+/// A quantity on vertices.
+pub(crate) trait Quantity:
+    Copy
+    + Default
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + AddAssign
+    + Mul<f64, Output = Self>
+    + Div<f64, Output = Self>
+{
+}
+
+impl Quantity for f64 {}
+
+impl Quantity for Rgb {}
+
+impl Hats {
+    /// Of the leaves, with what vertices stand for.
+    pub(crate) fn new(subdivision: &Subdivision, standings: &[Option<Standing>]) -> Self {
+        let mut hats = Self { areas_m2: vec![0.0; subdivision.vertex_count()], known: Vec::new() };
+        for leaf in subdivision.leaves() {
+            let corners = subdivision.node(leaf).0.vertices;
+            let of = corners.map(|v| standings[v as usize]);
+            let standing = Standing::highest(of);
+            let read = |k: &usize| standing.is_some() && of[*k] == standing;
+            let area_m2 = subdivision.triangle(leaf).area();
+            let share = area_m2 / (0..3).filter(read).count().max(1) as f64;
+            for k in (0..3).filter(read) {
+                hats.areas_m2[corners[k] as usize] += share;
+            }
+            if of[0].is_some() && of == [of[0]; 3] {
+                hats.known.push((corners, area_m2));
+            }
+        }
+        hats
+    }
+
+    /// Of every vertex, m2.
+    pub(crate) fn areas_m2(&self) -> &[f64] {
+        &self.areas_m2
+    }
+
+    /// The mean of a quantity about every vertex, weighted with its hat function, from the integral.
+    pub(crate) fn means<T: Quantity>(&self, integrals: impl Iterator<Item = T>) -> Vec<T> {
+        let mean = |(sum, &area): (T, &f64)| if area > 0.0 { sum / area } else { T::default() };
+        integrals.zip(&self.areas_m2).map(mean).collect()
+    }
+
+    /// What the means would be if the quantity were the given values, interpolated.
+    pub(crate) fn blur<T: Quantity>(&self, values: &[T]) -> Vec<T> {
+        let mut sums = vec![T::default(); values.len()];
+        for (corners, area_m2) in &self.known {
+            // Exact integrals of products of hats: a sixth of the area, a twelfth for two of them.
+            let [a, b, c] = corners.map(|v| values[v as usize]);
+            let all = a + b + c;
+            for &v in corners {
+                sums[v as usize] += (values[v as usize] + all) * (area_m2 / 12.0);
+            }
+        }
+        self.means(sums.into_iter())
+    }
+
+    /// The quantity at the vertices: the means, corrected (one step of Van Cittert's deconvolution).
+    pub(crate) fn corrected<T: Quantity>(&self, means: &[T]) -> Vec<T> {
+        let blurred = self.blur(means);
+        means.iter().zip(&blurred).map(|(&mean, &again)| mean * 2.0 - again).collect()
+    }
+
+    /// The means that were corrected to some values: `(2 - B) means = values`, `B` the blur, which is half of all at most, so that
+    /// its powers sum up.
+    fn uncorrected(&self, values: &[Rgb]) -> Vec<Rgb> {
+        let half = |values: &[Rgb]| -> Vec<Rgb> { values.iter().map(|&v| v * 0.5).collect() };
+        let mut term = half(values);
+        let mut means = term.clone();
+        for _ in 0..HALVINGS {
+            term = half(&self.blur(&term));
+            means.iter_mut().zip(&term).for_each(|(mean, &more)| *mean += more);
+        }
+        means
+    }
+
+    /// Values that means were corrected to, none of them less than half of its mean: along every edge of elements the correction brings
+    /// as much to one end as it takes from the other, and of that only so much that neither loses more (flux-corrected transport:
+    /// Boris, Book 1973; Zalesak 1979). So no light is lost or made, as it would be if what is below zero were cut off.
+    pub(crate) fn held(&self, values: &[Rgb]) -> Vec<Rgb> {
+        // Sums of increments are rounded; means of them are not negative otherwise.
+        let means = self.uncorrected(values);
+        let means: Vec<Rgb> = means.into_iter().map(|mean| mean.greater(Rgb::BLACK)).collect();
+        let edges = |corners: &[u32; 3]| {
+            [[0, 1], [1, 2], [2, 0]].map(|edge| edge.map(|k: usize| corners[k] as usize))
+        };
+        // To the first of two vertices, from the second.
+        let brought = |[a, b]: [usize; 2], area_m2: f64| (means[a] - means[b]) * (area_m2 / 12.0);
+        let mut taken = vec![Rgb::BLACK; means.len()];
+        for (corners, area_m2) in &self.known {
+            for [a, b] in edges(corners) {
+                let lm = brought([a, b], *area_m2);
+                taken[a] += (lm * -1.0).greater(Rgb::BLACK);
+                taken[b] += lm.greater(Rgb::BLACK);
+            }
+        }
+        let share = |(k, &taken): (usize, &Rgb)| {
+            let most = means[k] * (0.5 * self.areas_m2[k]);
+            let share =
+                |c: usize| if taken.0[c] > most.0[c] { most.0[c] / taken.0[c] } else { 1.0 };
+            Rgb([0, 1, 2].map(share))
+        };
+        let shares: Vec<Rgb> = taken.iter().enumerate().map(share).collect();
+        // What elements of several standings have of the blur is not known, and left as the means have it.
+        let mut known_m2 = vec![0.0; means.len()];
+        let mut sums: Vec<Rgb> = vec![Rgb::BLACK; means.len()];
+        for (corners, area_m2) in &self.known {
+            for [a, b] in edges(corners) {
+                let lm = brought([a, b], *area_m2) * {
+                    let of = |c: usize| {
+                        let loses = if means[a].0[c] < means[b].0[c] { a } else { b };
+                        shares[loses].0[c]
+                    };
+                    Rgb([0, 1, 2].map(of))
+                };
+                sums[a] += lm;
+                sums[b] += lm * -1.0;
+                known_m2[a] += area_m2 / 3.0;
+            }
+        }
+        let value = |k: usize| {
+            let unknown_m2 = (self.areas_m2[k] - known_m2[k]).max(0.0);
+            let more = sums[k] + means[k] * unknown_m2;
+            let area_m2 = self.areas_m2[k];
+            if area_m2 > 0.0 { means[k] + more / area_m2 } else { Rgb::BLACK }
+        };
+        (0..means.len()).map(value).collect()
+    }
+}

@@ -1,0 +1,198 @@
+//! Where samples lie and how far they reach: the split-sphere model.
+//!
+//! A sample serves places around it as long as the estimated error of doing so, the sum of the distance
+//! over the mean distance of what it sees and of how much the surface turns, is below what is allowed
+//! (Ward, Rubinstein, Clear 1988). Its weight falls to zero there, so that nothing jumps.
+
+use super::octree::Octree;
+use crate::engine::ray::SurfacePoint;
+use crate::scene::Scene;
+use isolux_geometry::{Normal, Point, Ray, Vector};
+
+/// By how much more than allowed a sample may err for a ray that ends where none reaches.
+const RELAXED: f64 = 3.0;
+
+/// Out of the plane of a sample by more than this share of the distance is another surface: the next
+/// step of a stair.
+const STEEPEST: f64 = 0.3;
+
+/// Farther below a sample than its surface bends down, by this share of the distance, is on the other side of it.
+const BELOW: f64 = 1e-4;
+
+/// What is nearer to a sample than this share of the nearest that it sees cannot be behind a wall.
+const CLEAR: f64 = 0.5;
+
+/// Where a sample lies and how far it reaches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Site {
+    /// Where its rays start, just above the surface.
+    pub(super) origin: Point,
+    /// The shading normal.
+    pub(super) normal: Normal,
+    /// A triangle that its rays do not meet, as it lies on it.
+    pub(super) triangle: u32,
+    /// Harmonic mean of the distances of what it sees, within bounds, m.
+    pub(super) radius_m: f64,
+    /// Distance of the nearest that it sees, m.
+    pub(super) nearest_m: f64,
+}
+
+/// What a place takes from a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tie {
+    /// Number of the sample.
+    pub(super) sample: u32,
+    /// Share of the value, and that times what the gradients are multiplied by: the way from the sample to
+    /// the place, m, and axis times sine of the angle between their normals.
+    pub(super) shares: [f32; 7],
+}
+
+/// Samples of one kind.
+#[derive(Clone, Debug)]
+pub(super) struct Layer {
+    pub(super) sites: Vec<Site>,
+    /// The error that is allowed, relative: the inverse of Ward's least weight.
+    allowed: f64,
+    near: Octree,
+    /// By wider reaches.
+    wide: Octree,
+}
+
+impl Layer {
+    /// Without samples.
+    pub(super) fn new(scene: &Scene, allowed: f64) -> Self {
+        let bounds = scene.bvh().mesh().bounds().unwrap_or((Point::ORIGIN, Point::ORIGIN));
+        let tree = Octree::over(bounds);
+        Self { sites: Vec::new(), allowed, near: tree.clone(), wide: tree }
+    }
+
+    /// Adds a sample; returns its number. Its radius is held to those of the ones that reach it, and
+    /// theirs to its own (Krivanek, Bouatouch, Pattanaik, Zara 2006, "Making radiance and irradiance caching
+    /// practical"): what one sample has seen close by is as close to the next one.
+    pub(super) fn insert(&mut self, site: Site) -> u32 {
+        let number = self.sites.len() as u32;
+        let mut radius_m = site.radius_m;
+        let mut shrunk = Vec::new();
+        self.near.visit(site.origin, |other| {
+            let there = &self.sites[other as usize];
+            let distance_m = (there.origin - site.origin).length();
+            if there.normal.dot(site.normal) > 0.9 && distance_m < self.allowed * there.radius_m {
+                radius_m = radius_m.min(there.radius_m + distance_m);
+                shrunk.push((other, distance_m));
+            }
+        });
+        for (other, distance_m) in shrunk {
+            let there = &mut self.sites[other as usize].radius_m;
+            *there = there.min(radius_m + distance_m);
+        }
+        self.sites.push(Site { radius_m, ..site });
+        self.near.insert(number, site.origin, self.allowed * radius_m);
+        self.wide.insert(number, site.origin, RELAXED * self.allowed * radius_m);
+        number
+    }
+
+    /// Whether a sample serves a place.
+    pub(super) fn covers(&self, scene: &Scene, at: Point, normal: Normal) -> bool {
+        let mut found = false;
+        self.near.visit(at, |number| {
+            found = found || {
+                let site = &self.sites[number as usize];
+                let is_near = site.error_at(at, normal).is_some_and(|e| e < self.allowed);
+                is_near && site.sees(scene, at, normal)
+            }
+        });
+        found
+    }
+
+    /// What a place takes from the samples around it, weights summing to one, or from those farther
+    /// off where none serves it; nothing where there is none either.
+    pub(super) fn ties(
+        &self,
+        scene: &Scene,
+        (at, normal): (Point, Normal),
+        most: usize,
+        ties: &mut Vec<Tie>,
+    ) {
+        let first = ties.len();
+        self.collect(&self.near, self.allowed, (scene, at, normal), ties);
+        if ties.len() == first {
+            self.collect(&self.wide, RELAXED * self.allowed, (scene, at, normal), ties);
+        }
+        // The heaviest tell nearly all.
+        if ties.len() > first + most {
+            ties[first..].sort_by(|a, b| b.shares[0].total_cmp(&a.shares[0]));
+            ties.truncate(first + most);
+        }
+        let sum: f32 = ties[first..].iter().map(|tie| tie.shares[0]).sum();
+        for tie in &mut ties[first..] {
+            tie.shares = tie.shares.map(|share| share / sum);
+        }
+    }
+
+    fn collect(
+        &self,
+        tree: &Octree,
+        allowed: f64,
+        (scene, at, normal): (&Scene, Point, Normal),
+        ties: &mut Vec<Tie>,
+    ) {
+        tree.visit(at, |number| {
+            let site = &self.sites[number as usize];
+            let Some(error) = site.error_at(at, normal).filter(|e| *e < allowed) else { return };
+            if !site.sees(scene, at, normal) {
+                return;
+            }
+            let (shift, turn) = (at - site.origin, cross(site.normal, normal));
+            // One sample right here is not the only one.
+            let weight = 1.0 / error.max(1e-3 * allowed) - 1.0 / allowed;
+            let shares = [1.0, shift.x, shift.y, shift.z, turn.x, turn.y, turn.z];
+            ties.push(Tie { sample: number, shares: shares.map(|s| (weight * s) as f32) });
+        });
+    }
+}
+
+impl Site {
+    /// The place for direct light.
+    pub(super) fn surface(&self) -> SurfacePoint {
+        // The origin is clear of the surface.
+        let surface = SurfacePoint::in_space(self.origin, self.normal, 0.0);
+        SurfacePoint { triangle: self.triangle, ..surface }
+    }
+
+    /// The estimated error of serving a place, relative; `None` where it lies on another surface.
+    fn error_at(&self, at: Point, normal: Normal) -> Option<f64> {
+        let shift = at - self.origin;
+        let distance_m = shift.length();
+        let between = self.normal.to_vector() + normal.to_vector();
+        let off_plane_m = (0.5 * shift.dot(between)).abs();
+        let cos = self.normal.dot(normal);
+        let is_surface = cos > 0.0 && off_plane_m <= STEEPEST * distance_m + 1e-5 * self.radius_m;
+        is_surface.then(|| distance_m / self.radius_m + (1.0 - cos).max(0.0).sqrt())
+    }
+
+    /// Whether nothing stands between the sample and a place. Over a bent surface it is looked for
+    /// as high as the surface bulges between them. Of what lies below its own surface, as the room does below
+    /// a sample on the outside of a wall, it has seen nothing, and that surface stands between.
+    fn sees(&self, scene: &Scene, at: Point, normal: Normal) -> bool {
+        let shift = at - self.origin;
+        let distance_m = shift.length();
+        let bend = (normal.to_vector() - self.normal.to_vector()).length();
+        let slack_m = (bend + BELOW) * distance_m + 1e-5 * self.radius_m;
+        // The surface of the place itself hides what is below that.
+        if shift.dot(normal.to_vector()) > slack_m {
+            return false;
+        }
+        let is_below = -shift.dot(self.normal.to_vector()) > slack_m;
+        if distance_m <= CLEAR * self.nearest_m && !is_below {
+            return true;
+        }
+        let lift_m = 0.25 * distance_m * bend;
+        let (from, to) = (self.origin + self.normal * lift_m, at + normal * lift_m);
+        let ray = Ray::between(from, to);
+        !scene.bvh().any_hit(&if is_below { ray } else { ray.skipping(self.triangle) })
+    }
+}
+
+fn cross(a: Normal, b: Normal) -> Vector {
+    a.to_vector().cross(b.to_vector())
+}

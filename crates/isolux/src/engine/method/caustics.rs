@@ -1,0 +1,51 @@
+//! Caustics: light that reaches diffuse surfaces over specular ones that virtual luminaires do not
+//! cover, carried by particles.
+
+use super::tally::Tally;
+use crate::engine::particle::Flights;
+use crate::engine::plan::Plan;
+use crate::engine::ray::Effort;
+use crate::sampling::Key;
+use crate::units::Rgb;
+use rayon::prelude::*;
+
+/// What particles have brought.
+pub(crate) struct Caustics {
+    /// Illuminance at the vertices that indirect light lives on.
+    pub(crate) light: Vec<Rgb>,
+    /// The means about them, which are nowhere less than nothing: what is reflected on.
+    pub(crate) means: Vec<Rgb>,
+    /// What it lacks in the parts of elements that are checked, lx.
+    pub(crate) lacking: Vec<f64>,
+    pub(crate) effort: Effort,
+}
+
+/// Caustics by so many particles.
+pub(crate) fn deposit(plan: &Plan, count: u32, key: Key) -> Caustics {
+    let nothing = |effort: Effort| Caustics {
+        light: vec![Rgb::BLACK; plan.indirect_vertices],
+        means: vec![Rgb::BLACK; plan.indirect_vertices],
+        lacking: vec![0.0; plan.parts.count()],
+        effort,
+    };
+    let Some(flights) = Flights::new((plan.scene, plan.lighting), plan.aim.as_ref(), count, key)
+    else {
+        return nothing(Effort::default());
+    };
+    let flux_lm = flights.flux_lm();
+    if !plan.lighting.leaves_caustics() {
+        let given_up_lx = plan.lighting.left_out() * flux_lm / plan.area_m2();
+        return nothing(Effort { rays: 0, given_up_lx });
+    }
+    let tally = Tally::new(plan, flux_lm, 1);
+    let one = |index: u32| {
+        let (rays, given_up) = flights.fly(index, |at, flux_lm| tally.add(0, at, flux_lm));
+        given_up.into_iter().for_each(|flux_lm| tally.give_up(flux_lm));
+        rays
+    };
+    let rays = (0..count).into_par_iter().map(one).sum();
+    let light = tally.illuminance(0);
+    let lacking = tally.lacking(|vertex| light[vertex]);
+    let means = tally.means(0);
+    Caustics { light, means, lacking, effort: Effort { rays, given_up_lx: tally.given_up_lx() } }
+}

@@ -1,0 +1,108 @@
+//! `forward`: particles from the luminaires, reflected until absorbed, counted where they arrive.
+//!
+//! The way of Inspirer (Kopylov, Khodulev, Volevich 1998). An increment is a range of particles with
+//! its own randomization; increments share nothing random. Caustics, which few of them find, are left to particles of their own,
+//! sent where they are made.
+
+use super::caustics;
+use super::tally::Tally;
+use crate::engine::judge::BELIEVED_INCREMENTS;
+use crate::engine::light::{Emission, Lighting, Particle, scatterings};
+use crate::engine::particle::element_parts;
+use crate::engine::plan::Plan;
+use crate::engine::ray::{Accumulator, Effort, Sample};
+use crate::sampling::{Key, Sequence};
+use crate::scene::Body;
+use rayon::prelude::*;
+
+/// Particles of an increment for every vertex, within limits.
+const PARTICLES_A_VERTEX: usize = 8;
+const FEWEST: usize = 1 << 14;
+const MOST: usize = 1 << 20;
+
+const DIRECT: usize = 0;
+const INDIRECT: usize = 1;
+
+/// The engine, ready for increments.
+pub(crate) struct Forward<'p, 's> {
+    plan: &'p Plan<'s>,
+    emission: Emission<'s>,
+    particles: u32,
+    /// For caustics.
+    of_caustics: u32,
+    scatterings: u32,
+    key: Key,
+}
+
+impl<'p, 's> Forward<'p, 's> {
+    /// With particles in proportion to the vertices.
+    pub(crate) fn new(plan: &'p Plan<'s>, emission: Emission<'s>, target: f64, seed: u64) -> Self {
+        let particles = (PARTICLES_A_VERTEX * plan.indirect_vertices).clamp(FEWEST, MOST);
+        let particles = particles.next_power_of_two() as u32;
+        let (scatterings, key) = (scatterings(plan.scene), Key::new(seed).with(2));
+        let of_caustics = plan.particles(target, BELIEVED_INCREMENTS);
+        Self { plan, emission, particles, of_caustics, scatterings, key }
+    }
+
+    /// Adds increment `index`, and what the map of it lacks in parts of elements.
+    pub(crate) fn increment(
+        &self,
+        index: u64,
+        receivers: &mut Accumulator,
+        lacking: &mut Accumulator,
+    ) -> Effort {
+        let tally = Tally::new(self.plan, self.emission.flux_lm(), 2);
+        let key = self.key.with(index);
+        let sequence = Sequence::new(key);
+        let of_caustics = caustics::deposit(self.plan, self.of_caustics, key.with(0));
+        lacking.add(element_parts::samples(&of_caustics.lacking));
+        let rays: u64 = (0..self.particles)
+            .into_par_iter()
+            .map(|particle| self.fly(&tally, sequence, particle))
+            .sum();
+        let [direct, indirect] =
+            [DIRECT, INDIRECT].map(|part| self.plan.prolongate(&tally.illuminance(part)));
+        let caustic = self.plan.prolongate(&of_caustics.light);
+        receivers.add((0..self.plan.standings.len()).map(|k| Sample {
+            direct: direct[k],
+            caustic: caustic[k],
+            indirect: indirect[k],
+            passed_on: 0.0,
+        }));
+        // What is given up on the way of a caustic is so among these particles, too.
+        Effort { rays: rays + of_caustics.effort.rays, given_up_lx: tally.given_up_lx() }
+    }
+
+    fn fly(&self, tally: &Tally, sequence: Sequence, index: u32) -> u64 {
+        let (scene, lighting) = (self.plan.scene, self.plan.lighting);
+        let (count, scatterings) = (self.particles, self.scatterings);
+        let emitted = Particle::emit(&self.emission, sequence, index, count, scatterings);
+        let Some(mut particle) = emitted else { return 0 };
+        let mut rays = 0;
+        loop {
+            rays += 1;
+            let Some(at) = particle.advance(scene) else { return rays };
+            if let Body::Opaque { .. } = scene.material(at.triangle).body
+                && let Some(part) = part(&particle, lighting)
+            {
+                tally.add(part, &at, particle.flux_lm);
+            }
+            if !particle.scatter(scene, lighting) {
+                return rays;
+            }
+            if particle.is_given_up() {
+                tally.give_up(particle.flux_lm);
+                return rays;
+            }
+        }
+    }
+}
+
+/// Which light it is; none of its own where it is a caustic. What little luminaires and their images leave out where nothing makes
+/// caustics comes along.
+fn part(particle: &Particle, lighting: &Lighting) -> Option<usize> {
+    if particle.diffused {
+        return Some(INDIRECT);
+    }
+    (particle.is_covered(lighting) || !lighting.leaves_caustics()).then_some(DIRECT)
+}

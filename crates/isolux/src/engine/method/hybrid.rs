@@ -1,0 +1,391 @@
+//! `hybrid`: exact direct light, gathered indirect light with a shared tail, particles for caustics.
+//!
+//! An increment is a whole replicate: its own random rays, its own operator, its own fixed point, on
+//! the elements that the pilot has fixed. Replicates share nothing random, so their spread tells the
+//! error of their mean.
+
+use super::caustics::{self, Caustics};
+use crate::ablation::without;
+use crate::engine::gather::{
+    DirectAtEnds, FEWEST_UNJUDGED, Fitting, Gatherer, Gathering, Kept, NET_ORDER, Operator, Places,
+    Reading, allot, allot_by_noise, mean_of, ray_trial,
+};
+use crate::engine::judge::{BELIEVED_INCREMENTS, Check, DirectThere, FEWEST_TO_MISS, check_points};
+use crate::engine::mesh::LeafError;
+use crate::engine::plan::Plan;
+use crate::engine::ray::{Deadline, Dice, Effort, Sample};
+use crate::map::Standing;
+use crate::sampling::{Key, Sequence};
+use crate::units::Rgb;
+use rayon::prelude::*;
+use std::collections::VecDeque;
+use std::time::Instant;
+
+/// What the last sweep of the fixed point may change, once all surfaces have reflected that, as a share of the accuracy asked for:
+/// all increments start from one guess, so that what is left of it does not average out.
+const UNSETTLED: f64 = 0.03;
+/// Coarser accuracies count as this: where walls take the noise off, what is left of the guess would be more than all noise.
+const COARSEST: f64 = 0.01;
+/// The least share of light that is taken to be absorbed.
+const LEAST_ABSORBED: f64 = 1e-3;
+
+/// Increments are made ahead of being asked for as long as they have no more rays together.
+const RAYS_AHEAD: u64 = 1 << 19;
+
+/// Rays of a vertex that tell what readings have in common, one of so many that memory is there for at most; and means over the
+/// elements about it, one after the other.
+pub(crate) const READERS: u32 = 16;
+const OF_READERS: u32 = 4;
+const SMOOTHINGS: u32 = 4;
+
+/// With no fewer rays a receiver, or in all, it is tried where they are noisy: with so many of a net, of so many receivers first.
+const WORTH_TRYING: f64 = 32.0;
+const WORTH_TRYING_ANY: f64 = 262_144.0;
+const RAYS_TRIED: u32 = 8;
+const TRIED_FIRST: usize = 1024;
+const TRIED_NEXT: usize = 4;
+/// Noise, of what was thought, from which on it is worth it: the run will not end when it should.
+const MORE_THAN_THOUGHT: f64 = 1.5;
+/// Powers of two that rays are multiplied by at most, if that shows more noise than was thought. If less, they stay: what housings
+/// of lamps err by is passed on, so that there is more than receivers alone tell.
+const MORE: f64 = 4.0;
+
+/// One receiver in so many is tried to tell how long an increment takes.
+const TRIED: usize = 64;
+
+/// The engine, ready for increments.
+pub(crate) struct Hybrid<'p, 's> {
+    plan: &'p Plan<'s>,
+    check_direct: DirectThere,
+    rows: Vec<Gatherer>,
+    /// Of every place where the mean of an element is measured: as many as vertices have, or there would be more noise there.
+    rays_of_means: u32,
+    /// Check points, then the vertices that gather for the bare map.
+    fresh_rows: Vec<Gatherer>,
+    /// Few rays of every vertex, the same for all increments.
+    reader: Operator,
+    /// Vertices of the elements that indirect light lives on.
+    corners: Vec<[u32; 3]>,
+    /// What rays read of direct light, where they read it.
+    kept: Option<Kept>,
+    /// For caustics.
+    particles: u32,
+    /// Accuracy that the increments are for.
+    goal: f64,
+    key: Key,
+    /// Increments made ahead, in order.
+    ahead: VecDeque<Increment>,
+}
+
+/// What an increment has found.
+pub(crate) struct Increment {
+    /// At the vertices.
+    pub(crate) receivers: Vec<Sample>,
+    /// For the sums of the check points.
+    pub(crate) checks: Vec<Sample>,
+    /// What caustics lack in parts of elements, lx.
+    pub(crate) lacking: Vec<f64>,
+    pub(crate) effort: Effort,
+}
+
+impl<'p, 's> Hybrid<'p, 's> {
+    /// With so many gathering rays in every increment for each vertex that is not hidden, or others that serve as well, and so
+    /// many particles; for an accuracy, and with the rays halved so many times. Memory is there for `most` rays of a vertex.
+    pub(crate) fn new(
+        plan: &'p Plan<'s>,
+        checks: &[Check],
+        (rays, particles, goal, halvings): (f64, u32, f64, u32),
+        most: u32,
+        seed: u64,
+    ) -> Self {
+        let key = Key::new(seed).with(1);
+        let rays = rays / f64::from(1_u32 << halvings);
+        let areas_m2 = plan.areas_m2();
+        let allotted = allot(&areas_m2, rays);
+        let fewest = FEWEST_UNJUDGED >> halvings;
+        let row = |vertex: usize| {
+            let in_gap = plan.standings[vertex] != Some(Standing::Open);
+            let (of, own) = (plan.gatherers[vertex], allotted[vertex]);
+            let needs_more = own > 0 && of.behind.is_none();
+            of.with_rays(if needs_more { own.max(fewest) } else { own }).in_gap(in_gap)
+        };
+        let rows: Vec<Gatherer> = (0..plan.indirect_vertices).map(row).collect();
+        let rows = if is_worth_trying(rows.len(), rays) && !without("noise-sharing") {
+            shared_by_noise(plan, rows, (&areas_m2, rays, most), key.with(u64::MAX - 1))
+        } else {
+            rows
+        };
+        let check_direct = check_points::direct(plan, checks, goal, key.with(0));
+        let rays_of_means = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
+        let for_bare = plan.gathering_for_bare.iter();
+        let for_bare = for_bare.map(|&v| plan.gatherers[v as usize].with_rays(rays_of_means));
+        let fresh_rows = checks.iter().map(|check| check.gatherer).chain(for_bare).collect();
+        let over = plan.over(&plan.direct);
+        let kept = Kept::of(&over, goal * plan.reference_lx, key.with(u64::MAX - 2));
+        let ahead = VecDeque::new();
+        let readers = READERS.min((most / OF_READERS).max(1));
+        let reader = reader(plan, &rows, (readers, key.with(u64::MAX)));
+        let corners = |error: &LeafError| plan.subdivision.node(error.node).0.vertices;
+        let corners = plan.indirect_errors.iter().map(corners).collect();
+        Self {
+            plan,
+            check_direct,
+            rays_of_means,
+            rows,
+            fresh_rows,
+            reader,
+            corners,
+            kept,
+            particles,
+            goal,
+            key,
+            ahead,
+        }
+    }
+
+    /// Variance of direct light as readings evaluate it, lx2, that all increments have in common.
+    pub(crate) const fn noise_of_direct_lx2(&self) -> f64 {
+        self.check_direct.noise_lx2
+    }
+
+    /// Time that an increment takes, s, roughly: a part of its receivers is tried.
+    pub(crate) fn pace_s(&self) -> f64 {
+        let started = Instant::now();
+        let lighting = self.plan.lighting;
+        let rows: Vec<Gatherer> = self.rows.iter().step_by(TRIED).copied().collect();
+        let gathering = Gathering::of(self.plan, &self.plan.direct);
+        gathering.operator(&rows, |row| self.key.with(0).with(row as u64));
+        if !lighting.is_measured_once() {
+            let key = self.key.with(0).with(1);
+            let all: Vec<_> = self.plan.gatherers.iter().step_by(TRIED).collect();
+            all.par_iter().enumerate().for_each(|(k, gatherer)| {
+                let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
+                lighting.illuminance(&gatherer.surface, &mut dice);
+            });
+        }
+        started.elapsed().as_secs_f64() * TRIED as f64
+    }
+
+    /// Rays of a vertex in an increment; none where it does not gather.
+    pub(crate) fn rays_of(&self, vertex: usize) -> u32 {
+        let is_for_bare = || self.plan.gathering_for_bare.binary_search(&(vertex as u32)).is_ok();
+        let beyond = || if is_for_bare() { self.rays_of_means } else { 0 };
+        self.rows.get(vertex).map_or_else(beyond, |row| row.rays)
+    }
+
+    /// Increment `index`; `None` if its deadline passes meanwhile. Where increments are small, those that will be asked for
+    /// in any case are made beside it, if they are whole by a deadline of their own: alone they would keep threads waiting for
+    /// each other.
+    pub(crate) fn increment(
+        &mut self,
+        index: u64,
+        checks: &[Check],
+        [own, of_others]: [Deadline; 2],
+    ) -> Option<Increment> {
+        if self.ahead.is_empty() {
+            let next = (index + 1).next_multiple_of(FEWEST_TO_MISS);
+            let is_ahead = next <= BELIEVED_INCREMENTS && !without("increments-ahead");
+            let until = if is_ahead { next } else { index + 1 };
+            let rows = self.rows.iter().chain(&self.fresh_rows);
+            let rays = rows.map(|row| u64::from(row.rays)).sum::<u64>() + u64::from(self.particles);
+            let count = (until - index).min((RAYS_AHEAD / rays.max(1)).max(1)) as usize;
+            let deadline = |k: usize| if k == 0 { own } else { of_others };
+            let one = |k: usize| self.made(index + k as u64, checks, deadline(k));
+            let made: Vec<_> = (0..count).into_par_iter().with_max_len(1).map(one).collect();
+            self.ahead.extend(made.into_iter().map_while(|increment| increment));
+        }
+        self.ahead.pop_front()
+    }
+
+    /// How many increments are made already that were not asked for.
+    pub(crate) fn ahead(&self) -> u64 {
+        self.ahead.len() as u64
+    }
+
+    fn made(&self, index: u64, checks: &[Check], deadline: Deadline) -> Option<Increment> {
+        let plan = self.plan;
+        let key = self.key.with(1 + index);
+        let (direct, check_direct) =
+            direct_light(plan, (&self.check_direct, checks), key.with(0), deadline)?;
+        let Caustics { light: caustic, means: reflected_on, lacking, effort: particles } =
+            caustics::deposit(plan, self.particles, key.with(1));
+        let kept = self.kept.as_ref();
+        let kept = kept.map(|kept| kept.read(&plan.over(&direct), (1, key.with(6))));
+        let at_ends = kept.as_deref().unwrap_or(&direct);
+        let gathering = Gathering::of(plan, at_ends);
+        let mut operator =
+            gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
+        let as_read = Gathering { regathers: true, ..Gathering::of(plan, at_ends) };
+        let places = plan.places_of_means(self.rays_of_means, key.with(4));
+        let mut guess = plan.guess.clone();
+        let measured = |row: usize| key.with(5).with(row as u64);
+        operator.append(as_read.operator_until(deadline, &places.gatherers, measured)?);
+        guess.extend(places.interpolated(&plan.guess));
+        let fit = Fitted { plan, places: &places };
+        let (gathered, unsettled_lx) = operator.solve_or_give_up(
+            &guess,
+            &reflected_on,
+            (&plan.waiting, &fit),
+            UNSETTLED * self.goal.min(COARSEST) * (1.0 - plan.mean_reflectance).max(LEAST_ABSORBED),
+        );
+        let gathered = fit.read(&gathered);
+        let light: Vec<Rgb> = gathered.iter().zip(&reflected_on).map(|(&e, &c)| e + c).collect();
+        let passed_on = self.passed_on(&light);
+        // As readers gather.
+        let gathering = Gathering { regathers: true, ..gathering };
+        let fresh = gathering.operator(&self.fresh_rows, |row| key.with(3).with(row as u64));
+        let fresh_light = fresh.apply(&light);
+        let (fresh_light, for_bare) = fresh_light.split_at(checks.len());
+        let indirect = plan.prolongate_beside(&gathered, for_bare);
+        let caustic = plan.prolongate(&caustic);
+        let map = [direct.as_slice(), &caustic, &indirect];
+        let checks = check_points::samples(checks, (fresh_light, &check_direct), map, None);
+        let vertex = |k: usize| {
+            let passed_on = passed_on[k];
+            Sample { direct: direct[k], caustic: caustic[k], indirect: indirect[k], passed_on }
+        };
+        let receivers = (0..direct.len()).map(vertex).collect();
+        // Rays given up would have seen what others see.
+        let unseen_lx = operator.given_up() * plan.reference_lx;
+        let effort = Effort {
+            rays: operator.rays + fresh.rays + particles.rays,
+            given_up_lx: particles.given_up_lx + unseen_lx + unsettled_lx,
+        };
+        Some(Increment { receivers, checks, lacking, effort })
+    }
+
+    /// What rays that are always the same read at the vertices of the light of an increment: as that differs from increment to
+    /// increment, so does what is read of their mean by any rays, and close by in the same way. What few rays see more of than others
+    /// is taken out by means over the elements about every vertex.
+    fn passed_on(&self, light: &[Rgb]) -> Vec<f64> {
+        let plan = self.plan;
+        let mut passed_on = self.reader.reflected(light);
+        plan.waiting.fill(&mut passed_on);
+        let mut passed_on: Vec<f64> = passed_on.iter().map(|light| light.luminance()).collect();
+        for _ in 0..SMOOTHINGS {
+            let mut sums = vec![(0.0, 0.0); passed_on.len()];
+            for element in &self.corners {
+                let mean = element.iter().map(|&v| passed_on[v as usize]).sum::<f64>() / 3.0;
+                for &vertex in element {
+                    let (sum, count) = &mut sums[vertex as usize];
+                    *sum += mean;
+                    *count += 1.0;
+                }
+            }
+            for (passed_on, (sum, count)) in passed_on.iter_mut().zip(sums) {
+                if count > 0.0 {
+                    *passed_on = sum / count;
+                }
+            }
+        }
+        let passed_on: Vec<Rgb> = passed_on.into_iter().map(Rgb::grey).collect();
+        plan.prolongate(&passed_on).iter().map(|light| light.luminance()).collect()
+    }
+}
+
+/// What rays read of the light of an increment: values of best fit, moved so that elements have the mean that was measured.
+struct Fitted<'a> {
+    plan: &'a Plan<'a>,
+    places: &'a Places,
+}
+
+impl Fitting for Fitted<'_> {
+    fn read(&self, light: &[Rgb]) -> Vec<Rgb> {
+        let (at_vertices, at_places) = light.split_at(self.plan.guess.len());
+        let mut fitted = self.plan.fit.apply(at_vertices);
+        self.plan.means.apply(&mut fitted, self.places, at_places);
+        fitted
+    }
+
+    fn held<'a>(&'a self, light: &[Rgb]) -> Reading<'a> {
+        let vertices = self.plan.guess.len();
+        let (at_vertices, at_places) = light.split_at(vertices);
+        let fit = self.plan.fit.held(at_vertices);
+        let means = self.plan.means.held(&fit.apply(at_vertices), self.places, at_places);
+        Box::new(move |light| {
+            let (at_vertices, at_places) = light.split_at(vertices);
+            let mut fitted = fit.apply(at_vertices);
+            means.apply(&mut fitted, at_places);
+            fitted
+        })
+    }
+}
+
+/// Whether it is tried where so many rays of so many receivers are noisy.
+fn is_worth_trying(rows: usize, rays: f64) -> bool {
+    rays >= WORTH_TRYING || rays * rows as f64 >= WORTH_TRYING_ANY
+}
+
+/// Rays that tell that of some of so many receivers.
+pub(crate) fn rays_tried(rows: usize, rays: f64) -> f64 {
+    let tried = if is_worth_trying(rows, rays) { rows.min(TRIED_FIRST) } else { 0 };
+    (tried as u32 * RAYS_TRIED * ray_trial::INCREMENTS as u32).into()
+}
+
+/// Receivers with their rays shared out anew where some are far noisier than others, as inside of housings of lamps, if there is more
+/// noise than the pilot thought and that leaves much less; and more in all if that is still more than so many of each should leave.
+fn shared_by_noise(
+    plan: &Plan,
+    rows: Vec<Gatherer>,
+    (areas_m2, rays, most): (&[f64], f64, u32),
+    key: Key,
+) -> Vec<Gatherer> {
+    let gathering = Gathering::of(plan, &plan.direct);
+    let thought_lx = plan.trial.noise_lx(rays);
+    let of_one = libm::pow(f64::from(RAYS_TRIED), NET_ORDER);
+    let shared = |every: usize| {
+        let some = || rows.iter().step_by(every);
+        let tried: Vec<Gatherer> =
+            some().map(|row| row.with_rays(row.rays.min(RAYS_TRIED))).collect();
+        let with = (plan.reference_lx, key);
+        let (variances_lx2, _) = ray_trial::variances_lx2(&gathering, &tried, &plan.guess, with);
+        let areas_m2: Vec<f64> = areas_m2.iter().step_by(every).copied().collect();
+        let rays: Vec<u32> = some().map(|row| row.rays).collect();
+        allot_by_noise(&areas_m2, &variances_lx2, &rays)
+            .filter(|shared| of_one * shared.before_lx > MORE_THAN_THOUGHT * thought_lx)
+    };
+    // Where few tell that it may be worth it, more are asked before all are.
+    let mut every = rows.len().div_ceil(TRIED_FIRST).max(1);
+    let mut found = shared(every);
+    while every > 1 && found.is_some() {
+        every = (every / TRIED_NEXT).max(1);
+        found = shared(every);
+    }
+    let Some(shared) = found else { return rows };
+    let wanted = libm::log2(of_one * shared.left_lx / thought_lx) / NET_ORDER;
+    let allowed = libm::log2(f64::from(most) / mean_of(&shared.rays)).floor();
+    let steps = wanted.round().min(MORE).min(allowed).max(0.0);
+    let with = |(row, rays): (Gatherer, u32)| {
+        let rays = (f64::from(rays) * libm::exp2(steps)) as u32;
+        row.with_rays(rays.max(row.rays.min(FEWEST_UNJUDGED)))
+    };
+    rows.into_iter().zip(shared.rays).map(with).collect()
+}
+
+/// Rays of vertices that read indirect light alone.
+fn reader(plan: &Plan, rows: &[Gatherer], (rays, key): (u32, Key)) -> Operator {
+    let dark = vec![Rgb::BLACK; plan.elements.vertices().len()];
+    let direct = DirectAtEnds::Read { values: &dark, level: u32::MAX };
+    let gathering = Gathering { direct, ..Gathering::of(plan, &plan.direct) };
+    let few: Vec<Gatherer> = rows.iter().map(|row| row.with_rays(row.rays.min(rays))).collect();
+    gathering.operator(&few, |row| key.with(row as u64))
+}
+
+/// Direct light of an increment at vertices and check points: the plan's where it is measured once.
+pub(crate) fn direct_light(
+    plan: &Plan,
+    (check_direct, checks): (&DirectThere, &[Check]),
+    key: Key,
+    deadline: Deadline,
+) -> Option<(Vec<Rgb>, Vec<Rgb>)> {
+    if plan.lighting.is_measured_once() {
+        return Some((plan.direct.clone(), check_direct.lx.clone()));
+    }
+    let vertex = |(k, gatherer): (usize, &Gatherer)| {
+        let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
+        let light = || plan.lighting.illuminance(&gatherer.surface, &mut dice);
+        (!deadline.has_passed()).then(light)
+    };
+    let vertices: Option<Vec<Rgb>> = plan.gatherers.par_iter().enumerate().map(vertex).collect();
+    Some((vertices?, check_direct.again(plan, checks, key.with(u64::MAX))))
+}

@@ -1,0 +1,25 @@
+//! The methods: hybrid, forward, radiosity, cache; and the textbook path tracer beside them.
+
+mod cache;
+mod caustics;
+mod forward;
+pub(crate) mod hybrid;
+mod radiosity;
+mod reference;
+pub(crate) mod tally;
+
+pub(crate) use cache::Cached;
+pub use cache::{
+    CACHE_REPLICATES, CacheError, CacheReader, CacheSample, CacheSettings, CachedPlace,
+    IrradianceCache, SampleKind, Served,
+};
+#[cfg(test)]
+pub(crate) use caustics::deposit;
+pub(crate) use forward::Forward;
+pub(crate) use hybrid::{Hybrid, READERS};
+pub(crate) use radiosity::{Left, Radiosity};
+pub use radiosity::{RadiosityLimits, RadiositySettings};
+pub use reference::PathTracer;
+pub(crate) use reference::Traced;
+#[cfg(test)]
+pub(crate) use tally::Tally;

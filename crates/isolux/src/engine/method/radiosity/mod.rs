@@ -1,0 +1,575 @@
+//! `radiosity`: shots from the patches with most light still to send, over form factors.
+//!
+//! Progressive refinement (Cohen, Chen, Wallace, Greenberg 1988) on the elements of the pilot: the
+//! patch with most unshot flux sends it to all receivers, and so on until little is left. A patch
+//! sends at once what the pilot's first look expects it to have in the end (overshooting: Feda,
+//! Purgathofer 1992, "Accelerating radiosity by overshooting"), and later what was too little or too
+//! much. With `X` the light that vertices have shot, `D` direct light and `R` what was received,
+//! `R = A X` holds after every shot, and `D + R - X` is unshot; without it the map is the solution.
+//!
+//! There are no replicates: rays tell how visible sources are, two each, whose spread is the noise of
+//! a receiver. How good the map is, check points tell: there light is gathered over the map by rays
+//! that have nothing to do with form factors.
+
+mod form_factor;
+mod light;
+mod limits;
+mod receive;
+mod settings;
+mod sources;
+mod specular;
+
+pub use settings::{RadiosityLimits, RadiositySettings};
+
+use super::caustics::{self, Caustics};
+use crate::engine::gather::{Gatherer, Gathering, Operator};
+use crate::engine::judge::{Check, InterpolationErrors, check_points};
+use crate::engine::light::Chain;
+use crate::engine::plan::Plan;
+use crate::engine::ray::{
+    Accumulator, Deadline, Dice, Effort, Estimate, Noise, Sample, SurfacePoint, mean_and_variance,
+};
+use crate::sampling::{Key, Sequence};
+use crate::units::Rgb;
+use light::Light;
+use limits::Limits;
+use rayon::prelude::*;
+use receive::{Received, Shot};
+use sources::{Face, Kind, Sources, corner_values, corner_values_in_gap};
+use specular::Specular;
+
+/// Independent gatherings of a check point.
+const CHECKINGS: u64 = 8;
+/// Independent measurements of direct light with noise, and of caustics.
+const REPLICATES: u64 = 8;
+/// Rays of a receiver over specular surfaces, each of two times, for an accuracy of one per cent.
+const SPECULAR_RAYS_AT_ONE_PERCENT: f64 = 64.0;
+/// Shadow rays to every emitting surface from a place of an element.
+const SAMPLES_OF_ELEMENT: usize = 4;
+/// Places of an element for its mean direct light: exact for quadratic functions.
+const PLACES: [[f64; 3]; 3] = [
+    [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
+    [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
+    [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
+];
+
+/// Where surfaces absorb less than this share of light, nobody knows how much there is of it.
+const LEAST_ABSORBED: f64 = 1e-6;
+
+/// How far the light that an ambient term stands for is from it at a place, as a share of it: its interval of 95 % goes from none, in gaps and
+/// outside, to twice as much.
+const DOUBT_OF_AMBIENT: f64 = 1.0 / 1.96;
+
+/// The engine, ready for shots. What they come to is kept in sums of its run: of each vertex what was
+/// received in the place of direct light, what was shot in that of caustics, what was sent over
+/// specular surfaces in that of indirect light, and the variance; of each patch how often it was shot.
+pub(crate) struct Radiosity<'p, 's> {
+    plan: &'p Plan<'s>,
+    sources: Sources,
+    chains: Vec<Chain>,
+    specular: Option<Specular>,
+    limits: Limits,
+    stop_unshot: f64,
+    ambient: bool,
+    /// Direct light at the vertices and its variance.
+    direct: Vec<Rgb>,
+    direct_variance: Vec<f64>,
+    caustic: Vec<Rgb>,
+    caustic_variance: Vec<f64>,
+    /// What patches are expected to send in the end, beside direct light.
+    expected: Vec<Rgb>,
+    /// By source, what the mean exitance by direct light is more than that interpolated, lm/m2.
+    corrections: Vec<Rgb>,
+    /// Flux that will have to be sent in all, lm.
+    whole_lm: f64,
+    area_m2: f64,
+    /// Root mean square of the light, as far as is known before the first shot, lx.
+    reference_lx: f64,
+    reflectance: Rgb,
+    checks: Checks,
+    rays_before: u64,
+    given_up_lx: f64,
+    key: Key,
+}
+
+/// Gathering at the check points.
+struct Checks {
+    operators: Vec<Operator>,
+    direct: Vec<Rgb>,
+}
+
+/// Received, shot, and sent over specular surfaces: their places in the sums.
+const RECEIVED: usize = 0;
+const SHOT: usize = 3;
+const SENT: usize = 6;
+
+impl<'p, 's> Radiosity<'p, 's> {
+    /// With all that shots share.
+    pub(crate) fn new(
+        plan: &'p Plan<'s>,
+        points: &[Check],
+        settings: &RadiositySettings,
+        accuracy: f64,
+        seed: u64,
+    ) -> Self {
+        let key = Key::new(seed).with(7);
+        let asked = settings.limits(accuracy);
+        let lighting = plan.lighting;
+        let level = if lighting.are_read_at_ends() { u32::MAX } else { plan.level };
+        let sources = Sources::new(plan, level);
+        let (chains, leaves_some_out) = lighting.chains();
+        let is_specular = leaves_some_out || lighting.leaves_caustics();
+        let rays = SPECULAR_RAYS_AT_ONE_PERCENT * 0.01 / accuracy;
+        let rays = (rays.clamp(16.0, 512.0) as u32).next_power_of_two();
+        let specular = is_specular.then(|| Specular::new(plan, level, &chains, rays, key.with(1)));
+        let (direct, direct_variance) = direct(plan, key.with(2));
+        let (caustic, caustic_variance, effort) = caustic(plan, accuracy, key.with(3));
+        let checks = Checks::new(plan, points, (asked.check_rays, accuracy), &direct, key.with(4));
+        let reference_lx = plan.reference_lx.max(root_mean_square(plan, &direct, &caustic));
+        let given_up = checks.operators.iter().map(Operator::given_up).sum::<f64>()
+            / CHECKINGS as f64
+            + specular.as_ref().map_or(0.0, |s| s.given_up);
+        let mut engine = Self {
+            limits: Limits {
+                tolerance_lx: asked.form_factor_tolerance * reference_lx,
+                noise_lx: asked.visibility_tolerance * reference_lx,
+                most_lx: asked.largest_link * reference_lx,
+            },
+            stop_unshot: asked.unshot,
+            ambient: settings.ambient,
+            expected: plan.prolongate(&plan.fit.apply(&plan.guess)),
+            corrections: Vec::new(),
+            whole_lm: 0.0,
+            area_m2: plan.area_m2(),
+            reference_lx,
+            reflectance: Rgb::BLACK,
+            rays_before: effort.rays
+                + checks.operators.iter().map(|o| o.rays).sum::<u64>()
+                + specular.as_ref().map_or(0, |s| s.rays),
+            given_up_lx: effort.given_up_lx + given_up * reference_lx,
+            plan,
+            sources,
+            chains,
+            specular,
+            direct,
+            direct_variance,
+            caustic,
+            caustic_variance,
+            checks,
+            key,
+        };
+        engine.corrections = engine.corrections();
+        engine.reflectance = engine.mean_reflectance();
+        let nothing = Accumulator::new(engine.direct.len(), reference_lx);
+        let none_shot = Accumulator::new(engine.sources.patches.len(), reference_lx);
+        engine.whole_lm = engine.fluxes(&nothing, &none_shot).iter().map(|f| f.size_lm).sum();
+        engine
+    }
+
+    /// Number of patches.
+    pub(crate) fn patches(&self) -> usize {
+        self.sources.patches.len()
+    }
+
+    /// What sums are in proportion to, lx.
+    pub(crate) fn reference_lx(&self) -> f64 {
+        self.reference_lx
+    }
+
+    /// What was left out on the way of rays and particles that were given up, in the mean, lx.
+    pub(crate) fn given_up_lx(&self) -> f64 {
+        self.given_up_lx
+    }
+
+    /// By source, the exitance by direct light in the mean over elements less that of its vertices,
+    /// where it is evaluated and not read from a finer mesh.
+    fn corrections(&self) -> Vec<Rgb> {
+        let Plan { scene, lighting, elements, .. } = self.plan;
+        if lighting.are_read_at_ends() {
+            return vec![Rgb::BLACK; self.sources.nodes.len()];
+        }
+        let key = self.key.with(5);
+        let of = |(node, source): (usize, &sources::Source)| {
+            let (Kind::Face(face), None) = (&source.kind, source.children) else {
+                return Rgb::BLACK;
+            };
+            let Some(finish) = scene.material(face.triangle).finish(face.back) else {
+                return Rgb::BLACK;
+            };
+            let mut dice = Dice::new(Sequence::new(key.with(node as u64)), 0);
+            let mut at = |weights: [f64; 3]| {
+                let place = sources::place_of(elements, face, weights);
+                let [u, v] = scene.triangle(face.triangle).barycentric(place);
+                let at = SurfacePoint::new(scene, face.triangle, face.back, u, v);
+                let light = lighting.sampled(&at, SAMPLES_OF_ELEMENT, &mut dice);
+                light * scene.diffuse_reflectance(finish, face.triangle, u, v)
+            };
+            let evaluated = PLACES.map(&mut at).into_iter().sum::<Rgb>() / PLACES.len() as f64;
+            let value = |v: u32| self.direct[v as usize];
+            let corners = corner_values(self.plan, face.vertices, value);
+            evaluated - corners.into_iter().sum::<Rgb>() / 3.0 * face.reflectance
+        };
+        self.sources.nodes.par_iter().enumerate().map(of).collect()
+    }
+
+    fn mean_reflectance(&self) -> Rgb {
+        let faces = self.sources.nodes.iter().filter(|s| s.children.is_none());
+        let reflected = faces.map(|source| match &source.kind {
+            Kind::Face(face) => face.reflectance * source.area_m2,
+            Kind::Cluster => Rgb::BLACK,
+        });
+        reflected.sum::<Rgb>() / self.area_m2
+    }
+
+    /// What a vertex has not shot: what it is expected to have in the end, until it has shot once.
+    fn unshot(&self, sums: &Accumulator, is_first: bool, vertex: u32) -> Rgb {
+        let k = vertex as usize;
+        let own = self.direct[k] + self.caustic[k];
+        if is_first {
+            own + self.expected[k]
+        } else {
+            own + sums.part(k, RECEIVED) - sums.part(k, SHOT)
+        }
+    }
+
+    /// Unshot exitance at the corners of an element.
+    fn corners(
+        &self,
+        sums: &Accumulator,
+        is_first: bool,
+        (node, face): (u32, &Face),
+        in_gap: bool,
+    ) -> [Rgb; 3] {
+        let value = |vertex: u32| self.unshot(sums, is_first, vertex);
+        let correction = if is_first { self.corrections[node as usize] } else { Rgb::BLACK };
+        let corners = if in_gap {
+            corner_values_in_gap(self.plan, face.vertices, value)
+        } else {
+            corner_values(self.plan, face.vertices, value)
+        };
+        corners.map(|e| e * face.reflectance + correction)
+    }
+
+    fn light(&self, sums: &Accumulator, is_first: bool, patch: usize) -> Vec<Light> {
+        self.sources.light(patch, |node, face| self.corners(sums, is_first, (node, face), false))
+    }
+
+    /// Unshot flux of every patch.
+    fn fluxes(&self, sums: &Accumulator, patches: &Accumulator) -> Vec<Flux> {
+        let of = |patch: usize| {
+            let is_first = patches.count_at(patch) == 0;
+            let root = self.light(sums, is_first, patch)[0];
+            let m2 = self.sources.nodes[self.sources.patches[patch].start as usize].area_m2;
+            Flux { is_first, sum_lm: root.mean * m2, size_lm: root.size * m2 }
+        };
+        (0..self.patches()).into_par_iter().map(of).collect()
+    }
+
+    /// What is left to shoot.
+    pub(crate) fn left(&self, sums: &Accumulator, patches: &Accumulator) -> Left {
+        let fluxes = self.fluxes(sums, patches);
+        let unsent_lm = self.specular.as_ref().map_or(0.0, |s| self.unsent_lm(s, sums));
+        let unshot_lm = unsent_lm + fluxes.iter().map(|f| f.size_lm).sum::<f64>();
+        let share = if self.whole_lm > 0.0 { (unshot_lm / self.whole_lm).min(1.0) } else { 0.0 };
+        let (ambient_lx, doubt_lx) = self.ambient(&fluxes);
+        let all_have_shot = fluxes.iter().all(|f| !f.is_first || f.size_lm == 0.0);
+        let is_shot = all_have_shot && share <= self.stop_unshot;
+        let absorbed = 1.0 - self.reflectance.luminance();
+        // Of what was expected all further reflections are known; of the rest they are a series.
+        let series = if all_have_shot { 1.0 / absorbed } else { 1.0 };
+        let most_lm = self.reference_lx * self.area_m2;
+        let is_bounded =
+            absorbed > LEAST_ABSORBED && unshot_lm * series <= most_lm.max(self.whole_lm);
+        Left { is_bounded, fluxes, unsent_lm, share, ambient_lx, doubt_lx, all_have_shot, is_shot }
+    }
+
+    /// The increments after which what is left will be little enough, if it fades as it has done.
+    pub(crate) fn shots_needed(&self, count: u64, left: &Left) -> Option<f64> {
+        let count = count as f64;
+        if left.is_shot {
+            return Some(count);
+        }
+        (left.share < 1.0 && self.stop_unshot > 0.0)
+            .then(|| count * (libm::log(self.stop_unshot) / libm::log(left.share)).max(1.0))
+    }
+
+    /// The light that takes the place of what is unshot, the same everywhere, and its standard error at a place, lx. Where too much was shot
+    /// that would be less than none: there is none, and what is left out is in doubt.
+    fn ambient(&self, fluxes: &[Flux]) -> (Rgb, f64) {
+        if !self.ambient || self.area_m2 <= 0.0 {
+            return (Rgb::BLACK, 0.0);
+        }
+        // What was expected has all further reflections in it.
+        let once: Rgb = fluxes.iter().filter(|f| f.is_first).map(|f| f.sum_lm).sum();
+        let again: Rgb = fluxes.iter().filter(|f| !f.is_first).map(|f| f.sum_lm).sum();
+        let series = self.reflectance.map(|rho| 1.0 / (1.0 - rho.min(0.99)));
+        let again = if once.is_black() { again * series } else { Rgb::BLACK };
+        let mean_lx = (once + again) / self.area_m2;
+        let ambient_lx = mean_lx.greater(Rgb::BLACK);
+        let left_out_lx = (ambient_lx - mean_lx).luminance();
+        (ambient_lx, libm::hypot(DOUBT_OF_AMBIENT * ambient_lx.luminance(), left_out_lx))
+    }
+
+    /// One shot; what it took, or nothing if the deadline passes before it is done.
+    pub(crate) fn shoot(
+        &self,
+        sums: &mut Accumulator,
+        patches: &mut Accumulator,
+        left: &Left,
+        deadline: Deadline,
+    ) -> Option<Effort> {
+        let index = sums.increments;
+        let Left { fluxes, unsent_lm, .. } = left;
+        let most = (0..fluxes.len())
+            .max_by(|&a, &b| fluxes[a].size_lm.total_cmp(&fluxes[b].size_lm).then(b.cmp(&a)));
+        let rays = match (most, &self.specular) {
+            (most, Some(specular))
+                if most.is_none_or(|patch| *unsent_lm > fluxes[patch].size_lm) =>
+            {
+                self.send_over_specular(specular, sums)
+            }
+            (Some(patch), _) => self.shoot_patch(patch, index, (sums, patches), deadline)?,
+            (None, _) => 0,
+        };
+        sums.increments += 1;
+        patches.increments += 1;
+        let rays = rays + if index == 0 { self.rays_before } else { 0 };
+        Some(Effort { rays, given_up_lx: self.given_up_lx })
+    }
+
+    fn shoot_patch(
+        &self,
+        patch: usize,
+        index: u64,
+        (sums, patches): (&mut Accumulator, &mut Accumulator),
+        deadline: Deadline,
+    ) -> Option<u64> {
+        let is_first = patches.count_at(patch) == 0;
+        let light = self.light(sums, is_first, patch);
+        let before: &Accumulator = sums;
+        let shot = Shot {
+            sources: &self.sources,
+            lighting: self.plan.lighting,
+            chains: &self.chains,
+            patch,
+            light: &light,
+            sums_lm: &self.sources.sums_lm(patch, &light),
+            corners: &|node, face, in_gap| self.corners(before, is_first, (node, face), in_gap),
+            limits: self.limits,
+        };
+        let key = self.key.with(6).with(index);
+        let receivers = &self.plan.gatherers[..self.plan.indirect_vertices];
+        let receive = |(k, gatherer): (usize, &Gatherer)| {
+            let carries = self.plan.carriers.is_active(k as u32);
+            let of = self.plan.standings[k].filter(|_| carries);
+            if deadline.has_passed() {
+                return None;
+            }
+            Some(of.map_or_else(Received::default, |of| {
+                let gatherer = gatherer.in_gap(of != crate::map::Standing::Open);
+                shot.receive(&gatherer, key.with(k as u64))
+            }))
+        };
+        let received: Option<Vec<Received>> =
+            receivers.par_iter().enumerate().map(receive).collect();
+        let received = received?;
+        let sent: Vec<(u32, Rgb)> = self.sources.vertices[patch]
+            .iter()
+            .map(|&v| (v, self.unshot(sums, is_first, v)))
+            .collect();
+        for (vertex, light) in sent {
+            sums.add_part(vertex as usize, SHOT, light);
+        }
+        patches.count(patch);
+        let rays = received.iter().map(|r| r.rays).sum();
+        self.arrive(sums, received.iter().map(|r| (r.lx, r.variance)).collect());
+        Some(rays)
+    }
+
+    /// Adds what has arrived at the receivers.
+    fn arrive(&self, sums: &mut Accumulator, received: Vec<(Rgb, f64)>) {
+        let mut light: Vec<Rgb> = received.iter().map(|r| r.0).collect();
+        let mut variances: Vec<Rgb> = received.iter().map(|r| Rgb::grey(r.1)).collect();
+        // What is interpolated is no better than what it comes from.
+        self.plan.waiting.fill(&mut light);
+        self.plan.waiting.fill(&mut variances);
+        let light = self.plan.prolongate(&self.plan.fit.apply(&light));
+        for (k, light) in light.into_iter().enumerate() {
+            sums.add_part(k, RECEIVED, light);
+        }
+        for (k, variance) in variances.into_iter().enumerate() {
+            sums.add_variance(k, variance.0[0].max(0.0));
+        }
+    }
+
+    /// What vertices have not sent over specular surfaces.
+    fn unsent(&self, sums: &Accumulator) -> Vec<Rgb> {
+        let is_first = (0..self.direct.len()).all(|k| sums.part(k, SENT).is_black());
+        let one = |k: usize| {
+            let own = self.direct[k] + self.caustic[k];
+            let indirect = if is_first { self.expected[k] } else { sums.part(k, RECEIVED) };
+            own + indirect - sums.part(k, SENT)
+        };
+        (0..self.direct.len()).map(one).collect()
+    }
+
+    /// About the flux that would come of it.
+    fn unsent_lm(&self, specular: &Specular, sums: &Accumulator) -> f64 {
+        let unsent = self.unsent(sums);
+        let vertices = self.plan.elements.vertices().iter().zip(&unsent).enumerate();
+        let known = vertices.filter(|(k, _)| self.plan.standings[*k].is_some());
+        let lumen: f64 = known.map(|(_, (v, e))| v.area_m2 * e.luminance().abs()).sum();
+        specular.mean_share * lumen
+    }
+
+    fn send_over_specular(&self, specular: &Specular, sums: &mut Accumulator) -> u64 {
+        let unsent = self.unsent(sums);
+        let received = specular.apply(&unsent);
+        for (k, light) in unsent.into_iter().enumerate() {
+            sums.add_part(k, SENT, light);
+        }
+        self.arrive(sums, received);
+        0
+    }
+
+    /// The light at a vertex and its variance.
+    pub(crate) fn estimate(&self, sums: &Accumulator, vertex: usize) -> Estimate {
+        // Later shots take back by rays of their own what earlier ones have brought too much: where that is more than has come, none is
+        // left, and what is left out counts as error.
+        let received = sums.part(vertex, RECEIVED);
+        let indirect = received.greater(Rgb::BLACK);
+        let left_out_lx = (indirect - received).luminance();
+        let indirect_variance = sums.variance_at(vertex)
+            + self.caustic_variance.get(vertex).copied().unwrap_or(0.0)
+            + left_out_lx * left_out_lx;
+        Estimate {
+            mean: Sample {
+                direct: self.direct[vertex],
+                caustic: self.caustic[vertex],
+                indirect,
+                passed_on: 0.0,
+            },
+            variance: indirect_variance + self.direct_variance[vertex],
+            indirect_variance,
+            common_variance: 0.0,
+        }
+    }
+
+    /// How wrong the map is, by the check points.
+    pub(crate) fn errors(
+        &self,
+        sums: &Accumulator,
+        points: &[Check],
+        ambient: Rgb,
+    ) -> InterpolationErrors {
+        let vertices = 0..self.direct.len();
+        let indirect: Vec<Rgb> = vertices.map(|k| sums.part(k, RECEIVED) + ambient).collect();
+        let light: Vec<Rgb> = indirect.iter().zip(&self.caustic).map(|(&e, &c)| e + c).collect();
+        let mut found = Accumulator::new(check_points::places(points, true), self.reference_lx);
+        for operator in &self.checks.operators {
+            let fresh = operator.apply(&light);
+            let map = [self.direct.as_slice(), &self.caustic, &indirect];
+            found.add(check_points::samples(points, (&fresh, &self.checks.direct), map, None));
+        }
+        let seen = check_points::errors(&found, points, (self.plan.trust(), Noise::Counted));
+        InterpolationErrors { noise_lx: None, ..seen }
+    }
+}
+
+/// What is left to shoot.
+#[derive(Clone, Debug)]
+pub(crate) struct Left {
+    fluxes: Vec<Flux>,
+    /// About the flux that would come of what was not sent over specular surfaces, lm.
+    unsent_lm: f64,
+    /// Of all light.
+    pub(crate) share: f64,
+    /// What takes its place, the same everywhere, lx.
+    pub(crate) ambient_lx: Rgb,
+    /// Its standard error at a place, lx.
+    pub(crate) doubt_lx: f64,
+    /// Whether there is no patch that has not shot yet.
+    pub(crate) all_have_shot: bool,
+    /// Whether it is known how much it can come to: no more than what is there.
+    pub(crate) is_bounded: bool,
+    /// Whether it is so little that shooting should stop.
+    pub(crate) is_shot: bool,
+}
+
+/// Unshot flux of a patch.
+#[derive(Clone, Copy, Debug)]
+struct Flux {
+    is_first: bool,
+    sum_lm: Rgb,
+    /// Without its sign, photometric.
+    size_lm: f64,
+}
+
+impl Checks {
+    fn new(
+        plan: &Plan,
+        points: &[Check],
+        (rays, accuracy): (u32, f64),
+        direct: &[Rgb],
+        key: Key,
+    ) -> Self {
+        // As readers gather.
+        let gathering = Gathering { regathers: true, ..Gathering::of(plan, direct) };
+        let rows: Vec<Gatherer> = points.iter().map(|p| p.gatherer.with_rays(rays)).collect();
+        let operator = |k: u64| {
+            let key = key.with(1 + k);
+            gathering.operator(&rows, |row| key.with(row as u64))
+        };
+        Self {
+            operators: (0..CHECKINGS).map(operator).collect(),
+            direct: check_points::direct(plan, points, accuracy, key.with(0)).lx,
+        }
+    }
+}
+
+/// Root mean square of light that has not been reflected diffusely, lx.
+fn root_mean_square(plan: &Plan, direct: &[Rgb], caustic: &[Rgb]) -> f64 {
+    let (mut squared, mut area_m2) = (0.0, 0.0);
+    for (k, vertex) in plan.elements.vertices().iter().enumerate() {
+        let lx = (direct[k] + caustic[k]).luminance();
+        squared += vertex.area_m2 * lx * lx;
+        area_m2 += vertex.area_m2;
+    }
+    if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
+}
+
+/// Direct light at the vertices, and the variance of its mean: the plan's where it is measured once.
+fn direct(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>) {
+    if plan.lighting.is_measured_once() {
+        return (plan.direct.clone(), plan.direct_variance.clone());
+    }
+    let vertex = |(k, gatherer): (usize, &Gatherer)| {
+        let one = |replicate: u64| {
+            let sequence = Sequence::new(key.with(k as u64).with(replicate));
+            plan.lighting.illuminance(&gatherer.surface, &mut Dice::new(sequence, 0))
+        };
+        let values: Vec<Rgb> = (0..REPLICATES).map(one).collect();
+        mean_and_variance(&values)
+    };
+    plan.gatherers.par_iter().enumerate().map(vertex).unzip()
+}
+
+/// Caustics at the vertices, by particles, their variance, and what it took.
+fn caustic(plan: &Plan, accuracy: f64, key: Key) -> (Vec<Rgb>, Vec<f64>, Effort) {
+    let particles = plan.particles(accuracy, REPLICATES);
+    let mut sum = Effort::default();
+    let mut replicates = Vec::new();
+    for replicate in 0..REPLICATES {
+        let Caustics { light, effort, .. } =
+            caustics::deposit(plan, particles, key.with(replicate));
+        sum.rays += effort.rays;
+        sum.given_up_lx += effort.given_up_lx / REPLICATES as f64;
+        replicates.push(light);
+    }
+    let at = |k: usize| {
+        let values: Vec<Rgb> = replicates.iter().map(|r| r[k]).collect();
+        mean_and_variance(&values)
+    };
+    let (light, variance): (Vec<Rgb>, Vec<f64>) = (0..plan.indirect_vertices).map(at).unzip();
+    (plan.prolongate(&light), variance, sum)
+}

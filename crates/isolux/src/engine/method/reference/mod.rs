@@ -1,0 +1,162 @@
+//! The textbook way: path tracing at single places, the oracle of the engines.
+//!
+//! At a place every luminaire is asked for its direct light. Indirect light is the mean of random
+//! paths (Kajiya 1986, "The rendering equation"): cosine-distributed, over specular surfaces to a
+//! diffuse one, where direct light is estimated once, and on from there with the chance of its
+//! reflectance. Where a lamp hangs close to a surface such paths seldom meet what it lights there, and are all wrong when none does; few
+//! luminaires therefore send light out as well: where it lands is looked at from every place of a path, weighted against
+//! paths that come there by chance by the balance heuristic (Veach and Guibas 1995).
+//!
+//! Light that glass, gloss and curved mirrors throw has no virtual luminaires. That of emitting surfaces is found by
+//! paths that meet these by chance; that of luminaires without surface by particles, whose first diffuse surface is looked at
+//! from every place of a path. No map is read and there are no elements, so nothing is biased but by what is left
+//! out: such light of luminaires without surface where it falls on the place itself, which no path can meet, and paths caught by
+//! more than 128 specular surfaces in a row.
+
+mod paths;
+
+use crate::elements::carries_map;
+use crate::engine::gather::Gatherer;
+use crate::engine::light::{Emission, Lighting, LuminaireId, Measured, REPLICATES};
+use crate::engine::ray::{Dice, Places, ProbePoint, SurfacePoint, mean_and_variance, place_key};
+use crate::engine::read::ExactSettings;
+use crate::map::{Illuminance, Standing};
+use crate::sampling::{Key, Sequence};
+use crate::scene::Scene;
+use crate::units::Rgb;
+pub use paths::PathTracer;
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// What paths have found at a place.
+pub(crate) struct Traced {
+    /// One a replicate: direct and indirect light, lx.
+    pub(crate) replicates: Vec<[Rgb; 2]>,
+    /// The brightest of all paths, photometric, lx.
+    pub(crate) brightest: Vec<f64>,
+    /// Rays followed, and shadow rays as far as their number is known.
+    pub(crate) rays: u64,
+}
+
+/// Shadow rays of a replicate to each emitting surface at the place itself.
+const SHADOW_RAYS: usize = 4;
+
+impl<'a> PathTracer<'a> {
+    /// Prepares the luminaires of a scene.
+    pub fn new(scene: &'a Scene) -> Self {
+        Self::with_lighting(scene, Arc::new(Lighting::new(scene)))
+    }
+
+    /// The same with luminaires that are prepared already.
+    pub(crate) fn with_lighting(scene: &'a Scene, lighting: Arc<Lighting<'a>>) -> Self {
+        let senders = Emission::new(scene).filter(|_| lighting.are_few_points());
+        let leaves = lighting.leaves_caustics();
+        let over_specular =
+            Emission::new(scene).filter(|_| leaves && !scene.luminaires().is_empty());
+        let emitters = if leaves { emitters(scene) } else { HashMap::new() };
+        Self { scene, lighting, places: Places::of(scene), senders, over_specular, emitters }
+    }
+
+    /// Whether there is light that paths leave out: caustics of luminaires without surface, where they fall on the place itself.
+    pub fn leaves_caustics(&self) -> bool {
+        self.over_specular.is_some()
+    }
+
+    /// The illuminance at any point that faces any way, on a surface or not, with its standard error
+    /// from independent replicates, each of low-discrepancy points of its own. Caustics of luminaires without surface are left
+    /// out. Every place has random numbers of its own: errors of neighbours are independent.
+    pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
+        let start = self.start(at);
+        let key = place_key(at.position).with(settings.seed);
+        let replicates = settings.replicates.max(2);
+        let paths = |number: u32| {
+            let found = self.replicate(start, key.with(u64::from(number)), settings.rays);
+            let mean = |light: Rgb| light / f64::from(settings.rays.max(1));
+            [mean(found.sum.caustic), mean(found.sum.indirect)]
+        };
+        let found: Vec<[Rgb; 2]> = (0..replicates).into_par_iter().map(paths).collect();
+        let part = |k: usize| mean_and_variance(&found.iter().map(|f| f[k]).collect::<Vec<_>>());
+        let both = mean_and_variance(&found.iter().map(|[a, b]| *a + *b).collect::<Vec<_>>());
+        let (caustic_lx, _) = part(0);
+        let (indirect_lx, _) = part(1);
+        let (_, found_variance) = both;
+        let direct = self.direct(&start.surface, settings);
+        Illuminance {
+            direct_lx: direct.lx + caustic_lx,
+            caustic_lx,
+            indirect_lx,
+            interpolation_error_lx: 0.0,
+            bias_lx: 0.0,
+            standing: Standing::Open,
+            standard_error_lx: (found_variance + direct.variance).sqrt(),
+            indirect_standard_error_lx: found_variance.sqrt(),
+            common_error_lx: 0.0,
+            samples: u64::from(replicates) * u64::from(settings.rays),
+        }
+    }
+
+    /// Shadow rays of a reading of direct light by a map, about.
+    pub(crate) fn rays_of_reading(&self) -> u64 {
+        let looks = if self.lighting.samples_exactly() { 1 } else { REPLICATES };
+        u64::from(looks) * self.lighting.rays_of_sampled(SHADOW_RAYS)
+    }
+
+    /// Light at a place of a surface by so many independent replicates of so many paths; direct light, too, is estimated anew by
+    /// each, unless it is exact.
+    pub(crate) fn traced(
+        &self,
+        at: &SurfacePoint,
+        (replicates, paths): (u32, u32),
+        key: Key,
+    ) -> Traced {
+        let start = Gatherer::on_surface(self.places.pulled_in(*at), 1);
+        let exact = self.lighting.samples_exactly();
+        let sampled = self.lighting.sampled_again(&start.surface, SHADOW_RAYS);
+        let direct =
+            |number: u64| sampled(&mut Dice::new(Sequence::new(key.with(number).with(1)), 0));
+        let once = exact.then(|| direct(0));
+        let (mut brightest, mut rays, mut found) = (Vec::new(), 0, Vec::new());
+        for number in 0..u64::from(replicates) {
+            let of_paths = self.replicate(start, key.with(number).with(0), paths);
+            let share = 1.0 / f64::from(paths.max(1));
+            let direct_lx = once.unwrap_or_else(|| direct(number));
+            found.push([direct_lx + of_paths.sum.caustic * share, of_paths.sum.indirect * share]);
+            brightest.extend(of_paths.brightest);
+            rays += of_paths.rays;
+        }
+        let looks = if exact { 1 } else { u64::from(replicates) };
+        rays += looks * self.lighting.rays_of_sampled(SHADOW_RAYS);
+        brightest.sort_by(|a, b| f64::total_cmp(b, a));
+        brightest.truncate(paths::BRIGHTEST);
+        Traced { replicates: found, brightest, rays }
+    }
+
+    fn start(&self, at: ProbePoint) -> Gatherer {
+        let carries = |surface: &SurfacePoint| {
+            let SurfacePoint { triangle, back, .. } = *surface;
+            carries_map(self.scene, triangle, back)
+        };
+        self.places.surface_at(at, carries).map_or_else(
+            || Gatherer::in_space(self.scene, at.position, at.normal, 1),
+            |surface| Gatherer::on_surface(self.places.pulled_in(surface), 1),
+        )
+    }
+
+    /// Direct light of all luminaires and the variance of its mean.
+    fn direct(&self, at: &SurfacePoint, settings: &ExactSettings) -> Measured {
+        let sequence = Sequence::new(place_key(at.point).with(settings.seed).with(u64::MAX));
+        let shadow_rays = u64::from(settings.replicates.max(2)) * u64::from(settings.rays);
+        self.lighting.read_by_all(at, shadow_rays, sequence)
+    }
+}
+
+/// The emitting surfaces of a scene by triangle and side.
+fn emitters(scene: &Scene) -> HashMap<(u32, bool), LuminaireId> {
+    let of_one = |(number, area): (u32, &crate::scene::AreaLuminaire)| {
+        let back = area.back;
+        let sides: Vec<(u32, bool)> = area.triangles.iter().map(|&t| (t, back)).collect();
+        sides.into_iter().map(move |side| (side, LuminaireId::Area(number)))
+    };
+    (0..).zip(scene.area_luminaires()).flat_map(of_one).collect()
+}

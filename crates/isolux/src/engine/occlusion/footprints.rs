@@ -1,0 +1,155 @@
+//! Vertices that something stands on, like a thin wall between two rooms whose floor has a row of vertices just below it.
+//!
+//! Such a vertex gets some light of either room, and tells neither: the elements about it are read from their other corners.
+
+use super::nearby::NEAR;
+use crate::elements::{FewNumbers, Subdivision};
+use crate::engine::ray::SurfacePoint;
+use crate::scene::Scene;
+use isolux_geometry::{Normal, Point, Ray};
+use rayon::prelude::*;
+use std::collections::HashSet;
+
+/// How far above the surface it is looked for, in distances that rays start at; and, not to take for it what lies on the
+/// floor, as a share of the edge, at [`NEAR`].
+pub(crate) const LOW: f64 = 4.0;
+
+/// What stands closer to a vertex, as a share of the edge, stands on it.
+pub(crate) const AT_END: f64 = 1e-3;
+
+/// Looked for between places so far from the vertex, as a share of edges; beside an edge by such a part of its element.
+const AROUND: f64 = 4.0 * AT_END;
+const BESIDE: f64 = 0.1;
+
+/// The cosine between normals of triangles in one plane, but for rounding in single precision.
+const FLAT: f64 = 1.0 - 1e-6;
+
+/// Whether something stands on the vertices looked at so far.
+#[derive(Debug, Default)]
+pub(crate) struct Torn(Vec<bool>);
+
+/// A place close to a vertex, beside an edge from there.
+struct Place {
+    vertex: u32,
+    /// The other end of the edge; the side of a triangle that it lies on.
+    end: u32,
+    side: (u32, bool),
+    /// Close to the vertex, and farther along.
+    at: [Point; 2],
+}
+
+impl Torn {
+    /// Looks at the vertices that are new, in elements that something stands close before.
+    pub(crate) fn look(
+        &mut self,
+        scene: &Scene,
+        subdivision: &Subdivision,
+        is_beset: impl Fn(u32) -> bool + Sync,
+    ) {
+        let first = self.0.len();
+        self.0.resize(subdivision.vertex_count(), false);
+        if self.0.len() == first {
+            return;
+        }
+        let of_leaf = |node: u32| {
+            let corners = subdivision.node(node).0.vertices;
+            let new = (0..3).filter(move |&k| corners[k] as usize >= first);
+            new.map(move |k| places(subdivision, node, k))
+        };
+        let leaves: Vec<u32> = subdivision.leaves().filter(|&node| is_beset(node)).collect();
+        let within: Vec<[Place; 2]> = leaves.into_par_iter().flat_map_iter(of_leaf).collect();
+        let is_parted = |a: &Place, b: &Place| {
+            let (triangle, back) = a.side;
+            let above = SurfacePoint::new(scene, triangle, back, 1.0 / 3.0, 1.0 / 3.0);
+            is_parted(scene, [a.at, b.at], &above)
+        };
+        let torn = |[a, b]: &[Place; 2]| is_parted(a, b).then_some(a.vertex);
+        let torn_within: Vec<u32> = within.par_iter().filter_map(torn).collect();
+        let mut beside: Vec<Place> = within.into_iter().flatten().collect();
+        beside.par_sort_unstable_by_key(|place| (place.vertex, place.end, place.side));
+        let are_flat = |a: &Place, b: &Place| a.side == b.side || lie_in_a_plane(scene, a, b);
+        let torn = |pair: &[Place]| match pair {
+            [a, b] if (a.vertex, a.end) == (b.vertex, b.end) && are_flat(a, b) => {
+                is_parted(a, b).then_some(a.vertex)
+            }
+            _ => None,
+        };
+        let torn_between: Vec<u32> = beside.par_windows(2).filter_map(torn).collect();
+        for vertex in torn_within.into_iter().chain(torn_between) {
+            self.0[vertex as usize] = true;
+        }
+    }
+
+    /// Takes vertices that are new not to be torn: where nothing stands close.
+    pub(crate) fn skip(&mut self, subdivision: &Subdivision) {
+        self.0.resize(subdivision.vertex_count(), false);
+    }
+
+    /// Those of them that share an element with a vertex which is of some kind: where that is hidden, nothing else of the element may be
+    /// left to be read beyond what stands there, and the light of this side would be.
+    pub(crate) fn beside(
+        &self,
+        subdivision: &Subdivision,
+        is_other: impl Fn(usize) -> bool,
+    ) -> HashSet<u32, FewNumbers> {
+        let mut found = HashSet::default();
+        if !self.0.contains(&true) {
+            return found;
+        }
+        for leaf in subdivision.leaves() {
+            let corners = subdivision.node(leaf).0.vertices;
+            if corners.iter().any(|&v| is_other(v as usize)) {
+                found.extend(corners.into_iter().filter(|&v| self.has(v as usize)));
+            }
+        }
+        found
+    }
+
+    pub(crate) fn has(&self, vertex: usize) -> bool {
+        self.0[vertex]
+    }
+}
+
+/// Whether something stands on the first corner of an element of a surface, and within it.
+pub(crate) fn stands_on(scene: &Scene, [at, a, b]: [Point; 3], above: &SurfacePoint) -> bool {
+    is_parted(scene, [beside(at, a, b), beside(at, b, a)], above)
+}
+
+/// Close to a corner of an element, beside either of its edges.
+fn places(subdivision: &Subdivision, node: u32, corner: usize) -> [Place; 2] {
+    let (own, origin) = subdivision.node(node);
+    let [vertex, a, b] = [0, 1, 2].map(|k| own.vertices[(corner + k) % 3]);
+    let at = |v: u32| subdivision.vertices()[v as usize].position;
+    [(a, b), (b, a)].map(|(end, other)| Place {
+        vertex,
+        end,
+        side: (origin.triangle, origin.back),
+        at: beside(at(vertex), at(end), at(other)),
+    })
+}
+
+/// Beside the edge of an element from its first corner to its second: close to that, and farther along.
+fn beside(at: Point, end: Point, other: Point) -> [Point; 2] {
+    let to = end.lerp(other, BESIDE) - at;
+    [AROUND, NEAR].map(|share| at + to * share)
+}
+
+/// Whether the triangles of two places beside one edge lie in a plane: walls stand on edges of floors, too.
+fn lie_in_a_plane(scene: &Scene, a: &Place, b: &Place) -> bool {
+    let normal = |place: &Place| {
+        let (triangle, back) = place.side;
+        SurfacePoint::new(scene, triangle, back, 1.0 / 3.0, 1.0 / 3.0).geometric
+    };
+    normal(a).dot(normal(b)) > FLAT
+}
+
+/// Whether something stands between two places, close to the surface and well above it.
+fn is_parted(scene: &Scene, [a, b]: [[Point; 2]; 2], above: &SurfacePoint) -> bool {
+    let up = Normal::to_vector(above.geometric);
+    // Between those farther along as high as they are apart, about.
+    let heights_m = [LOW * above.away_m, (b[1] - a[1]).length()];
+    (0..2).all(|k| {
+        let way = Ray::between(a[k] + up * heights_m[k], b[k] + up * heights_m[k]);
+        scene.bvh().closest_hit(&way.skipping(above.triangle)).is_some()
+    })
+}

@@ -1,0 +1,276 @@
+//! Particles aimed at specular surfaces.
+//!
+//! Where specular surfaces are few and small, next to none of the particles that luminaires send out meet one: in the hall one in
+//! seventy, and one in six hundred brings a caustic. So most are sent from a luminaire to a place on a specular surface, both drawn
+//! together by how much light is expected to go that way, and the others as luminaires send them, so that none counts for much
+//! where that was expected wrongly: the two are weighted by the balance heuristic (Veach and Guibas 1995, "Optimally combining
+//! sampling techniques for Monte Carlo rendering"). What comes first to another surface is direct light, and not counted here.
+
+use crate::engine::light::{Emission, Emitted};
+use crate::engine::ray::{Dice, SurfacePoint};
+use crate::scene::{Body, Finish, Scene};
+use isolux_geometry::{Point, Vector};
+use rayon::prelude::*;
+
+/// One particle in so many is sent as luminaires send them.
+const UNAIMED: u32 = 8;
+
+/// Groups of specular triangles at most, and pairs of a group and a luminaire.
+const MOST_GROUPS: usize = 64;
+const MOST_PAIRS: usize = 1 << 20;
+
+/// The part of aimed particles that still goes where none was seen to bring a caustic.
+const UNLEARNED: f64 = 0.1;
+
+/// How far from where it was sent an aimed particle may arrive, as a share of its way: single precision.
+const OFF: f64 = 1e-4;
+
+/// Where particles are sent.
+pub(crate) struct Aim {
+    groups: Vec<Group>,
+    /// Of every triangle of the scene, if it is specular.
+    group_of: Vec<Option<u32>>,
+    luminaires: usize,
+    /// Running sums of the chances of pairs, all luminaires of the first group first.
+    sums: Vec<f64>,
+}
+
+/// Specular triangles that lie together.
+struct Group {
+    triangles: Vec<u32>,
+    /// Running sums of their areas.
+    sums_m2: Vec<f64>,
+    low: Point,
+    high: Point,
+}
+
+/// A particle on its way to a specular surface.
+pub(crate) struct Aimed {
+    pub(crate) emitted: Emitted,
+    /// Where it was sent, if it was.
+    target: Option<Point>,
+}
+
+impl Aim {
+    /// `None` where nothing is specular.
+    pub(crate) fn new(scene: &Scene, emission: &Emission) -> Option<Self> {
+        let is_specular = specular(scene);
+        let specular = |t: &u32| {
+            is_specular[scene.material_index(*t) as usize] && scene.triangle(*t).area() > 0.0
+        };
+        let all: Vec<u32> = (0..scene.triangle_count()).filter(specular).collect();
+        if all.is_empty() {
+            return None;
+        }
+        let luminaires = emission.count();
+        let most = (MOST_PAIRS / luminaires).clamp(1, MOST_GROUPS);
+        let groups = grouped(scene, all, most);
+        let mut group_of = vec![None; scene.triangle_count() as usize];
+        for (k, group) in groups.iter().enumerate() {
+            group.triangles.iter().for_each(|&t| group_of[t as usize] = Some(k as u32));
+        }
+        let chance = |pair: usize| {
+            let group = &groups[pair / luminaires];
+            let least_m = 0.5 * (group.high - group.low).length();
+            let middle = group.low.lerp(group.high, 0.5);
+            group.area_m2() * emission.reach(pair % luminaires, middle, least_m)
+        };
+        let pairs = 0..groups.len() * luminaires;
+        let chances: Vec<f64> = pairs.into_par_iter().with_min_len(256).map(chance).collect();
+        Some(Self { groups, group_of, luminaires, sums: running_sums(&chances) })
+    }
+
+    pub(crate) const fn groups(&self) -> usize {
+        self.groups.len()
+    }
+
+    /// The same with more particles to the groups that bring more: told by the root mean square of what one to each brought.
+    pub(crate) fn learned(self, brought: &[f64]) -> Self {
+        let whole = self.whole();
+        let of_pair = |pair: usize| self.of_pair(pair) / whole;
+        let all: f64 =
+            (0..self.sums.len()).map(|pair| of_pair(pair) * brought[pair / self.luminaires]).sum();
+        if all <= 0.0 {
+            return self;
+        }
+        let chance = |pair: usize| {
+            let learned = brought[pair / self.luminaires] / all;
+            of_pair(pair) * (UNLEARNED + (1.0 - UNLEARNED) * learned)
+        };
+        let chances: Vec<f64> = (0..self.sums.len()).map(chance).collect();
+        Self { sums: running_sums(&chances), ..self }
+    }
+
+    /// How many of so many particles are sent as luminaires send them; one at least.
+    pub(crate) fn unaimed(count: u32) -> u32 {
+        count.div_ceil(UNAIMED)
+    }
+
+    /// The group that a particle is sent to.
+    pub(crate) fn group(&self, dice: &mut Dice) -> usize {
+        self.pair(dice.pair()[0]).0 / self.luminaires
+    }
+
+    /// A particle that is sent; `None` if there is no light that way.
+    pub(crate) fn send(
+        &self,
+        scene: &Scene,
+        emission: &Emission,
+        dice: &mut Dice,
+    ) -> Option<Aimed> {
+        let [pick, of_group] = dice.pair();
+        let [a, b] = dice.pair();
+        let place = dice.pair();
+        let (pair, left) = self.pair(pick);
+        let group = &self.groups[pair / self.luminaires];
+        let m2 = of_group * group.area_m2();
+        let drawn = group.sums_m2.partition_point(|&sum| sum <= m2);
+        let triangle = group.triangles[drawn.min(group.triangles.len() - 1)];
+        let root = a.sqrt();
+        let target = scene.triangle(triangle).point(root * (1.0 - b), root * b);
+        let emitted = emission.towards(pair % self.luminaires, target, left, place)?;
+        Some(Aimed { emitted, target: Some(target) })
+    }
+
+    /// What a particle counts for where it has arrived first, if such a part of all is not aimed; `None` if not at all.
+    pub(crate) fn weight(
+        &self,
+        emission: &Emission,
+        aimed: &Aimed,
+        at: &SurfacePoint,
+        unaimed: f64,
+    ) -> Option<f64> {
+        let group = self.group_of[at.triangle as usize]? as usize;
+        let way_m = (at.point - aimed.emitted.ray.origin).length();
+        if aimed.target.is_some_and(|to| (to - at.point).length() > OFF * way_m) {
+            return None;
+        }
+        let pair = group * self.luminaires + emission.number(aimed.emitted.luminaire);
+        let sent = self.of_pair(pair) / self.whole() / self.groups[group].area_m2();
+        let let_go = emission.density(&aimed.emitted, at);
+        let both = unaimed * let_go + (1.0 - unaimed) * sent;
+        (both > 0.0).then(|| let_go / both)
+    }
+
+    fn whole(&self) -> f64 {
+        self.sums.last().copied().unwrap_or(0.0)
+    }
+
+    fn of_pair(&self, pair: usize) -> f64 {
+        self.sums[pair] - pair.checked_sub(1).map_or(0.0, |before| self.sums[before])
+    }
+
+    /// A pair by a number of [0, 1), and what is left of that, such a number again.
+    fn pair(&self, pick: f64) -> (usize, f64) {
+        let wanted = pick * self.whole();
+        let pair = self.sums.partition_point(|&sum| sum <= wanted).min(self.sums.len() - 1);
+        let before = pair.checked_sub(1).map_or(0.0, |before| self.sums[before]);
+        let left = (wanted - before) / self.of_pair(pair).max(f64::MIN_POSITIVE);
+        (pair, left.clamp(0.0, 1.0 - f64::EPSILON))
+    }
+}
+
+impl Aimed {
+    /// A particle as luminaires send them.
+    pub(crate) fn let_go(emission: &Emission, dice: &mut Dice) -> Option<Self> {
+        Some(Self { emitted: emission.emit(dice)?, target: None })
+    }
+}
+
+impl Group {
+    fn new(scene: &Scene, triangles: Vec<u32>) -> Self {
+        let areas: Vec<f64> = triangles.iter().map(|&t| scene.triangle(t).area()).collect();
+        let corners = triangles.iter().flat_map(|&t| scene.triangle(t).corners);
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for Point { x, y, z } in corners {
+            for (axis, value) in [x, y, z].into_iter().enumerate() {
+                low[axis] = low[axis].min(value);
+                high[axis] = high[axis].max(value);
+            }
+        }
+        let point = |[x, y, z]: [f64; 3]| Point::new(x, y, z);
+        Self { sums_m2: running_sums(&areas), triangles, low: point(low), high: point(high) }
+    }
+
+    fn area_m2(&self) -> f64 {
+        self.sums_m2.last().copied().unwrap_or(0.0)
+    }
+
+    fn extent_m2(&self) -> f64 {
+        (self.high - self.low).length_squared()
+    }
+
+    /// Two halves along its longest side.
+    fn halves(self, scene: &Scene) -> [Self; 2] {
+        let Vector { x, y, z } = self.high - self.low;
+        let middle = |triangle: u32| {
+            let Point { x: px, y: py, z: pz } =
+                scene.triangle(triangle).point(1.0 / 3.0, 1.0 / 3.0);
+            if x >= y && x >= z {
+                px
+            } else if y >= z {
+                py
+            } else {
+                pz
+            }
+        };
+        let mut keyed: Vec<(f64, u32)> =
+            self.triangles.into_iter().map(|t| (middle(t), t)).collect();
+        let half = keyed.len() / 2;
+        keyed.select_nth_unstable_by(half, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // Which they are is told by that order, theirs among each other by their numbers.
+        let sorted = |some: &[(f64, u32)]| {
+            let mut triangles: Vec<u32> = some.iter().map(|&(_, t)| t).collect();
+            triangles.sort_unstable();
+            Self::new(scene, triangles)
+        };
+        [sorted(&keyed[..half]), sorted(&keyed[half..])]
+    }
+}
+
+/// Which materials are specular.
+pub(crate) fn specular(scene: &Scene) -> Vec<bool> {
+    scene.materials().iter().map(|material| sends_on(&material.body)).collect()
+}
+
+/// Whether light goes on from something without being reflected diffusely.
+fn sends_on(body: &Body) -> bool {
+    let finish = |finish: &Finish| finish.is_glossy() || !finish.mirror.is_black();
+    match body {
+        Body::Dielectric(_) => true,
+        Body::Opaque { front, back } => finish(front) || finish(back),
+    }
+}
+
+/// Triangles by their material, then the widest halved until there are so many.
+fn grouped(scene: &Scene, all: Vec<u32>, most: usize) -> Vec<Group> {
+    let mut by_material: Vec<Vec<u32>> = vec![Vec::new(); scene.materials().len()];
+    all.iter().for_each(|&t| by_material[scene.material_index(t) as usize].push(t));
+    by_material.retain(|triangles| !triangles.is_empty());
+    if by_material.len() > most {
+        by_material = vec![all];
+    }
+    let mut groups: Vec<Group> =
+        by_material.into_iter().map(|triangles| Group::new(scene, triangles)).collect();
+    while groups.len() < most {
+        let can_be = |group: &&(usize, &Group)| group.1.triangles.len() > 1;
+        let widest = groups
+            .iter()
+            .enumerate()
+            .filter(|of| can_be(&of))
+            .max_by(|a, b| a.1.extent_m2().total_cmp(&b.1.extent_m2()));
+        let Some((widest, _)) = widest else { break };
+        let halves = groups.swap_remove(widest).halves(scene);
+        groups.extend(halves);
+    }
+    groups
+}
+
+fn running_sums(values: &[f64]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let add = |value: &f64| {
+        sum += value;
+        sum
+    };
+    values.iter().map(add).collect()
+}

@@ -1,0 +1,13 @@
+//! Particles for caustics: their flights, where they are aimed at, and where they land in elements.
+
+mod aim;
+pub(crate) mod element_parts;
+pub(crate) mod flights;
+
+pub(crate) use aim::Aim;
+#[cfg(test)]
+pub(crate) use element_parts::samples;
+pub(crate) use element_parts::{PARTS, Parts, Squared, part_of, read_in_parts, squared_error};
+#[cfg(test)]
+pub(crate) use flights::particles;
+pub(crate) use flights::{CausticNoise, DOUBT, Flights, LEAST_SHARE};

@@ -1,0 +1,28 @@
+//! Places, short paths and rays: what every other room is made of.
+
+mod accumulator;
+mod anderson;
+mod deadline;
+mod noise;
+mod path;
+mod place;
+pub(crate) mod reflectance;
+mod scatter;
+mod short_rays;
+mod surface;
+
+pub use accumulator::Sums;
+pub(crate) use accumulator::{
+    Accumulator, Effort, Estimate, MAX_INCREMENTS, Sample, mean_and_variance,
+};
+pub(crate) use anderson::Anderson;
+pub(crate) use deadline::Deadline;
+pub(crate) use noise::Noise;
+pub(crate) use path::{Dice, MAX_SPECULAR, PathEnd, follow, follow_on, specular_step};
+pub use place::ProbePoint;
+pub(crate) use place::{INWARDS, Places, place_key};
+pub(crate) use scatter::{Scattered, luminance_ratio, pane};
+#[cfg(test)]
+pub(crate) use scatter::{reflect, refract, specular_share};
+pub(crate) use short_rays::Feelers;
+pub(crate) use surface::SurfacePoint;

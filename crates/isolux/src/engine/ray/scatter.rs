@@ -1,0 +1,228 @@
+//! What specular surfaces do to light: mirrors, gloss, coats, glass.
+
+use super::surface::SurfacePoint;
+use crate::sampling::Ggx;
+use crate::scene::{Body, Dielectric, Finish};
+use crate::units::Rgb;
+use isolux_geometry::{Direction, Ray, Vector};
+
+/// Light sent on by a surface, one sample of it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scattered {
+    /// Where it goes on.
+    pub(crate) ray: Ray,
+    pub(crate) direction: Direction,
+    /// Factor on what it carries, the chance of this sample taken into account.
+    pub(crate) weight: Rgb,
+    /// Whether it was a perfect mirror.
+    pub(crate) mirrored: bool,
+}
+
+/// Probability with which the specular part of a finish is followed: its largest reflectance.
+pub(crate) fn specular_share(finish: &Finish, surface: &SurfacePoint, incoming: Direction) -> f64 {
+    let cos = -incoming.cos(surface.shading);
+    (finish.mirror + gloss_share(finish, cos) + finish.coat_reflectance(cos))
+        .max_channel()
+        .clamp(0.0, 1.0)
+}
+
+/// Reflectance of the gloss if its facets lay in the surface.
+fn gloss_share(finish: &Finish, cos: f64) -> Rgb {
+    finish.gloss.map_or(Rgb::BLACK, |gloss| {
+        (schlick(gloss.f0, cos) * finish.through_coat([cos; 2])).min(finish.gloss_limit([cos; 2]))
+    })
+}
+
+/// One sample of the specular part of a finish, weighted as one taken with the probability
+/// [`specular_share`]; `pick` of [0, 1) chooses between mirror, coat and gloss, `square` the facet.
+pub(crate) fn reflect(
+    finish: &Finish,
+    surface: &SurfacePoint,
+    incoming: Direction,
+    pick: f64,
+    square: [f64; 2],
+) -> Option<Scattered> {
+    let share = specular_share(finish, surface, incoming);
+    let mirror = finish.mirror.max_channel();
+    let cos = -incoming.cos(surface.shading);
+    let gloss = gloss_share(finish, cos).max_channel();
+    let coat = finish.coat_reflectance(cos).max_channel();
+    // All may be strong in channels of their own: each is drawn by its strongest.
+    let mirror_chance = mirror / (mirror + gloss + coat);
+    let coat_chance = coat / (mirror + gloss + coat);
+    if pick < mirror_chance {
+        let direction = incoming.reflect(surface.shading);
+        let weight = finish.mirror * (1.0 / (share * mirror_chance));
+        return scattered(surface, direction, weight, true);
+    }
+    if let Some(layer) = finish.coat.filter(|_| pick < mirror_chance + coat_chance) {
+        let facet = facet(layer.alpha, surface, incoming, square)?;
+        let reflectance = finish.coat_reflectance(facet.cos) * facet.unmasked;
+        let weight = reflectance * (1.0 / (share * coat_chance));
+        return scattered(surface, facet.direction, weight, false);
+    }
+    let gloss = finish.gloss?;
+    let facet = facet(gloss.alpha, surface, incoming, square)?;
+    let cosines = [cos, facet.direction.cos(surface.shading)];
+    let reflectance = schlick(gloss.f0, facet.cos) * facet.unmasked * finish.through_coat(cosines);
+    // No more than the other parts leave, whatever the angle.
+    let chance = 1.0 - mirror_chance - coat_chance;
+    let weight = reflectance.min(finish.gloss_limit(cosines)) * (1.0 / (share * chance));
+    scattered(surface, facet.direction, weight, false)
+}
+
+fn scattered(
+    surface: &SurfacePoint,
+    direction: Direction,
+    weight: Rgb,
+    mirrored: bool,
+) -> Option<Scattered> {
+    // Interpolated normals can send light below the true surface: it is lost there.
+    (direction.cos(surface.geometric) > 0.0).then(|| Scattered {
+        ray: surface.leave(direction),
+        direction,
+        weight,
+        mirrored,
+    })
+}
+
+/// A reflection at one facet of GGX, drawn from those that are visible.
+struct Facet {
+    direction: Direction,
+    /// Of the angle at which light falls on it.
+    cos: f64,
+    /// What is left of its reflectance: the masking G1 of the direction.
+    unmasked: f64,
+}
+
+fn facet(
+    alpha: f64,
+    surface: &SurfacePoint,
+    incoming: Direction,
+    square: [f64; 2],
+) -> Option<Facet> {
+    let normal = surface.shading.to_direction();
+    let (u, v) = normal.frame();
+    let view = -incoming;
+    let local = Vector::new(view.dot(u), view.dot(v), view.dot(normal));
+    if local.z <= 0.0 {
+        return None;
+    }
+    let ggx = Ggx { alpha };
+    let facet = ggx.sample(local, square);
+    let cos = local.dot(facet);
+    let out = facet * (2.0 * cos) - local;
+    if out.z <= 0.0 {
+        return None;
+    }
+    Some(Facet { direction: normal.from_local(out), cos, unmasked: ggx.masking(out) })
+}
+
+/// Schlick's approximation of Fresnel reflectance (1994).
+fn schlick(f0: Rgb, cos: f64) -> Rgb {
+    let m = (1.0 - cos).clamp(0.0, 1.0);
+    let m5 = m * m * m * m * m;
+    f0.map(|f| f + (1.0 - f) * m5)
+}
+
+/// One sample of what a smooth dielectric does: reflection in proportion to Fresnel's reflectance,
+/// else transmission.
+pub(crate) fn refract(
+    glass: &Dielectric,
+    surface: &SurfacePoint,
+    incoming: Direction,
+    pick: f64,
+) -> Scattered {
+    let cos = -incoming.cos(surface.shading);
+    let ior = if surface.back { 1.0 / glass.ior } else { glass.ior };
+    let (reflected, transmitted, through) = if glass.thin {
+        let Pane { reflectance, transmittance } = pane(glass, cos);
+        (reflectance, transmittance, Some(incoming))
+    } else {
+        let reflectance = mean(fresnel(cos, ior));
+        let through = refracted(incoming, surface, cos, ior);
+        let kept = if through.is_some() { reflectance } else { 1.0 };
+        (Rgb::grey(kept), glass.transmittance * (1.0 - kept), through)
+    };
+    let both = reflected.luminance() + transmitted.luminance();
+    let chance = if both > 0.0 { reflected.luminance() / both } else { 1.0 };
+    match through.filter(|_| pick >= chance) {
+        Some(direction) => Scattered {
+            ray: surface.cross(direction),
+            direction,
+            weight: transmitted * (1.0 / (1.0 - chance)),
+            mirrored: false,
+        },
+        None => {
+            let direction = incoming.reflect(surface.shading);
+            let weight = reflected * (1.0 / chance);
+            Scattered { ray: surface.leave(direction), direction, weight, mirrored: false }
+        }
+    }
+}
+
+/// What luminance is multiplied by, besides [`refract`]'s weight, on the way back from where a path
+/// goes on: light that enters a denser medium is pressed into fewer directions, and luminance over the
+/// square of the index stays (Nicodemus 1963, "Radiance"). Flux needs no such factor.
+pub(crate) fn luminance_ratio(body: &Body, surface: &SurfacePoint, onwards: Direction) -> f64 {
+    match body {
+        Body::Dielectric(glass) if !glass.thin && onwards.cos(surface.shading) < 0.0 => {
+            let ior = if surface.back { 1.0 / glass.ior } else { glass.ior };
+            1.0 / (ior * ior)
+        }
+        _ => 1.0,
+    }
+}
+
+/// What a pane does to unpolarized light, inner reflections summed.
+pub(crate) struct Pane {
+    reflectance: Rgb,
+    pub(crate) transmittance: Rgb,
+}
+
+/// A pane of two parallel faces in one surface. For each polarization, with the reflectance R of a
+/// face and the share t left by one crossing, `T = (1 - R)^2 t / (1 - R^2 t^2)` is transmitted and
+/// `R (1 + t T)` reflected (Born and Wolf, "Principles of Optics", 7.6, without interference); then
+/// the mean of the two.
+pub(crate) fn pane(glass: &Dielectric, cos: f64) -> Pane {
+    let faces = fresnel(cos, glass.ior);
+    let transmitted = |r: f64, t: f64| {
+        let lost = 1.0 - r * r * t * t;
+        if lost > 0.0 { (1.0 - r) * (1.0 - r) * t / lost } else { 0.0 }
+    };
+    Pane {
+        reflectance: glass
+            .transmittance
+            .map(|t| mean(faces.map(|r| r * (1.0 + t * transmitted(r, t))))),
+        transmittance: glass.transmittance.map(|t| mean(faces.map(|r| transmitted(r, t)))),
+    }
+}
+
+/// Half of each polarization.
+fn mean([a, b]: [f64; 2]) -> f64 {
+    0.5 * (a + b)
+}
+
+/// Fresnel reflectance for both polarizations, from the side of index 1 to that of index `ior`.
+fn fresnel(cos: f64, ior: f64) -> [f64; 2] {
+    let cos = cos.clamp(0.0, 1.0);
+    let sin2 = (1.0 - cos * cos) / (ior * ior);
+    if sin2 >= 1.0 {
+        return [1.0; 2];
+    }
+    let inside = (1.0 - sin2).sqrt();
+    let perpendicular = (cos - ior * inside) / (cos + ior * inside);
+    let parallel = (ior * cos - inside) / (ior * cos + inside);
+    [perpendicular * perpendicular, parallel * parallel]
+}
+
+/// Snell's law; `None` at total reflection.
+fn refracted(incoming: Direction, surface: &SurfacePoint, cos: f64, ior: f64) -> Option<Direction> {
+    let sin2 = (1.0 - cos * cos) / (ior * ior);
+    if sin2 >= 1.0 {
+        return None;
+    }
+    let normal = surface.shading.to_vector();
+    let along = incoming.to_vector() / ior + normal * (cos / ior - (1.0 - sin2).sqrt());
+    along.direction()
+}

@@ -1,0 +1,635 @@
+//! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
+
+mod effort;
+mod local_error;
+mod parts;
+mod shared_noise;
+mod sight;
+mod told;
+mod unlit;
+mod walls;
+
+use crate::engine::gather::{Backdrop, Bright, DirectAtEnds, Gatherer, Gathering, Kept, Over};
+use crate::engine::judge::Light;
+use crate::engine::light::{Goal, Lighting, Measured, Patches};
+use crate::engine::mesh::LEAST as LEAST_OF_NOISE;
+use crate::engine::occlusion::{Cuts, nearby};
+use crate::engine::ray::{
+    Dice, PathEnd, Places, ProbePoint, SurfacePoint, follow, mean_and_variance, place_key,
+};
+use crate::map::{Accuracy, Fresh, Illuminance, IlluminationMap, Standing};
+use crate::sampling::{CosineHemisphere, Key, Sequence};
+use crate::scene::Scene;
+use crate::units::Rgb;
+use effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, OF_FEW, TRIAL_RAYS};
+use isolux_geometry::Ray;
+use shared_noise::SharedNoise;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+pub use told::{Allowance, IndirectReading, Told};
+
+/// What emitting surfaces give dim places is known as well as where there is this share of the light about them.
+const DIMMEST: f64 = 0.05;
+
+/// Noise of what readers gather, in errors of the map: it adds half of the square of that, and only where the map
+/// is not trusted.
+const FRESH_NOISE: f64 = 0.7;
+
+/// Nets of n rays err like this power of 1/n from so few on, where something is close: with the 0.85 of
+/// places in the open, readings of SPHERE erred a quarter more than by a trial of twice the rays.
+const ORDER_CLOSE_BY: f64 = 0.75;
+
+/// Rays that look about from a place in space: one that sees light in a fifth of its hemisphere is taken to be
+/// inside something once in a thousand times.
+const LOOKS: u32 = 32;
+
+/// Shadow rays to every emitting surface in a reading for a picture; and so many where two halves of these tell light that differs
+/// by more than a share of all of it, as they do in half-shadows: noise is grain there.
+pub(crate) const GLANCE_SAMPLES: usize = 4;
+const GRAINY_SAMPLES: usize = 32;
+
+/// The same to all emitting surfaces together where they are chosen among.
+const GLANCE_RAYS: usize = 16;
+const GRAINY_RAYS: usize = 128;
+
+/// The share of all light that the two halves may differ by.
+const GRAIN: f64 = 0.05;
+
+/// Samples of an element that tell readers what direct light lacks between vertices: all readings have their noise in common, so it is
+/// to be half of that of one.
+const KEPT: u64 = 4;
+
+/// How hard [`MapReader::estimate`] tries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExactSettings {
+    /// Gathering rays of one replicate.
+    pub rays: u32,
+    /// Independent replicates, at least two.
+    pub replicates: u32,
+    /// Seed of the random numbers.
+    pub seed: u64,
+}
+
+impl Default for ExactSettings {
+    fn default() -> Self {
+        Self { rays: 1024, replicates: 16, seed: 1 }
+    }
+}
+
+/// Reads a map with its scene at hand.
+pub struct MapReader<'a> {
+    scene: &'a Scene,
+    map: &'a IlluminationMap,
+    lighting: Arc<Lighting<'a>>,
+    standings: Vec<Option<Standing>>,
+    light: Vec<Rgb>,
+    /// Direct light at the vertices, where sources are many: there rays read it.
+    direct_values: Option<Vec<Rgb>>,
+    /// Elements on which it varies between vertices, by node.
+    varying: Option<Vec<bool>>,
+    bright: Option<Arc<Bright>>,
+    /// Elements that something stands across.
+    cuts: Cuts,
+    places: Places<'a>,
+    /// Walls that rays are judged by.
+    pub(crate) backdrop: Option<Backdrop>,
+    patches: Patches,
+    unseen: Unseen,
+    /// The part of that which falls to every vertex.
+    parts: Vec<Rgb>,
+    /// How much of it arrives, root mean square.
+    arriving: f64,
+    shared_noise: SharedNoise,
+    /// Rays that readings have gathered by.
+    rays: AtomicU64,
+}
+
+/// What replicates have gathered.
+struct Gathered {
+    lx: Rgb,
+    /// Of the mean, lx2.
+    variance: f64,
+    /// The share of a unit of light that was read close by all the same.
+    close: f64,
+    /// Standard error of what it has in common with what is gathered nearby, lx.
+    common_lx: f64,
+}
+
+/// Errors of what is read from vertices that replicates do not tell, lx.
+struct Unseen {
+    /// Root mean square of the light.
+    reference_lx: f64,
+    /// Of interpolation, root mean square over the scene.
+    discretization_lx: f64,
+    /// Common to all of the map.
+    bias_lx: f64,
+    /// Of the whole map.
+    reached_lx: f64,
+    /// How well readings are to know direct light.
+    of_direct: Goal,
+}
+
+impl<'a> MapReader<'a> {
+    /// Prepares the luminaires of the scene.
+    pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
+        let lighting = Arc::new(Lighting::new(scene));
+        let (bright, _) = Bright::of(scene, &lighting, map.provenance.seed);
+        Self::prepared((scene, map), lighting, bright)
+    }
+
+    /// The same with luminaires, and with what is bright for the seed of the map, that are prepared already.
+    pub(crate) fn prepared(
+        (scene, map): (&'a Scene, &'a IlluminationMap),
+        lighting: Arc<Lighting<'a>>,
+        bright: Option<Arc<Bright>>,
+    ) -> Self {
+        let ambient = map.ambient_lx();
+        let reflected = |v: &Option<Illuminance>| {
+            v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx + ambient)
+        };
+        let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
+        let are_read = lighting.are_read_at_ends();
+        let light: Vec<Rgb> = map.values.iter().map(reflected).collect();
+        let reader = Self {
+            scene,
+            map,
+            lighting,
+            bright,
+            varying: None,
+            direct_values: are_read.then(|| map.values.iter().map(direct).collect()),
+            standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
+            cuts: Cuts::of_map(scene, &map.elements, &light),
+            light,
+            places: Places::of(scene),
+            backdrop: None,
+            patches: Patches::new(),
+            unseen: Unseen::of(map),
+            parts: Vec::new(),
+            arriving: 0.0,
+            shared_noise: SharedNoise::default(),
+            rays: AtomicU64::new(0),
+        };
+        let (direct_values, varying) = reader.kept().unzip();
+        let direct_values = direct_values.or(reader.direct_values.clone());
+        let (parts, arriving) = reader.parts_of_vertices();
+        Self { backdrop: reader.walls(), direct_values, varying, parts, arriving, ..reader }
+    }
+
+    /// Direct light at the vertices as rays read it, with what is lacking between them, and where; `None` where nothing is.
+    fn kept(&self) -> Option<(Vec<Rgb>, Vec<bool>)> {
+        let over = Over {
+            scene: self.scene,
+            lighting: &self.lighting,
+            elements: &self.map.elements,
+            standings: &self.standings,
+            direct: self.direct_values.as_deref()?,
+            bright: self.bright.as_deref(),
+        };
+        let key = Key::new(self.map.provenance.seed).with(14);
+        let kept = Kept::of(&over, self.unseen.reached_lx, key.with(0))?;
+        self.count(kept.rays(KEPT));
+        Some((kept.read(&over, (KEPT, key.with(1))), kept.varying))
+    }
+
+    /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
+    /// alone, without the interpolation error and the bias of the map.
+    pub fn by_replicates(&self, reading: Illuminance) -> Illuminance {
+        let unseen = libm::hypot(reading.interpolation_error_lx, reading.bias_lx);
+        let unseen = unseen * unseen;
+        let less = |error: f64| match error {
+            f64::INFINITY => error,
+            _ => (error * error - unseen).max(0.0).sqrt(),
+        };
+        Illuminance {
+            standard_error_lx: less(reading.standard_error_lx),
+            indirect_standard_error_lx: less(reading.indirect_standard_error_lx),
+            ..reading
+        }
+    }
+
+    /// The illuminance at barycentric weights `(1 - u - v, u, v)` of a side of a triangle: direct
+    /// light evaluated afresh there, caustics interpolated, indirect light interpolated where the map
+    /// is to be trusted and gathered over the map where not. The standard error counts, beside that
+    /// of replicates, the interpolation error expected there and the part of the bias that the map reports for
+    /// the scene; it is infinite where the map does not know its error. `None` where the map knows nothing.
+    pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
+        self.read(SurfacePoint::new(self.scene, triangle, back, u, v))
+    }
+
+    fn read(&self, surface: SurfacePoint) -> Option<Illuminance> {
+        let (indirect, at) = self.indirect(surface, Allowance::ANY)?;
+        let part = self.part_at(&surface);
+        Some(self.told(self.with_fresh_direct(indirect, (&at, part))))
+    }
+
+    /// What nobody knows of the error of the map, nobody knows of a reading's.
+    fn told(&self, reading: Illuminance) -> Illuminance {
+        match self.map.provenance.accuracy {
+            Some(_) => reading,
+            None => Illuminance {
+                standard_error_lx: f64::INFINITY,
+                indirect_standard_error_lx: f64::INFINITY,
+                ..reading
+            },
+        }
+    }
+
+    /// What is known of the indirect light at a place, and the place to evaluate direct light at.
+    fn indirect(
+        &self,
+        surface: SurfacePoint,
+        allowance: Allowance,
+    ) -> Option<(Illuminance, SurfacePoint)> {
+        let stored = self.stored_at(&surface)?;
+        let at = self.places.pulled_in(surface);
+        let Some(fresh) = self.map.provenance.fresh else {
+            return Some((stored, at));
+        };
+        let edge_m = nearby::edge_at_m(&self.map.elements, &at);
+        let is_allowed = allowance.includes(&stored);
+        let indirect = if is_allowed && self.is_trusted(fresh, &stored, (&at, edge_m)) {
+            self.with_interpolation_error(stored, self.part_at(&surface))
+        } else {
+            let in_gap = nearby::is_closed_in(self.scene, &at, edge_m);
+            let trial = Gatherer::on_surface(at, TRIAL_RAYS).in_gap(in_gap);
+            self.gathered(stored, (trial, allowance.noise), fresh.lookup_lx)
+        };
+        Some((indirect, at))
+    }
+
+    /// Whether what the map tells of a place on an element of such edges is to be trusted.
+    fn is_trusted(
+        &self,
+        fresh: Fresh,
+        stored: &Illuminance,
+        (at, edge_m): (&SurfacePoint, f64),
+    ) -> bool {
+        if stored.standing != Standing::Open {
+            return false;
+        }
+        if fresh.in_gaps_alone {
+            return !nearby::is_closed_in(self.scene, at, edge_m);
+        }
+        stored.interpolation_error_lx <= fresh.above_lx.unwrap_or(f64::INFINITY)
+            && !nearby::is_beset(self.scene, at, edge_m)
+    }
+
+    /// A value of the map with what interpolation is expected to err by. Half of the part of the error of the
+    /// scene is taken to be spread evenly, half as expected of the elements.
+    fn with_interpolation_error(&self, stored: Illuminance, part: f64) -> Illuminance {
+        let (even, own) = (part * self.unseen.discretization_lx, stored.interpolation_error_lx);
+        let interpolation_error_lx = (0.5 * (even * even + own * own)).sqrt();
+        Illuminance { interpolation_error_lx, ..stored }
+    }
+
+    /// Indirect light gathered over the map, by as many rays as bring its noise down to that
+    /// of the map, and to a share of the light. What is read close by all the same is wrong by `lookup_lx`.
+    fn gathered(
+        &self,
+        stored: Illuminance,
+        (trial, noise): (Gatherer, f64),
+        lookup_lx: f64,
+    ) -> Illuminance {
+        let key = self.gathering_key(&trial);
+        let part = self.part_of(&trial);
+        let behind = self.backdrop.as_ref().and_then(|b| b.behind(self.scene, &trial.stand()));
+        let trial = Gatherer { behind, ..trial };
+        // With numbers of its own: who stopped at a small variance would report too small ones.
+        let gatherer = trial.with_rays(self.rays_needed((trial, noise, part), key).rays);
+        let Gathered { lx, variance, close, common_lx } =
+            self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
+        let samples = u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays);
+        let variance = variance.max(least_variance(&stored, samples));
+        Illuminance {
+            indirect_lx: lx,
+            indirect_standard_error_lx: libm::hypot(
+                libm::hypot(OF_FEW * variance.sqrt(), of_caustics(&stored)),
+                libm::hypot(common_lx, self.map.ambient_doubt_lx()),
+            ),
+            common_error_lx: common_lx,
+            interpolation_error_lx: close * part * lookup_lx,
+            bias_lx: part * self.unseen.bias_lx,
+            samples,
+            ..stored
+        }
+    }
+
+    /// Rays that it was prepared with and that its readings have gathered by so far, with as many shadow rays at their ends as there may be.
+    pub(crate) fn rays(&self) -> u64 {
+        self.rays.load(Ordering::Relaxed)
+    }
+
+    fn count(&self, rays: u64) {
+        self.rays.fetch_add(rays, Ordering::Relaxed);
+    }
+
+    /// Random numbers of a place; other ones for every seed of the map: readings of several maps have errors of their own.
+    fn gathering_key(&self, at: &Gatherer) -> Key {
+        place_key(at.surface.point).with(7).with(self.map.provenance.seed)
+    }
+
+    fn direct_at_ends(&self) -> DirectAtEnds<'_> {
+        match &self.direct_values {
+            Some(values) => DirectAtEnds::ReadFarOff { values, varying: self.varying.as_deref() },
+            None => DirectAtEnds::Evaluated,
+        }
+    }
+
+    /// The rays of a replicate that bring noise to what is asked, as a trial tells, which is then thrown away.
+    fn rays_needed(&self, (trial, noise, part): (Gatherer, f64, f64), key: Key) -> Needed {
+        let of_trial = (FRESH_REPLICATES, key.with(0));
+        let Gathered { lx, variance, .. } = self.gather(trial, self.direct_at_ends(), of_trial);
+        let goal = (FRESH_NOISE * part * self.unseen.reached_lx).min(noise * lx.luminance());
+        let rays = f64::from(TRIAL_RAYS)
+            * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / ORDER_CLOSE_BY);
+        let rays = libm::log2(rays.clamp(FRESH_FEWEST_RAYS, FRESH_MOST_RAYS));
+        let rays: u32 = 1 << libm::round(rays) as u32;
+        let finer = f64::from(TRIAL_RAYS) / f64::from(rays);
+        Needed { rays, variance: variance * libm::pow(finer, 2.0 * ORDER_CLOSE_BY) }
+    }
+
+    fn gathering<'b>(&'b self, direct: DirectAtEnds<'b>) -> Gathering<'b> {
+        Gathering {
+            scene: self.scene,
+            lighting: &self.lighting,
+            elements: &self.map.elements,
+            level: u32::MAX,
+            standings: &self.standings,
+            direct,
+            regathers: true,
+            bright: self.bright.as_deref(),
+            cuts: Some(&self.cuts),
+            backdrop: self.backdrop.as_ref(),
+        }
+    }
+
+    /// By so many replicates.
+    fn gather(
+        &self,
+        gatherer: Gatherer,
+        direct: DirectAtEnds<'_>,
+        (replicates, key): (u32, Key),
+    ) -> Gathered {
+        let shadow_rays = match direct {
+            DirectAtEnds::Read { .. } => 0,
+            _ => self.lighting.rays_of_estimate(),
+        };
+        let gathering = self.gathering(direct);
+        let rows = vec![gatherer; replicates as usize];
+        let operator = gathering.operator(&rows, |k| key.with(k as u64));
+        self.count(operator.rays * (1 + shadow_rays));
+        let (lx, variance) = mean_and_variance(&operator.apply(&self.light));
+        let close = operator.close().sum::<f64>() / f64::from(replicates);
+        let common_lx = self.shared_noise.lx(self.map, &gatherer.surface, &operator);
+        Gathered { lx, variance, close, common_lx }
+    }
+
+    /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
+    /// many places anyway: noisy, and the standard error leaves that noise out. `number` tells
+    /// readings of one place apart. Indirect light is interpolated, unless it is known from elsewhere.
+    pub fn glance(
+        &self,
+        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+        number: u64,
+        known: Option<IndirectReading>,
+    ) -> Option<Illuminance> {
+        let stored = self.map.interpolate(triangle, back, u, v)?;
+        let stored = known.map_or(stored, |known| Illuminance {
+            indirect_lx: known.lx,
+            indirect_standard_error_lx: known.noise_lx,
+            ..stored
+        });
+        let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
+        let sequence = Sequence::new(place_key(at.point).with(number));
+        let dice = &mut Dice::new(sequence, 0);
+        let direct = self.glanced(&at, stored.illuminance_lx(), dice);
+        Some(Illuminance {
+            direct_lx: direct + stored.caustic_lx,
+            standard_error_lx: stored.indirect_standard_error_lx,
+            ..stored
+        })
+    }
+
+    /// Direct light for a picture, where there is about so much light in all.
+    fn glanced(&self, at: &SurfacePoint, about_lx: f64, dice: &mut Dice) -> Rgb {
+        let (lighting, patches) = (&self.lighting, &self.patches);
+        if lighting.has_faces() {
+            let of = |rays| lighting.by_rays_on(patches, at, rays, dice);
+            return without_grain(of, [GLANCE_RAYS, GRAINY_RAYS], about_lx);
+        }
+        let mut of = |samples| lighting.sampled_on(patches, at, samples, dice);
+        if lighting.has_many() || self.scene.area_luminaires().is_empty() {
+            return of(GLANCE_SAMPLES);
+        }
+        without_grain(of, [GLANCE_SAMPLES, GRAINY_SAMPLES], about_lx)
+    }
+
+    /// As [`MapReader::at`] at a point on a surface, on the side that `normal` points to. `None` where no
+    /// surface that carries a known value lies within a ten-thousandth of the scene's extent.
+    pub fn probe(&self, at: ProbePoint) -> Option<Illuminance> {
+        self.read(self.find_surface(at)?)
+    }
+
+    /// As [`MapReader::probe`] where there is a surface with a known value, and else as in free space:
+    /// direct light afresh, indirect light gathered over the map until its noise is below the error
+    /// of the map, caustics unknown and left out. `None` where nothing but the inside of something is
+    /// seen.
+    pub fn measure(&self, at: ProbePoint) -> Option<Illuminance> {
+        self.probe(at).or_else(|| {
+            let trial = Gatherer::in_space(self.scene, at.position, at.normal, TRIAL_RAYS);
+            if !self.sees_light(&trial) {
+                return None;
+            }
+            let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
+            let indirect =
+                self.gathered(Illuminance::NOTHING, (trial, Allowance::ANY.noise), lookup_lx);
+            let part = self.part_of(&trial);
+            Some(self.told(self.with_fresh_direct(indirect, (&trial.surface, part))))
+        })
+    }
+
+    /// Whether a point lies on a surface that carries the map, where caustics are known.
+    pub fn is_on_surface(&self, at: ProbePoint) -> bool {
+        self.find_surface(at).is_some()
+    }
+
+    /// Whether some ray leaves the scene or meets a place that sees a vertex of its element of which the map
+    /// knows something: elements may reach below what stands on them.
+    fn sees_light(&self, from: &Gatherer) -> bool {
+        let sequence = Sequence::new(place_key(from.surface.point).with(8));
+        let axis = from.normal.to_direction();
+        (0..LOOKS).any(|index| {
+            let mut dice = Dice::new(sequence, index);
+            let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
+            let mut is_known = false;
+            let end = follow(
+                self.scene,
+                Ray::new(from.origin, direction),
+                direction,
+                &mut dice,
+                |surface, _, _| {
+                    is_known |= self.sees_vertex(surface, |_| true);
+                },
+            );
+            is_known || end == PathEnd::Left
+        })
+    }
+
+    /// The same of the bare map, direct light interpolated, too. The standard error is that of
+    /// replicates alone.
+    pub fn interpolated(&self, at: ProbePoint) -> Option<Illuminance> {
+        let SurfacePoint { triangle, back, u, v, .. } = self.find_surface(at)?;
+        self.map.interpolate(triangle, back, u, v)
+    }
+
+    /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
+    /// indirect light by gathering over the map. Caustics are read from the map where the point is
+    /// on a surface; in free space they are unknown and left out. The standard error counts the
+    /// part of the interpolation error and the bias of the map that is to be expected there, and is infinite where these are not known.
+    pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
+        let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
+        let gatherer = on_surface
+            .map(|at| {
+                let edge_m = nearby::edge_at_m(&self.map.elements, &at);
+                let in_gap = nearby::is_closed_in(self.scene, &at, edge_m);
+                Gatherer::on_surface(at, settings.rays).in_gap(in_gap)
+            })
+            .unwrap_or_else(|| {
+                Gatherer::in_space(self.scene, at.position, at.normal, settings.rays)
+            });
+        let key = Key::new(settings.seed).with(4);
+        let replicates = settings.replicates.max(2);
+        let Gathered { lx: indirect_lx, variance, common_lx, .. } =
+            self.gather(gatherer, DirectAtEnds::Evaluated, (replicates, key));
+        // In proportion to what was read, but no less than it is about there: where it is dark, what is bright may be read.
+        let part = self.part_of(&gatherer);
+        let bias_lx = part * self.unseen.bias_lx;
+        let looked_up = (self.lookup_error() * indirect_lx.luminance()).max(bias_lx);
+        let stored = on_surface.and_then(|s| self.map.interpolate(s.triangle, s.back, s.u, s.v));
+        let samples = u64::from(replicates) * u64::from(settings.rays);
+        let variance = variance.max(stored.map_or(0.0, |stored| least_variance(&stored, samples)));
+        let caustic_lx = stored.map_or(Rgb::BLACK, |stored| stored.caustic_lx);
+        let of_caustics = stored.map_or(0.0, |stored| of_caustics(&stored));
+        let doubt_lx = self.map.ambient_doubt_lx();
+        let beside =
+            [looked_up, of_caustics, common_lx, doubt_lx].map(|lx| lx * lx).iter().sum::<f64>();
+        let indirect_variance = variance + beside;
+        let about_lx = stored.map_or(0.0, |stored| stored.illuminance_lx());
+        let direct = self.direct(&gatherer.surface, (about_lx, part));
+        self.told(Illuminance {
+            direct_lx: direct.lx + caustic_lx,
+            caustic_lx,
+            indirect_lx,
+            standard_error_lx: (indirect_variance + direct.variance).sqrt(),
+            indirect_standard_error_lx: indirect_variance.sqrt(),
+            common_error_lx: common_lx,
+            interpolation_error_lx: 0.0,
+            bias_lx: looked_up,
+            standing: Standing::Open,
+            samples: u64::from(replicates) * u64::from(settings.rays),
+        })
+    }
+
+    /// The surface at a point that carries the map.
+    fn find_surface(&self, at: ProbePoint) -> Option<SurfacePoint> {
+        self.places.surface_at(at, |surface| {
+            let SurfacePoint { triangle, back, u, v, .. } = *surface;
+            self.map.elements.locate(triangle, back, u, v).is_some()
+        })
+    }
+
+    /// What the map that gathering rays read may be off by, other than by noise, relative.
+    fn lookup_error(&self) -> f64 {
+        let accuracy = self.map.provenance.accuracy;
+        accuracy.map_or(0.0, |a| (a.bias * a.bias + a.discretization * a.discretization).sqrt())
+    }
+
+    fn with_fresh_direct(
+        &self,
+        stored: Illuminance,
+        (at, part): (&SurfacePoint, f64),
+    ) -> Illuminance {
+        let direct = self.direct(at, (stored.illuminance_lx(), part));
+        let indirect = Self::indirect_error_lx(&stored);
+        Illuminance {
+            direct_lx: direct.lx + stored.caustic_lx,
+            standard_error_lx: (indirect * indirect + direct.variance).sqrt(),
+            indirect_standard_error_lx: indirect,
+            ..stored
+        }
+    }
+
+    /// Of replicates, of interpolation, and what is common to the surroundings.
+    fn indirect_error_lx(read: &Illuminance) -> f64 {
+        let unseen = libm::hypot(read.interpolation_error_lx, read.bias_lx);
+        libm::hypot(read.indirect_standard_error_lx, unseen)
+    }
+
+    /// Direct light at a place where there is about so much in all, and such a part of the light of the scene, and the variance of its mean.
+    fn direct(&self, at: &SurfacePoint, (about_lx, part): (f64, f64)) -> Measured {
+        let of_direct = self.unseen.of_direct;
+        // Choosing among many luminaires goes by what these give.
+        let least_lx = match self.lighting.has_many() {
+            true => 0.0,
+            false => about_lx.max(DIMMEST * part * self.unseen.reference_lx),
+        };
+        let goal = Goal { lx: of_direct.share * least_lx, ..of_direct };
+        let sequence = Sequence::new(place_key(at.point).with(0).with(self.map.provenance.seed));
+        self.lighting.read(at, goal, sequence)
+    }
+}
+
+impl Unseen {
+    /// As reported: shares of what errors are relative to, of which every place has its part. (In proportion to the indirect light there
+    /// fewer intervals hold the truth: dark edges err most.)
+    fn of(map: &IlluminationMap) -> Self {
+        let reference_lx = reference_lx(map);
+        let accuracy = map.provenance.accuracy.as_ref();
+        let share = |part: fn(&Accuracy) -> f64| accuracy.map_or(0.0, |a| part(a) * reference_lx);
+        Self {
+            reference_lx,
+            discretization_lx: share(Accuracy::discretization_beside_caustics),
+            bias_lx: share(|a| a.bias),
+            reached_lx: share(|a| a.reached),
+            of_direct: Goal::reading(map.provenance.accuracy_target.unwrap_or(f64::INFINITY)),
+        }
+    }
+}
+
+/// Light by a few samples, or by more where two halves of these differ much.
+fn without_grain(
+    mut sampled: impl FnMut(usize) -> Rgb,
+    [few, many]: [usize; 2],
+    about_lx: f64,
+) -> Rgb {
+    let halves = [sampled(few / 2), sampled(few / 2)];
+    let mean = (halves[0] + halves[1]) * 0.5;
+    let apart_lx = (halves[0] - halves[1]).luminance().abs();
+    let is_grainy = apart_lx > GRAIN * about_lx.max(mean.luminance());
+    if is_grainy { sampled(many) } else { mean }
+}
+
+/// The least variance of what so many rays gather where the map tells a value of some noise: fewer rays may all have missed what
+/// brings most of the light.
+fn least_variance(stored: &Illuminance, samples: u64) -> f64 {
+    let [all, caustics] = [stored.indirect_standard_error_lx, of_caustics(stored)];
+    let of_map = (all * all - caustics * caustics).max(0.0);
+    LEAST_OF_NOISE * of_map * stored.samples as f64 / samples.max(1) as f64
+}
+
+/// What caustics err by where only they are read from the map: no more than the map tells of them and indirect light together, and
+/// no more than they are.
+fn of_caustics(stored: &Illuminance) -> f64 {
+    stored.indirect_standard_error_lx.min(stored.caustic_lx.luminance().abs())
+}
+
+/// What the errors of a map are shares of, lx: the root mean square of its light over the surface, but no more than twice the mean over
+/// what is lit. A small bright surface is a part of both.
+pub fn reference_lx(map: &IlluminationMap) -> f64 {
+    let mut light = Light::default();
+    for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
+        let Some(value) = value else { continue };
+        light.add(vertex.area_m2, value.illuminance_lx());
+    }
+    light.reference_lx()
+}

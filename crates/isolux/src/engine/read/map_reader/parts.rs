@@ -1,0 +1,186 @@
+//! The parts of a reading apart, for means over a surface.
+
+use super::MapReader;
+use super::effort::{FRESH_REPLICATES, Needed, TRIAL_RAYS};
+use super::{Allowance, IndirectReading, Told};
+use crate::engine::gather::Gatherer;
+use crate::engine::occlusion::nearby;
+use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
+use crate::map::Illuminance;
+use crate::sampling::Sequence;
+use crate::units::Rgb;
+
+/// How light differs within a surface counts as if it had been read at so many places of it: for the mean over all of it that is
+/// more than enough, for its middle just so.
+const AS_OF_PLACES: f64 = 4.0;
+/// What indirect light that is interpolated where no ray has looked whether the map is to be trusted may err by, of itself.
+const OF_UNLOOKED: f64 = 0.1;
+
+impl MapReader<'_> {
+    /// One estimate of the direct light of a place, caustics of the map included, by about `rays` shadow rays: it
+    /// has no error of its own, noise is part of what places differ by. Points of one sequence are spread evenly.
+    /// `None` where the map knows nothing.
+    pub fn direct_once(
+        &self,
+        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+        rays: usize,
+        (sequence, index): (Sequence, u32),
+    ) -> Option<Rgb> {
+        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+        let stored = self.stored_at(&surface)?;
+        let at = self.places.pulled_in(surface);
+        let dice = &mut Dice::new(sequence, index);
+        let direct = self.lighting.by_rays_on(&self.patches, &at, rays, dice);
+        Some(direct + stored.caustic_lx)
+    }
+
+    /// Indirect light as the map tells it. `None` where the map knows nothing.
+    pub fn told_at(
+        &self,
+        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+        allowance: Allowance,
+    ) -> Option<Told> {
+        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+        let stored = self.stored_at(&surface)?;
+        let at = self.places.pulled_in(surface);
+        if self.map.provenance.fresh.is_none() {
+            return Some(Told::Light(Self::reading(&stored, 0.0)));
+        }
+        Some(match self.trial(&stored, &at, allowance) {
+            None => {
+                let told = self.with_interpolation_error(stored, self.part_at(&surface));
+                Told::Light(Self::reading(&told, 0.0))
+            }
+            Some(trial) => Told::Little { in_gap: trial.in_gap },
+        })
+    }
+
+    /// Indirect light as the map interpolates it, be it to be trusted there or not: no ray looks. Its error is what a map
+    /// trusted everywhere would be told to err by and a share of the light, for what stands before the place and elements do not know.
+    /// `None` where the map knows nothing.
+    pub fn interpolated_at(
+        &self,
+        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+    ) -> Option<IndirectReading> {
+        let stored = self.map.interpolate(triangle, back, u, v)?;
+        let part = self.part_at(&SurfacePoint::new(self.scene, triangle, back, u, v));
+        let bias_lx = part * self.unseen.bias_lx;
+        let interpolation_error_lx = libm::hypot(
+            (part * self.unseen.discretization_lx).max(stored.interpolation_error_lx),
+            OF_UNLOOKED * stored.indirect_lx.luminance(),
+        );
+        Some(Self::reading(&Illuminance { interpolation_error_lx, bias_lx, ..stored }, 0.0))
+    }
+
+    /// Indirect light as [`MapReader::at`] reads it, but gathered also where interpolation is expected to err by more than is
+    /// allowed.
+    pub fn indirect_at(
+        &self,
+        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+        allowance: Allowance,
+    ) -> Option<IndirectReading> {
+        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+        let (read, _) = self.indirect(surface, allowance)?;
+        Some(Self::gathered_reading(&read))
+    }
+
+    /// Places that tell the indirect light of a surface, of [`MapReader::indirect_over`]: as many as a reading has replicates.
+    pub const PLACES: u32 = FRESH_REPLICATES;
+
+    /// The mean indirect light of a surface, by places spread evenly over it: at each of them as the map tells it, or
+    /// gathered by as many rays as one replicate of a reading has. Its error counts how light differs between places as if it
+    /// had been read at four of them, at random: it is to hold for the middle of the surface, too. `None` where the map knows none of them.
+    pub fn indirect_over(
+        &self,
+        places: impl Iterator<Item = (u32, bool, [f64; 2])>,
+    ) -> Option<IndirectReading> {
+        let surfaces: Vec<SurfacePoint> = places
+            .map(|(triangle, back, [u, v])| SurfacePoint::new(self.scene, triangle, back, u, v))
+            .collect();
+        let (mut told, mut trials, mut beside) = (Vec::new(), Vec::new(), [0.0; 2]);
+        for surface in &surfaces {
+            let Some(stored) = self.stored_at(surface) else { continue };
+            match self.trial(&stored, &self.places.pulled_in(*surface), Allowance::ANY) {
+                None => {
+                    told.push(self.with_interpolation_error(stored, self.part_at(surface)));
+                }
+                Some(trial) => {
+                    beside[0] += stored.common_error_lx;
+                    beside[1] += stored.bias_lx;
+                    trials.push((*surface, trial));
+                }
+            }
+        }
+        if let ([], [(surface, _)]) = (&told[..], &trials[..]) {
+            // One place alone tells nothing of its own noise.
+            return self
+                .indirect(*surface, Allowance::ANY)
+                .map(|(read, _)| Self::gathered_reading(&read));
+        }
+        let trials: Vec<Gatherer> = trials.into_iter().map(|(_, trial)| trial).collect();
+        let (gathered, replicate_variance) = self.one_of_each(&trials);
+        let lookup_lx = self.map.provenance.fresh.map_or(0.0, |fresh| fresh.lookup_lx);
+        let n = (told.len() + gathered.len()) as f64;
+        let values: Vec<Rgb> =
+            told.iter().map(|t| t.indirect_lx).chain(gathered.iter().map(|g| g.0)).collect();
+        let common = |of: fn(&Illuminance) -> f64| told.iter().map(of).sum::<f64>() / n;
+        let close_lx = gathered.iter().map(|(_, close)| close * lookup_lx).sum::<f64>() / n;
+        let [shared_lx, bias_lx] = beside.map(|lx| lx / n);
+        let (lx, variance) = match &values[..] {
+            [] => return None,
+            [only] => (*only, 0.0),
+            all => mean_and_variance(all),
+        };
+        let of_map = Illuminance {
+            indirect_standard_error_lx: common(|t| t.indirect_standard_error_lx) + shared_lx,
+            interpolation_error_lx: common(|t| t.interpolation_error_lx) + close_lx,
+            bias_lx: common(|t| t.bias_lx) + bias_lx,
+            ..Illuminance::NOTHING
+        };
+        // What is not the noise of rays is how light differs within the surface.
+        let noise = (replicate_variance * gathered.len() as f64 / (n * n)).min(variance);
+        let spread = noise + (variance - noise) * n / AS_OF_PLACES.min(n);
+        let error_lx = libm::hypot(Self::indirect_error_lx(&of_map), spread.sqrt());
+        Some(IndirectReading { lx, error_lx, noise_lx: variance.sqrt() })
+    }
+
+    /// What would gather at a place, unless the map is to be trusted there.
+    fn trial(
+        &self,
+        stored: &Illuminance,
+        at: &SurfacePoint,
+        allowance: Allowance,
+    ) -> Option<Gatherer> {
+        let fresh = self.map.provenance.fresh?;
+        let edge_m = nearby::edge_at_m(&self.map.elements, at);
+        let is_trusted = allowance.includes(stored) && self.is_trusted(fresh, stored, (at, edge_m));
+        (!is_trusted).then(|| {
+            let in_gap = nearby::is_closed_in(self.scene, at, edge_m);
+            Gatherer::on_surface(*at, TRIAL_RAYS).in_gap(in_gap)
+        })
+    }
+
+    /// What one replicate at each of many places gathers, and the part of the error of what is read close by that it has. How
+    /// many rays they take is told at the first of them, and the variance of one by noise that is expected then.
+    fn one_of_each(&self, trials: &[Gatherer]) -> (Vec<(Rgb, f64)>, f64) {
+        let Some(first) = trials.first() else { return (Vec::new(), 0.0) };
+        let key = self.gathering_key(first);
+        let Needed { rays, variance } =
+            self.rays_needed((*first, Allowance::ANY.noise, self.part_at(&first.surface)), key);
+        let rows: Vec<Gatherer> = trials.iter().map(|trial| trial.with_rays(rays)).collect();
+        let operator =
+            self.gathering(self.direct_at_ends()).operator(&rows, |k| key.with(1).with(k as u64));
+        let parts = trials.iter().map(|trial| self.part_at(&trial.surface));
+        let close = operator.close().zip(parts).map(|(close, part)| close * part);
+        let gathered = operator.apply(&self.light).into_iter().zip(close).collect();
+        (gathered, f64::from(FRESH_REPLICATES) * variance)
+    }
+
+    fn gathered_reading(read: &Illuminance) -> IndirectReading {
+        Self::reading(read, read.indirect_standard_error_lx)
+    }
+
+    fn reading(read: &Illuminance, noise_lx: f64) -> IndirectReading {
+        IndirectReading { lx: read.indirect_lx, error_lx: Self::indirect_error_lx(read), noise_lx }
+    }
+}

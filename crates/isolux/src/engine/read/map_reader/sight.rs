@@ -1,0 +1,30 @@
+//! Whether places of a surface see each other.
+
+use super::MapReader;
+use crate::engine::occlusion::{LOW, NEAR};
+use crate::engine::ray::SurfacePoint;
+use isolux_geometry::{Normal, Ray};
+
+/// Where a surface is bent, looks go above it by this share of their length for a right angle: a ball rises over the line between
+/// two of its places by a quarter of that for a small one, a crease by a half.
+const BENT: f64 = 0.5;
+
+impl MapReader<'_> {
+    /// Whether nothing parts the light of two places of a surface that lie near to each other: nothing stands between them, close to the
+    /// surface and well above it. Panes part light, too.
+    pub fn sees(&self, from: (u32, bool, [f64; 2]), to: (u32, bool, [f64; 2])) -> bool {
+        let [from, to] = [from, to].map(|(triangle, back, [u, v])| {
+            self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v))
+        });
+        let length_m = (to.point - from.point).length();
+        let [up, up_there] = [from, to].map(|at| Normal::to_vector(at.geometric));
+        let over_m = BENT * length_m * up.cross(up_there).length();
+        let is_blocked = |height_m: f64| {
+            let height_m = height_m + over_m;
+            let way = Ray::between(from.point + up * height_m, to.point + up_there * height_m);
+            self.scene.bvh().closest_hit(&way.skipping(from.triangle)).is_some()
+        };
+        // As a rule nothing is so high.
+        !(is_blocked(NEAR * length_m) && is_blocked(LOW * from.away_m.max(to.away_m)))
+    }
+}

@@ -1,0 +1,61 @@
+//! Walls that rays of a reader are judged by.
+
+use super::MapReader;
+use crate::elements::Element;
+use crate::engine::gather::{
+    Backdrop, Gatherer, Gathering, Trial, control_variate, known_at, ray_trial,
+};
+use crate::engine::ray::{Dice, SurfacePoint};
+use crate::map::Standing;
+use crate::sampling::{Key, Sequence};
+use crate::units::Rgb;
+
+impl MapReader<'_> {
+    /// Walls, if there are any that take much of the noise off what places of the map gather. To find them takes longer than to
+    /// gather in the gaps of a map that is trusted everywhere else.
+    pub(super) fn walls(&self) -> Option<Backdrop> {
+        self.map.provenance.fresh.filter(|fresh| !fresh.in_gaps_alone)?;
+        let places = self.some_places();
+        let mut backdrop = Backdrop::seen_by(self.scene, ray_trial::stands(&places))?;
+        if backdrop.see(self.scene, |at| self.light_at(at)) > control_variate::LEFT_OUT {
+            return None;
+        }
+        let gathering =
+            Gathering { backdrop: Some(&backdrop), ..self.gathering(self.direct_at_ends()) };
+        let of = (self.unseen.reference_lx, Key::new(self.map.provenance.seed).with(13));
+        let (_, left, _) = Trial::of_walls(&gathering, &places, &self.light, of);
+        left.is_some_and(|left| left <= control_variate::WORTH).then_some(backdrop)
+    }
+
+    /// Places of the map in the open, with the surface that each stands for, m2.
+    fn some_places(&self) -> Vec<(Gatherer, f64)> {
+        let all = self.map.elements.elements();
+        let is_open = |v: u32| self.standings[v as usize] == Some(Standing::Open);
+        let open: Vec<&Element> =
+            all.iter().filter(|e| e.vertices.into_iter().all(is_open)).collect();
+        let every = open.len().div_ceil(control_variate::SOME).max(1);
+        open.iter().step_by(every).map(|element| self.amid(element)).collect()
+    }
+
+    /// The middle of an element, and its surface, m2.
+    pub(super) fn amid(&self, element: &Element) -> (Gatherer, f64) {
+        let [a, b, c] = element.vertices.map(|v| self.map.elements.vertices()[v as usize].position);
+        let middle = a + ((b - a) + (c - a)) * (1.0 / 3.0);
+        let [u, v] = self.scene.triangle(element.triangle).barycentric(middle);
+        let at = SurfacePoint::new(self.scene, element.triangle, element.back, u, v);
+        (Gatherer::on_surface(at, 0), 0.5 * (b - a).cross(c - a).length())
+    }
+
+    /// All light that comes to a place, as the map tells it.
+    fn light_at(&self, at: &SurfacePoint) -> Option<Rgb> {
+        let known = known_at(&self.map.elements, u32::MAX, &self.standings, at)?;
+        let read = |values: &[Rgb]| -> Rgb {
+            known.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
+        };
+        let direct = self.direct_values.as_deref().map_or_else(
+            || self.lighting.estimate(at, &mut Dice::new(Sequence::new(Key::new(0)), 0)),
+            read,
+        );
+        Some(direct + read(&self.light))
+    }
+}

@@ -1,0 +1,550 @@
+//! The increments on one mesh: an engine, what it has summed, and the map that makes.
+
+mod outlook;
+
+use super::request::{SolveError, SolveRequest};
+use super::state::{RunState, restore};
+use crate::ablation::without;
+use crate::engine::gather::{OF_INTERPOLATED, noise_for};
+use crate::engine::judge::{
+    BELIEVED_INCREMENTS, Check, Checks, InterpolationErrors, Judged, OF_GOAL, Pooled, accuracy,
+    accuracy_of_map, check_points, energy_bound, filter,
+};
+use crate::engine::light::Emission;
+use crate::engine::mesh::{Hats, Trust, lend_noise};
+use crate::engine::method::{CacheSample, Cached, Forward, Hybrid, Left, Radiosity, tally};
+use crate::engine::particle::{Squared, element_parts, flights};
+use crate::engine::plan::Plan;
+use crate::engine::ray::{Accumulator, Deadline, Estimate, Noise, Sample};
+use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method, Unshot};
+use crate::sampling::Key;
+use crate::units::Rgb;
+
+/// Increments before a run may stop at its accuracy: as soon as it is believed. (Readings mix three
+/// vertices, whose spreads make one good enough: decision 12.)
+const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
+
+/// The increments on one mesh.
+pub(crate) struct Work<'p, 's> {
+    pub(crate) plan: &'p Plan<'s>,
+    engine: Engine<'p, 's>,
+    pub(crate) sums: Accumulator,
+    /// Radiosity, which has no replicates, keeps the shots of its patches in their sums.
+    pub(crate) checks: Checks,
+    /// What paths given up would bring in the mean.
+    pub(crate) given_up: Accumulator,
+    /// Samples of a receiver in an increment: its gathering rays, or one for all particles.
+    samples: u32,
+    /// What radiosity has left to shoot.
+    left: Option<Left>,
+    /// Whether it ends there, however good the map is.
+    stops_at_unshot: bool,
+    /// The accuracy asked for.
+    goal: Option<f64>,
+}
+
+enum Engine<'p, 's> {
+    Hybrid(Hybrid<'p, 's>),
+    Forward(Forward<'p, 's>),
+    Cache(Box<Cached<'p, 's>>),
+    Radiosity(Box<Radiosity<'p, 's>>),
+}
+
+impl<'p, 's> Work<'p, 's> {
+    /// Seconds that an increment takes; `None` where nobody knows before the first.
+    pub(crate) fn pace_s(&mut self) -> Option<f64> {
+        match &mut self.engine {
+            Engine::Hybrid(hybrid) => Some(hybrid.pace_s()),
+            Engine::Cache(cached) => Some(cached.pace_s()),
+            Engine::Forward(_) | Engine::Radiosity(_) => None,
+        }
+    }
+
+    /// On elements made for a target, with the rays of an increment halved so many times. Rays of `hybrid` are for
+    /// the accuracy asked for, however much finer its elements had to become.
+    pub(crate) fn new(
+        plan: &'p Plan<'s>,
+        request: &SolveRequest,
+        target: f64,
+        halvings: u32,
+    ) -> Self {
+        let (goal, wanted) = match request.method {
+            Method::Hybrid => (request.accuracy.unwrap_or(target), None),
+            Method::Cache => (target, None),
+            Method::Forward => (target, Some(1)),
+            Method::Radiosity => (target, Some(request.radiosity.limits(target).check_rays)),
+        };
+        let noise = noise(plan, goal, target);
+        let by_noise = || plan.trial.rays_anywhere(noise, plan.reference_lx, FEWEST_INCREMENTS);
+        let wanted = wanted.unwrap_or_else(by_noise);
+        let most = most_rays(plan, request.max_memory_bytes);
+        let rays = (wanted.min(most) >> halvings).max(1);
+        let key = Key::new(request.seed).with(3);
+        let points = match request.method {
+            Method::Hybrid | Method::Cache => check_points::draw(plan, rays, key),
+            Method::Radiosity => check_points::draw_for_map(plan, rays, key),
+            Method::Forward => Vec::new(),
+        };
+        let engine = match request.method {
+            Method::Hybrid => {
+                let (mean, particles) = rays_and_particles(plan, noise, goal, most);
+                let of = (mean, particles, goal, halvings);
+                Engine::Hybrid(Hybrid::new(plan, &points, of, most, request.seed))
+            }
+            Method::Cache => {
+                let wanted = (&request.cache, target);
+                Engine::Cache(Box::new(Cached::new(plan, &points, wanted, rays, request.seed)))
+            }
+            Method::Forward => {
+                let emission = Emission::new(plan.scene).expect("a scene without light is refused");
+                Engine::Forward(Forward::new(plan, emission, target, request.seed))
+            }
+            Method::Radiosity => {
+                let (settings, seed) = (&request.radiosity, request.seed);
+                Engine::Radiosity(Box::new(Radiosity::new(plan, &points, settings, target, seed)))
+            }
+        };
+        let (sums, checks) = no_sums(plan, &engine, points);
+        let given_up = Accumulator::new(1, reference_of(plan, &engine));
+        let stops_at_unshot = request.radiosity.unshot.is_some();
+        let (samples, left, goal) = (rays, None, request.accuracy);
+        Self { plan, engine, sums, checks, given_up, samples, left, stops_at_unshot, goal }
+            .in_units_of_light()
+            .looked_at()
+    }
+
+    /// With sums in units of the light that is expected. Single particles, and shots, may bring far more than that.
+    fn in_units_of_light(mut self) -> Self {
+        if self.has_nets() {
+            let (expected, points) = (self.plan.expected(), &self.checks.points);
+            self.checks.sums =
+                self.checks.sums.expecting(check_points::about_lx(points, &expected));
+            self.sums = self.sums.expecting(expected.iter().map(|light| light.luminance()));
+        }
+        self
+    }
+
+    pub(crate) fn restore(&mut self, saved: &RunState) -> Result<(), SolveError> {
+        restore(&mut self.sums, &saved.receivers, saved.increments)?;
+        let (checks, lacking) = saved
+            .checks
+            .split_at_checked(self.checks.sums.sums.len())
+            .ok_or(SolveError::OtherRun("the number of check points"))?;
+        restore(&mut self.checks.sums, checks, saved.increments)?;
+        restore(&mut self.checks.lacking, lacking, saved.increments)?;
+        restore(&mut self.given_up, &saved.given_up, saved.increments)?;
+        self.look_what_is_left();
+        Ok(())
+    }
+
+    fn looked_at(mut self) -> Self {
+        self.look_what_is_left();
+        self
+    }
+
+    fn look_what_is_left(&mut self) {
+        if let Engine::Radiosity(radiosity) = &self.engine {
+            self.left = Some(radiosity.left(&self.sums, &self.checks.sums));
+        }
+    }
+
+    /// Adds one increment; returns the rays traced, or nothing if the end passes before. The first is made whole in any case.
+    pub(crate) fn increment(&mut self, end: Deadline) -> Option<u64> {
+        let index = self.sums.increments;
+        let deadline = if index > 0 { end } else { Deadline::NEVER };
+        let effort = match &mut self.engine {
+            Engine::Hybrid(hybrid) => {
+                let made = hybrid.increment(index, &self.checks.points, [deadline, end])?;
+                self.sums.add(made.receivers);
+                self.checks.sums.add(made.checks);
+                self.checks.lacking.add(element_parts::samples(&made.lacking));
+                made.effort
+            }
+            Engine::Cache(cached) => {
+                cached.increment(index, &mut self.sums, &mut self.checks, deadline)?
+            }
+            Engine::Forward(forward) => {
+                forward.increment(index, &mut self.sums, &mut self.checks.lacking)
+            }
+            Engine::Radiosity(radiosity) => {
+                let left = self.left.as_ref().expect("radiosity always knows what is left");
+                radiosity.shoot(&mut self.sums, &mut self.checks.sums, left, deadline)?
+            }
+        };
+        self.look_what_is_left();
+        let direct = Rgb::grey(effort.given_up_lx);
+        self.given_up.add(std::iter::once(Sample { direct, ..Sample::default() }));
+        Some(effort.rays)
+    }
+
+    /// If there is more indirect light than energy allows in the mean, that mean and what is allowed, lx.
+    pub(crate) fn beyond_energy(&self, allowed: &energy_bound::Allowed) -> Option<[f64; 2]> {
+        allowed.excess_lx(|vertex| match &self.engine {
+            Engine::Radiosity(_) => self.estimate(vertex).mean.indirect.luminance(),
+            _ => self.sums.indirect_lx(vertex),
+        })
+    }
+
+    /// How many increments are made already that were not added.
+    pub(crate) fn ahead(&self) -> u64 {
+        match &self.engine {
+            Engine::Hybrid(hybrid) => hybrid.ahead(),
+            _ => 0,
+        }
+    }
+
+    /// The samples of a cache that were made.
+    pub(crate) fn made(&mut self) -> Vec<CacheSample> {
+        match &mut self.engine {
+            Engine::Cache(cached) => cached.made(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn interpolation(&self, trust: Trust, noise_is: Noise) -> InterpolationErrors {
+        match &self.engine {
+            Engine::Hybrid(_) | Engine::Cache(_) => {
+                let Checks { points, sums, .. } = &self.checks;
+                let errors = check_points::errors(sums, points, (trust, noise_is));
+                let with_direct = |lx: f64| (lx * lx + self.noise_of_direct_lx2()).sqrt();
+                let noise_lx = errors.noise_lx.map(with_direct);
+                self.with_caustics(InterpolationErrors { noise_lx, ..errors }, noise_is)
+            }
+            Engine::Forward(_) => {
+                self.with_caustics(tally::errors(self.plan, &self.sums), noise_is)
+            }
+            Engine::Radiosity(radiosity) => {
+                let errors = radiosity.errors(&self.sums, &self.checks.points, self.ambient_lx());
+                let squared = self.plan.caustic_error_lx.powi(2);
+                let [indirect_lx, total_lx] =
+                    [errors.indirect_lx, errors.total_lx].map(|lx| (lx * lx + squared).sqrt());
+                InterpolationErrors { indirect_lx, total_lx, ..errors }
+            }
+        }
+    }
+
+    /// Variance of direct light as it is read, lx2, that all increments have in common.
+    const fn noise_of_direct_lx2(&self) -> f64 {
+        match &self.engine {
+            Engine::Hybrid(hybrid) => hybrid.noise_of_direct_lx2(),
+            Engine::Cache(cached) => cached.noise_of_direct_lx2(),
+            Engine::Forward(_) | Engine::Radiosity(_) => 0.0,
+        }
+    }
+
+    /// The same with what parts of elements tell of caustics, that check points do not see.
+    fn with_caustics(&self, errors: InterpolationErrors, noise_is: Noise) -> InterpolationErrors {
+        let (parts, area_m2) = (&self.plan.parts, self.plan.area_m2());
+        if parts.count() == 0 {
+            return errors;
+        }
+        let told = self.caustics_told_lx2(noise_is);
+        let squared = told + self.plan.caustics_beside_lx2;
+        let [indirect_lx, total_lx] =
+            [errors.indirect_lx, errors.total_lx].map(|lx| (lx * lx + squared).sqrt());
+        let variance = |vertex: u32| self.sums.estimate(vertex as usize).variance;
+        let noise = parts.noise(variance, OF_INTERPOLATED) / area_m2;
+        let noise_lx = errors.noise_lx.map(|lx| (lx * lx + noise).sqrt());
+        // Vertices tell it as soon as it is believed.
+        let caustics_lx = if self.is_believed() { told.sqrt() } else { 0.0 };
+        InterpolationErrors { indirect_lx, total_lx, caustics_lx, noise_lx, ..errors }
+    }
+
+    /// What interpolating caustics errs by in the mean square, as increments tell, where they look; zero where they do not.
+    fn caustics_told_lx2(&self, noise_is: Noise) -> f64 {
+        if self.checks.lacking.sums.is_empty() {
+            return 0.0;
+        }
+        let seen: Squared = self.plan.parts.errors(&self.checks.lacking).into_iter().sum();
+        seen.with(noise_is) / self.plan.area_m2()
+    }
+
+    /// What radiosity has not shot.
+    pub(crate) fn unshot(&self) -> Option<Unshot> {
+        self.left.as_ref().map(|left| {
+            let Left { share, ambient_lx, doubt_lx, .. } = *left;
+            Unshot { share, ambient_lx, doubt_lx }
+        })
+    }
+
+    fn ambient_lx(&self) -> Rgb {
+        self.unshot().map_or(Rgb::BLACK, |unshot| unshot.ambient_lx)
+    }
+
+    /// The light at a vertex.
+    fn estimate(&self, vertex: usize) -> Estimate {
+        match &self.engine {
+            Engine::Radiosity(radiosity) => radiosity.estimate(&self.sums, vertex),
+            _ => self.sums.estimate(vertex),
+        }
+    }
+
+    /// Whether increments are few, each with many rays of every receiver.
+    const fn has_nets(&self) -> bool {
+        matches!(self.engine, Engine::Hybrid(_) | Engine::Cache(_))
+    }
+
+    pub(crate) fn is_believed(&self) -> bool {
+        let fewest = match self.engine {
+            Engine::Radiosity(_) => 1,
+            _ => BELIEVED_INCREMENTS,
+        };
+        self.sums.increments >= fewest
+    }
+
+    /// Where readers gather afresh.
+    pub(crate) fn fresh(&self) -> Option<Fresh> {
+        if !self.is_believed() || matches!(self.engine, Engine::Forward(_)) {
+            return None;
+        }
+        let judged = self.judged(Noise::Counted);
+        let over = judged.over_expected();
+        let limit_lx = judged.trust.up_to_lx() * over;
+        Some(Fresh {
+            above_lx: limit_lx.is_finite().then_some(limit_lx),
+            in_gaps_alone: judged.trust == Trust::AllButGaps,
+            lookup_lx: judged.errors.untrusted_lx,
+        })
+    }
+
+    pub(crate) fn accuracy(&self) -> Option<Accuracy> {
+        if self.is_believed() { self.accuracy_if(Noise::Counted) } else { None }
+    }
+
+    fn accuracy_if(&self, noise_is: Noise) -> Option<Accuracy> {
+        self.judged(noise_is).accuracy
+    }
+
+    /// What check points say of the map, read with the trust that they leave.
+    fn judged(&self, noise_is: Noise) -> Judged {
+        let pooled = self.left.is_none().then(|| Pooled::of(self.plan, |k| self.sums.estimate(k)));
+        let by = |trust: Trust| {
+            let errors = self.interpolation(trust, noise_is);
+            Judged { trust, errors, accuracy: self.accuracy_by(pooled.as_ref(), &errors) }
+        };
+        let Some(goal) = self.goal.filter(|_| self.has_nets()) else {
+            return by(self.plan.trust());
+        };
+        let judged = Judged::for_goal(goal, self.plan.trusts, by);
+        // Until it is believed nobody reads it.
+        if noise_is != Noise::Counted || !self.is_believed() {
+            return judged;
+        }
+        let is_enough = |accuracy: &Accuracy| {
+            let error = libm::hypot(accuracy.statistical, accuracy.discretization);
+            let lx = [goal, error.max(OF_GOAL * goal)].map(|share| share * self.plan.reference_lx);
+            let Checks { sums, points, .. } = &self.checks;
+            !check_points::is_gathering_worth_while(sums, points, judged.trust, lx)
+        };
+        judged.or_all_but_gaps(goal, is_enough, by)
+    }
+
+    fn accuracy_by(
+        &self,
+        pooled: Option<&Pooled>,
+        interpolation: &InterpolationErrors,
+    ) -> Option<Accuracy> {
+        if self.left.as_ref().is_some_and(|left| !left.is_bounded) {
+            return None;
+        }
+        let given_up_lx = match &self.engine {
+            Engine::Radiosity(radiosity) => radiosity.given_up_lx(),
+            _ => self.given_up.estimate(0).mean.direct.luminance(),
+        };
+        let errors = InterpolationErrors { given_up_lx, ..*interpolation };
+        let Some(pooled) = pooled else {
+            let ambient_lx = self.ambient_lx();
+            let doubt_lx = self.left.as_ref().map_or(0.0, |left| left.doubt_lx);
+            let estimate = |vertex: usize| {
+                let mut estimate = self.estimate(vertex).in_doubt_by(doubt_lx);
+                estimate.mean.indirect += ambient_lx;
+                estimate
+            };
+            return accuracy_of_map(self.plan, estimate, &errors);
+        };
+        accuracy(self.plan, pooled, &errors)
+    }
+
+    /// The values of the map, and what the filter did to them.
+    pub(crate) fn values(
+        &self,
+        filtered: bool,
+    ) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
+        let judged = self.is_believed().then(|| self.judged(Noise::Counted));
+        let trust = judged.map_or(self.plan.trust(), |judged| judged.trust);
+        let expected = self.plan.expected_lx(trust);
+        let strip = |k: usize| self.plan.strip(std::iter::once(k as u32));
+        let over =
+            |k: usize| judged.as_ref().map_or(1.0, |judged| judged.over_expected_in(strip(k)));
+        let of_caustics = self.caustic_variances();
+        let value = |(k, expected_lx): (usize, f64)| {
+            self.value(k, over(k) * expected_lx, of_caustics.get(k).map_or(0.0, |lx2| lx2.0[0]))
+        };
+        let mut values: Vec<Option<Illuminance>> =
+            expected.into_iter().enumerate().map(value).collect();
+        let by_particles = matches!(self.engine, Engine::Forward(_));
+        self.hold_deposits(&mut values, by_particles);
+        let report = filtered.then(|| self.filter(&mut values, by_particles));
+        if self.left.is_none() && !without("neighbour-noise") {
+            lend_noise(&self.plan.elements, &mut values);
+        }
+        (values, report)
+    }
+
+    /// Holds what particles brought where deposits overshoot: caustics, or all light.
+    fn hold_deposits(&self, values: &mut [Option<Illuminance>], all: bool) {
+        if !all && !self.plan.lighting.leaves_caustics() {
+            return;
+        }
+        let hats = Hats::new(&self.plan.subdivision, &self.plan.standings);
+        let held = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
+            let some = values[..self.plan.indirect_vertices].iter();
+            let some: Vec<Rgb> = some.map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect();
+            self.plan.prolongate(&hats.held(&some))
+        };
+        let caustic = held(&|v| v.caustic_lx);
+        let others = all.then(|| [held(&|v| v.direct_lx - v.caustic_lx), held(&|v| v.indirect_lx)]);
+        for (k, value) in values.iter_mut().enumerate() {
+            let Some(value) = value else { continue };
+            let mut direct = value.direct_lx - value.caustic_lx;
+            if let Some([of_direct, of_indirect]) = &others {
+                (direct, value.indirect_lx) = (of_direct[k], of_indirect[k]);
+            }
+            value.caustic_lx = caustic[k];
+            value.direct_lx = direct + caustic[k];
+        }
+    }
+
+    /// Filters indirect light and caustics, and direct light where particles brought it.
+    fn filter(&self, values: &mut [Option<Illuminance>], direct: bool) -> FilterReport {
+        let coarse = self.plan.indirect_vertices;
+        let part = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
+            values[..coarse].iter().map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect()
+        };
+        let mut parts = vec![part(&|v| v.indirect_lx), part(&|v| v.caustic_lx)];
+        if direct {
+            parts.push(part(&|v| v.direct_lx - v.caustic_lx));
+        }
+        let variance: Vec<f64> = (0..coarse)
+            .map(|k| self.estimate(k))
+            .map(|e| if direct { e.variance } else { e.indirect_variance })
+            .collect();
+        let filtered = filter(self.plan, &parts, &variance, self.plan.reference_lx);
+        let for_bare = self.plan.gathering_for_bare.iter();
+        let for_bare = for_bare.map(|&v| values[v as usize].map_or(Rgb::BLACK, |v| v.indirect_lx));
+        let for_bare: Vec<Rgb> = for_bare.collect();
+        let fine = |(part, values): (usize, &Vec<Rgb>)| {
+            self.plan.prolongate_beside(values, if part == 0 { &for_bare } else { &[] })
+        };
+        let fine: Vec<Vec<Rgb>> = filtered.values.iter().enumerate().map(fine).collect();
+        for (k, value) in values.iter_mut().enumerate() {
+            let Some(value) = value else { continue };
+            let own_direct = value.direct_lx - value.caustic_lx;
+            value.indirect_lx = fine[0][k];
+            value.caustic_lx = fine[1][k];
+            value.direct_lx = fine.get(2).map_or(own_direct, |part| part[k]) + value.caustic_lx;
+        }
+        filtered.report
+    }
+
+    /// Samples of a receiver in an increment; of one that is interpolated, those of a usual one.
+    fn samples_of(&self, vertex: usize) -> u32 {
+        let own = match &self.engine {
+            Engine::Hybrid(hybrid) => hybrid.rays_of(vertex),
+            _ => 0,
+        };
+        if own > 0 { own } else { self.samples }
+    }
+
+    /// What interpolating caustics errs by at every vertex, squared, lx2: counted as if it were noise; none where there are none.
+    fn caustic_variances(&self) -> Vec<Rgb> {
+        if self.checks.lacking.sums.is_empty() || !self.is_believed() {
+            return Vec::new();
+        }
+        let mut variances = vec![Rgb::BLACK; self.plan.indirect_vertices];
+        let parts = &self.plan.parts;
+        for (vertex, lx2) in parts.at_vertices(&parts.errors(&self.checks.lacking)) {
+            variances[vertex as usize] = Rgb::grey(lx2);
+        }
+        self.plan.prolongate(&variances)
+    }
+
+    fn value(
+        &self,
+        vertex: usize,
+        interpolation_error_lx: f64,
+        caustic_variance: f64,
+    ) -> Option<Illuminance> {
+        let standing = self.plan.standings[vertex]?;
+        let estimate = self.estimate(vertex);
+        let mean = estimate.mean;
+        // Radiosity has counted it.
+        let direct_variance = match self.engine {
+            Engine::Radiosity(_) => 0.0,
+            _ => self.plan.direct_variance[vertex],
+        };
+        Some(Illuminance {
+            direct_lx: mean.direct + mean.caustic,
+            caustic_lx: mean.caustic,
+            indirect_lx: mean.indirect,
+            standard_error_lx: (estimate.variance + direct_variance + caustic_variance).sqrt(),
+            indirect_standard_error_lx: (estimate.indirect_variance + caustic_variance).sqrt(),
+            common_error_lx: estimate.common_variance.min(estimate.indirect_variance).sqrt(),
+            interpolation_error_lx,
+            bias_lx: 0.0,
+            standing,
+            samples: self.sums.increments * u64::from(self.samples_of(vertex)),
+        })
+    }
+}
+
+/// Gathering rays of receivers in the mean, as they share them best, and particles of an increment.
+fn rays_and_particles(plan: &Plan, noise: f64, goal: f64, most: u32) -> (f64, u32) {
+    let rays = |noise: f64| {
+        plan.trial.wanted(noise, plan.reference_lx, FEWEST_INCREMENTS).min(f64::from(most))
+    };
+    let (vertices, of_goal) = (plan.indirect_vertices, (goal, plan.reference_lx));
+    let all = rays(noise) * plan.carriers.count(vertices) as f64;
+    let share = plan.caustic_noise.share(vertices, of_goal, FEWEST_INCREMENTS, all);
+    let particles = plan.caustic_noise.particles(vertices, of_goal, FEWEST_INCREMENTS, share);
+    let left = (1.0 - share) / (1.0 - flights::LEAST_SHARE);
+    (rays(noise * left.sqrt()), particles)
+}
+
+/// The noise that a map may have that is to reach a goal. Elements made for a finer target, as those for the goal were seen to err by
+/// more than expected, will do so, too.
+fn noise(plan: &Plan, goal: f64, target: f64) -> f64 {
+    let right_in_the_mean = !plan.means.is_empty() || plan.resolves_walls;
+    noise_for(goal, plan.interpolation * goal / target, right_in_the_mean)
+}
+
+/// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,
+/// 40 bytes an entry, a fifth more for gloss.
+fn most_rays(plan: &Plan, max_memory_bytes: u64) -> u32 {
+    let vertices = plan.indirect_vertices + plan.gathering_for_bare.len();
+    let most = (max_memory_bytes / 2 / 48 / vertices.max(1) as u64).clamp(8, 1 << 20) as u32;
+    if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 }
+}
+
+/// What light is expected to be about, lx.
+fn reference_of(plan: &Plan, engine: &Engine) -> f64 {
+    match engine {
+        Engine::Radiosity(radiosity) => radiosity.reference_lx(),
+        _ => plan.reference_lx,
+    }
+}
+
+/// Sums of receivers and of check points before the first increment.
+fn no_sums(plan: &Plan, engine: &Engine, points: Vec<Check>) -> (Accumulator, Checks) {
+    let parts = plan.parts.count();
+    let (places, parts) = match engine {
+        Engine::Radiosity(radiosity) => (radiosity.patches(), 0),
+        Engine::Cache(_) => (check_points::places(&points, false), parts),
+        Engine::Hybrid(_) => (check_points::places(&points, true), parts),
+        Engine::Forward(_) => (0, parts),
+    };
+    let sums_of = |places: usize| Accumulator::new(places, reference_of(plan, engine));
+    let sums = sums_of(plan.elements.vertices().len());
+    let checks = Checks { points, sums: sums_of(places), lacking: sums_of(parts) };
+    (sums, checks)
+}

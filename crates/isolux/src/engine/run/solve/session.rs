@@ -1,0 +1,383 @@
+//! A run on its way: its stages, its clock, and when increments end.
+
+use super::super::increments::Work;
+use super::super::prediction;
+use super::super::request::{Prediction, Progress, SolveRequest, Stage, Watch};
+use super::super::state::{Audited, RunIdentity, RunState};
+use super::so_far::{SoFar, Solution, Watcher};
+use crate::ablation::without;
+use crate::engine::gather::Unlit;
+use crate::engine::judge::BELIEVED_INCREMENTS;
+use crate::engine::light::Lighting;
+use crate::engine::method::IrradianceCache;
+use crate::engine::pilot::{PilotRequest, Round, pilot};
+use crate::engine::plan::Plan;
+use crate::engine::ray::{Deadline, Sums};
+use crate::map::{Accuracy, Audit, IlluminationMap, Method, Provenance};
+use crate::scene::Scene;
+use std::mem;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Share of the time limit after which elements are refined no further.
+const PILOT_SHARE: f64 = 0.4;
+/// Halvings of the rays of an increment at most, where time is short.
+const MOST_HALVINGS: u32 = 8;
+/// Stages to a factor of two in what their elements are made to err by.
+const STAGES_TO_HALF: u32 = 4;
+/// Stages at most, then a run settles for what it has: elements for an eighth of the error asked for.
+pub(super) const MOST_STAGES: u32 = 3 * STAGES_TO_HALF + 1;
+/// Stages that elements are made finer by at least: what they err by is known with some noise.
+pub(super) const FEWEST_STAGES: u32 = 2;
+/// What elements too coarse at first are to err by, as a share of the error asked for: noise needs the rest.
+const LEFT_TO_ELEMENTS: f64 = 0.8;
+/// Accuracy that elements are made for where none is asked.
+const DEFAULT_ACCURACY: f64 = 0.01;
+
+/// What elements so many stages on err by, as a share.
+fn finer(stages: u32) -> f64 {
+    libm::exp2(-f64::from(stages) / f64::from(STAGES_TO_HALF))
+}
+
+/// A run on its way.
+pub(super) struct Run<'s, 'r> {
+    pub(super) scene: &'s Scene,
+    pub(super) request: &'r SolveRequest,
+    pub(super) identity: RunIdentity,
+    pub(super) started: Instant,
+    pub(super) rays: u64,
+    /// Those of them that an earlier run has traced.
+    pub(super) earlier_rays: u64,
+    /// Stopped by the watcher or the clock before the mesh was complete.
+    pub(super) stopped: bool,
+    /// Refinement ended before its goal, for lack of time.
+    pub(super) cut: bool,
+    pub(super) stage: u32,
+    /// What the last pilot has taken, s.
+    pub(super) pilot_s: f64,
+    /// What pilots have found unlit.
+    pub(super) unlit: Unlit,
+    /// The stage that a saved run had come to; none is 0.
+    pub(super) saved_stage: u32,
+    /// For audits; none where there is no map to be made.
+    pub(super) lighting: Option<Arc<Lighting<'s>>>,
+    /// What audits have come to.
+    pub(super) audited: Audited,
+    /// The audit of the map as it is now.
+    pub(super) audit: Option<Audit>,
+}
+
+impl<'s, 'r> Run<'s, 'r> {
+    pub(super) fn new(scene: &'s Scene, request: &'r SolveRequest) -> Self {
+        Self {
+            scene,
+            request,
+            identity: RunIdentity::of(scene, request),
+            started: Instant::now(),
+            rays: 0,
+            earlier_rays: 0,
+            stopped: false,
+            cut: false,
+            stage: 1,
+            pilot_s: 0.0,
+            unlit: Unlit::default(),
+            saved_stage: 0,
+            lighting: None,
+            audited: Audited::default(),
+            audit: None,
+        }
+    }
+
+    pub(super) fn elapsed_s(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
+    }
+
+    /// Takes off what a watcher has held it up.
+    pub(super) fn heed(&mut self, answer: Watch) -> Watch {
+        if let Watch::After(pause) = answer {
+            self.started += pause;
+        }
+        answer
+    }
+
+    pub(super) fn out_of_time(&self) -> bool {
+        self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
+    }
+
+    /// Whether what is left of the time is better spent on increments than on finer elements, the next of which take so long.
+    fn refined_long_enough(&self, step_s: f64) -> bool {
+        let is_over =
+            |limit: Duration| self.elapsed_s() + step_s >= PILOT_SHARE * limit.as_secs_f64();
+        self.request.time_limit.is_some_and(is_over)
+    }
+
+    /// Whether finer elements would be made before that: what the pilot had taken grows as the number of elements does, which fall in
+    /// error like one over it. Elements that are cut short are worse than those there are.
+    pub(super) fn has_time_for_finer(&self, work: &Work) -> bool {
+        let Some(limit) = self.request.time_limit else { return true };
+        let stages = self.stages_missing(work.error_of_elements());
+        let pilot_s = self.pilot_s / finer(stages);
+        self.elapsed_s() + pilot_s < PILOT_SHARE * limit.as_secs_f64()
+    }
+
+    /// The accuracy that the elements of this stage are made for.
+    pub(super) fn mesh_for(&self) -> f64 {
+        let target = self.request.accuracy.unwrap_or(DEFAULT_ACCURACY);
+        target * finer(self.stage - 1)
+    }
+
+    pub(super) fn pilot_request(&self) -> PilotRequest {
+        let by_hand = self.request.radiosity;
+        PilotRequest {
+            target: self.mesh_for(),
+            goal: self.request.accuracy.unwrap_or(DEFAULT_ACCURACY),
+            mesh_target: self.request.mesh_accuracy,
+            seed: self.request.seed,
+            is_fitted: self.request.method != Method::Forward,
+            has_means: self.request.method == Method::Hybrid,
+            refines_caustics: self.request.method != Method::Radiosity
+                && !without("caustic-refinement"),
+            max_vertices: self.request.most_receivers(),
+            most_for_indirect_light: by_hand.max_receivers.map(|most| most as usize),
+            least_edge_m: by_hand.min_element_m,
+        }
+    }
+
+    pub(super) fn pilot(
+        &mut self,
+        lighting: &'s Lighting<'s>,
+        watch: &mut Watcher<'_>,
+    ) -> Plan<'s> {
+        let request = self.pilot_request();
+        let (before, started_s) = (self.rays, self.elapsed_s());
+        let scene = self.scene;
+        let mut unlit = mem::take(&mut self.unlit);
+        let plan = pilot(scene, lighting, &request, &mut unlit, &mut |round| {
+            self.rays = before + round.rays;
+            let progress = self.progress(Stage::Pilot, 0, round.receivers as u64, None);
+            let progress = Progress { prediction: self.foreseen(round), ..progress };
+            // Who has said stop is not asked again.
+            self.stopped = self.stopped
+                || self.heed(watch(&progress, &SoFar::NOTHING)) == Watch::Stop
+                || self.out_of_time();
+            // The elements of a saved run are made again, whole, or what it has would be lost.
+            self.stage == self.saved_stage
+                || !(self.stopped || self.refined_long_enough(round.step_s))
+        });
+        self.unlit = unlit;
+        self.cut |= !plan.is_whole;
+        self.rays = before + plan.rays;
+        self.pilot_s = self.elapsed_s() - started_s;
+        plan
+    }
+
+    /// When the run will be done, seen from the pilot, if it has a goal.
+    pub(super) fn foreseen(&self, round: &Round) -> Option<Prediction> {
+        let by_gathering = self.request.method == Method::Hybrid;
+        self.request.accuracy.filter(|_| by_gathering)?;
+        Some(prediction::foreseen(round.left, self.elapsed_s()))
+    }
+
+    fn progress(
+        &self,
+        stage: Stage,
+        increments: u64,
+        receivers: u64,
+        accuracy: Option<Accuracy>,
+    ) -> Progress {
+        Progress {
+            stage,
+            increments,
+            accuracy,
+            unshot: None,
+            target: self.request.accuracy,
+            receivers,
+            rays: self.rays,
+            earlier_rays: self.earlier_rays,
+            elapsed_s: self.elapsed_s(),
+            prediction: None,
+            ends: false,
+        }
+    }
+
+    /// The error told that is enough: what is asked for, or less once an audit has found told errors too small.
+    pub(super) fn goal(&self) -> Option<f64> {
+        self.request.accuracy.map(|goal| goal / self.audited.true_over_told)
+    }
+
+    /// Errors as told, or as audits have found them where these contradict: what is found beyond is common to all of the map.
+    pub(super) fn without_false_claims(&self, told: Accuracy) -> Accuracy {
+        let found = match &self.audit {
+            Some(audit) if audit.contradicts => audit.error.value,
+            _ => told.reached * self.audited.true_over_told,
+        };
+        let beyond = (found * found - told.reached * told.reached).max(0.0);
+        Accuracy {
+            reached: found.max(told.reached),
+            bias: (told.bias * told.bias + beyond).sqrt(),
+            interpolated: (told.interpolated * told.interpolated + beyond).sqrt(),
+            ..told
+        }
+    }
+
+    /// Whether and why these increments should end here.
+    pub(super) fn end(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
+        let goal = self.goal();
+        if work.may_end() && accuracy.zip(goal).is_some_and(|(a, goal)| a.reached <= goal) {
+            return Some(End::Reached);
+        }
+        if work.is_vain(accuracy) {
+            return Some(End::InVain);
+        }
+        if self.too_coarse(work, accuracy) && self.has_time_for_finer(work) {
+            return Some(End::TooCoarse);
+        }
+        // No number of increments helps where interpolation alone takes the whole error.
+        let vain = work.is_hopeless(accuracy, goal) && work.is_settled(accuracy);
+        vain.then_some(End::InVain)
+    }
+
+    /// Whether finer elements will reach the goal, but these will not.
+    fn too_coarse(&self, work: &Work, accuracy: Option<Accuracy>) -> bool {
+        let is_finest = self.stage == MOST_STAGES || work.plan.is_finest || without("finer-stages");
+        let goal = self.goal().filter(|_| !is_finest);
+        goal.is_some_and(|goal| work.is_too_coarse(accuracy, goal))
+    }
+
+    /// How many stages on elements are fine enough, if they keep what they err by in proportion.
+    pub(super) fn stages_missing(&self, errs: Option<f64>) -> u32 {
+        let missed = errs.zip(self.goal()).map_or(1.0, |(errs, goal)| errs / goal);
+        let halvings = libm::log2(missed.max(LEFT_TO_ELEMENTS) / LEFT_TO_ELEMENTS);
+        ((f64::from(STAGES_TO_HALF) * halvings).ceil() as u32).max(FEWEST_STAGES)
+    }
+
+    /// The same with fewer rays an increment, if the time left is too short to know how good the map
+    /// is: the mesh, too, is what the time allowed then.
+    pub(super) fn affordable<'p>(&mut self, mut work: Work<'p, 's>) -> Work<'p, 's> {
+        let Some(limit) = self.request.time_limit else { return work };
+        let Some(pace_s) = work.pace_s() else { return work };
+        let left_s = (limit.as_secs_f64() - self.elapsed_s()).max(0.0);
+        let too_slow = pace_s * BELIEVED_INCREMENTS as f64 / left_s;
+        if too_slow <= 1.0 {
+            return work;
+        }
+        self.cut = true;
+        let halvings = libm::log2(too_slow).ceil().min(f64::from(MOST_HALVINGS));
+        Work::new(work.plan, self.request, self.mesh_for(), halvings as u32)
+    }
+
+    /// One more increment; false if the time is over before it is whole, and there is one already.
+    pub(super) fn advance(&mut self, work: &mut Work) -> bool {
+        if self.stopped && work.sums.increments > 0 {
+            return false;
+        }
+        let end = self.request.time_limit.and_then(|limit| self.started.checked_add(limit));
+        let rays = work.increment(Deadline(end));
+        self.rays += rays.unwrap_or(0);
+        rays.is_some()
+    }
+
+    pub(super) fn report(
+        &self,
+        work: &Work,
+        accuracy: Option<Accuracy>,
+        pace: Pace,
+        end: Option<End>,
+    ) -> Progress {
+        let count = work.sums.increments;
+        let receivers = work.sums.sums.len() as u64;
+        let progress = self.progress(Stage::Increments, count, receivers, accuracy);
+        let goal = self.goal();
+        let needed = goal.and_then(|goal| work.increments_needed(accuracy, goal));
+        let made = count + work.ahead();
+        // Who has made none here does not know what one takes.
+        let prediction = needed.filter(|_| made > pace.before).map(|needed| {
+            let each_s = (progress.elapsed_s - pace.started_s) / (made - pace.before) as f64;
+            prediction::finish(needed, made, each_s, progress.elapsed_s)
+        });
+        let ends = end.is_some_and(|end| end != End::TooCoarse);
+        let unshot = work.unshot().map(|unshot| unshot.share);
+        Progress { prediction, ends, unshot, ..progress }
+    }
+
+    pub(super) fn solution(
+        &self,
+        work: &mut Work,
+        accuracy: Option<Accuracy>,
+        reached: bool,
+        whole_mesh: bool,
+    ) -> Solution {
+        let state = self.state(whole_mesh.then_some(work));
+        let time_s = self.elapsed_s();
+        let cache = IrradianceCache { samples: work.made() };
+        let lacked_time = self.too_coarse(work, accuracy) && !self.has_time_for_finer(work);
+        Solution { map: self.map(work, accuracy, reached), state, cache, time_s, lacked_time }
+    }
+
+    /// With sums, or none: those of elements that were cut short are of no use to another run.
+    pub(super) fn state(&self, sums: Option<&Work>) -> RunState {
+        let some = |of: &dyn Fn(&Work) -> Vec<Sums>| sums.map_or(Vec::new(), of);
+        RunState {
+            identity: self.identity.clone(),
+            stage: self.stage,
+            rays: self.rays,
+            increments: sums.map_or(0, |work| work.sums.increments),
+            audited: self.audited.clone(),
+            receivers: some(&|work| work.sums.sums.clone()),
+            checks: some(&|work| work.checks.all()),
+            given_up: some(&|work| work.given_up.sums.clone()),
+        }
+    }
+
+    pub(super) fn map(
+        &self,
+        work: &Work,
+        accuracy: Option<Accuracy>,
+        reached: bool,
+    ) -> IlluminationMap {
+        let (values, filter) = work.values(self.request.filter && work.is_believed());
+        let accuracy = accuracy.map(|told| self.without_false_claims(told));
+        IlluminationMap {
+            elements: work.plan.elements.clone(),
+            values,
+            provenance: Provenance {
+                scene: self.scene.name().to_owned(),
+                scene_hash: self.identity.scene_hash.clone(),
+                version: env!("CARGO_PKG_VERSION").to_owned(),
+                method: self.request.method,
+                seed: self.request.seed,
+                increments: work.sums.increments,
+                rays: self.rays,
+                accuracy_target: self.request.accuracy,
+                complete: reached || self.request.accuracy.is_none(),
+                accuracy,
+                fresh: work.fresh(),
+                filter,
+                unshot: work.unshot(),
+                diffuse_only: self.request.radiosity.diffuse_only,
+                audit: self.audit.clone(),
+                mixed: Vec::new(),
+            },
+        }
+    }
+}
+
+/// Why increments end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// The accuracy asked for is reached.
+    Reached,
+    /// More of them would not help, and neither would finer elements.
+    InVain,
+    /// The elements are too coarse for the accuracy asked for.
+    TooCoarse,
+    /// An audit has found the error larger than it was told, and more of the same would not mend it.
+    Contradicted,
+}
+
+/// Since when, and since which increment, the pace of a run is taken.
+#[derive(Clone, Copy)]
+pub(super) struct Pace {
+    pub(super) started_s: f64,
+    pub(super) before: u64,
+}
