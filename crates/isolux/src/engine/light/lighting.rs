@@ -10,14 +10,13 @@ use super::mirrors::planar::Mirrors;
 use super::mirrors::twins::Twins;
 use super::openings::Openings;
 use super::panes::Panes;
-use super::sources::triangle_lamps::faces;
-use super::sources::{self, LuminaireId, Source, SourceKind, Sources, Target};
-use super::tree::{Images, Tree};
-use crate::engine::ray::{Dice, SurfacePoint};
-use crate::scene::{Material, Scene};
-use crate::units::Rgb;
-use isolux_geometry::Direction;
-use std::collections::{BTreeSet, HashSet};
+use super::sources::LuminaireId;
+use super::sources::Source;
+use super::sources::SourceKind;
+use super::tree::Images;
+use super::tree::Tree;
+use crate::scene::Material;
+use crate::scene::Scene;
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
 pub(super) const EXACT_SOURCES: usize = 4;
@@ -27,7 +26,7 @@ const MOST_EVALUATED_AT_ENDS: usize = 8;
 
 /// Points among the sources from which on they are drawn by their tree at the ends of gathering rays,
 /// and at receivers.
-const DRAWN_AT_ENDS: usize = 32;
+pub(super) const DRAWN_AT_ENDS: usize = 32;
 const DRAWN_AT_RECEIVERS: usize = 512;
 
 /// Points among the sources up to which all of them show on glossy surfaces.
@@ -64,66 +63,7 @@ pub(crate) struct Lighting<'s> {
     pub(super) openings: Openings,
 }
 
-impl<'s> Lighting<'s> {
-    /// Prepares the sources of a scene.
-    pub(crate) fn new(scene: &'s Scene) -> Self {
-        let mirrors = Mirrors::find(scene);
-        let Sources { all: sources, starts, leaves_chains, left_out } =
-            Sources::of(scene, &mirrors);
-        let panes = Panes::find(scene);
-        let is_point = |s: &&Source| matches!(s.kind, SourceKind::Point { .. });
-        let points = sources.iter().filter(is_point).count();
-        let mut lighting = Self {
-            scene,
-            mirrors,
-            twins: Twins::default(),
-            sources,
-            starts,
-            leaves_chains,
-            left_out,
-            area_sources: 0,
-            panes,
-            tree: Tree::default(),
-            chains: Vec::new(),
-            images: Images::default(),
-            others: Vec::new(),
-            points,
-            openings: Openings::default(),
-        };
-        lighting.twins = lighting.find_twins();
-        lighting.openings = lighting.look_out();
-        lighting.plant();
-        lighting
-    }
-
-    /// Makes the tree of what is many.
-    fn plant(&mut self) {
-        let has_points = self.points > DRAWN_AT_ENDS;
-        let tree = Tree::of(self.scene, has_points, faces(self.scene, &self.openings));
-        let (sources, starts) = (&self.sources, &self.starts);
-        let surfaces: HashSet<u32> = tree.faces.iter().map(|face| face.surface).collect();
-        let is_in_tree = |source: &Source| match (&source.kind, source.luminaire) {
-            (SourceKind::Point { .. }, _) => has_points,
-            (SourceKind::Area { .. }, LuminaireId::Area(number)) => surfaces.contains(&number),
-            _ => false,
-        };
-        let of_tree = sources.iter().filter(|s| is_in_tree(s)).map(|s| &s.chain);
-        let chains: BTreeSet<&Vec<u32>> = of_tree.collect();
-        self.chains = chains.into_iter().cloned().collect();
-        self.images = Images::of(&tree, self.chains.len(), |lamp, chain| {
-            let before = self.scene.luminaires().len();
-            let number = match tree.face(lamp) {
-                Some(face) => before + face.surface as usize,
-                None => lamp.luminaire as usize,
-            };
-            image(sources, starts, number, &self.chains[chain]).is_some()
-        });
-        let is_other = |&k: &u32| !is_in_tree(&sources[k as usize]);
-        self.others = (0..sources.len() as u32).filter(is_other).collect();
-        self.area_sources = self.others().filter(|source| source.is_area()).count();
-        self.tree = tree;
-    }
-
+impl Lighting<'_> {
     /// Number of sources, images included.
     pub(crate) fn source_count(&self) -> usize {
         self.sources.len()
@@ -183,12 +123,6 @@ impl<'s> Lighting<'s> {
         self.mirrors.of(triangle, back)
     }
 
-    /// Direct illuminance from all sources: exact for parallel light, and for points where they are
-    /// few; sampled for emitting surfaces.
-    pub(crate) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        self.sampled(at, self.area_samples(), dice)
-    }
-
     /// Whether [`Lighting::sampled`] is free of noise: few luminaires, none of which is an emitting surface.
     pub(crate) fn samples_exactly(&self) -> bool {
         self.area_sources == 0 && !self.has_many()
@@ -210,85 +144,6 @@ impl<'s> Lighting<'s> {
         (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES)
     }
 
-    /// The same with `samples` shadow rays for every emitting surface.
-    pub(crate) fn sampled(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
-        self.sampled_again(at, samples)(dice)
-    }
-
-    /// [`Lighting::sampled`] again and again at one place.
-    pub(crate) fn sampled_again<'d>(
-        &'d self,
-        at: &'d SurfacePoint,
-        samples: usize,
-    ) -> impl Fn(&mut Dice) -> Rgb + 'd {
-        let cut = self.has_many().then(|| self.fine_cut(at));
-        move |dice| match &cut {
-            Some(cut) => self.lit_by_cut(cut, at, (RAYS_TO_MANY, samples), dice),
-            None => self.by_all(at, samples, dice),
-        }
-    }
-
-    /// [`Lighting::sampled`] with a look at every source.
-    pub(crate) fn by_all(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
-        self.sources.iter().map(|s| self.lit_by(s, at, samples, dice)).sum()
-    }
-
-    /// An unbiased estimate of the direct illuminance by few shadow rays, for the ends of
-    /// gathering rays.
-    pub(crate) fn estimate(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        if self.sources.len() <= EXACT_SOURCES {
-            return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
-        }
-        let cut = (!self.tree.lamps.is_empty()).then(|| self.rough_cut(at));
-        let of_tree = cut.as_ref().map_or(0.0, |cut| cut.parts.total);
-        let weights = self.weights_of_others(at);
-        let total: f64 = of_tree + weights.iter().sum::<f64>();
-        if total <= 0.0 {
-            return Rgb::BLACK;
-        }
-        let [pick, _] = dice.pair();
-        let left = pick * total - of_tree;
-        if let Some(cut) = cut.filter(|_| left < 0.0) {
-            return self.lit_by_many(&cut, at, 1, dice) * (total / of_tree);
-        }
-        self.lit_by_drawn(&weights, (left, total), at, dice)
-    }
-
-    /// The same of the sources that are not in the tree.
-    pub(super) fn estimate_of_others(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        let weights = self.weights_of_others(at);
-        let total: f64 = weights.iter().sum();
-        if total <= 0.0 {
-            return Rgb::BLACK;
-        }
-        let [pick, _] = dice.pair();
-        self.lit_by_drawn(&weights, (pick * total, total), at, dice)
-    }
-
-    fn weights_of_others(&self, at: &SurfacePoint) -> Vec<f64> {
-        let weight = |source: &Source| {
-            let is_in_view = |target| self.chain_is_in_view(&source.chain, at, target);
-            sources::importance(self.scene, source, at, is_in_view)
-        };
-        self.others().map(weight).collect()
-    }
-
-    /// What all give by the one of the others at a place among their weights.
-    fn lit_by_drawn(
-        &self,
-        weights: &[f64],
-        (place, total): (f64, f64),
-        at: &SurfacePoint,
-        dice: &mut Dice,
-    ) -> Rgb {
-        let drawn = drawn(weights, place);
-        // Rounding may leave a sliver past the last weight.
-        let drawn = drawn.or_else(|| weights.iter().rposition(|&w| w > 0.0));
-        drawn.zip(self.others().nth(drawn.unwrap_or(0))).map_or(Rgb::BLACK, |(k, source)| {
-            self.lit_by(source, at, 1, dice) * (total / weights[k])
-        })
-    }
-
     /// Whether there are only a few luminaires without surface and nothing specular before them: all are asked wherever direct light
     /// is, and exactly what they send out arrives.
     pub(crate) fn are_few_points(&self) -> bool {
@@ -304,61 +159,9 @@ impl<'s> Lighting<'s> {
         !self.sources.iter().all(Source::is_area) && self.points <= MOST_SHOWN
     }
 
-    /// What comes to a place from luminaires without surface and their images: where from, and the illuminance of what faces them.
-    pub(crate) fn points_at(&self, at: &SurfacePoint, mut found: impl FnMut(Direction, Rgb)) {
-        for source in self.sources.iter().filter(|source| !source.is_area()) {
-            let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
-            let arriving = sources::unoccluded_if(self.scene, source, at, in_view);
-            let Some(arriving) = arriving else { continue };
-            let towards = match arriving.target {
-                Target::Point(place) => (place - at.point).direction(),
-                Target::Infinity(direction) => Some(direction),
-            };
-            let Some(towards) = towards else { continue };
-            let share = self.visibility_in_view(&source.chain, at, arriving.target, None);
-            if !share.is_black() {
-                found(towards, arriving.illuminance_lx * share / towards.cos(at.shading));
-            }
-        }
-    }
-
     /// The sources that are not in the tree.
     pub(super) fn others(&self) -> impl Iterator<Item = &Source> {
         self.others.iter().map(|&k| &self.sources[k as usize])
-    }
-
-    pub(super) fn lit_by(
-        &self,
-        source: &Source,
-        at: &SurfacePoint,
-        samples: usize,
-        dice: &mut Dice,
-    ) -> Rgb {
-        match &source.kind {
-            SourceKind::Area { emitter, triangles } => {
-                self.lit_by_area(source, emitter, triangles, at, samples, dice)
-            }
-            _ => self.lit_by_point(source, at),
-        }
-    }
-
-    /// Illuminance from those of some sources that have no surface, one by one.
-    pub(super) fn lit_by_points<'a>(
-        &self,
-        some: impl Iterator<Item = &'a Source>,
-        at: &SurfacePoint,
-    ) -> Rgb {
-        let points = some.filter(|source| !source.is_area());
-        points.map(|source| self.lit_by_point(source, at)).sum()
-    }
-
-    fn lit_by_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {
-        let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
-        let Some(arriving) = sources::unoccluded_if(self.scene, source, at, in_view) else {
-            return Rgb::BLACK;
-        };
-        let share = self.visibility_in_view(&source.chain, at, arriving.target, None);
-        arriving.illuminance_lx * share
     }
 }
 
@@ -373,7 +176,12 @@ pub(super) fn drawn(weights: &[f64], place: f64) -> Option<usize> {
 
 /// The source that is the image of a luminaire by a chain of mirrors; emitting surfaces are counted
 /// after the luminaires without.
-fn image(sources: &[Source], starts: &[usize], luminaire: usize, chain: &[u32]) -> Option<usize> {
+pub(super) fn image(
+    sources: &[Source],
+    starts: &[usize],
+    luminaire: usize,
+    chain: &[u32],
+) -> Option<usize> {
     let (first, end) = (starts[luminaire], starts[luminaire + 1]);
     sources[first..end].iter().position(|s| s.chain == chain).map(|k| first + k)
 }

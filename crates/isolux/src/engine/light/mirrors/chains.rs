@@ -1,10 +1,10 @@
 //! Chains of planar mirrors as such, for light that does not come from a luminaire.
 
 use super::super::lighting::Lighting;
-use super::super::sources::Target;
 use crate::engine::ray::SurfacePoint;
 use crate::units::Rgb;
-use isolux_geometry::{Point, Vector};
+use isolux_geometry::Point;
+use isolux_geometry::Vector;
 
 /// Mirrors in a row, and chains in all; the others are left to rays.
 const MAX_CHAIN: usize = 6;
@@ -84,18 +84,5 @@ impl Lighting<'_> {
             (point, normal) = (mirror.image(point), mirror.image_vector(normal));
         }
         Some((point, normal))
-    }
-
-    /// The share of light that comes to a receiver from a place on a triangle by a chain.
-    pub(crate) fn share_from(
-        &self,
-        chain: &Chain,
-        at: &SurfacePoint,
-        place: Point,
-        triangle: u32,
-    ) -> Rgb {
-        let image = |place: Point, &plane: &u32| self.mirrors.planes[plane as usize].image(place);
-        let target = Target::Point(chain.planes.iter().fold(place, image));
-        self.visibility(&chain.planes, at, target, Some(triangle))
     }
 }

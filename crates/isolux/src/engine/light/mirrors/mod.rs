@@ -1,6 +1,7 @@
 //! Planar mirrors and the chains of them that light takes.
 
 pub(super) mod chains;
+mod in_view;
 pub(super) mod met;
 pub(super) mod planar;
 mod seams;

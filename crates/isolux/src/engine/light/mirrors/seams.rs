@@ -12,14 +12,18 @@
 //! The images of a luminaire are found breadth first, so that with a chain all its twins before it are there.
 
 use super::super::lighting::Lighting;
+use super::super::mirrors::twins::Twins;
 use super::super::sources::Target;
-use super::super::visibility::{MAX_PANES, segment};
+use super::super::visibility::straight::MAX_PANES;
+use super::super::visibility::straight::segment;
 use super::planar::Plane;
-use super::twins::Twins;
 use crate::ablation::without;
 use crate::engine::ray::SurfacePoint;
 use crate::units::Rgb;
-use isolux_geometry::{Normal, Point, Ray, Vector};
+use isolux_geometry::Normal;
+use isolux_geometry::Point;
+use isolux_geometry::Ray;
+use isolux_geometry::Vector;
 use std::f64::consts::FRAC_PI_4;
 
 /// What is nearer than so many bounds of rounding to a place of reflection lies there: its own, that of where the ray started, those of

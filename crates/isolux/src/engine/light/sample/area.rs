@@ -3,8 +3,8 @@
 use super::super::lighting::Lighting;
 use super::super::polygon::{Piece, Place, drawn, pieces, target};
 use super::super::sources::{Emitter, Source, SourceKind, TRIANGLES_A_SAMPLE, Target, facing_cos};
-use super::adaptive::{Measured, OF_FEW, REPLICATES};
 use super::clusters::Parted;
+use super::measured::{Measured, OF_FEW, REPLICATES};
 use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
 use crate::sampling::Sequence;
 use crate::units::Rgb;

@@ -1,8 +1,11 @@
 //! Ways to draw luminaires and places on them.
 
-pub(super) mod adaptive;
+mod adaptive;
 pub(super) mod area;
 mod clusters;
+mod estimate;
 mod many;
+pub(super) mod measured;
 pub(super) mod nearby;
+mod one;
 pub(super) mod patches;

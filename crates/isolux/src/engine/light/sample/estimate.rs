@@ -1,0 +1,126 @@
+//! Direct light by a fixed number of shadow rays: of all sources, or of one that is drawn.
+
+use super::super::lighting::EXACT_SOURCES;
+use super::super::lighting::Lighting;
+use super::super::lighting::RAYS_TO_MANY;
+use super::super::lighting::drawn;
+use super::super::sources;
+use super::super::sources::Arriving;
+use super::super::sources::Source;
+use super::super::visibility::shadows::Shadows;
+use super::super::visibility::straight::segment;
+use crate::engine::ray::Dice;
+use crate::engine::ray::SurfacePoint;
+use crate::units::Rgb;
+
+impl Lighting<'_> {
+    /// Direct illuminance from all sources: exact for parallel light, and for points where they are
+    /// few; sampled for emitting surfaces.
+    pub(crate) fn illuminance(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+        self.sampled(at, self.area_samples(), dice)
+    }
+
+    /// The same with `samples` shadow rays for every emitting surface.
+    pub(crate) fn sampled(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
+        self.sampled_again(at, samples)(dice)
+    }
+
+    /// [`Lighting::sampled`] again and again at one place.
+    pub(crate) fn sampled_again<'d>(
+        &'d self,
+        at: &'d SurfacePoint,
+        samples: usize,
+    ) -> impl Fn(&mut Dice) -> Rgb + 'd {
+        let cut = self.has_many().then(|| self.fine_cut(at));
+        move |dice| match &cut {
+            Some(cut) => self.lit_by_cut(cut, at, (RAYS_TO_MANY, samples), dice),
+            None => self.by_all(at, samples, dice),
+        }
+    }
+
+    /// An unbiased estimate of the direct illuminance by few shadow rays, for the ends of
+    /// gathering rays.
+    pub(crate) fn estimate(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+        if self.sources.len() <= EXACT_SOURCES {
+            return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
+        }
+        let cut = (!self.tree.lamps.is_empty()).then(|| self.rough_cut(at));
+        let of_tree = cut.as_ref().map_or(0.0, |cut| cut.parts.total);
+        let weights = self.weights_of_others(at);
+        let total: f64 = of_tree + weights.iter().sum::<f64>();
+        if total <= 0.0 {
+            return Rgb::BLACK;
+        }
+        let [pick, _] = dice.pair();
+        let left = pick * total - of_tree;
+        if let Some(cut) = cut.filter(|_| left < 0.0) {
+            return self.lit_by_many(&cut, at, 1, dice) * (total / of_tree);
+        }
+        self.lit_by_drawn(&weights, (left, total), at, dice)
+    }
+
+    /// The same of the sources that are not in the tree.
+    pub(crate) fn estimate_of_others(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+        let weights = self.weights_of_others(at);
+        let total: f64 = weights.iter().sum();
+        if total <= 0.0 {
+            return Rgb::BLACK;
+        }
+        let [pick, _] = dice.pair();
+        self.lit_by_drawn(&weights, (pick * total, total), at, dice)
+    }
+
+    fn weights_of_others(&self, at: &SurfacePoint) -> Vec<f64> {
+        let weight = |source: &Source| {
+            let is_in_view = |target| self.chain_is_in_view(&source.chain, at, target);
+            sources::importance(self.scene, source, at, is_in_view)
+        };
+        self.others().map(weight).collect()
+    }
+
+    /// What all give by the one of the others at a place among their weights.
+    fn lit_by_drawn(
+        &self,
+        weights: &[f64],
+        (place, total): (f64, f64),
+        at: &SurfacePoint,
+        dice: &mut Dice,
+    ) -> Rgb {
+        let drawn = drawn(weights, place);
+        // Rounding may leave a sliver past the last weight.
+        let drawn = drawn.or_else(|| weights.iter().rposition(|&w| w > 0.0));
+        drawn.zip(self.others().nth(drawn.unwrap_or(0))).map_or(Rgb::BLACK, |(k, source)| {
+            self.lit_by(source, at, 1, dice) * (total / weights[k])
+        })
+    }
+
+    /// Such an estimate, a share of it: what it needs to know of shadows is asked later, with what others do.
+    pub(crate) fn estimate_later(
+        &self,
+        at: &SurfacePoint,
+        share: Rgb,
+        dice: &mut Dice,
+        shadows: &mut Shadows,
+    ) -> Rgb {
+        if self.sources.len() > EXACT_SOURCES {
+            return share * self.estimate(at, dice);
+        }
+        let mut sum = Rgb::BLACK;
+        for source in &self.sources {
+            if !source.chain.is_empty() || source.is_area() {
+                sum += share * self.lit_by(source, at, 1, dice);
+            } else if let Some(arriving) = sources::unoccluded_if(self.scene, source, at, |_| true)
+            {
+                let Arriving { target, illuminance_lx } = arriving;
+                shadows.ask(segment(at, target), target, share * illuminance_lx);
+            }
+        }
+        sum
+    }
+
+    /// The light that arrives of all that was asked for.
+    pub(crate) fn answer(&self, shadows: &mut Shadows) -> Rgb {
+        let free = shadows.free(self.scene.bvh());
+        free.map(|(ray, target, light)| light * self.through_glass(ray, target)).sum()
+    }
+}

@@ -1,0 +1,70 @@
+//! Light of one source after the other.
+
+use super::super::lighting::Lighting;
+use super::super::sources;
+use super::super::sources::Source;
+use super::super::sources::SourceKind;
+use super::super::sources::Target;
+use crate::engine::ray::Dice;
+use crate::engine::ray::SurfacePoint;
+use crate::units::Rgb;
+use isolux_geometry::Direction;
+
+impl Lighting<'_> {
+    pub(crate) fn lit_by(
+        &self,
+        source: &Source,
+        at: &SurfacePoint,
+        samples: usize,
+        dice: &mut Dice,
+    ) -> Rgb {
+        match &source.kind {
+            SourceKind::Area { emitter, triangles } => {
+                self.lit_by_area(source, emitter, triangles, at, samples, dice)
+            }
+            _ => self.lit_by_point(source, at),
+        }
+    }
+
+    /// Illuminance from those of some sources that have no surface, one by one.
+    pub(crate) fn lit_by_points<'a>(
+        &self,
+        some: impl Iterator<Item = &'a Source>,
+        at: &SurfacePoint,
+    ) -> Rgb {
+        let points = some.filter(|source| !source.is_area());
+        points.map(|source| self.lit_by_point(source, at)).sum()
+    }
+
+    fn lit_by_point(&self, source: &Source, at: &SurfacePoint) -> Rgb {
+        let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
+        let Some(arriving) = sources::unoccluded_if(self.scene, source, at, in_view) else {
+            return Rgb::BLACK;
+        };
+        let share = self.visibility_in_view(&source.chain, at, arriving.target, None);
+        arriving.illuminance_lx * share
+    }
+
+    /// [`Lighting::sampled`] with a look at every source.
+    pub(crate) fn by_all(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
+        self.sources.iter().map(|s| self.lit_by(s, at, samples, dice)).sum()
+    }
+
+    /// What comes to a place from luminaires without surface and their images: where from, and the illuminance of what faces them.
+    pub(crate) fn points_at(&self, at: &SurfacePoint, mut found: impl FnMut(Direction, Rgb)) {
+        for source in self.sources.iter().filter(|source| !source.is_area()) {
+            let in_view = |target| self.chain_is_in_view(&source.chain, at, target);
+            let arriving = sources::unoccluded_if(self.scene, source, at, in_view);
+            let Some(arriving) = arriving else { continue };
+            let towards = match arriving.target {
+                Target::Point(place) => (place - at.point).direction(),
+                Target::Infinity(direction) => Some(direction),
+            };
+            let Some(towards) = towards else { continue };
+            let share = self.visibility_in_view(&source.chain, at, arriving.target, None);
+            if !share.is_black() {
+                found(towards, arriving.illuminance_lx * share / towards.cos(at.shading));
+            }
+        }
+    }
+}
