@@ -19,3 +19,7 @@ pub(super) struct Needed {
     /// Of the mean of replicates, expected, lx2.
     pub(super) variance: f64,
 }
+
+/// Rays that look about from a place in space: one that sees light in a fifth of its hemisphere is taken to be
+/// inside something once in a thousand times.
+pub(super) const LOOKS: u32 = 32;

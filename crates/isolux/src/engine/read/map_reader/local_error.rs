@@ -6,7 +6,8 @@
 //! room may be coarse for its light: where more is expected of those than by the light, that decides. Both are relative to their own root
 //! mean square over the surface, so that over all of it errors are what they were told to be.
 
-use super::{LOOKS, MapReader};
+use super::effort::LOOKS;
+use super::state::MapReader;
 use crate::ablation::without;
 use crate::elements::Element;
 use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, Operator};

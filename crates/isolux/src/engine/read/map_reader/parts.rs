@@ -1,8 +1,8 @@
 //! The parts of a reading apart, for means over a surface.
 
-use super::MapReader;
 use super::effort::{FRESH_REPLICATES, Needed, TRIAL_RAYS};
-use super::{Allowance, IndirectReading, Told};
+use super::state::MapReader;
+use super::told::{Allowance, IndirectReading, Told};
 use crate::engine::gather::Gatherer;
 use crate::engine::occlusion::nearby;
 use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};

@@ -1,6 +1,7 @@
 //! What places without light see.
 
-use super::{LOOKS, MapReader};
+use super::effort::LOOKS;
+use super::state::MapReader;
 use crate::engine::gather::{Gatherer, sees};
 use crate::engine::ray::{Dice, ProbePoint, SurfacePoint, follow, place_key};
 use crate::map::{Illuminance, Standing};

@@ -1,6 +1,6 @@
 //! Walls that rays of a reader are judged by.
 
-use super::MapReader;
+use super::state::MapReader;
 use crate::elements::Element;
 use crate::engine::gather::{
     Backdrop, Gatherer, Gathering, Trial, control_variate, known_at, ray_trial,
@@ -35,15 +35,6 @@ impl MapReader<'_> {
             all.iter().filter(|e| e.vertices.into_iter().all(is_open)).collect();
         let every = open.len().div_ceil(control_variate::SOME).max(1);
         open.iter().step_by(every).map(|element| self.amid(element)).collect()
-    }
-
-    /// The middle of an element, and its surface, m2.
-    pub(super) fn amid(&self, element: &Element) -> (Gatherer, f64) {
-        let [a, b, c] = element.vertices.map(|v| self.map.elements.vertices()[v as usize].position);
-        let middle = a + ((b - a) + (c - a)) * (1.0 / 3.0);
-        let [u, v] = self.scene.triangle(element.triangle).barycentric(middle);
-        let at = SurfacePoint::new(self.scene, element.triangle, element.back, u, v);
-        (Gatherer::on_surface(at, 0), 0.5 * (b - a).cross(c - a).length())
     }
 
     /// All light that comes to a place, as the map tells it.

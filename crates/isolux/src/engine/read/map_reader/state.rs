@@ -1,0 +1,272 @@
+//! What a reader holds, and what its readings are made of.
+
+use super::effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, TRIAL_RAYS};
+use super::shared_noise::SharedNoise;
+use crate::elements::Element;
+use crate::engine::gather::{Backdrop, Bright, DirectAtEnds, Gatherer, Gathering};
+use crate::engine::judge::Light;
+use crate::engine::light::{Goal, Lighting, Measured, Patches};
+use crate::engine::occlusion::{Cuts, nearby};
+use crate::engine::ray::{Places, ProbePoint, SurfacePoint, mean_and_variance, place_key};
+use crate::map::{Accuracy, Fresh, Illuminance, IlluminationMap, Standing};
+use crate::sampling::{Key, Sequence};
+use crate::scene::Scene;
+use crate::units::Rgb;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What emitting surfaces give dim places is known as well as where there is this share of the light about them.
+const DIMMEST: f64 = 0.05;
+
+/// Noise of what readers gather, in errors of the map: it adds half of the square of that, and only where the map
+/// is not trusted.
+const FRESH_NOISE: f64 = 0.7;
+
+/// Nets of n rays err like this power of 1/n from so few on, where something is close: with the 0.85 of
+/// places in the open, readings of SPHERE erred a quarter more than by a trial of twice the rays.
+const ORDER_CLOSE_BY: f64 = 0.75;
+
+/// Reads a map with its scene at hand.
+pub struct MapReader<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) map: &'a IlluminationMap,
+    pub(super) lighting: Arc<Lighting<'a>>,
+    pub(super) standings: Vec<Option<Standing>>,
+    pub(super) light: Vec<Rgb>,
+    /// Direct light at the vertices, where sources are many: there rays read it.
+    pub(super) direct_values: Option<Vec<Rgb>>,
+    /// Elements on which it varies between vertices, by node.
+    pub(super) varying: Option<Vec<bool>>,
+    pub(super) bright: Option<Arc<Bright>>,
+    /// Elements that something stands across.
+    pub(super) cuts: Cuts,
+    pub(super) places: Places<'a>,
+    /// Walls that rays are judged by.
+    pub(crate) backdrop: Option<Backdrop>,
+    pub(super) patches: Patches,
+    pub(super) unseen: Unseen,
+    /// The part of that which falls to every vertex.
+    pub(super) parts: Vec<Rgb>,
+    /// How much of it arrives, root mean square.
+    pub(super) arriving: f64,
+    pub(super) shared_noise: SharedNoise,
+    /// Rays that readings have gathered by.
+    pub(super) rays: AtomicU64,
+}
+
+/// What replicates have gathered.
+pub(super) struct Gathered {
+    pub(super) lx: Rgb,
+    /// Of the mean, lx2.
+    pub(super) variance: f64,
+    /// The share of a unit of light that was read close by all the same.
+    pub(super) close: f64,
+    /// Standard error of what it has in common with what is gathered nearby, lx.
+    pub(super) common_lx: f64,
+}
+
+/// Errors of what is read from vertices that replicates do not tell, lx.
+pub(super) struct Unseen {
+    /// Root mean square of the light.
+    pub(super) reference_lx: f64,
+    /// Of interpolation, root mean square over the scene.
+    pub(super) discretization_lx: f64,
+    /// Common to all of the map.
+    pub(super) bias_lx: f64,
+    /// Of the whole map.
+    pub(super) reached_lx: f64,
+    /// How well readings are to know direct light.
+    pub(super) of_direct: Goal,
+}
+
+impl<'a> MapReader<'a> {
+    /// What nobody knows of the error of the map, nobody knows of a reading's.
+    pub(super) fn told(&self, reading: Illuminance) -> Illuminance {
+        match self.map.provenance.accuracy {
+            Some(_) => reading,
+            None => Illuminance {
+                standard_error_lx: f64::INFINITY,
+                indirect_standard_error_lx: f64::INFINITY,
+                ..reading
+            },
+        }
+    }
+
+    /// Whether what the map tells of a place on an element of such edges is to be trusted.
+    pub(super) fn is_trusted(
+        &self,
+        fresh: Fresh,
+        stored: &Illuminance,
+        (at, edge_m): (&SurfacePoint, f64),
+    ) -> bool {
+        if stored.standing != Standing::Open {
+            return false;
+        }
+        if fresh.in_gaps_alone {
+            return !nearby::is_closed_in(self.scene, at, edge_m);
+        }
+        stored.interpolation_error_lx <= fresh.above_lx.unwrap_or(f64::INFINITY)
+            && !nearby::is_beset(self.scene, at, edge_m)
+    }
+
+    /// A value of the map with what interpolation is expected to err by. Half of the part of the error of the
+    /// scene is taken to be spread evenly, half as expected of the elements.
+    pub(super) fn with_interpolation_error(&self, stored: Illuminance, part: f64) -> Illuminance {
+        let (even, own) = (part * self.unseen.discretization_lx, stored.interpolation_error_lx);
+        let interpolation_error_lx = (0.5 * (even * even + own * own)).sqrt();
+        Illuminance { interpolation_error_lx, ..stored }
+    }
+
+    /// Rays that it was prepared with and that its readings have gathered by so far, with as many shadow rays at their ends as there may be.
+    pub(crate) fn rays(&self) -> u64 {
+        self.rays.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn count(&self, rays: u64) {
+        self.rays.fetch_add(rays, Ordering::Relaxed);
+    }
+
+    /// Random numbers of a place; other ones for every seed of the map: readings of several maps have errors of their own.
+    pub(super) fn gathering_key(&self, at: &Gatherer) -> Key {
+        place_key(at.surface.point).with(7).with(self.map.provenance.seed)
+    }
+
+    pub(super) fn direct_at_ends(&self) -> DirectAtEnds<'_> {
+        match &self.direct_values {
+            Some(values) => DirectAtEnds::ReadFarOff { values, varying: self.varying.as_deref() },
+            None => DirectAtEnds::Evaluated,
+        }
+    }
+
+    /// The rays of a replicate that bring noise to what is asked, as a trial tells, which is then thrown away.
+    pub(super) fn rays_needed(
+        &self,
+        (trial, noise, part): (Gatherer, f64, f64),
+        key: Key,
+    ) -> Needed {
+        let of_trial = (FRESH_REPLICATES, key.with(0));
+        let Gathered { lx, variance, .. } = self.gather(trial, self.direct_at_ends(), of_trial);
+        let goal = (FRESH_NOISE * part * self.unseen.reached_lx).min(noise * lx.luminance());
+        let rays = f64::from(TRIAL_RAYS)
+            * libm::pow(variance / (goal * goal).max(f64::MIN_POSITIVE), 0.5 / ORDER_CLOSE_BY);
+        let rays = libm::log2(rays.clamp(FRESH_FEWEST_RAYS, FRESH_MOST_RAYS));
+        let rays: u32 = 1 << libm::round(rays) as u32;
+        let finer = f64::from(TRIAL_RAYS) / f64::from(rays);
+        Needed { rays, variance: variance * libm::pow(finer, 2.0 * ORDER_CLOSE_BY) }
+    }
+
+    pub(super) fn gathering<'b>(&'b self, direct: DirectAtEnds<'b>) -> Gathering<'b> {
+        Gathering {
+            scene: self.scene,
+            lighting: &self.lighting,
+            elements: &self.map.elements,
+            level: u32::MAX,
+            standings: &self.standings,
+            direct,
+            regathers: true,
+            bright: self.bright.as_deref(),
+            cuts: Some(&self.cuts),
+            backdrop: self.backdrop.as_ref(),
+        }
+    }
+
+    /// By so many replicates.
+    pub(super) fn gather(
+        &self,
+        gatherer: Gatherer,
+        direct: DirectAtEnds<'_>,
+        (replicates, key): (u32, Key),
+    ) -> Gathered {
+        let shadow_rays = match direct {
+            DirectAtEnds::Read { .. } => 0,
+            _ => self.lighting.rays_of_estimate(),
+        };
+        let gathering = self.gathering(direct);
+        let rows = vec![gatherer; replicates as usize];
+        let operator = gathering.operator(&rows, |k| key.with(k as u64));
+        self.count(operator.rays * (1 + shadow_rays));
+        let (lx, variance) = mean_and_variance(&operator.apply(&self.light));
+        let close = operator.close().sum::<f64>() / f64::from(replicates);
+        let common_lx = self.shared_noise.lx(self.map, &gatherer.surface, &operator);
+        Gathered { lx, variance, close, common_lx }
+    }
+
+    /// The surface at a point that carries the map.
+    pub(super) fn find_surface(&self, at: ProbePoint) -> Option<SurfacePoint> {
+        self.places.surface_at(at, |surface| {
+            let SurfacePoint { triangle, back, u, v, .. } = *surface;
+            self.map.elements.locate(triangle, back, u, v).is_some()
+        })
+    }
+
+    /// Of replicates, of interpolation, and what is common to the surroundings.
+    pub(super) fn indirect_error_lx(read: &Illuminance) -> f64 {
+        let unseen = libm::hypot(read.interpolation_error_lx, read.bias_lx);
+        libm::hypot(read.indirect_standard_error_lx, unseen)
+    }
+
+    pub(super) fn with_fresh_direct(
+        &self,
+        stored: Illuminance,
+        (at, part): (&SurfacePoint, f64),
+    ) -> Illuminance {
+        let direct = self.direct(at, (stored.illuminance_lx(), part));
+        let indirect = Self::indirect_error_lx(&stored);
+        Illuminance {
+            direct_lx: direct.lx + stored.caustic_lx,
+            standard_error_lx: (indirect * indirect + direct.variance).sqrt(),
+            indirect_standard_error_lx: indirect,
+            ..stored
+        }
+    }
+
+    /// Direct light at a place where there is about so much in all, and such a part of the light of the scene, and the variance of its mean.
+    pub(super) fn direct(&self, at: &SurfacePoint, (about_lx, part): (f64, f64)) -> Measured {
+        let of_direct = self.unseen.of_direct;
+        // Choosing among many luminaires goes by what these give.
+        let least_lx = match self.lighting.has_many() {
+            true => 0.0,
+            false => about_lx.max(DIMMEST * part * self.unseen.reference_lx),
+        };
+        let goal = Goal { lx: of_direct.share * least_lx, ..of_direct };
+        let sequence = Sequence::new(place_key(at.point).with(0).with(self.map.provenance.seed));
+        self.lighting.read(at, goal, sequence)
+    }
+
+    /// The middle of an element, and its surface, m2.
+    pub(super) fn amid(&self, element: &Element) -> (Gatherer, f64) {
+        let [a, b, c] = element.vertices.map(|v| self.map.elements.vertices()[v as usize].position);
+        let middle = a + ((b - a) + (c - a)) * (1.0 / 3.0);
+        let [u, v] = self.scene.triangle(element.triangle).barycentric(middle);
+        let at = SurfacePoint::new(self.scene, element.triangle, element.back, u, v);
+        (Gatherer::on_surface(at, 0), 0.5 * (b - a).cross(c - a).length())
+    }
+}
+
+impl Unseen {
+    /// As reported: shares of what errors are relative to, of which every place has its part. (In proportion to the indirect light there
+    /// fewer intervals hold the truth: dark edges err most.)
+    pub(super) fn of(map: &IlluminationMap) -> Self {
+        let reference_lx = reference_lx(map);
+        let accuracy = map.provenance.accuracy.as_ref();
+        let share = |part: fn(&Accuracy) -> f64| accuracy.map_or(0.0, |a| part(a) * reference_lx);
+        Self {
+            reference_lx,
+            discretization_lx: share(Accuracy::discretization_beside_caustics),
+            bias_lx: share(|a| a.bias),
+            reached_lx: share(|a| a.reached),
+            of_direct: Goal::reading(map.provenance.accuracy_target.unwrap_or(f64::INFINITY)),
+        }
+    }
+}
+
+/// What the errors of a map are shares of, lx: the root mean square of its light over the surface, but no more than twice the mean over
+/// what is lit. A small bright surface is a part of both.
+pub fn reference_lx(map: &IlluminationMap) -> f64 {
+    let mut light = Light::default();
+    for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {
+        let Some(value) = value else { continue };
+        light.add(vertex.area_m2, value.illuminance_lx());
+    }
+    light.reference_lx()
+}
