@@ -11,9 +11,6 @@ use super::modules::{Edge, Modules};
 use super::tree::Tree;
 use graph::cycle_of_each_knot;
 
-/// Knots that are still to be untied, each by a module in it. One that is untied goes from this list.
-const KNOWN: [(&str, &str); 1] = [("crates/isolux/src/", "engine::pilot::bare")];
-
 pub(super) fn check(tree: &Tree) -> Vec<Finding> {
     let folders = tree.crates().into_iter().map(|name| format!("crates/{name}/src/"));
     folders.chain(["xtask/src/".to_owned()]).flat_map(|folder| check_crate(tree, &folder)).collect()
@@ -32,25 +29,7 @@ fn check_crate(tree: &Tree, folder: &str) -> Vec<Finding> {
         let what = format!("modules know each other: {}", names.join(" -> "));
         Finding { file, line, what, remedy: "move what both need into a module that knows neither" }
     };
-    let knots = cycle_of_each_knot(modules.len(), &pairs);
-    let known: Vec<&str> = KNOWN.iter().filter(|k| k.0 == folder).map(|k| k.1).collect();
-    let names_known = |cycle: &Vec<usize>| cycle.iter().any(|&m| known.contains(&modules.name(m)));
-    let untied = known.iter().filter(|name| {
-        let is_in = |cycle: &Vec<usize>| cycle.iter().any(|&m| modules.name(m) == **name);
-        !knots.iter().any(is_in)
-    });
-    let mut found: Vec<Finding> = untied.map(|name| untied_knot(folder, name)).collect();
-    found.extend(knots.iter().filter(|c| !names_known(c)).cloned().map(finding));
-    found
-}
-
-fn untied_knot(folder: &str, name: &str) -> Finding {
-    Finding {
-        file: folder.to_owned(),
-        line: 1,
-        what: format!("no knot goes through `{name}` any more"),
-        remedy: "take it from KNOWN of cycles.rs",
-    }
+    cycle_of_each_knot(modules.len(), &pairs).into_iter().map(finding).collect()
 }
 
 #[cfg(test)]

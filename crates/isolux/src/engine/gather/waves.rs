@@ -3,12 +3,11 @@
 //! While one ray waits for memory, or for the result of an instruction, others go on: all are traced together, their
 //! places are sought together, and what is read there lies ready when it is asked for.
 
-use super::bright_surfaces;
-use super::control_variate;
 use super::gatherer::{
     DirectAtEnds, Gatherer, Gathering, known_on_side, known_weights, weights_in_gap,
 };
 use super::operator::{Entry, Operator, Rows};
+use super::{bright_surfaces, control_variate};
 use crate::elements::Place;
 use crate::engine::light::{About, Shadows};
 use crate::engine::occlusion::nearby;

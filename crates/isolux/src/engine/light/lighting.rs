@@ -10,13 +10,9 @@ use super::mirrors::planar::Mirrors;
 use super::mirrors::twins::Twins;
 use super::openings::Openings;
 use super::panes::Panes;
-use super::sources::LuminaireId;
-use super::sources::Source;
-use super::sources::SourceKind;
-use super::tree::Images;
-use super::tree::Tree;
-use crate::scene::Material;
-use crate::scene::Scene;
+use super::sources::{LuminaireId, Source, SourceKind};
+use super::tree::{Images, Tree};
+use crate::scene::{Material, Scene};
 
 /// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
 pub(super) const EXACT_SOURCES: usize = 4;

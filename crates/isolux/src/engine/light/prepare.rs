@@ -1,22 +1,15 @@
 //! Sources of a scene, prepared: images, twins of chains, openings, and the tree of what is many.
 
-use super::lighting::DRAWN_AT_ENDS;
-use super::lighting::Lighting;
-use super::lighting::image;
+use super::lighting::{DRAWN_AT_ENDS, Lighting, image};
 use super::mirrors::planar::Mirrors;
 use super::mirrors::twins::Twins;
 use super::openings::Openings;
 use super::panes::Panes;
-use super::sources::LuminaireId;
-use super::sources::Source;
-use super::sources::SourceKind;
-use super::sources::Sources;
 use super::sources::triangle_lamps::faces;
-use super::tree::Images;
-use super::tree::Tree;
+use super::sources::{LuminaireId, Source, SourceKind, Sources};
+use super::tree::{Images, Tree};
 use crate::scene::Scene;
-use std::collections::BTreeSet;
-use std::collections::HashSet;
+use std::collections::{BTreeSet, HashSet};
 
 impl<'s> Lighting<'s> {
     /// Prepares the sources of a scene.

@@ -5,9 +5,8 @@
 //! for direct light gather, too, over the light that is known already. No ray of an increment reads them: they cost rays of their
 //! own, and no more.
 
-use super::direct::USUAL_MESH;
 use super::look::{Look, PilotRequest};
-use super::{Bare, Pilot};
+use super::state::{Bare, Pilot};
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::gather::{Gatherer, Gathering};
@@ -15,6 +14,9 @@ use crate::engine::mesh::{Carriers, Details, LeafError};
 use crate::map::Standing;
 use crate::units::Rgb;
 use std::time::Instant;
+
+/// For an accuracy of the mesh that is finer than this, more by as much.
+pub(super) const USUAL_MESH: f64 = 0.05;
 
 /// It is worth it where indirect light takes this part of what the bare map may err by.
 const MUCH: f64 = 0.5;

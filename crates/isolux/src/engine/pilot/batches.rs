@@ -1,6 +1,6 @@
 //! Particles sent ahead for caustics, in batches that share nothing random, and what they bring to elements.
 
-use super::Pilot;
+use super::state::Pilot;
 use crate::elements::Elements;
 use crate::engine::gather::known_weights;
 use crate::engine::mesh::Hats;

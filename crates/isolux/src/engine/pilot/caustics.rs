@@ -7,24 +7,20 @@
 //! hides it: first to those there are, which are kept and placed on every new mesh. Where increments will need far more of them, so many
 //! are sent that they are looked at once and not kept, anew for every mesh.
 
-use super::Pilot;
 use super::batches::{BATCHES, Batches, Brought};
 use super::direct::MOST_REFLECTANCE;
 use super::forecast::{FINE, GoOn};
 use super::look::{Look, PilotRequest};
+use super::state::Pilot;
 use crate::elements::Subdivision;
 use crate::engine::judge::Light;
 use crate::engine::mesh::Hats;
 use crate::engine::particle::{
-    CausticNoise, DOUBT, Flights, PARTS, Parts, Squared, read_in_parts, squared_error,
+    CausticNoise, DOUBT, PARTS, Parts, Squared, read_in_parts, squared_error,
 };
-use crate::engine::ray::{Noise, SurfacePoint, reflectance};
+use crate::engine::ray::{Noise, reflectance};
 use crate::map::Standing;
 use rayon::prelude::*;
-use std::cell::RefCell;
-
-/// Particles that tell where light comes to at all.
-const LET_GO: u32 = 1 << 13;
 
 /// Caustics are counted where all light is so many times as much with them, root mean square.
 const MUCH: f64 = 1.25;
@@ -248,21 +244,6 @@ impl Pilot<'_> {
             // What was tried without them tells nothing.
             self.trial = None;
         }
-    }
-
-    /// Places that some particles come to over specular surfaces.
-    pub(super) fn reached_by_caustics(&self) -> Vec<SurfacePoint> {
-        let of = (self.scene, self.lighting);
-        let flights = Flights::new(of, None, LET_GO, self.key.with(10));
-        let Some(flights) = flights.filter(|_| self.lighting.leaves_caustics()) else {
-            return Vec::new();
-        };
-        let places_of = |index: u32| {
-            let places = RefCell::new(Vec::new());
-            flights.fly(index, |at, _| places.borrow_mut().push(*at));
-            places.into_inner()
-        };
-        (0..LET_GO).into_par_iter().flat_map_iter(places_of).collect()
     }
 
     /// The elements on which there is something to see.

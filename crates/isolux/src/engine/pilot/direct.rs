@@ -1,16 +1,14 @@
 //! Direct light, and elements for it.
 
-use super::forecast::{FINE, GoOn};
-use super::look::{Look, PilotRequest};
+use super::bare::USUAL_MESH;
+use super::look::PilotRequest;
+use super::state::Pilot;
 use super::surroundings::LEAST_DIM;
-use super::{MAX_ROUNDS, MOST_STALLS, Pilot};
 use crate::ablation::without;
 use crate::elements::{Elements, Origin};
 use crate::engine::gather::Gatherer;
 use crate::engine::light::{Goal, Measured};
-use crate::engine::mesh::{
-    Carriers, Details, LeafError, Refinement, beyond_noise, refine_worst, trust,
-};
+use crate::engine::mesh::{Carriers, Details, LeafError, beyond_noise, trust};
 use crate::engine::ray::reflectance;
 use crate::sampling::Sequence;
 use rayon::prelude::*;
@@ -20,8 +18,6 @@ use std::time::Instant;
 /// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
 /// many are cheap anyway.
 const MOST_FOR_DIRECT_LIGHT: f64 = 4.0;
-/// For an accuracy of the mesh that is finer than this, more by as much.
-pub(super) const USUAL_MESH: f64 = 0.05;
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
 /// What direct light as interpolated may err by where it is smooth, of the accuracy asked for: details tell three times what it is in CUBE.
 const OF_ACCURACY: f64 = 1.0;
@@ -31,8 +27,6 @@ const OF_MEAN: f64 = 0.25;
 /// first looks find a fraction of what is lacking.
 const OF_ROOMS: f64 = 0.5;
 const COARSEST_IN_ROOMS: f64 = 0.01;
-/// A round of refinement after which more than this share of the error is left was in vain.
-const STALLED: f64 = 0.98;
 /// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
 const LOOKED_AT: usize = 512;
 pub(super) const MOST_REFLECTANCE: f64 = 0.9;
@@ -134,46 +128,6 @@ impl Pilot<'_> {
             return luminances;
         }
         beyond_noise(elements, &luminances, &self.direct_variance)
-    }
-
-    /// Refines where direct light as interpolated errs, until it is as good as asked.
-    pub(super) fn refine_for_direct_light(
-        &mut self,
-        look: &mut Look,
-        request: &PilotRequest,
-        go_on: &mut GoOn<'_>,
-    ) {
-        let how_far = Refinement {
-            wanted: 0.0,
-            least_edge_m: self.least_edge_m,
-            max_vertices: self.most_for_direct_light(request),
-        };
-        if without("direct-refinement") {
-            return;
-        }
-        self.look_at_bare(look, request);
-        let (mut before, mut stalls) = (f64::INFINITY, 0);
-        for _ in 0..MAX_ROUNDS {
-            let (errors, excess) = self.direct_excess(&look.elements, request, look.reference_lx);
-            self.direct_excess = Some((self.subdivision.vertex_count(), excess));
-            // What errs most may lie in elements that are as small as they may be.
-            stalls = if excess > STALLED * before { stalls + 1 } else { 0 };
-            if excess <= 1.0 || stalls > MOST_STALLS || !self.has_time(look, request, FINE, go_on) {
-                break;
-            }
-            before = excess;
-            if !refine_worst(&mut self.subdivision, &mut Carriers::all(), &errors, how_far) {
-                break;
-            }
-            look.elements = self.subdivision.elements();
-            self.added_for_direct = look.elements.vertices().len() - self.direct.len();
-            self.complete_rays();
-            let gatherers = self.gatherers();
-            self.complete_direct(&look.elements, &gatherers);
-            self.extend_known(&look.elements, &gatherers);
-            self.complete_standings(&gatherers);
-            self.complete_bare(&look.elements, &gatherers);
-        }
     }
 
     /// Vertices for direct light. Best effort: sharp shadow borders would take elements without end, and of

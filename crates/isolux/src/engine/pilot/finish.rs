@@ -1,8 +1,8 @@
 //! The end of the pilot: what increments share is put together.
 
-use super::Pilot;
 use super::forecast::{FINE, GoOn};
 use super::look::{Look, PilotRequest};
+use super::state::Pilot;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{Gatherer, Means, Trial, areas_m2};
 use crate::engine::mesh::{Carriers, Fit};

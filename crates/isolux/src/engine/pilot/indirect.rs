@@ -2,16 +2,21 @@
 
 use super::forecast::GoOn;
 use super::look::PilotRequest;
-use super::{FIRST_PART, PILOT_TOLERANCE, Pilot};
+use super::state::{FIRST_PART, PILOT_TOLERANCE, Pilot};
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::gather::Gatherer;
 use crate::engine::mesh::Carriers;
-use crate::engine::occlusion::nearby;
+use crate::engine::particle::Flights;
+use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
 use crate::units::Rgb;
 use rayon::prelude::*;
+use std::cell::RefCell;
 use std::time::Instant;
+
+/// Particles that tell where light comes to at all.
+const LET_GO: u32 = 1 << 13;
 
 impl Pilot<'_> {
     /// Gathers at the vertices that carry light and have not gathered; all of the first mesh, where light is solved for.
@@ -98,16 +103,18 @@ impl Pilot<'_> {
         (0..vertices as u32).filter(is_new).collect()
     }
 
-    pub(super) fn rows(&self, vertices: &[u32], gatherers: &[Gatherer]) -> Vec<Gatherer> {
-        let edges_m = self.subdivision.longest_edges_m();
-        let row = |&vertex: &u32| {
-            let gatherer = &gatherers[vertex as usize];
-            let edge_m = edges_m[vertex as usize];
-            let rays = if self.carriers.is_active(vertex) { self.rays[vertex as usize] } else { 0 };
-            let in_gap = nearby::is_closed_in(self.scene, &gatherer.surface, edge_m);
-            let gatherer = gatherer.with_rays(rays).in_gap(in_gap);
-            if rays > 0 { self.before_walls(vertex, gatherer) } else { gatherer }
+    /// Places that some particles come to over specular surfaces.
+    fn reached_by_caustics(&self) -> Vec<SurfacePoint> {
+        let of = (self.scene, self.lighting);
+        let flights = Flights::new(of, None, LET_GO, self.key.with(10));
+        let Some(flights) = flights.filter(|_| self.lighting.leaves_caustics()) else {
+            return Vec::new();
         };
-        vertices.par_iter().map(row).collect()
+        let places_of = |index: u32| {
+            let places = RefCell::new(Vec::new());
+            flights.fly(index, |at, _| places.borrow_mut().push(*at));
+            places.into_inner()
+        };
+        (0..LET_GO).into_par_iter().flat_map_iter(places_of).collect()
     }
 }

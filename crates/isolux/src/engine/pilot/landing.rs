@@ -4,8 +4,8 @@
 //! the first mesh, or all of it on one. Nobody would send rays there then, and what few of them meet by chance is too rare to be
 //! noise. Particles come where the light does: elements to which clearly more or less of it comes than vertices tell are bisected.
 
-use super::Pilot;
 use super::look::PilotRequest;
+use super::state::Pilot;
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::gather::Gatherer;

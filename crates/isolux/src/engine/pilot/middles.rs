@@ -1,6 +1,6 @@
 //! Light in the middle of elements that no details tell of.
 
-use super::Pilot;
+use super::state::Pilot;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::Gatherer;
 use crate::engine::occlusion::nearby;

@@ -1,6 +1,6 @@
 //! Elements that no vertex tells of, though light comes to them.
 
-use super::Pilot;
+use super::state::Pilot;
 use crate::elements::Elements;
 use crate::engine::gather::{CutOff, Element, Sight};
 use crate::engine::ray::{Dice, SurfacePoint};

@@ -2,7 +2,7 @@
 
 use super::forecast::{Excess, FINE, GoOn, Outlook, Round};
 use super::look::{Look, PilotRequest};
-use super::{FIRST_PART, Pilot};
+use super::state::{FIRST_PART, Pilot};
 use crate::elements::Elements;
 use crate::engine::gather::{
     FEWEST_UNJUDGED, Gatherer, Trial, allot, areas_m2, mean_of, noise_for,

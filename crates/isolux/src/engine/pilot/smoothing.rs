@@ -1,7 +1,7 @@
 //! Quadratic functions between the vertices that carry light, where it is smooth.
 
-use super::Pilot;
 use super::look::Look;
+use super::state::Pilot;
 use crate::elements::Elements;
 use crate::engine::occlusion::barriers;
 use crate::map::Standing;

@@ -1,7 +1,8 @@
 //! What vertices stand for: the open, gaps, nothing.
 
-use super::Pilot;
+use super::state::Pilot;
 use crate::ablation::without;
+use crate::elements::Elements;
 use crate::engine::gather::Gatherer;
 use crate::engine::occlusion::{Side, barriers};
 use crate::map::Standing;
@@ -75,5 +76,12 @@ impl Pilot<'_> {
         for vertex in barriers::shaded(self.scene, &self.subdivision, &sides, light_lx) {
             self.standings[vertex as usize] = Some(Standing::Rim);
         }
+    }
+
+    pub(super) fn extend_known(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
+        self.look_for_torn();
+        let mut known = std::mem::take(&mut self.known);
+        self.sight(elements, gatherers).extend_known(&self.direct, &mut known);
+        self.known = known;
     }
 }

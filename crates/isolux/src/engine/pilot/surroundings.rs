@@ -1,7 +1,7 @@
 //! The light of the surroundings: errors in dim rooms beside bright ones count by what they are there, and so do errors of what is
 //! seen from there.
 
-use super::Pilot;
+use super::state::Pilot;
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::gather::{Gatherer, Operator, areas_m2};

@@ -1,12 +1,13 @@
 //! Walls that rays are judged by: whether there are any, and how much noise that takes off.
 
-use super::{PILOT_TOLERANCE, Pilot};
+use super::state::{PILOT_TOLERANCE, Pilot};
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::gather::{
     Backdrop, Gatherer, NET_ORDER, Trial, control_variate, known_at, ray_trial,
 };
 use crate::engine::judge::Light;
+use crate::engine::occlusion::nearby;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::Sequence;
 use crate::units::Rgb;
@@ -147,5 +148,18 @@ impl Pilot<'_> {
             let of = vertices.iter().zip(rows).filter(|(_, row)| row.rays > 0);
             self.behind.extend(of.map(|(&vertex, row)| (vertex, (row.origin, row.behind))));
         }
+    }
+
+    pub(super) fn rows(&self, vertices: &[u32], gatherers: &[Gatherer]) -> Vec<Gatherer> {
+        let edges_m = self.subdivision.longest_edges_m();
+        let row = |&vertex: &u32| {
+            let gatherer = &gatherers[vertex as usize];
+            let edge_m = edges_m[vertex as usize];
+            let rays = if self.carriers.is_active(vertex) { self.rays[vertex as usize] } else { 0 };
+            let in_gap = nearby::is_closed_in(self.scene, &gatherer.surface, edge_m);
+            let gatherer = gatherer.with_rays(rays).in_gap(in_gap);
+            if rays > 0 { self.before_walls(vertex, gatherer) } else { gatherer }
+        };
+        vertices.par_iter().map(row).collect()
     }
 }

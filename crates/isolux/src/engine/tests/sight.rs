@@ -1,8 +1,7 @@
 //! Places of a surface that see each other.
 
 use super::*;
-use crate::engine::MapReader;
-use crate::engine::{SolveRequest, Watch, solve};
+use crate::engine::{MapReader, SolveRequest, Watch, solve};
 
 fn sees(scene: &Scene, [from, to]: [[f64; 3]; 2]) -> bool {
     let request = SolveRequest { accuracy: Some(0.5), ..SolveRequest::default() };

@@ -3,8 +3,7 @@
 use super::super::lighting::Lighting;
 use crate::engine::ray::SurfacePoint;
 use crate::units::Rgb;
-use isolux_geometry::Point;
-use isolux_geometry::Vector;
+use isolux_geometry::{Point, Vector};
 
 /// Mirrors in a row, and chains in all; the others are left to rays.
 const MAX_CHAIN: usize = 6;

@@ -14,16 +14,12 @@
 use super::super::lighting::Lighting;
 use super::super::mirrors::twins::Twins;
 use super::super::sources::Target;
-use super::super::visibility::straight::MAX_PANES;
-use super::super::visibility::straight::segment;
+use super::super::visibility::straight::{MAX_PANES, segment};
 use super::planar::Plane;
 use crate::ablation::without;
 use crate::engine::ray::SurfacePoint;
 use crate::units::Rgb;
-use isolux_geometry::Normal;
-use isolux_geometry::Point;
-use isolux_geometry::Ray;
-use isolux_geometry::Vector;
+use isolux_geometry::{Normal, Point, Ray, Vector};
 use std::f64::consts::FRAC_PI_4;
 
 /// What is nearer than so many bounds of rounding to a place of reflection lies there: its own, that of where the ray started, those of

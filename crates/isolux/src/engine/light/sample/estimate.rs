@@ -1,16 +1,11 @@
 //! Direct light by a fixed number of shadow rays: of all sources, or of one that is drawn.
 
-use super::super::lighting::EXACT_SOURCES;
-use super::super::lighting::Lighting;
-use super::super::lighting::RAYS_TO_MANY;
-use super::super::lighting::drawn;
+use super::super::lighting::{EXACT_SOURCES, Lighting, RAYS_TO_MANY, drawn};
 use super::super::sources;
-use super::super::sources::Arriving;
-use super::super::sources::Source;
+use super::super::sources::{Arriving, Source};
 use super::super::visibility::shadows::Shadows;
 use super::super::visibility::straight::segment;
-use crate::engine::ray::Dice;
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
 
 impl Lighting<'_> {

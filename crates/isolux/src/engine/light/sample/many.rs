@@ -9,13 +9,12 @@
 //! that of its light alone what hides it is noise.
 
 use super::super::lighting::{Lighting, RAYS_TO_MANY, drawn};
-use super::super::polygon;
 use super::super::polygon::{Place, pieces, target};
-use super::super::sources;
 use super::super::sources::Target;
 use super::super::sources::triangle_lamps::{Face, middle_and_twice_m2};
 use super::super::tree::Node;
 use super::super::tree::cut::{Cut, Part, Parts, Seen, View};
+use super::super::{polygon, sources};
 use super::patches::Patches;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;

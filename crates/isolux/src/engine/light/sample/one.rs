@@ -2,11 +2,8 @@
 
 use super::super::lighting::Lighting;
 use super::super::sources;
-use super::super::sources::Source;
-use super::super::sources::SourceKind;
-use super::super::sources::Target;
-use crate::engine::ray::Dice;
-use crate::engine::ray::SurfacePoint;
+use super::super::sources::{Source, SourceKind, Target};
+use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
 use isolux_geometry::Direction;
 

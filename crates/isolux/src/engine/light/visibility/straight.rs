@@ -2,13 +2,10 @@
 
 use super::super::lighting::Lighting;
 use super::super::sources::Target;
-use crate::engine::ray::SurfacePoint;
-use crate::engine::ray::pane;
+use crate::engine::ray::{SurfacePoint, pane};
 use crate::scene::Body;
 use crate::units::Rgb;
-use isolux_geometry::Direction;
-use isolux_geometry::Ray;
-use isolux_geometry::Vector;
+use isolux_geometry::{Direction, Ray, Vector};
 
 /// Thin panes one behind the other that a shadow ray passes.
 pub(crate) const MAX_PANES: usize = 64;

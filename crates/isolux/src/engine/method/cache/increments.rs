@@ -3,9 +3,8 @@
 //! An increment is a whole replicate of the cache: its own random rays at every sample, its own
 //! fixed point of the light between samples. Where the samples lie is fixed before the first.
 
-use super::super::caustics;
 use super::super::caustics::Caustics;
-use super::super::hybrid;
+use super::super::{caustics, hybrid};
 use super::hemisphere::{Light, tied};
 use super::layer::Tie;
 use super::placing::Place;

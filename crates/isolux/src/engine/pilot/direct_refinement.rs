@@ -1,0 +1,52 @@
+//! Elements for direct light.
+
+use super::forecast::{FINE, GoOn};
+use super::look::{Look, PilotRequest};
+use super::state::{MAX_ROUNDS, MOST_STALLS, Pilot};
+use crate::ablation::without;
+use crate::engine::mesh::{Carriers, Refinement, refine_worst};
+
+/// A round of refinement after which more than this share of the error is left was in vain.
+const STALLED: f64 = 0.98;
+
+impl Pilot<'_> {
+    /// Refines where direct light as interpolated errs, until it is as good as asked.
+    pub(super) fn refine_for_direct_light(
+        &mut self,
+        look: &mut Look,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) {
+        let how_far = Refinement {
+            wanted: 0.0,
+            least_edge_m: self.least_edge_m,
+            max_vertices: self.most_for_direct_light(request),
+        };
+        if without("direct-refinement") {
+            return;
+        }
+        self.look_at_bare(look, request);
+        let (mut before, mut stalls) = (f64::INFINITY, 0);
+        for _ in 0..MAX_ROUNDS {
+            let (errors, excess) = self.direct_excess(&look.elements, request, look.reference_lx);
+            self.direct_excess = Some((self.subdivision.vertex_count(), excess));
+            // What errs most may lie in elements that are as small as they may be.
+            stalls = if excess > STALLED * before { stalls + 1 } else { 0 };
+            if excess <= 1.0 || stalls > MOST_STALLS || !self.has_time(look, request, FINE, go_on) {
+                break;
+            }
+            before = excess;
+            if !refine_worst(&mut self.subdivision, &mut Carriers::all(), &errors, how_far) {
+                break;
+            }
+            look.elements = self.subdivision.elements();
+            self.added_for_direct = look.elements.vertices().len() - self.direct.len();
+            self.complete_rays();
+            let gatherers = self.gatherers();
+            self.complete_direct(&look.elements, &gatherers);
+            self.extend_known(&look.elements, &gatherers);
+            self.complete_standings(&gatherers);
+            self.complete_bare(&look.elements, &gatherers);
+        }
+    }
+}

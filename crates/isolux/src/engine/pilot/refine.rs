@@ -1,0 +1,165 @@
+//! The loop: look at the light on the elements as they are, bisect those that err too much.
+
+use super::forecast::{GoOn, LONGER};
+use super::look::{Look, PilotRequest, Read};
+use super::state::{HEM, LEAST_ORDER, MAX_ROUNDS, MOST_STALLS, Pilot};
+use crate::ablation::without;
+use crate::engine::judge::Light;
+use crate::engine::mesh::{Refinement, Walls, Worst, refine_worst};
+use std::time::Instant;
+
+/// So often may the error rise instead.
+const MOST_RISEN: usize = 3;
+/// Vertices for indirect light, unless the scene has nearly as many from the start.
+const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
+/// More than this part of the vertices there may be are all: the worst elements are bisected some at a time.
+const FULL: f64 = 0.95;
+/// Bisections of elements with hidden vertices.
+const ROUNDS_FOR_HIDDEN: usize = 4;
+
+impl Pilot<'_> {
+    /// Elements that are fine enough for indirect light, or as fine as there is time for.
+    pub(super) fn elements_for_indirect_light(
+        &mut self,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) -> Look {
+        let mut look = self.look(request, go_on);
+        if let Some(edge_m) = self.usual_edge_m.filter(|_| !look.is_smooth(request)) {
+            self.subdivision.bisect_to(edge_m, request.max_vertices);
+            look = self.look(request, go_on);
+        }
+        let most = request.most_for_indirect_light.unwrap_or(MOST_FOR_INDIRECT_LIGHT);
+        let most = most.max(look.elements.vertices().len() / 2 * 3);
+        let most = request.max_vertices.min(most);
+        self.most_for_indirect_light = most as f64;
+        self.try_some(&look, request.target);
+        let excess = |look: &Look| (Some(look.greatest_excess(request)), None);
+        let mut has_time = self.has_time(&look, request, excess(&look), go_on);
+        for _ in 0..ROUNDS_FOR_HIDDEN {
+            if !(has_time && self.open_up(&look.elements, most)) {
+                break;
+            }
+            look = self.look(request, go_on);
+            has_time = self.has_time(&look, request, excess(&look), go_on);
+        }
+        // Readers gather over gathered maps alone: particles blur what is close by.
+        let reads = if request.is_fitted { &Read::EVERY[..] } else { &[Read::All] };
+        for &what in reads {
+            look = self.refine(look, request, (what, most), go_on);
+        }
+        self.is_full = look.elements.vertices().len() as f64 > FULL * most as f64;
+        look
+    }
+
+    /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
+    pub(super) fn look(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Look {
+        let mut elements = self.subdivision.elements();
+        let is_first = self.indirect.is_empty();
+        self.complete_rays();
+        let mut gatherers = self.gatherers();
+        if is_first {
+            self.begin(&elements, &gatherers, request, go_on);
+        }
+        let started = Instant::now();
+        self.complete_beset();
+        self.costs.looks.add(started.elapsed(), 0.0);
+        self.complete_direct(&elements, &gatherers);
+        if is_first && self.resolve_what_lands((&mut elements, &mut gatherers), request) {
+            self.complete_beset();
+        }
+        self.complete_indirect(&elements, &gatherers, request, go_on);
+        let started = Instant::now();
+        let luminances = self.in_the_open(&self.indirect);
+        self.complete_hemmed(&gatherers);
+        if !without("midpoints") {
+            self.complete_middles(&elements, &luminances);
+        }
+        let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
+        let middle = |node: u32| self.middles.get(&node).copied().flatten();
+        let beset = |node: u32| self.beset[node as usize];
+        let details = self.details(&elements, &luminances);
+        let hemmed = |vertex: u32, edge_m: f64| {
+            self.hemmed_in_m[vertex as usize] < HEM * edge_m && !without("hemmed-errors")
+        };
+        let mut errors = details.leaf_errors(middle, beset, hemmed);
+        let reference_lx = Light::of_vertices(&elements, &self.standings, lx).reference_lx();
+        for error in &mut errors {
+            error.error = error.error.max(self.error_in_lit_gap_lx(error.node, reference_lx));
+        }
+        let left_by_fit = details.left_by_fit(&errors);
+        self.weigh(&mut errors);
+        let carriers = self.carriers.count(gatherers.len());
+        let longer = if is_first { LONGER } else { 1.0 };
+        self.costs.looks.add(started.elapsed().div_f64(longer), gatherers.len() as f64);
+        if is_first {
+            self.costs.first.add(started.elapsed(), 0.0);
+        }
+        let worst = Worst::of(&errors);
+        let walls = Walls::default();
+        let mut look = Look {
+            carriers,
+            elements,
+            errors,
+            walls,
+            worst,
+            left_by_fit,
+            reference_lx,
+            dim_m2: self.surroundings.dim_m2,
+            is_noisy: self.direct_noise.is_some(),
+        };
+        if look.is_smooth(request) && !without("edge-falloff") {
+            self.look_for_walls(&mut look, request, &luminances);
+        }
+        look
+    }
+
+    /// Finds the walls that surfaces end at, and what elements err by once light is resolved towards them.
+    pub(super) fn look_for_walls(
+        &self,
+        look: &mut Look,
+        request: &PilotRequest,
+        luminances: &[Option<f64>],
+    ) {
+        let open: Vec<bool> = luminances.iter().map(Option::is_some).collect();
+        let walls = Walls::of(self.scene, &self.subdivision, &open);
+        look.resolve(walls, &self.subdivision, luminances, request.target * look.reference_lx);
+    }
+
+    /// Bisects until elements are good enough for what they are read for, or that comes to nothing.
+    pub(super) fn refine(
+        &mut self,
+        mut look: Look,
+        request: &PilotRequest,
+        (what, max_vertices): (Read, usize),
+        go_on: &mut GoOn<'_>,
+    ) -> Look {
+        let mut before = (f64::INFINITY, look.carriers as f64);
+        let (mut risen, mut stalls) = (0, 0);
+        for _ in 0..MAX_ROUNDS {
+            let Some((errors, excess)) = look.excess(what, request) else { break };
+            // Where bisection no longer helps, what is left is noise: the check points will tell. As long as it finds light
+            // in gaps, errors may rise.
+            let carriers = look.carriers as f64;
+            let has_risen = self.sees_lit_gaps && excess > before.0;
+            risen += usize::from(has_risen);
+            let is_excused = has_risen && risen <= MOST_RISEN;
+            let fallen = libm::pow(before.1 / carriers, LEAST_ORDER);
+            let stalled = !is_excused && excess > before.0 * fallen;
+            let known = Some(before).filter(|(excess, _)| excess.is_finite());
+            let excesses = (Some(look.greatest_excess(request)), known);
+            stalls = if stalled { stalls + 1 } else { 0 };
+            if stalls > MOST_STALLS || !self.has_time(&look, request, excesses, go_on) {
+                break;
+            }
+            before = (excess, carriers);
+            let least_edge_m = self.least_edge_m;
+            let how_far = Refinement { wanted: 1.0 / excess, least_edge_m, max_vertices };
+            if !refine_worst(&mut self.subdivision, &mut self.carriers, &errors, how_far) {
+                break;
+            }
+            look = self.look(request, go_on);
+        }
+        look
+    }
+}

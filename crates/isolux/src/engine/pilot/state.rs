@@ -1,0 +1,315 @@
+//! What the pilot knows: elements, light at their vertices, what stands near them.
+
+use super::forecast::Costs;
+use super::look::{PilotRequest, Surroundings};
+use crate::ablation::without;
+use crate::elements::{Elements, FewNumbers, Subdivision, TOGETHER};
+use crate::engine::gather::{
+    Backdrop, Bright, DirectAtEnds, Gatherer, Gathering, Sight, Trial, Unlit, allot,
+};
+use crate::engine::light::Lighting;
+use crate::engine::mesh::{Carriers, Details, bisect_to_scale};
+use crate::engine::occlusion::{Felt, Torn};
+use crate::engine::particle::{Aim, CausticNoise};
+use crate::engine::ray::SurfacePoint;
+use crate::map::Standing;
+use crate::sampling::Key;
+use crate::scene::Scene;
+use crate::units::Rgb;
+use isolux_geometry::Point;
+use rayon::prelude::*;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Vertices that the pilot starts with, unless the scene has more.
+const FIRST_VERTICES: f64 = 700.0;
+/// And for each that the scene has: among many things light varies on walls, too, in ways that a
+/// coarse look does not find.
+const MORE_A_VERTEX: f64 = 0.05;
+/// The part of them that tells whether light is so smooth that no more are needed to start with.
+const COARSE: f64 = 0.5;
+/// The first again where nothing is fitted: particles, whose hat functions blur what they are deposited in.
+const FIRST_UNFITTED: f64 = 1500.0;
+/// The part of the first gathering, and before it of the first direct light, that tells how long all takes.
+pub(super) const FIRST_PART: usize = 16;
+/// How far apart the coarsest vertices that carry light may be, in edges of the first mesh: four of them, to
+/// start with two, as the details of those in between tell more than vertices twice as dense alone.
+const COARSEST: f64 = 4.0;
+/// Rounds of refinement at most.
+pub(super) const MAX_ROUNDS: usize = 16;
+/// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
+const LEAST_EDGE_SHARE: f64 = 1e-3;
+/// Receivers on borders are pulled in by this share of the way to the middle of their element.
+const PULL_IN: f64 = 2e-3;
+/// A round in which the error falls with a lower power of the vertices was in vain. Where functions
+/// are smooth it is one; chasing light that comes in through narrow places, less for some rounds.
+pub(super) const LEAST_ORDER: f64 = 0.25;
+/// So many rounds in a row may be in vain: at borders of gaps as much error is found as is taken off, until elements are as narrow.
+pub(super) const MOST_STALLS: usize = 1;
+/// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
+const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
+/// Something that stands closer before a vertex than this part of an element takes light from it that the rest of the element
+/// has: pictures on walls, shelves.
+pub(super) const HEM: f64 = 0.125;
+/// Sweeps of the pilot end when they change less than this.
+pub(super) const PILOT_TOLERANCE: f64 = 1e-4;
+
+/// The pilot.
+pub(super) struct Pilot<'s> {
+    pub(super) scene: &'s Scene,
+    pub(super) lighting: &'s Lighting<'s>,
+    pub(super) key: Key,
+    pub(super) subdivision: Subdivision,
+    /// At the vertices looked at so far: light, and whether they are open to it.
+    pub(super) direct: Vec<Rgb>,
+    /// What is bright by that of luminaires.
+    pub(super) bright: Option<Arc<Bright>>,
+    pub(super) direct_variance: Vec<f64>,
+    /// Where it was measured.
+    pub(super) measured_at: Vec<Point>,
+    /// How noisy it may be where it is measured once by part of the luminaires: of all light, and in lx.
+    pub(super) direct_noise: Option<f64>,
+    pub(super) direct_noise_lx: Option<f64>,
+    /// By how much direct light as interpolated errs more than it should, with so many vertices.
+    pub(super) direct_excess: Option<(usize, f64)>,
+    /// Vertices that the last round of refinement for it has added.
+    pub(super) added_for_direct: usize,
+    pub(super) indirect: Vec<Rgb>,
+    pub(super) surroundings: Surroundings,
+    pub(super) known: Vec<bool>,
+    pub(super) unlit: Unlit,
+    /// Where some particles came over specular surfaces.
+    pub(super) reached: Vec<SurfacePoint>,
+    /// What they stand for.
+    pub(super) standings: Vec<Option<Standing>>,
+    pub(super) felt: Felt,
+    pub(super) torn: Torn,
+    /// Which of them carry indirect light; how far apart the coarsest may be, m; which have gathered it.
+    pub(super) carriers: Carriers,
+    pub(super) spacing_m: f64,
+    /// Edges of the usual first mesh, where it starts with a coarser one.
+    pub(super) usual_edge_m: Option<f64>,
+    pub(super) has_many_things: bool,
+    pub(super) gathered: Vec<bool>,
+    /// By carrier, from which distance to others on something stands nearer before it than they.
+    pub(super) beset_from_m: HashMap<u32, f64, FewNumbers>,
+    /// By vertex, how close something stands before it, m, if that is less than a part of its elements.
+    pub(super) hemmed_in_m: Vec<f64>,
+    /// By node, whether something stands close before its middle.
+    pub(super) beset: Vec<bool>,
+    /// In the middle of elements that no details tell of, by node; nothing where that is not asked for.
+    pub(super) middles: HashMap<u32, Option<f64>>,
+    /// Whether there were some in gaps that luminaires shine into, at the last look.
+    pub(super) sees_lit_gaps: bool,
+    /// Nodes there were then.
+    pub(super) solved_nodes: u32,
+    /// Rays that a vertex gathers with, alike all over a surface, so that their noise is.
+    pub(super) rays: Vec<u32>,
+    pub(super) traced: u64,
+    pub(super) least_edge_m: f64,
+    pub(super) costs: Costs,
+    /// Whether light has quadratic functions between carriers already.
+    pub(super) is_smoothed: bool,
+    /// Vertices that indirect light is interpolated from, and the surface that each stands for, m2, once they are fixed.
+    pub(super) for_indirect_light: Option<(usize, Vec<f64>)>,
+    /// Indirect light of the bare map, where that is not resolved.
+    pub(super) bare: Option<Bare>,
+    /// Whether direct light is what it will be.
+    pub(super) is_measured: bool,
+    /// Walls that rays are judged by, once there is light.
+    pub(super) backdrop: Option<Backdrop>,
+    /// What vertices get from them, by vertex, and where it was.
+    pub(super) behind: HashMap<u32, (Point, Option<Rgb>)>,
+    /// What a few receivers tell of noise, once there is light: first, where there are walls, those that tell what these take off.
+    pub(super) trial: Option<Trial>,
+    pub(super) caustic_noise: CausticNoise,
+    pub(super) aim: Option<Aim>,
+    /// Whether there was time for all that it wanted to do.
+    pub(super) is_whole: bool,
+    /// Vertices that indirect light may have; no limit until that is known.
+    pub(super) most_for_indirect_light: f64,
+    /// Whether there are about as many vertices for indirect light as there may be.
+    pub(super) is_full: bool,
+}
+
+/// What the vertices for direct light have gathered for the bare map.
+pub(super) struct Bare {
+    /// The first of them, and the light of all from there on.
+    pub(super) first: usize,
+    pub(super) indirect: Vec<Rgb>,
+    /// Elements that something stands close before, on which they gather.
+    pub(super) beset: Vec<u32>,
+}
+
+/// The elements to start with, the edges of the usual ones, m, and whether the scene has so many things that most vertices are theirs.
+fn first_mesh(scene: &Scene, request: &PilotRequest) -> (Subdivision, f64, bool) {
+    let mut subdivision = Subdivision::new(scene);
+    let area_m2: f64 = subdivision.leaves().map(|n| subdivision.triangle(n).area()).sum();
+    // Half squares of hypotenuse h have area h^2 / 4, and there are two a vertex.
+    let first = if request.is_fitted { FIRST_VERTICES } else { FIRST_UNFITTED };
+    let more = MORE_A_VERTEX * subdivision.vertex_count() as f64;
+    let edge_m = (2.0 * area_m2 / (first + more)).sqrt();
+    let start_m =
+        if request.has_means && !without("coarse-start") { edge_m / COARSE.sqrt() } else { edge_m };
+    subdivision.bisect_to(start_m, request.max_vertices);
+    if request.is_fitted && !without("room-scale") {
+        bisect_to_scale(scene, &mut subdivision, request.max_vertices);
+    }
+    (subdivision, edge_m, more > first)
+}
+
+impl<'s> Pilot<'s> {
+    pub(super) fn new(
+        scene: &'s Scene,
+        lighting: &'s Lighting<'s>,
+        request: &PilotRequest,
+    ) -> Self {
+        let (subdivision, edge_m, has_many_things) = first_mesh(scene, request);
+        let rays = Self::shared_rays(&subdivision, request.target);
+        let has_noise = request.is_fitted && lighting.has_many() && lighting.is_measured_once();
+        let bounds = scene.bvh().mesh().bounds();
+        let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
+        let key = Key::new(request.seed).with(0);
+        let (bright, traced) = Bright::of(scene, lighting, request.seed);
+        Self {
+            scene,
+            lighting,
+            key,
+            subdivision,
+            direct: Vec::new(),
+            bright,
+            direct_variance: Vec::new(),
+            measured_at: Vec::new(),
+            direct_noise: has_noise.then_some(NOISE_OF_DIRECT_LIGHT * request.mesh_target),
+            direct_noise_lx: None,
+            direct_excess: None,
+            added_for_direct: 0,
+            indirect: Vec::new(),
+            surroundings: Surroundings::default(),
+            known: Vec::new(),
+            unlit: Unlit::default(),
+            reached: Vec::new(),
+            standings: Vec::new(),
+            felt: Felt::default(),
+            torn: Torn::default(),
+            carriers: Carriers::all(),
+            usual_edge_m: (request.has_means && !without("coarse-start")).then_some(edge_m),
+            has_many_things,
+            spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
+            gathered: Vec::new(),
+            beset_from_m: HashMap::default(),
+            hemmed_in_m: Vec::new(),
+            beset: Vec::new(),
+            middles: HashMap::new(),
+            sees_lit_gaps: false,
+            solved_nodes: 0,
+            rays,
+            traced,
+            costs: Costs::default(),
+            is_smoothed: false,
+            for_indirect_light: None,
+            bare: None,
+            is_measured: false,
+            trial: None,
+            backdrop: None,
+            behind: HashMap::new(),
+            caustic_noise: CausticNoise::default(),
+            aim: None,
+            is_whole: true,
+            most_for_indirect_light: f64::INFINITY,
+            is_full: false,
+            least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
+        }
+    }
+
+    pub(super) fn gatherers(&self) -> Vec<Gatherer> {
+        let receivers = self.subdivision.receivers(PULL_IN);
+        let with = receivers.par_iter().zip(&self.rays).with_min_len(TOGETHER);
+        with.map(|(receiver, &rays)| Gatherer::at_vertex(self.scene, receiver, rays)).collect()
+    }
+
+    pub(super) fn details<'a>(
+        &'a self,
+        elements: &'a Elements,
+        values: &'a [Option<f64>],
+    ) -> Details<'a> {
+        let is_beset = |vertex: u32, spacing_m: f64| self.beset_from_m[&vertex] < spacing_m;
+        Details::of(&self.subdivision, elements, values, &self.carriers, is_beset)
+    }
+
+    /// What rays read on a level of the elements.
+    pub(super) fn gathering<'a>(
+        &'a self,
+        elements: &'a Elements,
+        level: u32,
+        standings: &'a [Option<Standing>],
+    ) -> Gathering<'a> {
+        let direct = if self.lighting.are_read_at_ends() {
+            DirectAtEnds::Read { values: &self.direct, level }
+        } else {
+            DirectAtEnds::Evaluated
+        };
+        Gathering {
+            scene: self.scene,
+            lighting: self.lighting,
+            elements,
+            level,
+            standings,
+            direct,
+            regathers: false,
+            bright: self.bright.as_deref(),
+            cuts: None,
+            backdrop: self.backdrop.as_ref(),
+        }
+    }
+
+    pub(super) fn sight<'a>(
+        &'a self,
+        elements: &'a Elements,
+        gatherers: &'a [Gatherer],
+    ) -> Sight<'a> {
+        let (scene, lighting, key) = (self.scene, self.lighting, self.key.with(3));
+        let (reached, torn) = (&self.reached, &self.torn);
+        Sight { scene, lighting, elements, gatherers, reached, torn, key }
+    }
+
+    /// New vertices gather as their parents do.
+    pub(super) fn complete_rays(&mut self) {
+        for vertex in &self.subdivision.vertices()[self.rays.len()..] {
+            let [parent, _] =
+                vertex.parents.expect("vertices beyond the first are made by bisection");
+            self.rays.push(self.rays[parent as usize]);
+        }
+    }
+
+    /// Rays of the vertices in the pilot: so many where a surface has no more vertices than others for its area, fewer where it
+    /// has (see [`allot`]), a quarter of them at least.
+    pub(super) fn shared_rays(subdivision: &Subdivision, target: f64) -> Vec<u32> {
+        let usual = pilot_rays(target);
+        let surfaces = subdivision.least_connected();
+        let mut of_surface = vec![(0.0, 0.0); surfaces.len()];
+        for leaf in subdivision.leaves() {
+            let surface = surfaces[subdivision.node(leaf).0.vertices[0] as usize];
+            of_surface[surface as usize].0 += subdivision.triangle(leaf).area();
+        }
+        surfaces.iter().for_each(|&surface| of_surface[surface as usize].1 += 1.0);
+        let area_m2 = |&surface: &u32| {
+            let (area_m2, vertices) = of_surface[surface as usize];
+            area_m2 / vertices
+        };
+        let areas_m2: Vec<f64> = surfaces.iter().map(area_m2).collect();
+        let allotted = allot(&areas_m2, f64::from(usual));
+        allotted
+            .into_iter()
+            .map(|rays| if rays == 0 { usual } else { rays.clamp(usual / 4, usual) })
+            .collect()
+    }
+}
+
+/// Rays of a receiver in the pilot: more for finer accuracies, so that their noise stays below the
+/// details looked for. The power of two nearest to what was measured on CUBE: with half as many, elements are made
+/// anew for 0.3 %.
+fn pilot_rays(target: f64) -> u32 {
+    let wanted = (0.64 / target.max(1e-6)).clamp(32.0, 1024.0);
+    libm::exp2(libm::round(libm::log2(wanted))) as u32
+}
