@@ -42,12 +42,12 @@ impl Pilot<'_> {
     /// Whether vertices gather for it, or will: if a finer bare map than usual is asked for, and indirect light has much of what it may
     /// err by.
     pub(super) fn gathers_for_bare(&self, look: &Look, request: &PilotRequest) -> bool {
-        if self.bare.is_some() {
+        if self.indirect.bare.is_some() {
             return true;
         }
         let is_asked_for =
             request.has_means && request.mesh_target < USUAL_MESH && !without("bare-map-vertices");
-        if !is_asked_for || self.is_smoothed {
+        if !is_asked_for || self.indirect.is_smoothed {
             return false;
         }
         let beset = look.errors.iter().filter(|e| e.is_beset);
@@ -60,39 +60,39 @@ impl Pilot<'_> {
     /// Begins with that, if they do.
     pub(super) fn look_at_bare(&mut self, look: &Look, request: &PilotRequest) {
         if self.gathers_for_bare(look, request) {
-            let (first, indirect) = (self.subdivision.vertex_count(), Vec::new());
+            let (first, indirect) = (self.mesh.subdivision.vertex_count(), Vec::new());
             let beset = look.errors.iter().filter(|e| e.is_beset).map(|e| e.node).collect();
-            self.bare = Some(Bare { first, indirect, beset });
+            self.indirect.bare = Some(Bare { first, indirect, beset });
         }
     }
 
     /// Gathers at the vertices that have not, as far as they lie in the open and something stands close.
     pub(super) fn complete_bare(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
-        let Some(mut bare) = self.bare.take() else { return };
+        let Some(mut bare) = self.indirect.bare.take() else { return };
         let started = Instant::now();
         let mut is_beset = vec![false; gatherers.len()];
         let mut mark =
             |corners: [u32; 3]| corners.into_iter().for_each(|v| is_beset[v as usize] = true);
         bare.beset.iter().for_each(|&node| elements.visit_below(node, &mut mark));
         let row = |k: usize| {
-            let gathers = is_beset[k] && self.standings[k] == Some(Standing::Open);
-            gatherers[k].with_rays(if gathers { self.rays[k] } else { 0 })
+            let gathers = is_beset[k] && self.near.standings[k] == Some(Standing::Open);
+            gatherers[k].with_rays(if gathers { self.mesh.rays[k] } else { 0 })
         };
         let new = bare.first + bare.indirect.len()..gatherers.len();
         let rows: Vec<Gatherer> = new.clone().map(row).collect();
-        let gathering = self.gathering(elements, self.solved_nodes, &self.standings);
+        let gathering = self.gathering(elements, self.indirect.solved_nodes, &self.near.standings);
         let gathering = Gathering { regathers: true, ..gathering };
         let key = self.key.with(2);
         let operator = gathering.operator(&rows, |_| key);
-        let gathered = operator.apply(&self.indirect);
+        let gathered = operator.apply(&self.indirect.lx);
         for ((k, row), light) in new.zip(&rows).zip(gathered) {
             let ends = elements.vertices()[k].parents.expect("made by bisection");
-            let between = || bare.between(&self.indirect, ends);
+            let between = || bare.between(&self.indirect.lx, ends);
             bare.indirect.push(if row.rays > 0 { light } else { between() });
         }
         self.traced += operator.rays;
         self.costs.in_shadows.add(started.elapsed(), 0.0);
-        self.bare = Some(bare);
+        self.indirect.bare = Some(bare);
     }
 
     /// What the bare map errs by in every element, if vertices gather for it; `direct` is what luminaires give.
@@ -101,19 +101,19 @@ impl Pilot<'_> {
         elements: &Elements,
         direct: &[Option<f64>],
     ) -> Option<Vec<LeafError>> {
-        let bare = self.bare.as_ref()?;
-        let indirect = self.indirect[..bare.first].iter().chain(&bare.indirect);
+        let bare = self.indirect.bare.as_ref()?;
+        let indirect = self.indirect.lx[..bare.first].iter().chain(&bare.indirect);
         let both =
             |(direct, indirect): (&Option<f64>, &Rgb)| Some((*direct)? + indirect.luminance());
         let light: Vec<Option<f64>> = direct.iter().zip(indirect).map(both).collect();
         let (carriers, no) = (Carriers::all(), |_, _| false);
-        let details = Details::of(&self.subdivision, elements, &light, &carriers, no);
+        let details = Details::of(&self.mesh.subdivision, elements, &light, &carriers, no);
         Some(details.leaf_errors(|_| None, |_| false, |_, _| false))
     }
 
     /// How many vertices increments will gather at for the bare map, if so many more are made for direct light.
     pub(super) fn rows_for_bare(&self, look: &Look, request: &PilotRequest, more: f64) -> f64 {
-        let made = self.bare.as_ref().map_or(0, |bare| bare.indirect.len());
+        let made = self.indirect.bare.as_ref().map_or(0, |bare| bare.indirect.len());
         let gathers = self.gathers_for_bare(look, request);
         if gathers { OF_MADE * (made as f64 + more) } else { 0.0 }
     }
@@ -125,11 +125,11 @@ impl Pilot<'_> {
         request: &PilotRequest,
         standings: &[Option<Standing>],
     ) -> Vec<u32> {
-        let Some(bare) = &self.bare else { return Vec::new() };
+        let Some(bare) = &self.indirect.bare else { return Vec::new() };
         let (vertices, may_be_lx) =
             (look.elements.vertices(), request.mesh_target * look.reference_lx);
         let luminance = |light: &Rgb| light.luminance();
-        let mut light_lx: Vec<f64> = self.indirect[..bare.first].iter().map(luminance).collect();
+        let mut light_lx: Vec<f64> = self.indirect.lx[..bare.first].iter().map(luminance).collect();
         let mut gathering = Vec::new();
         for (k, light) in bare.indirect.iter().enumerate() {
             let vertex = bare.first + k;

@@ -131,7 +131,7 @@ impl Pilot<'_> {
     pub(super) fn kept(&self, of: &Batches, elements: &Elements, hats: &Hats) -> Vec<Brought> {
         let brought = |deposits: &Vec<Deposit>| {
             let mut brought = Brought::nothing(elements);
-            brought.add(deposits, of.kept, (elements, &self.standings));
+            brought.add(deposits, of.kept, (elements, &self.near.standings));
             brought.into_map(hats)
         };
         of.deposits.par_iter().map(brought).collect()
@@ -150,7 +150,7 @@ impl Pilot<'_> {
         for _ in 0..count / at_once {
             let new = self.fly(batches.flown, at_once);
             batches.flown += u64::from(at_once);
-            let standings = &self.standings;
+            let standings = &self.near.standings;
             brought.par_iter_mut().zip(&new).for_each(|(brought, new)| {
                 brought.add(new, at_once, (elements, standings));
             });
@@ -167,7 +167,7 @@ impl Pilot<'_> {
         let mut traced = 0;
         let of_batch = |batch: u64| {
             let key = Key::with(self.key.with(9).with(batch), flown);
-            let Some(flights) = Flights::new(of, self.aim.as_ref(), count, key) else {
+            let Some(flights) = Flights::new(of, self.tried.aim.as_ref(), count, key) else {
                 return Vec::new();
             };
             let one = |index: u32| {

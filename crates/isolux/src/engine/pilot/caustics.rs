@@ -136,7 +136,7 @@ impl Pilot<'_> {
         let asked = Asked { area_m2, goal, allowed: SHARE * SHARE * goal };
         let mut errors = CausticErrors::default();
         for round in 0..ROUNDS {
-            let hats = Hats::new(&self.subdivision, &self.standings);
+            let hats = Hats::new(&self.mesh.subdivision, &self.near.standings);
             let on = self.kept(&batches, &look.elements, &hats);
             errors = self.judged(&on, &hats, asked);
             let may_refine = round + 1 < ROUNDS && request.refines_caustics;
@@ -147,7 +147,7 @@ impl Pilot<'_> {
                     (BELIEVED, MARKED_SHARE, request.max_vertices),
                 )
             {
-                look.elements = self.subdivision.elements();
+                look.elements = self.mesh.subdivision.elements();
                 self.extend_between();
                 continue;
             }
@@ -178,7 +178,7 @@ impl Pilot<'_> {
         let most = self.most_ahead(look, request);
         let mut count = 2 * MOST_KEPT;
         loop {
-            let hats = Hats::new(&self.subdivision, &self.standings);
+            let hats = Hats::new(&self.mesh.subdivision, &self.near.standings);
             let elements = look.elements.clone();
             let has_time = |pilot: &mut Self| pilot.has_time(look, request, FINE, go_on);
             let of = (&elements, &hats);
@@ -192,7 +192,7 @@ impl Pilot<'_> {
             let refined = !is_last
                 && self.bisect_for_caustics(&errors, asked, (LIKELY, 1.0, request.max_vertices));
             if refined {
-                look.elements = self.subdivision.elements();
+                look.elements = self.mesh.subdivision.elements();
                 self.extend_between();
                 self.settle_between(look, request.is_fitted);
             } else if is_last || errors.are_told(asked) {
@@ -204,7 +204,7 @@ impl Pilot<'_> {
 
     /// Particles of every batch that may be sent for one mesh.
     fn most_ahead(&self, look: &Look, request: &PilotRequest) -> f64 {
-        let needed = self.caustic_noise.needed((request.goal, look.reference_lx));
+        let needed = self.tried.caustic_noise.needed((request.goal, look.reference_lx));
         (AHEAD * needed / BATCHES as f64).min(f64::from(MOST_PARTICLES))
     }
 
@@ -213,20 +213,20 @@ impl Pilot<'_> {
         let seen = self.seen(on);
         let mut all = Squared::default();
         seen.iter().for_each(|s| all += s.squared);
-        self.caustic_noise = noise_of(on, hats, asked.area_m2, all.variance.sqrt());
+        self.tried.caustic_noise = noise_of(on, hats, asked.area_m2, all.variance.sqrt());
         errors_of(seen, all, asked)
     }
 
     /// Counts caustics as light, and what is reflected of them, where they are much of it: all that is small is small against that.
     fn count_caustics(&mut self, look: &mut Look, batches: &Batches) {
-        let hats = Hats::new(&self.subdivision, &self.standings);
+        let hats = Hats::new(&self.mesh.subdivision, &self.near.standings);
         let on = self.kept(batches, &look.elements, &hats);
         let n = on.len() as f64;
         let (mut area_m2, mut squares, mut lm, mut caustic_lm) = (0.0, 0.0, 0.0, 0.0);
         for (vertex, m2) in hats.areas_m2().iter().enumerate().filter(|(_, m2)| **m2 > 0.0) {
             let values = || on.iter().map(|batch| batch.light[vertex]);
             let (sum, own) = (values().sum::<f64>(), values().map(|lx| lx * lx).sum::<f64>());
-            let other_lx = (self.direct[vertex] + self.indirect[vertex]).luminance();
+            let other_lx = (self.direct.lx[vertex] + self.indirect.lx[vertex]).luminance();
             // Of batches that share nothing random, products are free of bias.
             let squared = (sum * sum - own) / (n * (n - 1.0));
             area_m2 += m2;
@@ -234,7 +234,8 @@ impl Pilot<'_> {
             lm += m2 * (other_lx + sum / n);
             caustic_lm += m2 * sum / n;
         }
-        let reflectance = reflectance::of_all(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
+        let reflectance =
+            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_REFLECTANCE);
         let reflected_lx = caustic_lm / area_m2 * reflectance / (1.0 - reflectance);
         let squares = squares + 2.0 * reflected_lx * lm + reflected_lx * reflected_lx * area_m2;
         let flux_lm = lm + reflected_lx * area_m2;
@@ -242,30 +243,31 @@ impl Pilot<'_> {
         if reference_lx > MUCH * look.reference_lx {
             look.reference_lx = reference_lx;
             // What was tried without them tells nothing.
-            self.trial = None;
+            self.tried.trial = None;
         }
     }
 
     /// The elements on which there is something to see.
     fn seen(&self, on: &[Brought]) -> Vec<Seen> {
         let lit = |vertex: u32| on.iter().any(|batch| batch.light[vertex as usize] != 0.0);
-        let leaves: Vec<u32> = self.subdivision.leaves().collect();
+        let leaves: Vec<u32> = self.mesh.subdivision.leaves().collect();
         let one = |&node: &u32| {
-            let corners = self.subdivision.node(node).0.vertices;
+            let corners = self.mesh.subdivision.node(node).0.vertices;
             corners.into_iter().any(lit).then(|| self.seen_of(node, on))
         };
         leaves.par_iter().with_min_len(256).filter_map(one).collect()
     }
 
     fn seen_of(&self, node: u32, on: &[Brought]) -> Seen {
-        let corners = self.subdivision.node(node).0.vertices;
-        let area_m2 = self.subdivision.triangle(node).area();
+        let corners = self.mesh.subdivision.node(node).0.vertices;
+        let area_m2 = self.mesh.subdivision.triangle(node).area();
         let mut deposits = 0;
         let mut sums = [(0.0, 0.0); PARTS];
         for batch in on {
             let values = corners.map(|v| batch.light[v as usize]);
             // What the batch has more in each part than it says, lx.
-            let mut lacking = read_in_parts(corners, values, &self.standings).map(|read| -read);
+            let mut lacking =
+                read_in_parts(corners, values, &self.near.standings).map(|read| -read);
             let came = batch.to(node);
             deposits += came.deposits;
             for (lacking, lm) in lacking.iter_mut().zip(came.fluxes_lm) {
@@ -293,11 +295,11 @@ impl Pilot<'_> {
         if errors.all.sum <= asked.allowed {
             return false;
         }
-        let least_edge_m = self.least_edge_m * LEAST_EDGE;
+        let least_edge_m = self.mesh.least_edge_m * LEAST_EDGE;
         let is_seen = |s: &&Seen| {
             s.deposits >= FEWEST_DEPOSITS
                 && s.squared.is_believed(believed)
-                && self.subdivision.longest_edge_m(s.node) > 2.0 * least_edge_m
+                && self.mesh.subdivision.longest_edge_m(s.node) > 2.0 * least_edge_m
         };
         let mut worst: Vec<&Seen> = errors.seen.iter().filter(is_seen).collect();
         worst.sort_by(|a, b| b.squared.sum.total_cmp(&a.squared.sum).then(a.node.cmp(&b.node)));
@@ -307,10 +309,10 @@ impl Pilot<'_> {
         }
         let (mut marked, mut any) = (0.0, false);
         for seen in worst {
-            if marked >= share * all || self.subdivision.vertex_count() >= max_vertices {
+            if marked >= share * all || self.mesh.subdivision.vertex_count() >= max_vertices {
                 break;
             }
-            self.subdivision.bisect_twice(seen.node);
+            self.mesh.subdivision.bisect_twice(seen.node);
             marked += seen.squared.sum;
             any = true;
         }
@@ -319,28 +321,28 @@ impl Pilot<'_> {
 
     /// What new vertices stand for, as long as nobody feels about.
     fn extend_between(&mut self) {
-        for vertex in &self.subdivision.vertices()[self.standings.len()..] {
+        for vertex in &self.mesh.subdivision.vertices()[self.near.standings.len()..] {
             let ends = vertex.parents.expect("made by bisection");
-            let of = ends.map(|end| self.standings[end as usize]);
-            self.standings.push(if of[0] == of[1] {
+            let of = ends.map(|end| self.near.standings[end as usize]);
+            self.near.standings.push(if of[0] == of[1] {
                 of[0]
             } else {
                 Standing::highest([of[0], of[1], None])
             });
-            self.known.push(ends.iter().any(|&end| self.known[end as usize]));
+            self.near.known.push(ends.iter().any(|&end| self.near.known[end as usize]));
         }
     }
 
     /// Direct light at new vertices, and indirect light from the ends of their edges.
     fn settle_between(&mut self, look: &Look, waits: bool) {
-        let first = self.direct.len();
-        if first == self.subdivision.vertex_count() {
+        let first = self.direct.lx.len();
+        if first == self.mesh.subdivision.vertex_count() {
             return;
         }
         let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
-        let open: Vec<bool> = self.standings.iter().map(is_open).collect();
+        let open: Vec<bool> = self.near.standings.iter().map(is_open).collect();
         if waits {
-            self.carriers.between(&self.subdivision, first, &open);
+            self.mesh.carriers.between(&self.mesh.subdivision, first, &open);
         }
         self.settle(&look.elements);
     }

@@ -50,25 +50,27 @@ impl Pilot<'_> {
     /// Direct light at the vertices that have none yet, as the increments will read it.
     pub(super) fn complete_direct(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let started = Instant::now();
-        let new = self.direct.len()..gatherers.len();
+        let new = self.direct.lx.len()..gatherers.len();
         let measured = self.measured(elements, gatherers, new.collect());
-        let is_for_it_alone = self.for_indirect_light.is_some();
+        let is_for_it_alone = self.mesh.for_indirect_light.is_some();
         let costs = &mut self.costs;
         let cost = if is_for_it_alone { &mut costs.in_shadows } else { &mut costs.direct };
         cost.add(started.elapsed(), measured.len() as f64);
-        self.direct.extend(measured.iter().map(|m| m.lx));
-        self.direct_variance.extend(measured.iter().map(|m| m.variance));
-        self.measured_at.extend(gatherers[self.measured_at.len()..].iter().map(|g| g.origin));
+        self.direct.lx.extend(measured.iter().map(|m| m.lx));
+        self.direct.variance.extend(measured.iter().map(|m| m.variance));
+        self.direct
+            .measured_at
+            .extend(gatherers[self.direct.measured_at.len()..].iter().map(|g| g.origin));
     }
 
     /// The same once more where receivers have moved, as those on borders do when elements are bisected.
     pub(super) fn measure_moved(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
-        let has_moved = |&k: &usize| gatherers[k].origin != self.measured_at[k];
+        let has_moved = |&k: &usize| gatherers[k].origin != self.direct.measured_at[k];
         let moved: Vec<usize> = (0..gatherers.len()).filter(has_moved).collect();
         let measured = self.measured(elements, gatherers, moved.clone());
         for (k, measured) in moved.into_iter().zip(measured) {
-            self.direct[k] = measured.lx;
-            self.direct_variance[k] = measured.variance;
+            self.direct.lx[k] = measured.lx;
+            self.direct.variance[k] = measured.variance;
         }
     }
 
@@ -82,10 +84,10 @@ impl Pilot<'_> {
     ) -> Vec<Measured> {
         let vertices = elements.vertices();
         let mean_m2 = vertices.iter().map(|v| v.area_m2).sum::<f64>() / vertices.len() as f64;
-        let first = self.for_indirect_light.as_ref().map_or(usize::MAX, |(count, _)| *count);
+        let first = self.mesh.for_indirect_light.as_ref().map_or(usize::MAX, |(count, _)| *count);
         let alike = Sequence::new(self.key.with(1));
         let measured = |k: usize| {
-            let (goal, sequence) = match self.direct_noise_lx {
+            let (goal, sequence) = match self.direct.noise_lx {
                 Some(lx) => {
                     let relief = relief(vertices[k].area_m2 / mean_m2);
                     let more = if k >= first { NOISIER_IN_SHADOWS } else { 1.0 };
@@ -102,7 +104,7 @@ impl Pilot<'_> {
     /// How noisy direct light may be, from a look at a few vertices: all light is what luminaires give and, in the mean, what the
     /// balance of light in a closed room adds to it. Where rooms are open that is more than there is.
     pub(super) fn look_at_direct_light(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
-        let Some(share) = self.direct_noise else { return };
+        let Some(share) = self.direct.noise else { return };
         let every = (gatherers.len() / LOOKED_AT).max(1);
         let sequence = Sequence::new(self.key.with(8));
         let look = |k: usize| {
@@ -115,26 +117,27 @@ impl Pilot<'_> {
         let mean =
             |power: i32| some.iter().map(|&(m2, lx)| m2 * lx.powi(power)).sum::<f64>() / area_m2;
         let (mean_lx, square) = (mean(1), mean(2));
-        let reflectance = reflectance::of_all(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
+        let reflectance =
+            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_REFLECTANCE);
         let whole_lx = mean_lx / (1.0 - reflectance);
         let varies = (square - mean_lx * mean_lx).max(0.0);
-        self.direct_noise_lx = Some(share * (varies + whole_lx * whole_lx).sqrt());
+        self.direct.noise_lx = Some(share * (varies + whole_lx * whole_lx).sqrt());
     }
 
     /// Photometric direct light at the known vertices, without details that may be noise.
     fn direct_signal(&self, elements: &Elements) -> Vec<Option<f64>> {
-        let luminances = self.in_the_open(&self.direct);
+        let luminances = self.in_the_open(&self.direct.lx);
         if without("shrinkage") {
             return luminances;
         }
-        beyond_noise(elements, &luminances, &self.direct_variance)
+        beyond_noise(elements, &luminances, &self.direct.variance)
     }
 
     /// Vertices for direct light. Best effort: sharp shadow borders would take elements without end, and of
     /// emitting surfaces refinement cannot tell noise from borders.
     pub(super) fn most_for_direct_light(&self, request: &PilotRequest) -> usize {
         let finer = (USUAL_MESH / request.mesh_target).max(1.0);
-        let most = (MOST_FOR_DIRECT_LIGHT * finer * self.gathered.len() as f64) as usize;
+        let most = (MOST_FOR_DIRECT_LIGHT * finer * self.indirect.gathered.len() as f64) as usize;
         most.max(ALWAYS_FOR_DIRECT_LIGHT).min(request.max_vertices)
     }
 
@@ -149,10 +152,10 @@ impl Pilot<'_> {
         let signal = self.direct_signal(elements);
         // All vertices have direct light of their own.
         let (carriers, no) = (Carriers::all(), |_, _| false);
-        let details = Details::of(&self.subdivision, elements, &signal, &carriers, no);
+        let details = Details::of(&self.mesh.subdivision, elements, &signal, &carriers, no);
         let errors = details.leaf_errors(|_| None, |_| false, |_, _| false);
         // Where light is smooth and exact, it costs little not to stay behind what is gathered.
-        let is_cheap = self.is_smoothed && self.direct_noise.is_none();
+        let is_cheap = self.indirect.is_smoothed && self.direct.noise.is_none();
         let own = if is_cheap { OF_ACCURACY * request.target } else { f64::INFINITY };
         let target = request.mesh_target.min(own);
         let bare = self.bare_errors(elements, &signal);
@@ -174,7 +177,7 @@ impl Pilot<'_> {
         let (mut dim_m2, mut all_m2) = (0.0, 0.0);
         let mut lacking: BTreeMap<(u32, bool), f64> = BTreeMap::new();
         for error in errors {
-            let Origin { triangle, back, .. } = self.subdivision.node(error.node).1;
+            let Origin { triangle, back, .. } = self.mesh.subdivision.node(error.node).1;
             let own_m2 = error.area_m2 * (1.0 - 1.0 / error.weight);
             all_m2 += error.area_m2;
             dim_m2 += own_m2;
@@ -189,7 +192,8 @@ impl Pilot<'_> {
 
     /// What all surfaces make of light that they reflect again and again.
     fn reflected_again(&self) -> f64 {
-        let reflectance = reflectance::of_all(self.scene, &self.subdivision).min(MOST_REFLECTANCE);
+        let reflectance =
+            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_REFLECTANCE);
         reflectance / (1.0 - reflectance)
     }
 

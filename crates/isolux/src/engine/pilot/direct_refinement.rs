@@ -19,7 +19,7 @@ impl Pilot<'_> {
     ) {
         let how_far = Refinement {
             wanted: 0.0,
-            least_edge_m: self.least_edge_m,
+            least_edge_m: self.mesh.least_edge_m,
             max_vertices: self.most_for_direct_light(request),
         };
         if without("direct-refinement") {
@@ -29,18 +29,18 @@ impl Pilot<'_> {
         let (mut before, mut stalls) = (f64::INFINITY, 0);
         for _ in 0..MAX_ROUNDS {
             let (errors, excess) = self.direct_excess(&look.elements, request, look.reference_lx);
-            self.direct_excess = Some((self.subdivision.vertex_count(), excess));
+            self.direct.excess = Some((self.mesh.subdivision.vertex_count(), excess));
             // What errs most may lie in elements that are as small as they may be.
             stalls = if excess > STALLED * before { stalls + 1 } else { 0 };
             if excess <= 1.0 || stalls > MOST_STALLS || !self.has_time(look, request, FINE, go_on) {
                 break;
             }
             before = excess;
-            if !refine_worst(&mut self.subdivision, &mut Carriers::all(), &errors, how_far) {
+            if !refine_worst(&mut self.mesh.subdivision, &mut Carriers::all(), &errors, how_far) {
                 break;
             }
-            look.elements = self.subdivision.elements();
-            self.added_for_direct = look.elements.vertices().len() - self.direct.len();
+            look.elements = self.mesh.subdivision.elements();
+            self.direct.added = look.elements.vertices().len() - self.direct.lx.len();
             self.complete_rays();
             let gatherers = self.gatherers();
             self.complete_direct(&look.elements, &gatherers);

@@ -19,12 +19,12 @@ impl<'s> Pilot<'s> {
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) -> Plan<'s> {
-        let carrying = self.subdivision.vertex_count();
+        let carrying = self.mesh.subdivision.vertex_count();
         if look.is_smooth(request) && self.has_time(&look, request, FINE, go_on) {
             self.smooth(&mut look, request.max_vertices);
         }
         let caustics = self.refine_for_caustics(&mut look, request, go_on);
-        let indirect_vertices = self.subdivision.vertex_count();
+        let indirect_vertices = self.mesh.subdivision.vertex_count();
         let coarse = self.fix_for_indirect_light();
         self.look_at_walls_again(&look.elements, request.target);
         let mut gatherers = self.measure_direct_light(&mut look, request, go_on);
@@ -52,38 +52,39 @@ impl<'s> Pilot<'s> {
             fit: self.fit(&coarse, &open, &cuts),
             cuts,
             bright: self.bright,
-            backdrop: self.backdrop,
+            backdrop: self.walls.backdrop,
             parts: caustics.parts(&coarse),
-            direct: self.direct,
-            direct_variance: self.direct_variance,
-            guess: self.indirect,
+            direct: self.direct.lx,
+            direct_variance: self.direct.variance,
+            guess: self.indirect.lx,
             elements: look.elements,
             indirect_errors: look.errors,
-            waiting: self.carriers.waiting(),
-            carriers: self.carriers,
+            waiting: self.mesh.carriers.waiting(),
+            carriers: self.mesh.carriers,
             standings,
             subdivision: coarse,
-            trial: self.trial.unwrap_or(Trial::usual(look.reference_lx)),
-            caustic_noise: self.caustic_noise,
+            trial: self.tried.trial.unwrap_or(Trial::usual(look.reference_lx)),
+            caustic_noise: self.tried.caustic_noise,
             caustic_error_lx: caustics.lx,
             caustics_beside_lx2: caustics.beside_lx2,
-            aim: self.aim,
+            aim: self.tried.aim,
             is_whole: self.is_whole,
-            is_finest: self.is_full && self.direct_excess.is_some_and(|(_, excess)| excess > 1.0),
+            is_finest: self.mesh.is_full
+                && self.direct.excess.is_some_and(|(_, excess)| excess > 1.0),
             rays: self.traced,
         }
     }
 
     /// The elements for indirect light, which are what they will be.
     fn fix_for_indirect_light(&mut self) -> Subdivision {
-        let areas_m2 = areas_m2(&self.subdivision, &self.carriers);
-        self.for_indirect_light = Some((self.subdivision.vertex_count(), areas_m2));
-        self.subdivision.clone()
+        let areas_m2 = areas_m2(&self.mesh.subdivision, &self.mesh.carriers);
+        self.mesh.for_indirect_light = Some((self.mesh.subdivision.vertex_count(), areas_m2));
+        self.mesh.subdivision.clone()
     }
 
     /// What vertices stand for; of those for direct light alone nothing is known where both ends of their edge are hidden.
     fn final_standings(&mut self, elements: &Elements, first: usize) -> Vec<Option<Standing>> {
-        let mut standings = std::mem::take(&mut self.standings);
+        let mut standings = std::mem::take(&mut self.near.standings);
         forget_orphans(elements, first, &mut standings);
         standings
     }
@@ -114,16 +115,16 @@ impl<'s> Pilot<'s> {
         self.refine_for_direct_light(look, request, go_on);
         // Readers see elements for direct light alone.
         for error in look.errors.iter_mut().filter(|e| e.is_beset) {
-            error.is_beset_afar |= self.subdivision.node(error.node).0.split.is_some();
+            error.is_beset_afar |= self.mesh.subdivision.node(error.node).0.split.is_some();
         }
         let gatherers = self.gatherers();
         if self.has_time(look, request, FINE, go_on) {
             self.measure_moved(&look.elements, &gatherers);
         }
-        if self.direct_noise_lx.is_none() {
-            self.direct_variance.fill(0.0);
+        if self.direct.noise_lx.is_none() {
+            self.direct.variance.fill(0.0);
         }
-        self.is_measured = true;
+        self.direct.is_measured = true;
         go_on(&self.round(request, Some(look), FINE));
         self.complete_standings(&gatherers);
         gatherers
@@ -132,13 +133,13 @@ impl<'s> Pilot<'s> {
     /// Elements that something stands across.
     fn cuts(&self, coarse: &Subdivision, elements: &Elements) -> Cuts {
         let nodes = coarse.leaves().map(|node| Side::of(coarse, node));
-        Cuts::of(self.scene, elements, (nodes, &self.indirect), coarse.vertex_count())
+        Cuts::of(self.scene, elements, (nodes, &self.indirect.lx), coarse.vertex_count())
     }
 
     fn fit(&self, coarse: &Subdivision, open: &[bool], cuts: &Cuts) -> Fit {
         let all = Carriers::all();
         // Quadratic functions tell the values at vertices; elements between them alone are to be fitted, too.
-        let carriers = if self.is_smoothed { &all } else { &self.carriers };
+        let carriers = if self.indirect.is_smoothed { &all } else { &self.mesh.carriers };
         let tells =
             |corners: [u32; 3]| corners.iter().all(|&v| open[v as usize]) && !cuts.has(corners);
         Fit::new(&coarse.elements(), coarse.vertex_count(), tells, carriers)

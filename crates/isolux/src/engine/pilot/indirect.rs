@@ -27,7 +27,7 @@ impl Pilot<'_> {
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) {
-        let is_first = self.indirect.is_empty();
+        let is_first = self.indirect.lx.is_empty();
         // On the first mesh nobody knows yet what stands close.
         if is_first {
             self.set_out(elements, gatherers);
@@ -36,8 +36,8 @@ impl Pilot<'_> {
         let new = self.new_carriers(gatherers.len());
         let rows = self.rows(&new, gatherers);
         self.keep_behind(&new, &rows);
-        let level = if is_first { u32::MAX } else { self.solved_nodes };
-        let gathering = self.gathering(elements, level, &self.standings);
+        let level = if is_first { u32::MAX } else { self.indirect.solved_nodes };
+        let gathering = self.gathering(elements, level, &self.near.standings);
         let key = self.key.with(2);
         let mut started = Instant::now();
         let head = if is_first { rows.len() / FIRST_PART } else { 0 };
@@ -45,61 +45,64 @@ impl Pilot<'_> {
         if is_first {
             // How long it takes is told as soon as it is known how long a part takes; before walls rays take little of it.
             self.costs.rays.add(started.elapsed(), operator.rays as f64);
-            if self.backdrop.is_none() {
+            if self.walls.backdrop.is_none() {
                 go_on(&self.round(request, None, (None, None)));
             }
             started = Instant::now();
         }
-        let gathering = self.gathering(elements, level, &self.standings);
+        let gathering = self.gathering(elements, level, &self.near.standings);
         let tail = gathering.operator(&rows[head..], |_| key);
         let rays = tail.rays as f64;
         operator.append(tail);
         self.traced += operator.rays;
-        self.indirect.resize(gatherers.len(), Rgb::BLACK);
+        self.indirect.lx.resize(gatherers.len(), Rgb::BLACK);
         if is_first {
             let black = vec![Rgb::BLACK; gatherers.len()];
-            self.indirect =
-                operator.solve(&black, &black, &self.carriers.waiting(), PILOT_TOLERANCE);
-            if !self.known.contains(&true) {
+            self.indirect.lx =
+                operator.solve(&black, &black, &self.mesh.carriers.waiting(), PILOT_TOLERANCE);
+            if !self.near.known.contains(&true) {
                 // No light at all: what is not closed in is dark.
-                self.known = operator.open();
+                self.near.known = operator.open();
             }
         } else {
             self.extend_known(elements, gatherers);
-            let light = operator.apply(&self.indirect);
-            new.iter().zip(light).for_each(|(&v, light)| self.indirect[v as usize] = light);
-            self.carriers.fill(&mut self.indirect);
+            let light = operator.apply(&self.indirect.lx);
+            new.iter().zip(light).for_each(|(&v, light)| self.indirect.lx[v as usize] = light);
+            self.mesh.carriers.fill(&mut self.indirect.lx);
         }
         self.costs.rays.add(started.elapsed(), rays);
         self.complete_standings(gatherers);
         if is_first {
             self.look_about(elements, gatherers, &operator);
         }
-        new.iter().for_each(|&v| self.gathered[v as usize] = self.carriers.is_active(v));
+        new.iter()
+            .for_each(|&v| self.indirect.gathered[v as usize] = self.mesh.carriers.is_active(v));
         self.complete_beset_carriers(gatherers);
-        self.solved_nodes = self.subdivision.node_count() as u32;
+        self.indirect.solved_nodes = self.mesh.subdivision.node_count() as u32;
     }
 
     /// Finds out what stands close before the vertices of the first mesh, and which of them carry light.
     fn set_out(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let started = Instant::now();
-        self.reached = self.reached_by_caustics();
+        self.near.reached = self.reached_by_caustics();
         self.extend_known(elements, gatherers);
         self.complete_standings(gatherers);
         self.costs.first.add(started.elapsed(), gatherers.len() as f64);
-        if self.spacing_m > 0.0 && !without("carriers") {
+        if self.mesh.spacing_m > 0.0 && !without("carriers") {
             let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
-            let open: Vec<bool> = self.standings.iter().map(is_open).collect();
-            self.carriers = Carriers::sparse(&self.subdivision, self.spacing_m, &open);
+            let open: Vec<bool> = self.near.standings.iter().map(is_open).collect();
+            self.mesh.carriers =
+                Carriers::sparse(&self.mesh.subdivision, self.mesh.spacing_m, &open);
         }
     }
 
     /// The vertices that are to gather; all of the first mesh, as far as they carry light.
     fn new_carriers(&mut self, vertices: usize) -> Vec<u32> {
-        let is_first = self.gathered.is_empty();
-        self.gathered.resize(vertices, false);
-        let is_new =
-            |&v: &u32| is_first || self.carriers.is_active(v) && !self.gathered[v as usize];
+        let is_first = self.indirect.gathered.is_empty();
+        self.indirect.gathered.resize(vertices, false);
+        let is_new = |&v: &u32| {
+            is_first || self.mesh.carriers.is_active(v) && !self.indirect.gathered[v as usize]
+        };
         (0..vertices as u32).filter(is_new).collect()
     }
 

@@ -42,17 +42,17 @@ impl Pilot<'_> {
         let mut any = false;
         for _ in 0..ROUNDS {
             let wrong = self.wrongly_told(elements, (&landed, each_lm(many)));
-            let room = |pilot: &Self| pilot.subdivision.vertex_count() < request.max_vertices;
+            let room = |pilot: &Self| pilot.mesh.subdivision.vertex_count() < request.max_vertices;
             if wrong.is_empty() || !room(self) {
                 break;
             }
             for node in wrong {
                 if room(self) {
-                    self.subdivision.bisect_twice(node);
+                    self.mesh.subdivision.bisect_twice(node);
                 }
             }
             any = true;
-            *elements = self.subdivision.elements();
+            *elements = self.mesh.subdivision.elements();
             self.complete_rays();
             *gatherers = self.gatherers();
             self.complete_direct(elements, gatherers);
@@ -77,18 +77,18 @@ impl Pilot<'_> {
             sums[place.node() as usize].add(of.flux_lm);
             all_lm += of.flux_lm;
         }
-        let least_edge_m = self.least_edge_m * LEAST_EDGE;
+        let least_edge_m = self.mesh.least_edge_m * LEAST_EDGE;
         let (mut wrong, mut wrong_lm) = (Vec::new(), 0.0);
-        for node in self.subdivision.leaves() {
-            let corners = self.subdivision.node(node).0.vertices;
-            let lx: f64 = corners.iter().map(|&v| self.direct[v as usize].luminance()).sum();
-            let told_lm = self.subdivision.triangle(node).area() * lx / 3.0;
+        for node in self.mesh.subdivision.leaves() {
+            let corners = self.mesh.subdivision.node(node).0.vertices;
+            let lx: f64 = corners.iter().map(|&v| self.direct.lx[v as usize].luminance()).sum();
+            let told_lm = self.mesh.subdivision.triangle(node).area() * lx / 3.0;
             let Sum { flux_lm, squares_lm2 } = sums[node as usize];
             let differs_lm = (flux_lm - told_lm).abs();
             // Of what is told, too, as few particles tell little of their own variance; no less than one.
             let variance_lm2 = squares_lm2.max(told_lm * each_lm).max(each_lm * each_lm);
             if differs_lm > BELIEVED * variance_lm2.sqrt()
-                && self.subdivision.longest_edge_m(node) > 2.0 * least_edge_m
+                && self.mesh.subdivision.longest_edge_m(node) > 2.0 * least_edge_m
             {
                 wrong.push(node);
                 wrong_lm += differs_lm;

@@ -18,45 +18,47 @@ impl Pilot<'_> {
     /// as over a lamp that hangs close below the ceiling: what they lack is missing elsewhere, too.
     pub(super) fn complete_middles(&mut self, elements: &Elements, values: &[Option<f64>]) {
         let details = self.details(elements, values);
-        let is_new =
-            |&node: &u32| !self.middles.contains_key(&node) && details.told_error(node).is_none();
-        let new: Vec<u32> = self.subdivision.leaves().filter(is_new).collect();
+        let is_new = |&node: &u32| {
+            !self.indirect.middles.contains_key(&node) && details.told_error(node).is_none()
+        };
+        let new: Vec<u32> = self.mesh.subdivision.leaves().filter(is_new).collect();
         let asking = |node: u32| {
-            if !self.beset[node as usize] {
+            if !self.near.beset[node as usize] {
                 return None;
             }
-            let place = SurfacePoint::amid_node(self.scene, &self.subdivision, node);
-            let edge_m = self.subdivision.longest_edge_m(node);
-            let corner = self.subdivision.node(node).0.vertices[0];
-            let gatherer = Gatherer::on_surface(place, self.rays[corner as usize]);
+            let place = SurfacePoint::amid_node(self.scene, &self.mesh.subdivision, node);
+            let edge_m = self.mesh.subdivision.longest_edge_m(node);
+            let corner = self.mesh.subdivision.node(node).0.vertices[0];
+            let gatherer = Gatherer::on_surface(place, self.mesh.rays[corner as usize]);
             let in_gap = nearby::is_closed_in(self.scene, &place, edge_m);
             let asks = !in_gap || self.is_lit_up(node, &place);
             asks.then_some((node, gatherer.in_gap(in_gap)))
         };
         let asked: Vec<Option<(u32, Gatherer)>> = new.par_iter().map(|&n| asking(n)).collect();
-        self.middles.extend(new.into_iter().map(|node| (node, None)));
+        self.indirect.middles.extend(new.into_iter().map(|node| (node, None)));
         let (nodes, rows): (Vec<u32>, Vec<Gatherer>) = asked.into_iter().flatten().unzip();
         let key = self.key.with(2);
-        let gathering = self.gathering(elements, self.solved_nodes, &self.standings);
+        let gathering = self.gathering(elements, self.indirect.solved_nodes, &self.near.standings);
         let operator = gathering.operator(&rows, |_| key);
-        let light = operator.apply(&self.indirect);
+        let light = operator.apply(&self.indirect.lx);
         self.traced += operator.rays;
         let middles = light.iter().map(|e| e.luminance()).zip(&rows);
         // What is too bright in gaps nobody reads.
         let told = |(node, (lx, row)): (u32, (f64, &Gatherer))| {
-            let darker = || values_read(&self.subdivision, node, values).all(|read| lx <= read);
+            let darker =
+                || values_read(&self.mesh.subdivision, node, values).all(|read| lx <= read);
             (node, (!row.in_gap || !darker()).then_some(lx))
         };
         let told: Vec<(u32, Option<f64>)> = nodes.into_iter().zip(middles).map(told).collect();
-        self.sees_lit_gaps =
+        self.indirect.sees_lit_gaps =
             told.iter().zip(&rows).any(|((_, lx), row)| row.in_gap && lx.is_some());
-        self.middles.extend(told);
+        self.indirect.middles.extend(told);
     }
 
     /// Whether more light comes to a place straight from luminaires than to the vertices of its element that are read.
     fn is_lit_up(&self, node: u32, place: &SurfacePoint) -> bool {
-        let corners = self.subdivision.node(node).0.vertices;
-        let is_read = |v: &u32| self.standings[*v as usize] == Some(Standing::Open);
+        let corners = self.mesh.subdivision.node(node).0.vertices;
+        let is_read = |v: &u32| self.near.standings[*v as usize] == Some(Standing::Open);
         let mut read = corners.into_iter().filter(is_read).peekable();
         if read.peek().is_none() {
             return false;
@@ -67,7 +69,7 @@ impl Pilot<'_> {
             true => self.lighting.estimate(place, &mut dice),
             false => self.lighting.sampled(place, SAMPLES_IN_GAPS, &mut dice),
         };
-        read.all(|v| self.direct[v as usize].luminance() < direct.luminance())
+        read.all(|v| self.direct.lx[v as usize].luminance() < direct.luminance())
     }
 }
 

@@ -47,9 +47,10 @@ pub(super) fn pilot<'s>(
     unlit: &mut Unlit,
     go_on: &mut GoOn<'_>,
 ) -> Plan<'s> {
-    let mut pilot = Pilot { unlit: mem::take(unlit), ..Pilot::new(scene, lighting, request) };
+    let mut pilot = Pilot::new(scene, lighting, request);
+    pilot.near.unlit = mem::take(unlit);
     let look = pilot.elements_for_indirect_light(request, go_on);
-    *unlit = mem::take(&mut pilot.unlit);
+    *unlit = mem::take(&mut pilot.near.unlit);
     pilot.finish(look, request, go_on)
 }
 

@@ -25,14 +25,14 @@ impl Pilot<'_> {
         go_on: &mut GoOn<'_>,
     ) -> Look {
         let mut look = self.look(request, go_on);
-        if let Some(edge_m) = self.usual_edge_m.filter(|_| !look.is_smooth(request)) {
-            self.subdivision.bisect_to(edge_m, request.max_vertices);
+        if let Some(edge_m) = self.mesh.usual_edge_m.filter(|_| !look.is_smooth(request)) {
+            self.mesh.subdivision.bisect_to(edge_m, request.max_vertices);
             look = self.look(request, go_on);
         }
         let most = request.most_for_indirect_light.unwrap_or(MOST_FOR_INDIRECT_LIGHT);
         let most = most.max(look.elements.vertices().len() / 2 * 3);
         let most = request.max_vertices.min(most);
-        self.most_for_indirect_light = most as f64;
+        self.mesh.most_for_indirect_light = most as f64;
         self.try_some(&look, request.target);
         let excess = |look: &Look| (Some(look.greatest_excess(request)), None);
         let mut has_time = self.has_time(&look, request, excess(&look), go_on);
@@ -48,14 +48,14 @@ impl Pilot<'_> {
         for &what in reads {
             look = self.refine(look, request, (what, most), go_on);
         }
-        self.is_full = look.elements.vertices().len() as f64 > FULL * most as f64;
+        self.mesh.is_full = look.elements.vertices().len() as f64 > FULL * most as f64;
         look
     }
 
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
     pub(super) fn look(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Look {
-        let mut elements = self.subdivision.elements();
-        let is_first = self.indirect.is_empty();
+        let mut elements = self.mesh.subdivision.elements();
+        let is_first = self.indirect.lx.is_empty();
         self.complete_rays();
         let mut gatherers = self.gatherers();
         if is_first {
@@ -70,26 +70,26 @@ impl Pilot<'_> {
         }
         self.complete_indirect(&elements, &gatherers, request, go_on);
         let started = Instant::now();
-        let luminances = self.in_the_open(&self.indirect);
+        let luminances = self.in_the_open(&self.indirect.lx);
         self.complete_hemmed(&gatherers);
         if !without("midpoints") {
             self.complete_middles(&elements, &luminances);
         }
-        let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
-        let middle = |node: u32| self.middles.get(&node).copied().flatten();
-        let beset = |node: u32| self.beset[node as usize];
+        let lx = |k: usize| (self.direct.lx[k] + self.indirect.lx[k]).luminance();
+        let middle = |node: u32| self.indirect.middles.get(&node).copied().flatten();
+        let beset = |node: u32| self.near.beset[node as usize];
         let details = self.details(&elements, &luminances);
         let hemmed = |vertex: u32, edge_m: f64| {
-            self.hemmed_in_m[vertex as usize] < HEM * edge_m && !without("hemmed-errors")
+            self.near.hemmed_in_m[vertex as usize] < HEM * edge_m && !without("hemmed-errors")
         };
         let mut errors = details.leaf_errors(middle, beset, hemmed);
-        let reference_lx = Light::of_vertices(&elements, &self.standings, lx).reference_lx();
+        let reference_lx = Light::of_vertices(&elements, &self.near.standings, lx).reference_lx();
         for error in &mut errors {
             error.error = error.error.max(self.error_in_lit_gap_lx(error.node, reference_lx));
         }
         let left_by_fit = details.left_by_fit(&errors);
         self.weigh(&mut errors);
-        let carriers = self.carriers.count(gatherers.len());
+        let carriers = self.mesh.carriers.count(gatherers.len());
         let longer = if is_first { LONGER } else { 1.0 };
         self.costs.looks.add(started.elapsed().div_f64(longer), gatherers.len() as f64);
         if is_first {
@@ -105,8 +105,8 @@ impl Pilot<'_> {
             worst,
             left_by_fit,
             reference_lx,
-            dim_m2: self.surroundings.dim_m2,
-            is_noisy: self.direct_noise.is_some(),
+            dim_m2: self.indirect.surroundings.dim_m2,
+            is_noisy: self.direct.noise.is_some(),
         };
         if look.is_smooth(request) && !without("edge-falloff") {
             self.look_for_walls(&mut look, request, &luminances);
@@ -122,8 +122,8 @@ impl Pilot<'_> {
         luminances: &[Option<f64>],
     ) {
         let open: Vec<bool> = luminances.iter().map(Option::is_some).collect();
-        let walls = Walls::of(self.scene, &self.subdivision, &open);
-        look.resolve(walls, &self.subdivision, luminances, request.target * look.reference_lx);
+        let walls = Walls::of(self.scene, &self.mesh.subdivision, &open);
+        look.resolve(walls, &self.mesh.subdivision, luminances, request.target * look.reference_lx);
     }
 
     /// Bisects until elements are good enough for what they are read for, or that comes to nothing.
@@ -141,7 +141,7 @@ impl Pilot<'_> {
             // Where bisection no longer helps, what is left is noise: the check points will tell. As long as it finds light
             // in gaps, errors may rise.
             let carriers = look.carriers as f64;
-            let has_risen = self.sees_lit_gaps && excess > before.0;
+            let has_risen = self.indirect.sees_lit_gaps && excess > before.0;
             risen += usize::from(has_risen);
             let is_excused = has_risen && risen <= MOST_RISEN;
             let fallen = libm::pow(before.1 / carriers, LEAST_ORDER);
@@ -153,9 +153,10 @@ impl Pilot<'_> {
                 break;
             }
             before = (excess, carriers);
-            let least_edge_m = self.least_edge_m;
+            let least_edge_m = self.mesh.least_edge_m;
             let how_far = Refinement { wanted: 1.0 / excess, least_edge_m, max_vertices };
-            if !refine_worst(&mut self.subdivision, &mut self.carriers, &errors, how_far) {
+            if !refine_worst(&mut self.mesh.subdivision, &mut self.mesh.carriers, &errors, how_far)
+            {
                 break;
             }
             look = self.look(request, go_on);

@@ -53,7 +53,7 @@ impl Pilot<'_> {
         go_on: &mut GoOn<'_>,
     ) {
         self.look_at_direct_light(elements, gatherers);
-        if !self.has_many_things {
+        if !self.mesh.has_many_things {
             return;
         }
         self.complete_direct(elements, &gatherers[..gatherers.len() / FIRST_PART]);
@@ -79,14 +79,15 @@ impl Pilot<'_> {
         look: Option<&Look>,
         (excess, before): Excess,
     ) -> Round {
-        let vertices = self.subdivision.vertex_count();
-        let trial = self.trial.unwrap_or(Trial::usual(look.map_or(1.0, |look| look.reference_lx)));
+        let vertices = self.mesh.subdivision.vertex_count();
+        let trial =
+            self.tried.trial.unwrap_or(Trial::usual(look.map_or(1.0, |look| look.reference_lx)));
         let reference_lx = look.map_or(trial.reference_lx, |look| look.reference_lx);
-        let fixed = self.for_indirect_light.as_ref().map(|(count, _)| *count);
-        let carriers = self.carriers.count(fixed.unwrap_or(vertices));
+        let fixed = self.mesh.for_indirect_light.as_ref().map(|(count, _)| *count);
+        let carriers = self.mesh.carriers.count(fixed.unwrap_or(vertices));
         // Rounds that are not the last add more and more.
-        let another = NEXT * self.added_for_direct as f64;
-        let unmeasured = look.filter(|_| !self.is_measured);
+        let another = NEXT * self.direct.added as f64;
+        let unmeasured = look.filter(|_| !self.direct.is_measured);
         let more = unmeasured.map_or(0.0, |look| self.more_for_direct(look, request, another));
         let for_bare = look.map_or(0.0, |look| self.rows_for_bare(look, request, more));
         let interpolation = look.map_or(request.target, |look| look.interpolation(request));
@@ -98,15 +99,15 @@ impl Pilot<'_> {
         let of_one = f64::from(trial.rays_anywhere(noise, reference_lx, BELIEVED_INCREMENTS));
         let checks = check_points::count(carriers) as f64;
         let smoothed = look
-            .filter(|look| !self.is_smoothed && look.is_smooth(request))
+            .filter(|look| !self.indirect.is_smoothed && look.is_smooth(request))
             .map_or(1.0, Look::smoothed);
         let outlook = Outlook {
             carriers: carriers as f64,
-            gathered: self.gathered.iter().filter(|&&gathered| gathered).count() as f64,
+            gathered: self.indirect.gathered.iter().filter(|&&gathered| gathered).count() as f64,
             vertices: vertices as f64,
-            most: self.most_for_indirect_light,
-            measured: self.direct.len() as f64,
-            pilot_rays: mean_of(&self.rays),
+            most: self.mesh.most_for_indirect_light,
+            measured: self.direct.lx.len() as f64,
+            pilot_rays: mean_of(&self.mesh.rays),
             rays,
             checks,
             check_rays: (checks + measured + for_bare) * of_one,
@@ -115,11 +116,12 @@ impl Pilot<'_> {
             target: request.target,
             excess,
             before,
-            usual: if look.is_none() && !self.is_measured { self.usual() } else { None },
+            usual: if look.is_none() && !self.direct.is_measured { self.usual() } else { None },
             smoothed,
-            is_smooth: self.is_smoothed || look.is_some_and(|look| look.is_smooth(request)),
+            is_smooth: self.indirect.is_smoothed
+                || look.is_some_and(|look| look.is_smooth(request)),
             more_for_direct: more,
-            measured_again: if self.is_measured { 0.0 } else { MOVED },
+            measured_again: if self.direct.is_measured { 0.0 } else { MOVED },
             measured_each: !self.lighting.is_measured_once(),
         };
         // Elements are made smooth once they are fine enough.
@@ -136,7 +138,7 @@ impl Pilot<'_> {
 
     /// Vertices that direct light alone will take, of which the next round will add so many, if there is one.
     fn more_for_direct(&self, look: &Look, request: &PilotRequest, another: f64) -> f64 {
-        let vertices = self.subdivision.vertex_count() as f64;
+        let vertices = self.mesh.subdivision.vertex_count() as f64;
         let excess = self.direct_excess_now(look, request);
         let gathers = self.gathers_for_bare(look, request);
         let order = if gathers { ORDER_FOR_BARE } else { ORDER_FOR_DIRECT };
@@ -148,13 +150,14 @@ impl Pilot<'_> {
 
     /// Rays of a vertex in the mean, if each had so many, and more where they are not judged by walls.
     fn mean_allotted(&self, rays: f64) -> f64 {
-        let areas_m2 = match &self.for_indirect_light {
+        let areas_m2 = match &self.mesh.for_indirect_light {
             Some((_, areas_m2)) => Cow::Borrowed(areas_m2),
-            None => Cow::Owned(areas_m2(&self.subdivision, &self.carriers)),
+            None => Cow::Owned(areas_m2(&self.mesh.subdivision, &self.mesh.carriers)),
         };
         let mut allotted = allot(&areas_m2, rays);
         for (vertex, rays) in allotted.iter_mut().enumerate().filter(|(_, rays)| **rays > 0) {
-            let behind = self.behind.get(&(vertex as u32)).and_then(|(_, light)| light.as_ref());
+            let behind =
+                self.walls.behind.get(&(vertex as u32)).and_then(|(_, light)| light.as_ref());
             *rays = if behind.is_none() { (*rays).max(FEWEST_UNJUDGED) } else { *rays };
         }
         mean_of(&allotted)
@@ -173,24 +176,25 @@ impl Pilot<'_> {
         }
         let (goal, increments) = ((target, reference_lx), BELIEVED_INCREMENTS);
         let rays = carriers as f64 * rays;
-        let share = self.caustic_noise.share(vertices, goal, increments, rays);
-        f64::from(self.caustic_noise.particles(vertices, goal, increments, share))
+        let share = self.tried.caustic_noise.share(vertices, goal, increments, rays);
+        f64::from(self.tried.caustic_noise.particles(vertices, goal, increments, share))
     }
 
     /// What direct light as interpolated errs by, in what is asked for, as found already or by a look.
     fn direct_excess_now(&self, look: &Look, request: &PilotRequest) -> f64 {
-        let known = self.direct_excess.filter(|(of, _)| *of == self.subdivision.vertex_count());
+        let known =
+            self.direct.excess.filter(|(of, _)| *of == self.mesh.subdivision.vertex_count());
         let look_now = || self.direct_excess(&look.elements, request, look.reference_lx).1;
         known.map_or_else(look_now, |(_, excess)| excess)
     }
 
     /// Among many things light is not smooth: the usual first mesh, as a multiple of that there is.
     fn usual(&self) -> Option<f64> {
-        let edge_m = self.usual_edge_m.filter(|_| self.has_many_things)?;
-        let leaves = || self.subdivision.leaves();
+        let edge_m = self.mesh.usual_edge_m.filter(|_| self.mesh.has_many_things)?;
+        let leaves = || self.mesh.subdivision.leaves();
         // Two bisections halve the longest edge.
         let parts = |node: u32| {
-            let halvings = libm::log2(self.subdivision.longest_edge_m(node) / edge_m);
+            let halvings = libm::log2(self.mesh.subdivision.longest_edge_m(node) / edge_m);
             libm::exp2((2.0 * halvings).ceil().max(0.0))
         };
         Some(leaves().map(parts).sum::<f64>() / leaves().count().max(1) as f64)

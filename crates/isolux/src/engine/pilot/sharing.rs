@@ -14,7 +14,8 @@ impl Pilot<'_> {
     /// Tries how noisy gathered light is.
     pub(super) fn try_some(&mut self, look: &Look, target: f64) {
         let vertices = look.elements.vertices();
-        let carries = |&v: &usize| self.standings[v].is_some() && self.carriers.is_active(v as u32);
+        let carries =
+            |&v: &usize| self.near.standings[v].is_some() && self.mesh.carriers.is_active(v as u32);
         let all: Vec<usize> = (0..vertices.len()).filter(carries).collect();
         let every = all.len().div_ceil(ray_trial::RECEIVERS).max(1);
         let gatherers = self.gatherers();
@@ -23,22 +24,23 @@ impl Pilot<'_> {
         let some: Vec<(Gatherer, f64)> = some
             .map(|v| (self.before_walls(v as u32, gatherers[v]), vertices[v].area_m2))
             .collect();
-        let gathering = self.gathering(&look.elements, u32::MAX, &self.standings);
+        let gathering = self.gathering(&look.elements, u32::MAX, &self.near.standings);
         let wanted = (target, look.reference_lx, BELIEVED_INCREMENTS, self.key.with(6));
         let started = Instant::now();
-        let (trial, rays) = Trial::of(&gathering, &some, &self.indirect, wanted, self.trial);
+        let (trial, rays) =
+            Trial::of(&gathering, &some, &self.indirect.lx, wanted, self.tried.trial);
         self.costs.tried.add(started.elapsed(), rays as f64);
         if !self.lighting.is_measured_once() {
             self.costs.again.add(self.measures_again(&some), some.len() as f64);
         }
-        self.trial = Some(trial);
+        self.tried.trial = Some(trial);
         self.traced += rays;
         let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();
-        let read = |at: &SurfacePoint| known_at(&look.elements, u32::MAX, &self.standings, at);
+        let read = |at: &SurfacePoint| known_at(&look.elements, u32::MAX, &self.near.standings, at);
         let of = (self.scene, self.lighting);
         let (noise, aim, rays) = CausticNoise::tried(of, &areas_m2, read, self.key.with(7));
-        self.caustic_noise = noise;
-        self.aim = aim;
+        self.tried.caustic_noise = noise;
+        self.tried.aim = aim;
         self.traced += rays;
     }
 

@@ -54,82 +54,121 @@ pub(super) const HEM: f64 = 0.125;
 /// Sweeps of the pilot end when they change less than this.
 pub(super) const PILOT_TOLERANCE: f64 = 1e-4;
 
-/// The pilot.
+/// The pilot: what it works on, what it knows so far, and what that has cost.
 pub(super) struct Pilot<'s> {
     pub(super) scene: &'s Scene,
     pub(super) lighting: &'s Lighting<'s>,
     pub(super) key: Key,
-    pub(super) subdivision: Subdivision,
-    /// At the vertices looked at so far: light, and whether they are open to it.
-    pub(super) direct: Vec<Rgb>,
-    /// What is bright by that of luminaires.
+    pub(super) mesh: Mesh,
+    pub(super) near: Near,
+    pub(super) direct: DirectLight,
+    pub(super) indirect: IndirectLight,
+    pub(super) walls: WallLight,
+    /// Surfaces that direct light makes far brighter than all others.
     pub(super) bright: Option<Arc<Bright>>,
-    pub(super) direct_variance: Vec<f64>,
-    /// Where it was measured.
-    pub(super) measured_at: Vec<Point>,
-    /// How noisy it may be where it is measured once by part of the luminaires: of all light, and in lx.
-    pub(super) direct_noise: Option<f64>,
-    pub(super) direct_noise_lx: Option<f64>,
-    /// By how much direct light as interpolated errs more than it should, with so many vertices.
-    pub(super) direct_excess: Option<(usize, f64)>,
-    /// Vertices that the last round of refinement for it has added.
-    pub(super) added_for_direct: usize,
-    pub(super) indirect: Vec<Rgb>,
-    pub(super) surroundings: Surroundings,
+    pub(super) tried: Tried,
+    pub(super) costs: Costs,
+    /// Rays traced so far.
+    pub(super) traced: u64,
+    /// Whether there was time for all that it wanted to do.
+    pub(super) is_whole: bool,
+}
+
+/// The elements so far, and how fine they may become.
+pub(super) struct Mesh {
+    pub(super) subdivision: Subdivision,
+    /// The vertices that carry indirect light.
+    pub(super) carriers: Carriers,
+    /// The greatest distance between the coarsest of them, m.
+    pub(super) spacing_m: f64,
+    /// Gathering rays of every vertex: the same number all over a surface, so that its noise is the same.
+    pub(super) rays: Vec<u32>,
+    /// The shortest edge that may be bisected, m.
+    pub(super) least_edge_m: f64,
+    /// Edges of the usual first mesh, m, where the pilot starts with a coarser one.
+    pub(super) usual_edge_m: Option<f64>,
+    /// Whether most vertices belong to things in the scene, not to its walls.
+    pub(super) has_many_things: bool,
+    /// Vertices that indirect light may have; no limit until that is known.
+    pub(super) most_for_indirect_light: f64,
+    /// Whether there are about as many vertices for indirect light as there may be.
+    pub(super) is_full: bool,
+    /// Vertices that indirect light is interpolated from, and the surface that each stands for, m2, once they are fixed.
+    pub(super) for_indirect_light: Option<(usize, Vec<f64>)>,
+}
+
+/// What stands near vertices and elements.
+#[derive(Default)]
+pub(super) struct Near {
+    /// By vertex, whether light can come to it.
     pub(super) known: Vec<bool>,
-    pub(super) unlit: Unlit,
-    /// Where some particles came over specular surfaces.
-    pub(super) reached: Vec<SurfacePoint>,
-    /// What they stand for.
+    /// By vertex, what it stands for.
     pub(super) standings: Vec<Option<Standing>>,
+    /// Places of elements that are known to be unlit.
+    pub(super) unlit: Unlit,
+    /// Places that some particles have reached over specular surfaces.
+    pub(super) reached: Vec<SurfacePoint>,
     pub(super) felt: Felt,
     pub(super) torn: Torn,
-    /// Which of them carry indirect light; how far apart the coarsest may be, m; which have gathered it.
-    pub(super) carriers: Carriers,
-    pub(super) spacing_m: f64,
-    /// Edges of the usual first mesh, where it starts with a coarser one.
-    pub(super) usual_edge_m: Option<f64>,
-    pub(super) has_many_things: bool,
-    pub(super) gathered: Vec<bool>,
-    /// By carrier, from which distance to others on something stands nearer before it than they.
+    /// By carrier, the distance to other carriers from which on something stands nearer before it than they do.
     pub(super) beset_from_m: HashMap<u32, f64, FewNumbers>,
     /// By vertex, how close something stands before it, m, if that is less than a part of its elements.
     pub(super) hemmed_in_m: Vec<f64>,
     /// By node, whether something stands close before its middle.
     pub(super) beset: Vec<bool>,
-    /// In the middle of elements that no details tell of, by node; nothing where that is not asked for.
-    pub(super) middles: HashMap<u32, Option<f64>>,
-    /// Whether there were some in gaps that luminaires shine into, at the last look.
-    pub(super) sees_lit_gaps: bool,
-    /// Nodes there were then.
-    pub(super) solved_nodes: u32,
-    /// Rays that a vertex gathers with, alike all over a surface, so that their noise is.
-    pub(super) rays: Vec<u32>,
-    pub(super) traced: u64,
-    pub(super) least_edge_m: f64,
-    pub(super) costs: Costs,
-    /// Whether light has quadratic functions between carriers already.
-    pub(super) is_smoothed: bool,
-    /// Vertices that indirect light is interpolated from, and the surface that each stands for, m2, once they are fixed.
-    pub(super) for_indirect_light: Option<(usize, Vec<f64>)>,
-    /// Indirect light of the bare map, where that is not resolved.
-    pub(super) bare: Option<Bare>,
-    /// Whether direct light is what it will be.
+}
+
+/// Direct light at the vertices.
+#[derive(Default)]
+pub(super) struct DirectLight {
+    pub(super) lx: Vec<Rgb>,
+    pub(super) variance: Vec<f64>,
+    /// Where it was measured.
+    pub(super) measured_at: Vec<Point>,
+    /// The noise it may have where it is measured once by part of the luminaires: of all light, and in lx.
+    pub(super) noise: Option<f64>,
+    pub(super) noise_lx: Option<f64>,
+    /// By how much its interpolation errs more than it should, with so many vertices.
+    pub(super) excess: Option<(usize, f64)>,
+    /// Vertices that the last round of refinement for it has added.
+    pub(super) added: usize,
+    /// Whether it is what it will be.
     pub(super) is_measured: bool,
-    /// Walls that rays are judged by, once there is light.
+}
+
+/// Indirect light at the vertices.
+#[derive(Default)]
+pub(super) struct IndirectLight {
+    pub(super) lx: Vec<Rgb>,
+    /// By vertex, whether it has gathered.
+    pub(super) gathered: Vec<bool>,
+    /// Nodes there were when it was last solved for.
+    pub(super) solved_nodes: u32,
+    /// In the middle of elements without details, by node, lx; nothing where that is not asked for.
+    pub(super) middles: HashMap<u32, Option<f64>>,
+    /// Whether some of these lay in gaps that luminaires shine into.
+    pub(super) sees_lit_gaps: bool,
+    /// Whether it has quadratic functions between carriers already.
+    pub(super) is_smoothed: bool,
+    pub(super) surroundings: Surroundings,
+    /// Of the stored map, where elements do not resolve it.
+    pub(super) bare: Option<Bare>,
+}
+
+/// Light of large plane walls: the control variate of gathering.
+#[derive(Default)]
+pub(super) struct WallLight {
     pub(super) backdrop: Option<Backdrop>,
-    /// What vertices get from them, by vertex, and where it was.
+    /// By vertex, where it was and what it gets from them with nothing between.
     pub(super) behind: HashMap<u32, (Point, Option<Rgb>)>,
-    /// What a few receivers tell of noise, once there is light: first, where there are walls, those that tell what these take off.
+}
+
+/// What trials with few rays and particles have told of noise.
+#[derive(Default)]
+pub(super) struct Tried {
     pub(super) trial: Option<Trial>,
     pub(super) caustic_noise: CausticNoise,
     pub(super) aim: Option<Aim>,
-    /// Whether there was time for all that it wanted to do.
-    pub(super) is_whole: bool,
-    /// Vertices that indirect light may have; no limit until that is known.
-    pub(super) most_for_indirect_light: f64,
-    /// Whether there are about as many vertices for indirect light as there may be.
-    pub(super) is_full: bool,
 }
 
 /// What the vertices for direct light have gathered for the bare map.
@@ -171,60 +210,39 @@ impl<'s> Pilot<'s> {
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         let key = Key::new(request.seed).with(0);
         let (bright, traced) = Bright::of(scene, lighting, request.seed);
+        let mesh = Mesh {
+            subdivision,
+            carriers: Carriers::all(),
+            spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
+            rays,
+            least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
+            usual_edge_m: (request.has_means && !without("coarse-start")).then_some(edge_m),
+            has_many_things,
+            most_for_indirect_light: f64::INFINITY,
+            is_full: false,
+            for_indirect_light: None,
+        };
+        let noise = has_noise.then_some(NOISE_OF_DIRECT_LIGHT * request.mesh_target);
         Self {
             scene,
             lighting,
             key,
-            subdivision,
-            direct: Vec::new(),
+            mesh,
+            near: Near::default(),
+            direct: DirectLight { noise, ..DirectLight::default() },
+            indirect: IndirectLight::default(),
+            walls: WallLight::default(),
             bright,
-            direct_variance: Vec::new(),
-            measured_at: Vec::new(),
-            direct_noise: has_noise.then_some(NOISE_OF_DIRECT_LIGHT * request.mesh_target),
-            direct_noise_lx: None,
-            direct_excess: None,
-            added_for_direct: 0,
-            indirect: Vec::new(),
-            surroundings: Surroundings::default(),
-            known: Vec::new(),
-            unlit: Unlit::default(),
-            reached: Vec::new(),
-            standings: Vec::new(),
-            felt: Felt::default(),
-            torn: Torn::default(),
-            carriers: Carriers::all(),
-            usual_edge_m: (request.has_means && !without("coarse-start")).then_some(edge_m),
-            has_many_things,
-            spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
-            gathered: Vec::new(),
-            beset_from_m: HashMap::default(),
-            hemmed_in_m: Vec::new(),
-            beset: Vec::new(),
-            middles: HashMap::new(),
-            sees_lit_gaps: false,
-            solved_nodes: 0,
-            rays,
-            traced,
+            tried: Tried::default(),
             costs: Costs::default(),
-            is_smoothed: false,
-            for_indirect_light: None,
-            bare: None,
-            is_measured: false,
-            trial: None,
-            backdrop: None,
-            behind: HashMap::new(),
-            caustic_noise: CausticNoise::default(),
-            aim: None,
+            traced,
             is_whole: true,
-            most_for_indirect_light: f64::INFINITY,
-            is_full: false,
-            least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
         }
     }
 
     pub(super) fn gatherers(&self) -> Vec<Gatherer> {
-        let receivers = self.subdivision.receivers(PULL_IN);
-        let with = receivers.par_iter().zip(&self.rays).with_min_len(TOGETHER);
+        let receivers = self.mesh.subdivision.receivers(PULL_IN);
+        let with = receivers.par_iter().zip(&self.mesh.rays).with_min_len(TOGETHER);
         with.map(|(receiver, &rays)| Gatherer::at_vertex(self.scene, receiver, rays)).collect()
     }
 
@@ -233,8 +251,8 @@ impl<'s> Pilot<'s> {
         elements: &'a Elements,
         values: &'a [Option<f64>],
     ) -> Details<'a> {
-        let is_beset = |vertex: u32, spacing_m: f64| self.beset_from_m[&vertex] < spacing_m;
-        Details::of(&self.subdivision, elements, values, &self.carriers, is_beset)
+        let is_beset = |vertex: u32, spacing_m: f64| self.near.beset_from_m[&vertex] < spacing_m;
+        Details::of(&self.mesh.subdivision, elements, values, &self.mesh.carriers, is_beset)
     }
 
     /// What rays read on a level of the elements.
@@ -245,7 +263,7 @@ impl<'s> Pilot<'s> {
         standings: &'a [Option<Standing>],
     ) -> Gathering<'a> {
         let direct = if self.lighting.are_read_at_ends() {
-            DirectAtEnds::Read { values: &self.direct, level }
+            DirectAtEnds::Read { values: &self.direct.lx, level }
         } else {
             DirectAtEnds::Evaluated
         };
@@ -259,7 +277,7 @@ impl<'s> Pilot<'s> {
             regathers: false,
             bright: self.bright.as_deref(),
             cuts: None,
-            backdrop: self.backdrop.as_ref(),
+            backdrop: self.walls.backdrop.as_ref(),
         }
     }
 
@@ -269,16 +287,16 @@ impl<'s> Pilot<'s> {
         gatherers: &'a [Gatherer],
     ) -> Sight<'a> {
         let (scene, lighting, key) = (self.scene, self.lighting, self.key.with(3));
-        let (reached, torn) = (&self.reached, &self.torn);
+        let (reached, torn) = (&self.near.reached, &self.near.torn);
         Sight { scene, lighting, elements, gatherers, reached, torn, key }
     }
 
     /// New vertices gather as their parents do.
     pub(super) fn complete_rays(&mut self) {
-        for vertex in &self.subdivision.vertices()[self.rays.len()..] {
+        for vertex in &self.mesh.subdivision.vertices()[self.mesh.rays.len()..] {
             let [parent, _] =
                 vertex.parents.expect("vertices beyond the first are made by bisection");
-            self.rays.push(self.rays[parent as usize]);
+            self.mesh.rays.push(self.mesh.rays[parent as usize]);
         }
     }
 

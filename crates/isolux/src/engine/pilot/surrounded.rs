@@ -9,39 +9,41 @@ use rayon::prelude::*;
 impl Pilot<'_> {
     /// Whether something stands close before the nodes that were not looked at yet.
     pub(super) fn complete_beset(&mut self) {
-        let new = self.beset.len() as u32..self.subdivision.node_count() as u32;
+        let new = self.near.beset.len() as u32..self.mesh.subdivision.node_count() as u32;
         let is_beset = |node: u32| {
-            let place = SurfacePoint::amid_node(self.scene, &self.subdivision, node);
-            nearby::is_beset(self.scene, &place, self.subdivision.longest_edge_m(node))
+            let place = SurfacePoint::amid_node(self.scene, &self.mesh.subdivision, node);
+            nearby::is_beset(self.scene, &place, self.mesh.subdivision.longest_edge_m(node))
         };
         let new: Vec<bool> = new.into_par_iter().map(is_beset).collect();
-        self.beset.extend(new);
+        self.near.beset.extend(new);
     }
 
     /// How close something stands before the vertices that were not looked at yet, but before those on borders: there walls do.
     pub(super) fn complete_hemmed(&mut self, gatherers: &[Gatherer]) {
-        let on_border = self.subdivision.border_vertices();
-        let edges_m = self.subdivision.longest_edges_m();
+        let on_border = self.mesh.subdivision.border_vertices();
+        let edges_m = self.mesh.subdivision.longest_edges_m();
         let stands_in_m = |vertex: usize| {
             if on_border[vertex] {
                 return f64::INFINITY;
             }
             nearby::hemmed_in_m(self.scene, &gatherers[vertex].surface, HEM * edges_m[vertex])
         };
-        let new: Vec<f64> =
-            (self.hemmed_in_m.len()..gatherers.len()).into_par_iter().map(stands_in_m).collect();
-        self.hemmed_in_m.extend(new);
+        let new: Vec<f64> = (self.near.hemmed_in_m.len()..gatherers.len())
+            .into_par_iter()
+            .map(stands_in_m)
+            .collect();
+        self.near.hemmed_in_m.extend(new);
     }
 
     /// The same for carriers that others are interpolated from.
     pub(super) fn complete_beset_carriers(&mut self, gatherers: &[Gatherer]) {
-        let is_new = |vertex: &u32| !self.beset_from_m.contains_key(vertex);
-        let new: Vec<u32> = self.carriers.parents().into_iter().filter(is_new).collect();
+        let is_new = |vertex: &u32| !self.near.beset_from_m.contains_key(vertex);
+        let new: Vec<u32> = self.mesh.carriers.parents().into_iter().filter(is_new).collect();
         let beset_from_m = |&vertex: &u32| {
             let place = &gatherers[vertex as usize].surface;
-            (vertex, nearby::beset_from_m(self.scene, place, self.spacing_m))
+            (vertex, nearby::beset_from_m(self.scene, place, self.mesh.spacing_m))
         };
         let new: Vec<(u32, f64)> = new.par_iter().map(beset_from_m).collect();
-        self.beset_from_m.extend(new);
+        self.near.beset_from_m.extend(new);
     }
 }

@@ -34,8 +34,8 @@ impl Pilot<'_> {
         gatherers: &[Gatherer],
         operator: &Operator,
     ) {
-        let lx = |k: usize| (self.direct[k] + self.indirect[k]).luminance();
-        let reference_lx = Light::of_vertices(elements, &self.standings, lx).reference_lx();
+        let lx = |k: usize| (self.direct.lx[k] + self.indirect.lx[k]).luminance();
+        let reference_lx = Light::of_vertices(elements, &self.near.standings, lx).reference_lx();
         let about_lx = self.surroundings_lx(operator);
         // Where no light is about, others tell.
         let own = |&lx: &f64| if lx > 0.0 { weight(lx, reference_lx) } else { f64::INFINITY };
@@ -48,7 +48,7 @@ impl Pilot<'_> {
         let in_rooms: Vec<f64> = in_rooms.collect();
         let seen = self.seen_from_dim(elements, operator, in_rooms.clone());
         let all = own.into_iter().zip(seen).zip(in_rooms);
-        self.surroundings.weights =
+        self.indirect.surroundings.weights =
             all.map(|((own, seen), in_room)| [own, seen, in_room]).collect();
     }
 
@@ -66,9 +66,9 @@ impl Pilot<'_> {
             all_m2 += vertex.area_m2;
             dim_m2 += vertex.area_m2 * (1.0 - 1.0 / weight);
         }
-        self.surroundings.dim_m2 = dim_m2.max(LEAST_DIM * all_m2);
+        self.indirect.surroundings.dim_m2 = dim_m2.max(LEAST_DIM * all_m2);
         if dim_m2 > 0.0 {
-            let areas_m2 = areas_m2(&self.subdivision, &self.carriers);
+            let areas_m2 = areas_m2(&self.mesh.subdivision, &self.mesh.carriers);
             for _ in 0..REFLECTIONS {
                 weights = read_from_there(operator, elements, (&areas_m2, &weights));
                 let most = seen.iter_mut().zip(&weights);
@@ -81,9 +81,9 @@ impl Pilot<'_> {
     /// The light of the surroundings of every vertex, lx: of what it sees, and what is seen from there. In one room it is about
     /// the same everywhere.
     fn surroundings_lx(&self, operator: &Operator) -> Vec<f64> {
-        let waiting = self.carriers.waiting();
-        let whole = operator.reflected(&vec![Rgb::grey(1.0); self.indirect.len()]);
-        let mut seen = self.indirect.clone();
+        let waiting = self.mesh.carriers.waiting();
+        let whole = operator.reflected(&vec![Rgb::grey(1.0); self.indirect.lx.len()]);
+        let mut seen = self.indirect.lx.clone();
         for reflection in 0..REFLECTIONS {
             if reflection > 0 {
                 seen = operator.reflected(&seen);
@@ -99,13 +99,13 @@ impl Pilot<'_> {
 
     /// Errors of direct light, which rays read, as they count in dim rooms by the light there; `None` where there are none.
     pub(super) fn weighed_in_rooms(&self, errors: &[LeafError]) -> Option<Vec<LeafError>> {
-        let known = &self.surroundings.weights;
+        let known = &self.indirect.surroundings.weights;
         if known.iter().all(|weights| weights[2] <= 1.0) {
             return None;
         }
         let weights = self.completed_weights();
         let weigh = |error: &LeafError| {
-            let corners = self.subdivision.node(error.node).0.vertices;
+            let corners = self.mesh.subdivision.node(error.node).0.vertices;
             let weights = corners.map(|v| weights[v as usize][2]);
             LeafError { weight: weights.into_iter().fold(f64::INFINITY, f64::min), ..*error }
         };
@@ -114,8 +114,8 @@ impl Pilot<'_> {
 
     /// Vertices made since have the weights of the edges that they lie on.
     fn completed_weights(&self) -> Vec<[f64; 3]> {
-        let mut weights = self.surroundings.weights.clone();
-        for vertex in &self.subdivision.vertices()[weights.len()..] {
+        let mut weights = self.indirect.surroundings.weights.clone();
+        for vertex in &self.mesh.subdivision.vertices()[weights.len()..] {
             let ends = vertex.parents.map(|ends| ends.map(|end| weights[end as usize]));
             let between =
                 |[a, b]: [[f64; 3]; 2]| [a[0].min(b[0]), 0.5 * (a[1] + b[1]), a[2].min(b[2])];
@@ -126,13 +126,13 @@ impl Pilot<'_> {
 
     /// Has errors in dim surroundings, and of what is seen from there, count by what they are there.
     pub(super) fn weigh(&mut self, errors: &mut [LeafError]) {
-        self.surroundings.weights = self.completed_weights();
+        self.indirect.surroundings.weights = self.completed_weights();
         if without("surroundings") {
             return;
         }
         for error in errors {
-            let corners = self.subdivision.node(error.node).0.vertices;
-            let weights = corners.map(|v| self.surroundings.weights[v as usize]);
+            let corners = self.mesh.subdivision.node(error.node).0.vertices;
+            let weights = corners.map(|v| self.indirect.surroundings.weights[v as usize]);
             let own = weights.iter().map(|w| w[0]).fold(f64::INFINITY, f64::min);
             let seen = weights.iter().map(|w| w[1]).sum::<f64>() / 3.0;
             error.weight = if own.is_finite() { own } else { 1.0 };

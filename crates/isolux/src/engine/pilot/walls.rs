@@ -28,7 +28,7 @@ impl Pilot<'_> {
             return;
         }
         let lit: Vec<usize> = (0..gatherers.len())
-            .filter(|&v| self.standings[v].is_some() && self.known[v])
+            .filter(|&v| self.near.standings[v].is_some() && self.near.known[v])
             .collect();
         let every = lit.len().div_ceil(control_variate::SOME).max(1);
         let place = |&v: &usize| (gatherers[v], elements.vertices()[v].area_m2);
@@ -36,7 +36,7 @@ impl Pilot<'_> {
         let Some(mut backdrop) = Backdrop::seen_by(self.scene, ray_trial::stands(&places)) else {
             return;
         };
-        self.indirect = vec![Rgb::BLACK; gatherers.len()];
+        self.indirect.lx = vec![Rgb::BLACK; gatherers.len()];
         let left_out = self.look_at_walls(&mut backdrop, elements);
         // What is bright may lie between the places that were looked at, but not between vertices.
         let reflected = lit.iter().map(|&v| {
@@ -44,18 +44,18 @@ impl Pilot<'_> {
             let SurfacePoint { triangle, back, point, .. } = gatherers[v].surface;
             let [a, b] = self.scene.triangle(triangle).barycentric(point);
             let at = SurfacePoint::new(self.scene, triangle, back, a, b);
-            (stand, m2, (self.direct[v] * at.reflectance(self.scene)).luminance())
+            (stand, m2, (self.direct.lx[v] * at.reflectance(self.scene)).luminance())
         });
         if left_out.max(backdrop.leaves_out(reflected)) > control_variate::LEFT_OUT {
-            self.indirect.clear();
+            self.indirect.lx.clear();
             return;
         }
         self.glance(elements, gatherers);
         self.look_at_walls(&mut backdrop, elements);
-        self.backdrop = Some(backdrop);
+        self.walls.backdrop = Some(backdrop);
         let left = self.noise_left_by_walls(elements, &places);
         if left.is_none_or(|left| left > control_variate::WORTH) {
-            (self.backdrop, self.trial) = (None, None);
+            (self.walls.backdrop, self.tried.trial) = (None, None);
         }
         if let Some(left) = left.filter(|&left| left < MUCH) {
             let fewer = libm::pow(left, 1.0 / NET_ORDER);
@@ -63,7 +63,7 @@ impl Pilot<'_> {
                 let wanted = (f64::from(*of) * fewer) as u32;
                 wanted.next_power_of_two().max(FIRST_RAYS).min(*of)
             };
-            self.rays = self.rays.iter().map(rays).collect();
+            self.mesh.rays = self.mesh.rays.iter().map(rays).collect();
         }
     }
 
@@ -73,11 +73,12 @@ impl Pilot<'_> {
         let mut rows = self.rows(&vertices, gatherers);
         rows.iter_mut().for_each(|row| row.rays = row.rays.min(FIRST_RAYS));
         let key = self.key.with(8);
-        let gathering = self.gathering(elements, u32::MAX, &self.standings);
+        let gathering = self.gathering(elements, u32::MAX, &self.near.standings);
         let operator = gathering.operator(&rows, |_| key);
         self.traced += operator.rays;
         let black = vec![Rgb::BLACK; gatherers.len()];
-        self.indirect = operator.solve(&black, &black, &self.carriers.waiting(), PILOT_TOLERANCE);
+        self.indirect.lx =
+            operator.solve(&black, &black, &self.mesh.carriers.waiting(), PILOT_TOLERANCE);
     }
 
     /// Noise of some places if rays are judged by walls, as a share of what it is otherwise.
@@ -86,48 +87,50 @@ impl Pilot<'_> {
         elements: &Elements,
         places: &[(Gatherer, f64)],
     ) -> Option<f64> {
-        let lx = |v: usize| (self.direct[v] + self.indirect[v]).luminance();
-        let of =
-            (Light::of_vertices(elements, &self.standings, lx).reference_lx(), self.key.with(9));
-        let gathering = self.gathering(elements, u32::MAX, &self.standings);
-        let (trial, left, rays) = Trial::of_walls(&gathering, places, &self.indirect, of);
+        let lx = |v: usize| (self.direct.lx[v] + self.indirect.lx[v]).luminance();
+        let of = (
+            Light::of_vertices(elements, &self.near.standings, lx).reference_lx(),
+            self.key.with(9),
+        );
+        let gathering = self.gathering(elements, u32::MAX, &self.near.standings);
+        let (trial, left, rays) = Trial::of_walls(&gathering, places, &self.indirect.lx, of);
         self.traced += rays;
-        self.trial = Some(trial);
+        self.tried.trial = Some(trial);
         left
     }
 
     /// Takes down the light of the walls once more, where what the first look made of it may add to the noise.
     pub(super) fn look_at_walls_again(&mut self, elements: &Elements, target: f64) {
-        let Some(mut backdrop) = self.backdrop.take() else { return };
+        let Some(mut backdrop) = self.walls.backdrop.take() else { return };
         if target < FINE {
             self.look_at_walls(&mut backdrop, elements);
-            self.behind.clear();
+            self.walls.behind.clear();
         }
-        self.backdrop = Some(backdrop);
+        self.walls.backdrop = Some(backdrop);
     }
 
     /// Takes down the light of the walls that rays are judged by.
     fn look_at_walls(&self, backdrop: &mut Backdrop, elements: &Elements) -> f64 {
         let light_at = |at: &SurfacePoint| {
-            let known = known_at(elements, u32::MAX, &self.standings, at)?;
+            let known = known_at(elements, u32::MAX, &self.near.standings, at)?;
             let read = |values: &[Rgb]| -> Rgb {
                 known.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
             };
             let direct = if self.lighting.are_read_at_ends() {
-                read(&self.direct)
+                read(&self.direct.lx)
             } else {
                 self.lighting.estimate(at, &mut Dice::new(Sequence::new(self.key.with(10)), 0))
             };
-            Some(direct + read(&self.indirect))
+            Some(direct + read(&self.indirect.lx))
         };
         backdrop.see(self.scene, light_at)
     }
 
     /// A vertex that gathers, with what it gets from the walls.
     pub(super) fn before_walls(&self, vertex: u32, of: Gatherer) -> Gatherer {
-        let Some(backdrop) = &self.backdrop else { return of };
+        let Some(backdrop) = &self.walls.backdrop else { return of };
         // Those on borders move as elements become smaller.
-        let known = self.behind.get(&vertex).filter(|(origin, _)| *origin == of.origin);
+        let known = self.walls.behind.get(&vertex).filter(|(origin, _)| *origin == of.origin);
         let behind =
             known.map_or_else(|| backdrop.behind(self.scene, &of.stand()), |&(_, light)| light);
         Gatherer { behind, ..of }
@@ -136,7 +139,7 @@ impl Pilot<'_> {
     /// The same for all that carry light.
     pub(super) fn stand_before_walls(&self, gatherers: &mut [Gatherer]) {
         gatherers.par_iter_mut().enumerate().for_each(|(v, gatherer)| {
-            if self.carriers.is_active(v as u32) {
+            if self.mesh.carriers.is_active(v as u32) {
                 *gatherer = self.before_walls(v as u32, *gatherer);
             }
         });
@@ -144,18 +147,22 @@ impl Pilot<'_> {
 
     /// Keeps that for later.
     pub(super) fn keep_behind(&mut self, vertices: &[u32], rows: &[Gatherer]) {
-        if self.backdrop.is_some() {
+        if self.walls.backdrop.is_some() {
             let of = vertices.iter().zip(rows).filter(|(_, row)| row.rays > 0);
-            self.behind.extend(of.map(|(&vertex, row)| (vertex, (row.origin, row.behind))));
+            self.walls.behind.extend(of.map(|(&vertex, row)| (vertex, (row.origin, row.behind))));
         }
     }
 
     pub(super) fn rows(&self, vertices: &[u32], gatherers: &[Gatherer]) -> Vec<Gatherer> {
-        let edges_m = self.subdivision.longest_edges_m();
+        let edges_m = self.mesh.subdivision.longest_edges_m();
         let row = |&vertex: &u32| {
             let gatherer = &gatherers[vertex as usize];
             let edge_m = edges_m[vertex as usize];
-            let rays = if self.carriers.is_active(vertex) { self.rays[vertex as usize] } else { 0 };
+            let rays = if self.mesh.carriers.is_active(vertex) {
+                self.mesh.rays[vertex as usize]
+            } else {
+                0
+            };
             let in_gap = nearby::is_closed_in(self.scene, &gatherer.surface, edge_m);
             let gatherer = gatherer.with_rays(rays).in_gap(in_gap);
             if rays > 0 { self.before_walls(vertex, gatherer) } else { gatherer }
