@@ -60,7 +60,7 @@ fn in_all(
     let Light { area_m2: area, lit_m2, squared, .. } = pooled.light;
     if !(squared > 0.0 && area > 0.0) {
         // No light at all is known exactly, if none was lost on the way and the pilot saw none.
-        let dark = area > 0.0 && plan.reference_lx == 0.0 && interpolation.given_up_lx == 0.0;
+        let dark = area > 0.0 && plan.light.reference_lx == 0.0 && interpolation.given_up_lx == 0.0;
         return dark.then_some(NO_ERROR);
     }
     let reference_lx = pooled.light.reference_lx();
@@ -77,12 +77,12 @@ fn in_all(
     // is reflected of its own error.
     let is_read = plan.lighting.are_read_at_ends();
     let direct_lx = if is_read { interpolation.direct_mean_lx } else { 0.0 };
-    let mean_lx = interpolation.indirect_mean_lx + plan.mean_reflectance * direct_lx;
+    let mean_lx = interpolation.indirect_mean_lx + plan.light.mean_reflectance * direct_lx;
     // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign, and so may have
     // the mean of what is wrong where it is read, which is counted for itself already. Rays of vertices read all of it,
     // those of readers what is seen from afar: the larger counts. What differs from place to place has either sign and
     // is reflected as good as no more.
-    let rho = plan.mean_reflectance.min(0.99);
+    let rho = plan.light.mean_reflectance.min(0.99);
     let of_each = [rho * mean_lx, interpolation.seen_mean_lx];
     let larger = if of_each[0].abs() > of_each[1].abs() { of_each[0] } else { of_each[1] };
     let reflected = larger / (1.0 - rho) / reference_lx / lit;
@@ -177,11 +177,11 @@ pub(crate) struct Pooled {
 
 impl Pooled {
     pub(crate) fn of(plan: &Plan, estimate: impl Fn(usize) -> Estimate + Sync) -> Self {
-        let vertices = plan.elements.vertices();
+        let vertices = plan.mesh.elements.vertices();
         let part = |start: usize| {
             let mut pooled = Self::default();
             let end = vertices.len().min(start + POOLED_TOGETHER);
-            for k in (start..end).filter(|&k| plan.standings[k].is_some()) {
+            for k in (start..end).filter(|&k| plan.mesh.standings[k].is_some()) {
                 pooled.add(vertices[k].area_m2, &estimate(k));
             }
             pooled
@@ -217,7 +217,7 @@ const NO_ERROR: Accuracy = Accuracy {
 /// light what arrives is what was sent over what is absorbed. Without bound where all is reflected.
 fn given_up_share(plan: &Plan, given_up_lx: f64, reference_lx: f64) -> f64 {
     if given_up_lx > 0.0 {
-        given_up_lx / (1.0 - plan.mean_reflectance).max(0.0) / reference_lx
+        given_up_lx / (1.0 - plan.light.mean_reflectance).max(0.0) / reference_lx
     } else {
         0.0
     }

@@ -161,8 +161,8 @@ pub(crate) fn count(carriers: usize) -> usize {
 
 /// Draws the check points of a plan.
 pub(crate) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
-    let errors = &plan.indirect_errors;
-    let count = count(plan.carriers.count(plan.indirect_vertices));
+    let errors = &plan.errors.of_elements;
+    let count = count(plan.mesh.carriers.count(plan.mesh.indirect_vertices));
     let area: f64 = errors.iter().map(|e| e.area_m2).sum();
     let squared: f64 = errors.iter().map(|e| e.squared()).sum();
     let whole: f64 = errors.iter().map(|e| e.error * e.area_m2).sum();
@@ -193,17 +193,18 @@ pub(crate) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
         let at = (index as f64 + pick) / count as f64 * sum;
         let k = sums.partition_point(|&s| s <= at).min(errors.len() - 1);
         let surface =
-            SurfacePoint::in_node(plan.scene, &plan.subdivision, errors[k].node, dice.pair());
+            SurfacePoint::in_node(plan.scene, &plan.mesh.subdivision, errors[k].node, dice.pair());
         let area_m2 = errors[k].area_m2 / (count as f64 * density(k) / sum);
         check(plan, Gatherer::on_surface(surface, rays), area_m2, &errors[k])
     };
     let mut checks: Vec<Check> = (0..count).into_par_iter().filter_map(one).collect();
-    let is_gathered = |check: &Check| !check.is_trusted(plan.trusts.least());
+    let is_gathered = |check: &Check| !check.is_trusted(plan.errors.trusts.least());
     let rows = checks.iter().filter(|check| is_gathered(check));
     let rows: Vec<Gatherer> = rows.map(|c| c.gatherer.with_rays(CLOSE_RAYS)).collect();
     // Where rays go is asked, not what comes along them.
-    let direct = DirectAtEnds::Read { values: &plan.direct, level: u32::MAX };
-    let gathering = Gathering { regathers: true, direct, ..Gathering::of(plan, &plan.direct) };
+    let direct = DirectAtEnds::Read { values: &plan.light.direct, level: u32::MAX };
+    let gathering =
+        Gathering { regathers: true, direct, ..Gathering::of(plan, &plan.light.direct) };
     let operator = gathering.operator(&rows, |k| key.with(1).with(k as u64));
     let gathered = checks.iter_mut().filter(|check| is_gathered(check));
     gathered.zip(operator.close()).for_each(|(check, close)| check.close = close);
@@ -219,10 +220,11 @@ pub(crate) fn draw_for_map(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
 }
 
 fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Option<Check> {
-    let weights = |level: u32| known_at(&plan.elements, level, &plan.standings, &gatherer.surface);
+    let weights =
+        |level: u32| known_at(&plan.mesh.elements, level, &plan.mesh.standings, &gatherer.surface);
     // As readers interpolate, who do not look for what stands across elements: rays, who do, err less.
-    let (coarse, fine) = (weights(plan.level)?, weights(u32::MAX)?);
-    let edge_m = nearby::longest_edge_m(&plan.elements, fine.map(|(vertex, _)| vertex));
+    let (coarse, fine) = (weights(plan.mesh.level)?, weights(u32::MAX)?);
+    let edge_m = nearby::longest_edge_m(&plan.mesh.elements, fine.map(|(vertex, _)| vertex));
     let is_beset = nearby::is_beset(plan.scene, &gatherer.surface, edge_m);
     let in_gap = is_beset && nearby::is_closed_in(plan.scene, &gatherer.surface, edge_m);
     let reads_open = coarse.iter().any(|&(vertex, weight)| weight > 0.0 && plan.is_open(vertex));
@@ -230,20 +232,22 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let is_beset = is_beset || of.is_beset_afar;
     let may_be_trusted = reads_open && !in_gap;
     let mut gatherer = gatherer.in_gap(in_gap);
-    gatherer.behind = plan.backdrop.as_ref().and_then(|b| b.behind(plan.scene, &gatherer.stand()));
+    gatherer.behind =
+        plan.light.backdrop.as_ref().and_then(|b| b.behind(plan.scene, &gatherer.stand()));
     let reads_direct = plan.lighting.are_read_at_ends();
     let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
-    let node = plan.elements.place(plan.level, triangle, back, [u, v]).map(|place| place.node());
-    let has_parts = node.is_some_and(|node| plan.parts.has(node));
-    let cut = node.and_then(|node| plan.cuts.of_node(node));
+    let node =
+        plan.mesh.elements.place(plan.mesh.level, triangle, back, [u, v]).map(|place| place.node());
+    let has_parts = node.is_some_and(|node| plan.errors.parts.has(node));
+    let cut = node.and_then(|node| plan.mesh.cuts.of_node(node));
     let on_side = cut.and_then(|cut| {
-        let corners = plan.elements.locate_above(plan.level, triangle, back, u, v)?;
+        let corners = plan.mesh.elements.locate_above(plan.mesh.level, triangle, back, u, v)?;
         // Beyond a cut they read nothing where nothing is known.
         let none = corners.map(|(vertex, _)| (vertex, 0.0));
-        Some(known_on_side(corners, &plan.standings, cut).unwrap_or(none))
+        Some(known_on_side(corners, &plan.mesh.standings, cut).unwrap_or(none))
     });
     // Readers read what vertices have gathered for the bare map, rays do not.
-    let is_alike = plan.gathering_for_bare.is_empty();
+    let is_alike = plan.mesh.gathering_for_bare.is_empty();
     let (by_rays, read) =
         if is_alike { (on_side, coarse) } else { (on_side.or(Some(coarse)), fine) };
     let (close, view) = (0.0, View::default());
@@ -256,7 +260,7 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
         expected_lx,
         may_be_trusted,
         is_beset,
-        is_resolved: plan.resolves_walls && (of.is_at_wall || !is_beset),
+        is_resolved: plan.mesh.resolves_walls && (of.is_at_wall || !is_beset),
         strip: plan.strip(fine.iter().map(|&(vertex, _)| vertex)),
         close,
         edge_m,
@@ -285,7 +289,7 @@ pub(crate) fn direct(plan: &Plan, checks: &[Check], accuracy: f64, key: Key) -> 
     let sequence = |k: usize| Sequence::new(key.with(k as u64));
     let reading = Goal::reading(accuracy);
     // What counts is the error of the scene: in the dark a small share of its light will do.
-    let goal = Goal { lx: reading.share * plan.reference_lx, ..reading };
+    let goal = Goal { lx: reading.share * plan.light.reference_lx, ..reading };
     let one = |(k, check): (usize, &Check)| {
         plan.lighting.measured(&check.gatherer.surface, goal, sequence(k))
     };

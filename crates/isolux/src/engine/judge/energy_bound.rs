@@ -33,11 +33,11 @@ pub(crate) struct Allowed {
 
 impl Allowed {
     pub(crate) fn of(plan: &Plan) -> Self {
-        let mut known_m2 = vec![0.0; plan.standings.len()];
-        for leaf in plan.subdivision.leaves() {
-            let corners = plan.subdivision.node(leaf).0.vertices.map(|v| v as usize);
-            if corners.iter().all(|&v| plan.standings[v].is_some()) {
-                let third_m2 = plan.subdivision.triangle(leaf).area() / 3.0;
+        let mut known_m2 = vec![0.0; plan.mesh.standings.len()];
+        for leaf in plan.mesh.subdivision.leaves() {
+            let corners = plan.mesh.subdivision.node(leaf).0.vertices.map(|v| v as usize);
+            if corners.iter().all(|&v| plan.mesh.standings[v].is_some()) {
+                let third_m2 = plan.mesh.subdivision.triangle(leaf).area() / 3.0;
                 corners.iter().for_each(|&v| known_m2[v] += third_m2);
             }
         }

@@ -66,10 +66,10 @@ pub(crate) fn filter(
     }
     for (filtered, part) in values.iter_mut().zip(&parts) {
         give_back(&areas_m2, (&pieces, &first), filtered, part);
-        if plan.resolves_walls {
+        if plan.mesh.resolves_walls {
             let changed = filtered.iter().zip(part).map(|(&after, &before)| after - before);
             let mut changes: Vec<Rgb> = changed.collect();
-            plan.carriers.spread(&mut changes);
+            plan.mesh.carriers.spread(&mut changes);
             *filtered = part.iter().zip(changes).map(|(&before, by)| before + by).collect();
         }
     }
@@ -88,12 +88,12 @@ pub(crate) fn filter(
 /// Elements that the filter acts on, and the surface of every vertex, m2. Where light is resolved towards walls, those that carry light:
 /// the others show no noise of their own.
 fn acts_on(plan: &Plan) -> (Vec<u32>, Vec<f64>) {
-    if plan.resolves_walls {
-        let elements = plan.indirect_errors.iter().map(|e| e.node).collect();
-        return (elements, areas_m2(&plan.subdivision, &plan.carriers));
+    if plan.mesh.resolves_walls {
+        let elements = plan.errors.of_elements.iter().map(|e| e.node).collect();
+        return (elements, areas_m2(&plan.mesh.subdivision, &plan.mesh.carriers));
     }
-    let vertices = &plan.elements.vertices()[..plan.indirect_vertices];
-    (plan.subdivision.leaves().collect(), vertices.iter().map(|v| v.area_m2).collect())
+    let vertices = &plan.mesh.elements.vertices()[..plan.mesh.indirect_vertices];
+    (plan.mesh.subdivision.leaves().collect(), vertices.iter().map(|v| v.area_m2).collect())
 }
 
 /// How much of a detail is signal, and how large the signal is, lx2.
@@ -106,13 +106,13 @@ struct Kept {
 impl Means {
     /// Hat functions weighted by their overlap.
     fn of(plan: &Plan, elements: Vec<u32>) -> Self {
-        let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); plan.indirect_vertices];
+        let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); plan.mesh.indirect_vertices];
         for leaf in elements {
-            let corners = plan.subdivision.node(leaf).0.vertices;
+            let corners = plan.mesh.subdivision.node(leaf).0.vertices;
             if !corners.iter().all(|&v| plan.is_open(v)) {
                 continue;
             }
-            let sixth = plan.subdivision.triangle(leaf).area() / 6.0;
+            let sixth = plan.mesh.subdivision.triangle(leaf).area() / 6.0;
             for &i in &corners {
                 for &j in &corners {
                     let overlap = if i == j { sixth } else { 0.5 * sixth };
@@ -137,7 +137,7 @@ impl Means {
     /// What vertices get from the walls of a room: it has no noise, and nearly all the details of the light. Nothing on pieces of
     /// surface where some do not know it.
     fn behind(&self, plan: &Plan, pieces: &[u32]) -> Vec<Rgb> {
-        let of = |k: usize| plan.gatherers[k].behind;
+        let of = |k: usize| plan.mesh.gatherers[k].behind;
         let mut is_known = vec![true; self.rows.len()];
         for (k, _) in self.rows.iter().enumerate().filter(|(_, row)| row.len() > 1) {
             is_known[pieces[k] as usize] &= of(k).is_some();
@@ -172,8 +172,8 @@ impl Means {
             range.hold(value)
         };
         let mut held: Vec<Rgb> = filtered.iter().enumerate().map(held).collect();
-        if plan.resolves_walls {
-            plan.waiting.hold(filtered, before, &mut held);
+        if plan.mesh.resolves_walls {
+            plan.mesh.waiting.hold(filtered, before, &mut held);
         }
         filtered.copy_from_slice(&held);
     }

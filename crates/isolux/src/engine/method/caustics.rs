@@ -23,12 +23,13 @@ pub(crate) struct Caustics {
 /// Caustics by so many particles.
 pub(crate) fn deposit(plan: &Plan, count: u32, key: Key) -> Caustics {
     let nothing = |effort: Effort| Caustics {
-        light: vec![Rgb::BLACK; plan.indirect_vertices],
-        means: vec![Rgb::BLACK; plan.indirect_vertices],
-        lacking: vec![0.0; plan.parts.count()],
+        light: vec![Rgb::BLACK; plan.mesh.indirect_vertices],
+        means: vec![Rgb::BLACK; plan.mesh.indirect_vertices],
+        lacking: vec![0.0; plan.errors.parts.count()],
         effort,
     };
-    let Some(flights) = Flights::new((plan.scene, plan.lighting), plan.aim.as_ref(), count, key)
+    let Some(flights) =
+        Flights::new((plan.scene, plan.lighting), plan.tried.aim.as_ref(), count, key)
     else {
         return nothing(Effort::default());
     };

@@ -37,7 +37,7 @@ pub(crate) struct Forward<'p, 's> {
 impl<'p, 's> Forward<'p, 's> {
     /// With particles in proportion to the vertices.
     pub(crate) fn new(plan: &'p Plan<'s>, emission: Emission<'s>, target: f64, seed: u64) -> Self {
-        let particles = (PARTICLES_A_VERTEX * plan.indirect_vertices).clamp(FEWEST, MOST);
+        let particles = (PARTICLES_A_VERTEX * plan.mesh.indirect_vertices).clamp(FEWEST, MOST);
         let particles = particles.next_power_of_two() as u32;
         let (scatterings, key) = (scatterings(plan.scene), Key::new(seed).with(2));
         let of_caustics = plan.particles(target, BELIEVED_INCREMENTS);
@@ -63,7 +63,7 @@ impl<'p, 's> Forward<'p, 's> {
         let [direct, indirect] =
             [DIRECT, INDIRECT].map(|part| self.plan.prolongate(&tally.illuminance(part)));
         let caustic = self.plan.prolongate(&of_caustics.light);
-        receivers.add((0..self.plan.standings.len()).map(|k| Sample {
+        receivers.add((0..self.plan.mesh.standings.len()).map(|k| Sample {
             direct: direct[k],
             caustic: caustic[k],
             indirect: indirect[k],

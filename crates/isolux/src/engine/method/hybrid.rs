@@ -104,12 +104,12 @@ impl<'p, 's> Hybrid<'p, 's> {
         let allotted = allot(&areas_m2, rays);
         let fewest = FEWEST_UNJUDGED >> halvings;
         let row = |vertex: usize| {
-            let in_gap = plan.standings[vertex] != Some(Standing::Open);
-            let (of, own) = (plan.gatherers[vertex], allotted[vertex]);
+            let in_gap = plan.mesh.standings[vertex] != Some(Standing::Open);
+            let (of, own) = (plan.mesh.gatherers[vertex], allotted[vertex]);
             let needs_more = own > 0 && of.behind.is_none();
             of.with_rays(if needs_more { own.max(fewest) } else { own }).in_gap(in_gap)
         };
-        let rows: Vec<Gatherer> = (0..plan.indirect_vertices).map(row).collect();
+        let rows: Vec<Gatherer> = (0..plan.mesh.indirect_vertices).map(row).collect();
         let rows = if is_worth_trying(rows.len(), rays) && !without("noise-sharing") {
             shared_by_noise(plan, rows, (&areas_m2, rays, most), key.with(u64::MAX - 1))
         } else {
@@ -117,16 +117,16 @@ impl<'p, 's> Hybrid<'p, 's> {
         };
         let check_direct = check_points::direct(plan, checks, goal, key.with(0));
         let rays_of_means = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
-        let for_bare = plan.gathering_for_bare.iter();
-        let for_bare = for_bare.map(|&v| plan.gatherers[v as usize].with_rays(rays_of_means));
+        let for_bare = plan.mesh.gathering_for_bare.iter();
+        let for_bare = for_bare.map(|&v| plan.mesh.gatherers[v as usize].with_rays(rays_of_means));
         let fresh_rows = checks.iter().map(|check| check.gatherer).chain(for_bare).collect();
-        let over = plan.over(&plan.direct);
-        let kept = Kept::of(&over, goal * plan.reference_lx, key.with(u64::MAX - 2));
+        let over = plan.over(&plan.light.direct);
+        let kept = Kept::of(&over, goal * plan.light.reference_lx, key.with(u64::MAX - 2));
         let ahead = VecDeque::new();
         let readers = READERS.min((most / OF_READERS).max(1));
         let reader = reader(plan, &rows, (readers, key.with(u64::MAX)));
-        let corners = |error: &LeafError| plan.subdivision.node(error.node).0.vertices;
-        let corners = plan.indirect_errors.iter().map(corners).collect();
+        let corners = |error: &LeafError| plan.mesh.subdivision.node(error.node).0.vertices;
+        let corners = plan.errors.of_elements.iter().map(corners).collect();
         Self {
             plan,
             check_direct,
@@ -153,11 +153,11 @@ impl<'p, 's> Hybrid<'p, 's> {
         let started = Instant::now();
         let lighting = self.plan.lighting;
         let rows: Vec<Gatherer> = self.rows.iter().step_by(TRIED).copied().collect();
-        let gathering = Gathering::of(self.plan, &self.plan.direct);
+        let gathering = Gathering::of(self.plan, &self.plan.light.direct);
         gathering.operator(&rows, |row| self.key.with(0).with(row as u64));
         if !lighting.is_measured_once() {
             let key = self.key.with(0).with(1);
-            let all: Vec<_> = self.plan.gatherers.iter().step_by(TRIED).collect();
+            let all: Vec<_> = self.plan.mesh.gatherers.iter().step_by(TRIED).collect();
             all.par_iter().enumerate().for_each(|(k, gatherer)| {
                 let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
                 lighting.illuminance(&gatherer.surface, &mut dice);
@@ -168,7 +168,8 @@ impl<'p, 's> Hybrid<'p, 's> {
 
     /// Rays of a vertex in an increment; none where it does not gather.
     pub(crate) fn rays_of(&self, vertex: usize) -> u32 {
-        let is_for_bare = || self.plan.gathering_for_bare.binary_search(&(vertex as u32)).is_ok();
+        let is_for_bare =
+            || self.plan.mesh.gathering_for_bare.binary_search(&(vertex as u32)).is_ok();
         let beyond = || if is_for_bare() { self.rays_of_means } else { 0 };
         self.rows.get(vertex).map_or_else(beyond, |row| row.rays)
     }
@@ -217,16 +218,18 @@ impl<'p, 's> Hybrid<'p, 's> {
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
         let as_read = Gathering { regathers: true, ..Gathering::of(plan, at_ends) };
         let places = plan.places_of_means(self.rays_of_means, key.with(4));
-        let mut guess = plan.guess.clone();
+        let mut guess = plan.light.guess.clone();
         let measured = |row: usize| key.with(5).with(row as u64);
         operator.append(as_read.operator_until(deadline, &places.gatherers, measured)?);
-        guess.extend(places.interpolated(&plan.guess));
+        guess.extend(places.interpolated(&plan.light.guess));
         let fit = Fitted { plan, places: &places };
         let (gathered, unsettled_lx) = operator.solve_or_give_up(
             &guess,
             &reflected_on,
-            (&plan.waiting, &fit),
-            UNSETTLED * self.goal.min(COARSEST) * (1.0 - plan.mean_reflectance).max(LEAST_ABSORBED),
+            (&plan.mesh.waiting, &fit),
+            UNSETTLED
+                * self.goal.min(COARSEST)
+                * (1.0 - plan.light.mean_reflectance).max(LEAST_ABSORBED),
         );
         let gathered = fit.read(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&reflected_on).map(|(&e, &c)| e + c).collect();
@@ -246,7 +249,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         };
         let receivers = (0..direct.len()).map(vertex).collect();
         // Rays given up would have seen what others see.
-        let unseen_lx = operator.given_up() * plan.reference_lx;
+        let unseen_lx = operator.given_up() * plan.light.reference_lx;
         let effort = Effort {
             rays: operator.rays + fresh.rays + particles.rays,
             given_up_lx: particles.given_up_lx + unseen_lx + unsettled_lx,
@@ -260,7 +263,7 @@ impl<'p, 's> Hybrid<'p, 's> {
     fn passed_on(&self, light: &[Rgb]) -> Vec<f64> {
         let plan = self.plan;
         let mut passed_on = self.reader.reflected(light);
-        plan.waiting.fill(&mut passed_on);
+        plan.mesh.waiting.fill(&mut passed_on);
         let mut passed_on: Vec<f64> = passed_on.iter().map(|light| light.luminance()).collect();
         for _ in 0..SMOOTHINGS {
             let mut sums = vec![(0.0, 0.0); passed_on.len()];
@@ -291,17 +294,17 @@ struct Fitted<'a> {
 
 impl Fitting for Fitted<'_> {
     fn read(&self, light: &[Rgb]) -> Vec<Rgb> {
-        let (at_vertices, at_places) = light.split_at(self.plan.guess.len());
-        let mut fitted = self.plan.fit.apply(at_vertices);
-        self.plan.means.apply(&mut fitted, self.places, at_places);
+        let (at_vertices, at_places) = light.split_at(self.plan.light.guess.len());
+        let mut fitted = self.plan.mesh.fit.apply(at_vertices);
+        self.plan.mesh.means.apply(&mut fitted, self.places, at_places);
         fitted
     }
 
     fn held<'a>(&'a self, light: &[Rgb]) -> Reading<'a> {
-        let vertices = self.plan.guess.len();
+        let vertices = self.plan.light.guess.len();
         let (at_vertices, at_places) = light.split_at(vertices);
-        let fit = self.plan.fit.held(at_vertices);
-        let means = self.plan.means.held(&fit.apply(at_vertices), self.places, at_places);
+        let fit = self.plan.mesh.fit.held(at_vertices);
+        let means = self.plan.mesh.means.held(&fit.apply(at_vertices), self.places, at_places);
         Box::new(move |light| {
             let (at_vertices, at_places) = light.split_at(vertices);
             let mut fitted = fit.apply(at_vertices);
@@ -330,15 +333,16 @@ fn shared_by_noise(
     (areas_m2, rays, most): (&[f64], f64, u32),
     key: Key,
 ) -> Vec<Gatherer> {
-    let gathering = Gathering::of(plan, &plan.direct);
-    let thought_lx = plan.trial.noise_lx(rays);
+    let gathering = Gathering::of(plan, &plan.light.direct);
+    let thought_lx = plan.tried.trial.noise_lx(rays);
     let of_one = libm::pow(f64::from(RAYS_TRIED), NET_ORDER);
     let shared = |every: usize| {
         let some = || rows.iter().step_by(every);
         let tried: Vec<Gatherer> =
             some().map(|row| row.with_rays(row.rays.min(RAYS_TRIED))).collect();
-        let with = (plan.reference_lx, key);
-        let (variances_lx2, _) = ray_trial::variances_lx2(&gathering, &tried, &plan.guess, with);
+        let with = (plan.light.reference_lx, key);
+        let (variances_lx2, _) =
+            ray_trial::variances_lx2(&gathering, &tried, &plan.light.guess, with);
         let areas_m2: Vec<f64> = areas_m2.iter().step_by(every).copied().collect();
         let rays: Vec<u32> = some().map(|row| row.rays).collect();
         allot_by_noise(&areas_m2, &variances_lx2, &rays)
@@ -364,9 +368,9 @@ fn shared_by_noise(
 
 /// Rays of vertices that read indirect light alone.
 fn reader(plan: &Plan, rows: &[Gatherer], (rays, key): (u32, Key)) -> Operator {
-    let dark = vec![Rgb::BLACK; plan.elements.vertices().len()];
+    let dark = vec![Rgb::BLACK; plan.mesh.elements.vertices().len()];
     let direct = DirectAtEnds::Read { values: &dark, level: u32::MAX };
-    let gathering = Gathering { direct, ..Gathering::of(plan, &plan.direct) };
+    let gathering = Gathering { direct, ..Gathering::of(plan, &plan.light.direct) };
     let few: Vec<Gatherer> = rows.iter().map(|row| row.with_rays(row.rays.min(rays))).collect();
     gathering.operator(&few, |row| key.with(row as u64))
 }
@@ -379,13 +383,14 @@ pub(crate) fn direct_light(
     deadline: Deadline,
 ) -> Option<(Vec<Rgb>, Vec<Rgb>)> {
     if plan.lighting.is_measured_once() {
-        return Some((plan.direct.clone(), check_direct.lx.clone()));
+        return Some((plan.light.direct.clone(), check_direct.lx.clone()));
     }
     let vertex = |(k, gatherer): (usize, &Gatherer)| {
         let mut dice = Dice::new(Sequence::new(key.with(k as u64)), 0);
         let light = || plan.lighting.illuminance(&gatherer.surface, &mut dice);
         (!deadline.has_passed()).then(light)
     };
-    let vertices: Option<Vec<Rgb>> = plan.gatherers.par_iter().enumerate().map(vertex).collect();
+    let vertices: Option<Vec<Rgb>> =
+        plan.mesh.gatherers.par_iter().enumerate().map(vertex).collect();
     Some((vertices?, check_direct.again(plan, checks, key.with(u64::MAX))))
 }

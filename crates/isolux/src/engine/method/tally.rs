@@ -39,8 +39,8 @@ impl<'p, 's> Tally<'p, 's> {
             hats: hats(plan),
             parts,
             units_per_lm: UNITS_OF_FLUX / flux_lm,
-            flux: zeros(plan.indirect_vertices * parts * 3),
-            came: zeros(plan.parts.count()),
+            flux: zeros(plan.mesh.indirect_vertices * parts * 3),
+            came: zeros(plan.errors.parts.count()),
             given_up: AtomicI64::new(0),
         }
     }
@@ -59,10 +59,10 @@ impl<'p, 's> Tally<'p, 's> {
     /// Deposits flux at a place.
     pub(crate) fn add(&self, part: usize, at: &SurfacePoint, flux_lm: Rgb) {
         let plan = self.plan;
-        let place = plan.elements.place(plan.level, at.triangle, at.back, [at.u, at.v]);
+        let place = plan.mesh.elements.place(plan.mesh.level, at.triangle, at.back, [at.u, at.v]);
         let Some(place) = place else { return };
-        let corners = plan.elements.corners(place);
-        let Some(weights) = known_weights(corners, &plan.standings) else { return };
+        let corners = plan.mesh.elements.corners(place);
+        let Some(weights) = known_weights(corners, &plan.mesh.standings) else { return };
         for ((vertex, _), weight) in corners.into_iter().zip(weights) {
             let first = (vertex as usize * self.parts + part) * 3;
             for (channel, value) in flux_lm.0.into_iter().enumerate() {
@@ -70,7 +70,7 @@ impl<'p, 's> Tally<'p, 's> {
                 self.flux[first + channel].fetch_add(units, Ordering::Relaxed);
             }
         }
-        if let Some(part) = plan.parts.at(place.node(), corners.map(|(_, weight)| weight)) {
+        if let Some(part) = plan.errors.parts.at(place.node(), corners.map(|(_, weight)| weight)) {
             let units = (flux_lm.luminance() * self.units_per_lm).round_ties_even() as i64;
             self.came[part].fetch_add(units, Ordering::Relaxed);
         }
@@ -83,15 +83,15 @@ impl<'p, 's> Tally<'p, 's> {
             let channel = |k: usize| self.flux[first + k].load(Ordering::Relaxed) as f64;
             Rgb([0, 1, 2].map(|k| channel(k) / self.units_per_lm))
         };
-        self.hats.means((0..self.plan.indirect_vertices).map(flux))
+        self.hats.means((0..self.plan.mesh.indirect_vertices).map(flux))
     }
 
     /// What light at the vertices, of all quantities together, lacks in the parts of elements that are checked, lx.
     pub(crate) fn lacking(&self, light: impl Fn(usize) -> Rgb) -> Vec<f64> {
-        self.plan.parts.lacking(
+        self.plan.errors.parts.lacking(
             |part| self.came[part].load(Ordering::Relaxed) as f64 / self.units_per_lm,
             |vertex| light(vertex as usize).luminance(),
-            &self.plan.standings,
+            &self.plan.mesh.standings,
         )
     }
 
@@ -103,13 +103,14 @@ impl<'p, 's> Tally<'p, 's> {
 
 /// Of the elements that indirect light lives on.
 fn hats(plan: &Plan) -> Hats {
-    Hats::new(&plan.subdivision, &plan.standings)
+    Hats::new(&plan.mesh.subdivision, &plan.mesh.standings)
 }
 
 /// Errors of a map of particles beyond its noise: what the hats still blur, and what interpolation
 /// loses, both with the part that noise explains taken off. What parts of elements tell is left to them.
 pub(crate) fn errors(plan: &Plan, sums: &Accumulator) -> InterpolationErrors {
-    let estimates: Vec<Estimate> = (0..plan.indirect_vertices).map(|k| sums.estimate(k)).collect();
+    let estimates: Vec<Estimate> =
+        (0..plan.mesh.indirect_vertices).map(|k| sums.estimate(k)).collect();
     let indirect = |e: &Estimate| (e.mean.indirect + e.mean.caustic).luminance();
     let total = |e: &Estimate| indirect(e) + e.mean.direct.luminance();
     let indirect_lx = error_lx(plan, &estimates, indirect, |e| e.indirect_variance);
@@ -133,9 +134,10 @@ fn error_lx(
 fn blur_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let hats = hats(plan);
     let blurred = hats.blur(values);
-    let is_checked = plan.parts.vertices(values.len());
+    let is_checked = plan.errors.parts.vertices(values.len());
     let (mut area, mut sum) = (0.0, 0.0);
-    for (k, &m2) in hats.areas_m2().iter().enumerate().filter(|&(k, _)| plan.standings[k].is_some())
+    for (k, &m2) in
+        hats.areas_m2().iter().enumerate().filter(|&(k, _)| plan.mesh.standings[k].is_some())
     {
         let change = values[k] - blurred[k];
         area += m2;
@@ -156,12 +158,12 @@ fn detail_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let (mut area, mut sum) = (0.0, 0.0);
     // Particles come to all vertices.
     let (carriers, no) = (Carriers::all(), |_, _| false);
-    let details = Details::of(&plan.subdivision, &plan.elements, &known, &carriers, no);
+    let details = Details::of(&plan.mesh.subdivision, &plan.mesh.elements, &known, &carriers, no);
     for error in details.leaf_errors(|_| None, |_| false, |_, _| false) {
-        let corners = plan.subdivision.node(error.node).0.vertices;
+        let corners = plan.mesh.subdivision.node(error.node).0.vertices;
         let noise: f64 = corners.iter().map(|&v| variances[v as usize]).sum::<f64>() / 3.0;
         area += error.area_m2;
-        if plan.parts.has(error.node) {
+        if plan.errors.parts.has(error.node) {
             continue;
         }
         // A detail of three independent values has one and a half times their variance, of which

@@ -7,7 +7,7 @@ use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{Gatherer, Means, Trial, areas_m2};
 use crate::engine::mesh::{Carriers, Fit};
 use crate::engine::occlusion::{Cuts, Side};
-use crate::engine::plan::Plan;
+use crate::engine::plan::{Plan, PlannedErrors, PlannedLight, PlannedMesh, PlannedNoise};
 use crate::engine::ray::reflectance;
 use crate::map::Standing;
 
@@ -35,39 +35,52 @@ impl<'s> Pilot<'s> {
         let cuts = self.cuts(&coarse, &look.elements);
         let gathering_for_bare = self.gathering_for_bare(&look, request, &standings);
         let caustics_share = caustics.share(look.reference_lx);
-        Plan {
-            scene: self.scene,
-            lighting: self.lighting,
-            gatherers,
-            indirect_vertices,
-            gathering_for_bare,
-            level: coarse.node_count() as u32,
+        let fit = self.fit(&coarse, &open, &cuts);
+        let errors = PlannedErrors {
             trusts: look.trusts(request),
-            reference_lx: look.reference_lx,
             interpolation: libm::hypot(look.interpolation(request), caustics_share),
-            mean_reflectance: reflectance::of_all(self.scene, &coarse),
+            caustics_lx: caustics.lx,
+            parts: caustics.parts(&coarse),
+            caustics_beside_lx2: caustics.beside_lx2,
+            of_elements: Vec::new(),
+        };
+        let mesh = PlannedMesh {
+            indirect_vertices,
+            level: coarse.node_count() as u32,
+            waiting: self.mesh.carriers.waiting(),
+            carriers: self.mesh.carriers,
+            gatherers,
+            gathering_for_bare,
+            fit,
+            standings,
+            cuts,
             means,
             resolves_walls: look.walls.are_resolved(),
             strips: look.strips(),
-            fit: self.fit(&coarse, &open, &cuts),
-            cuts,
-            bright: self.bright,
-            backdrop: self.walls.backdrop,
-            parts: caustics.parts(&coarse),
+            elements: look.elements,
+            subdivision: coarse,
+        };
+        let errors = PlannedErrors { of_elements: look.errors, ..errors };
+        let light = PlannedLight {
             direct: self.direct.lx,
             direct_variance: self.direct.variance,
             guess: self.indirect.lx,
-            elements: look.elements,
-            indirect_errors: look.errors,
-            waiting: self.mesh.carriers.waiting(),
-            carriers: self.mesh.carriers,
-            standings,
-            subdivision: coarse,
-            trial: self.tried.trial.unwrap_or(Trial::usual(look.reference_lx)),
-            caustic_noise: self.tried.caustic_noise,
-            caustic_error_lx: caustics.lx,
-            caustics_beside_lx2: caustics.beside_lx2,
-            aim: self.tried.aim,
+            bright: self.bright,
+            backdrop: self.walls.backdrop,
+            reference_lx: look.reference_lx,
+            mean_reflectance: reflectance::of_all(self.scene, &mesh.subdivision),
+        };
+        Plan {
+            scene: self.scene,
+            lighting: self.lighting,
+            mesh,
+            light,
+            errors,
+            tried: PlannedNoise {
+                trial: self.tried.trial.unwrap_or(Trial::usual(look.reference_lx)),
+                caustic_noise: self.tried.caustic_noise,
+                aim: self.tried.aim,
+            },
             is_whole: self.is_whole,
             is_finest: self.mesh.is_full
                 && self.direct.excess.is_some_and(|(_, excess)| excess > 1.0),

@@ -82,8 +82,8 @@ fn walls_take_noise_off_and_leave_the_light() {
     let scene = lit_room();
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
-    let gathering = Gathering::of(&plan, &plan.direct);
-    let judged = plan.gatherers.iter().filter(|of| of.behind.is_some()).step_by(61);
+    let gathering = Gathering::of(&plan, &plan.light.direct);
+    let judged = plan.mesh.gatherers.iter().filter(|of| of.behind.is_some()).step_by(61);
     let judged: Vec<Gatherer> = judged.map(|of| of.with_rays(16)).collect();
     assert!(judged.len() > 5, "{}", judged.len());
     let raw: Vec<Gatherer> = judged.iter().map(|of| Gatherer { behind: None, ..*of }).collect();
@@ -91,7 +91,7 @@ fn walls_take_noise_off_and_leave_the_light() {
         let net = |net: u64| {
             let key = Key::new(3).with(net);
             let operator = gathering.operator(rows, |row| key.with(row as u64));
-            operator.apply(&plan.guess).iter().map(|light| light.luminance()).collect()
+            operator.apply(&plan.light.guess).iter().map(|light| light.luminance()).collect()
         };
         (0..256).map(net).collect()
     };
@@ -114,18 +114,25 @@ fn light_settles_among_carriers_as_it_does_among_all() {
     let scene = lit_room();
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
-    let vertices = plan.guess.len();
-    assert!(2 * plan.waiting.count() >= vertices, "few carry light");
-    let gathering = Gathering::of(&plan, &plan.direct);
+    let vertices = plan.light.guess.len();
+    assert!(2 * plan.mesh.waiting.count() >= vertices, "few carry light");
+    let gathering = Gathering::of(&plan, &plan.light.direct);
     let rows: Vec<Gatherer> = (0..vertices)
-        .map(|v| plan.gatherers[v].with_rays(if plan.carriers.is_active(v as u32) { 8 } else { 0 }))
+        .map(|v| {
+            plan.mesh.gatherers[v].with_rays(if plan.mesh.carriers.is_active(v as u32) {
+                8
+            } else {
+                0
+            })
+        })
         .collect();
     let operator = gathering.operator(&rows, |row| Key::new(4).with(row as u64));
     let black = vec![Rgb::BLACK; vertices];
-    let fit = FitAlone(&plan.fit);
-    let (settled, left) = operator.solve_or_give_up(&black, &black, (&plan.waiting, &fit), 1e-10);
+    let fit = FitAlone(&plan.mesh.fit);
+    let (settled, left) =
+        operator.solve_or_give_up(&black, &black, (&plan.mesh.waiting, &fit), 1e-10);
     let mut image = operator.apply(&fit.read(&settled));
-    plan.waiting.fill(&mut image);
+    plan.mesh.waiting.fill(&mut image);
     let rms = |of: &dyn Fn(usize) -> f64| {
         ((0..vertices).map(|k| of(k) * of(k)).sum::<f64>() / vertices as f64).sqrt()
     };

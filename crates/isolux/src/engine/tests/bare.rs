@@ -33,18 +33,18 @@ fn vertices_gather_for_the_bare_map_where_it_is_coarse() {
     let scene = room_with_shelves();
     let lighting = Lighting::new(&scene);
     let coarse = plan(&scene, &lighting, 0.5);
-    assert!(coarse.gathering_for_bare.is_empty(), "the bare map is as good as asked for");
+    assert!(coarse.mesh.gathering_for_bare.is_empty(), "the bare map is as good as asked for");
     let plan = plan(&scene, &lighting, 0.02);
-    let own = &plan.gathering_for_bare;
+    let own = &plan.mesh.gathering_for_bare;
     assert!(own.len() > 50, "{}", own.len());
-    assert!(own.is_sorted() && own[0] as usize >= plan.indirect_vertices);
+    assert!(own.is_sorted() && own[0] as usize >= plan.mesh.indirect_vertices);
     let checks = check_points::draw(&plan, 64, Key::new(5));
     let mut hybrid = Hybrid::new(&plan, &checks, (64.0, 0, 0.02, 0), 1 << 10, 1);
     let increments: Vec<_> = (0..8)
         .map(|index| hybrid.increment(index, &checks, [Deadline::NEVER; 2]).unwrap().receivers)
         .collect();
     let mean = |k: usize| increments.iter().map(|of| of[k].indirect).sum::<Rgb>() / 8.0;
-    let vertices: Vec<Rgb> = (0..plan.indirect_vertices).map(mean).collect();
+    let vertices: Vec<Rgb> = (0..plan.mesh.indirect_vertices).map(mean).collect();
     let between = plan.prolongate(&vertices);
     let tracer = PathTracer::new(&scene);
     let settings = ExactSettings { rays: 256, ..ExactSettings::default() };
@@ -52,7 +52,7 @@ fn vertices_gather_for_the_bare_map_where_it_is_coarse() {
     for &vertex in own.iter().step_by(own.len().div_ceil(60)) {
         let k = vertex as usize;
         assert!(hybrid.rays_of(k) > 0);
-        let gatherer = &plan.gatherers[k];
+        let gatherer = &plan.mesh.gatherers[k];
         let at = ProbePoint { position: gatherer.surface.point, normal: gatherer.normal };
         let true_lx = tracer.estimate(at, &settings).indirect_lx.luminance();
         of_own += (mean(k).luminance() - true_lx).powi(2);
@@ -70,7 +70,8 @@ fn what_gathers_for_the_bare_map_is_read_by_no_ray() {
     let scene = room_with_shelves();
     let lighting = Lighting::new(&scene);
     let with = plan(&scene, &lighting, 0.02);
-    let without = Plan { gathering_for_bare: Vec::new(), ..plan(&scene, &lighting, 0.02) };
+    let mut without = plan(&scene, &lighting, 0.02);
+    without.mesh.gathering_for_bare.clear();
     let made = |plan: &Plan| {
         let mut hybrid = Hybrid::new(plan, &[], (32.0, 0, 0.02, 0), 1 << 10, 1);
         hybrid.increment(0, &[], [Deadline::NEVER; 2]).unwrap()
@@ -78,11 +79,11 @@ fn what_gathers_for_the_bare_map_is_read_by_no_ray() {
     let (with, without, plan) = (made(&with), made(&without), with);
     let mut differ = 0;
     for (k, (a, b)) in with.receivers.iter().zip(&without.receivers).enumerate() {
-        if k < plan.indirect_vertices {
+        if k < plan.mesh.indirect_vertices {
             assert_eq!(a, b);
         }
         differ += usize::from(a != b);
     }
-    assert!(differ >= plan.gathering_for_bare.len(), "{differ}");
+    assert!(differ >= plan.mesh.gathering_for_bare.len(), "{differ}");
     assert!(with.effort.rays > without.effort.rays);
 }

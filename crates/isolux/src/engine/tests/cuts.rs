@@ -38,15 +38,18 @@ fn reading_beyond(scene: &Scene, sheet_x: f64) -> usize {
         let at = Point::new(sheet_x - 0.1 + 0.2 * x, 0.1 + 1.8 * y, 0.0);
         let surface = front_at(scene, at);
         let SurfacePoint { triangle, u, v, .. } = surface;
-        let place = plan.elements.place(plan.level, triangle, false, [u, v]).expect("it is lit");
-        let corners = plan.elements.corners(place);
+        let place =
+            plan.mesh.elements.place(plan.mesh.level, triangle, false, [u, v]).expect("it is lit");
+        let corners = plan.mesh.elements.corners(place);
         // As rays read it.
-        let one_side = |cut| known_on_side(corners, &plan.standings, cut);
-        let read = plan.cuts.of_node(place.node()).and_then(one_side);
-        let read = read.or_else(|| known_at(&plan.elements, plan.level, &plan.standings, &surface));
+        let one_side = |cut| known_on_side(corners, &plan.mesh.standings, cut);
+        let read = plan.mesh.cuts.of_node(place.node()).and_then(one_side);
+        let read = read.or_else(|| {
+            known_at(&plan.mesh.elements, plan.mesh.level, &plan.mesh.standings, &surface)
+        });
         let read = read.expect("it is lit");
         let beyond = |&(vertex, weight): &(u32, f64)| {
-            let of = plan.elements.vertices()[vertex as usize].position;
+            let of = plan.mesh.elements.vertices()[vertex as usize].position;
             weight > 0.0 && (of.x - sheet_x) * (at.x - sheet_x) <= 0.0
         };
         read.iter().any(beyond)

@@ -13,9 +13,9 @@ use crate::engine::ray::{Accumulator, SurfacePoint};
 fn light_up(plan: &Plan, tally: &Tally, lux: impl Fn(Point) -> f64) -> f64 {
     let n = 24;
     let mut flux_lm = 0.0;
-    for leaf in plan.subdivision.leaves() {
-        let (_, origin) = plan.subdivision.node(leaf);
-        let triangle = plan.subdivision.triangle(leaf);
+    for leaf in plan.mesh.subdivision.leaves() {
+        let (_, origin) = plan.mesh.subdivision.node(leaf);
+        let triangle = plan.mesh.subdivision.triangle(leaf);
         let root = plan.scene.triangle(origin.triangle);
         let share_m2 = triangle.area() / f64::from(n * n);
         for (i, j) in (0..n).flat_map(|i| (0..n - i).map(move |j| (i, j))) {
@@ -46,7 +46,7 @@ fn worst(lux: impl Fn(Point) -> f64, found: impl Fn(&Tally) -> Vec<Rgb>) -> f64 
     let tally = Tally::new(&plan, 1e4, 1);
     light_up(&plan, &tally, &lux);
     let error = |(v, e): (&crate::elements::Vertex, &Rgb)| (e.luminance() - lux(v.position)).abs();
-    plan.elements.vertices().iter().zip(&found(&tally)).map(error).fold(0.0, f64::max)
+    plan.mesh.elements.vertices().iter().zip(&found(&tally)).map(error).fold(0.0, f64::max)
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn flux_is_kept() {
     let plan = small_plan(&scene, &lighting);
     let tally = Tally::new(&plan, 1e4, 1);
     let flux_lm = light_up(&plan, &tally, |p| 10.0 + p.x * p.y + 3.0 * p.z);
-    let vertices = plan.elements.vertices();
+    let vertices = plan.mesh.elements.vertices();
     let kept: f64 =
         tally.means(0).iter().zip(vertices).map(|(e, v)| e.luminance() * v.area_m2).sum();
     // Each of a million deposits is rounded by half of 1e4 lm over 2^48, at random.
@@ -81,9 +81,9 @@ fn flux_is_kept() {
 fn forward(scene: &Scene, request: &PilotRequest) -> (Vec<f64>, Vec<f64>) {
     let lighting = Lighting::new(scene);
     let plan = pilot(scene, &lighting, request, &mut Unlit::default(), &mut |_| true);
-    let mut lacking = Accumulator::new(plan.parts.count(), plan.reference_lx);
+    let mut lacking = Accumulator::new(plan.errors.parts.count(), plan.light.reference_lx);
     let engine = Forward::new(&plan, Emission::new(scene).unwrap(), 0.05, 1);
-    let mut sums = Accumulator::new(plan.elements.vertices().len(), plan.reference_lx);
+    let mut sums = Accumulator::new(plan.mesh.elements.vertices().len(), plan.light.reference_lx);
     for k in 0..4 {
         engine.increment(k, &mut sums, &mut lacking);
     }
@@ -91,7 +91,7 @@ fn forward(scene: &Scene, request: &PilotRequest) -> (Vec<f64>, Vec<f64>) {
         let mean = sums.estimate(k).mean;
         (mean.direct + mean.caustic + mean.indirect).luminance()
     };
-    let areas_m2: Vec<f64> = plan.elements.vertices().iter().map(|v| v.area_m2).collect();
+    let areas_m2: Vec<f64> = plan.mesh.elements.vertices().iter().map(|v| v.area_m2).collect();
     ((0..areas_m2.len()).map(lx).collect(), areas_m2)
 }
 

@@ -33,7 +33,7 @@ fn more_than_that_is_found_and_what_is_no_number_too() {
     let allowed = allowed_lx(&scene, plan.area_m2());
     let energy = Allowed::of(&plan);
     let excess = |lx: &dyn Fn(usize) -> f64| energy.excess_lx(lx);
-    assert!(excess(&|k| plan.guess[k].luminance()).is_none());
+    assert!(excess(&|k| plan.light.guess[k].luminance()).is_none());
     assert!(excess(&|_| 1.9 * allowed).is_none(), "noise may be as much as the light");
     let [mean, most] = excess(&|_| 1e8).expect("it is more");
     assert!((mean / 1e8 - 1.0).abs() < 1e-9 && most == allowed);

@@ -45,9 +45,10 @@ pub(super) fn check_sums(
     common: impl Fn(&Check) -> f64,
     sigma: f64,
 ) -> Accumulator {
-    let mut sums = Accumulator::new(check_points::places(checks, true), plan.reference_lx);
-    let vertices = plan.elements.vertices().len();
-    let (coarse, fine) = (vec![Rgb::grey(5.0); plan.indirect_vertices], vec![Rgb::BLACK; vertices]);
+    let mut sums = Accumulator::new(check_points::places(checks, true), plan.light.reference_lx);
+    let vertices = plan.mesh.elements.vertices().len();
+    let (coarse, fine) =
+        (vec![Rgb::grey(5.0); plan.mesh.indirect_vertices], vec![Rgb::BLACK; vertices]);
     for increment in 0..16 {
         let key = Key::new(4).with(increment);
         let fresh: Vec<Rgb> = checks
@@ -182,7 +183,7 @@ fn common_errors_are_seen_through_noise() {
 
 /// Sums with noise of a share of a value at every vertex.
 fn sums(plan: &Plan, increments: u64, sigma: f64) -> Accumulator {
-    let count = plan.elements.vertices().len();
+    let count = plan.mesh.elements.vertices().len();
     let mut sums = Accumulator::new(count, 100.0);
     for increment in 0..increments {
         let key = Key::new(9).with(increment);
@@ -208,11 +209,11 @@ fn noise_is_that_of_readings_over_the_surface() {
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
     let checks = check_points::draw(&plan, 0, Key::new(2));
-    let mut sums = Accumulator::new(check_points::places(&checks, true), plan.reference_lx);
-    let black = vec![Rgb::BLACK; plan.elements.vertices().len().max(checks.len())];
+    let mut sums = Accumulator::new(check_points::places(&checks, true), plan.light.reference_lx);
+    let black = vec![Rgb::BLACK; plan.mesh.elements.vertices().len().max(checks.len())];
     for increment in 0..16 {
         let key = Key::new(5).with(increment);
-        let coarse: Vec<Rgb> = (0..plan.indirect_vertices)
+        let coarse: Vec<Rgb> = (0..plan.mesh.indirect_vertices)
             .map(|k| Rgb::grey(5.0 + noise(key.with(k as u64))))
             .collect();
         let fresh = &black[..checks.len()];
@@ -280,8 +281,8 @@ fn too_few_increments_and_darkness_have_no_accuracy() {
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
     let none = InterpolationErrors::default();
-    let mut dark = Accumulator::new(plan.elements.vertices().len(), 1.0);
-    (0..16).for_each(|_| dark.add(plan.elements.vertices().iter().map(|_| Sample::default())));
+    let mut dark = Accumulator::new(plan.mesh.elements.vertices().len(), 1.0);
+    (0..16).for_each(|_| dark.add(plan.mesh.elements.vertices().iter().map(|_| Sample::default())));
     assert!(of_map(&plan, &dark, &none).is_none());
 }
 
@@ -338,7 +339,7 @@ fn what_has_one_sign_is_told_as_it_is_where_light_is() {
     let scene = room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let vertices = plan.elements.vertices();
+    let vertices = plan.mesh.elements.vertices();
     let of_surfaces = |is_lit: &dyn Fn(usize) -> bool, mean_lx: f64| {
         let mut sums = Accumulator::new(vertices.len(), 100.0);
         for _ in 0..16 {
@@ -370,7 +371,7 @@ fn a_filter_takes_no_light() {
     let scene = room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let vertices = &plan.elements.vertices()[..plan.indirect_vertices];
+    let vertices = &plan.mesh.elements.vertices()[..plan.mesh.indirect_vertices];
     let key = Key::new(3);
     let bent = |(k, vertex): (usize, &crate::elements::Vertex)| {
         let from_middle = vertex.position - Point::new(1.5, 1.0, 1.25);

@@ -167,7 +167,7 @@ fn a_step_that_takes_too_long_is_told_before_it_is_begun() {
         }
         true
     });
-    let size = |plan: &Plan| plan.elements.vertices().len();
+    let size = |plan: &Plan| plan.mesh.elements.vertices().len();
     // Light is smooth there: most vertices are made in one step, and have direct light.
     assert!(longest.0 > 0.0 && size(&whole) > 2 * longest.1, "{longest:?} {}", size(&whole));
     let cut = with(&mut |round: &Round| round.step_s == 0.0);

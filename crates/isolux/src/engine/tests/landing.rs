@@ -27,12 +27,12 @@ fn vertices_tell_of_light_that_lands_on_a_hand_s_breadth() {
     let scene = room(0.005);
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
-    let vertices = plan.elements.vertices().iter().zip(&plan.direct);
+    let vertices = plan.mesh.elements.vertices().iter().zip(&plan.light.direct);
     let told_lm: f64 = vertices.map(|(vertex, lx)| vertex.area_m2 * lx.luminance()).sum();
     // All of it lands; what particles leave undecided is a hundredth, and linear elements tell too much of a peak.
     assert!((told_lm / FLUX_LM - 1.0).abs() < 0.02, "{told_lm}");
     // Half of it on what no walls would tell.
-    assert!(plan.backdrop.is_none());
+    assert!(plan.light.backdrop.is_none());
 }
 
 /// So many that luminaires are chosen among: each lights a hand's breadth, all of them half of what light there is.
@@ -50,7 +50,7 @@ fn vertices_tell_of_what_many_lamps_light_close_by() {
     let lighting = Lighting::new(&scene);
     assert!(lighting.are_countless());
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
-    let vertices = plan.elements.vertices().iter().zip(&plan.direct);
+    let vertices = plan.mesh.elements.vertices().iter().zip(&plan.light.direct);
     let told_lm: f64 = vertices.map(|(vertex, lx)| vertex.area_m2 * lx.luminance()).sum();
     // As for one lamp.
     assert!((told_lm / FLUX_LM - 1.0).abs() < 0.02, "{told_lm}");
@@ -104,9 +104,9 @@ fn a_floor_that_no_particle_finds_below_a_large_sky_is_right_as_it_is() {
     let scene = scene(shapes, materials, vec![]);
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
-    assert!(plan.elements.vertices().len() < 3000, "{}", plan.elements.vertices().len());
+    assert!(plan.mesh.elements.vertices().len() < 3000, "{}", plan.mesh.elements.vertices().len());
     let lit = |lx: &Rgb| (lx.luminance() / (PI * LUMINANCE_CD_M2) - 1.0).abs() < 0.02;
-    assert!(plan.direct.iter().all(lit), "{:?}", plan.direct);
+    assert!(plan.light.direct.iter().all(lit), "{:?}", plan.light.direct);
 }
 
 #[test]

@@ -278,7 +278,7 @@ fn noise_of_direct_light_is_part_of_the_accuracy() {
     let checks = check_points::draw(&plan, 0, Key::new(2));
     let noise = |accuracy: f64| {
         let noise_lx2 = check_points::direct(&plan, &checks, accuracy, Key::new(3)).noise_lx2;
-        noise_lx2.sqrt() / plan.reference_lx
+        noise_lx2.sqrt() / plan.light.reference_lx
     };
     let told = noise(0.01);
     assert!(noise(0.002) < 0.6 * told && told < 0.02, "{told}");

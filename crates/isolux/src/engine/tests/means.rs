@@ -46,10 +46,10 @@ fn is_in(triangle: &Triangle, at: Point) -> bool {
 /// The integral of a piecewise linear function over the surfaces, and over those that readers trust alone.
 fn integrals(plan: &Plan, values: &[Rgb]) -> [f64; 2] {
     let mut sums = [0.0; 2];
-    for error in &plan.indirect_errors {
+    for error in &plan.errors.of_elements {
         let is_trusted = plan.trust().includes(error.error, error.is_beset);
-        plan.elements.visit_below(error.node, &mut |corners| {
-            let [a, b, c] = corners.map(|v| plan.elements.vertices()[v as usize].position);
+        plan.mesh.elements.visit_below(error.node, &mut |corners| {
+            let [a, b, c] = corners.map(|v| plan.mesh.elements.vertices()[v as usize].position);
             let third_m2 = (b - a).cross(c - a).length() / 6.0;
             let own: f64 = corners.iter().map(|&v| values[v as usize].luminance()).sum();
             sums[0] += third_m2 * own;
@@ -68,21 +68,21 @@ fn what_is_measured_is_given_to_elements_that_nobody_trusts() {
     let plan = measured_plan(&scene, &lighting);
     let places = plan.places_of_means(1, Key::new(3));
     assert!(places.gatherers.len() > 100, "{}", places.gatherers.len());
-    let zero = vec![Rgb::BLACK; plan.indirect_vertices];
+    let zero = vec![Rgb::BLACK; plan.mesh.indirect_vertices];
     let measured = vec![Rgb::WHITE; places.gatherers.len()];
-    let moved = plan.means.moves(&zero, &places, &measured);
+    let moved = plan.mesh.means.moves(&zero, &places, &measured);
     // What is applied stays between what was there and what was measured.
     let mut applied = zero;
-    plan.means.apply(&mut applied, &places, &measured);
+    plan.mesh.means.apply(&mut applied, &places, &measured);
     assert!(applied.iter().all(|lx| (0.0..=1.0).contains(&lx.luminance())));
     assert!(applied.iter().zip(&moved).all(|(a, b)| b.luminance() > 1.0 || a == b));
     let mut measured_m2 = 0.0;
     for gatherer in &places.gatherers {
         let at = gatherer.surface.point;
         let of = |e: &&crate::engine::mesh::LeafError| {
-            e.is_beset && is_in(&plan.subdivision.triangle(e.node), at)
+            e.is_beset && is_in(&plan.mesh.subdivision.triangle(e.node), at)
         };
-        let found = plan.indirect_errors.iter().find(of).expect("places lie in beset elements");
+        let found = plan.errors.of_elements.iter().find(of).expect("places lie in beset elements");
         measured_m2 += found.area_m2;
     }
     // Elements for direct light are finer and read what indirect light is between its own vertices.
@@ -90,10 +90,10 @@ fn what_is_measured_is_given_to_elements_that_nobody_trusts() {
     assert!((all / measured_m2 - 1.0).abs() < 1e-6, "{all} {measured_m2}");
     assert_eq!(trusted, 0.0);
     // Right already: nothing moves.
-    let mut still = plan.guess.clone();
-    let read: Vec<Rgb> = places.interpolated(&plan.guess).collect();
-    plan.means.apply(&mut still, &places, &read);
-    assert_eq!(still, plan.guess);
+    let mut still = plan.light.guess.clone();
+    let read: Vec<Rgb> = places.interpolated(&plan.light.guess).collect();
+    plan.mesh.means.apply(&mut still, &places, &read);
+    assert_eq!(still, plan.light.guess);
 }
 
 /// A floor of 4 m by 3 m bisected twice more, its first vertex that makes, and the corners of the elements before.

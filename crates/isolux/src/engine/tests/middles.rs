@@ -34,7 +34,7 @@ fn a_panel_close_below_the_ceiling_is_seen_to_light_it() {
         let [x, y] = [0, 1].map(|n| key.with(2 * k + n).uniform());
         let at = Point::new(1.4 + 1.2 * x, 1.0 + 1.0 * y, 2.5);
         let surface = front_at(&scene, at);
-        let read = plan.read(plan.level, &plan.guess, &surface).luminance();
+        let read = plan.read(plan.mesh.level, &plan.light.guess, &surface).luminance();
         // 10 cm from the border of a gap of 1 cm the rim is hardly seen: 15 % are for the noise of few rays.
         misread += u32::from((read / expected - 1.0).abs() > 0.15);
     }
@@ -54,7 +54,7 @@ fn the_upper_side_of_a_lamp_below_a_ceiling_is_darker_at_its_rim() {
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let read_lx = |x: f64| {
         let surface = front_at(&scene, Point::new(x, 1.5, 2.47));
-        plan.read(plan.level, &plan.guess, &surface).luminance()
+        plan.read(plan.mesh.level, &plan.light.guess, &surface).luminance()
     };
     let inside_lx = read_lx(2.0);
     // At the very rim half of what is seen is the dark room, and what is lit there is as far from being so by itself.

@@ -175,10 +175,10 @@ fn errors_count_for_the_dim_room_that_sees_them() {
         let lighting = Lighting::new(&scene);
         let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
         let material_of = |node: u32| {
-            let (_, origin) = plan.subdivision.node(node);
+            let (_, origin) = plan.mesh.subdivision.node(node);
             scene.material_index(origin.triangle)
         };
-        let of = plan.indirect_errors.iter().filter(|e| material_of(e.node) == material);
+        let of = plan.errors.of_elements.iter().filter(|e| material_of(e.node) == material);
         of.map(|e| e.seen).fold(0.0, f64::max)
     };
     // By reciprocity as often as a surface reflects and sees the room: slats to a third of their hemisphere or more, and the room
@@ -197,18 +197,18 @@ fn noise_that_readings_have_in_common_is_told_at_vertices() {
     // Floor, a side and the back of the room, by so many rays that theirs is no noise beside that of what they read.
     let places = [[1.9, 2.1, 0.0], [4.0, 1.7, 1.3], [1.1, 4.0, 1.6]];
     let places = places.map(|at| front_at(&scene, Point::from(at)));
-    let gathering = Gathering::of(&plan, &plan.direct);
+    let gathering = Gathering::of(&plan, &plan.light.direct);
     let rows = places.map(|at| Gatherer::on_surface(at, 1 << 13));
     let operator = gathering.operator(&rows, |row| Key::new(77).with(row as u64));
     let (mut read, mut told) = (vec![Vec::new(); 3], vec![Vec::new(); 3]);
     for index in 0..INCREMENTS {
         let increment = hybrid.increment(index, &[], [Deadline::NEVER; 2]).unwrap();
         let light: Vec<Rgb> =
-            increment.receivers[..plan.indirect_vertices].iter().map(|s| s.indirect).collect();
+            increment.receivers[..plan.mesh.indirect_vertices].iter().map(|s| s.indirect).collect();
         for (k, lx) in operator.reflected(&light).into_iter().enumerate() {
             read[k].push(lx.luminance());
             let SurfacePoint { triangle, back, u, v, .. } = places[k];
-            let corners = plan.elements.locate(triangle, back, u, v).unwrap();
+            let corners = plan.mesh.elements.locate(triangle, back, u, v).unwrap();
             let of = |&(vertex, weight): &(u32, f64)| {
                 weight * increment.receivers[vertex as usize].passed_on
             };

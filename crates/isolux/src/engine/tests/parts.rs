@@ -144,31 +144,33 @@ fn request(target: f64) -> PilotRequest {
 /// What caustics err by on the elements of a plan, of all light, by so many particles altogether.
 fn caustic_error(plan: &Plan, particles: u32) -> f64 {
     let increments = 8;
-    let mut sums = Accumulator::new(plan.parts.count(), plan.reference_lx);
+    let mut sums = Accumulator::new(plan.errors.parts.count(), plan.light.reference_lx);
     for k in 0..increments {
         sums.add(samples(
             &deposit(plan, particles / increments, Key::new(99).with(u64::from(k))).lacking,
         ));
     }
-    let seen: Squared = plan.parts.errors(&sums).into_iter().sum();
-    (seen.with(Noise::TakenOff) / plan.area_m2()).sqrt() / plan.reference_lx
+    let seen: Squared = plan.errors.parts.errors(&sums).into_iter().sum();
+    (seen.with(Noise::TakenOff) / plan.area_m2()).sqrt() / plan.light.reference_lx
 }
 
 #[test]
 fn elements_are_as_fine_as_a_sharp_caustic_needs() {
     let scene = room_with_a_lens();
     let lighting = Lighting::new(&scene);
-    let coarse = pilot(&scene, &lighting, &request(1.0), &mut Unlit::default(), &mut |_| true);
-    let fine = pilot(&scene, &lighting, &request(0.03), &mut Unlit::default(), &mut |_| true);
+    let mut coarse = pilot(&scene, &lighting, &request(1.0), &mut Unlit::default(), &mut |_| true);
+    let mut fine = pilot(&scene, &lighting, &request(0.03), &mut Unlit::default(), &mut |_| true);
     let all_parts = |plan: &Plan| {
-        let leaves: Vec<u32> = plan.subdivision.leaves().collect();
-        Parts::new(&plan.subdivision, &leaves)
+        let leaves: Vec<u32> = plan.mesh.subdivision.leaves().collect();
+        Parts::new(&plan.mesh.subdivision, &leaves)
     };
     // Elements as they are for other light blur the spot that the lamp makes below the ball.
-    let as_for_other_light = caustic_error(&Plan { parts: all_parts(&coarse), ..coarse }, 1 << 18);
+    coarse.errors.parts = all_parts(&coarse);
+    let as_for_other_light = caustic_error(&coarse, 1 << 18);
     assert!(as_for_other_light > 0.03, "{as_for_other_light}");
     // Those of a pilot that was asked for 3 % are to take 0.9 % of it for caustics, and what is in doubt.
-    let told = fine.caustic_error_lx / fine.reference_lx;
-    let seen = caustic_error(&Plan { parts: all_parts(&fine), ..fine }, 1 << 18);
+    let told = fine.errors.caustics_lx / fine.light.reference_lx;
+    fine.errors.parts = all_parts(&fine);
+    let seen = caustic_error(&fine, 1 << 18);
     assert!(seen < 0.015 && told < 0.02, "{seen}, {told} told");
 }

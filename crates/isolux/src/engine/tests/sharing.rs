@@ -95,12 +95,13 @@ fn housings_of_lamps_get_more_rays_than_their_area_is_worth() {
         let lighting = Lighting::new(scene);
         let mut plan = small_plan(scene, &lighting);
         if !has_met_it {
-            plan.trial = Trial::usual(plan.reference_lx);
+            plan.tried.trial = Trial::usual(plan.light.reference_lx);
         }
         let hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1 << 10, 1);
         let by_area = allot(&plan.areas_m2(), 64.0);
-        let places: Vec<Point> = plan.elements.vertices().iter().map(|v| v.position).collect();
-        let rays = (0..plan.indirect_vertices).map(|v| (places[v], hybrid.rays_of(v), by_area[v]));
+        let places: Vec<Point> = plan.mesh.elements.vertices().iter().map(|v| v.position).collect();
+        let rays =
+            (0..plan.mesh.indirect_vertices).map(|v| (places[v], hybrid.rays_of(v), by_area[v]));
         rays.collect::<Vec<(Point, u32, u32)>>()
     };
     let is_in_can = |at: Point| (at - Point::new(1.5, 1.0, 2.3)).length() < 0.2;
@@ -138,33 +139,33 @@ fn caustics_are_as_noisy_as_a_trial_tells() {
     let scene = polished_room();
     let lighting = Lighting::new(&scene);
     let plan = small_plan(&scene, &lighting);
-    let vertices = plan.elements.vertices();
+    let vertices = plan.mesh.elements.vertices();
     let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();
     let read = |at: &SurfacePoint| {
-        let corners = plan.elements.locate(at.triangle, at.back, at.u, at.v)?;
-        let weights = known_weights(corners, &plan.standings)?;
+        let corners = plan.mesh.elements.locate(at.triangle, at.back, at.u, at.v)?;
+        let weights = known_weights(corners, &plan.mesh.standings)?;
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     };
     let of = (&scene, &lighting);
     let (told, _, rays) = CausticNoise::tried(of, &areas_m2, read, Key::new(3));
     assert!(rays > 0);
     // On few vertices a few, a million at most, whatever is asked; without light to compare with, a few.
-    assert_eq!(told.particles(20, (1e9, plan.reference_lx), 1, 0.1), particles(20));
-    assert_eq!(told.particles(20, (1e-9, plan.reference_lx), 1, 0.1), 1 << 20);
+    assert_eq!(told.particles(20, (1e9, plan.light.reference_lx), 1, 0.1), particles(20));
+    assert_eq!(told.particles(20, (1e-9, plan.light.reference_lx), 1, 0.1), 1 << 20);
     assert_eq!(told.particles(20, (1.0, 0.0), 1, 0.1), particles(20));
     // As many as a thousand times the vertices would need for as much error as there is light: in the middle of what may be.
-    let count = told.particles(areas_m2.len() * 1000, (1.0, plan.reference_lx), 1, 0.1);
+    let count = told.particles(areas_m2.len() * 1000, (1.0, plan.light.reference_lx), 1, 0.1);
     assert!(count > 1024 && count < particles(areas_m2.len() * 1000), "{count}");
     let maps: Vec<Vec<Rgb>> = (0..16).map(|k| deposit(&plan, 4096, Key::new(k)).light).collect();
     let (mut squares, mut area) = (0.0, 0.0);
-    for (v, m2) in areas_m2.iter().enumerate().take(plan.indirect_vertices) {
+    for (v, m2) in areas_m2.iter().enumerate().take(plan.mesh.indirect_vertices) {
         let (_, error) = mean_and_error(maps.iter().map(|map| map[v].luminance()));
         squares += m2 * error * error * 16.0;
         area += m2;
     }
     // Noise of so many particles falls with their number, and grows with the vertices.
     let noise_lx2 = squares / area * 4096.0 * 1000.0;
-    let allowed_lx = 0.45 * plan.reference_lx;
+    let allowed_lx = 0.45 * plan.light.reference_lx;
     let wanted = noise_lx2 / (0.1 * allowed_lx * allowed_lx);
     // The correction of deposits doubles their noise in the square at most, particles of one sequence lie evenly, and
     // their number is the next power of two.

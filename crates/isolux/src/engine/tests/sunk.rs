@@ -115,8 +115,9 @@ fn what_an_earlier_pilot_found_unlit_is_not_asked_again_and_changes_nothing() {
     let [(first, found), (second, found_again)] = [plan(), plan()];
     assert!(found.values().any(|&places| places != 0), "all that is hidden sees light");
     assert_eq!(found, found_again);
-    assert_eq!(first.elements, second.elements);
-    assert_eq!((first.direct, first.standings), (second.direct, second.standings));
+    assert_eq!(first.mesh.elements, second.mesh.elements);
+    assert_eq!(first.light.direct, second.light.direct);
+    assert_eq!(first.mesh.standings, second.mesh.standings);
 }
 
 /// Two rooms whose floors, ceilings and side walls end at the sheet between them.

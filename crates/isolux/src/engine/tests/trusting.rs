@@ -140,11 +140,11 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
     };
     let plan = pilot(&scene, &lighting, &request, &mut Unlit::default(), &mut |_| true);
     let at = plan.expected_lx(plan.trust());
-    let split = |e: &&LeafError| e.is_beset && plan.elements.node(e.node).split.is_some();
-    let beset: Vec<&LeafError> = plan.indirect_errors.iter().filter(split).collect();
+    let split = |e: &&LeafError| e.is_beset && plan.mesh.elements.node(e.node).split.is_some();
+    let beset: Vec<&LeafError> = plan.errors.of_elements.iter().filter(split).collect();
     assert!(beset.len() > 10, "there is something to be seen: {}", beset.len());
     for error in beset {
-        plan.elements.visit_below(error.node, &mut |corners| {
+        plan.mesh.elements.visit_below(error.node, &mut |corners| {
             let least = corners.iter().map(|&v| at[v as usize]).fold(f64::INFINITY, f64::min);
             assert!(!plan.trust().includes(least, false), "{least} {:?}", plan.trust());
         });
@@ -187,7 +187,7 @@ fn readers_gather_beside_a_picture_on_a_wall() {
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let at = front_at(&scene, Point::new(6.85, 0.0, 1.45));
-    let corners = plan.elements.locate(at.triangle, at.back, at.u, at.v).expect("it is lit");
+    let corners = plan.mesh.elements.locate(at.triangle, at.back, at.u, at.v).expect("it is lit");
     let expected_lx = plan.expected_lx(plan.trust());
     let is_gathered = |&(v, _): &(u32, f64)| !plan.trust().includes(expected_lx[v as usize], false);
     assert!(corners.iter().any(is_gathered));

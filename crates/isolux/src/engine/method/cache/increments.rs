@@ -63,18 +63,18 @@ impl<'p, 's> Cached<'p, 's> {
         let key = Key::new(seed).with(6);
         let mut store = Store::new(plan.scene, cache, (allowed(target), LEAST_RADIUS_AT_VERTICES));
         let place = |vertex: usize| {
-            let carries =
-                plan.standings[vertex].is_some() && plan.carriers.is_active(vertex as u32);
-            carries.then(|| Place::from(&plan.gatherers[vertex]))
+            let carries = plan.mesh.standings[vertex].is_some()
+                && plan.mesh.carriers.is_active(vertex as u32);
+            carries.then(|| Place::from(&plan.mesh.gatherers[vertex]))
         };
-        let places: Vec<Option<Place>> = (0..plan.indirect_vertices).map(place).collect();
+        let places: Vec<Option<Place>> = (0..plan.mesh.indirect_vertices).map(place).collect();
         store.serve(places.iter().flatten().copied().collect());
         store.guess(&Making {
             index: 0,
             rays: FEWEST_FAR_RAYS,
             key: key.with(0),
             lighting: plan.lighting,
-            bright: plan.bright.as_deref(),
+            bright: plan.light.bright.as_deref(),
             caustic: &|_| Rgb::BLACK,
             deadline: Deadline::NEVER,
         });
@@ -101,7 +101,7 @@ impl<'p, 's> Cached<'p, 's> {
             rays: FEWEST_RAYS,
             key: self.key.with(u64::MAX),
             lighting: self.plan.lighting,
-            bright: self.plan.bright.as_deref(),
+            bright: self.plan.light.bright.as_deref(),
             caustic: &|_| Rgb::BLACK,
             deadline: Deadline::NEVER,
         };
@@ -138,7 +138,7 @@ impl<'p, 's> Cached<'p, 's> {
         let Caustics { light: caustic, means: reflected_on, lacking, effort: particles } =
             caustics::deposit(plan, self.particles, key.with(1));
         let caustic_at = |at: &SurfacePoint| caustic_at(plan, &reflected_on, at);
-        let (lighting, bright) = (plan.lighting, plan.bright.as_deref());
+        let (lighting, bright) = (plan.lighting, plan.light.bright.as_deref());
         let making = |part: u64, rays: u32| Making {
             index,
             rays,
@@ -156,8 +156,8 @@ impl<'p, 's> Cached<'p, 's> {
             self.store.near_replicate(&for_near, &far)?;
         let (fresh, check_rays) = self.store.fresh(&self.checks, &for_checks, &far);
         let mut gathered: Vec<Rgb> = self.ties.par_iter().map(|ties| tied(ties, &near)).collect();
-        plan.waiting.fill(&mut gathered);
-        let gathered = plan.fit.apply(&gathered);
+        plan.mesh.waiting.fill(&mut gathered);
+        let gathered = plan.mesh.fit.apply(&gathered);
         let lookups = self.lookups(&far, &fresh, &check_direct);
         let (indirect, caustic) = (plan.prolongate(&gathered), plan.prolongate(&caustic));
         let map = [direct.as_slice(), &caustic, &indirect];
@@ -172,7 +172,7 @@ impl<'p, 's> Cached<'p, 's> {
         Some(Effort {
             rays: far_rays + near_rays + check_rays + particles.rays,
             given_up_lx: particles.given_up_lx
-                + (lost + far_lost) * plan.reference_lx
+                + (lost + far_lost) * plan.light.reference_lx
                 + unsettled_lx,
         })
     }
@@ -199,5 +199,9 @@ impl<'p, 's> Cached<'p, 's> {
 
 /// Caustics where a ray ends, read from those at vertices.
 fn caustic_at(plan: &Plan, caustic: &[Rgb], at: &SurfacePoint) -> Rgb {
-    if plan.lighting.leaves_caustics() { plan.read(plan.level, caustic, at) } else { Rgb::BLACK }
+    if plan.lighting.leaves_caustics() {
+        plan.read(plan.mesh.level, caustic, at)
+    } else {
+        Rgb::BLACK
+    }
 }

@@ -115,7 +115,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         let key = Key::new(seed).with(7);
         let asked = settings.limits(accuracy);
         let lighting = plan.lighting;
-        let level = if lighting.are_read_at_ends() { u32::MAX } else { plan.level };
+        let level = if lighting.are_read_at_ends() { u32::MAX } else { plan.mesh.level };
         let sources = Sources::new(plan, level);
         let (chains, leaves_some_out) = lighting.chains();
         let is_specular = leaves_some_out || lighting.leaves_caustics();
@@ -125,7 +125,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         let (direct, direct_variance) = direct(plan, key.with(2));
         let (caustic, caustic_variance, effort) = caustic(plan, accuracy, key.with(3));
         let checks = Checks::new(plan, points, (asked.check_rays, accuracy), &direct, key.with(4));
-        let reference_lx = plan.reference_lx.max(root_mean_square(plan, &direct, &caustic));
+        let reference_lx = plan.light.reference_lx.max(root_mean_square(plan, &direct, &caustic));
         let given_up = checks.operators.iter().map(Operator::given_up).sum::<f64>()
             / CHECKINGS as f64
             + specular.as_ref().map_or(0.0, |s| s.given_up);
@@ -137,7 +137,7 @@ impl<'p, 's> Radiosity<'p, 's> {
             },
             stop_unshot: asked.unshot,
             ambient: settings.ambient,
-            expected: plan.prolongate(&plan.fit.apply(&plan.guess)),
+            expected: plan.prolongate(&plan.mesh.fit.apply(&plan.light.guess)),
             corrections: Vec::new(),
             whole_lm: 0.0,
             area_m2: plan.area_m2(),
@@ -184,7 +184,8 @@ impl<'p, 's> Radiosity<'p, 's> {
     /// By source, the exitance by direct light in the mean over elements less that of its vertices,
     /// where it is evaluated and not read from a finer mesh.
     fn corrections(&self) -> Vec<Rgb> {
-        let Plan { scene, lighting, elements, .. } = self.plan;
+        let Plan { scene, lighting, .. } = self.plan;
+        let elements = &self.plan.mesh.elements;
         if lighting.are_read_at_ends() {
             return vec![Rgb::BLACK; self.sources.nodes.len()];
         }
@@ -358,10 +359,10 @@ impl<'p, 's> Radiosity<'p, 's> {
             limits: self.limits,
         };
         let key = self.key.with(6).with(index);
-        let receivers = &self.plan.gatherers[..self.plan.indirect_vertices];
+        let receivers = &self.plan.mesh.gatherers[..self.plan.mesh.indirect_vertices];
         let receive = |(k, gatherer): (usize, &Gatherer)| {
-            let carries = self.plan.carriers.is_active(k as u32);
-            let of = self.plan.standings[k].filter(|_| carries);
+            let carries = self.plan.mesh.carriers.is_active(k as u32);
+            let of = self.plan.mesh.standings[k].filter(|_| carries);
             if deadline.has_passed() {
                 return None;
             }
@@ -391,9 +392,9 @@ impl<'p, 's> Radiosity<'p, 's> {
         let mut light: Vec<Rgb> = received.iter().map(|r| r.0).collect();
         let mut variances: Vec<Rgb> = received.iter().map(|r| Rgb::grey(r.1)).collect();
         // What is interpolated is no better than what it comes from.
-        self.plan.waiting.fill(&mut light);
-        self.plan.waiting.fill(&mut variances);
-        let light = self.plan.prolongate(&self.plan.fit.apply(&light));
+        self.plan.mesh.waiting.fill(&mut light);
+        self.plan.mesh.waiting.fill(&mut variances);
+        let light = self.plan.prolongate(&self.plan.mesh.fit.apply(&light));
         for (k, light) in light.into_iter().enumerate() {
             sums.add_part(k, RECEIVED, light);
         }
@@ -416,8 +417,8 @@ impl<'p, 's> Radiosity<'p, 's> {
     /// About the flux that would come of it.
     fn unsent_lm(&self, specular: &Specular, sums: &Accumulator) -> f64 {
         let unsent = self.unsent(sums);
-        let vertices = self.plan.elements.vertices().iter().zip(&unsent).enumerate();
-        let known = vertices.filter(|(k, _)| self.plan.standings[*k].is_some());
+        let vertices = self.plan.mesh.elements.vertices().iter().zip(&unsent).enumerate();
+        let known = vertices.filter(|(k, _)| self.plan.mesh.standings[*k].is_some());
         let lumen: f64 = known.map(|(_, (v, e))| v.area_m2 * e.luminance().abs()).sum();
         specular.mean_share * lumen
     }
@@ -530,7 +531,7 @@ impl Checks {
 /// Root mean square of light that has not been reflected diffusely, lx.
 fn root_mean_square(plan: &Plan, direct: &[Rgb], caustic: &[Rgb]) -> f64 {
     let (mut squared, mut area_m2) = (0.0, 0.0);
-    for (k, vertex) in plan.elements.vertices().iter().enumerate() {
+    for (k, vertex) in plan.mesh.elements.vertices().iter().enumerate() {
         let lx = (direct[k] + caustic[k]).luminance();
         squared += vertex.area_m2 * lx * lx;
         area_m2 += vertex.area_m2;
@@ -541,7 +542,7 @@ fn root_mean_square(plan: &Plan, direct: &[Rgb], caustic: &[Rgb]) -> f64 {
 /// Direct light at the vertices, and the variance of its mean: the plan's where it is measured once.
 fn direct(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>) {
     if plan.lighting.is_measured_once() {
-        return (plan.direct.clone(), plan.direct_variance.clone());
+        return (plan.light.direct.clone(), plan.light.direct_variance.clone());
     }
     let vertex = |(k, gatherer): (usize, &Gatherer)| {
         let one = |replicate: u64| {
@@ -551,7 +552,7 @@ fn direct(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>) {
         let values: Vec<Rgb> = (0..REPLICATES).map(one).collect();
         mean_and_variance(&values)
     };
-    plan.gatherers.par_iter().enumerate().map(vertex).unzip()
+    plan.mesh.gatherers.par_iter().enumerate().map(vertex).unzip()
 }
 
 /// Caustics at the vertices, by particles, their variance, and what it took.
@@ -570,6 +571,6 @@ fn caustic(plan: &Plan, accuracy: f64, key: Key) -> (Vec<Rgb>, Vec<f64>, Effort)
         let values: Vec<Rgb> = replicates.iter().map(|r| r[k]).collect();
         mean_and_variance(&values)
     };
-    let (light, variance): (Vec<Rgb>, Vec<f64>) = (0..plan.indirect_vertices).map(at).unzip();
+    let (light, variance): (Vec<Rgb>, Vec<f64>) = (0..plan.mesh.indirect_vertices).map(at).unzip();
     (plan.prolongate(&light), variance, sum)
 }

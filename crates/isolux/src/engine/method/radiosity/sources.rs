@@ -203,7 +203,7 @@ impl Build<'_, '_> {
     }
 
     fn face(&mut self, node: u32, origin: &Origin, known: Option<Rgb>) -> u32 {
-        let elements = &self.plan.elements;
+        let elements = &self.plan.mesh.elements;
         let of = elements.node(node);
         let corners = of.vertices.map(|v| elements.vertices()[v as usize].position);
         let normal = self.plan.scene.geometric_normal(origin.triangle);
@@ -257,7 +257,7 @@ impl Build<'_, '_> {
 /// The surfaces that reflect diffusely: trees that share vertices are one.
 fn surfaces(plan: &Plan) -> Vec<Surface> {
     let trees = trees(plan);
-    let elements = &plan.elements;
+    let elements = &plan.mesh.elements;
     let mut leader: Vec<u32> = (0..elements.vertices().len() as u32).collect();
     for tree in &trees {
         let [a, b, c] = elements.node(tree.root).vertices.map(|v| found(&mut leader, v));
@@ -290,7 +290,7 @@ fn found(leader: &mut [u32], mut vertex: u32) -> u32 {
 
 fn trees(plan: &Plan) -> Vec<Tree> {
     let mut trees = Vec::new();
-    for (triangle, sides) in (0..).zip(plan.elements.roots()) {
+    for (triangle, sides) in (0..).zip(plan.mesh.elements.roots()) {
         for (root, back) in sides.iter().zip([false, true]) {
             let Some(root) = *root else { continue };
             let Body::Opaque { front, back: rear } = &plan.scene.material(triangle).body else {
@@ -353,7 +353,7 @@ pub(super) fn corner_values(
     vertices: [u32; 3],
     value: impl Fn(u32) -> Rgb,
 ) -> [Rgb; 3] {
-    over_known(vertices, &plan.standings, value)
+    over_known(vertices, &plan.mesh.standings, value)
 }
 
 /// The same for a receiver in a gap, of which the element is a part.
@@ -362,7 +362,7 @@ pub(super) fn corner_values_in_gap(
     vertices: [u32; 3],
     value: impl Fn(u32) -> Rgb,
 ) -> [Rgb; 3] {
-    let in_gap = |v: u32| plan.standings[v as usize].filter(|of| *of != Standing::Open);
+    let in_gap = |v: u32| plan.mesh.standings[v as usize].filter(|of| *of != Standing::Open);
     let of = vertices.map(in_gap);
     mixed(vertices, Standing::highest(of), of, value)
 }

@@ -44,9 +44,9 @@ impl Specular {
     /// Follows the rays; `chains` are covered.
     pub(super) fn new(plan: &Plan, level: u32, chains: &[Chain], rays: u32, key: Key) -> Self {
         let tracer = Tracer { plan, level, chains };
-        let receivers = &plan.gatherers[..plan.indirect_vertices];
+        let receivers = &plan.mesh.gatherers[..plan.mesh.indirect_vertices];
         let row = |(k, gatherer): (usize, &Gatherer)| {
-            if plan.standings[k].is_none() || !plan.carriers.is_active(k as u32) {
+            if plan.mesh.standings[k].is_none() || !plan.mesh.carriers.is_active(k as u32) {
                 return (Default::default(), 0.0);
             }
             let mut given_up = 0.0;
@@ -163,8 +163,9 @@ impl Tracer<'_, '_> {
         if share.is_black() {
             return None;
         }
-        let corners = plan.elements.locate_above(self.level, at.triangle, at.back, at.u, at.v)?;
-        let weights = known_weights(corners, &plan.standings)?;
+        let corners =
+            plan.mesh.elements.locate_above(self.level, at.triangle, at.back, at.u, at.v)?;
+        let weights = known_weights(corners, &plan.mesh.standings)?;
         Some(Entry {
             vertices: corners.map(|(vertex, _)| vertex),
             weights: weights.map(|w| w as f32),

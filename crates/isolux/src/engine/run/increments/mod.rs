@@ -75,7 +75,8 @@ impl<'p, 's> Work<'p, 's> {
             Method::Radiosity => (target, Some(request.radiosity.limits(target).check_rays)),
         };
         let noise = noise(plan, goal, target);
-        let by_noise = || plan.trial.rays_anywhere(noise, plan.reference_lx, FEWEST_INCREMENTS);
+        let by_noise =
+            || plan.tried.trial.rays_anywhere(noise, plan.light.reference_lx, FEWEST_INCREMENTS);
         let wanted = wanted.unwrap_or_else(by_noise);
         let most = most_rays(plan, request.max_memory_bytes);
         let rays = (wanted.min(most) >> halvings).max(1);
@@ -215,7 +216,7 @@ impl<'p, 's> Work<'p, 's> {
             }
             Engine::Radiosity(radiosity) => {
                 let errors = radiosity.errors(&self.sums, &self.checks.points, self.ambient_lx());
-                let squared = self.plan.caustic_error_lx.powi(2);
+                let squared = self.plan.errors.caustics_lx.powi(2);
                 let [indirect_lx, total_lx] =
                     [errors.indirect_lx, errors.total_lx].map(|lx| (lx * lx + squared).sqrt());
                 InterpolationErrors { indirect_lx, total_lx, ..errors }
@@ -234,12 +235,12 @@ impl<'p, 's> Work<'p, 's> {
 
     /// The same with what parts of elements tell of caustics, that check points do not see.
     fn with_caustics(&self, errors: InterpolationErrors, noise_is: Noise) -> InterpolationErrors {
-        let (parts, area_m2) = (&self.plan.parts, self.plan.area_m2());
+        let (parts, area_m2) = (&self.plan.errors.parts, self.plan.area_m2());
         if parts.count() == 0 {
             return errors;
         }
         let told = self.caustics_told_lx2(noise_is);
-        let squared = told + self.plan.caustics_beside_lx2;
+        let squared = told + self.plan.errors.caustics_beside_lx2;
         let [indirect_lx, total_lx] =
             [errors.indirect_lx, errors.total_lx].map(|lx| (lx * lx + squared).sqrt());
         let variance = |vertex: u32| self.sums.estimate(vertex as usize).variance;
@@ -255,7 +256,7 @@ impl<'p, 's> Work<'p, 's> {
         if self.checks.lacking.sums.is_empty() {
             return 0.0;
         }
-        let seen: Squared = self.plan.parts.errors(&self.checks.lacking).into_iter().sum();
+        let seen: Squared = self.plan.errors.parts.errors(&self.checks.lacking).into_iter().sum();
         seen.with(noise_is) / self.plan.area_m2()
     }
 
@@ -325,14 +326,15 @@ impl<'p, 's> Work<'p, 's> {
         let Some(goal) = self.goal.filter(|_| self.has_nets()) else {
             return by(self.plan.trust());
         };
-        let judged = Judged::for_goal(goal, self.plan.trusts, by);
+        let judged = Judged::for_goal(goal, self.plan.errors.trusts, by);
         // Until it is believed nobody reads it.
         if noise_is != Noise::Counted || !self.is_believed() {
             return judged;
         }
         let is_enough = |accuracy: &Accuracy| {
             let error = libm::hypot(accuracy.statistical, accuracy.discretization);
-            let lx = [goal, error.max(OF_GOAL * goal)].map(|share| share * self.plan.reference_lx);
+            let lx =
+                [goal, error.max(OF_GOAL * goal)].map(|share| share * self.plan.light.reference_lx);
             let Checks { sums, points, .. } = &self.checks;
             !check_points::is_gathering_worth_while(sums, points, judged.trust, lx)
         };
@@ -386,7 +388,7 @@ impl<'p, 's> Work<'p, 's> {
         self.hold_deposits(&mut values, by_particles);
         let report = filtered.then(|| self.filter(&mut values, by_particles));
         if self.left.is_none() && !without("neighbour-noise") {
-            lend_noise(&self.plan.elements, &mut values);
+            lend_noise(&self.plan.mesh.elements, &mut values);
         }
         (values, report)
     }
@@ -396,9 +398,9 @@ impl<'p, 's> Work<'p, 's> {
         if !all && !self.plan.lighting.leaves_caustics() {
             return;
         }
-        let hats = Hats::new(&self.plan.subdivision, &self.plan.standings);
+        let hats = Hats::new(&self.plan.mesh.subdivision, &self.plan.mesh.standings);
         let held = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
-            let some = values[..self.plan.indirect_vertices].iter();
+            let some = values[..self.plan.mesh.indirect_vertices].iter();
             let some: Vec<Rgb> = some.map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect();
             self.plan.prolongate(&hats.held(&some))
         };
@@ -417,7 +419,7 @@ impl<'p, 's> Work<'p, 's> {
 
     /// Filters indirect light and caustics, and direct light where particles brought it.
     fn filter(&self, values: &mut [Option<Illuminance>], direct: bool) -> FilterReport {
-        let coarse = self.plan.indirect_vertices;
+        let coarse = self.plan.mesh.indirect_vertices;
         let part = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
             values[..coarse].iter().map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect()
         };
@@ -429,8 +431,8 @@ impl<'p, 's> Work<'p, 's> {
             .map(|k| self.estimate(k))
             .map(|e| if direct { e.variance } else { e.indirect_variance })
             .collect();
-        let filtered = filter(self.plan, &parts, &variance, self.plan.reference_lx);
-        let for_bare = self.plan.gathering_for_bare.iter();
+        let filtered = filter(self.plan, &parts, &variance, self.plan.light.reference_lx);
+        let for_bare = self.plan.mesh.gathering_for_bare.iter();
         let for_bare = for_bare.map(|&v| values[v as usize].map_or(Rgb::BLACK, |v| v.indirect_lx));
         let for_bare: Vec<Rgb> = for_bare.collect();
         let fine = |(part, values): (usize, &Vec<Rgb>)| {
@@ -461,8 +463,8 @@ impl<'p, 's> Work<'p, 's> {
         if self.checks.lacking.sums.is_empty() || !self.is_believed() {
             return Vec::new();
         }
-        let mut variances = vec![Rgb::BLACK; self.plan.indirect_vertices];
-        let parts = &self.plan.parts;
+        let mut variances = vec![Rgb::BLACK; self.plan.mesh.indirect_vertices];
+        let parts = &self.plan.errors.parts;
         for (vertex, lx2) in parts.at_vertices(&parts.errors(&self.checks.lacking)) {
             variances[vertex as usize] = Rgb::grey(lx2);
         }
@@ -475,13 +477,13 @@ impl<'p, 's> Work<'p, 's> {
         interpolation_error_lx: f64,
         caustic_variance: f64,
     ) -> Option<Illuminance> {
-        let standing = self.plan.standings[vertex]?;
+        let standing = self.plan.mesh.standings[vertex]?;
         let estimate = self.estimate(vertex);
         let mean = estimate.mean;
         // Radiosity has counted it.
         let direct_variance = match self.engine {
             Engine::Radiosity(_) => 0.0,
-            _ => self.plan.direct_variance[vertex],
+            _ => self.plan.light.direct_variance[vertex],
         };
         Some(Illuminance {
             direct_lx: mean.direct + mean.caustic,
@@ -501,12 +503,15 @@ impl<'p, 's> Work<'p, 's> {
 /// Gathering rays of receivers in the mean, as they share them best, and particles of an increment.
 fn rays_and_particles(plan: &Plan, noise: f64, goal: f64, most: u32) -> (f64, u32) {
     let rays = |noise: f64| {
-        plan.trial.wanted(noise, plan.reference_lx, FEWEST_INCREMENTS).min(f64::from(most))
+        plan.tried
+            .trial
+            .wanted(noise, plan.light.reference_lx, FEWEST_INCREMENTS)
+            .min(f64::from(most))
     };
-    let (vertices, of_goal) = (plan.indirect_vertices, (goal, plan.reference_lx));
-    let all = rays(noise) * plan.carriers.count(vertices) as f64;
-    let share = plan.caustic_noise.share(vertices, of_goal, FEWEST_INCREMENTS, all);
-    let particles = plan.caustic_noise.particles(vertices, of_goal, FEWEST_INCREMENTS, share);
+    let (vertices, of_goal) = (plan.mesh.indirect_vertices, (goal, plan.light.reference_lx));
+    let all = rays(noise) * plan.mesh.carriers.count(vertices) as f64;
+    let share = plan.tried.caustic_noise.share(vertices, of_goal, FEWEST_INCREMENTS, all);
+    let particles = plan.tried.caustic_noise.particles(vertices, of_goal, FEWEST_INCREMENTS, share);
     let left = (1.0 - share) / (1.0 - flights::LEAST_SHARE);
     (rays(noise * left.sqrt()), particles)
 }
@@ -514,14 +519,14 @@ fn rays_and_particles(plan: &Plan, noise: f64, goal: f64, most: u32) -> (f64, u3
 /// The noise that a map may have that is to reach a goal. Elements made for a finer target, as those for the goal were seen to err by
 /// more than expected, will do so, too.
 fn noise(plan: &Plan, goal: f64, target: f64) -> f64 {
-    let right_in_the_mean = !plan.means.is_empty() || plan.resolves_walls;
-    noise_for(goal, plan.interpolation * goal / target, right_in_the_mean)
+    let right_in_the_mean = !plan.mesh.means.is_empty() || plan.mesh.resolves_walls;
+    noise_for(goal, plan.errors.interpolation * goal / target, right_in_the_mean)
 }
 
 /// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,
 /// 40 bytes an entry, a fifth more for gloss.
 fn most_rays(plan: &Plan, max_memory_bytes: u64) -> u32 {
-    let vertices = plan.indirect_vertices + plan.gathering_for_bare.len();
+    let vertices = plan.mesh.indirect_vertices + plan.mesh.gathering_for_bare.len();
     let most = (max_memory_bytes / 2 / 48 / vertices.max(1) as u64).clamp(8, 1 << 20) as u32;
     if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 }
 }
@@ -530,13 +535,13 @@ fn most_rays(plan: &Plan, max_memory_bytes: u64) -> u32 {
 fn reference_of(plan: &Plan, engine: &Engine) -> f64 {
     match engine {
         Engine::Radiosity(radiosity) => radiosity.reference_lx(),
-        _ => plan.reference_lx,
+        _ => plan.light.reference_lx,
     }
 }
 
 /// Sums of receivers and of check points before the first increment.
 fn no_sums(plan: &Plan, engine: &Engine, points: Vec<Check>) -> (Accumulator, Checks) {
-    let parts = plan.parts.count();
+    let parts = plan.errors.parts.count();
     let (places, parts) = match engine {
         Engine::Radiosity(radiosity) => (radiosity.patches(), 0),
         Engine::Cache(_) => (check_points::places(&points, false), parts),
@@ -544,7 +549,7 @@ fn no_sums(plan: &Plan, engine: &Engine, points: Vec<Check>) -> (Accumulator, Ch
         Engine::Forward(_) => (0, parts),
     };
     let sums_of = |places: usize| Accumulator::new(places, reference_of(plan, engine));
-    let sums = sums_of(plan.elements.vertices().len());
+    let sums = sums_of(plan.mesh.elements.vertices().len());
     let checks = Checks { points, sums: sums_of(places), lacking: sums_of(parts) };
     (sums, checks)
 }

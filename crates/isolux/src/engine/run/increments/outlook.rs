@@ -19,7 +19,7 @@ const MOST_HOPED_FOR: f64 = 32.0 * BELIEVED_INCREMENTS as f64;
 impl Work<'_, '_> {
     /// An accuracy and a target without that noise.
     fn beside_direct(&self, accuracy: Accuracy, target: f64) -> (Accuracy, f64) {
-        let share = self.noise_of_direct_lx2().sqrt() / self.plan.reference_lx;
+        let share = self.noise_of_direct_lx2().sqrt() / self.plan.light.reference_lx;
         prediction::beside(if share.is_finite() { share } else { 0.0 }, accuracy, target)
     }
 
@@ -34,8 +34,9 @@ impl Work<'_, '_> {
             return self.is_hopeless(accuracy, Some(target));
         }
         // Elements are as fine as particles tell them to be for caustics, whatever they are made for.
-        let of_caustics = self.caustics_told_lx2(Noise::TakenOff) + self.plan.caustics_beside_lx2;
-        let of_caustics = of_caustics.sqrt() / self.plan.reference_lx.max(f64::MIN_POSITIVE);
+        let of_caustics =
+            self.caustics_told_lx2(Noise::TakenOff) + self.plan.errors.caustics_beside_lx2;
+        let of_caustics = of_caustics.sqrt() / self.plan.light.reference_lx.max(f64::MIN_POSITIVE);
         if of_caustics > target {
             return false;
         }
@@ -121,7 +122,7 @@ impl Work<'_, '_> {
     /// the light that was given up may be more than what is there; or whether radiosity was told to
     /// shoot no more.
     pub(crate) fn is_vain(&self, accuracy: Option<Accuracy>) -> bool {
-        let dark = self.plan.reference_lx == 0.0;
+        let dark = self.plan.light.reference_lx == 0.0;
         let lost = self.given_up.sums != [Sums::default()];
         let given_up = lost || self.left.as_ref().is_some_and(|left| !left.is_bounded);
         if self.stops_at_unshot && self.left.as_ref().is_some_and(|left| left.is_shot) {

@@ -50,7 +50,7 @@ impl Run<'_, '_> {
     fn audit(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<Audit> {
         let lighting = self.lighting.as_ref()?;
         let map = self.map(work, accuracy, true);
-        let bright = work.plan.bright.clone();
+        let bright = work.plan.light.bright.clone();
         let settings = AuditSettings {
             paths: PATHS_OF_AUDIT,
             most_rays: ((AUDIT_SHARE * self.all_rays(work)) as u64).max(FEWEST_AUDIT_RAYS),

@@ -338,7 +338,7 @@ impl<'s, 'r> Run<'s, 'r> {
         let (values, filter) = work.values(self.request.filter && work.is_believed());
         let accuracy = accuracy.map(|told| self.without_false_claims(told));
         IlluminationMap {
-            elements: work.plan.elements.clone(),
+            elements: work.plan.mesh.elements.clone(),
             values,
             provenance: Provenance {
                 scene: self.scene.name().to_owned(),
