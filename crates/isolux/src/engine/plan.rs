@@ -2,13 +2,13 @@
 
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{
-    Backdrop, Bright, DirectAtEnds, Gatherer, Gathering, Means, Over, Places, Trial, areas_m2,
-    known_at,
+    BrightSurfaces, ControlVariate, DirectAtEnds, ElementMeans, Gatherer, Gathering, MeanPlaces,
+    Over, RayTrial, areas_m2, known_at,
 };
 use crate::engine::light::Lighting;
-use crate::engine::mesh::{Carriers, Fit, LeafError, Trust, Trusts, Waiting, trust};
-use crate::engine::occlusion::Cuts;
-use crate::engine::particle::{Aim, CausticNoise, LEAST_SHARE, Parts, flights};
+use crate::engine::mesh::{Carriers, Fit, LeafError, Trust, TrustLevels, Waiting, trust};
+use crate::engine::occlusion::Barriers;
+use crate::engine::particle::{Aim, CausticNoise, ElementParts, LEAST_SHARE, flights};
 use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
 use crate::sampling::Key;
@@ -50,11 +50,11 @@ pub(super) struct PlannedMesh {
     /// By vertex, what it stands for; none where it is hidden in other geometry.
     pub(super) standings: Vec<Option<Standing>>,
     /// Elements that something stands across.
-    pub(super) cuts: Cuts,
+    pub(super) cuts: Barriers,
     /// From indirect light at the vertices to the function that fits best.
     pub(super) fit: Fit,
     /// Elements whose means increments measure.
-    pub(super) means: Means,
+    pub(super) means: ElementMeans,
     /// Whether light is resolved towards walls.
     pub(super) resolves_walls: bool,
     /// By vertex, the strip before a wall that it lies in, where light is.
@@ -70,9 +70,9 @@ pub(super) struct PlannedLight {
     /// First guess of the indirect light.
     pub(super) guess: Vec<Rgb>,
     /// Surfaces that are far brighter than all others.
-    pub(super) bright: Option<Arc<Bright>>,
+    pub(super) bright: Option<Arc<BrightSurfaces>>,
     /// Large plane walls: the control variate of gathering.
-    pub(super) backdrop: Option<Backdrop>,
+    pub(super) backdrop: Option<ControlVariate>,
     /// Root mean square of the photometric illuminance over all known surfaces, lx.
     pub(super) reference_lx: f64,
     /// Mean reflectance of the diffuse surfaces.
@@ -84,20 +84,20 @@ pub(super) struct PlannedErrors {
     /// Errors of the elements that indirect light lives on.
     pub(super) of_elements: Vec<LeafError>,
     /// Errors up to which elements may be trusted.
-    pub(super) trusts: Trusts,
+    pub(super) trusts: TrustLevels,
     /// What interpolating indirect light errs by where readers trust it, of all light.
     pub(super) interpolation: f64,
     /// What interpolating caustics errs by, root mean square over the surface, lx.
     pub(super) caustics_lx: f64,
     /// Elements that increments check for that, and the rest of the squared error, lx2.
-    pub(super) parts: Parts,
+    pub(super) parts: ElementParts,
     pub(super) caustics_beside_lx2: f64,
 }
 
 /// What trials with few rays and particles have told of noise.
 pub(super) struct PlannedNoise {
     /// How noisy gathered light is.
-    pub(super) trial: Trial,
+    pub(super) trial: RayTrial,
     /// How noisy caustics are.
     pub(super) caustic_noise: CausticNoise,
     /// Where particles for them are sent, if not anywhere.
@@ -169,7 +169,7 @@ impl Plan<'_> {
     }
 
     /// Where an increment measures means of elements, with so many rays each.
-    pub(super) fn places_of_means(&self, rays: u32, key: Key) -> Places {
+    pub(super) fn places_of_means(&self, rays: u32, key: Key) -> MeanPlaces {
         let known = |at: &SurfacePoint| {
             known_at(&self.mesh.elements, self.mesh.level, &self.mesh.standings, at)
         };

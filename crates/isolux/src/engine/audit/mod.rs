@@ -19,7 +19,7 @@ mod compared;
 mod figures;
 mod places;
 
-use crate::engine::gather::Bright;
+use crate::engine::gather::BrightSurfaces;
 use crate::engine::light::Lighting;
 use crate::engine::method::PathTracer;
 use crate::engine::read::{MapReader, reference_lx};
@@ -72,14 +72,14 @@ impl Default for AuditSettings {
 /// have any light.
 pub fn audit(scene: &Scene, map: &IlluminationMap, settings: &AuditSettings) -> Option<Audit> {
     let lighting = Arc::new(Lighting::new(scene));
-    let (bright, _) = Bright::of(scene, &lighting, map.provenance.seed);
+    let (bright, _) = BrightSurfaces::of(scene, &lighting, map.provenance.seed);
     audit_with((scene, map), (lighting, bright), settings)
 }
 
 /// The same with luminaires, and with what is bright for the seed of the map, that are prepared already.
 pub(super) fn audit_with<'a>(
     (scene, map): (&'a Scene, &'a IlluminationMap),
-    (lighting, bright): (Arc<Lighting<'a>>, Option<Arc<Bright>>),
+    (lighting, bright): (Arc<Lighting<'a>>, Option<Arc<BrightSurfaces>>),
     settings: &AuditSettings,
 ) -> Option<Audit> {
     let told = map.provenance.accuracy?.reached;

@@ -7,7 +7,7 @@
 //! over increments, and their spread tells how well it is known. A vertex has the mean of light weighted by its hat function, where all that
 //! other elements add is its own value; so light is kept, and never negative.
 
-use super::bright_surfaces::Bright;
+use super::bright_surfaces::BrightSurfaces;
 use super::gatherer::known_weights;
 use crate::ablation::without;
 use crate::elements::Elements;
@@ -33,11 +33,11 @@ pub(crate) struct Over<'a> {
     pub(crate) standings: &'a [Option<Standing>],
     pub(crate) direct: &'a [Rgb],
     /// There rays evaluate it.
-    pub(crate) bright: Option<&'a Bright>,
+    pub(crate) bright: Option<&'a BrightSurfaces>,
 }
 
 /// Elements that samples are taken of.
-pub(crate) struct Kept {
+pub(crate) struct DirectResidual {
     leaves: Vec<Leaf>,
     /// Whether they are, by node.
     pub(crate) varying: Vec<bool>,
@@ -63,7 +63,7 @@ struct Lit {
     corners: [(u32, f64); 3],
 }
 
-impl Kept {
+impl DirectResidual {
     /// Where so many lux are allowed to lack in the mean; `None` where rays do not read direct light or vertices tell it well enough.
     pub(crate) fn of(over: &Over<'_>, allowed_lx: f64, key: Key) -> Option<Self> {
         if !over.lighting.are_read_at_ends() || without("direct-residual") {

@@ -8,7 +8,7 @@
 
 use super::gatherer::Gatherer;
 use crate::elements::Subdivision;
-use crate::engine::mesh::{Held, LeafError, Range, Stencil};
+use crate::engine::mesh::{Bounded, LeafError, Range, Stencil};
 use crate::engine::occlusion::nearby;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::{Key, Sequence};
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 /// The elements whose means are measured, and the vertices that have them.
 #[derive(Debug, Default)]
-pub(crate) struct Means {
+pub(crate) struct ElementMeans {
     /// Nodes of the elements.
     nodes: Vec<u32>,
     /// For each vertex that is moved, in order, where its shares end.
@@ -31,12 +31,12 @@ pub(crate) struct Means {
 }
 
 /// Where an increment measures: places and what is interpolated there.
-pub(crate) struct Places {
+pub(crate) struct MeanPlaces {
     pub(crate) gatherers: Vec<Gatherer>,
     corners: Vec<Option<[(u32, f64); 3]>>,
 }
 
-impl Means {
+impl ElementMeans {
     /// Of elements that are beset, or not `trusted`, as far as they have vertices in the open that no others have.
     pub(crate) fn new(
         (scene, subdivision): (&Scene, &Subdivision),
@@ -98,19 +98,19 @@ impl Means {
         known_at: impl Fn(&SurfacePoint) -> Option<[(u32, f64); 3]> + Sync,
         rays: u32,
         key: Key,
-    ) -> Places {
+    ) -> MeanPlaces {
         let one = |&node: &u32| {
             let mut dice = Dice::new(Sequence::new(key.with(u64::from(node))), 0);
             let at = SurfacePoint::in_node(scene, subdivision, node, dice.pair());
             (Gatherer::on_surface(at, rays), known_at(&at))
         };
         let (gatherers, corners) = self.nodes.par_iter().map(one).unzip();
-        Places { gatherers, corners }
+        MeanPlaces { gatherers, corners }
     }
 
     /// Moves vertices so that elements have the mean that was gathered, as far as each stays between its own value, what was
     /// gathered on its elements, and what their corners have.
-    pub(crate) fn apply(&self, values: &mut [Rgb], places: &Places, gathered: &[Rgb]) {
+    pub(crate) fn apply(&self, values: &mut [Rgb], places: &MeanPlaces, gathered: &[Rgb]) {
         let moves = self.moves(values, places, gathered);
         let held = |k: usize| {
             let vertex = self.ends[k].0 as usize;
@@ -129,7 +129,12 @@ impl Means {
     }
 
     /// The same as means of some light, with weights that stay: of that of all vertices, as given, and after it what was gathered.
-    pub(crate) fn held(&self, values: &[Rgb], places: &Places, gathered: &[Rgb]) -> HeldMeans<'_> {
+    pub(crate) fn held(
+        &self,
+        values: &[Rgb],
+        places: &MeanPlaces,
+        gathered: &[Rgb],
+    ) -> HeldMeans<'_> {
         let mut moved = values.to_vec();
         self.apply(&mut moved, places, gathered);
         let own: Vec<Rgb> = self.ends.iter().map(|&(v, _)| moved[v as usize]).collect();
@@ -145,19 +150,19 @@ impl Means {
                 some.push((number, of.value(values, gathered)));
             });
         };
-        let own = Held::of(&own, from);
+        let own = Bounded::of(&own, from);
         let from = |k: usize, some: &mut Stencil| {
             let vertex = (self.first_smoothed + k) as u32;
             some.push((vertex, values[vertex as usize]));
             some.extend(self.between[k].map(|end| (end, moved[end as usize])));
         };
         let last = self.first_smoothed + self.between.len();
-        let between = Held::of(&moved[self.first_smoothed..last], from);
+        let between = Bounded::of(&moved[self.first_smoothed..last], from);
         HeldMeans { means: self, own, between }
     }
 
     /// What the vertex number `k` of those that are moved lies between, beside its own value.
-    fn from(&self, k: usize, places: &Places, mut add: impl FnMut(Of)) {
+    fn from(&self, k: usize, places: &MeanPlaces, mut add: impl FnMut(Of)) {
         let first = k.checked_sub(1).map_or(0, |before| self.ends[before].1);
         for &(element, _) in &self.shares[first..self.ends[k].1] {
             let Some(corners) = places.corners[element as usize] else { continue };
@@ -167,7 +172,7 @@ impl Means {
     }
 
     /// By how much vertices are to be moved so that elements have the mean that was gathered.
-    pub(crate) fn moves(&self, values: &[Rgb], places: &Places, gathered: &[Rgb]) -> Vec<Rgb> {
+    pub(crate) fn moves(&self, values: &[Rgb], places: &MeanPlaces, gathered: &[Rgb]) -> Vec<Rgb> {
         let lacking = |(corners, &light): (&Option<[(u32, f64); 3]>, &Rgb)| {
             corners.map_or(Rgb::BLACK, |corners| light - places.read(values, &corners))
         };
@@ -223,15 +228,15 @@ impl Of {
 
 /// Vertices that are moved, with the values that each lies between.
 pub(crate) struct HeldMeans<'a> {
-    means: &'a Means,
-    own: Held,
-    between: Held,
+    means: &'a ElementMeans,
+    own: Bounded,
+    between: Bounded,
 }
 
 impl HeldMeans<'_> {
     /// Moves vertices of other light.
     pub(crate) fn apply(&self, values: &mut Vec<Rgb>, gathered: &[Rgb]) {
-        let Means { ends, first_smoothed, between, .. } = self.means;
+        let ElementMeans { ends, first_smoothed, between, .. } = self.means;
         let vertices = values.len();
         values.extend(gathered);
         let own = self.own.apply(values);
@@ -244,7 +249,7 @@ impl HeldMeans<'_> {
     }
 }
 
-impl Places {
+impl MeanPlaces {
     /// What is interpolated at the places.
     pub(crate) fn interpolated<'a>(&'a self, values: &'a [Rgb]) -> impl Iterator<Item = Rgb> + 'a {
         self.corners.iter().map(|c| c.map_or(Rgb::BLACK, |corners| self.read(values, &corners)))

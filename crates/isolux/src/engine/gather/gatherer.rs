@@ -5,11 +5,11 @@
 //! is left open: the ray becomes an entry of a sparse matrix, so that the light of all further
 //! reflections is the fixed point of `E = source + A E`, solved without tracing the rays again.
 
-use super::bright_surfaces::Bright;
-use super::control_variate::{Backdrop, Stand};
+use super::bright_surfaces::BrightSurfaces;
+use super::control_variate::{ControlVariate, Stand};
 use crate::elements::{Elements, Receiver};
 use crate::engine::light::Lighting;
-use crate::engine::occlusion::{Cut, Cuts};
+use crate::engine::occlusion::{Barrier, Barriers};
 use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
 use crate::scene::Scene;
@@ -29,7 +29,7 @@ pub(crate) struct Gatherer {
     pub(crate) rays: u32,
     /// Whether it lies in a gap: what its rays meet close by does not lie in the open.
     pub(crate) in_gap: bool,
-    /// What it gets from the [`Backdrop`] with nothing between, lx, if rays are judged by that.
+    /// What it gets from the [`ControlVariate`] with nothing between, lx, if rays are judged by that.
     pub(crate) behind: Option<Rgb>,
 }
 
@@ -102,11 +102,11 @@ pub(crate) struct Gathering<'a> {
     /// reading a map that tells little of places so close to something: a few times.
     pub(crate) regathers: bool,
     /// What is so bright that rays are sent there.
-    pub(crate) bright: Option<&'a Bright>,
+    pub(crate) bright: Option<&'a BrightSurfaces>,
     /// Elements that something stands across, if they were looked for.
-    pub(crate) cuts: Option<&'a Cuts>,
+    pub(crate) cuts: Option<&'a Barriers>,
     /// Walls that rays are judged by, for gatherers that know them.
-    pub(crate) backdrop: Option<&'a Backdrop>,
+    pub(crate) backdrop: Option<&'a ControlVariate>,
 }
 
 /// Where rays get the direct light of the surfaces that they end on.
@@ -168,7 +168,7 @@ pub(super) fn weights_in_gap(
 pub(crate) fn known_on_side(
     corners: [(u32, f64); 3],
     standings: &[Option<Standing>],
-    cut: &Cut,
+    cut: &Barrier,
 ) -> Option<[(u32, f64); 3]> {
     let side = cut.side(corners.map(|(_, weight)| weight));
     let of = [0, 1, 2].map(|k| standings[corners[k].0 as usize].filter(|_| side[k]));

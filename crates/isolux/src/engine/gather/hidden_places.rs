@@ -10,7 +10,7 @@
 use super::gatherer::Gatherer;
 use crate::elements::Elements;
 use crate::engine::light::Lighting;
-use crate::engine::occlusion::{Torn, nearby};
+use crate::engine::occlusion::{Footprints, nearby};
 use crate::engine::ray::{Dice, PathEnd, SurfacePoint, follow};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::{Finish, Scene};
@@ -37,7 +37,7 @@ pub(crate) struct Sight<'a> {
     /// Places that light comes to over specular surfaces.
     pub(crate) reached: &'a [SurfacePoint],
     /// Vertices that something stands on, which are seen from both of its sides.
-    pub(crate) torn: &'a Torn,
+    pub(crate) footprints: &'a Footprints,
     pub(crate) key: Key,
 }
 
@@ -191,7 +191,8 @@ impl Sight<'_> {
         let SurfacePoint { triangle, back, u, v, .. } = *place;
         let corners = self.elements.locate(triangle, back, u, v);
         let mut corners = corners.iter().flatten().map(|&(vertex, _)| vertex as usize);
-        corners.any(|vertex| known[vertex] && !self.torn.has(vertex) && self.sees(place, vertex))
+        corners
+            .any(|vertex| known[vertex] && !self.footprints.has(vertex) && self.sees(place, vertex))
     }
 
     /// Whether nothing stands between a place and a vertex of its element.

@@ -14,12 +14,12 @@ mod waves;
 #[cfg(test)]
 pub(crate) use allotment::Shared;
 pub(crate) use allotment::{allot, allot_by_noise, areas_m2, mean_of};
-pub(crate) use bright_surfaces::{Bright, Seen};
-pub(crate) use control_variate::Backdrop;
+pub(crate) use bright_surfaces::{BrightSurfaces, Seen};
+pub(crate) use control_variate::ControlVariate;
 #[cfg(test)]
 pub(crate) use control_variate::lacking;
-pub(crate) use direct_residual::{Kept, Over};
-pub(crate) use element_means::{Means, Places};
+pub(crate) use direct_residual::{DirectResidual, Over};
+pub(crate) use element_means::{ElementMeans, MeanPlaces};
 pub(crate) use gatherer::{
     DirectAtEnds, Gatherer, Gathering, known_at, known_on_side, known_weights,
 };
@@ -28,5 +28,5 @@ pub(crate) use hidden_places::{CutOff, Element, Sight, Unlit, sees};
 pub(crate) use operator::GivenRow;
 pub(crate) use operator::{Fitting, Operator, Reading};
 pub(crate) use ray_trial::{
-    FEWEST_UNJUDGED, NET_ORDER, NOISE_SHARE, OF_INTERPOLATED, Trial, noise_for,
+    FEWEST_UNJUDGED, NET_ORDER, NOISE_SHARE, OF_INTERPOLATED, RayTrial, noise_for,
 };

@@ -167,7 +167,7 @@ impl Operator {
     /// the operator; [`Anderson`] takes what the sweeps have told of it into account. Rows, interpolation and fit have weights
     /// that are not negative, and rows sum to no more than surfaces reflect: so no sweep returns more than it receives. Which weights
     /// interpolation and fit have depends on the light; once so many sweeps have not settled, they stay
-    /// ([`Held`](super::super::held::Held)), and what is left shrinks in every sweep.
+    /// ([`Bounded`](super::super::held::Held)), and what is left shrinks in every sweep.
     pub(crate) fn solve_or_give_up(
         &self,
         guess: &[Rgb],

@@ -76,21 +76,21 @@ pub(crate) fn variances_lx2(
 
 /// What a trial has found: the noise of one net of so many rays, root mean square over the surface, lx.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Trial {
+pub(crate) struct RayTrial {
     noise_lx: f64,
     rays: u32,
     /// What errors were relative to then, lx.
     pub(crate) reference_lx: f64,
 }
 
-impl Trial {
+impl RayTrial {
     /// What is mostly found, as long as nothing is tried: 1.5 to 3.2 % of the light in CUBE, SPHERE and the hall.
     pub(crate) fn usual(reference_lx: f64) -> Self {
         Self { noise_lx: 0.02 * reference_lx, rays: RAYS, reference_lx }
     }
 
     /// Tries some receivers, each with the surface it stands for, m2, for a run of so many increments that
-    /// is to reach a target; also returns the rays traced. What [`Trial::of_walls`] has found already is not tried again.
+    /// is to reach a target; also returns the rays traced. What [`RayTrial::of_walls`] has found already is not tried again.
     pub(crate) fn of(
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
@@ -158,7 +158,7 @@ impl Trial {
         self.rays_for(noise, reference_lx, increments).max(FEWEST_UNJUDGED)
     }
 
-    /// The same as [`Trial::rays_for`], any number: what receivers that share rays as best they can should have in the mean.
+    /// The same as [`RayTrial::rays_for`], any number: what receivers that share rays as best they can should have in the mean.
     pub(crate) fn wanted(self, noise: f64, reference_lx: f64, increments: u64) -> f64 {
         let noise_lx = self.noise_lx * (OF_INTERPOLATED / increments as f64).sqrt();
         let allowed_lx = noise * reference_lx;

@@ -9,7 +9,7 @@ use super::gatherer::{
 use super::operator::{Entry, Operator, Rows};
 use super::{bright_surfaces, control_variate};
 use crate::elements::Place;
-use crate::engine::light::{About, Shadows};
+use crate::engine::light::{NearbyLuminaires, Shadows};
 use crate::engine::occlusion::nearby;
 use crate::engine::ray::{Deadline, Dice, PathEnd, SurfacePoint, follow_on};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
@@ -51,7 +51,7 @@ struct Row {
     open: bool,
     close: f64,
     /// What is seen from about the receiver, once it was asked for.
-    about: Option<Option<About>>,
+    about: Option<Option<NearbyLuminaires>>,
 }
 
 /// Rays that are followed together; kept, as to ask for memory at every row takes its time.
@@ -136,7 +136,7 @@ enum Side {
 
 impl Row {
     /// With what is known of about the receiver.
-    fn after(about: Option<Option<About>>) -> Self {
+    fn after(about: Option<Option<NearbyLuminaires>>) -> Self {
         Self { about, ..Self::default() }
     }
 }
@@ -436,7 +436,7 @@ impl Gathering<'_> {
         &self,
         end: &End,
         receiver: &SurfacePoint,
-        about: &mut Option<Option<About>>,
+        about: &mut Option<Option<NearbyLuminaires>>,
         dice: &mut Dice,
     ) -> Rgb {
         let read = |values: &[Rgb], level: u32| {

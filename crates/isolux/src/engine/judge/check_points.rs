@@ -8,7 +8,7 @@
 //! fourth each, and weighted accordingly.
 
 use super::seen_errors;
-use super::seen_errors::{Read, View, views};
+use super::seen_errors::{ReadPlace, View, views};
 use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, known_at, known_on_side};
 use crate::engine::light::{Goal, Measured};
 use crate::engine::mesh::{LeafError, STRIPS, Trust};
@@ -208,7 +208,7 @@ pub(crate) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let operator = gathering.operator(&rows, |k| key.with(1).with(k as u64));
     let gathered = checks.iter_mut().filter(|check| is_gathered(check));
     gathered.zip(operator.close()).for_each(|(check, close)| check.close = close);
-    let places: Vec<Read> = checks.iter().map(Check::as_read).collect();
+    let places: Vec<ReadPlace> = checks.iter().map(Check::as_read).collect();
     checks.iter_mut().zip(views(plan.scene, &places)).for_each(|(check, view)| check.view = view);
     checks
 }
@@ -278,9 +278,9 @@ impl Check {
     }
 
     /// As rays read it.
-    const fn as_read(&self) -> Read {
+    const fn as_read(&self) -> ReadPlace {
         let Self { gatherer, edge_m, area_m2, .. } = *self;
-        Read { surface: gatherer.surface, edge_m, area_m2 }
+        ReadPlace { surface: gatherer.surface, edge_m, area_m2 }
     }
 }
 

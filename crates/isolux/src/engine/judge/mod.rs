@@ -15,4 +15,4 @@ pub(crate) use check_points::{Check, Checks, DirectThere, InterpolationErrors};
 #[cfg(test)]
 pub(crate) use energy_bound::{Allowed, allowed_lx};
 pub(crate) use filter::filter;
-pub(crate) use verdict::{Judged, OF_GOAL};
+pub(crate) use verdict::{OF_GOAL, Verdict};

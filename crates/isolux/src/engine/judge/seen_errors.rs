@@ -8,7 +8,7 @@
 //! that those stand for.
 
 use crate::ablation::without;
-use crate::engine::ray::{Feelers, SurfacePoint};
+use crate::engine::ray::{ShortRays, SurfacePoint};
 use crate::sampling::Key;
 use crate::scene::Scene;
 use isolux_geometry::Ray;
@@ -18,14 +18,15 @@ use std::sync::LazyLock;
 
 /// Rays that tell from how much of its surroundings a place is seen.
 const FEELERS: usize = 16;
-static DIRECTIONS: LazyLock<Feelers<FEELERS>> = LazyLock::new(|| Feelers::of(Key::new(0).with(9)));
+static DIRECTIONS: LazyLock<ShortRays<FEELERS>> =
+    LazyLock::new(|| ShortRays::of(Key::new(0).with(9)));
 
 /// One place in so many looks about. (Of 64 in the hall, what was seen differed from seed to seed by as much as it was.)
 const LOOKING: usize = 4;
 
 /// A place that rays read at.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Read {
+pub(crate) struct ReadPlace {
     pub(crate) surface: SurfacePoint,
     /// The longest edge of the element there: rays that have come less far gather again, m.
     pub(crate) edge_m: f64,
@@ -43,11 +44,11 @@ pub(crate) struct View {
 }
 
 /// What each of some places sees and shows.
-pub(crate) fn views(scene: &Scene, places: &[Read]) -> Vec<View> {
+pub(crate) fn views(scene: &Scene, places: &[ReadPlace]) -> Vec<View> {
     let reflected: Vec<f64> =
         places.iter().map(|place| place.surface.reflectance(scene).luminance()).collect();
     let seen = |from: usize| {
-        let share = |at: &Read| share(&places[from], at);
+        let share = |at: &ReadPlace| share(&places[from], at);
         let of = places.iter().zip(&reflected).map(|(at, reflected)| reflected * share(at));
         let facing: Vec<(u32, f64)> = (0..).zip(of).filter(|(_, share)| *share > 0.0).collect();
         let ray =
@@ -89,7 +90,7 @@ pub(crate) fn spread<'a>(views: impl Iterator<Item = (f64, &'a View)>, errors: &
 }
 
 /// The share of its surroundings that sees a place from farther away than its element is long.
-fn far(scene: &Scene, place: &Read) -> f64 {
+fn far(scene: &Scene, place: &ReadPlace) -> f64 {
     let at = &place.surface;
     let axis = at.geometric;
     let rays: [Ray; FEELERS] = std::array::from_fn(|k| {
@@ -101,7 +102,7 @@ fn far(scene: &Scene, place: &Read) -> f64 {
 }
 
 /// The share of what one place sees that another is, as a disc, if it is seen from afar and nothing is between.
-fn share(from: &Read, at: &Read) -> f64 {
+fn share(from: &ReadPlace, at: &ReadPlace) -> f64 {
     let between = at.surface.point - from.surface.point;
     let distance_m = between.length();
     let there = from.surface.geometric.to_vector().dot(between);

@@ -7,7 +7,7 @@
 
 use super::check_points::InterpolationErrors;
 use crate::ablation::without;
-use crate::engine::mesh::{Trust, Trusts};
+use crate::engine::mesh::{Trust, TrustLevels};
 use crate::map::Accuracy;
 
 /// The part of the accuracy asked for that readers leave to where they would gather, however good the map is elsewhere.
@@ -19,15 +19,15 @@ const MOST_OVER: f64 = 10.0;
 
 /// A map as it is to be read.
 #[derive(Clone, Copy)]
-pub(crate) struct Judged {
+pub(crate) struct Verdict {
     pub(crate) trust: Trust,
     pub(crate) errors: InterpolationErrors,
     pub(crate) accuracy: Option<Accuracy>,
 }
 
-impl Judged {
+impl Verdict {
     /// As found by `by`, with as much trust as reaches a goal, of several, the most first; with the least if none does.
-    pub(crate) fn for_goal(goal: f64, trusts: Trusts, by: impl Fn(Trust) -> Self) -> Self {
+    pub(crate) fn for_goal(goal: f64, trusts: TrustLevels, by: impl Fn(Trust) -> Self) -> Self {
         if without("trust-ladder") {
             return by(trusts.foreseen());
         }

@@ -23,7 +23,7 @@ pub(crate) const BELIEVED: f64 = 4.0;
 
 /// Flux that has come to a place.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Landed {
+pub(crate) struct Landing {
     pub(crate) triangle: u32,
     pub(crate) back: bool,
     pub(crate) place: [f64; 2],
@@ -55,7 +55,7 @@ pub(crate) fn landed(
     emission: &Emission<'_>,
     count: u32,
     sequence: Sequence,
-) -> Vec<Landed> {
+) -> Vec<Landing> {
     let one = |index: u32| {
         let mut landed = Vec::new();
         let particle = Particle::emit(emission, sequence, index, count, SCATTERINGS);
@@ -65,7 +65,7 @@ pub(crate) fn landed(
             if carries_map(scene, at.triangle, at.back) {
                 let flux_lm = particle.flux_lm.luminance();
                 let (triangle, back, place) = (at.triangle, at.back, [at.u, at.v]);
-                landed.push(Landed { triangle, back, place, flux_lm });
+                landed.push(Landing { triangle, back, place, flux_lm });
             }
             if !particle.scatter_specular(scene, lighting) {
                 break;

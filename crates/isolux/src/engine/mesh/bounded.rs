@@ -6,7 +6,7 @@
 //! fixed point over surfaces that reflect less than one returns as much as it receives (Harten 1983, "High resolution schemes
 //! for hyperbolic conservation laws"; Kuzmin, Turek 2002, on limiters with weights of one sign).
 //!
-//! Which two they are depends on the light, so that sweeps may go on and on from one pair to another. [`Held`] keeps the
+//! Which two they are depends on the light, so that sweeps may go on and on from one pair to another. [`Bounded`] keeps the
 //! pairs that they have come to: over these a fixed point exists, is one, and every sweep comes nearer to it.
 
 use crate::units::Rgb;
@@ -65,7 +65,7 @@ pub(crate) fn corrected(light: Rgb, by: Rgb) -> Rgb {
 pub(crate) type Stencil = Vec<(u32, Rgb)>;
 
 /// Values as means of two others each, with weights that stay.
-pub(crate) struct Held {
+pub(crate) struct Bounded {
     /// Of every value and channel.
     means: Vec<[Mean; 3]>,
 }
@@ -78,7 +78,7 @@ struct Mean {
     share: f64,
 }
 
-impl Held {
+impl Bounded {
     /// Of values that are held between others, as [`Range`] holds them; `from` appends what one is made from.
     pub(crate) fn of(values: &[Rgb], from: impl Fn(usize, &mut Stencil) + Sync) -> Self {
         let one = |some: &mut Stencil, k: usize| {

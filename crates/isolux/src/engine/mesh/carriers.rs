@@ -9,9 +9,9 @@
 //! linear one where they do not tell a quadratic one. A vertex that neither can be had for carries
 //! light itself. So do those that stand for gaps and rims, and all that bisection makes.
 
-use super::bounded::{Held, Range, Stencil};
+use super::bounded::{Bounded, Range, Stencil};
 use super::coarsening::{Coarsening, Link, weights_at};
-use super::edge_falloff::{Beside, Walls};
+use super::edge_falloff::{Beside, EdgeFalloffs};
 use crate::elements::{Subdivision, Vertex};
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -90,7 +90,7 @@ impl Carriers {
         first: usize,
         elements: &[[u32; 3]],
         open: &[bool],
-        (walls, rows): (&Walls, &[Beside]),
+        (walls, rows): (&EdgeFalloffs, &[Beside]),
         keep_seen: impl Fn(u32, &mut Vec<u32>) + Sync,
     ) {
         let vertices = subdivision.vertices();
@@ -463,7 +463,7 @@ impl Waiting {
     }
 
     /// How they are filled from the values of some light, which are filled, with weights that stay.
-    pub(crate) fn held(&self, values: &[Rgb]) -> HeldWaiting<'_> {
+    pub(crate) fn held(&self, values: &[Rgb]) -> BoundedWaiting<'_> {
         let own: Vec<Rgb> = self.vertices.iter().map(|&v| values[v as usize]).collect();
         let from = |k: usize, from: &mut Stencil| {
             from.extend(self.parents(k).iter().map(|&(v, _)| (v, values[v as usize])));
@@ -471,17 +471,17 @@ impl Waiting {
                 from.push((self.vertices[k], own[k]));
             }
         };
-        HeldWaiting { waiting: self, held: Held::of(&own, from) }
+        BoundedWaiting { waiting: self, held: Bounded::of(&own, from) }
     }
 }
 
 /// Vertices that do not carry light, with the values that each lies between.
-pub(crate) struct HeldWaiting<'a> {
+pub(crate) struct BoundedWaiting<'a> {
     waiting: &'a Waiting,
-    held: Held,
+    held: Bounded,
 }
 
-impl HeldWaiting<'_> {
+impl BoundedWaiting<'_> {
     /// Puts their values where they belong.
     pub(crate) fn fill(&self, values: &mut [Rgb]) {
         let Waiting { vertices, levels, .. } = self.waiting;

@@ -60,7 +60,7 @@ pub(crate) struct Wall {
 
 /// All lines at which surfaces end before walls.
 #[derive(Debug, Default)]
-pub(crate) struct Walls {
+pub(crate) struct EdgeFalloffs {
     lines: Vec<Wall>,
     /// Of every piece of surface, its lines; of every vertex its piece.
     of_piece: HashMap<u32, Vec<u32>, FewNumbers>,
@@ -111,7 +111,7 @@ impl Wall {
     }
 }
 
-impl Walls {
+impl EdgeFalloffs {
     /// Of surfaces as far as their vertices are `open`.
     pub(crate) fn of(scene: &Scene, subdivision: &Subdivision, open: &[bool]) -> Self {
         let pieces = subdivision.least_connected();

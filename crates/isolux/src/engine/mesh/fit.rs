@@ -14,7 +14,7 @@
 //! half of its light comes from the edge itself, and what is off there is off at once in both. Their
 //! part is left to the other vertices of their elements, so that the map is right in the mean.
 
-use super::bounded::{Held, Range};
+use super::bounded::{Bounded, Range};
 use super::carriers::Carriers;
 use crate::ablation::without;
 use crate::elements::{Element, Elements};
@@ -120,8 +120,8 @@ impl Fit {
     }
 
     /// The same as means of the values of some light, with weights that stay.
-    pub(crate) fn held(&self, values: &[Rgb]) -> Held {
-        Held::of(&self.apply(values), |k, from| {
+    pub(crate) fn held(&self, values: &[Rgb]) -> Bounded {
+        Bounded::of(&self.apply(values), |k, from| {
             from.push((k as u32, values[k]));
             from.extend(self.form(k).iter().map(|&(v, _)| (v, values[v as usize])));
         })

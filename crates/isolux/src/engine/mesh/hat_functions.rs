@@ -6,7 +6,7 @@ use crate::units::Rgb;
 use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
 /// Integrals of the hat functions of elements, over those vertices of each that are read.
-pub(crate) struct Hats {
+pub(crate) struct HatFunctions {
     areas_m2: Vec<f64>,
     /// Elements all of whose vertices are known and of one standing, and their areas.
     known: Vec<([u32; 3], f64)>,
@@ -31,7 +31,7 @@ impl Quantity for f64 {}
 
 impl Quantity for Rgb {}
 
-impl Hats {
+impl HatFunctions {
     /// Of the leaves, with what vertices stand for.
     pub(crate) fn new(subdivision: &Subdivision, standings: &[Option<Standing>]) -> Self {
         let mut hats = Self { areas_m2: vec![0.0; subdivision.vertex_count()], known: Vec::new() };

@@ -5,7 +5,7 @@
 //! varies over it.
 
 use crate::elements::{Origin, Subdivision};
-use crate::engine::ray::{Feelers, SurfacePoint};
+use crate::engine::ray::{ShortRays, SurfacePoint};
 use crate::sampling::Key;
 use crate::scene::Scene;
 use isolux_geometry::{Normal, Point};
@@ -15,7 +15,8 @@ use std::sync::LazyLock;
 /// Rays that tell how far an element sees: as far as three quarters of them do.
 const FEELERS: usize = 8;
 const COUNTED: usize = 6;
-static DIRECTIONS: LazyLock<Feelers<FEELERS>> = LazyLock::new(|| Feelers::of(Key::new(0).with(12)));
+static DIRECTIONS: LazyLock<ShortRays<FEELERS>> =
+    LazyLock::new(|| ShortRays::of(Key::new(0).with(12)));
 
 /// Edges are no longer than this part of that.
 const OF_REACH: f64 = 0.3;

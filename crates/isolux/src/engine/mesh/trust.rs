@@ -43,9 +43,9 @@ impl Trust {
 /// Errors up to which elements are trusted, lx, the greatest first: as foreseen, then so that the others are expected to err by
 /// shares of that.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Trusts([f64; 1 + SHARES.len()]);
+pub(crate) struct TrustLevels([f64; 1 + SHARES.len()]);
 
-impl Trusts {
+impl TrustLevels {
     /// What readers trust, unless check points tell otherwise.
     pub(crate) const fn foreseen(self) -> Trust {
         Trust::UpTo(self.0[0])
@@ -64,7 +64,7 @@ impl Trusts {
 
 /// The elements that readers may trust, worst first: those that are not beset.
 #[derive(Debug)]
-pub(crate) struct Worst {
+pub(crate) struct WorstElements {
     /// Error, lx, area, m2, and what that counts for in the sum of squares.
     of_leaves: Vec<(f64, f64, f64)>,
     /// Sum of their squared errors, lx2 m2.
@@ -73,7 +73,7 @@ pub(crate) struct Worst {
     area_m2: f64,
 }
 
-impl Worst {
+impl WorstElements {
     pub(crate) fn of(errors: &[LeafError]) -> Self {
         let mut worst: Vec<&LeafError> = errors.iter().filter(|e| !e.is_beset).collect();
         worst.par_sort_unstable_by(|a, b| b.error.total_cmp(&a.error).then(a.node.cmp(&b.node)));
@@ -105,9 +105,9 @@ impl Worst {
     }
 }
 
-impl Trusts {
+impl TrustLevels {
     /// Of elements that are trusted up to so much to begin with.
-    pub(crate) fn of(worst: &Worst, foreseen_lx: f64) -> Self {
+    pub(crate) fn of(worst: &WorstElements, foreseen_lx: f64) -> Self {
         let trusted = worst.of_leaves.iter().filter(|(error, ..)| *error <= foreseen_lx);
         let squared: f64 = trusted.map(|(.., squared)| squared).sum();
         let error_lx = (squared / worst.area_m2.max(f64::MIN_POSITIVE)).sqrt();

@@ -7,8 +7,8 @@
 use super::caustics::{self, Caustics};
 use crate::ablation::without;
 use crate::engine::gather::{
-    DirectAtEnds, FEWEST_UNJUDGED, Fitting, Gatherer, Gathering, Kept, NET_ORDER, Operator, Places,
-    Reading, allot, allot_by_noise, mean_of, ray_trial,
+    DirectAtEnds, DirectResidual, FEWEST_UNJUDGED, Fitting, Gatherer, Gathering, MeanPlaces,
+    NET_ORDER, Operator, Reading, allot, allot_by_noise, mean_of, ray_trial,
 };
 use crate::engine::judge::{BELIEVED_INCREMENTS, Check, DirectThere, FEWEST_TO_MISS, check_points};
 use crate::engine::mesh::LeafError;
@@ -67,7 +67,7 @@ pub(crate) struct Hybrid<'p, 's> {
     /// Vertices of the elements that indirect light lives on.
     corners: Vec<[u32; 3]>,
     /// What rays read of direct light, where they read it.
-    kept: Option<Kept>,
+    kept: Option<DirectResidual>,
     /// For caustics.
     particles: u32,
     /// Accuracy that the increments are for.
@@ -121,7 +121,8 @@ impl<'p, 's> Hybrid<'p, 's> {
         let for_bare = for_bare.map(|&v| plan.mesh.gatherers[v as usize].with_rays(rays_of_means));
         let fresh_rows = checks.iter().map(|check| check.gatherer).chain(for_bare).collect();
         let over = plan.over(&plan.light.direct);
-        let kept = Kept::of(&over, goal * plan.light.reference_lx, key.with(u64::MAX - 2));
+        let kept =
+            DirectResidual::of(&over, goal * plan.light.reference_lx, key.with(u64::MAX - 2));
         let ahead = VecDeque::new();
         let readers = READERS.min((most / OF_READERS).max(1));
         let reader = reader(plan, &rows, (readers, key.with(u64::MAX)));
@@ -289,7 +290,7 @@ impl<'p, 's> Hybrid<'p, 's> {
 /// What rays read of the light of an increment: values of best fit, moved so that elements have the mean that was measured.
 struct Fitted<'a> {
     plan: &'a Plan<'a>,
-    places: &'a Places,
+    places: &'a MeanPlaces,
 }
 
 impl Fitting for Fitted<'_> {

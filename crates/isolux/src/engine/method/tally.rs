@@ -8,7 +8,7 @@
 
 use crate::engine::gather::known_weights;
 use crate::engine::judge::InterpolationErrors;
-use crate::engine::mesh::{Carriers, Details, Hats};
+use crate::engine::mesh::{Carriers, Details, HatFunctions};
 use crate::engine::plan::Plan;
 use crate::engine::ray::{Accumulator, Estimate, SurfacePoint};
 use crate::units::Rgb;
@@ -21,7 +21,7 @@ const UNITS_OF_FLUX: f64 = (1u64 << 48) as f64;
 /// Deposits of one increment: integers, so the order of the particles does not matter.
 pub(crate) struct Tally<'p, 's> {
     plan: &'p Plan<'s>,
-    hats: Hats,
+    hats: HatFunctions,
     parts: usize,
     units_per_lm: f64,
     flux: Vec<AtomicI64>,
@@ -102,8 +102,8 @@ impl<'p, 's> Tally<'p, 's> {
 }
 
 /// Of the elements that indirect light lives on.
-fn hats(plan: &Plan) -> Hats {
-    Hats::new(&plan.mesh.subdivision, &plan.mesh.standings)
+fn hats(plan: &Plan) -> HatFunctions {
+    HatFunctions::new(&plan.mesh.subdivision, &plan.mesh.standings)
 }
 
 /// Errors of a map of particles beyond its noise: what the hats still blur, and what interpolation

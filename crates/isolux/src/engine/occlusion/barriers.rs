@@ -27,8 +27,8 @@ const JUST_BEHIND: f64 = 0.25;
 
 /// All of them.
 #[derive(Debug, Default)]
-pub(crate) struct Cuts {
-    of_nodes: HashMap<u32, Cut, FewNumbers>,
+pub(crate) struct Barriers {
+    of_nodes: HashMap<u32, Barrier, FewNumbers>,
     /// The same elements by their corners.
     corners: HashSet<[u32; 3], FewNumbers>,
     /// Of vertices made by bisecting them, the end of their edge that they see, where they see one alone.
@@ -37,13 +37,13 @@ pub(crate) struct Cuts {
 
 /// A corner that is cut off.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cut {
+pub(crate) struct Barrier {
     corner: usize,
     /// One over the share of the edges from there, to the next corner and the one after, at which the cut is met.
     over: [f64; 2],
 }
 
-impl Cut {
+impl Barrier {
     /// The corners on whose side a place with these weights lies.
     pub(crate) fn side(&self, weights: [f64; 3]) -> [bool; 3] {
         let along = [1, 2].map(|k| weights[(self.corner + k) % 3] * self.over[k - 1]);
@@ -52,7 +52,7 @@ impl Cut {
     }
 }
 
-impl Cuts {
+impl Barriers {
     /// Among these nodes of elements, whose vertices are among the first so many, where vertices tell of light that is not alike: to
     /// look at all would take too long.
     pub(crate) fn of(
@@ -73,7 +73,7 @@ impl Cuts {
         let nodes: Vec<Side> = nodes.filter(is_uneven).collect();
         let look = Look { scene, elements };
         let found = nodes.par_iter().filter_map(|side| Some((side, look.cut(side)?)));
-        let found: Vec<(&Side, Cut)> = found.collect();
+        let found: Vec<(&Side, Barrier)> = found.collect();
         let mut cuts = Self::default();
         for (side, cut) in found {
             cuts.of_nodes.insert(side.node, cut);
@@ -97,7 +97,7 @@ impl Cuts {
 
     /// How a node is cut, if it is.
     #[inline]
-    pub(crate) fn of_node(&self, node: u32) -> Option<&Cut> {
+    pub(crate) fn of_node(&self, node: u32) -> Option<&Barrier> {
         if self.of_nodes.is_empty() { None } else { self.of_nodes.get(&node) }
     }
 
@@ -193,7 +193,7 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn cut(&self, side: &Side) -> Option<Cut> {
+    fn cut(&self, side: &Side) -> Option<Barrier> {
         let above = side.above(self.scene);
         let vertices = self.elements.node(side.node).vertices;
         let corners = vertices.map(|v| self.elements.vertices()[v as usize].position);
@@ -205,7 +205,7 @@ impl Look<'_> {
             let opposite = [0, 1, 2].map(|k| corners[(corner + 2 + k) % 3]);
             // From the corner on which it stands to where the edge is met.
             let is_torn = stands_on(self.scene, opposite, &above);
-            return is_torn.then_some(Cut { corner, over: [1.0 / at, 1.0] });
+            return is_torn.then_some(Barrier { corner, over: [1.0 / at, 1.0] });
         }
         // Opposite the edge that is free.
         let free = edges.iter().position(Option::is_none)?;
@@ -217,7 +217,7 @@ impl Look<'_> {
             blocked_at(self.scene, corners[corner], corners[(corner + k) % 3], &above)
                 .map(|t| 1.0 / t)
         };
-        Some(Cut { corner, over: [at(1)?, at(2)?] })
+        Some(Barrier { corner, over: [at(1)?, at(2)?] })
     }
 
     fn end_seen(&self, vertex: u32, above: &SurfacePoint) -> Option<u32> {

@@ -26,7 +26,7 @@ const FLAT: f64 = 1.0 - 1e-6;
 
 /// Whether something stands on the vertices looked at so far.
 #[derive(Debug, Default)]
-pub(crate) struct Torn(Vec<bool>);
+pub(crate) struct Footprints(Vec<bool>);
 
 /// A place close to a vertex, beside an edge from there.
 struct Place {
@@ -38,7 +38,7 @@ struct Place {
     at: [Point; 2],
 }
 
-impl Torn {
+impl Footprints {
     /// Looks at the vertices that are new, in elements that something stands close before.
     pub(crate) fn look(
         &mut self,
@@ -63,18 +63,18 @@ impl Torn {
             let above = SurfacePoint::new(scene, triangle, back, 1.0 / 3.0, 1.0 / 3.0);
             is_parted(scene, [a.at, b.at], &above)
         };
-        let torn = |[a, b]: &[Place; 2]| is_parted(a, b).then_some(a.vertex);
-        let torn_within: Vec<u32> = within.par_iter().filter_map(torn).collect();
+        let footprints = |[a, b]: &[Place; 2]| is_parted(a, b).then_some(a.vertex);
+        let torn_within: Vec<u32> = within.par_iter().filter_map(footprints).collect();
         let mut beside: Vec<Place> = within.into_iter().flatten().collect();
         beside.par_sort_unstable_by_key(|place| (place.vertex, place.end, place.side));
         let are_flat = |a: &Place, b: &Place| a.side == b.side || lie_in_a_plane(scene, a, b);
-        let torn = |pair: &[Place]| match pair {
+        let footprints = |pair: &[Place]| match pair {
             [a, b] if (a.vertex, a.end) == (b.vertex, b.end) && are_flat(a, b) => {
                 is_parted(a, b).then_some(a.vertex)
             }
             _ => None,
         };
-        let torn_between: Vec<u32> = beside.par_windows(2).filter_map(torn).collect();
+        let torn_between: Vec<u32> = beside.par_windows(2).filter_map(footprints).collect();
         for vertex in torn_within.into_iter().chain(torn_between) {
             self.0[vertex as usize] = true;
         }

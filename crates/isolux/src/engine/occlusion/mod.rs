@@ -4,6 +4,6 @@ pub(crate) mod barriers;
 mod footprints;
 pub(crate) mod nearby;
 
-pub(crate) use barriers::{Cut, Cuts, Side};
-pub(crate) use footprints::{LOW, Torn};
-pub(crate) use nearby::{Felt, NEAR};
+pub(crate) use barriers::{Barrier, Barriers, Side};
+pub(crate) use footprints::{Footprints, LOW};
+pub(crate) use nearby::{ClosedIn, NEAR};

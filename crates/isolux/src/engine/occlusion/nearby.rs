@@ -1,7 +1,7 @@
 //! What stands near a place, as short rays find it.
 
 use crate::elements::{Elements, Subdivision};
-use crate::engine::ray::{Feelers, SurfacePoint};
+use crate::engine::ray::{ShortRays, SurfacePoint};
 use crate::map::Standing;
 use crate::sampling::Key;
 use crate::scene::Scene;
@@ -11,7 +11,8 @@ use std::sync::LazyLock;
 
 /// Rays that look for something before a place.
 const FEELERS: usize = 16;
-static DIRECTIONS: LazyLock<Feelers<FEELERS>> = LazyLock::new(|| Feelers::of(Key::new(0).with(6)));
+static DIRECTIONS: LazyLock<ShortRays<FEELERS>> =
+    LazyLock::new(|| ShortRays::of(Key::new(0).with(6)));
 
 /// So many of them, the first, meet something that hides half of what there is.
 const FEWEST_FEELERS: usize = 4;
@@ -85,7 +86,7 @@ pub(crate) fn longest_edge_m(elements: &Elements, corners: [u32; 3]) -> f64 {
 
 /// Whether vertices are closed in, as it was felt last.
 #[derive(Debug, Default)]
-pub(crate) struct Felt(Vec<Option<Feeling>>);
+pub(crate) struct ClosedIn(Vec<Option<Feeling>>);
 
 /// Where it was felt, and what.
 #[derive(Debug)]
@@ -95,7 +96,7 @@ struct Feeling {
     is_closed_in: bool,
 }
 
-impl Felt {
+impl ClosedIn {
     /// What vertices stand for on elements as they are now, those that were in the open among longer ones
     /// still are. Rays feel about only where that was not felt before.
     pub(crate) fn standings(

@@ -23,7 +23,7 @@ const NONE: u32 = u32::MAX;
 
 /// Elements that are checked.
 #[derive(Debug, Default)]
-pub(crate) struct Parts {
+pub(crate) struct ElementParts {
     elements: Vec<Checked>,
     /// By node, which of them it is.
     of_node: Vec<u32>,
@@ -42,7 +42,7 @@ pub(crate) struct Squared {
     pub(crate) variance: f64,
 }
 
-impl Parts {
+impl ElementParts {
     /// Of these nodes, which are not bisected.
     pub(crate) fn new(subdivision: &Subdivision, nodes: &[u32]) -> Self {
         let mut of_node = vec![NONE; if nodes.is_empty() { 0 } else { subdivision.node_count() }];

@@ -7,7 +7,9 @@ pub(crate) mod flights;
 pub(crate) use aim::Aim;
 #[cfg(test)]
 pub(crate) use element_parts::samples;
-pub(crate) use element_parts::{PARTS, Parts, Squared, part_of, read_in_parts, squared_error};
+pub(crate) use element_parts::{
+    ElementParts, PARTS, Squared, part_of, read_in_parts, squared_error,
+};
 #[cfg(test)]
 pub(crate) use flights::particles;
 pub(crate) use flights::{CausticNoise, DOUBT, Flights, LEAST_SHARE};

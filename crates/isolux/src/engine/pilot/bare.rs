@@ -5,7 +5,7 @@
 //! for direct light gather, too, over the light that is known already. No ray of an increment reads them: they cost rays of their
 //! own, and no more.
 
-use super::look::{Look, PilotRequest};
+use super::look::{PilotRequest, Survey};
 use super::state::{Bare, Pilot};
 use crate::ablation::without;
 use crate::elements::Elements;
@@ -41,7 +41,7 @@ impl Bare {
 impl Pilot<'_> {
     /// Whether vertices gather for it, or will: if a finer bare map than usual is asked for, and indirect light has much of what it may
     /// err by.
-    pub(super) fn gathers_for_bare(&self, look: &Look, request: &PilotRequest) -> bool {
+    pub(super) fn gathers_for_bare(&self, look: &Survey, request: &PilotRequest) -> bool {
         if self.indirect.bare.is_some() {
             return true;
         }
@@ -58,7 +58,7 @@ impl Pilot<'_> {
     }
 
     /// Begins with that, if they do.
-    pub(super) fn look_at_bare(&mut self, look: &Look, request: &PilotRequest) {
+    pub(super) fn look_at_bare(&mut self, look: &Survey, request: &PilotRequest) {
         if self.gathers_for_bare(look, request) {
             let (first, indirect) = (self.mesh.subdivision.vertex_count(), Vec::new());
             let beset = look.errors.iter().filter(|e| e.is_beset).map(|e| e.node).collect();
@@ -112,7 +112,7 @@ impl Pilot<'_> {
     }
 
     /// How many vertices increments will gather at for the bare map, if so many more are made for direct light.
-    pub(super) fn rows_for_bare(&self, look: &Look, request: &PilotRequest, more: f64) -> f64 {
+    pub(super) fn rows_for_bare(&self, look: &Survey, request: &PilotRequest, more: f64) -> f64 {
         let made = self.indirect.bare.as_ref().map_or(0, |bare| bare.indirect.len());
         let gathers = self.gathers_for_bare(look, request);
         if gathers { OF_MADE * (made as f64 + more) } else { 0.0 }
@@ -121,7 +121,7 @@ impl Pilot<'_> {
     /// The vertices that increments are to gather at for the bare map: where light is not what is interpolated there.
     pub(super) fn gathering_for_bare(
         &self,
-        look: &Look,
+        look: &Survey,
         request: &PilotRequest,
         standings: &[Option<Standing>],
     ) -> Vec<u32> {

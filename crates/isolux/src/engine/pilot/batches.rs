@@ -3,7 +3,7 @@
 use super::state::Pilot;
 use crate::elements::Elements;
 use crate::engine::gather::known_weights;
-use crate::engine::mesh::Hats;
+use crate::engine::mesh::HatFunctions;
 use crate::engine::particle::{Flights, PARTS, part_of};
 use crate::map::Standing;
 use crate::sampling::Key;
@@ -104,7 +104,7 @@ impl Brought {
     }
 
     /// With the map that an increment would make of it.
-    fn into_map(mut self, hats: &Hats) -> Self {
+    fn into_map(mut self, hats: &HatFunctions) -> Self {
         let each = 1.0 / self.particles;
         self.light = hats.corrected(&hats.means(self.fluxes_lm.drain(..).map(|lm| lm * each)));
         self
@@ -128,7 +128,12 @@ impl Pilot<'_> {
     }
 
     /// What is kept, brought to elements.
-    pub(super) fn kept(&self, of: &Batches, elements: &Elements, hats: &Hats) -> Vec<Brought> {
+    pub(super) fn kept(
+        &self,
+        of: &Batches,
+        elements: &Elements,
+        hats: &HatFunctions,
+    ) -> Vec<Brought> {
         let brought = |deposits: &Vec<Deposit>| {
             let mut brought = Brought::nothing(elements);
             brought.add(deposits, of.kept, (elements, &self.near.standings));
@@ -143,7 +148,7 @@ impl Pilot<'_> {
         &mut self,
         batches: &mut Batches,
         (count, at_once): (u32, u32),
-        (elements, hats): (&Elements, &Hats),
+        (elements, hats): (&Elements, &HatFunctions),
         mut has_time: impl FnMut(&mut Self) -> bool,
     ) -> Vec<Brought> {
         let mut brought: Vec<Brought> = (0..BATCHES).map(|_| Brought::nothing(elements)).collect();
@@ -217,7 +222,7 @@ mod tests {
         subdivision.bisect_to(0.7, 10_000);
         let elements = subdivision.elements();
         let standings = vec![Some(Standing::Open); elements.vertices().len()];
-        let hats = Hats::new(&subdivision, &standings);
+        let hats = HatFunctions::new(&subdivision, &standings);
         let all = deposits(&elements);
         let brought = |parts: &[&[Deposit]]| {
             let mut brought = Brought::nothing(&elements);

@@ -10,13 +10,13 @@
 use super::batches::{BATCHES, Batches, Brought};
 use super::direct::MOST_REFLECTANCE;
 use super::forecast::{FINE, GoOn};
-use super::look::{Look, PilotRequest};
+use super::look::{PilotRequest, Survey};
 use super::state::Pilot;
 use crate::elements::Subdivision;
 use crate::engine::judge::Light;
-use crate::engine::mesh::Hats;
+use crate::engine::mesh::HatFunctions;
 use crate::engine::particle::{
-    CausticNoise, DOUBT, PARTS, Parts, Squared, read_in_parts, squared_error,
+    CausticNoise, DOUBT, ElementParts, PARTS, Squared, read_in_parts, squared_error,
 };
 use crate::engine::ray::{Noise, reflectance};
 use crate::map::Standing;
@@ -109,9 +109,9 @@ impl CausticErrors {
     }
 
     /// The elements that increments are to check.
-    pub(super) fn parts(&self, subdivision: &Subdivision) -> Parts {
+    pub(super) fn parts(&self, subdivision: &Subdivision) -> ElementParts {
         let nodes: Vec<u32> = self.seen[..self.checked].iter().map(|s| s.node).collect();
-        Parts::new(subdivision, &nodes)
+        ElementParts::new(subdivision, &nodes)
     }
 }
 
@@ -119,7 +119,7 @@ impl Pilot<'_> {
     /// Bisects elements until caustics are interpolated well enough, as far as a number of particles can tell.
     pub(super) fn refine_for_caustics(
         &mut self,
-        look: &mut Look,
+        look: &mut Survey,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) -> CausticErrors {
@@ -136,7 +136,7 @@ impl Pilot<'_> {
         let asked = Asked { area_m2, goal, allowed: SHARE * SHARE * goal };
         let mut errors = CausticErrors::default();
         for round in 0..ROUNDS {
-            let hats = Hats::new(&self.mesh.subdivision, &self.near.standings);
+            let hats = HatFunctions::new(&self.mesh.subdivision, &self.near.standings);
             let on = self.kept(&batches, &look.elements, &hats);
             errors = self.judged(&on, &hats, asked);
             let may_refine = round + 1 < ROUNDS && request.refines_caustics;
@@ -170,7 +170,7 @@ impl Pilot<'_> {
     /// The same by particles of which none is kept, where increments will need more than there were: twice as many for every new mesh.
     fn refine_further(
         &mut self,
-        look: &mut Look,
+        look: &mut Survey,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
         (mut batches, asked): (Batches, Asked),
@@ -178,7 +178,7 @@ impl Pilot<'_> {
         let most = self.most_ahead(look, request);
         let mut count = 2 * MOST_KEPT;
         loop {
-            let hats = Hats::new(&self.mesh.subdivision, &self.near.standings);
+            let hats = HatFunctions::new(&self.mesh.subdivision, &self.near.standings);
             let elements = look.elements.clone();
             let has_time = |pilot: &mut Self| pilot.has_time(look, request, FINE, go_on);
             let of = (&elements, &hats);
@@ -203,13 +203,13 @@ impl Pilot<'_> {
     }
 
     /// Particles of every batch that may be sent for one mesh.
-    fn most_ahead(&self, look: &Look, request: &PilotRequest) -> f64 {
+    fn most_ahead(&self, look: &Survey, request: &PilotRequest) -> f64 {
         let needed = self.tried.caustic_noise.needed((request.goal, look.reference_lx));
         (AHEAD * needed / BATCHES as f64).min(f64::from(MOST_PARTICLES))
     }
 
     /// What batches tell of the elements they were brought to; also how noisy they are.
-    fn judged(&mut self, on: &[Brought], hats: &Hats, asked: Asked) -> CausticErrors {
+    fn judged(&mut self, on: &[Brought], hats: &HatFunctions, asked: Asked) -> CausticErrors {
         let seen = self.seen(on);
         let mut all = Squared::default();
         seen.iter().for_each(|s| all += s.squared);
@@ -218,8 +218,8 @@ impl Pilot<'_> {
     }
 
     /// Counts caustics as light, and what is reflected of them, where they are much of it: all that is small is small against that.
-    fn count_caustics(&mut self, look: &mut Look, batches: &Batches) {
-        let hats = Hats::new(&self.mesh.subdivision, &self.near.standings);
+    fn count_caustics(&mut self, look: &mut Survey, batches: &Batches) {
+        let hats = HatFunctions::new(&self.mesh.subdivision, &self.near.standings);
         let on = self.kept(batches, &look.elements, &hats);
         let n = on.len() as f64;
         let (mut area_m2, mut squares, mut lm, mut caustic_lm) = (0.0, 0.0, 0.0, 0.0);
@@ -334,7 +334,7 @@ impl Pilot<'_> {
     }
 
     /// Direct light at new vertices, and indirect light from the ends of their edges.
-    fn settle_between(&mut self, look: &Look, waits: bool) {
+    fn settle_between(&mut self, look: &Survey, waits: bool) {
         let first = self.direct.lx.len();
         if first == self.mesh.subdivision.vertex_count() {
             return;
@@ -349,7 +349,7 @@ impl Pilot<'_> {
 }
 
 /// How noisy caustics are on elements, and how much is in doubt of their error.
-fn noise_of(on: &[Brought], hats: &Hats, area_m2: f64, doubt: f64) -> CausticNoise {
+fn noise_of(on: &[Brought], hats: &HatFunctions, area_m2: f64, doubt: f64) -> CausticNoise {
     let variance = |vertex: usize| {
         let n = on.len() as f64;
         let values = || on.iter().map(|batch| batch.light[vertex]);

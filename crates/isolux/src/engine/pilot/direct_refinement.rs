@@ -1,7 +1,7 @@
 //! Elements for direct light.
 
 use super::forecast::{FINE, GoOn};
-use super::look::{Look, PilotRequest};
+use super::look::{PilotRequest, Survey};
 use super::state::{MAX_ROUNDS, MOST_STALLS, Pilot};
 use crate::ablation::without;
 use crate::engine::mesh::{Carriers, Refinement, refine_worst};
@@ -13,7 +13,7 @@ impl Pilot<'_> {
     /// Refines where direct light as interpolated errs, until it is as good as asked.
     pub(super) fn refine_for_direct_light(
         &mut self,
-        look: &mut Look,
+        look: &mut Survey,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) {

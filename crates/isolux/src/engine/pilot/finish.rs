@@ -1,12 +1,12 @@
 //! The end of the pilot: what increments share is put together.
 
 use super::forecast::{FINE, GoOn};
-use super::look::{Look, PilotRequest};
+use super::look::{PilotRequest, Survey};
 use super::state::Pilot;
 use crate::elements::{Elements, Subdivision};
-use crate::engine::gather::{Gatherer, Means, Trial, areas_m2};
+use crate::engine::gather::{ElementMeans, Gatherer, RayTrial, areas_m2};
 use crate::engine::mesh::{Carriers, Fit};
-use crate::engine::occlusion::{Cuts, Side};
+use crate::engine::occlusion::{Barriers, Side};
 use crate::engine::plan::{Plan, PlannedErrors, PlannedLight, PlannedMesh, PlannedNoise};
 use crate::engine::ray::reflectance;
 use crate::map::Standing;
@@ -15,7 +15,7 @@ impl<'s> Pilot<'s> {
     /// Refines further for direct light as interpolated, and puts the plan together.
     pub(super) fn finish(
         mut self,
-        mut look: Look,
+        mut look: Survey,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) -> Plan<'s> {
@@ -77,7 +77,7 @@ impl<'s> Pilot<'s> {
             light,
             errors,
             tried: PlannedNoise {
-                trial: self.tried.trial.unwrap_or(Trial::usual(look.reference_lx)),
+                trial: self.tried.trial.unwrap_or(RayTrial::usual(look.reference_lx)),
                 caustic_noise: self.tried.caustic_noise,
                 aim: self.tried.aim,
             },
@@ -106,22 +106,22 @@ impl<'s> Pilot<'s> {
     fn means(
         &self,
         coarse: &Subdivision,
-        look: &Look,
+        look: &Survey,
         request: &PilotRequest,
         (open, carrying): (&[bool], usize),
-    ) -> Means {
+    ) -> ElementMeans {
         if !look.asks_for_means(request) {
-            return Means::default();
+            return ElementMeans::default();
         }
         let up_to_lx = look.trusted_up_to_lx(request);
-        Means::new((self.scene, coarse), &look.errors, up_to_lx, open, carrying)
+        ElementMeans::new((self.scene, coarse), &look.errors, up_to_lx, open, carrying)
     }
 
     /// Elements as fine as direct light takes, that light on them, and the receivers there; without time for it, light from where
     /// receivers were before has to do.
     fn measure_direct_light(
         &mut self,
-        look: &mut Look,
+        look: &mut Survey,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) -> Vec<Gatherer> {
@@ -144,12 +144,12 @@ impl<'s> Pilot<'s> {
     }
 
     /// Elements that something stands across.
-    fn cuts(&self, coarse: &Subdivision, elements: &Elements) -> Cuts {
+    fn cuts(&self, coarse: &Subdivision, elements: &Elements) -> Barriers {
         let nodes = coarse.leaves().map(|node| Side::of(coarse, node));
-        Cuts::of(self.scene, elements, (nodes, &self.indirect.lx), coarse.vertex_count())
+        Barriers::of(self.scene, elements, (nodes, &self.indirect.lx), coarse.vertex_count())
     }
 
-    fn fit(&self, coarse: &Subdivision, open: &[bool], cuts: &Cuts) -> Fit {
+    fn fit(&self, coarse: &Subdivision, open: &[bool], cuts: &Barriers) -> Fit {
         let all = Carriers::all();
         // Quadratic functions tell the values at vertices; elements between them alone are to be fitted, too.
         let carriers = if self.indirect.is_smoothed { &all } else { &self.mesh.carriers };

@@ -9,7 +9,7 @@ use super::state::Pilot;
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::gather::Gatherer;
-use crate::engine::light::{BELIEVED, Emission, FIRST, Landed, MORE, Sum, landings};
+use crate::engine::light::{BELIEVED, Emission, FIRST, Landing, MORE, Sum, landings};
 use crate::sampling::Sequence;
 
 /// Of all light that lands, the part that is left where it is.
@@ -60,7 +60,7 @@ impl Pilot<'_> {
         any
     }
 
-    fn landed(&mut self, emission: &Emission<'_>, count: u32, number: u64) -> Vec<Landed> {
+    fn landed(&mut self, emission: &Emission<'_>, count: u32, number: u64) -> Vec<Landing> {
         self.traced += u64::from(count);
         let sequence = Sequence::new(self.key.with(12).with(number));
         landings::landed((self.scene, self.lighting), emission, count, sequence)
@@ -68,7 +68,7 @@ impl Pilot<'_> {
 
     /// Elements to which clearly more or less comes than their vertices tell, if that is much: by where particles came, each of which was
     /// sent with so much flux, though most may have come to nothing that carries a map.
-    fn wrongly_told(&self, elements: &Elements, (landed, each_lm): (&[Landed], f64)) -> Vec<u32> {
+    fn wrongly_told(&self, elements: &Elements, (landed, each_lm): (&[Landing], f64)) -> Vec<u32> {
         let mut sums = vec![Sum::default(); elements.node_count()];
         let mut all_lm = 0.0;
         for of in landed {

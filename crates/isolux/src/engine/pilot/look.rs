@@ -2,7 +2,7 @@
 
 use crate::ablation::without;
 use crate::elements::{Elements, Subdivision};
-use crate::engine::mesh::{LeafError, Trusts, Walls, Worst, trust};
+use crate::engine::mesh::{EdgeFalloffs, LeafError, TrustLevels, WorstElements, trust};
 
 /// The part of the accuracy asked for that interpolating indirect light may take.
 const DISCRETIZATION_SHARE: f64 = 0.5;
@@ -63,15 +63,15 @@ pub(crate) struct Surroundings {
 }
 
 /// What a round of the pilot sees.
-pub(crate) struct Look {
+pub(crate) struct Survey {
     pub(crate) elements: Elements,
     /// That carry indirect light.
     pub(crate) carriers: usize,
     pub(crate) errors: Vec<LeafError>,
     /// Where surfaces end before walls, if light is smooth.
-    pub(crate) walls: Walls,
+    pub(crate) walls: EdgeFalloffs,
     /// Those that are not beset, worst first.
-    pub(crate) worst: Worst,
+    pub(crate) worst: WorstElements,
     /// Share of them that a fit leaves.
     pub(crate) left_by_fit: f64,
     pub(crate) reference_lx: f64,
@@ -83,7 +83,7 @@ pub(crate) struct Look {
 
 /// What elements are read for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Read {
+pub(crate) enum ReadFor {
     /// By readers that interpolate.
     Trusted,
     /// By rays, and with the bare map.
@@ -92,33 +92,36 @@ pub(crate) enum Read {
     FromDim,
 }
 
-impl Read {
+impl ReadFor {
     /// By whom gathered maps are read, in the order in which elements are refined for them.
     pub(crate) const EVERY: [Self; 3] = [Self::FromDim, Self::Trusted, Self::All];
 }
 
-impl Look {
+impl Survey {
     /// The elements that are read so, if their error is more than it should be, and how many times it is.
     pub(crate) fn excess(
         &self,
-        what: Read,
+        what: ReadFor,
         request: &PilotRequest,
     ) -> Option<(Vec<LeafError>, f64)> {
         let excess = self.excess_of(what, request)?;
         let is_read = self.is_read(what, request);
-        let counted = |e: &LeafError| if what == Read::FromDim { e.seen_from_dim() } else { *e };
+        let counted = |e: &LeafError| if what == ReadFor::FromDim { e.seen_from_dim() } else { *e };
         Some((self.errors.iter().filter(|e| is_read(e)).map(counted).collect(), excess))
     }
 
     /// The most by which errors exceed what they should be, if they do, for whatever elements are read.
     pub(crate) fn greatest_excess(&self, request: &PilotRequest) -> f64 {
-        Read::EVERY.into_iter().filter_map(|what| self.excess_of(what, request)).fold(1.0, f64::max)
+        ReadFor::EVERY
+            .into_iter()
+            .filter_map(|what| self.excess_of(what, request))
+            .fold(1.0, f64::max)
     }
 
     /// Finds how often elements are to be halved towards walls, and what that leaves of their errors.
     pub(crate) fn resolve(
         &mut self,
-        mut walls: Walls,
+        mut walls: EdgeFalloffs,
         subdivision: &Subdivision,
         values: &[Option<f64>],
         accuracy_lx: f64,
@@ -156,20 +159,20 @@ impl Look {
         self.walls.strips(&self.elements, close)
     }
 
-    fn excess_of(&self, what: Read, request: &PilotRequest) -> Option<f64> {
+    fn excess_of(&self, what: ReadFor, request: &PilotRequest) -> Option<f64> {
         let goal_lx = match what {
             // Fits do little for what is steep at edges.
-            Read::All if request.is_fitted => {
+            ReadFor::All if request.is_fitted => {
                 let is_right_in_the_mean =
                     self.asks_for_means(request) || self.walls.are_resolved();
                 let bare = if is_right_in_the_mean { BARE_WITH_MEANS } else { BARE };
                 request.mesh_target.min(bare * request.target) * self.reference_lx
             }
-            Read::FromDim => SEEN_FROM_DIM * request.target * self.reference_lx,
+            ReadFor::FromDim => SEEN_FROM_DIM * request.target * self.reference_lx,
             _ => self.goal_lx(request.target, request),
         };
         let error_lx = match what {
-            Read::FromDim => self.error_seen_from_dim(),
+            ReadFor::FromDim => self.error_seen_from_dim(),
             _ => trust::error_of(&self.errors, self.is_read(what, request)),
         };
         let excess = error_lx / goal_lx;
@@ -182,12 +185,16 @@ impl Look {
         if squared > 0.0 { (squared / self.dim_m2).sqrt() } else { 0.0 }
     }
 
-    fn is_read(&self, what: Read, request: &PilotRequest) -> impl Fn(&LeafError) -> bool + use<> {
+    fn is_read(
+        &self,
+        what: ReadFor,
+        request: &PilotRequest,
+    ) -> impl Fn(&LeafError) -> bool + use<> {
         let limit = self.worst.limit(self.goal_lx(request.target, request), FRESH_SHARE);
         move |e| match what {
-            Read::All => true,
-            Read::FromDim => e.seen > 0.0,
-            Read::Trusted => e.is_at_wall || !e.is_beset && e.error <= limit,
+            ReadFor::All => true,
+            ReadFor::FromDim => e.seen > 0.0,
+            ReadFor::Trusted => e.is_at_wall || !e.is_beset && e.error <= limit,
         }
     }
 
@@ -198,8 +205,8 @@ impl Look {
     }
 
     /// The same, and less, for where more than expected is found.
-    pub(crate) fn trusts(&self, request: &PilotRequest) -> Trusts {
-        Trusts::of(&self.worst, self.trusted_up_to_lx(request))
+    pub(crate) fn trusts(&self, request: &PilotRequest) -> TrustLevels {
+        TrustLevels::of(&self.worst, self.trusted_up_to_lx(request))
     }
 
     /// Whether rays read too much wrongly in the mean of beset elements, unless that is measured.

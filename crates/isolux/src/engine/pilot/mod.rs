@@ -33,9 +33,9 @@ use crate::scene::Scene;
 #[cfg(test)]
 pub(super) use forecast::{Costs, Outlook};
 pub(super) use forecast::{GoOn, Left, Round};
-#[cfg(test)]
-pub(super) use look::Look;
 pub(super) use look::PilotRequest;
+#[cfg(test)]
+pub(super) use look::Survey;
 use state::Pilot;
 use std::mem;
 

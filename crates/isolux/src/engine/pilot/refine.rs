@@ -1,11 +1,11 @@
 //! The loop: look at the light on the elements as they are, bisect those that err too much.
 
 use super::forecast::{GoOn, LONGER};
-use super::look::{Look, PilotRequest, Read};
+use super::look::{PilotRequest, ReadFor, Survey};
 use super::state::{HEM, LEAST_ORDER, MAX_ROUNDS, MOST_STALLS, Pilot};
 use crate::ablation::without;
 use crate::engine::judge::Light;
-use crate::engine::mesh::{Refinement, Walls, Worst, refine_worst};
+use crate::engine::mesh::{EdgeFalloffs, Refinement, WorstElements, refine_worst};
 use std::time::Instant;
 
 /// So often may the error rise instead.
@@ -23,7 +23,7 @@ impl Pilot<'_> {
         &mut self,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
-    ) -> Look {
+    ) -> Survey {
         let mut look = self.look(request, go_on);
         if let Some(edge_m) = self.mesh.usual_edge_m.filter(|_| !look.is_smooth(request)) {
             self.mesh.subdivision.bisect_to(edge_m, request.max_vertices);
@@ -34,7 +34,7 @@ impl Pilot<'_> {
         let most = request.max_vertices.min(most);
         self.mesh.most_for_indirect_light = most as f64;
         self.try_some(&look, request.target);
-        let excess = |look: &Look| (Some(look.greatest_excess(request)), None);
+        let excess = |look: &Survey| (Some(look.greatest_excess(request)), None);
         let mut has_time = self.has_time(&look, request, excess(&look), go_on);
         for _ in 0..ROUNDS_FOR_HIDDEN {
             if !(has_time && self.open_up(&look.elements, most)) {
@@ -44,7 +44,7 @@ impl Pilot<'_> {
             has_time = self.has_time(&look, request, excess(&look), go_on);
         }
         // Readers gather over gathered maps alone: particles blur what is close by.
-        let reads = if request.is_fitted { &Read::EVERY[..] } else { &[Read::All] };
+        let reads = if request.is_fitted { &ReadFor::EVERY[..] } else { &[ReadFor::All] };
         for &what in reads {
             look = self.refine(look, request, (what, most), go_on);
         }
@@ -53,7 +53,7 @@ impl Pilot<'_> {
     }
 
     /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
-    pub(super) fn look(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Look {
+    pub(super) fn look(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Survey {
         let mut elements = self.mesh.subdivision.elements();
         let is_first = self.indirect.lx.is_empty();
         self.complete_rays();
@@ -95,9 +95,9 @@ impl Pilot<'_> {
         if is_first {
             self.costs.first.add(started.elapsed(), 0.0);
         }
-        let worst = Worst::of(&errors);
-        let walls = Walls::default();
-        let mut look = Look {
+        let worst = WorstElements::of(&errors);
+        let walls = EdgeFalloffs::default();
+        let mut look = Survey {
             carriers,
             elements,
             errors,
@@ -117,23 +117,23 @@ impl Pilot<'_> {
     /// Finds the walls that surfaces end at, and what elements err by once light is resolved towards them.
     pub(super) fn look_for_walls(
         &self,
-        look: &mut Look,
+        look: &mut Survey,
         request: &PilotRequest,
         luminances: &[Option<f64>],
     ) {
         let open: Vec<bool> = luminances.iter().map(Option::is_some).collect();
-        let walls = Walls::of(self.scene, &self.mesh.subdivision, &open);
+        let walls = EdgeFalloffs::of(self.scene, &self.mesh.subdivision, &open);
         look.resolve(walls, &self.mesh.subdivision, luminances, request.target * look.reference_lx);
     }
 
     /// Bisects until elements are good enough for what they are read for, or that comes to nothing.
     pub(super) fn refine(
         &mut self,
-        mut look: Look,
+        mut look: Survey,
         request: &PilotRequest,
-        (what, max_vertices): (Read, usize),
+        (what, max_vertices): (ReadFor, usize),
         go_on: &mut GoOn<'_>,
-    ) -> Look {
+    ) -> Survey {
         let mut before = (f64::INFINITY, look.carriers as f64);
         let (mut risen, mut stalls) = (0, 0);
         for _ in 0..MAX_ROUNDS {

@@ -1,11 +1,11 @@
 //! What the pilot tells of itself.
 
 use super::forecast::{Excess, FINE, GoOn, Outlook, Round};
-use super::look::{Look, PilotRequest};
+use super::look::{PilotRequest, Survey};
 use super::state::{FIRST_PART, Pilot};
 use crate::elements::Elements;
 use crate::engine::gather::{
-    FEWEST_UNJUDGED, Gatherer, Trial, allot, areas_m2, mean_of, noise_for,
+    FEWEST_UNJUDGED, Gatherer, RayTrial, allot, areas_m2, mean_of, noise_for,
 };
 use crate::engine::judge::{BELIEVED_INCREMENTS, check_points};
 use crate::engine::method::hybrid;
@@ -34,7 +34,7 @@ impl Pilot<'_> {
     /// Tells what is done and asks whether there is time for more, which there is to do.
     pub(super) fn has_time(
         &mut self,
-        look: &Look,
+        look: &Survey,
         request: &PilotRequest,
         excess: Excess,
         go_on: &mut GoOn<'_>,
@@ -76,12 +76,12 @@ impl Pilot<'_> {
     pub(super) fn round(
         &self,
         request: &PilotRequest,
-        look: Option<&Look>,
+        look: Option<&Survey>,
         (excess, before): Excess,
     ) -> Round {
         let vertices = self.mesh.subdivision.vertex_count();
         let trial =
-            self.tried.trial.unwrap_or(Trial::usual(look.map_or(1.0, |look| look.reference_lx)));
+            self.tried.trial.unwrap_or(RayTrial::usual(look.map_or(1.0, |look| look.reference_lx)));
         let reference_lx = look.map_or(trial.reference_lx, |look| look.reference_lx);
         let fixed = self.mesh.for_indirect_light.as_ref().map(|(count, _)| *count);
         let carriers = self.mesh.carriers.count(fixed.unwrap_or(vertices));
@@ -91,7 +91,7 @@ impl Pilot<'_> {
         let more = unmeasured.map_or(0.0, |look| self.more_for_direct(look, request, another));
         let for_bare = look.map_or(0.0, |look| self.rows_for_bare(look, request, more));
         let interpolation = look.map_or(request.target, |look| look.interpolation(request));
-        let measured = look.filter(|look| look.asks_for_means(request)).map_or(0.0, Look::beset);
+        let measured = look.filter(|look| look.asks_for_means(request)).map_or(0.0, Survey::beset);
         let is_right = measured > 0.0 || look.is_some_and(|look| look.walls.are_resolved());
         let noise = noise_for(request.target, interpolation, is_right);
         let wanted = trial.wanted(noise, reference_lx, BELIEVED_INCREMENTS);
@@ -100,7 +100,7 @@ impl Pilot<'_> {
         let checks = check_points::count(carriers) as f64;
         let smoothed = look
             .filter(|look| !self.indirect.is_smoothed && look.is_smooth(request))
-            .map_or(1.0, Look::smoothed);
+            .map_or(1.0, Survey::smoothed);
         let outlook = Outlook {
             carriers: carriers as f64,
             gathered: self.indirect.gathered.iter().filter(|&&gathered| gathered).count() as f64,
@@ -137,7 +137,7 @@ impl Pilot<'_> {
     }
 
     /// Vertices that direct light alone will take, of which the next round will add so many, if there is one.
-    fn more_for_direct(&self, look: &Look, request: &PilotRequest, another: f64) -> f64 {
+    fn more_for_direct(&self, look: &Survey, request: &PilotRequest, another: f64) -> f64 {
         let vertices = self.mesh.subdivision.vertex_count() as f64;
         let excess = self.direct_excess_now(look, request);
         let gathers = self.gathers_for_bare(look, request);
@@ -181,7 +181,7 @@ impl Pilot<'_> {
     }
 
     /// What direct light as interpolated errs by, in what is asked for, as found already or by a look.
-    fn direct_excess_now(&self, look: &Look, request: &PilotRequest) -> f64 {
+    fn direct_excess_now(&self, look: &Survey, request: &PilotRequest) -> f64 {
         let known =
             self.direct.excess.filter(|(of, _)| *of == self.mesh.subdivision.vertex_count());
         let look_now = || self.direct_excess(&look.elements, request, look.reference_lx).1;

@@ -1,8 +1,8 @@
 //! How many rays the pilot spends where, and what it tries to tell how many increments will take.
 
-use super::look::Look;
+use super::look::Survey;
 use super::state::Pilot;
-use crate::engine::gather::{Gatherer, Trial, known_at, ray_trial};
+use crate::engine::gather::{Gatherer, RayTrial, known_at, ray_trial};
 use crate::engine::judge::BELIEVED_INCREMENTS;
 use crate::engine::particle::CausticNoise;
 use crate::engine::ray::{Dice, SurfacePoint};
@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 impl Pilot<'_> {
     /// Tries how noisy gathered light is.
-    pub(super) fn try_some(&mut self, look: &Look, target: f64) {
+    pub(super) fn try_some(&mut self, look: &Survey, target: f64) {
         let vertices = look.elements.vertices();
         let carries =
             |&v: &usize| self.near.standings[v].is_some() && self.mesh.carriers.is_active(v as u32);
@@ -28,7 +28,7 @@ impl Pilot<'_> {
         let wanted = (target, look.reference_lx, BELIEVED_INCREMENTS, self.key.with(6));
         let started = Instant::now();
         let (trial, rays) =
-            Trial::of(&gathering, &some, &self.indirect.lx, wanted, self.tried.trial);
+            RayTrial::of(&gathering, &some, &self.indirect.lx, wanted, self.tried.trial);
         self.costs.tried.add(started.elapsed(), rays as f64);
         if !self.lighting.is_measured_once() {
             self.costs.again.add(self.measures_again(&some), some.len() as f64);

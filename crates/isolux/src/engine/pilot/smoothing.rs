@@ -1,6 +1,6 @@
 //! Quadratic functions between the vertices that carry light, where it is smooth.
 
-use super::look::Look;
+use super::look::Survey;
 use super::state::Pilot;
 use crate::elements::Elements;
 use crate::engine::occlusion::barriers;
@@ -11,7 +11,7 @@ use std::time::Instant;
 impl Pilot<'_> {
     /// Bisects elements that readers interpolate twice once more; the light of the new vertices is that of the quadratic function
     /// that fits the vertices about them best. Costs no rays, and leaves half of the error of interpolation or less.
-    pub(super) fn smooth(&mut self, look: &mut Look, max_vertices: usize) {
+    pub(super) fn smooth(&mut self, look: &mut Survey, max_vertices: usize) {
         let started = Instant::now();
         let first = self.mesh.subdivision.vertex_count();
         let is_open = |of: &Option<Standing>| *of == Some(Standing::Open);
@@ -32,7 +32,7 @@ impl Pilot<'_> {
         }
         rows.retain(|row| open[row.vertex as usize]);
         // What stands on a vertex stands close to the elements about it, which are left as they are.
-        self.near.torn.skip(&self.mesh.subdivision);
+        self.near.footprints.skip(&self.mesh.subdivision);
         self.complete_rays();
         let gatherers = self.gatherers();
         let vertices = self.mesh.subdivision.vertices();

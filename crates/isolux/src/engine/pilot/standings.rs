@@ -43,11 +43,12 @@ impl Pilot<'_> {
         self.near.standings =
             self.near.felt.standings(self.scene, &self.mesh.subdivision, &before, surface);
         let beside_hidden =
-            self.near.torn.beside(&self.mesh.subdivision, |vertex| !self.near.known[vertex]);
+            self.near.footprints.beside(&self.mesh.subdivision, |vertex| !self.near.known[vertex]);
         for (k, standing) in self.near.standings.iter_mut().enumerate() {
             let own = standing.filter(|_| self.near.known[k]);
-            let torn = own.filter(|_| !beside_hidden.contains(&(k as u32)));
-            *standing = if self.near.torn.has(k) { torn.and(Some(Standing::Rim)) } else { own };
+            let footprints = own.filter(|_| !beside_hidden.contains(&(k as u32)));
+            *standing =
+                if self.near.footprints.has(k) { footprints.and(Some(Standing::Rim)) } else { own };
         }
         self.set_shaded_apart();
     }
@@ -55,12 +56,12 @@ impl Pilot<'_> {
     /// Whether something stands on vertices that were not looked at yet; where nobody looked at elements, it may stand close to them.
     pub(super) fn look_for_torn(&mut self) {
         if without("footprints") {
-            self.near.torn.skip(&self.mesh.subdivision);
+            self.near.footprints.skip(&self.mesh.subdivision);
             return;
         }
         let is_beset =
             |node: u32| self.near.beset.get(node as usize).is_none_or(|&is_beset| is_beset);
-        self.near.torn.look(self.scene, &self.mesh.subdivision, is_beset);
+        self.near.footprints.look(self.scene, &self.mesh.subdivision, is_beset);
     }
 
     /// Elements that reach into the dark behind what stands across them are read from the corners before it.

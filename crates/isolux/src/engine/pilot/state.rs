@@ -5,11 +5,12 @@ use super::look::{PilotRequest, Surroundings};
 use crate::ablation::without;
 use crate::elements::{Elements, FewNumbers, Subdivision, TOGETHER};
 use crate::engine::gather::{
-    Backdrop, Bright, DirectAtEnds, Gatherer, Gathering, Sight, Trial, Unlit, allot,
+    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering, RayTrial, Sight, Unlit,
+    allot,
 };
 use crate::engine::light::Lighting;
 use crate::engine::mesh::{Carriers, Details, bisect_to_scale};
-use crate::engine::occlusion::{Felt, Torn};
+use crate::engine::occlusion::{ClosedIn, Footprints};
 use crate::engine::particle::{Aim, CausticNoise};
 use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
@@ -65,7 +66,7 @@ pub(super) struct Pilot<'s> {
     pub(super) indirect: IndirectLight,
     pub(super) walls: WallLight,
     /// Surfaces that direct light makes far brighter than all others.
-    pub(super) bright: Option<Arc<Bright>>,
+    pub(super) bright: Option<Arc<BrightSurfaces>>,
     pub(super) tried: Tried,
     pub(super) costs: Costs,
     /// Rays traced so far.
@@ -108,8 +109,8 @@ pub(super) struct Near {
     pub(super) unlit: Unlit,
     /// Places that some particles have reached over specular surfaces.
     pub(super) reached: Vec<SurfacePoint>,
-    pub(super) felt: Felt,
-    pub(super) torn: Torn,
+    pub(super) felt: ClosedIn,
+    pub(super) footprints: Footprints,
     /// By carrier, the distance to other carriers from which on something stands nearer before it than they do.
     pub(super) beset_from_m: HashMap<u32, f64, FewNumbers>,
     /// By vertex, how close something stands before it, m, if that is less than a part of its elements.
@@ -158,7 +159,7 @@ pub(super) struct IndirectLight {
 /// Light of large plane walls: the control variate of gathering.
 #[derive(Default)]
 pub(super) struct WallLight {
-    pub(super) backdrop: Option<Backdrop>,
+    pub(super) backdrop: Option<ControlVariate>,
     /// By vertex, where it was and what it gets from them with nothing between.
     pub(super) behind: HashMap<u32, (Point, Option<Rgb>)>,
 }
@@ -166,7 +167,7 @@ pub(super) struct WallLight {
 /// What trials with few rays and particles have told of noise.
 #[derive(Default)]
 pub(super) struct Tried {
-    pub(super) trial: Option<Trial>,
+    pub(super) trial: Option<RayTrial>,
     pub(super) caustic_noise: CausticNoise,
     pub(super) aim: Option<Aim>,
 }
@@ -209,7 +210,7 @@ impl<'s> Pilot<'s> {
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         let key = Key::new(request.seed).with(0);
-        let (bright, traced) = Bright::of(scene, lighting, request.seed);
+        let (bright, traced) = BrightSurfaces::of(scene, lighting, request.seed);
         let mesh = Mesh {
             subdivision,
             carriers: Carriers::all(),
@@ -287,8 +288,8 @@ impl<'s> Pilot<'s> {
         gatherers: &'a [Gatherer],
     ) -> Sight<'a> {
         let (scene, lighting, key) = (self.scene, self.lighting, self.key.with(3));
-        let (reached, torn) = (&self.near.reached, &self.near.torn);
-        Sight { scene, lighting, elements, gatherers, reached, torn, key }
+        let (reached, footprints) = (&self.near.reached, &self.near.footprints);
+        Sight { scene, lighting, elements, gatherers, reached, footprints, key }
     }
 
     /// New vertices gather as their parents do.

@@ -4,7 +4,7 @@ use super::state::{PILOT_TOLERANCE, Pilot};
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::gather::{
-    Backdrop, Gatherer, NET_ORDER, Trial, control_variate, known_at, ray_trial,
+    ControlVariate, Gatherer, NET_ORDER, RayTrial, control_variate, known_at, ray_trial,
 };
 use crate::engine::judge::Light;
 use crate::engine::occlusion::nearby;
@@ -33,7 +33,8 @@ impl Pilot<'_> {
         let every = lit.len().div_ceil(control_variate::SOME).max(1);
         let place = |&v: &usize| (gatherers[v], elements.vertices()[v].area_m2);
         let places: Vec<(Gatherer, f64)> = lit.iter().step_by(every).map(place).collect();
-        let Some(mut backdrop) = Backdrop::seen_by(self.scene, ray_trial::stands(&places)) else {
+        let Some(mut backdrop) = ControlVariate::seen_by(self.scene, ray_trial::stands(&places))
+        else {
             return;
         };
         self.indirect.lx = vec![Rgb::BLACK; gatherers.len()];
@@ -93,7 +94,7 @@ impl Pilot<'_> {
             self.key.with(9),
         );
         let gathering = self.gathering(elements, u32::MAX, &self.near.standings);
-        let (trial, left, rays) = Trial::of_walls(&gathering, places, &self.indirect.lx, of);
+        let (trial, left, rays) = RayTrial::of_walls(&gathering, places, &self.indirect.lx, of);
         self.traced += rays;
         self.tried.trial = Some(trial);
         left
@@ -110,7 +111,7 @@ impl Pilot<'_> {
     }
 
     /// Takes down the light of the walls that rays are judged by.
-    fn look_at_walls(&self, backdrop: &mut Backdrop, elements: &Elements) -> f64 {
+    fn look_at_walls(&self, backdrop: &mut ControlVariate, elements: &Elements) -> f64 {
         let light_at = |at: &SurfacePoint| {
             let known = known_at(elements, u32::MAX, &self.near.standings, at)?;
             let read = |values: &[Rgb]| -> Rgb {

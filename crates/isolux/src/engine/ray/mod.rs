@@ -24,5 +24,5 @@ pub(crate) use place::{INWARDS, Places, place_key};
 pub(crate) use scatter::{Scattered, luminance_ratio, pane};
 #[cfg(test)]
 pub(crate) use scatter::{reflect, refract, specular_share};
-pub(crate) use short_rays::Feelers;
+pub(crate) use short_rays::ShortRays;
 pub(crate) use surface::SurfacePoint;

@@ -7,9 +7,9 @@ use isolux_geometry::{Direction, Hit, Normal, Point, Ray, Vector};
 
 /// So many directions about an axis, the first `2^k` of them a net.
 #[derive(Debug)]
-pub(crate) struct Feelers<const N: usize>([Vector; N]);
+pub(crate) struct ShortRays<const N: usize>([Vector; N]);
 
-impl<const N: usize> Feelers<N> {
+impl<const N: usize> ShortRays<N> {
     /// By a key of their own.
     pub(crate) fn of(key: Key) -> Self {
         let sequence = Sequence::new(key);

@@ -1,7 +1,7 @@
 //! Walls that rays are judged by.
 
 use super::*;
-use crate::engine::gather::{Backdrop, Gatherer, Gathering, Unlit, lacking};
+use crate::engine::gather::{ControlVariate, Gatherer, Gathering, Unlit, lacking};
 use crate::engine::light::Lighting;
 use crate::engine::pilot::pilot;
 use crate::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest, Watch, solve};
@@ -12,11 +12,11 @@ use isolux_geometry::Normal;
 const ROOM_M: [f64; 3] = [6.0, 4.0, 3.0];
 
 /// A room whose walls are brighter where a lamp would hang, and a thing in it.
-fn room(things: Vec<Shape>) -> (Scene, Backdrop) {
+fn room(things: Vec<Shape>) -> (Scene, ControlVariate) {
     let mut shapes = inward_box(ROOM_M, 0);
     shapes.extend(things);
     let scene = scene(shapes, vec![painted(Rgb([0.7, 0.5, 0.3]))], vec![]);
-    let mut backdrop = Backdrop::of(&scene).expect("a room has walls");
+    let mut backdrop = ControlVariate::of(&scene).expect("a room has walls");
     backdrop.see(&scene, |at| {
         let from_lamp = (at.point - Point::new(2.0, 1.5, 2.2)).length_squared();
         Some(Rgb::grey(100.0 / (1.0 + from_lamp)))
@@ -25,7 +25,7 @@ fn room(things: Vec<Shape>) -> (Scene, Backdrop) {
 }
 
 /// What so many rays find of the walls from a place, in the mean over nets, and its error.
-fn found(backdrop: &Backdrop, of: &Gatherer, nets: std::ops::Range<u64>) -> (f64, f64) {
+fn found(backdrop: &ControlVariate, of: &Gatherer, nets: std::ops::Range<u64>) -> (f64, f64) {
     let walls = backdrop.seen_from(&of.stand());
     mean_and_error(nets.map(|net| {
         let sequence = Sequence::new(Key::new(7).with(net));

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::elements::{Elements, Subdivision, Vertex};
-use crate::engine::gather::{Bright, DirectAtEnds, Gatherer, Gathering};
+use crate::engine::gather::{BrightSurfaces, DirectAtEnds, Gatherer, Gathering};
 use crate::engine::light::Lighting;
 use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
@@ -33,8 +33,8 @@ impl<'a> Lit<'a> {
         Self { scene, lighting, elements: subdivision.elements(), direct }
     }
 
-    fn bright(&self) -> Option<Arc<Bright>> {
-        Bright::of(self.scene, &self.lighting, 1).0
+    fn bright(&self) -> Option<Arc<BrightSurfaces>> {
+        BrightSurfaces::of(self.scene, &self.lighting, 1).0
     }
 
     /// Direct light reflected once, and light read of vertices, in many trials at a place: the mean, the standard error of that, and rays of a
@@ -42,7 +42,7 @@ impl<'a> Lit<'a> {
     fn reflected(
         &self,
         at: SurfacePoint,
-        bright: Option<&Bright>,
+        bright: Option<&BrightSurfaces>,
         read: &[Rgb],
     ) -> (f64, f64, f64) {
         let standings = vec![Some(Standing::Open); self.direct.len()];
@@ -68,7 +68,7 @@ impl<'a> Lit<'a> {
 
 /// With rays sent to what is bright, as much light comes to a place as without, and variance and rays fall so many times. Also, the light
 /// that comes there and how far both may differ by chance.
-fn gain(lit: &Lit<'_>, bright: &Bright, at: SurfacePoint, read: &[Rgb]) -> (f64, f64, f64) {
+fn gain(lit: &Lit<'_>, bright: &BrightSurfaces, at: SurfacePoint, read: &[Rgb]) -> (f64, f64, f64) {
     let (mean, error, rays) = lit.reflected(at, Some(bright), read);
     let (expected, plain_error, plain_rays) = lit.reflected(at, None, read);
     let allowed = SIGMAS * libm::hypot(error, plain_error);

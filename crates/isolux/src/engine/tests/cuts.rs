@@ -4,7 +4,7 @@ use super::*;
 use crate::elements::Vertex;
 use crate::engine::gather::{Unlit, known_at, known_on_side};
 use crate::engine::light::Lighting;
-use crate::engine::occlusion::{Cuts, Side};
+use crate::engine::occlusion::{Barriers, Side};
 use crate::engine::pilot::pilot;
 use crate::engine::ray::ProbePoint;
 use crate::engine::read::{ExactSettings, MapReader};
@@ -147,7 +147,7 @@ fn a_corner_is_told_from_the_others_by_the_line_between() {
     let is_there = |v: &crate::elements::Vertex| v.position.x < SHEET_X;
     let light: Vec<Rgb> =
         elements.vertices().iter().map(|v| Rgb::grey(f64::from(is_there(v)))).collect();
-    let cuts = Cuts::of_map(&scene, &elements, &light);
+    let cuts = Barriers::of_map(&scene, &elements, &light);
     let (mut cut, mut crossed) = (0, 0);
     for side in &sides {
         let corners = elements.node(side.node).vertices;

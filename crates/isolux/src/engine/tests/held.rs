@@ -3,7 +3,7 @@
 use super::*;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{GivenRow, Operator};
-use crate::engine::mesh::{Carriers, Hats, corrected};
+use crate::engine::mesh::{Carriers, HatFunctions, corrected};
 use crate::map::Standing;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -143,7 +143,7 @@ proptest! {
         let (subdivision, elements) = sheet([&xs, &ys]);
         let all = elements.vertices().len();
         let standings = vec![Some(Standing::Open); all];
-        let hats = Hats::new(&subdivision, &standings);
+        let hats = HatFunctions::new(&subdivision, &standings);
         let means: Vec<Rgb> = (0..all).map(|k| Rgb::grey(light[k % light.len()])).collect();
         let values = hats.corrected(&means);
         let held = hats.held(&values);

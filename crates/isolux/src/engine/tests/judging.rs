@@ -3,29 +3,29 @@
 use super::errors::{check_sums, room, small_plan};
 use super::trusting::errors;
 use super::*;
-use crate::engine::judge::{InterpolationErrors, Judged, check_points};
+use crate::engine::judge::{InterpolationErrors, Verdict, check_points};
 use crate::engine::light::Lighting;
-use crate::engine::mesh::{Trust, Trusts, Worst};
+use crate::engine::mesh::{Trust, TrustLevels, WorstElements};
 use crate::map::Accuracy;
 
 /// A map whose error grows with trust, by a tenth of it.
-fn by(trust: Trust) -> Judged {
+fn by(trust: Trust) -> Verdict {
     let reached = 0.1 * trust.up_to_lx().min(10.0);
     let (statistical, discretization, caustics, bias) = (0.0, reached, 0.0, 0.0);
     let interpolated = reached;
     let accuracy = Accuracy { reached, statistical, discretization, caustics, bias, interpolated };
-    Judged { trust, errors: InterpolationErrors::default(), accuracy: Some(accuracy) }
+    Verdict { trust, errors: InterpolationErrors::default(), accuracy: Some(accuracy) }
 }
 
 /// Of elements that err by 8, 4, 2 and 1 lx, where readers trust those up to so much.
-fn trusts(foreseen_lx: f64) -> Trusts {
+fn trusts(foreseen_lx: f64) -> TrustLevels {
     let elements = errors(&[(1.0, 8.0), (1.0, 4.0), (1.0, 2.0), (1.0, 1.0)]);
-    Trusts::of(&Worst::of(&elements), foreseen_lx)
+    TrustLevels::of(&WorstElements::of(&elements), foreseen_lx)
 }
 
 #[test]
 fn readers_trust_as_much_as_an_accuracy_leaves() {
-    let trust = |goal: f64| Judged::for_goal(goal, trusts(f64::INFINITY), by).trust.up_to_lx();
+    let trust = |goal: f64| Verdict::for_goal(goal, trusts(f64::INFINITY), by).trust.up_to_lx();
     // What was foreseen will do, or less.
     assert_eq!(trust(1.1), f64::INFINITY);
     assert_eq!(trust(0.9), 6.0);
@@ -37,7 +37,7 @@ fn readers_trust_as_much_as_an_accuracy_leaves() {
 #[test]
 fn all_but_gaps_are_trusted_where_that_is_enough_and_reaches_the_goal() {
     let trust = |goal: f64, is_enough: bool| {
-        let judged = Judged::for_goal(goal, trusts(6.0), by);
+        let judged = Verdict::for_goal(goal, trusts(6.0), by);
         judged.or_all_but_gaps(goal, |_| is_enough, by).trust
     };
     // An error of 1 with all of them, of 0.6 with those foreseen.

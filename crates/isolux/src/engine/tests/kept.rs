@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::elements::{Elements, Subdivision};
-use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, Kept, Over};
+use crate::engine::gather::{DirectAtEnds, DirectResidual, Gatherer, Gathering, Over};
 use crate::engine::light::{Goal, Lighting};
 use crate::map::Standing;
 
@@ -68,7 +68,7 @@ fn rays_read_the_light_that_lands_between_vertices() {
     };
     let (bare_lx, _) = read(&direct, 2);
     assert!((bare_lx / expected_lx - 1.0).abs() > 0.1, "{bare_lx} {expected_lx}");
-    let kept = Kept::of(&over, 0.01 * expected_lx, Key::new(1)).expect("light varies");
+    let kept = DirectResidual::of(&over, 0.01 * expected_lx, Key::new(1)).expect("light varies");
     let increment = |k: u64| read(&kept.read(&over, (1, Key::new(2).with(k))), 3 + k).0;
     let (kept_lx, error_lx) = mean_and_error((0..16).map(increment));
     let error_lx = libm::hypot(error_lx, expected_error_lx);
@@ -93,6 +93,6 @@ fn light_that_vertices_tell_is_left_as_it_is() {
         let standings = vec![Some(Standing::Open); direct.len()];
         let (elements, standings, direct) = (&elements, &standings[..], &direct[..]);
         let over = Over { scene, lighting, elements, standings, direct, bright: None };
-        assert!(Kept::of(&over, allowed_lx, Key::new(1)).is_none());
+        assert!(DirectResidual::of(&over, allowed_lx, Key::new(1)).is_none());
     }
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::elements::Subdivision;
 use crate::engine::gather::Unlit;
 use crate::engine::light::Lighting;
-use crate::engine::mesh::{Carriers, Walls};
+use crate::engine::mesh::{Carriers, EdgeFalloffs};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use isolux_geometry::{Point, Triangle};
@@ -115,7 +115,14 @@ fn vertices_between_carriers_have_the_quadratic_function_of_those_about_them() {
     let (subdivision, first, corners) = floor();
     let open = vec![true; subdivision.vertex_count()];
     let mut carriers = Carriers::all();
-    carriers.smooth(&subdivision, first, &corners, &open, (&Walls::default(), &[]), |_, _| ());
+    carriers.smooth(
+        &subdivision,
+        first,
+        &corners,
+        &open,
+        (&EdgeFalloffs::default(), &[]),
+        |_, _| (),
+    );
     assert_eq!(carriers.count(open.len()), first, "none of the new ones carries light");
     let worst = |truth: &dyn Fn(Point) -> f64, margin_m: f64| {
         let all = subdivision.vertices();
@@ -142,7 +149,14 @@ fn what_is_hidden_tells_nothing() {
         open.push(vertex.parents.unwrap().iter().all(|&end| open[end as usize]));
     }
     let mut carriers = Carriers::all();
-    carriers.smooth(&subdivision, first, &corners, &open, (&Walls::default(), &[]), |_, _| ());
+    carriers.smooth(
+        &subdivision,
+        first,
+        &corners,
+        &open,
+        (&EdgeFalloffs::default(), &[]),
+        |_, _| (),
+    );
     let grey = |v: usize| Rgb::grey(if v < first && v != hidden { 7.0 } else { 0.0 });
     let mut values: Vec<Rgb> = (0..open.len()).map(grey).collect();
     carriers.fill(&mut values);

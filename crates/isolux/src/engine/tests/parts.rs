@@ -6,7 +6,7 @@ use crate::elements::Subdivision;
 use crate::engine::gather::Unlit;
 use crate::engine::light::Lighting;
 use crate::engine::method::deposit;
-use crate::engine::particle::{PARTS, Parts, Squared, part_of, read_in_parts, samples};
+use crate::engine::particle::{ElementParts, PARTS, Squared, part_of, read_in_parts, samples};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::ray::{Accumulator, Noise};
@@ -34,7 +34,12 @@ fn parts_of_an_element_are_told_apart_and_have_their_middles() {
 }
 
 /// Sums over increments of what parts lack: the same in all, and noise of the middle of two numbers.
-fn sums(parts: &Parts, lacking: impl Fn(usize) -> f64, sigma: f64, increments: u64) -> Accumulator {
+fn sums(
+    parts: &ElementParts,
+    lacking: impl Fn(usize) -> f64,
+    sigma: f64,
+    increments: u64,
+) -> Accumulator {
     let mut sums = Accumulator::new(parts.count(), 100.0);
     for increment in 0..increments {
         let key = Key::new(7).with(increment);
@@ -46,13 +51,13 @@ fn sums(parts: &Parts, lacking: impl Fn(usize) -> f64, sigma: f64, increments: u
     sums
 }
 
-fn some_parts() -> (Parts, f64) {
+fn some_parts() -> (ElementParts, f64) {
     let scene = room();
     let mut subdivision = Subdivision::new(&scene);
     subdivision.bisect_to(0.4, 10_000);
     let nodes: Vec<u32> = subdivision.leaves().collect();
     let area_m2 = nodes.iter().map(|&n| subdivision.triangle(n).area()).sum();
-    (Parts::new(&subdivision, &nodes), area_m2)
+    (ElementParts::new(&subdivision, &nodes), area_m2)
 }
 
 #[test]
@@ -162,7 +167,7 @@ fn elements_are_as_fine_as_a_sharp_caustic_needs() {
     let mut fine = pilot(&scene, &lighting, &request(0.03), &mut Unlit::default(), &mut |_| true);
     let all_parts = |plan: &Plan| {
         let leaves: Vec<u32> = plan.mesh.subdivision.leaves().collect();
-        Parts::new(&plan.mesh.subdivision, &leaves)
+        ElementParts::new(&plan.mesh.subdivision, &leaves)
     };
     // Elements as they are for other light blur the spot that the lamp makes below the ball.
     coarse.errors.parts = all_parts(&coarse);

@@ -2,7 +2,7 @@
 
 use super::errors::{noise as normal, small_plan};
 use super::*;
-use crate::engine::gather::{Shared, Trial, allot, allot_by_noise, known_weights, mean_of};
+use crate::engine::gather::{RayTrial, Shared, allot, allot_by_noise, known_weights, mean_of};
 use crate::engine::light::Lighting;
 use crate::engine::method::{Hybrid, deposit};
 use crate::engine::particle::{CausticNoise, particles};
@@ -95,7 +95,7 @@ fn housings_of_lamps_get_more_rays_than_their_area_is_worth() {
         let lighting = Lighting::new(scene);
         let mut plan = small_plan(scene, &lighting);
         if !has_met_it {
-            plan.tried.trial = Trial::usual(plan.light.reference_lx);
+            plan.tried.trial = RayTrial::usual(plan.light.reference_lx);
         }
         let hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1 << 10, 1);
         let by_area = allot(&plan.areas_m2(), 64.0);

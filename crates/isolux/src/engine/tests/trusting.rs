@@ -4,7 +4,7 @@ use super::*;
 use crate::elements::Subdivision;
 use crate::engine::gather::Unlit;
 use crate::engine::light::Lighting;
-use crate::engine::mesh::{LeafError, Trust, Trusts, Worst, trust};
+use crate::engine::mesh::{LeafError, Trust, TrustLevels, WorstElements, trust};
 use crate::engine::occlusion::nearby;
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::ray::SurfacePoint;
@@ -35,13 +35,17 @@ fn the_worst_are_left_out_until_the_rest_is_good() {
         ("no more than a part of the area", 0.8, 0.15, 0.5 * (8.0 + 4.0)),
         ("none of it", 0.8, 0.05, f64::INFINITY),
     ] {
-        assert_eq!(Worst::of(&all).limit(goal, most_share), expected, "{name}");
+        assert_eq!(WorstElements::of(&all).limit(goal, most_share), expected, "{name}");
     }
     let rest = trust::error_of(&all, |e| e.error < 2.5);
     assert!((rest - 0.6_f64.sqrt()).abs() < 1e-15, "the good ones over the whole area: {rest}");
-    assert_eq!(Worst::of(&[]).limit(1.0, 1.0), f64::INFINITY);
+    assert_eq!(WorstElements::of(&[]).limit(1.0, 1.0), f64::INFINITY);
     let beset: Vec<LeafError> = all.iter().map(|&e| LeafError { is_beset: true, ..e }).collect();
-    assert_eq!(Worst::of(&beset).limit(0.8, 1.0), f64::INFINITY, "nobody trusts them anyway");
+    assert_eq!(
+        WorstElements::of(&beset).limit(0.8, 1.0),
+        f64::INFINITY,
+        "nobody trusts them anyway"
+    );
 }
 
 /// What counts more, as it lies where it is dim, counts so in what is left out and in what remains.
@@ -49,12 +53,12 @@ fn the_worst_are_left_out_until_the_rest_is_good() {
 fn what_is_left_out_counts_as_what_remains() {
     let mut all = errors(&[(1.0, 8.0), (1.0, 2.0), (1.0, 1.0)]);
     all[0].weight = 4.0;
-    let worst = Worst::of(&all);
+    let worst = WorstElements::of(&all);
     // Squares of 1024, 4 and 1 over 3 m2: without the first the others err by 1.29.
     assert_eq!(worst.limit(1.5, 1.0), 0.5 * (8.0 + 2.0));
-    let trusts = Trusts::of(&worst, f64::INFINITY);
+    let trusts = TrustLevels::of(&worst, f64::INFINITY);
     assert_eq!(trusts.least(), Trust::UpTo(0.5 * (8.0 + 2.0)), "a third of 18.5");
-    let less = Trusts::of(&worst, 3.0).all_but_least().nth(1);
+    let less = TrustLevels::of(&worst, 3.0).all_but_least().nth(1);
     assert_eq!(less, Some(Trust::UpTo(0.5 * (2.0 + 1.0))), "0.7 of 1.29");
 }
 
@@ -62,9 +66,9 @@ fn what_is_left_out_counts_as_what_remains() {
 #[test]
 fn less_is_trusted_by_what_elements_are_expected_to_err() {
     // Squares of 64, 16, 4 and 1.
-    let worst = Worst::of(&errors(&[(1.0, 8.0), (1.0, 4.0), (1.0, 2.0), (1.0, 1.0)]));
+    let worst = WorstElements::of(&errors(&[(1.0, 8.0), (1.0, 4.0), (1.0, 2.0), (1.0, 1.0)]));
     let limits = |foreseen_lx: f64| {
-        let trusts = Trusts::of(&worst, foreseen_lx);
+        let trusts = TrustLevels::of(&worst, foreseen_lx);
         assert_eq!(trusts.foreseen(), Trust::UpTo(foreseen_lx));
         trusts.all_but_least().chain([trusts.least()]).map(Trust::up_to_lx).collect::<Vec<_>>()
     };
@@ -73,7 +77,7 @@ fn less_is_trusted_by_what_elements_are_expected_to_err() {
     assert_eq!(limits(6.0), [6.0, 3.0, 3.0, 1.5]);
     // Nothing is left out of nothing.
     assert_eq!(limits(0.5), [0.5; 4]);
-    assert_eq!(Trusts::of(&Worst::of(&[]), 1.0).least(), Trust::UpTo(1.0));
+    assert_eq!(TrustLevels::of(&WorstElements::of(&[]), 1.0).least(), Trust::UpTo(1.0));
 }
 
 /// Files keep errors at vertices; the least over an element's vertices is never less than its own,

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::elements::{Subdivision, Vertex};
-use crate::engine::mesh::{Beside, Carriers, LeafError, Walls, Worst};
-use crate::engine::pilot::Look;
+use crate::engine::mesh::{Beside, Carriers, EdgeFalloffs, LeafError, WorstElements};
+use crate::engine::pilot::Survey;
 
 const SIDE_M: f64 = 4.0;
 
@@ -54,7 +54,7 @@ fn errors_of(subdivision: &Subdivision) -> Vec<LeafError> {
 
 struct Resolved {
     subdivision: Subdivision,
-    look: Look,
+    look: Survey,
     rows: Vec<Beside>,
     first: usize,
     corners: Vec<[u32; 3]>,
@@ -65,15 +65,15 @@ fn resolved(accuracy_lx: f64) -> Resolved {
     let scene = cube(painted(Rgb::grey(0.5)));
     let mut subdivision = subdivided(&scene);
     let first = subdivision.vertex_count();
-    let walls = Walls::of(&scene, &subdivision, &vec![true; first]);
+    let walls = EdgeFalloffs::of(&scene, &subdivision, &vec![true; first]);
     let values: Vec<Option<f64>> = subdivision.vertices().iter().map(|v| Some(light(v))).collect();
     let errors = errors_of(&subdivision);
-    let mut look = Look {
+    let mut look = Survey {
         elements: subdivision.elements(),
         carriers: first,
-        worst: Worst::of(&errors),
+        worst: WorstElements::of(&errors),
         errors,
-        walls: Walls::default(),
+        walls: EdgeFalloffs::default(),
         left_by_fit: 1.0,
         reference_lx: 100.0,
         dim_m2: 0.0,
@@ -105,7 +105,7 @@ fn noisy_direct_light_leaves_large_meshes_without_smooth_elements() {
 fn every_face_of_a_room_ends_before_four_walls() {
     let of = |scene: &Scene| {
         let subdivision = subdivided(scene);
-        let walls = Walls::of(scene, &subdivision, &vec![true; subdivision.vertex_count()]);
+        let walls = EdgeFalloffs::of(scene, &subdivision, &vec![true; subdivision.vertex_count()]);
         let at = |v: u32| {
             let about: Vec<u32> = (0..subdivision.vertex_count() as u32)
                 .filter(|&k| {
@@ -151,7 +151,7 @@ fn outer_edges_are_no_walls() {
     let scene = scene(shapes, vec![painted(Rgb::grey(0.5))], vec![]);
     let subdivision = subdivided(&scene);
     let all: Vec<u32> = (0..subdivision.vertex_count() as u32).collect();
-    let walls = Walls::of(&scene, &subdivision, &vec![true; all.len()]);
+    let walls = EdgeFalloffs::of(&scene, &subdivision, &vec![true; all.len()]);
     assert!(walls.near(&all, subdivision.vertices()[0].position).is_empty());
 }
 
@@ -194,7 +194,7 @@ fn rows_stand_beside_all_walls_a_quarter_of_an_element_away() {
 fn what_falls_off_towards_walls_is_interpolated_as_it_falls() {
     let Resolved { subdivision, look, rows, first, corners } = resolved(0.1);
     let open = vec![true; subdivision.vertex_count()];
-    let error = |walls: &Walls, rows: &[Beside]| {
+    let error = |walls: &EdgeFalloffs, rows: &[Beside]| {
         let mut carriers = Carriers::all();
         carriers.smooth(&subdivision, first, &corners, &open, (walls, rows), |_, _| ());
         assert_eq!(carriers.count(open.len()), first + rows.len());
@@ -209,7 +209,7 @@ fn what_falls_off_towards_walls_is_interpolated_as_it_falls() {
         let errors: Vec<f64> = errors.collect();
         (errors.iter().map(|e| e * e).sum::<f64>() / errors.len() as f64).sqrt()
     };
-    let (fallen, smooth) = (error(&look.walls, &rows), error(&Walls::default(), &[]));
+    let (fallen, smooth) = (error(&look.walls, &rows), error(&EdgeFalloffs::default(), &[]));
     // All but what linear functions beside the two nearest walls leave in corners.
     assert!(fallen < 0.01, "{fallen}");
     assert!(smooth > 5.0 * fallen, "{smooth} {fallen}");
@@ -232,7 +232,7 @@ fn walls_end_where_they_end() {
     }
     let scene = scene(shapes, vec![painted(Rgb::grey(0.5))], vec![]);
     let subdivision = subdivided(&scene);
-    let walls = Walls::of(&scene, &subdivision, &vec![true; subdivision.vertex_count()]);
+    let walls = EdgeFalloffs::of(&scene, &subdivision, &vec![true; subdivision.vertex_count()]);
     let floor = |v: &u32| subdivision.vertices()[*v as usize].normal.to_vector().z > 0.9;
     let about: Vec<u32> = (0..subdivision.vertex_count() as u32).filter(floor).collect();
     let nearest = |x: f64, y: f64| {

@@ -11,7 +11,7 @@ mod patches;
 
 use crate::ablation::without;
 use crate::elements::carries_map;
-use crate::engine::light::{Emission, FIRST, Landed, Lighting, MORE, landings};
+use crate::engine::light::{Emission, FIRST, Landing, Lighting, MORE, landings};
 use crate::engine::ray::SurfacePoint;
 use crate::sampling::{Key, Sequence};
 use crate::scene::Scene;
@@ -34,7 +34,7 @@ const MOST_SENT: f64 = 0.5;
 const SENT_ALONE: f64 = BRIGHT;
 
 /// Bright surfaces.
-pub(crate) struct Bright {
+pub(crate) struct BrightSurfaces {
     parts: Vec<Part>,
     patches: Patches,
     /// Of every patch, the part that it belongs to, and how likely a place there is to be drawn from it, 1/m2.
@@ -69,7 +69,7 @@ pub(crate) struct Spot {
 
 /// Bright surfaces as seen from a place.
 pub(crate) struct Seen<'b> {
-    bright: &'b Bright,
+    bright: &'b BrightSurfaces,
     origin: Point,
     axis: Normal,
     /// Running sums of how likely parts are to be drawn.
@@ -79,7 +79,7 @@ pub(crate) struct Seen<'b> {
     others: u32,
 }
 
-impl Bright {
+impl BrightSurfaces {
     /// What is bright, as particles of a seed tell, and how many those are; `None` where nothing is.
     pub(crate) fn of(
         scene: &Scene,
@@ -106,7 +106,7 @@ impl Bright {
         (bright.map(Arc::new), particles)
     }
 
-    fn told_by(scene: &Scene, landed: &[Landed], area_m2: f64) -> Option<Self> {
+    fn told_by(scene: &Scene, landed: &[Landing], area_m2: f64) -> Option<Self> {
         let flux_lm: f64 = landed.iter().map(|of| reflected_lm(scene, of)).sum();
         let mean_lx = flux_lm / area_m2;
         let patches = Patches::of(scene, landed, BRIGHT * mean_lx);

@@ -3,7 +3,7 @@
 //! Every side of a triangle on which particles land is bisected until few are left in a patch, whatever the elements of a map are:
 //! light as narrow as the gap before a lamp is told from what surrounds it.
 
-use crate::engine::light::{BELIEVED, Landed, Sum};
+use crate::engine::light::{BELIEVED, Landing, Sum};
 use crate::engine::ray::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -68,7 +68,7 @@ struct Part {
 
 impl Patches {
     /// Where more light is reflected than so much, lx, and surely so.
-    pub(super) fn of(scene: &Scene, landed: &[Landed], least_lx: f64) -> Self {
+    pub(super) fn of(scene: &Scene, landed: &[Landing], least_lx: f64) -> Self {
         let mut sides: BTreeMap<(u32, bool), Vec<Arrived>> = BTreeMap::new();
         for of in landed {
             let reflected_lm = reflected_lm(scene, of);
@@ -180,8 +180,8 @@ impl Part {
 }
 
 /// What is reflected of the light of a particle, lm.
-pub(super) fn reflected_lm(scene: &Scene, of: &Landed) -> f64 {
-    let Landed { triangle, back, place: [u, v], flux_lm } = *of;
+pub(super) fn reflected_lm(scene: &Scene, of: &Landing) -> f64 {
+    let Landing { triangle, back, place: [u, v], flux_lm } = *of;
     let reflectance = scene.material(triangle).finish(back);
     let reflectance =
         reflectance.map_or(Rgb::BLACK, |of| scene.diffuse_reflectance(of, triangle, u, v));

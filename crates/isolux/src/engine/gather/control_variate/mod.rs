@@ -8,7 +8,7 @@ mod lanes;
 mod planes;
 mod polynomial;
 
-use crate::engine::ray::{Feelers, SurfacePoint};
+use crate::engine::ray::{ShortRays, SurfacePoint};
 use crate::quadrature::GaussRule;
 use crate::sampling::Key;
 use crate::scene::Scene;
@@ -36,7 +36,7 @@ pub(crate) const WORTH: f64 = 0.7;
 const TRIED: usize = 16;
 const CLEAR: usize = 12;
 static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::new(PLACES));
-static DIRECTIONS: LazyLock<Feelers<TRIED>> = LazyLock::new(|| Feelers::of(Key::new(0)));
+static DIRECTIONS: LazyLock<ShortRays<TRIED>> = LazyLock::new(|| ShortRays::of(Key::new(0)));
 /// How far a ray to a wall may end before or behind it, as a share of its length and the size of the wall.
 const BESIDE: f64 = 1e-3;
 /// Walls are left out for places farther away from their middle than so many halves of their sides: the closed form loses its
@@ -53,7 +53,7 @@ pub(crate) struct Stand {
 
 /// Walls and their light.
 #[derive(Debug)]
-pub(crate) struct Backdrop {
+pub(crate) struct ControlVariate {
     walls: Vec<Wall>,
 }
 
@@ -97,7 +97,7 @@ pub(crate) struct Seen<'a> {
     view: View,
 }
 
-impl Backdrop {
+impl ControlVariate {
     /// The walls of a scene that has large plane surfaces, in the dark, if enough of these places, each with the surface that it stands
     /// for, see them.
     pub(crate) fn seen_by(

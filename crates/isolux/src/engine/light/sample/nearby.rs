@@ -26,7 +26,7 @@ const TIGHTNESS: f64 = 0.4;
 const LEAST_SHAPE: f64 = 0.03;
 
 /// Clusters and single luminaires, by chain of mirrors, and the running sums of what they are expected to give.
-pub(crate) struct About {
+pub(crate) struct NearbyLuminaires {
     place: Point,
     parts: Vec<(usize, Part)>,
     sums: Vec<f64>,
@@ -42,11 +42,11 @@ struct Extent {
 
 impl Lighting<'_> {
     /// What is seen from about a place, as far as `reach_m`; `None` where luminaires are too few to be drawn so.
-    pub(crate) fn about(&self, place: Point, reach_m: f64) -> Option<About> {
+    pub(crate) fn about(&self, place: Point, reach_m: f64) -> Option<NearbyLuminaires> {
         if self.tree.lamps.is_empty() || without("nearby-luminaires") {
             return None;
         }
-        let mut about = About { place, parts: Vec::new(), sums: vec![0.0] };
+        let mut about = NearbyLuminaires { place, parts: Vec::new(), sums: vec![0.0] };
         let mut waiting = Vec::new();
         for chain in 0..self.chains.len() {
             let (from, reflectance) = self.image_of(place, chain);
@@ -103,7 +103,12 @@ impl Lighting<'_> {
     /// luminaires without surface. Where a luminaire is nearer than the place that others are seen from, it gives far more than is
     /// expected there, as on a ceiling close above it: such places have a cut of their own. Elsewhere none is nearer than half as
     /// far as it is from there, so that it gives no more than some times what is expected.
-    pub(crate) fn estimate_by(&self, about: &About, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
+    pub(crate) fn estimate_by(
+        &self,
+        about: &NearbyLuminaires,
+        at: &SurfacePoint,
+        dice: &mut Dice,
+    ) -> Rgb {
         let away_m = (at.point - about.place).length();
         if self.tree.nearest_m(at.point, away_m) < away_m {
             return self.estimate(at, dice);
@@ -128,7 +133,7 @@ impl Lighting<'_> {
     }
 
     /// The chain and luminaire at a place from 0 to 1 of a distribution, and how likely they are.
-    fn candidate(&self, about: &About, place: f64) -> (usize, u32, f64) {
+    fn candidate(&self, about: &NearbyLuminaires, place: f64) -> (usize, u32, f64) {
         let sum = place * about.total();
         let k = about.sums.partition_point(|&s| s <= sum).clamp(1, about.parts.len()) - 1;
         let (from, weight) = (about.sums[k], about.sums[k + 1] - about.sums[k]);
@@ -147,7 +152,7 @@ impl Lighting<'_> {
     }
 }
 
-impl About {
+impl NearbyLuminaires {
     fn push(&mut self, chain: usize, part: Part, weight: f64) {
         if weight > 0.0 {
             self.parts.push((chain, part));

@@ -7,7 +7,7 @@
 //! evaluated at once and the light of further reflections is left open, as ties to other samples.
 
 use super::layer::{Layer, Site, Tie};
-use crate::engine::gather::{Bright, Seen};
+use crate::engine::gather::{BrightSurfaces, Seen};
 use crate::engine::light::Lighting;
 use crate::engine::mesh::corrected;
 use crate::engine::ray::{Dice, PathEnd, follow_on};
@@ -67,7 +67,7 @@ pub(super) struct Surroundings<'a> {
     /// Evaluated there, unless it is read from the samples with the rest.
     pub(super) lighting: Option<&'a Lighting<'a>>,
     /// What is so bright that rays are sent there, where direct light is evaluated.
-    pub(super) bright: Option<&'a Bright>,
+    pub(super) bright: Option<&'a BrightSurfaces>,
     /// Caustics.
     pub(super) caustic: Caustic<'a>,
 }

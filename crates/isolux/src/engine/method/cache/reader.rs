@@ -6,7 +6,7 @@ use super::placing::Place;
 use super::store::{LEAST_RADIUS_IN_VIEWS, Making, Store};
 use super::{CACHE_REPLICATES, CacheError, CacheSample, IrradianceCache};
 use crate::elements::carries_map;
-use crate::engine::gather::Bright;
+use crate::engine::gather::BrightSurfaces;
 use crate::engine::light::{Lighting, Patches};
 use crate::engine::ray::{Deadline, Dice, Places, SurfacePoint, place_key};
 use crate::engine::read::GLANCE_SAMPLES;
@@ -72,7 +72,7 @@ pub struct CachedPlace {
 pub struct CacheReader<'s> {
     scene: &'s Scene,
     lighting: Lighting<'s>,
-    bright: Option<Arc<Bright>>,
+    bright: Option<Arc<BrightSurfaces>>,
     patches: Patches,
     places: Places<'s>,
     store: Store<'s>,
@@ -91,7 +91,7 @@ impl<'s> CacheReader<'s> {
     ) -> Result<Self, CacheError> {
         cache.check(scene)?;
         let lighting = Lighting::new(scene);
-        let (bright, _) = Bright::of(scene, &lighting, settings.seed);
+        let (bright, _) = BrightSurfaces::of(scene, &lighting, settings.seed);
         let mut reader = Self {
             scene,
             lighting,

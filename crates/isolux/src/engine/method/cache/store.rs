@@ -5,7 +5,7 @@ use super::layer::{Layer, Site, Tie};
 use super::placing::{Place, Radii, serve, serve_all_seen, typical_radius_m};
 use super::record::Sum;
 use super::{CACHE_REPLICATES, CacheSample, IrradianceCache, SampleKind};
-use crate::engine::gather::Bright;
+use crate::engine::gather::BrightSurfaces;
 use crate::engine::light::Lighting;
 use crate::engine::ray::{Deadline, Dice, place_key};
 use crate::sampling::{Key, Sequence};
@@ -69,7 +69,7 @@ pub(super) struct Making<'a> {
     pub(super) key: Key,
     /// Where sources are many, rays read their light from samples, too; else they evaluate it.
     pub(super) lighting: &'a Lighting<'a>,
-    pub(super) bright: Option<&'a Bright>,
+    pub(super) bright: Option<&'a BrightSurfaces>,
     pub(super) caustic: Caustic<'a>,
     pub(super) deadline: Deadline,
 }

@@ -10,10 +10,10 @@ mod told;
 mod unlit;
 mod walls;
 
-use crate::engine::gather::{Bright, DirectAtEnds, Gatherer, Kept, Over};
+use crate::engine::gather::{BrightSurfaces, DirectAtEnds, DirectResidual, Gatherer, Over};
 use crate::engine::light::{Lighting, Patches};
 use crate::engine::mesh::LEAST as LEAST_OF_NOISE;
-use crate::engine::occlusion::{Cuts, nearby};
+use crate::engine::occlusion::{Barriers, nearby};
 use crate::engine::ray::{Dice, PathEnd, Places, ProbePoint, SurfacePoint, follow, place_key};
 use crate::map::{Illuminance, IlluminationMap, Standing};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
@@ -65,7 +65,7 @@ impl<'a> MapReader<'a> {
     /// Prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
         let lighting = Arc::new(Lighting::new(scene));
-        let (bright, _) = Bright::of(scene, &lighting, map.provenance.seed);
+        let (bright, _) = BrightSurfaces::of(scene, &lighting, map.provenance.seed);
         Self::prepared((scene, map), lighting, bright)
     }
 
@@ -73,7 +73,7 @@ impl<'a> MapReader<'a> {
     pub(crate) fn prepared(
         (scene, map): (&'a Scene, &'a IlluminationMap),
         lighting: Arc<Lighting<'a>>,
-        bright: Option<Arc<Bright>>,
+        bright: Option<Arc<BrightSurfaces>>,
     ) -> Self {
         let ambient = map.ambient_lx();
         let reflected = |v: &Option<Illuminance>| {
@@ -90,7 +90,7 @@ impl<'a> MapReader<'a> {
             varying: None,
             direct_values: are_read.then(|| map.values.iter().map(direct).collect()),
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
-            cuts: Cuts::of_map(scene, &map.elements, &light),
+            cuts: Barriers::of_map(scene, &map.elements, &light),
             light,
             places: Places::of(scene),
             backdrop: None,
@@ -118,7 +118,7 @@ impl<'a> MapReader<'a> {
             bright: self.bright.as_deref(),
         };
         let key = Key::new(self.map.provenance.seed).with(14);
-        let kept = Kept::of(&over, self.unseen.reached_lx, key.with(0))?;
+        let kept = DirectResidual::of(&over, self.unseen.reached_lx, key.with(0))?;
         self.count(kept.rays(KEPT));
         Some((kept.read(&over, (KEPT, key.with(1))), kept.varying))
     }

@@ -3,10 +3,10 @@
 use super::effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, TRIAL_RAYS};
 use super::shared_noise::SharedNoise;
 use crate::elements::Element;
-use crate::engine::gather::{Backdrop, Bright, DirectAtEnds, Gatherer, Gathering};
+use crate::engine::gather::{BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering};
 use crate::engine::judge::Light;
 use crate::engine::light::{Goal, Lighting, Measured, Patches};
-use crate::engine::occlusion::{Cuts, nearby};
+use crate::engine::occlusion::{Barriers, nearby};
 use crate::engine::ray::{Places, ProbePoint, SurfacePoint, mean_and_variance, place_key};
 use crate::map::{Accuracy, Fresh, Illuminance, IlluminationMap, Standing};
 use crate::sampling::{Key, Sequence};
@@ -37,12 +37,12 @@ pub struct MapReader<'a> {
     pub(super) direct_values: Option<Vec<Rgb>>,
     /// Elements on which it varies between vertices, by node.
     pub(super) varying: Option<Vec<bool>>,
-    pub(super) bright: Option<Arc<Bright>>,
+    pub(super) bright: Option<Arc<BrightSurfaces>>,
     /// Elements that something stands across.
-    pub(super) cuts: Cuts,
+    pub(super) cuts: Barriers,
     pub(super) places: Places<'a>,
     /// Walls that rays are judged by.
-    pub(crate) backdrop: Option<Backdrop>,
+    pub(crate) backdrop: Option<ControlVariate>,
     pub(super) patches: Patches,
     pub(super) unseen: Unseen,
     /// The part of that which falls to every vertex.

@@ -3,7 +3,7 @@
 use super::state::MapReader;
 use crate::elements::Element;
 use crate::engine::gather::{
-    Backdrop, Gatherer, Gathering, Trial, control_variate, known_at, ray_trial,
+    ControlVariate, Gatherer, Gathering, RayTrial, control_variate, known_at, ray_trial,
 };
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::map::Standing;
@@ -13,17 +13,17 @@ use crate::units::Rgb;
 impl MapReader<'_> {
     /// Walls, if there are any that take much of the noise off what places of the map gather. To find them takes longer than to
     /// gather in the gaps of a map that is trusted everywhere else.
-    pub(super) fn walls(&self) -> Option<Backdrop> {
+    pub(super) fn walls(&self) -> Option<ControlVariate> {
         self.map.provenance.fresh.filter(|fresh| !fresh.in_gaps_alone)?;
         let places = self.some_places();
-        let mut backdrop = Backdrop::seen_by(self.scene, ray_trial::stands(&places))?;
+        let mut backdrop = ControlVariate::seen_by(self.scene, ray_trial::stands(&places))?;
         if backdrop.see(self.scene, |at| self.light_at(at)) > control_variate::LEFT_OUT {
             return None;
         }
         let gathering =
             Gathering { backdrop: Some(&backdrop), ..self.gathering(self.direct_at_ends()) };
         let of = (self.unseen.reference_lx, Key::new(self.map.provenance.seed).with(13));
-        let (_, left, _) = Trial::of_walls(&gathering, &places, &self.light, of);
+        let (_, left, _) = RayTrial::of_walls(&gathering, &places, &self.light, of);
         left.is_some_and(|left| left <= control_variate::WORTH).then_some(backdrop)
     }
 

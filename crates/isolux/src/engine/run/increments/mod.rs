@@ -7,11 +7,11 @@ use super::state::{RunState, restore};
 use crate::ablation::without;
 use crate::engine::gather::{OF_INTERPOLATED, noise_for};
 use crate::engine::judge::{
-    BELIEVED_INCREMENTS, Check, Checks, InterpolationErrors, Judged, OF_GOAL, Pooled, accuracy,
+    BELIEVED_INCREMENTS, Check, Checks, InterpolationErrors, OF_GOAL, Pooled, Verdict, accuracy,
     accuracy_of_map, check_points, energy_bound, filter,
 };
 use crate::engine::light::Emission;
-use crate::engine::mesh::{Hats, Trust, lend_noise};
+use crate::engine::mesh::{HatFunctions, Trust, lend_noise};
 use crate::engine::method::{CacheSample, Cached, Forward, Hybrid, Left, Radiosity, tally};
 use crate::engine::particle::{Squared, element_parts, flights};
 use crate::engine::plan::Plan;
@@ -317,16 +317,16 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     /// What check points say of the map, read with the trust that they leave.
-    fn judged(&self, noise_is: Noise) -> Judged {
+    fn judged(&self, noise_is: Noise) -> Verdict {
         let pooled = self.left.is_none().then(|| Pooled::of(self.plan, |k| self.sums.estimate(k)));
         let by = |trust: Trust| {
             let errors = self.interpolation(trust, noise_is);
-            Judged { trust, errors, accuracy: self.accuracy_by(pooled.as_ref(), &errors) }
+            Verdict { trust, errors, accuracy: self.accuracy_by(pooled.as_ref(), &errors) }
         };
         let Some(goal) = self.goal.filter(|_| self.has_nets()) else {
             return by(self.plan.trust());
         };
-        let judged = Judged::for_goal(goal, self.plan.errors.trusts, by);
+        let judged = Verdict::for_goal(goal, self.plan.errors.trusts, by);
         // Until it is believed nobody reads it.
         if noise_is != Noise::Counted || !self.is_believed() {
             return judged;
@@ -398,7 +398,7 @@ impl<'p, 's> Work<'p, 's> {
         if !all && !self.plan.lighting.leaves_caustics() {
             return;
         }
-        let hats = Hats::new(&self.plan.mesh.subdivision, &self.plan.mesh.standings);
+        let hats = HatFunctions::new(&self.plan.mesh.subdivision, &self.plan.mesh.standings);
         let held = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
             let some = values[..self.plan.mesh.indirect_vertices].iter();
             let some: Vec<Rgb> = some.map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect();
