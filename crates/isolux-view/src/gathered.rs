@@ -4,6 +4,7 @@
 use crate::error::ViewError;
 use crate::image::{LuminanceImage, Size, Surface};
 use crate::trace::{SurfacePoint, TraceSettings, trace, trace_watched};
+use isolux::elements::PlaceOnSide;
 use isolux::engine::net::{Filled, Fineness, Net, Wanted};
 use isolux::engine::{Allowance, IndirectReading, MapReader, Told};
 use isolux::map::{Illuminance, IlluminationMap};
@@ -76,7 +77,7 @@ pub fn trace_map(
                 noise_lx: stored.indirect_standard_error_lx,
             }),
         };
-        reader.glance((triangle, back, [u, v]), 0, known)
+        reader.glance(on_side(&at), 0, known)
     };
     let watch = &mut |share| watch(ViewProgress::Looking(share));
     let image = trace_watched(scene, camera, size, settings, (&read, watch))?;
@@ -153,10 +154,7 @@ impl PixelLight {
             .map(|pixel| pixels.entries.partition_point(|entry| entry.at.pixel < pixel))
             .collect();
         let mut report = Gathered::default();
-        let place = |number: usize| {
-            let SurfacePoint { triangle, back, u, v, .. } = pixels.entries[number].at;
-            (triangle, back, [u, v])
-        };
+        let place = |number: usize| on_side(&pixels.entries[number].at);
         let sight = |from: usize, to: usize| reader.sees(place(from), place(to));
         let mut net = Net::new(pixels.wanted(), Fineness::PIXELS, Box::new(sight));
         let mut done = 0.0;
@@ -339,9 +337,13 @@ impl Entry {
     }
 }
 
+fn on_side(at: &SurfacePoint) -> PlaceOnSide {
+    PlaceOnSide { triangle: at.triangle, back: at.back, uv: [at.u, at.v] }
+}
+
 /// Whether light is to be gathered at a place, and whether that lies in a gap; else the standard error of what the map tells, lx.
 fn wanted(reader: &MapReader<'_>, at: &SurfacePoint) -> (Option<bool>, f64) {
-    match reader.told_at((at.triangle, at.back, [at.u, at.v]), ALLOWANCE) {
+    match reader.told_at(on_side(at), ALLOWANCE) {
         Some(Told::Little { in_gap }) => (Some(in_gap), 0.0),
         Some(Told::Light(reading)) => (None, reading.error_lx),
         None => (None, 0.0),

@@ -1,6 +1,7 @@
 //! Views from a solved map beside readings of it.
 #![allow(clippy::unwrap_used, reason = "tests may stop at the first surprise")]
 
+use isolux::elements::PlaceOnSide;
 use isolux::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest, Watch, solve};
 use isolux::geometry::{Direction, Point, Transform, Vector};
 use isolux::map::Fresh;
@@ -112,7 +113,13 @@ fn light_is_gathered_where_the_map_is_not_to_be_trusted() {
     let (size, settings) = (Size::new(320, 240).unwrap(), TraceSettings::DRAFT);
     let (view, gathered) =
         trace_map((&scene, &map), &camera, size, (&settings, &mut |_| {})).unwrap();
-    let read = |at: SurfacePoint| reader.glance((at.triangle, at.back, [at.u, at.v]), 0, None);
+    let read = |at: SurfacePoint| {
+        reader.glance(
+            PlaceOnSide { triangle: at.triangle, back: at.back, uv: [at.u, at.v] },
+            0,
+            None,
+        )
+    };
     let interpolated = trace(&scene, &camera, size, &settings, &read).unwrap();
     let truth = truth(&view, &reader);
     // The foot of the block, and what else interpolation gets wrong: gathered light is twice as near there at least. How far

@@ -24,6 +24,17 @@ use walk::Walk;
 /// Elements or vertices of one task, where little is done for each.
 pub(crate) const TOGETHER: usize = 4096;
 
+/// A place on one side of a triangle of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaceOnSide {
+    /// Number of the triangle.
+    pub triangle: u32,
+    /// Whether it is on the back, from where corners run clockwise.
+    pub back: bool,
+    /// Barycentric weights of the second and the third corner.
+    pub uv: [f64; 2],
+}
+
 /// The subdivided surfaces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elements {

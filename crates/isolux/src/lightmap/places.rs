@@ -2,6 +2,7 @@
 
 use super::cover::{self, Fragment};
 use super::layout::Layout;
+use crate::elements::PlaceOnSide;
 use crate::engine::{Allowance, IndirectReading, MapReader, Told};
 use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
@@ -168,9 +169,10 @@ impl Places<'_> {
         self.reader.direct_once(self.on_side(place), rays, of)
     }
 
-    fn on_side(&self, place: Place) -> (u32, bool, [f64; 2]) {
+    fn on_side(&self, place: Place) -> PlaceOnSide {
         let side = &self.layout.sides[place.side as usize];
-        (side.triangle, side.back, cover::weights(self.layout, place.side, place.at))
+        let uv = cover::weights(self.layout, place.side, place.at);
+        PlaceOnSide { triangle: side.triangle, back: side.back, uv }
     }
 }
 

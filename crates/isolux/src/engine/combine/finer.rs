@@ -5,7 +5,7 @@
 //! light stays that of the map. The longest edges come first, so that it may end at any time.
 
 use super::trees::{SidePlace, bisected_like, own_vertices};
-use crate::elements::{Subdivision, edge_key};
+use crate::elements::{PlaceOnSide, Subdivision, edge_key};
 use crate::engine::read::{MapReader, reference_lx};
 use crate::map::{Illuminance, IlluminationMap};
 use crate::scene::Scene;
@@ -165,7 +165,8 @@ impl<'a> Finer<'a> {
 
     /// Direct light afresh, by as many readings as it takes to see whether it differs from what the ends of the edge tell.
     fn read(&self, edge: [u32; 2], (triangle, back, u, v): SidePlace) -> Option<Illuminance> {
-        let reading = |number| self.reader.glance((triangle, back, [u, v]), number, None);
+        let reading =
+            |number| self.reader.glance(PlaceOnSide { triangle, back, uv: [u, v] }, number, None);
         let first = reading(0)?;
         let expected_lx = self.expected_lx(edge);
         if expected_lx.is_some_and(|lx| (first.illuminance_lx() - lx).abs() < self.visible_lx(lx)) {

@@ -1,6 +1,6 @@
 //! A place on one side of a surface.
 
-use crate::elements::Subdivision;
+use crate::elements::{PlaceOnSide, Subdivision};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
@@ -27,6 +27,12 @@ impl SurfacePoint {
     }
 
     /// A place by its barycentric weights.
+    /// The place itself.
+    pub(crate) fn on_side(scene: &Scene, place: PlaceOnSide) -> Self {
+        Self::new(scene, place.triangle, place.back, place.uv[0], place.uv[1])
+    }
+
+    /// The place by its weights.
     pub(crate) fn new(scene: &Scene, triangle: u32, back: bool, u: f64, v: f64) -> Self {
         let corners = scene.triangle(triangle);
         let geometric = scene.geometric_normal(triangle);

@@ -1,6 +1,7 @@
 //! Maps that are shown with finer shadows.
 
 use super::*;
+use crate::elements::PlaceOnSide;
 use crate::engine::{
     Finer, FinerSettings, MapReader, Solution, SolveRequest, Watch, reference_lx, solve,
 };
@@ -47,7 +48,8 @@ fn off_lx(scene: &Scene, of: &IlluminationMap, map: &IlluminationMap) -> f64 {
         let (u, v) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
         let triangle = floor[(pick * floor.len() as f64) as usize];
         let back = map.interpolate(triangle, false, u, v).is_none();
-        let true_lx = reader.glance((triangle, back, [u, v]), 0, None)?.illuminance_lx();
+        let true_lx =
+            reader.glance(PlaceOnSide { triangle, back, uv: [u, v] }, 0, None)?.illuminance_lx();
         let shown_lx = of.interpolate(triangle, back, u, v)?.illuminance_lx();
         Some((shown_lx - true_lx).powi(2))
     });

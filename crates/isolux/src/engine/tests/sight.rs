@@ -1,6 +1,7 @@
 //! Places of a surface that see each other.
 
 use super::*;
+use crate::elements::PlaceOnSide;
 use crate::engine::{MapReader, SolveRequest, Watch, solve};
 
 fn sees(scene: &Scene, [from, to]: [[f64; 3]; 2]) -> bool {
@@ -8,7 +9,7 @@ fn sees(scene: &Scene, [from, to]: [[f64; 3]; 2]) -> bool {
     let map = solve(scene, &request, None, &mut |_| Watch::Continue).unwrap().map;
     let [from, to] = [from, to].map(|at| {
         let SurfacePoint { triangle, back, u, v, .. } = front_at(scene, Point::from(at));
-        (triangle, back, [u, v])
+        PlaceOnSide { triangle, back, uv: [u, v] }
     });
     let reader = MapReader::new(scene, &map);
     assert_eq!(reader.sees(from, to), reader.sees(to, from));

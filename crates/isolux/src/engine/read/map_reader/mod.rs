@@ -10,6 +10,7 @@ mod told;
 mod unlit;
 mod walls;
 
+use crate::elements::PlaceOnSide;
 use crate::engine::gather::{BrightSurfaces, DirectAtEnds, DirectResidual, Gatherer, Over};
 use crate::engine::light::{Lighting, Patches};
 use crate::engine::mesh::LEAST as LEAST_OF_NOISE;
@@ -214,17 +215,17 @@ impl<'a> MapReader<'a> {
     /// readings of one place apart. Indirect light is interpolated, unless it is known from elsewhere.
     pub fn glance(
         &self,
-        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+        place: PlaceOnSide,
         number: u64,
         known: Option<IndirectReading>,
     ) -> Option<Illuminance> {
-        let stored = self.map.interpolate(triangle, back, u, v)?;
+        let stored = self.map.interpolate(place.triangle, place.back, place.uv[0], place.uv[1])?;
         let stored = known.map_or(stored, |known| Illuminance {
             indirect_lx: known.lx,
             indirect_standard_error_lx: known.noise_lx,
             ..stored
         });
-        let at = self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v));
+        let at = self.places.pulled_in(SurfacePoint::on_side(self.scene, place));
         let sequence = Sequence::new(place_key(at.point).with(number));
         let dice = &mut Dice::new(sequence, 0);
         let direct = self.glanced(&at, stored.illuminance_lx(), dice);

@@ -3,6 +3,7 @@
 use super::effort::{FRESH_REPLICATES, Needed, TRIAL_RAYS};
 use super::state::MapReader;
 use super::told::{Allowance, IndirectReading, Told};
+use crate::elements::PlaceOnSide;
 use crate::engine::gather::Gatherer;
 use crate::engine::occlusion::nearby;
 use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
@@ -22,11 +23,11 @@ impl MapReader<'_> {
     /// `None` where the map knows nothing.
     pub fn direct_once(
         &self,
-        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
+        place: PlaceOnSide,
         rays: usize,
         (sequence, index): (Sequence, u32),
     ) -> Option<Rgb> {
-        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+        let surface = SurfacePoint::on_side(self.scene, place);
         let stored = self.stored_at(&surface)?;
         let at = self.places.pulled_in(surface);
         let dice = &mut Dice::new(sequence, index);
@@ -35,12 +36,8 @@ impl MapReader<'_> {
     }
 
     /// Indirect light as the map tells it. `None` where the map knows nothing.
-    pub fn told_at(
-        &self,
-        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
-        allowance: Allowance,
-    ) -> Option<Told> {
-        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+    pub fn told_at(&self, place: PlaceOnSide, allowance: Allowance) -> Option<Told> {
+        let surface = SurfacePoint::on_side(self.scene, place);
         let stored = self.stored_at(&surface)?;
         let at = self.places.pulled_in(surface);
         if self.map.provenance.fresh.is_none() {
@@ -58,12 +55,9 @@ impl MapReader<'_> {
     /// Indirect light as the map interpolates it, be it to be trusted there or not: no ray looks. Its error is what a map
     /// trusted everywhere would be told to err by and a share of the light, for what stands before the place and elements do not know.
     /// `None` where the map knows nothing.
-    pub fn interpolated_at(
-        &self,
-        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
-    ) -> Option<IndirectReading> {
-        let stored = self.map.interpolate(triangle, back, u, v)?;
-        let part = self.part_at(&SurfacePoint::new(self.scene, triangle, back, u, v));
+    pub fn interpolated_at(&self, place: PlaceOnSide) -> Option<IndirectReading> {
+        let stored = self.map.interpolate(place.triangle, place.back, place.uv[0], place.uv[1])?;
+        let part = self.part_at(&SurfacePoint::on_side(self.scene, place));
         let bias_lx = part * self.unseen.bias_lx;
         let interpolation_error_lx = libm::hypot(
             (part * self.unseen.discretization_lx).max(stored.interpolation_error_lx),
@@ -74,12 +68,8 @@ impl MapReader<'_> {
 
     /// Indirect light as [`MapReader::at`] reads it, but gathered also where interpolation is expected to err by more than is
     /// allowed.
-    pub fn indirect_at(
-        &self,
-        (triangle, back, [u, v]): (u32, bool, [f64; 2]),
-        allowance: Allowance,
-    ) -> Option<IndirectReading> {
-        let surface = SurfacePoint::new(self.scene, triangle, back, u, v);
+    pub fn indirect_at(&self, place: PlaceOnSide, allowance: Allowance) -> Option<IndirectReading> {
+        let surface = SurfacePoint::on_side(self.scene, place);
         let (read, _) = self.indirect(surface, allowance)?;
         Some(Self::gathered_reading(&read))
     }
@@ -92,11 +82,10 @@ impl MapReader<'_> {
     /// had been read at four of them, at random: it is to hold for the middle of the surface, too. `None` where the map knows none of them.
     pub fn indirect_over(
         &self,
-        places: impl Iterator<Item = (u32, bool, [f64; 2])>,
+        places: impl Iterator<Item = PlaceOnSide>,
     ) -> Option<IndirectReading> {
-        let surfaces: Vec<SurfacePoint> = places
-            .map(|(triangle, back, [u, v])| SurfacePoint::new(self.scene, triangle, back, u, v))
-            .collect();
+        let surfaces: Vec<SurfacePoint> =
+            places.map(|place| SurfacePoint::on_side(self.scene, place)).collect();
         let (mut told, mut trials, mut beside) = (Vec::new(), Vec::new(), [0.0; 2]);
         for surface in &surfaces {
             let Some(stored) = self.stored_at(surface) else { continue };

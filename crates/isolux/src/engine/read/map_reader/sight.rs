@@ -1,6 +1,7 @@
 //! Whether places of a surface see each other.
 
 use super::MapReader;
+use crate::elements::PlaceOnSide;
 use crate::engine::occlusion::{LOW, NEAR};
 use crate::engine::ray::SurfacePoint;
 use isolux_geometry::{Normal, Ray};
@@ -12,10 +13,9 @@ const BENT: f64 = 0.5;
 impl MapReader<'_> {
     /// Whether nothing parts the light of two places of a surface that lie near to each other: nothing stands between them, close to the
     /// surface and well above it. Panes part light, too.
-    pub fn sees(&self, from: (u32, bool, [f64; 2]), to: (u32, bool, [f64; 2])) -> bool {
-        let [from, to] = [from, to].map(|(triangle, back, [u, v])| {
-            self.places.pulled_in(SurfacePoint::new(self.scene, triangle, back, u, v))
-        });
+    pub fn sees(&self, from: PlaceOnSide, to: PlaceOnSide) -> bool {
+        let [from, to] =
+            [from, to].map(|place| self.places.pulled_in(SurfacePoint::on_side(self.scene, place)));
         let length_m = (to.point - from.point).length();
         let [up, up_there] = [from, to].map(|at| Normal::to_vector(at.geometric));
         let over_m = BENT * length_m * up.cross(up_there).length();
