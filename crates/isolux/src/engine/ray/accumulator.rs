@@ -1,58 +1,58 @@
-//! Sums that do not depend on their order.
+//! Sums that do not depend on the order of their terms.
 //!
-//! A contribution is scaled to fixed point and added to integers, so that addition is associative:
-//! any order, any number of threads, any machine gives the same bits, and sums of disjoint
-//! increments merge by addition.
+//! A contribution is scaled to fixed point and added to integers, so that addition is associative. Any order,
+//! any number of threads and any machine give the same bits. Sums of disjoint increments merge by addition.
 //!
-//! One unit is 2^-24 of the scene's reference illuminance (rounded up to a power of two). A value of
-//! one increment is held to 2^47 units (eight million times the reference; brighter values saturate),
-//! its square to 2^94. So 2^15 increments fit the 63 bits of a sum, and 2^15 times their sum of
-//! squares fits 127. Rounding adds at most half a unit an increment: 3e-8 of the reference. Where much less light is expected than that, as in
-//! a dim room beside a bright one, the unit is as much smaller, by 2^14 at most, and values are held to five hundred times the
-//! reference still.
+//! One unit is 2^-24 of the scene's reference illuminance (rounded up to a power of two). The value of one
+//! increment is at most 2^47 units (eight million times the reference; brighter values saturate), its square
+//! at most 2^94. So 2^15 increments fit the 63 bits of a sum, and 2^15 times their sum of squares fits 127
+//! bits. Rounding adds at most half a unit an increment: 3e-8 of the reference. Where much less light is
+//! expected, as in a dim room beside a bright one, the unit is smaller by as much, at most by 2^14. Values
+//! there still reach five hundred times the reference.
 
 use crate::units::Rgb;
 
 const UNITS_OF_REFERENCE: f64 = (1u64 << 24) as f64;
 const LARGEST: f64 = (1u64 << 47) as f64;
-/// Halvings of the unit at most where there is little light.
+/// The most halvings of the unit, for receivers with little light.
 const MOST_HALVINGS: u8 = 14;
 
-/// Increments that one accumulator can hold.
+/// The most increments that one accumulator can hold.
 pub(crate) const MAX_INCREMENTS: u64 = 1 << 15;
 
 /// The light at one receiver in one increment, lx.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Sample {
-    /// From luminaires, without caustics.
+    /// Light from luminaires, without caustics.
     pub(crate) direct: Rgb,
-    /// From luminaires, by particles.
+    /// Light of caustics: from luminaires, by particles.
     pub(crate) caustic: Rgb,
-    /// After diffuse reflections.
+    /// Light after diffuse reflections.
     pub(crate) indirect: Rgb,
-    /// What others read of it, photometric: as far as they have what it errs by in common.
+    /// Photometric illuminance that rays which are always the same read from the light of this increment. Its
+    /// spread is the error that receivers near each other have in common.
     pub(crate) passed_on: f64,
 }
 
-/// What an increment took, and what it left out.
+/// The rays that an increment took and the light that it left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Effort {
     /// Rays traced.
     pub(crate) rays: u64,
-    /// Mean illuminance that paths given up would have brought to the surfaces, before it is
-    /// reflected there, lx.
+    /// Mean illuminance that the paths given up would have brought to the surfaces, before reflection there,
+    /// lx.
     pub(crate) given_up_lx: f64,
 }
 
-/// Sums of one receiver, in units of its run's fixed point.
+/// Sums of one receiver, in fixed-point units of its run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sums {
-    /// Direct, caustic, indirect; three channels each.
+    /// Direct, caustic and indirect light, three channels each.
     pub values: [i64; 9],
-    /// Photometric total, photometric indirect and caustic part, and what others read of it: rounded by themselves, so not
-    /// quite what the channels make.
+    /// Three photometric sums: the total, the indirect and caustic part, and `passed_on` of the samples. Each
+    /// is rounded by itself, so it differs slightly from the sum of the channels.
     pub totals: [i64; 3],
-    /// Squares of those.
+    /// Sums of the squares of these three.
     pub squares: [i128; 3],
 }
 
@@ -60,28 +60,29 @@ pub struct Sums {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Accumulator {
     lux_per_unit: f64,
-    /// How often that is halved at every receiver; nowhere if empty.
+    /// Number of halvings of the unit at every receiver; empty if there are none.
     halvings: Vec<u8>,
     pub(crate) increments: u64,
     pub(crate) sums: Vec<Sums>,
-    /// Whether something was added that is no number, which sums do not show.
+    /// Whether a NaN was added, which integer sums do not show.
     has_nan: bool,
 }
 
-/// Mean and variance of the mean at one receiver.
+/// Mean at one receiver and variances of that mean.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Estimate {
     pub(crate) mean: Sample,
     /// Variance of the mean of the photometric total, lx2.
     pub(crate) variance: f64,
-    /// The same of the indirect part and the caustics.
+    /// Variance of the mean of the indirect and caustic part, lx2.
     pub(crate) indirect_variance: f64,
-    /// What of that comes from the surfaces that light comes from, which is common to all that see them.
+    /// The part of that variance that comes from the light of the elements that are read, lx2. All receivers
+    /// that see them have it in common.
     pub(crate) common_variance: f64,
 }
 
 impl Estimate {
-    /// With a further independent standard error of indirect light.
+    /// The estimate with a further independent standard error of indirect light, lx.
     pub(crate) fn in_doubt_by(mut self, lx: f64) -> Self {
         self.variance += lx * lx;
         self.indirect_variance += lx * lx;
@@ -90,7 +91,7 @@ impl Estimate {
 }
 
 impl Accumulator {
-    /// No increments yet; `reference_lx` sets the unit.
+    /// An accumulator without increments; `reference_lx` sets the unit.
     pub(crate) fn new(receivers: usize, reference_lx: f64) -> Self {
         let exponent = libm::ceil(libm::log2(reference_lx.max(1e-30)));
         let reference = libm::exp2(exponent);
@@ -103,7 +104,8 @@ impl Accumulator {
         }
     }
 
-    /// The same with units for so much light as is expected at every receiver; where none is, nothing is known.
+    /// The accumulator with a unit at every receiver that suits the expected illuminance, lx. Zero means
+    /// unknown.
     pub(crate) fn expecting(self, about_lx: impl Iterator<Item = f64>) -> Self {
         let reference_lx = self.lux_per_unit * UNITS_OF_REFERENCE;
         let halvings = |lx: f64| {
@@ -147,23 +149,23 @@ impl Accumulator {
         self.increments += 1;
     }
 
-    /// Three channels of the sums of a receiver, from place `first` on, lx.
+    /// Sum of the three channels from index `first` on in [`Sums::values`] of a receiver, lx.
     pub(crate) fn part(&self, receiver: usize, first: usize) -> Rgb {
         let values = &self.sums[receiver].values;
         Rgb([0, 1, 2].map(|c| values[first + c] as f64 * self.lux_per_unit_at(receiver)))
     }
 
-    /// Adds to them alone.
+    /// Adds to these three channels.
     pub(crate) fn add_part(&mut self, receiver: usize, first: usize, lx: Rgb) {
         let lux_per_unit = self.lux_per_unit_at(receiver);
         for (channel, value) in lx.0.into_iter().enumerate() {
             let sum = &mut self.sums[receiver].values[first + channel];
-            // Sums from a file may be anything.
+            // Sums from a file may hold any value.
             *sum = sum.saturating_add(fixed(value / lux_per_unit));
         }
     }
 
-    /// Adds to a variance that is kept instead of squares, lx2.
+    /// Adds to a variance of a receiver, lx2. It is kept in the place of the sums of squares.
     pub(crate) fn add_variance(&mut self, receiver: usize, lx2: f64) {
         let lux_per_unit = self.lux_per_unit_at(receiver);
         let units = lx2 / (lux_per_unit * lux_per_unit);
@@ -171,24 +173,24 @@ impl Accumulator {
         *sum = sum.saturating_add(fixed(units).into());
     }
 
-    /// That variance, lx2.
+    /// The variance kept by [`Accumulator::add_variance`], lx2.
     pub(crate) fn variance_at(&self, receiver: usize) -> f64 {
         let lux_per_unit = self.lux_per_unit_at(receiver);
         self.sums[receiver].squares[0].max(0) as f64 * lux_per_unit * lux_per_unit
     }
 
-    /// Counts one more.
+    /// Adds one to a count of a receiver, kept in the place of its photometric total.
     pub(crate) fn count(&mut self, receiver: usize) {
         let sum = &mut self.sums[receiver].totals[0];
         *sum = sum.saturating_add(1);
     }
 
-    /// How often that was.
+    /// The count kept by [`Accumulator::count`].
     pub(crate) fn count_at(&self, receiver: usize) -> i64 {
         self.sums[receiver].totals[0]
     }
 
-    /// The mean of indirect light at a receiver, photometric; NaN as soon as any light added was.
+    /// Photometric mean of indirect light at a receiver, lx; NaN once a NaN was added.
     pub(crate) fn indirect_lx(&self, receiver: usize) -> f64 {
         if self.has_nan {
             f64::NAN
@@ -197,7 +199,7 @@ impl Accumulator {
         }
     }
 
-    /// Mean and its variance at a receiver, from the spread of the increments.
+    /// Mean at a receiver and variances of that mean, from the spread of the increments.
     pub(crate) fn estimate(&self, receiver: usize) -> Estimate {
         let Sums { values, totals, squares } = self.sums[receiver];
         let n = self.increments as f64;
@@ -205,17 +207,17 @@ impl Accumulator {
         let mean = |k: usize| Rgb([0, 1, 2].map(|c| values[3 * k + c] as f64 * lux_per_unit / n));
         let passed_on = totals[2] as f64 * lux_per_unit / n;
         let mean = Sample { direct: mean(0), caustic: mean(1), indirect: mean(2), passed_on };
-        // Where less light is expected than units are made for, rounding may be alike in all increments.
+        // The unit is as small as it gets: less light than it suits may round alike in all increments.
         let is_rounded = self.halvings_at(receiver) == MOST_HALVINGS;
         let rounding = if is_rounded { 0.25 * lux_per_unit * lux_per_unit } else { 0.0 };
         let variance = |k: usize| {
             if self.increments < 2 {
                 return f64::INFINITY;
             }
-            // n^2 times the mean square deviation, exactly: no digits are lost to the difference,
-            // and what never changes has none.
+            // n^2 times the mean square deviation, in exact integers: the difference loses no digits, and a
+            // value that never changes has variance zero.
             let total = i128::from(totals[k]);
-            // Sums from a file may be anything; those of a run do not saturate.
+            // Sums from a file may hold any value; those of a run do not saturate.
             let squares = i128::from(self.increments).saturating_mul(squares[k]);
             let spread = squares.saturating_sub(total * total).max(0);
             spread as f64 / (n * n * (n - 1.0)) * lux_per_unit * lux_per_unit + rounding
@@ -225,7 +227,7 @@ impl Accumulator {
     }
 }
 
-/// Mean of independent values and variance of their photometric mean.
+/// Mean of independent values, and the variance of its photometric value.
 pub(crate) fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
     let n = values.len() as f64;
     let mean = values.iter().copied().sum::<Rgb>() / n;
@@ -234,6 +236,6 @@ pub(crate) fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
 }
 
 fn fixed(units: f64) -> i64 {
-    // NaN becomes zero and infinities saturate.
+    // NaN becomes zero; infinities saturate.
     units.clamp(-LARGEST, LARGEST).round_ties_even() as i64
 }

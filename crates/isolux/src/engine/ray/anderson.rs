@@ -1,46 +1,49 @@
-//! Fixed points in few sweeps (Anderson 1965, "Iterative procedures for nonlinear integral equations").
+//! Anderson acceleration of fixed points (Anderson 1965, "Iterative procedures for nonlinear integral
+//! equations").
 //!
-//! The light between walls fades as a whole from sweep to sweep, and slower than anything else that is wrong with it. The last
-//! few sweeps tell how what is changed answers to changes of light; the next light is the one that would be changed
-//! least if it answered so again. On linear problems that is GMRES over as many directions (Walker and Ni 2011).
+//! The error that decays most slowly from sweep to sweep is the overall level of interreflected light. The
+//! last few sweeps tell how the residual answers to changes of the light. The next light is the one with the
+//! smallest residual, if the residual answers in the same way again. On linear problems this is GMRES over as
+//! many directions (Walker and Ni 2011).
 
 use crate::ablation::without;
 use crate::units::Rgb;
 use rayon::prelude::*;
 use std::collections::VecDeque;
 
-/// Sweeps that are remembered.
+/// Number of earlier sweeps that are remembered.
 const DEPTH: usize = 3;
 
-/// A direction of which less than this is left by those before, in the square, says nothing new.
+/// The share of the square of a direction that must be independent of those before. A direction with less
+/// adds nothing.
 const LEAST_PIVOT: f64 = 1e-10;
 
-/// Values of one part of the sums: always the same, so that they are.
+/// Values in one partial sum. It is fixed, so that the order of summation is always the same.
 const CHUNK: usize = 4096;
 
-/// What the last sweeps have told.
+/// The state of the acceleration: the last sweeps.
 pub(crate) struct Anderson {
-    /// The last image of the light, and what was changed.
+    /// The last image of the light and its residual (image minus light).
     before: Option<(Vec<Rgb>, Vec<Rgb>)>,
-    /// From sweep to sweep, the change of the image, and that of what was changed.
+    /// Differences of the image and of the residual between consecutive sweeps.
     steps: VecDeque<(Vec<Rgb>, Vec<Rgb>)>,
 }
 
 impl Anderson {
-    /// Nothing told yet.
+    /// The state before the first sweep.
     pub(crate) const fn new() -> Self {
         Self { before: None, steps: VecDeque::new() }
     }
 
-    /// The light to go on with, after some light and its image. Changes count by the weights: one over the light has dim rooms settle as
-    /// bright ones do.
+    /// The light for the next sweep, from the last light and its image. `weights` scale the residual: the
+    /// inverse of the light makes dim rooms converge as bright ones do.
     pub(crate) fn next(&mut self, light: &[Rgb], image: Vec<Rgb>, weights: &[f64]) -> Vec<Rgb> {
         let change = minus(&image, light);
         if let Some((image_before, change_before)) = &self.before {
             let now = dot(&change, &change, weights);
             let then = dot(change_before, change_before, weights);
             if now.luminance() > then.luminance() || without("anderson") {
-                // It did not answer as before.
+                // The residual grew: the earlier steps no longer predict its answer.
                 self.steps.clear();
             } else {
                 let step = (minus(&image, image_before), minus(&change, change_before));
@@ -54,7 +57,7 @@ impl Anderson {
         let one = |k: usize| {
             let undone = |((image, _), &share): (&(Vec<Rgb>, _), &Rgb)| image[k] * share;
             let mixed = image[k] - self.steps.iter().zip(&shares).map(undone).sum::<Rgb>();
-            // There is no light below none: a sweep alone goes on there.
+            // Negative light is impossible: such a channel takes the plain image.
             let held = |c: usize| if mixed.0[c] < 0.0 { image[k].0[c] } else { mixed.0[c] };
             Rgb([0, 1, 2].map(held))
         };
@@ -63,15 +66,15 @@ impl Anderson {
         next
     }
 
-    /// How much of each step to take back, channel by channel, so that the least is changed: least squares by
-    /// the normal equations.
+    /// The share of each step to take back, by channel, for the smallest residual: least squares by the
+    /// normal equations.
     fn shares(&self, change: &[Rgb], weights: &[f64]) -> Vec<Rgb> {
         let count = self.steps.len();
         let product = |row: usize, column: usize| -> Rgb {
             let of = |k: usize| self.steps.get(k).map_or(change, |step| &step.1);
             if row < count { dot(of(row), of(column), weights) } else { Rgb::BLACK }
         };
-        // Of the rows that there are, as many columns, and the right side next to them.
+        // A square matrix of `count` rows, with the right side in the next column.
         let products: [[Rgb; DEPTH + 1]; DEPTH] = std::array::from_fn(|row| {
             std::array::from_fn(
                 |column| {
@@ -89,7 +92,7 @@ impl Anderson {
     }
 }
 
-/// The weighted sum of products, part by part in their order, whoever adds them up.
+/// The weighted inner product. Its partial sums are added in a fixed order, for any number of threads.
 fn dot(a: &[Rgb], b: &[Rgb], weights: &[f64]) -> Rgb {
     let part = |((a, b), weights): ((&[Rgb], &[Rgb]), &[f64])| -> Rgb {
         let products = a.iter().zip(b).zip(weights);
@@ -100,11 +103,12 @@ fn dot(a: &[Rgb], b: &[Rgb], weights: &[f64]) -> Rgb {
     parts.into_iter().sum()
 }
 
-/// The solution of `count` equations, whose right sides come last; zero for unknowns that the others leave open.
+/// The solution of `count` equations whose right sides are the last column; zero for unknowns that are
+/// undetermined.
 fn solved(mut rows: [[f64; DEPTH + 1]; DEPTH], count: usize) -> [f64; DEPTH] {
     let mut found = [false; DEPTH];
     let diagonal: [f64; DEPTH] = std::array::from_fn(|k| rows[k][k]);
-    // The latest first: it says most.
+    // The latest step comes first as pivot: it tells the most.
     for k in (0..count).rev() {
         if rows[k][k] <= LEAST_PIVOT * diagonal[k] || rows[k][k] <= 0.0 {
             continue;

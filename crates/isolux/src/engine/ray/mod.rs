@@ -1,4 +1,4 @@
-//! Places, short paths and rays: what every other room is made of.
+//! Places, specular paths, short rays and accumulators: the parts that every other room is made of.
 
 mod accumulator;
 mod anderson;

@@ -1,18 +1,18 @@
-//! What noise may hide, and what it is said to.
+//! Allowance for noise in an estimated error.
 
-/// What errors are said to be that noise may hide.
+/// The error that is reported for an estimate with noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Noise {
-    /// One standard error more, to be on the safe side.
+    /// A safe value: squared errors are one standard error larger.
     Counted,
-    /// What is seen with noise taken off.
+    /// The estimate, from which noise has been subtracted.
     TakenOff,
-    /// Two standard errors less: what is left is hardly noise.
+    /// A lower bound: squared errors are two standard errors smaller. A positive rest is hardly noise.
     RuledOut,
 }
 
 impl Noise {
-    /// A squared error, given the standard error of its estimate.
+    /// A squared error, from its estimate and the standard error of that.
     pub(crate) fn of_squared(self, squared: f64, standard_error: f64) -> f64 {
         match self {
             Self::Counted => squared.max(0.0) + standard_error,
@@ -21,7 +21,8 @@ impl Noise {
         }
     }
 
-    /// A mean, given its standard error.
+    /// A mean error, from its estimate and the standard error of that: unchanged if noise is counted, else
+    /// two standard errors nearer to zero.
     pub(crate) fn of_mean(self, mean: f64, standard_error: f64) -> f64 {
         match self {
             Self::Counted => mean,

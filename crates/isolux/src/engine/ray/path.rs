@@ -7,11 +7,12 @@ use crate::scene::{Body, Finish, Scene};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Hit, Ray};
 
-/// Specular reflections after which a path is given up. Mirrors of a room lose the light long
-/// before; only light caught in lossless glass gets here.
+/// Specular reflections after which a path is given up. Mirrors of a room lose the light long before; only
+/// light trapped in lossless glass gets here.
 pub(crate) const MAX_SPECULAR: u32 = 128;
 
-/// Numbers for one path, in order.
+/// A stream of random numbers for one path: the dimensions of one point of a low-discrepancy sequence, in
+/// order.
 pub(crate) struct Dice {
     sequence: Sequence,
     index: u32,
@@ -24,33 +25,33 @@ impl Dice {
         Self { sequence, index, next_pair: 0 }
     }
 
-    /// A sequence for something that needs many points of its own.
+    /// A new sequence, for a part of the path that needs many points.
     pub(crate) const fn fork(&mut self) -> Sequence {
         self.next_pair += 1;
         self.sequence.fork(self.index, self.next_pair - 1)
     }
 
-    /// The next two numbers.
+    /// The next two numbers, each in [0, 1).
     pub(crate) const fn pair(&mut self) -> [f64; 2] {
         self.next_pair += 1;
         self.sequence.pair(self.index, self.next_pair - 1)
     }
 }
 
-/// How a path over specular surfaces ends.
+/// The end of a path over specular surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PathEnd {
-    /// It leaves the scene.
+    /// The path leaves the scene.
     Left,
-    /// It goes on no further than the last surface met.
+    /// The path ends at the last surface that it met.
     Absorbed,
-    /// Still carrying this share after as many surfaces as are followed.
+    /// The path still carries this share (luminance) after [`MAX_SPECULAR`] surfaces.
     GivenUp(f64),
 }
 
-/// Follows a ray back to where light comes from, over specular reflection and transmission. Every
-/// surface met that is opaque is handed to `met` with the throughput of luminance from there, before
-/// its specular part is followed.
+/// Follows a ray backwards to the sources of its light, over specular reflection and transmission. `met`
+/// receives every opaque surface met, with the throughput of luminance from there to the start, before the
+/// specular part of that surface is followed.
 pub(crate) fn follow(
     scene: &Scene,
     ray: Ray,
@@ -64,7 +65,8 @@ pub(crate) fn follow(
     })
 }
 
-/// The same from where the ray has come to first; `met` is told, too, how many surfaces came before.
+/// Follows a path as [`follow`] does, from its first hit on. `met` also receives the number of surfaces met
+/// before.
 #[inline]
 pub(crate) fn follow_on(
     scene: &Scene,
@@ -73,8 +75,8 @@ pub(crate) fn follow_on(
     dice: &mut Dice,
     mut met: impl FnMut(u32, &SurfacePoint, &Finish, Rgb),
 ) -> PathEnd {
-    // Without the square of the index where the path is over that where it began: roulette must not
-    // end paths for being in a dense medium, which they may leave again.
+    // The throughput leaves out the square of the ratio of refractive indices between here and the start:
+    // Russian roulette must not end a path for being in a dense medium, which it may leave again.
     let mut throughput = Rgb::WHITE;
     let mut luminance_of_start = 1.0;
     for number in 0..MAX_SPECULAR {
@@ -95,7 +97,7 @@ pub(crate) fn follow_on(
     PathEnd::GivenUp(throughput.luminance())
 }
 
-/// One sample of where light goes on without diffuse reflection, with Russian roulette.
+/// One sample of the specular part of the light that leaves a surface, with Russian roulette.
 pub(crate) fn specular_step(
     body: &Body,
     surface: &SurfacePoint,
@@ -117,15 +119,16 @@ pub(crate) fn specular_step(
             if share == 0.0 {
                 return None;
             }
-            // Strong reflections are always followed while the path carries much: roulette on them
-            // would cost more in noise than it saves in rays.
+            // Strong reflections are always followed while the path carries much: roulette on them would cost
+            // more in noise than it saves in rays.
             let chance = (2.0 * share * throughput.max_channel()).min(1.0);
             let [survive, pick] = dice.pair();
             if survive >= chance {
                 return None;
             }
             let square = if finish.is_glossy() { dice.pair() } else { [0.0; 2] };
-            // `reflect` gives the weight of a sample taken with the probability `share`.
+            // `reflect` weights its sample as one taken with the probability `share`; the probability here is
+            // `chance`.
             let next = reflect(finish, surface, incoming, pick, square)?;
             Some(Scattered { weight: next.weight * (share / chance), ..next })
         }

@@ -1,42 +1,43 @@
-//! Places that are asked for, and the surfaces that they lie on.
+//! Places on surfaces, found from points in space.
 
 use super::surface::SurfacePoint;
 use crate::sampling::Key;
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Normal, Point, Ray, Vector};
 
-/// A point counts as on a surface within this share of the scene's extent.
+/// Distance within which a point counts as on a surface, as a share of the scene's extent.
 const REACH_SHARE: f64 = 1e-4;
 
-/// Roundings of coordinates that places on the rim of a triangle are moved inwards by. The nearest wall is nearer than that by
-/// the sine of the angle between it and the way to the middle: by more than one rounding down to a degree.
+/// Distance by which places on the rim of a triangle move inwards, in rounding steps of its coordinates. A
+/// wall that meets the rim is nearer than this by the sine of its angle with the direction to the centroid.
+/// The place stays more than one rounding step away from it for angles down to one degree.
 pub(crate) const INWARDS: f64 = 64.0;
 
-/// A place and the way a luxmeter faces there.
+/// A place and the direction in which a luxmeter faces there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProbePoint {
-    /// Where, m.
+    /// Position, m.
     pub position: Point,
-    /// Where it faces.
+    /// Direction that the luxmeter faces.
     pub normal: Normal,
 }
 
-/// The surfaces of a scene, by place.
+/// A search for surfaces of a scene by place.
 pub(crate) struct Places<'a> {
     scene: &'a Scene,
     reach_m: f64,
 }
 
 impl<'a> Places<'a> {
-    /// Those of a scene.
+    /// A search over one scene. Its reach follows from the extent of the scene.
     pub(crate) fn of(scene: &'a Scene) -> Self {
         let bounds = scene.bvh().mesh().bounds();
         let extent_m = bounds.map_or(1.0, |(low, high)| (high - low).length());
         Self { scene, reach_m: REACH_SHARE * extent_m }
     }
 
-    /// The surface of those that `carries` accepts at a point: straight below it, or, at the rim of a
-    /// surface, just beside.
+    /// The surface at a point, among those that `carries` accepts. It lies straight below the point or, at
+    /// the rim of a surface, just beside it.
     pub(crate) fn surface_at(
         &self,
         at: ProbePoint,
@@ -59,13 +60,14 @@ impl<'a> Places<'a> {
         let ray = Ray::new(point + normal * self.reach_m, down).up_to(2.0 * self.reach_m as f32);
         let hit = self.scene.bvh().closest_hit(&ray)?;
         let surface = SurfacePoint::from_hit(self.scene, &hit);
-        // Sixty degrees: a surface that faces quite another way is not the one asked for.
+        // Surfaces that face more than 60 degrees away are not the one asked for.
         (surface.geometric.dot(normal) > 0.5).then_some(surface)
     }
 
-    /// A place on the rim of a triangle, moved inwards beyond the rounding of coordinates, so that
-    /// it does not lie in the wall that meets it there. Rounding is that of the corners, which a wall may share: that of the place
-    /// is nothing where its coordinates are zero. Of a triangle that is hardly larger than that, half the way to its middle is left.
+    /// A place on the rim of a triangle, moved inwards beyond the rounding of coordinates. It then does not
+    /// lie in a wall that meets the rim. The rounding is that of the corners, which a wall may share; the
+    /// place itself may have zero coordinates, whose rounding is zero. In a tiny triangle the place moves at
+    /// most half the distance to the centroid.
     pub(crate) fn pulled_in(&self, at: SurfacePoint) -> SurfacePoint {
         let triangle = self.scene.triangle(at.triangle);
         let inwards = triangle.centroid() - at.point;
@@ -82,7 +84,7 @@ impl<'a> Places<'a> {
     }
 }
 
-/// Random numbers belong to the place, so that neighbours are independent.
+/// A key for random numbers that depends on the place alone, so that neighbouring places are independent.
 pub(crate) fn place_key(point: Point) -> Key {
     let place = [point.x, point.y, point.z];
     place.iter().fold(Key::new(0).with(5), |key, c| key.with(c.to_bits()))

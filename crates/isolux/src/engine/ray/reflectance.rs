@@ -1,4 +1,4 @@
-//! What surfaces reflect diffusely, in the mean.
+//! Mean diffuse reflectance of surfaces.
 
 use crate::elements::{Origin, Subdivision};
 use crate::sampling::{Key, Sequence};
@@ -7,10 +7,11 @@ use crate::units::Rgb;
 use isolux_geometry::Triangle;
 use rayon::prelude::*;
 
-/// Places of an element at which its texture is asked.
+/// Places in an element at which its texture is sampled.
 const PLACES: u32 = 16;
 
-/// Of a part of a triangle; `number` picks the places that its texture is asked at.
+/// Mean diffuse reflectance of a part of a triangle. `number` seeds the places at which its texture is
+/// sampled.
 pub(crate) fn of_part(scene: &Scene, origin: &Origin, part: &Triangle, number: u32) -> Rgb {
     let Some(finish) = scene.material(origin.triangle).finish(origin.back) else {
         return Rgb::BLACK;
@@ -29,7 +30,7 @@ pub(crate) fn of_part(scene: &Scene, origin: &Origin, part: &Triangle, number: u
     (0..PLACES).map(at).sum::<Rgb>() / f64::from(PLACES)
 }
 
-/// Of all surfaces, photometric.
+/// Mean photometric diffuse reflectance of all surfaces, weighted by area.
 pub(crate) fn of_all(scene: &Scene, subdivision: &Subdivision) -> f64 {
     let of_leaf = |node: u32| {
         let part = subdivision.triangle(node);

@@ -1,4 +1,4 @@
-//! What specular surfaces do to light: mirrors, gloss, coats, glass.
+//! Scattering by specular surfaces: mirrors, gloss, coats, glass.
 
 use super::surface::SurfacePoint;
 use crate::sampling::Ggx;
@@ -6,19 +6,20 @@ use crate::scene::{Body, Dielectric, Finish};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray, Vector};
 
-/// Light sent on by a surface, one sample of it.
+/// One sample of the light that a surface scatters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scattered {
-    /// Where it goes on.
+    /// The ray along which the light goes on.
     pub(crate) ray: Ray,
     pub(crate) direction: Direction,
-    /// Factor on what it carries, the chance of this sample taken into account.
+    /// Factor on the light carried, divided by the probability of this sample.
     pub(crate) weight: Rgb,
-    /// Whether it was a perfect mirror.
+    /// Whether a perfect mirror reflected it.
     pub(crate) mirrored: bool,
 }
 
-/// Probability with which the specular part of a finish is followed: its largest reflectance.
+/// Probability with which the specular part of a finish is followed: its largest reflectance over the
+/// channels.
 pub(crate) fn specular_share(finish: &Finish, surface: &SurfacePoint, incoming: Direction) -> f64 {
     let cos = -incoming.cos(surface.shading);
     (finish.mirror + gloss_share(finish, cos) + finish.coat_reflectance(cos))
@@ -34,7 +35,7 @@ fn gloss_share(finish: &Finish, cos: f64) -> Rgb {
 }
 
 /// One sample of the specular part of a finish, weighted as one taken with the probability
-/// [`specular_share`]; `pick` of [0, 1) chooses between mirror, coat and gloss, `square` the facet.
+/// [`specular_share`]. `pick` in [0, 1) chooses between mirror, coat and gloss; `square` chooses the facet.
 pub(crate) fn reflect(
     finish: &Finish,
     surface: &SurfacePoint,
@@ -47,7 +48,7 @@ pub(crate) fn reflect(
     let cos = -incoming.cos(surface.shading);
     let gloss = gloss_share(finish, cos).max_channel();
     let coat = finish.coat_reflectance(cos).max_channel();
-    // All may be strong in channels of their own: each is drawn by its strongest.
+    // Each part is drawn in proportion to its strongest channel, which may differ from part to part.
     let mirror_chance = mirror / (mirror + gloss + coat);
     let coat_chance = coat / (mirror + gloss + coat);
     if pick < mirror_chance {
@@ -65,7 +66,7 @@ pub(crate) fn reflect(
     let facet = facet(gloss.alpha, surface, incoming, square)?;
     let cosines = [cos, facet.direction.cos(surface.shading)];
     let reflectance = schlick(gloss.f0, facet.cos) * facet.unmasked * finish.through_coat(cosines);
-    // No more than the other parts leave, whatever the angle.
+    // The gloss reflects at most the share that the other parts leave, at any angle.
     let chance = 1.0 - mirror_chance - coat_chance;
     let weight = reflectance.min(finish.gloss_limit(cosines)) * (1.0 / (share * chance));
     scattered(surface, facet.direction, weight, false)
@@ -86,12 +87,12 @@ fn scattered(
     })
 }
 
-/// A reflection at one facet of GGX, drawn from those that are visible.
+/// A reflection at one microfacet of the GGX distribution, drawn from the visible ones.
 struct Facet {
     direction: Direction,
-    /// Of the angle at which light falls on it.
+    /// Cosine of the angle of incidence on the facet.
     cos: f64,
-    /// What is left of its reflectance: the masking G1 of the direction.
+    /// The unmasked share of its reflectance: the masking function G1 of the outgoing direction.
     unmasked: f64,
 }
 
@@ -125,8 +126,8 @@ fn schlick(f0: Rgb, cos: f64) -> Rgb {
     f0.map(|f| f + (1.0 - f) * m5)
 }
 
-/// One sample of what a smooth dielectric does: reflection in proportion to Fresnel's reflectance,
-/// else transmission.
+/// One sample of the light that leaves a smooth dielectric: reflection with a probability in proportion to
+/// Fresnel's reflectance, else transmission.
 pub(crate) fn refract(
     glass: &Dielectric,
     surface: &SurfacePoint,
@@ -161,9 +162,9 @@ pub(crate) fn refract(
     }
 }
 
-/// What luminance is multiplied by, besides [`refract`]'s weight, on the way back from where a path
-/// goes on: light that enters a denser medium is pressed into fewer directions, and luminance over the
-/// square of the index stays (Nicodemus 1963, "Radiance"). Flux needs no such factor.
+/// Factor on luminance at a refraction, besides the weight of [`refract`], for a path followed backwards.
+/// Light that enters a denser medium is pressed into a smaller solid angle; luminance over the square of the
+/// index is invariant (Nicodemus 1963, "Radiance"). Flux needs no such factor.
 pub(crate) fn luminance_ratio(body: &Body, surface: &SurfacePoint, onwards: Direction) -> f64 {
     match body {
         Body::Dielectric(glass) if !glass.thin && onwards.cos(surface.shading) < 0.0 => {
@@ -174,16 +175,16 @@ pub(crate) fn luminance_ratio(body: &Body, surface: &SurfacePoint, onwards: Dire
     }
 }
 
-/// What a pane does to unpolarized light, inner reflections summed.
+/// Reflectance and transmittance of a pane for unpolarized light, with all inner reflections.
 pub(crate) struct Pane {
     reflectance: Rgb,
     pub(crate) transmittance: Rgb,
 }
 
-/// A pane of two parallel faces in one surface. For each polarization, with the reflectance R of a
-/// face and the share t left by one crossing, `T = (1 - R)^2 t / (1 - R^2 t^2)` is transmitted and
-/// `R (1 + t T)` reflected (Born and Wolf, "Principles of Optics", 7.6, without interference); then
-/// the mean of the two.
+/// A pane of two parallel faces in one surface. For each polarization, with the reflectance R of a face and
+/// the share t left by one crossing, `T = (1 - R)^2 t / (1 - R^2 t^2)` is transmitted and `R (1 + t T)`
+/// reflected (Born and Wolf, "Principles of Optics", 7.6, without interference). The result is the mean of
+/// the two polarizations.
 pub(crate) fn pane(glass: &Dielectric, cos: f64) -> Pane {
     let faces = fresnel(cos, glass.ior);
     let transmitted = |r: f64, t: f64| {
@@ -198,7 +199,7 @@ pub(crate) fn pane(glass: &Dielectric, cos: f64) -> Pane {
     }
 }
 
-/// Half of each polarization.
+/// Mean of the two polarizations.
 fn mean([a, b]: [f64; 2]) -> f64 {
     0.5 * (a + b)
 }
@@ -216,7 +217,7 @@ fn fresnel(cos: f64, ior: f64) -> [f64; 2] {
     [perpendicular * perpendicular, parallel * parallel]
 }
 
-/// Snell's law; `None` at total reflection.
+/// Direction of the refracted ray by Snell's law; `None` at total reflection.
 fn refracted(incoming: Direction, surface: &SurfacePoint, cos: f64, ior: f64) -> Option<Direction> {
     let sin2 = (1.0 - cos * cos) / (ior * ior);
     if sin2 >= 1.0 {

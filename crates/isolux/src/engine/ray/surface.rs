@@ -10,29 +10,28 @@ use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
 pub(crate) struct SurfacePoint {
     pub(crate) triangle: u32,
     pub(crate) back: bool,
-    /// Barycentric weights of the second and third corner.
+    /// Barycentric weight of the second corner; `v` is that of the third.
     pub(crate) u: f64,
     pub(crate) v: f64,
     pub(crate) point: Point,
     pub(crate) geometric: Normal,
     pub(crate) shading: Normal,
-    /// How far from it rays start.
+    /// Distance from the surface at which rays start, m.
     pub(crate) away_m: f64,
 }
 
 impl SurfacePoint {
-    /// Where a ray arrives.
+    /// The place that a ray hits.
     pub(crate) fn from_hit(scene: &Scene, hit: &Hit) -> Self {
         Self::new(scene, hit.triangle, hit.back, f64::from(hit.u), f64::from(hit.v))
     }
 
-    /// A place by its barycentric weights.
-    /// The place itself.
+    /// The place with the barycentric weights of `place`.
     pub(crate) fn on_side(scene: &Scene, place: PlaceOnSide) -> Self {
         Self::new(scene, place.triangle, place.back, place.uv[0], place.uv[1])
     }
 
-    /// The place by its weights.
+    /// The place on a side of a triangle with the barycentric weights `u` and `v`.
     pub(crate) fn new(scene: &Scene, triangle: u32, back: bool, u: f64, v: f64) -> Self {
         let corners = scene.triangle(triangle);
         let geometric = scene.geometric_normal(triangle);
@@ -50,7 +49,7 @@ impl SurfacePoint {
         }
     }
 
-    /// A place of a node of a subdivision, for a point of the unit square, evenly over its area.
+    /// A random place in a node of a subdivision: maps a point of the unit square, uniformly by area.
     pub(crate) fn in_node(
         scene: &Scene,
         subdivision: &Subdivision,
@@ -64,19 +63,19 @@ impl SurfacePoint {
         Self::new(scene, origin.triangle, origin.back, u, v)
     }
 
-    /// The middle of a node of a subdivision.
+    /// The centroid of a node of a subdivision.
     pub(crate) fn amid_node(scene: &Scene, subdivision: &Subdivision, node: u32) -> Self {
-        // The point of the unit square that is taken to equal weights.
+        // This point of the unit square maps to equal weights.
         Self::in_node(scene, subdivision, node, [4.0 / 9.0, 0.5])
     }
 
-    /// A place in space that faces a way, and the rounding of the scene there, m.
+    /// A place in free space that faces along `normal`; `away_m` is the rounding of the scene there, m.
     pub(crate) fn in_space(point: Point, normal: Normal, away_m: f64) -> Self {
         let (geometric, shading) = (normal, normal);
         Self { triangle: u32::MAX, back: false, u: 0.0, v: 0.0, point, geometric, shading, away_m }
     }
 
-    /// Where rays start that leave this side.
+    /// The origin of rays that leave this side.
     pub(crate) fn start(&self) -> Point {
         self.point + self.geometric * self.away_m
     }
@@ -86,12 +85,12 @@ impl SurfacePoint {
         Ray::new(self.start(), direction).skipping(self.triangle)
     }
 
-    /// The ray that goes through to the other side.
+    /// The ray that passes through to the other side.
     pub(crate) fn cross(&self, direction: Direction) -> Ray {
         self.other_side().leave(direction)
     }
 
-    /// What it reflects diffusely; nothing where it is transparent.
+    /// Diffuse reflectance; zero where the surface is transparent.
     pub(crate) fn reflectance(&self, scene: &Scene) -> Rgb {
         let finish = scene.material(self.triangle).finish(self.back);
         finish.map_or(Rgb::BLACK, |finish| {
@@ -99,7 +98,7 @@ impl SurfacePoint {
         })
     }
 
-    /// The same place seen from the other side.
+    /// The same place on the other side of the triangle.
     pub(crate) fn other_side(&self) -> Self {
         Self { back: !self.back, geometric: -self.geometric, shading: -self.shading, ..*self }
     }
