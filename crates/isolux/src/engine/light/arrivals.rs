@@ -1,7 +1,8 @@
-//! What of the light of luminaires comes to the scene at all.
+//! The share of the light of each luminaire that reaches the scene.
 //!
-//! A lamp above the ceiling of a room, or a beam past everything, takes part in no map: the map is right, and yet not what was meant. Few
-//! particles of every luminaire tell, each followed over mirrors and glass to where it is first known to matter, or not to.
+//! A lamp above the ceiling of a room, or a beam past everything, takes part in no map. The map is
+//! right, but not the one that was meant. A few particles of every luminaire find such lamps. Each
+//! is followed over mirrors and glass to the first place where it matters, or to its end.
 
 use super::emission::Emission;
 use crate::elements::carries_map;
@@ -10,41 +11,42 @@ use crate::sampling::{Key, Sequence};
 use crate::scene::{LuminaireKind, Scene};
 use rayon::prelude::*;
 
-/// Particles of all luminaires together, and bounds of those of one: shares of many are known to a hundredth together, that of one alone to
-/// less than that.
+/// Particles of all luminaires together, and the bounds for one luminaire. The share of many
+/// luminaires together is known to a hundredth, that of a single one less well.
 const PARTICLES: usize = 1 << 14;
 const FEWEST: usize = 16;
 const MOST: usize = 1 << 12;
 
-/// Where less than this share arrives, as many particles as there may be look again: of one that sends a tenth of its light into the scene, the
-/// fewest particles miss that once in five times, and these never.
+/// Share of arriving light below which [`MOST`] particles look again. Of a luminaire that sends a tenth
+/// of its light into the scene, [`FEWEST`] particles miss all once in five times, and [`MOST`] never.
 const LITTLE: f64 = 0.05;
 
-/// What becomes of the light of a luminaire.
+/// The fate of the light of a luminaire.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrival {
     /// Name of the luminaire, or of the shape that emits.
     pub name: String,
-    /// Its luminous flux, lm; none of parallel light, which has no end.
+    /// Luminous flux, lm; `None` for parallel light, which is unbounded.
     pub luminous_flux_lm: Option<f64>,
-    /// The share that comes to a side that carries a map, straight or over mirrors and glass.
+    /// Share that reaches a side that carries a map, straight or over mirrors and glass.
     pub arrives: f64,
-    /// The share that leaves the scene without, or ends on a side that carries none and reflects nothing: the back of a one-sided
-    /// surface, another lamp. Mirrors and glass keep the rest. Of parallel light what passes by the scene is not counted.
+    /// Share that leaves the scene before, or ends on a side that carries no map and reflects
+    /// nothing: the back of a one-sided surface, another lamp. Mirrors and glass keep the rest.
+    /// Parallel light that passes by the scene is not counted.
     pub lost: f64,
 }
 
-/// Counts of particles.
+/// Numbers of particles by their end.
 #[derive(Clone, Copy, Default)]
 struct Counts {
     arrived: usize,
     left: usize,
-    /// Ended on what carries no map.
+    /// Particles that ended on a side that carries no map.
     shut_out: usize,
     kept: usize,
 }
 
-/// That of all luminaires that have flux, emitting surfaces last. The same for the same scene.
+/// The arrival of every luminaire that has flux, emitting surfaces last. It is the same for the same scene.
 pub fn arrivals(scene: &Scene) -> Vec<Arrival> {
     let Some(emission) = Emission::new(scene) else { return Vec::new() };
     let count = (PARTICLES / emission.count()).clamp(FEWEST, MOST);
@@ -61,7 +63,7 @@ fn arrival(scene: &Scene, emission: &Emission, number: usize, count: usize) -> A
         let left = if is_parallel { 0 } else { counts.left };
         let lost = left + counts.shut_out;
         let all = (counts.arrived + counts.kept + lost) as f64;
-        // Nothing of parallel light may have met anything.
+        // All parallel light may pass by the scene.
         if all > 0.0 { [counts.arrived as f64 / all, lost as f64 / all] } else { [0.0, 1.0] }
     };
     let first = shares(0, count);
@@ -78,7 +80,7 @@ fn arrival(scene: &Scene, emission: &Emission, number: usize, count: usize) -> A
     }
 }
 
-/// Where particles of a luminaire come to.
+/// Numbers of particles of a luminaire by their end.
 fn sent(
     scene: &Scene,
     emission: &Emission,

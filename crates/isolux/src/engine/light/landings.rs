@@ -1,4 +1,4 @@
-//! Where the light of luminaires lands, by particles that go no further than by mirrors.
+//! Places where the light of luminaires lands, found by particles that follow only planar mirrors.
 
 use super::emission::Emission;
 use super::lighting::Lighting;
@@ -8,20 +8,22 @@ use crate::sampling::Sequence;
 use crate::scene::Scene;
 use rayon::prelude::*;
 
-/// Particles that tell whether there is anything, and how many more tell where it is.
+/// Number of particles that tell whether there is any light.
 pub(crate) const FIRST: u32 = 1 << 11;
+/// Number of further particles that tell where it is.
 pub(crate) const MORE: u32 = 1 << 14;
-/// So many of either for so many luminaires, and for more of them as many times as many, up to so many times.
+/// Number of luminaires for which [`FIRST`] and [`MORE`] suffice; the counts grow in proportion to larger numbers.
 const OF_FEW: u32 = 8;
+/// The largest factor on these counts.
 const MOST_TIMES: u32 = 16;
-/// They go no further than by so many mirrors.
+/// The most mirrors that a particle follows.
 const SCATTERINGS: u32 = 16;
 
-/// What comes to a place differs from what is thought if it does by so many times its standard error: of fifteen thousand
-/// places one does by chance.
+/// Standard errors by which the light at a place must differ from the expected value to count as
+/// different. By chance one of fifteen thousand places does.
 pub(crate) const BELIEVED: f64 = 4.0;
 
-/// Flux that has come to a place.
+/// The flux that one particle brings to a place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Landing {
     pub(crate) triangle: u32,
@@ -30,7 +32,7 @@ pub(crate) struct Landing {
     pub(crate) flux_lm: f64,
 }
 
-/// What comes to the places of some surface.
+/// The flux that particles bring to the places of a surface, and the sum of its squares.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sum {
     pub(crate) flux_lm: f64,
@@ -44,12 +46,12 @@ impl Sum {
     }
 }
 
-/// So many times as many particles tell of the luminaires that there are.
+/// Factor on the number of particles that the number of luminaires requires.
 pub(crate) fn times(emission: &Emission<'_>) -> u32 {
     (emission.count() as u32 / OF_FEW).clamp(1, MOST_TIMES)
 }
 
-/// Where so many particles come straight or over plane mirrors, on surfaces that carry a map.
+/// The landings of `count` particles, straight or over planar mirrors, on surfaces that carry a map.
 pub(crate) fn landed(
     (scene, lighting): (&Scene, &Lighting<'_>),
     emission: &Emission<'_>,

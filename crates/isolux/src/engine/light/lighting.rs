@@ -1,10 +1,8 @@
-//! Direct light: what arrives from luminaires without diffuse reflection, straight or by planar
-//! mirrors.
+//! Direct light: the light that arrives from luminaires without diffuse reflection, straight or by planar mirrors.
 //!
-//! Every luminaire is a source, and so is its image in every planar mirror that it can light, and
-//! the image of that image in the next mirror: virtual luminaires, which are exact. What they do not
-//! cover (curved mirrors, glass, gloss, longer chains) is left to particles, which ask
-//! [`Lighting::covers`].
+//! Every luminaire is a source. So is its image in every planar mirror that it can light, and the image
+//! of that image in the next mirror. These virtual luminaires are exact. Particles carry the rest
+//! (curved mirrors, glass, gloss, longer chains); they ask [`Lighting::covers`] which light is theirs.
 
 use super::mirrors::planar::Mirrors;
 use super::mirrors::twins::Twins;
@@ -14,46 +12,48 @@ use super::sources::{LuminaireId, Source, SourceKind};
 use super::tree::{Images, Tree};
 use crate::scene::{Material, Scene};
 
-/// Sources evaluated one and all at the end of a gathering ray; with more, one of them is drawn.
+/// The most sources that are all evaluated at the end of a gathering ray; of more, one is drawn.
 pub(super) const EXACT_SOURCES: usize = 4;
 
-/// With more sources than this, gathering rays read direct light from the map where they end.
+/// The most sources with which gathering rays evaluate direct light at their ends; with more, they
+/// read it from the map.
 const MOST_EVALUATED_AT_ENDS: usize = 8;
 
-/// Points among the sources from which on they are drawn by their tree at the ends of gathering rays,
-/// and at receivers.
+/// Number of point sources above which the light tree draws them: here at the ends of gathering
+/// rays, below at receivers.
 pub(super) const DRAWN_AT_ENDS: usize = 32;
 const DRAWN_AT_RECEIVERS: usize = 512;
 
-/// Points among the sources up to which all of them show on glossy surfaces.
+/// The most point sources with which all of them show on glossy surfaces.
 const MOST_SHOWN: usize = 64;
 
-/// Shadow rays to points in one replicate at a receiver, where they are many.
+/// Shadow rays to point sources in one replicate at a receiver, where the light tree draws them.
 pub(super) const RAYS_TO_MANY: usize = 16;
 
-/// Samples that all emitting surfaces together get at a receiver in one replicate, and the fewest
-/// for one of them.
+/// Samples of all emitting surfaces together in one replicate at a receiver.
 const AREA_SAMPLES: usize = 64;
+/// The fewest samples of one emitting surface.
 const FEWEST_AREA_SAMPLES: usize = 4;
 
-/// All sources of a scene.
+/// The sources of a scene, prepared for sampling.
 pub(crate) struct Lighting<'s> {
     pub(super) scene: &'s Scene,
     pub(super) mirrors: Mirrors,
     pub(super) twins: Twins,
     pub(super) sources: Vec<Source>,
-    /// Where those of every luminaire start.
+    /// Index of the first source of every luminaire.
     pub(super) starts: Vec<usize>,
     pub(super) leaves_chains: bool,
     pub(super) left_out: f64,
-    /// Emitting surfaces that are not in the tree, and their images.
+    /// Number of emitting surfaces that are not in the light tree, images included.
     pub(super) area_sources: usize,
     pub(super) panes: Panes,
-    /// The sources that are points and the faces of emitting surfaces, where they are many, by luminaire and chain.
+    /// The light tree of point sources and of the faces of emitting surfaces, where they are many.
     pub(super) tree: Tree,
+    /// The chains of mirrors by which sources of the light tree have images.
     pub(super) chains: Vec<Vec<u32>>,
     pub(super) images: Images,
-    /// The ones that are not in the tree.
+    /// Indices of the sources that are not in the light tree.
     pub(super) others: Vec<u32>,
     pub(super) points: usize,
     pub(super) openings: Openings,
@@ -65,28 +65,28 @@ impl Lighting<'_> {
         self.sources.len()
     }
 
-    /// Whether rays read direct light from the map where they end.
+    /// Whether gathering rays read direct light from the map where they end.
     pub(crate) fn are_read_at_ends(&self) -> bool {
         self.source_count() > MOST_EVALUATED_AT_ENDS
     }
 
-    /// Whether direct light is measured once for all, exactly or with a known error: no emitting surface, or they are so many that
-    /// they are chosen among.
+    /// Whether direct light is measured once for the whole run, exactly or with a known error. It
+    /// is if there is no emitting surface outside the light tree.
     pub(crate) fn is_measured_once(&self) -> bool {
         self.area_sources == 0
     }
 
-    /// Whether some luminaires are chosen to be looked at, among many.
+    /// Whether receivers draw from the light tree, because there are many point sources or faces.
     pub(crate) fn has_many(&self) -> bool {
         self.points > DRAWN_AT_RECEIVERS || self.has_faces()
     }
 
-    /// Whether luminaires are so many that none of them matters alone.
+    /// Whether there are so many sources that none of them matters alone.
     pub(crate) fn are_countless(&self) -> bool {
         self.sources.len() > DRAWN_AT_RECEIVERS
     }
 
-    /// Whether emitting surfaces are among what is chosen from.
+    /// Whether the light tree contains faces of emitting surfaces.
     pub(crate) fn has_faces(&self) -> bool {
         !self.tree.faces.is_empty()
     }
@@ -99,13 +99,13 @@ impl Lighting<'_> {
             || self.scene.materials().iter().any(Material::is_glossy)
     }
 
-    /// Bound of the share of all light that neither sources nor, without caustics, particles bring.
+    /// Bound of the share of all light that neither the sources nor particles bring; zero if there are caustics.
     pub(crate) fn left_out(&self) -> f64 {
         if self.leaves_caustics() { 0.0 } else { self.left_out }
     }
 
-    /// Whether the light of a luminaire that was reflected by these planar mirrors in this order
-    /// is part of direct light here.
+    /// Whether the light of a luminaire after reflection by these planar mirrors in this order is
+    /// part of direct light here.
     pub(crate) fn covers(&self, luminaire: LuminaireId, chain: &[u32]) -> bool {
         let number = match luminaire {
             LuminaireId::Luminaire(k) => k as usize,
@@ -114,23 +114,23 @@ impl Lighting<'_> {
         chain.is_empty() || image(&self.sources, &self.starts, number, chain).is_some()
     }
 
-    /// The planar mirror that a side of a triangle belongs to.
+    /// Index of the planar mirror that a side of a triangle belongs to.
     pub(crate) fn mirror_of(&self, triangle: u32, back: bool) -> Option<u32> {
         self.mirrors.of(triangle, back)
     }
 
-    /// Whether [`Lighting::sampled`] is free of noise: few luminaires, none of which is an emitting surface.
+    /// Whether [`Lighting::sampled`] is free of noise: there are few luminaires, and none is an emitting surface.
     pub(crate) fn samples_exactly(&self) -> bool {
         self.area_sources == 0 && !self.has_many()
     }
 
-    /// Shadow rays that [`Lighting::sampled`] takes with so many to every emitting surface, about.
+    /// Approximate number of shadow rays of [`Lighting::sampled`] with `samples` to every emitting surface.
     pub(crate) fn rays_of_sampled(&self, samples: usize) -> u64 {
         let points = if self.has_many() { RAYS_TO_MANY } else { self.points };
         (points + self.area_sources * samples) as u64
     }
 
-    /// Shadow rays that [`Lighting::estimate`] takes at most.
+    /// The most shadow rays that [`Lighting::estimate`] takes.
     pub(crate) fn rays_of_estimate(&self) -> u64 {
         let all = self.sources.len();
         if all <= EXACT_SOURCES { all as u64 } else { 1 }
@@ -140,8 +140,8 @@ impl Lighting<'_> {
         (AREA_SAMPLES / self.area_sources.max(1)).max(FEWEST_AREA_SAMPLES)
     }
 
-    /// Whether there are only a few luminaires without surface and nothing specular before them: all are asked wherever direct light
-    /// is, and exactly what they send out arrives.
+    /// Whether there are only a few point luminaires and nothing specular before them. Direct light
+    /// then evaluates all of them everywhere, without error.
     pub(crate) fn are_few_points(&self) -> bool {
         let is_plain =
             |s: &Source| matches!(s.kind, SourceKind::Point { .. }) && s.chain.is_empty();
@@ -150,18 +150,18 @@ impl Lighting<'_> {
             && !self.panes.exist()
     }
 
-    /// Whether there are luminaires without surface, and so few, images counted, that glossy surfaces show them.
+    /// Whether glossy surfaces show point luminaires: there are some, but few, images included.
     pub(crate) fn shows_points(&self) -> bool {
         !self.sources.iter().all(Source::is_area) && self.points <= MOST_SHOWN
     }
 
-    /// The sources that are not in the tree.
+    /// The sources that are not in the light tree.
     pub(super) fn others(&self) -> impl Iterator<Item = &Source> {
         self.others.iter().map(|&k| &self.sources[k as usize])
     }
 }
 
-/// Which of some weights a place in their sum falls to; none beyond it.
+/// Index of the weight into which a place on the running sum falls; `None` beyond the total.
 pub(super) fn drawn(weights: &[f64], place: f64) -> Option<usize> {
     let mut left = place;
     weights.iter().position(|&weight| {
@@ -170,8 +170,8 @@ pub(super) fn drawn(weights: &[f64], place: f64) -> Option<usize> {
     })
 }
 
-/// The source that is the image of a luminaire by a chain of mirrors; emitting surfaces are counted
-/// after the luminaires without.
+/// Index of the source that is the image of a luminaire by a chain of mirrors. Emitting surfaces
+/// have the numbers after those of the other luminaires.
 pub(super) fn image(
     sources: &[Source],
     starts: &[usize],

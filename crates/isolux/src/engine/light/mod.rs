@@ -1,4 +1,4 @@
-//! Light from luminaires and emitting surfaces: sources, their mirror images, and how they are sampled.
+//! Luminaires and emitting surfaces: their mirror images, and sampling of the light that they send.
 
 mod arrivals;
 mod emission;

@@ -1,4 +1,4 @@
-//! Sources of a scene, prepared: images, twins of chains, openings, and the tree of what is many.
+//! Preparation of the sources of a scene: images, twins of chains, openings, and the light tree.
 
 use super::lighting::{DRAWN_AT_ENDS, Lighting, image};
 use super::mirrors::planar::Mirrors;
@@ -43,7 +43,7 @@ impl<'s> Lighting<'s> {
         lighting
     }
 
-    /// Makes the tree of what is many.
+    /// Builds the light tree, and finds the sources that are not in it.
     fn plant(&mut self) {
         let has_points = self.points > DRAWN_AT_ENDS;
         let tree = Tree::of(self.scene, has_points, faces(self.scene, &self.openings));

@@ -1,15 +1,17 @@
-//! One look at an emitting surface of several triangles, as rays have where they end: one triangle is drawn by what its middle would
-//! give, which is about what all of it does unless it is near, and only that one is looked at closely.
+//! One sample of an emitting surface of several triangles, for the ends of gathering rays.
+//!
+//! One triangle is drawn by the projected solid angle at its centroid, which is about right unless
+//! the triangle is near. Only that triangle is then sampled exactly.
 
 use super::super::polygon::{Place, drawn, pieces, steradians, target};
 use super::triangle_tree::height_above;
 use crate::engine::ray::{Dice, SurfacePoint};
 use isolux_geometry::{Point, Vector};
 
-/// Of fewer triangles every one is looked at closely, more are clustered.
+/// Numbers of triangles for this method: fewer are all sampled exactly, more form clusters.
 const TRIANGLES: std::ops::RangeInclusive<usize> = 5..=128;
 
-/// Triangles that reach no further than this share of their distance are known by their middle, well enough to be drawn by it.
+/// Radius of a triangle, as a share of its distance, up to which its weight comes from its centroid alone.
 const FAR: f64 = 0.5;
 
 /// The triangles of an emitter.
@@ -27,13 +29,13 @@ struct Facet {
 }
 
 impl Facets {
-    /// Of an emitter; none where one look is not had so.
+    /// The facets of an emitter; empty where this method does not apply.
     pub(crate) fn of(triangles: &[[Point; 3]]) -> Self {
         let facet = |corners: &[Point; 3]| {
             let &[a, b, c] = corners;
             let middle = a + ((b - a) + (c - a)) / 3.0;
             let reach_m = corners.iter().map(|&p| (p - middle).length()).fold(0.0, f64::max);
-            // The roundings of a length and of those that follow.
+            // Allowance for the rounding of a length and of the steps after it.
             let radius_m = reach_m * (1.0 + 1e-12);
             Facet { start: a, middle, radius_m, twice_m2: (b - a).cross(c - a) }
         };
@@ -41,12 +43,13 @@ impl Facets {
         Self(triangles.iter().filter(|_| are_some).map(facet).collect())
     }
 
-    /// Whether one look is had so.
+    /// Whether this method applies to the emitter.
     pub(crate) fn are_some(&self) -> bool {
         !self.0.is_empty()
     }
 
-    /// A place on one of the triangles and the projected solid angle that it stands for, sr; `None` where nothing is seen.
+    /// A place on one of the triangles and the projected solid angle that it stands for, sr; `None`
+    /// where nothing is seen.
     pub(crate) fn look(
         &self,
         at: &SurfacePoint,
@@ -69,7 +72,7 @@ impl Facets {
             left -= weight;
             left < 0.0
         });
-        // Rounding may leave a sliver past the last.
+        // Rounding may leave a remainder past the last triangle.
         let triangle = drawn_one.or_else(|| weights.iter().rposition(|&weight| weight > 0.0))?;
         let (weight, corners) = (weights[triangle], triangles[triangle]);
         let pieces = pieces(at, std::iter::once((triangle, corners)));
@@ -82,7 +85,7 @@ impl Facets {
 }
 
 impl Facet {
-    /// About the projected solid angle, sr; zero only where nothing is seen.
+    /// Approximate projected solid angle, sr; zero only where nothing is seen.
     fn weight(&self, at: &SurfacePoint, corners: &[Point; 3]) -> f64 {
         let depth = self.twice_m2.dot(at.point - self.start);
         let to = self.middle - at.point;

@@ -14,14 +14,14 @@ use facets::Facets;
 use isolux_geometry::{Direction, Normal, Point, Transform, Vector};
 use triangle_tree::Clusters;
 
-/// Reflections in a row that virtual luminaires follow; longer chains are left to particles.
+/// The most reflections of a virtual luminaire; longer chains are left to particles.
 const MAX_CHAIN: usize = 6;
-/// Chains whose mirrors leave less than this of the light are left out, and counted as error.
+/// Reflectance of a chain of mirrors below which its image is left out and its light counted as error.
 const LEAST_REFLECTANCE: f64 = 1e-3;
-/// Virtual luminaires for every real one, at most; the others are left to particles.
+/// The most virtual luminaires of one luminaire; the others are left to particles.
 const MAX_IMAGES: usize = 64;
 
-/// A luminaire of the scene: those without surface first, then emitting surfaces.
+/// Number of a luminaire of the scene: one without a surface, or an emitting surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LuminaireId {
     Luminaire(u32),
@@ -32,16 +32,16 @@ pub(crate) enum LuminaireId {
 #[derive(Clone, Debug)]
 pub(crate) struct Source {
     pub(crate) luminaire: LuminaireId,
-    /// Planes that reflect its light, in the order the light meets them.
+    /// Planar mirrors that reflect its light, in the order in which the light meets them.
     pub(crate) chain: Vec<u32>,
-    /// Colour of the luminaire times reflectance of the chain.
+    /// Colour of the luminaire times the reflectance of the chain.
     pub(crate) colour: Rgb,
     pub(crate) kind: SourceKind,
-    /// What an image is seen through.
+    /// Windows through which an image is seen.
     pub(crate) windows: Windows,
 }
 
-/// What it looks like from a receiver.
+/// Shape of a source as seen from a receiver.
 #[derive(Clone, Debug)]
 pub(crate) enum SourceKind {
     /// A point; `local_from_world` is linear and orthogonal (a mirror image is left-handed).
@@ -52,30 +52,31 @@ pub(crate) enum SourceKind {
     Area { emitter: Emitter, triangles: Vec<[Point; 3]> },
 }
 
-/// Totals of an emitting surface.
+/// An emitting surface as a whole: its extent, and its triangles prepared for sampling.
 #[derive(Clone, Debug)]
 pub(crate) struct Emitter {
     pub(crate) indices: Vec<u32>,
     pub(crate) area_m2: f64,
     pub(crate) centre: Point,
-    /// All of it is within so much of the centre, m.
+    /// Radius of a sphere about the centre that contains all of it, m.
     pub(crate) radius_m: f64,
-    /// For one look, and for many where they are many.
+    /// Weights of the triangles for one sample.
     pub(crate) facets: Facets,
+    /// Tree of the triangles for many samples, where there are many triangles.
     pub(crate) clusters: Clusters,
 }
 
-/// Light on its way to a surface, obstacles left out.
+/// Illuminance from a source at a receiver, without obstacles.
 pub(crate) struct Arriving {
     pub(crate) illuminance_lx: Rgb,
     pub(crate) target: Target,
 }
 
-/// Emitters of at most so many triangles a sample are sampled by solid angle, with the exact
-/// unoccluded illuminance as control; of larger ones only those triangles that are near.
+/// The most triangles a sample with which an emitter is sampled by solid angle, with the exact
+/// unoccluded illuminance as control variate. Of larger emitters only the near triangles are sampled so.
 pub(crate) const TRIANGLES_A_SAMPLE: usize = 32;
 
-/// Where a source is.
+/// Position of a source.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Target {
     Point(Point),
@@ -83,7 +84,7 @@ pub(crate) enum Target {
 }
 
 impl Target {
-    /// The way to it.
+    /// Vector from a point to the source; a unit vector if the source is at infinity.
     pub(crate) fn towards(self, from: Point) -> Vector {
         match self {
             Self::Point(place) => place - from,
@@ -96,12 +97,12 @@ impl Target {
 #[derive(Debug, Default)]
 pub(crate) struct Sources {
     pub(crate) all: Vec<Source>,
-    /// Where those of every luminaire start, and where the last ones end.
+    /// Index of the first source of every luminaire, and the total number at the end.
     pub(crate) starts: Vec<usize>,
-    /// Whether some chain of mirrors goes on where images end.
+    /// Whether a chain of mirrors goes on beyond the last image.
     pub(crate) leaves_chains: bool,
-    /// Bound of the share of all light that is left out because mirrors have dimmed it so much:
-    /// what leaves a luminaire in one direction follows one chain, so the largest share of any.
+    /// Bound of the share of all light that is left out because mirrors dim it too much. Light that leaves
+    /// a luminaire in one direction follows one chain, so the bound is the largest share of any chain.
     pub(crate) left_out: f64,
 }
 
@@ -114,7 +115,7 @@ impl Sources {
             found.starts.push(first);
             found.all.push(real);
             let mut next = first;
-            // Breadth first: images are appended and looked at in turn.
+            // Breadth first: each image is appended, and reflected in turn.
             while next < found.all.len() {
                 let full = found.all.len() - first >= MAX_IMAGES;
                 found.reflect(next, mirrors, full);
@@ -142,19 +143,19 @@ impl Sources {
 }
 
 impl Source {
-    /// Whether it is an emitting surface.
+    /// Whether the source is an emitting surface.
     pub(crate) const fn is_area(&self) -> bool {
         matches!(self.kind, SourceKind::Area { .. })
     }
 
-    /// Whether something of an emitting surface may be seen through the mirrors; surely not where it does not.
+    /// Whether some of an emitting surface may be seen through the mirrors; `false` is certain.
     pub(crate) fn may_be_seen(&self, emitter: &Emitter, at: &SurfacePoint) -> bool {
         let Emitter { centre, radius_m, .. } = *emitter;
         self.windows.may_show(at.point, Ball { centre, radius_m })
     }
 }
 
-/// Corners of a side of a triangle, counter-clockwise as seen from there.
+/// Corners of a side of a triangle, counter-clockwise as seen from that side.
 pub(crate) fn corners_seen(scene: &Scene, triangle: u32, back: bool) -> [Point; 3] {
     let [a, b, c] = scene.triangle(triangle).corners;
     if back { [a, c, b] } else { [a, b, c] }
@@ -204,7 +205,7 @@ fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
         moment += (a + b + c) * (m2 / 3.0);
     }
     let centre = Point::ORIGIN + moment / sum_m2;
-    // Those of few triangles are looked at one by one.
+    // Emitters of few triangles need no tree: they are sampled triangle by triangle.
     let is_large = triangles.len() > TRIANGLES_A_SAMPLE;
     let clusters = if is_large { Clusters::of(&triangles) } else { Clusters::default() };
     let facets = Facets::of(&triangles);
@@ -214,7 +215,7 @@ fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
     SourceKind::Area { emitter, triangles }
 }
 
-/// The image of a source in a plane; `None` where its light cannot reach the reflecting side.
+/// Image of a source in a plane; `None` where its light cannot reach the reflecting side.
 fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
     let mirror = &mirrors.planes[plane as usize];
     let colour = source.colour * mirror.reflectance;
@@ -243,8 +244,8 @@ fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
                 illuminance_lx: *illuminance_lx,
             }),
         SourceKind::Area { emitter, triangles } => {
-            // Triangles behind the mirror have no image; of those that cross its plane, what lies
-            // behind is told by the mirror not being met before the image.
+            // Triangles behind the mirror have no image. Those that cross its plane are kept whole:
+            // a ray to the part behind does not meet the mirror before the image.
             let in_front =
                 |t: &[Point; 3]| t.iter().any(|&p| mirror.height(p) > mirrors.tolerance_m);
             let kept = || emitter.indices.iter().zip(triangles).filter(|(_, t)| in_front(t));
@@ -263,15 +264,14 @@ fn chain_reflectance(source: &Source, mirrors: &Mirrors) -> f64 {
     source.chain.iter().map(|&p| mirrors.planes[p as usize].reflectance.max_channel()).product()
 }
 
-/// The inverse of a rotation: its linear part transposed.
+/// Inverse of a rotation: its linear part transposed.
 fn transposed(rotation: &Transform) -> Transform {
     let [a, b, c] = rotation.columns;
     let row = |k: usize| Vector::new(a.component(k), b.component(k), c.component(k));
     Transform { columns: [row(0), row(1), row(2)], translation: Vector::ZERO }
 }
 
-/// What a point or parallel source would give without obstacles; `None` where it faces away, or is
-/// not in view.
+/// Unoccluded illuminance from a point source or parallel light; `None` where it faces away, or is not in view.
 pub(crate) fn unoccluded_if(
     scene: &Scene,
     source: &Source,
@@ -302,13 +302,13 @@ pub(crate) fn unoccluded_if(
     (!illuminance_lx.is_black()).then_some(Arriving { illuminance_lx, target })
 }
 
-/// Cosine at the receiver, if both its normals see the direction.
+/// Cosine at the receiver, if the direction is above the surface by both its normals.
 pub(crate) fn facing_cos(towards: Direction, shading: Normal, geometric: Normal) -> Option<f64> {
     let cos = towards.cos(shading);
     (cos > 0.0 && towards.cos(geometric) > 0.0).then_some(cos)
 }
 
-/// The distribution of a luminaire that is a point.
+/// Luminous intensity distribution of a point luminaire.
 pub(crate) fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution {
     match &scene.luminaires()[luminaire as usize].kind {
         LuminaireKind::Point { intensity, .. } => intensity,
@@ -318,9 +318,8 @@ pub(crate) fn intensity(scene: &Scene, luminaire: u32) -> &IntensityDistribution
     }
 }
 
-/// How likely a source should be drawn at a point: in proportion to what it would give without
-/// obstacles, exactly for points, roughly (and never zero) for surfaces. Images that `is_in_view`
-/// does not see through their mirrors are not drawn.
+/// Weight for drawing a source at a receiver: its unoccluded illuminance, exact for points, approximate (and
+/// never zero) for surfaces. It is zero for images that `is_in_view` does not see through their mirrors.
 pub(crate) fn importance(
     scene: &Scene,
     source: &Source,

@@ -1,7 +1,7 @@
-//! Triangles of emitting surfaces that are drawn like luminaires, where such surfaces are many.
+//! Triangles of emitting surfaces as lamps of the light tree, in scenes with many such surfaces.
 //!
-//! A look at each surface takes as long as there are surfaces. As lamps of the tree, which shine like the cosine about their
-//! normal, they are chosen by few teeth of a comb among all.
+//! A sample of each surface takes time in proportion to their number. As lamps of the tree, with a cosine
+//! distribution about their normal, triangles are chosen by a few teeth of a comb (stratified samples of the tree).
 
 use super::super::openings::Openings;
 use super::corners_seen;
@@ -9,40 +9,41 @@ use crate::ablation::without;
 use crate::scene::Scene;
 use isolux_geometry::{Point, Vector};
 
-/// Emitting surfaces up to which every one is looked at.
+/// The most emitting surfaces of which every one is sampled.
 const FEW: usize = 3;
 
-/// Surfaces that reach further than this share of the scene's extent are looked at one by one: skies, luminous ceilings.
+/// Extent of a surface, as a share of the scene's, above which it is always sampled: skies, luminous ceilings.
 const LARGE: f64 = 0.25;
 
-/// Triangles that are drawn at most.
+/// The most triangles in the light tree.
 const MOST: usize = 1 << 18;
 
-/// A triangle that emits.
+/// An emitting triangle in the light tree.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Face {
-    /// The number of its emitting surface.
+    /// Number of its emitting surface.
     pub(crate) surface: u32,
     pub(crate) triangle: u32,
     back: bool,
-    /// All of it is within so much of its middle, m.
+    /// Radius of a sphere about its centroid that contains all of it, m.
     pub(crate) radius_m: f64,
 }
 
 impl Face {
-    /// Its corners, counter-clockwise as seen from where it shines.
+    /// Corners, counter-clockwise as seen from the emitting side.
     pub(crate) fn corners(&self, scene: &Scene) -> [Point; 3] {
         corners_seen(scene, self.triangle, self.back)
     }
 }
 
-/// The middle of a triangle, and twice its area along its normal, m2.
+/// Centroid of a triangle, and twice its area along its normal, m2.
 pub(crate) fn middle_and_twice_m2([a, b, c]: [Point; 3]) -> (Point, Vector) {
     let (ab, ac) = (b - a, c - a);
     (a + (ab + ac) / 3.0, ab.cross(ac))
 }
 
-/// Those of a scene that are drawn: none where emitting surfaces are few, and none of those that rays are aimed at through openings.
+/// The faces of a scene for the light tree. There are none if emitting surfaces are few, and none
+/// of surfaces that rays sample through openings.
 pub(crate) fn faces(scene: &Scene, openings: &Openings) -> Vec<Face> {
     let bounds = scene.bvh().mesh().bounds();
     let most_m = LARGE * bounds.map_or(0.0, |(low, high)| (high - low).length());
@@ -58,7 +59,7 @@ pub(crate) fn faces(scene: &Scene, openings: &Openings) -> Vec<Face> {
             let corners = face.corners(scene);
             let (middle, _) = middle_and_twice_m2(corners);
             let reach_m = corners.iter().map(|&p| (p - middle).length()).fold(0.0, f64::max);
-            // The roundings of a length and of those that follow.
+            // Allowance for the rounding of a length and of the steps after it.
             (Face { radius_m: reach_m * (1.0 + 1e-12), ..face }, corners)
         };
         let (faces, corners): (Vec<Face>, Vec<[Point; 3]>) =
@@ -68,7 +69,7 @@ pub(crate) fn faces(scene: &Scene, openings: &Openings) -> Vec<Face> {
         (extent_m <= most_m).then_some(faces)
     });
     let mut found: Vec<Vec<Face>> = found.collect();
-    // Those of the fewest triangles, as far as there is room for them.
+    // Surfaces with the fewest triangles come first, as far as there is room.
     found.sort_by_key(Vec::len);
     let mut left = MOST;
     found.retain(|faces| {

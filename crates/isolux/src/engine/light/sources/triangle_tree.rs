@@ -1,28 +1,28 @@
-//! The triangles of an emitting surface as a tree of clusters, each with a sphere around it and a cone around its normals.
+//! A tree of clusters of the triangles of an emitting surface, each with a bounding sphere and a cone of normals.
 
 use crate::engine::ray::SurfacePoint;
 use isolux_geometry::{Normal, Point, Vector};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Triangles of a leaf at most.
+/// The most triangles in a leaf.
 const GROUP: usize = 4;
 
-/// Clusters of at most so many are known by each of their triangles, where they do not all face the receiver.
+/// The most triangles of a cluster whose weight is the sum over them, where not all of them face the receiver.
 const FEW: usize = 32;
 
-/// Clusters whose radius is at most this share of their distance are known by their middle.
+/// Radius of a cluster, as a share of its distance, up to which its weight comes from its centre alone.
 const FAR: f64 = 0.3;
 
-/// How much of a cluster that is near counts as facing the receiver for every radius that it is away.
+/// Share of the area of a near cluster that counts as facing the receiver, times its radius over its distance.
 const NEAR: f64 = 0.25;
 
-/// A cluster counts as no nearer than so many of its radii.
+/// The smallest distance at which a cluster counts, in its radii.
 const NEAREST: f64 = 0.05;
 
-/// How much a spread of normals counts beside a spread in place as wide as the emitter.
+/// Weight of a spread of normals against a spread of places as wide as the emitter.
 const TURN: f64 = 0.25;
 
-/// What angles may be off by rounding, rad: that of a cosine near its ends.
+/// Rounding of an angle, rad: that of a cosine near its ends.
 const ROUNDING_RAD: f64 = 1e-6;
 
 /// A cluster of triangles.
@@ -32,28 +32,28 @@ struct Cluster {
     radius_m: f64,
     low: Point,
     high: Point,
-    /// The normals times the areas, m2.
+    /// Sum of the normals times the areas, m2.
     area_vector_m2: Vector,
     area_m2: f64,
-    /// Along each axis, to both sides: the components of the area vectors, m2.
+    /// Components of the area vectors summed along each axis, positive and negative apart, m2.
     sides_m2: [[f64; 2]; 3],
-    /// No normal is farther from it than less than a quarter turn; without one they may be any.
+    /// Axis of a cone of normals narrower than a quarter turn; `None` if the normals spread wider.
     axis: Option<Normal>,
-    /// How far they are from it at most: the sine and the cosine.
+    /// Sine and cosine of the largest angle between a normal and the axis.
     spread: [f64; 2],
-    /// Its triangles, in the order of the tree.
+    /// Index of the first triangle, in the order of the tree.
     first: u32,
     count: u32,
-    /// The second of its halves; the first follows it. None for a leaf.
+    /// Number of its second half, `None` for a leaf. The first half follows the cluster itself.
     second: Option<u32>,
 }
 
-/// What a receiver may have of a cluster, where nothing is hidden.
+/// Knowledge of the unoccluded light that a receiver has of a cluster.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Outlook {
-    /// Surely nothing.
+    /// Surely none.
     Dark,
-    /// About so much, projected sr.
+    /// Approximate projected solid angle, sr.
     Known(f64),
     /// Perhaps some.
     Unknown,
@@ -63,14 +63,15 @@ pub(crate) enum Outlook {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Clusters {
     all: Vec<Cluster>,
-    /// The triangles in the order of the tree, and where each is in it.
+    /// The triangles in the order of the tree.
     order: Vec<u32>,
+    /// The position of every triangle in that order.
     ranks: Vec<u32>,
-    /// In the order of the tree.
+    /// The facets in the order of the tree.
     facets: Vec<Facet>,
 }
 
-/// A triangle.
+/// A triangle of the emitter.
 #[derive(Clone, Copy, Debug)]
 struct Facet {
     middle: Point,
@@ -81,7 +82,7 @@ struct Facet {
 }
 
 impl Clusters {
-    /// Of triangles that emit from their counter-clockwise side.
+    /// The tree of triangles that emit from their counter-clockwise side.
     pub(crate) fn of(triangles: &[[Point; 3]]) -> Self {
         let facets: Vec<Facet> = triangles.iter().copied().map(Facet::of).collect();
         let order = (0..triangles.len() as u32).collect();
@@ -99,7 +100,7 @@ impl Clusters {
         tree
     }
 
-    /// Appends the cluster of a range of triangles and its parts.
+    /// Appends the cluster of a range of triangles and its descendants.
     fn build(&mut self, facets: &[Facet], extent: f64, (first, end): (usize, usize)) -> u32 {
         let index = self.all.len();
         let members = &mut self.order[first..end];
@@ -116,7 +117,7 @@ impl Clusters {
         &self.all[number as usize]
     }
 
-    /// The halves of a cluster; none of a leaf.
+    /// The halves of a cluster; `None` for a leaf.
     pub(crate) fn halves(&self, number: u32) -> Option<[u32; 2]> {
         self.cluster(number).second.map(|second| [number + 1, second])
     }
@@ -134,12 +135,12 @@ impl Clusters {
         cluster.first <= rank && rank < cluster.first + cluster.count
     }
 
-    /// What a receiver may have of a cluster.
+    /// Knowledge of the light that a receiver has of a cluster.
     pub(crate) fn outlook(&self, number: u32, at: &SurfacePoint) -> Outlook {
         self.cluster(number).outlook(at, self.facets(number))
     }
 
-    /// About how much a receiver may have of a cluster, projected sr; zero only if it has nothing.
+    /// Approximate projected solid angle of a cluster at a receiver, sr; zero only if the receiver sees nothing of it.
     pub(crate) fn weight(&self, number: u32, at: &SurfacePoint) -> f64 {
         match self.outlook(number, at) {
             Outlook::Dark => 0.0,
@@ -148,7 +149,7 @@ impl Clusters {
         }
     }
 
-    /// The same of a cluster whose outlook is unknown.
+    /// Approximate projected solid angle of a cluster whose outlook is unknown, sr.
     pub(crate) fn steradians(&self, number: u32, at: &SurfacePoint) -> f64 {
         self.cluster(number).steradians(at, self.facets(number))
     }
@@ -158,7 +159,7 @@ impl Clusters {
         &self.facets[cluster.first as usize..][..cluster.count as usize]
     }
 
-    /// Which of those in doubt is to be divided first: by how much it may give at the nearest.
+    /// Priority for dividing a cluster whose outlook is unknown: its area over the square of its smallest distance.
     pub(crate) fn doubt(&self, number: u32, at: &SurfacePoint) -> f64 {
         let cluster = self.cluster(number);
         let nearest_m = ((cluster.centre - at.point).length() - cluster.radius_m).max(0.0);
@@ -190,8 +191,8 @@ impl Cluster {
         if is_far { Outlook::Known(self.steradians(at, facets)) } else { Outlook::Unknown }
     }
 
-    /// How far normals and directions to its sphere, that is seen under an angle of such a sine, are off at most: the sine of
-    /// their sum, if that is less than a quarter turn.
+    /// Sine of the largest angle between a normal and a direction to the bounding sphere, beyond that of axis and
+    /// centre. `of_radius` is the sine of the angular radius of the sphere. `None` if the angle reaches a quarter turn.
     fn sine_about(&self, of_radius: f64) -> Option<f64> {
         if of_radius.is_nan() || of_radius >= 1.0 {
             return None;
@@ -202,7 +203,7 @@ impl Cluster {
         is_less.then_some(sine * cos_of_radius + cos * of_radius)
     }
 
-    /// About how much a receiver may have that is not surely in the dark; never zero.
+    /// Approximate projected solid angle of a cluster that is not surely dark, sr; never zero.
     fn steradians(&self, at: &SurfacePoint, facets: &[Facet]) -> f64 {
         let to = self.centre - at.point;
         let (distance, radius_m) = (to.length(), self.radius_m);
@@ -213,19 +214,20 @@ impl Cluster {
         }
         let distance = distance.max(radius_m).max(f64::MIN_POSITIVE);
         let height = height_above(to.dot(at.shading.to_vector()), radius_m) / distance;
-        // What lies along a line gives light as from between its nearest place and its ends.
+        // The geometric mean of the distances to its nearest place and to its centre suits a cluster along a line.
         let nearest_m = self.nearest_m(at.point).max(NEAREST * radius_m);
         (self.facing_m2(to) * height / (nearest_m * distance)).max(f64::MIN_POSITIVE)
     }
 
-    /// How far the box around it is away, m.
+    /// Distance to the bounding box, m.
     fn nearest_m(&self, from: Point) -> f64 {
         let away = [self.low - from, from - self.high];
         let along = |axis: usize| away.map(|v| v.component(axis)).into_iter().fold(0.0, f64::max);
         Vector::new(along(0), along(1), along(2)).length()
     }
 
-    /// At least what faces a receiver of its area, from where all is in one direction; up to the square root of three times as much.
+    /// Upper bound of the area that faces a receiver in one direction, m2, at most the square root
+    /// of three times too large.
     fn facing_m2(&self, to: Vector) -> f64 {
         let distance = to.length().max(self.radius_m);
         let along = |axis: usize| {
@@ -245,11 +247,12 @@ impl Facet {
         Self { middle, corners, normal, area_vector_m2, area_m2 }
     }
 
-    /// Projected solid angle by its middle, or by places towards its corners too; zero only where it faces away.
+    /// Projected solid angle from the centroid, and for near triangles from places towards the
+    /// corners too, sr. It is zero only where the triangle faces away.
     fn steradians(&self, at: &SurfacePoint, radius_m: f64, is_far: bool) -> f64 {
         let to = self.middle - at.point;
         let depth = -self.area_vector_m2.dot(to);
-        // What is seen edge on may be seen after all, if rounding says so.
+        // Rounding may hide a triangle that is seen edge on: it counts with the rounding error as its depth.
         let least = ROUNDING_RAD * self.area_m2 * to.length();
         if depth <= -least {
             return 0.0;
@@ -268,7 +271,7 @@ impl Facet {
     }
 }
 
-/// The mean over heights between the rims of a sphere, of which those below the horizon count nothing.
+/// Mean height over a sphere, m; the part below the horizon counts as zero.
 pub(crate) fn height_above(height_m: f64, radius_m: f64) -> f64 {
     if height_m >= radius_m {
         return height_m;
@@ -277,7 +280,7 @@ pub(crate) fn height_above(height_m: f64, radius_m: f64) -> f64 {
     above_m * above_m / (4.0 * radius_m)
 }
 
-/// A leaf of some triangles.
+/// A leaf of the triangles `members`.
 fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
     let facet = |&k: &u32| &facets[k as usize];
     let start = facets[members[0] as usize].middle;
@@ -305,7 +308,7 @@ fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
     });
     Cluster {
         centre,
-        // The roundings of a length and of those that follow.
+        // Allowance for the rounding of a length and of the steps after it.
         radius_m: radius_m * (1.0 + 1e-12),
         low,
         high,
@@ -320,7 +323,7 @@ fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
     }
 }
 
-/// Puts the half first that is lower along the axis of the widest spread, in place or of the normals; returns how many that are.
+/// Puts the half first that is lower along the axis of the widest spread, of places or of normals. Returns its size.
 fn halve(facets: &[Facet], extent: f64, members: &mut [u32]) -> usize {
     let places = spreads(members, |k| Some(facets[k].middle.to_vector())).map(|m| m / extent);
     let turns = spreads(members, |k| facets[k].normal.map(Normal::to_vector)).map(|t| t * TURN);
@@ -338,7 +341,7 @@ fn halve(facets: &[Facet], extent: f64, members: &mut [u32]) -> usize {
     members.len() / 2
 }
 
-/// How far vectors spread along each axis.
+/// Extent of vectors along each axis.
 fn spreads(members: &[u32], vector: impl Fn(usize) -> Option<Vector>) -> [f64; 3] {
     let vectors = || members.iter().filter_map(|&k| vector(k as usize));
     std::array::from_fn(|axis| {
