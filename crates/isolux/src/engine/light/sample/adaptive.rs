@@ -1,4 +1,4 @@
-//! Direct light with its own standard error, by as many shadow rays as that takes.
+//! Direct light with its own standard error, by as many shadow rays as that requires.
 
 use super::super::lighting::Lighting;
 use super::super::tree::cut::Cut;
@@ -7,32 +7,35 @@ use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
 use crate::sampling::Sequence;
 use crate::units::Rgb;
 
-/// Teeth of one of them.
+/// The fewest teeth of a replicate.
 const FEWEST_TEETH: f64 = 4.0;
+/// The most teeth of a replicate in the first measurement.
 const MOST_TEETH: f64 = 512.0;
+/// The most teeth of a replicate in a second measurement.
 const MOST_MORE_TEETH: f64 = 2048.0;
 
-/// Light by combs of n teeth errs like this power of 1/n where part of it is hidden: measured on an
-/// interior of 2626 luminaires from 8 to 512 (independent rays err like 0.5).
+/// Order of convergence of combs: their error falls like this power of 1/n for n teeth where part of the
+/// light is hidden. Measured on an interior of 2626 luminaires from 8 to 512 teeth (independent rays: 0.5).
 const COMB_ORDER: f64 = 0.7;
 
-/// Rays that are added to those of the first look, half of them dark: one that agrees need not be
-/// right.
+/// Imaginary rays added to those of the first look, half of them dark and half fully lit. A first
+/// look whose rays agree may still be wrong.
 const DOUBT: f64 = 0.5;
 
-/// A measurement that errs by more than so many times what it should is followed by another.
+/// Ratio of the measured to the wanted standard error above which another measurement follows.
 const MISSED: f64 = 1.25;
 
-/// Shadow rays of a reading to emitting surfaces at most, in multiples of the usual ones, and by how much more for finer readings.
+/// The most shadow rays of a reading to emitting surfaces, in multiples of the usual number.
 const MOST_TO_SURFACES: f64 = 64.0;
+/// The largest factor on that for finer readings.
 const MOST_FINER: f64 = 10.0;
 
 impl Lighting<'_> {
-    /// Direct illuminance with the variance of its noise; where luminaires are few it is evaluated
-    /// once, and nothing is known of the noise of emitting surfaces.
+    /// Direct illuminance with the variance of its noise. Where luminaires are few it is evaluated
+    /// once, and the variance leaves out the noise of emitting surfaces.
     ///
-    /// Best effort: the noise is about as asked for. The first look is not part of the result, so that this is
-    /// free of bias.
+    /// Best effort: the noise is about as asked for. The first look is not part of the result, so
+    /// the result is unbiased.
     pub(crate) fn measured(&self, at: &SurfacePoint, goal: Goal, sequence: Sequence) -> Measured {
         if !self.has_many() {
             let lx = self.illuminance(at, &mut Dice::new(sequence, 0));
@@ -43,8 +46,8 @@ impl Lighting<'_> {
         Measured { lx: tree.lx + others.lx, variance: tree.variance + others.variance }
     }
 
-    /// What comes from the lamps of the tree, where there is so much light of others, and what the next ray may bring where none has
-    /// seen anything, lx.
+    /// Light from the lamps of the light tree, given the illuminance `beside` from all others. The
+    /// second value is the illuminance that one further ray may bring if no ray has met light, lx.
     fn of_tree(
         &self,
         at: &SurfacePoint,
@@ -64,11 +67,11 @@ impl Lighting<'_> {
         if !goal.insists || variance == 0.0 || over <= MISSED {
             return (Measured { lx, variance }, unseen_lx);
         }
-        // The first look saw less than there is, and these tell more.
+        // The first look underestimated the spread; these replicates tell more.
         let wanted = teeth as f64 * libm::pow(over, 1.0 / COMB_ORDER);
         let more = wanted.min(MOST_MORE_TEETH) as usize;
         let others = self.replicates(&cut, at, more, sequence.fork(REPLICATES, 0));
-        // What they err by, in the square, falls as the weights rise; by all of the luminaires it is nothing.
+        // The weights are inverse to the expected variances; evaluating all luminaires has variance zero.
         let weight = libm::pow(over, 2.0);
         let of_first = if is_exact(more) { 0.0 } else { 1.0 / (1.0 + weight) };
         let of_others = 1.0 - of_first;
@@ -78,7 +81,8 @@ impl Lighting<'_> {
         (Measured { lx, variance }, unseen_lx)
     }
 
-    /// What comes from all that is not in the tree, by the usual shadow rays in each replicate where surfaces are among it.
+    /// Light from all sources outside the light tree. Emitting surfaces among them get the usual
+    /// shadow rays in each replicate.
     fn of_others(&self, at: &SurfacePoint, sequence: Sequence) -> Measured {
         let samples = self.area_samples();
         let all = |mut dice: Dice| -> Rgb {
@@ -93,9 +97,9 @@ impl Lighting<'_> {
         Measured { lx, variance }
     }
 
-    /// The same for one who relies on it: where it is told by few replicates, as errors of readings are ([`OF_FEW`]), what none of many
-    /// rays has seen counts as if the next one did, and emitting surfaces have as many of them as it takes: where light comes in through
-    /// a small opening few see anything.
+    /// Direct illuminance for a reading, with a safe variance. Errors from few replicates are enlarged by
+    /// [`OF_FEW`]. If no ray meets light, the variance assumes that the next one would. Emitting surfaces
+    /// get as many rays as needed, since few rays meet light that enters through a small opening.
     pub(crate) fn read(&self, at: &SurfacePoint, goal: Goal, sequence: Sequence) -> Measured {
         let (points, tree) = if self.has_many() {
             let points = self.lit_by_points(self.others(), at);
@@ -128,7 +132,7 @@ impl Lighting<'_> {
         Measured { lx, variance }
     }
 
-    /// The same by so many shadow rays to every emitting surface in all, and a look at all other luminaires.
+    /// A safe measurement with `shadow_rays` to every emitting surface in total; all other luminaires are evaluated.
     pub(crate) fn read_by_all(
         &self,
         at: &SurfacePoint,
@@ -142,14 +146,15 @@ impl Lighting<'_> {
         Measured { lx: self.lit_by_points(self.sources.iter(), at) + surfaces.lx, ..surfaces }
     }
 
-    /// Whether so many teeth of every replicate are enough to ask all luminaires instead: once, or where there are faces, which no
-    /// look tells all of, in every replicate.
+    /// Whether evaluating all luminaires takes no more rays than `teeth` in every replicate.
+    /// Without faces one evaluation serves all replicates; with faces, which one sample does not
+    /// determine, every replicate needs its own.
     fn asks_all(&self, cut: &Cut, teeth: usize) -> bool {
         let looks = if self.has_faces() { 1 } else { REPLICATES as usize };
         looks * teeth >= self.count(cut)
     }
 
-    /// Replicates by combs of so many teeth.
+    /// Replicates by combs of `teeth` teeth.
     fn replicates(
         &self,
         cut: &Cut,
@@ -174,7 +179,7 @@ impl Lighting<'_> {
         })
     }
 
-    /// Teeth of a replicate: as many as it takes by the spread of what a first look finds.
+    /// Number of teeth of a replicate that the goal requires, from the spread of a first look.
     fn teeth(
         &self,
         cut: &Cut,
@@ -186,7 +191,7 @@ impl Lighting<'_> {
             return FEWEST_TEETH as usize;
         }
         let total = cut.parts.total;
-        // Half of the doubt is dark, half as lit as it can be.
+        // Half of the imaginary rays are dark, half as lit as possible.
         let (mut sum, mut squares) = (0.5 * DOUBT * total, 0.5 * DOUBT * total * total);
         self.look(cut, at, first_look, dice, |found| {
             let lx = found.luminance();

@@ -11,18 +11,18 @@ use crate::units::Rgb;
 use isolux_geometry::{Direction, Point, Vector};
 use std::borrow::Cow;
 
-/// So many times the shadow rays where those before tell too little.
+/// Factor on the number of shadow rays if the noise is still too large.
 const MORE: usize = 4;
 
-/// Places of a large emitter that tell roughly what it gives.
+/// Samples of a large emitter for a rough value of its unoccluded light.
 const LOOKED_AT: usize = 16;
 
-/// What a place sees of an emitting surface, obstacles left out, as directions are drawn to it: one by one.
+/// An emitting surface as a receiver sees it without obstacles, for drawing directions to it.
 pub(crate) struct Shape<'a> {
     at: SurfacePoint,
     triangles: &'a [[Point; 3]],
     seen: Seen<'a>,
-    /// Projected solid angle of what is seen, sr; where it is parted, an estimate.
+    /// Projected solid angle of the visible part, sr; an estimate if the surface is partitioned.
     whole: f64,
 }
 
@@ -32,7 +32,7 @@ enum Seen<'a> {
 }
 
 impl<'a> Shape<'a> {
-    /// For so many looks at it; `None` where nothing of it is above the horizon.
+    /// The shape for `samples` samples; `None` where nothing of the surface is above the horizon.
     pub(crate) fn new(
         at: &SurfacePoint,
         (emitter, triangles): (&'a Emitter, &'a [[Point; 3]]),
@@ -50,12 +50,12 @@ impl<'a> Shape<'a> {
         (whole > 0.0).then_some(Self { at: *at, triangles, seen, whole })
     }
 
-    /// Projected solid angle of what is seen, sr; where it is parted, an estimate.
+    /// Projected solid angle of the visible part, sr; an estimate if the surface is partitioned.
     pub(crate) const fn whole(&self) -> f64 {
         self.whole
     }
 
-    /// A place on one of its triangles; `None` where that is not seen.
+    /// A place on one of its triangles; `None` where the receiver's own surface hides it.
     pub(crate) fn place(&self, dice: &mut Dice) -> Option<Place> {
         let [pick, accept] = dice.pair();
         let (piece, share) = match &self.seen {
@@ -67,7 +67,7 @@ impl<'a> Shape<'a> {
         Place::seen(&self.at, triangle, point, share)
     }
 
-    /// A direction to some place of it, and its density, 1/sr.
+    /// A direction to a place on it, and the density of that direction, 1/sr.
     pub(crate) fn draw(&self, dice: &mut Dice) -> Option<(Direction, f64)> {
         let place = self.place(dice)?;
         let direction = (place.point - self.at.point).direction()?;
@@ -75,7 +75,7 @@ impl<'a> Shape<'a> {
         Some((direction, cos / (place.share * self.whole)))
     }
 
-    /// The density of directions to a place on one of its triangles, 1/sr.
+    /// Density of directions to a place on one of its triangles, 1/sr.
     pub(crate) fn density(&self, triangle: usize, to_place: Vector) -> Option<f64> {
         let cos = facing_cos(to_place.direction()?, self.at.shading, self.at.geometric)?;
         let share = match &self.seen {
@@ -87,7 +87,7 @@ impl<'a> Shape<'a> {
 }
 
 impl Lighting<'_> {
-    /// How directions are drawn to an emitting surface, itself and no image of it, that a place sees.
+    /// The shape of an emitting surface itself, without its images, as a place sees it.
     pub(crate) fn shape(&self, number: usize, at: &SurfacePoint) -> Option<Shape<'_>> {
         let source = &self.sources[self.starts[self.scene.luminaires().len() + number]];
         match &source.kind {
@@ -96,9 +96,9 @@ impl Lighting<'_> {
         }
     }
 
-    /// Illuminance from those of some sources that are emitting surfaces, with the variance of its mean. A first look at all of them
-    /// tells which error may be left, lx; where that is less than there is, those that err by more than their part of it have more
-    /// shadow rays.
+    /// Illuminance from the emitting surfaces among some sources, with the variance of its mean.
+    /// `goal_lx` gives the allowed standard error for the light of a first measurement, lx. If the
+    /// first standard error is larger, the surfaces that exceed their part of it get more shadow rays.
     pub(crate) fn of_surfaces(
         &self,
         which: impl Iterator<Item = u32>,
@@ -141,8 +141,8 @@ impl Lighting<'_> {
         sum(&found)
     }
 
-    /// The same from one of them, by so many shadow rays in each replicate. What none of them have seen may still be there: it counts
-    /// as if the next one did.
+    /// Illuminance from one emitting surface, by `samples` shadow rays in each replicate. If no ray
+    /// meets light, the variance assumes that the next one would.
     fn of_surface(
         &self,
         (source, emitter, triangles): (&Source, &Emitter, &[[Point; 3]]),
@@ -173,10 +173,10 @@ impl Lighting<'_> {
 
     /// Illuminance from one emitting surface, by `samples` shadow rays.
     ///
-    /// Directions are drawn in proportion to the cosine at the receiver, so the share of them that is
-    /// free, times the exact illuminance without obstacles, is an unbiased estimate, and one without
-    /// variance where nothing or everything is hidden. Where there are many triangles they are drawn in
-    /// about that proportion, and every one counts as the inverse of its chance.
+    /// Directions are drawn in proportion to the cosine at the receiver. The share of free ones,
+    /// times the exact unoccluded illuminance, is an unbiased estimate, and has no variance where
+    /// nothing or everything is hidden. Many triangles are drawn in approximately that proportion,
+    /// and each sample counts with the inverse of its probability.
     pub(crate) fn lit_by_area(
         &self,
         source: &Source,
@@ -213,7 +213,7 @@ impl Lighting<'_> {
     }
 }
 
-/// What an emitting surface gives a place that nothing hides it from, lx; roughly where it is parted.
+/// Unoccluded illuminance from an emitting surface, lx; a rough value if the surface is partitioned.
 fn unhidden_lx(
     source: &Source,
     of: (&Emitter, &[[Point; 3]]),
@@ -226,7 +226,7 @@ fn unhidden_lx(
     source.colour.luminance() * mean(samples, dice, one).luminance() * shape.whole
 }
 
-/// Mean of samples that are spread evenly.
+/// Mean of samples over a low-discrepancy sequence.
 fn mean(samples: usize, dice: &mut Dice, mut one: impl FnMut(&mut Dice) -> Rgb) -> Rgb {
     if samples == 1 {
         return one(dice);
@@ -247,10 +247,11 @@ mod tests {
     /// Draws of every emitter for every receiver.
     const DRAWS: u32 = 4000;
 
-    /// Means of as many: so many standard errors are exceeded once in ten million, and a hundred are compared.
+    /// Allowed deviation of a mean of [`DRAWS`], in standard errors. Chance exceeds it once in ten
+    /// million, and a hundred means are compared.
     const DEVIATIONS: f64 = 5.5;
 
-    /// What is expected as often in all draws is missing in one out of three thousand.
+    /// Expected number of draws of a part that is missing from all draws in one case of three thousand.
     const SELDOM: f64 = 8.0;
 
     fn emitter(triangles: &[[Point; 3]]) -> Emitter {
@@ -264,7 +265,7 @@ mod tests {
         }
     }
 
-    /// A surface over a square of angles or lengths, in two triangles for each of so many cells.
+    /// A surface over the unit square, with two triangles in each of its cells.
     fn sheet(cells: [usize; 2], place: impl Fn(f64, f64) -> Vector) -> Vec<[Point; 3]> {
         let [rows, columns] = cells;
         let corner = |i: usize, k: usize| {
@@ -279,7 +280,8 @@ mod tests {
         .collect()
     }
 
-    /// A ring that faces down, a ball, a long thin tube, a floor, any triangles anywhere, all in one place and of no area.
+    /// A ring that faces down, a ball, a long thin tube, a floor, random triangles, equal
+    /// triangles, and triangles of zero area.
     fn shapes() -> Vec<(&'static str, Vec<[Point; 3]>)> {
         let turn = |radius_m: f64, turn: f64| {
             Vector::new(radius_m * libm::cos(TAU * turn), radius_m * libm::sin(TAU * turn), 0.0)
@@ -320,7 +322,7 @@ mod tests {
         ]
     }
 
-    /// Below, beside, on, in and above them.
+    /// Receivers below, beside, on, in and above the shapes.
     fn receivers() -> impl Iterator<Item = SurfacePoint> {
         let place = |k: u64| {
             let c = |n: u64| 2.0 * Key::new(9).with(k).with(n).uniform() - 1.0;
@@ -348,14 +350,14 @@ mod tests {
         let mean = found.iter().sum::<f64>() / count;
         let square = found.iter().map(|f| (f - mean) * (f - mean)).sum::<f64>();
         let error = (square / (count * (count - 1.0))).sqrt();
-        // What is drawn as seldom as once in so many may be missing, and be given wrongly by half. Half the digits of the arcs are
-        // lost in thin triangles.
+        // A part that is drawn more seldom may be missing, or wrong by half. Thin triangles lose
+        // half the digits of the arcs.
         let tolerance = DEVIATIONS * error + 0.5 * SELDOM / count * expected + 1e-7;
         assert!((mean - expected).abs() <= tolerance, "{what}: {mean} +- {error}, not {expected}");
     }
 
-    /// A chance that is drawn seldom shows in the density, not in the mean: all that gives light has one. The values of draws spread by 0.6
-    /// about their mean (in November 2026).
+    /// A part that is drawn too seldom shows in the density, not in the mean: every part that gives
+    /// light has a density. The relative spread of the values drawn is 0.6 (November 2026).
     #[test]
     fn many_triangles_are_drawn_without_bias_and_with_their_density() {
         let (mut compared, mut spread) = (0, 0.0);
@@ -401,7 +403,7 @@ mod tests {
         assert!(compared > 50 && spread < 1.0, "{compared}: {spread}");
     }
 
-    /// As far away triangles are drawn by their middles, and near ones by all of them.
+    /// A single sample is unbiased for far triangles, weighted by their centroids, and for near ones, weighted exactly.
     #[test]
     fn one_look_has_no_bias() {
         let mut compared = 0;

@@ -1,5 +1,5 @@
-//! An emitting surface of many triangles as a receiver sees it: the near ones by their exact projected solid angle, the others as
-//! clusters with an estimate of it, in which one looks for triangles as they are drawn.
+//! An emitting surface of many triangles as a receiver sees it. Near triangles have their exact projected solid
+//! angle. The others form clusters with an estimate of it; a cluster is searched for a triangle when it is drawn.
 
 use super::super::polygon::{Piece, drawn, pieces};
 use super::super::sources::triangle_tree::{Clusters, Outlook};
@@ -9,19 +9,20 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// Triangles and clusters looked at for every sample, and the samples for which more are.
+/// Triangles and clusters examined for every sample.
 const LOOKED_AT: usize = 64;
+/// Number of samples up to which that grows in proportion.
 const SAMPLES: usize = 8;
 
 /// A cluster of the partition.
 struct Part {
     cluster: u32,
-    /// An estimate of its projected solid angle, sr, which is zero only if that is zero; exact with pieces.
+    /// Estimate of its projected solid angle, sr: exact with pieces, zero only if the true value is zero.
     weight: f64,
     pieces: Option<Vec<Piece>>,
 }
 
-/// A cluster that may be divided: the greater, the sooner.
+/// A cluster that may be divided, in the order of its doubt.
 struct Doubtful {
     doubt: f64,
     cluster: u32,
@@ -29,7 +30,7 @@ struct Doubtful {
 
 impl Ord for Doubtful {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Ties in the order of the clusters: the same partition on every machine.
+        // Ties follow the numbers of the clusters, so that the partition is the same on every machine.
         self.doubt.total_cmp(&other.doubt).then(self.cluster.cmp(&other.cluster))
     }
 }
@@ -48,7 +49,7 @@ impl PartialEq for Doubtful {
 
 impl Eq for Doubtful {}
 
-/// A partition of all triangles that may be seen.
+/// A partition of all triangles that a receiver may see.
 pub(crate) struct Parted<'a> {
     at: SurfacePoint,
     clusters: &'a Clusters,
@@ -59,7 +60,7 @@ pub(crate) struct Parted<'a> {
 }
 
 impl<'a> Parted<'a> {
-    /// For so many samples.
+    /// The partition for `samples` samples.
     pub(crate) fn new(
         at: &SurfacePoint,
         clusters: &'a Clusters,
@@ -73,7 +74,7 @@ impl<'a> Parted<'a> {
         parted
     }
 
-    /// Divides what is in doubt, the most doubtful first, until as many have been looked at as may be.
+    /// Divides the clusters whose outlook is unknown, the most doubtful first, until `most` have been examined.
     fn divide(&mut self, most: usize) {
         let (mut waiting, mut looked_at) = (BinaryHeap::with_capacity(LOOKED_AT), 0);
         self.look(0, &mut waiting);
@@ -93,7 +94,7 @@ impl<'a> Parted<'a> {
         }
     }
 
-    /// Takes a cluster, or lets it wait, with its doubt.
+    /// Takes a cluster whose outlook is known; lets others wait in the order of their doubt.
     fn look(&mut self, cluster: u32, waiting: &mut BinaryHeap<Doubtful>) {
         match self.clusters.outlook(cluster, &self.at) {
             Outlook::Dark => {}
@@ -116,14 +117,15 @@ impl<'a> Parted<'a> {
         pieces(&self.at, members.map(|&k| (k as usize, self.triangles[k as usize])))
     }
 
-    /// The piece at a place from 0 to 1, and the projected solid angle that each of its directions stands for, over the whole.
+    /// The piece at a place from 0 to 1, and the projected solid angle that each of its directions
+    /// stands for, as a share of the whole.
     pub(crate) fn drawn(&self, pick: f64) -> Option<(Cow<'_, Piece>, f64)> {
         let mut left = pick * self.whole;
         let found = self.parts.iter().find(|part| {
             left -= part.weight;
             left < 0.0
         });
-        // Rounding may leave a sliver past the last.
+        // Rounding may leave a remainder past the last part.
         let part = found.or(self.parts.last())?;
         let place = ((left + part.weight) / part.weight).clamp(0.0, 1.0);
         if let Some(pieces) = &part.pieces {
@@ -143,7 +145,8 @@ impl<'a> Parted<'a> {
         drawn(&pieces, place * whole).map(|piece| (Cow::Owned(piece.clone()), share))
     }
 
-    /// The projected solid angle that each direction to a triangle stands for, over the whole; `None` where none is drawn.
+    /// The projected solid angle that each direction to a triangle stands for, as a share of the
+    /// whole; `None` where the triangle is never drawn.
     pub(crate) fn share(&self, triangle: usize) -> Option<f64> {
         let part = self.parts.iter().find(|part| self.clusters.has(part.cluster, triangle))?;
         if part.pieces.is_some() {
@@ -160,11 +163,11 @@ impl<'a> Parted<'a> {
         (share > 0.0 && share.is_finite()).then_some(share)
     }
 
-    /// The halves of a cluster and the chance of the first, by what both may give.
+    /// The halves of a cluster and the probability of the first, in proportion to their weights.
     fn halves(&self, cluster: u32) -> Option<([u32; 2], f64)> {
         let halves = self.clusters.halves(cluster)?;
         let [first, second] = halves.map(|half| self.clusters.weight(half, &self.at));
-        // Where neither gives any, it does not matter.
+        // Neither half gives light: the choice does not matter.
         let of_first = if first + second > 0.0 { first / (first + second) } else { 0.5 };
         Some((halves, of_first))
     }

@@ -1,4 +1,4 @@
-//! Direct light by a fixed number of shadow rays: of all sources, or of one that is drawn.
+//! Direct light by a fixed number of shadow rays, to all sources or to one that is drawn.
 
 use super::super::lighting::{EXACT_SOURCES, Lighting, RAYS_TO_MANY, drawn};
 use super::super::sources;
@@ -15,12 +15,12 @@ impl Lighting<'_> {
         self.sampled(at, self.area_samples(), dice)
     }
 
-    /// The same with `samples` shadow rays for every emitting surface.
+    /// Direct illuminance from all sources, with `samples` shadow rays for every emitting surface.
     pub(crate) fn sampled(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
         self.sampled_again(at, samples)(dice)
     }
 
-    /// [`Lighting::sampled`] again and again at one place.
+    /// [`Lighting::sampled`] for repeated estimates at one place.
     pub(crate) fn sampled_again<'d>(
         &'d self,
         at: &'d SurfacePoint,
@@ -33,8 +33,7 @@ impl Lighting<'_> {
         }
     }
 
-    /// An unbiased estimate of the direct illuminance by few shadow rays, for the ends of
-    /// gathering rays.
+    /// An unbiased estimate of the direct illuminance by few shadow rays, for the ends of gathering rays.
     pub(crate) fn estimate(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
         if self.sources.len() <= EXACT_SOURCES {
             return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
@@ -54,7 +53,7 @@ impl Lighting<'_> {
         self.lit_by_drawn(&weights, (left, total), at, dice)
     }
 
-    /// The same of the sources that are not in the tree.
+    /// An unbiased estimate of the direct illuminance from the sources that are not in the light tree.
     pub(crate) fn estimate_of_others(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
         let weights = self.weights_of_others(at);
         let total: f64 = weights.iter().sum();
@@ -73,7 +72,8 @@ impl Lighting<'_> {
         self.others().map(weight).collect()
     }
 
-    /// What all give by the one of the others at a place among their weights.
+    /// An estimate of all light of the sources outside the light tree, from the one at `place` on
+    /// the sum of their weights.
     fn lit_by_drawn(
         &self,
         weights: &[f64],
@@ -82,14 +82,14 @@ impl Lighting<'_> {
         dice: &mut Dice,
     ) -> Rgb {
         let drawn = drawn(weights, place);
-        // Rounding may leave a sliver past the last weight.
+        // Rounding may leave a remainder past the last weight.
         let drawn = drawn.or_else(|| weights.iter().rposition(|&w| w > 0.0));
         drawn.zip(self.others().nth(drawn.unwrap_or(0))).map_or(Rgb::BLACK, |(k, source)| {
             self.lit_by(source, at, 1, dice) * (total / weights[k])
         })
     }
 
-    /// Such an estimate, a share of it: what it needs to know of shadows is asked later, with what others do.
+    /// The estimate times `share`, without the light whose shadow rays are added to `shadows` and traced later.
     pub(crate) fn estimate_later(
         &self,
         at: &SurfacePoint,
@@ -113,7 +113,7 @@ impl Lighting<'_> {
         sum
     }
 
-    /// The light that arrives of all that was asked for.
+    /// The light of all rays in `shadows` that arrives.
     pub(crate) fn answer(&self, shadows: &mut Shadows) -> Rgb {
         let free = shadows.free(self.scene.bvh());
         free.map(|(ray, target, light)| light * self.through_glass(ray, target)).sum()

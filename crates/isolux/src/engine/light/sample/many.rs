@@ -1,12 +1,12 @@
 //! Direct light of many luminaires by few shadow rays.
 //!
-//! A comb of evenly spaced teeth, shifted at random, is laid over all luminaires and images, each as
-//! wide as what it is expected to give: in the order of the tree, so that neighbours in space are
-//! neighbours under the comb. Those under a tooth are evaluated exactly and looked at; of a cluster under
-//! a tooth, one of a few. What is found is divided by the chance of having been chosen (Hansen and
-//! Hurwitz 1943), so there is no bias whatever the widths are, and no noise where the widths are right and
-//! nothing is hidden. Of a triangle of an emitting surface a look tells one point, drawn by projected solid angle where it is near, so
-//! that of its light alone what hides it is noise.
+//! All luminaires and images lie along a line, each with a width equal to its expected light. Their order is
+//! that of the light tree, so neighbours in space are neighbours on the line. A comb of evenly spaced teeth,
+//! shifted at random, is laid over the line. A luminaire under a tooth is evaluated exactly, with a shadow
+//! ray; of a cluster under a tooth, one luminaire of a few is. The result is divided by the probability of
+//! the choice (Hansen and Hurwitz 1943). So it has no bias for any widths, and no noise where the widths are
+//! right and nothing is hidden. For a triangle of an emitting surface, one point is sampled, by projected
+//! solid angle where the triangle is near. Then only occlusion of the triangle makes noise.
 
 use super::super::lighting::{Lighting, RAYS_TO_MANY, drawn};
 use super::super::polygon::{Place, pieces, target};
@@ -20,13 +20,13 @@ use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 
-/// So many times as many points as rays are looked at one by one, without noise.
+/// Number of point sources for every ray up to which all of them are evaluated, without noise.
 const MORE_POINTS: usize = 4;
 
 /// Luminaires of a cluster among which one is chosen.
 const CHOICE: usize = 8;
 
-/// Faces that reach no further than this share of their distance are drawn from by area, which takes a third of the time.
+/// Radius of a face, as a share of its distance, up to which it is sampled by area. That takes a third of the time.
 const FAR: f64 = 0.25;
 
 /// The teeth of a comb: whole numbers plus a shift.
@@ -43,7 +43,7 @@ impl Comb {
 }
 
 impl Lighting<'_> {
-    /// [`Lighting::sampled`] where many readings of a surface lie close by.
+    /// [`Lighting::sampled`] for a receiver on a surface with many close receivers.
     pub(crate) fn sampled_on(
         &self,
         patches: &Patches,
@@ -57,8 +57,8 @@ impl Lighting<'_> {
         self.lit_by_cut(&self.cut_on(patches, at), at, (RAYS_TO_MANY, samples), dice)
     }
 
-    /// An unbiased estimate by about `rays` shadow rays, where many readings of a surface lie close by; where points are
-    /// not many more, by one to each of them.
+    /// An unbiased estimate by about `rays` shadow rays, for a receiver on a surface with many
+    /// close receivers. Point sources that are not many more than `rays` get one ray each.
     pub(crate) fn by_rays_on(
         &self,
         patches: &Patches,
@@ -74,8 +74,8 @@ impl Lighting<'_> {
         self.lit_by_cut(&self.cut_on(patches, at), at, (rays, samples), dice)
     }
 
-    /// Direct illuminance from luminaires without surface and their images, by `rays` shadow rays;
-    /// `cut` is that of the place.
+    /// Direct illuminance from the lamps of the light tree and their images, by about `rays` shadow
+    /// rays. `cut` is the cut of the receiver.
     pub(crate) fn lit_by_many(
         &self,
         cut: &Cut,
@@ -88,7 +88,7 @@ impl Lighting<'_> {
         sum / rays as f64
     }
 
-    /// Direct illuminance by so many shadow rays to the luminaires of a cut, and so many to every emitting surface.
+    /// Direct illuminance by `rays` shadow rays to the lamps of a cut, and `samples` to every other emitting surface.
     pub(crate) fn lit_by_cut(
         &self,
         cut: &Cut,
@@ -100,8 +100,8 @@ impl Lighting<'_> {
         self.others().fold(points, |sum, source| sum + self.lit_by(source, at, samples, dice))
     }
 
-    /// Looks along a comb of `rays` teeth, one more or less: each tells what all would give if they gave
-    /// as it does.
+    /// Evaluates the lamps under a comb of about `rays` teeth. Each call of `found` receives the
+    /// light of all lamps as estimated from one tooth.
     pub(crate) fn look(
         &self,
         cut: &Cut,
@@ -141,12 +141,13 @@ impl Lighting<'_> {
         }
     }
 
-    /// Whether one look tells all that comes from a lamp.
+    /// Whether one shadow ray determines all light of a lamp.
     fn is_exact(&self, lamp: u32) -> bool {
         self.tree.face(&self.tree.lamps[lamp as usize]).is_none()
     }
 
-    /// The same with a look at each of them; of faces, by more of so many rays where more is expected.
+    /// Direct illuminance from all lamps of a cut, each evaluated. Faces share `rays` in proportion
+    /// to their expected light.
     pub(crate) fn lit_by_each(
         &self,
         cut: &Cut,
@@ -178,7 +179,7 @@ impl Lighting<'_> {
         parts.sum()
     }
 
-    /// How many luminaires and images a cut holds.
+    /// Number of luminaires and images in a cut.
     pub(crate) fn count(&self, cut: &Cut) -> usize {
         let count = |part| match part {
             Part::Lamp(_) => 1,
@@ -187,8 +188,8 @@ impl Lighting<'_> {
         cut.parts.seen.iter().map(|seen| count(seen.part)).sum()
     }
 
-    /// An unbiased estimate of what a cluster gives, by one of its lamps: chosen in proportion to what it
-    /// is expected to give among some that a comb over their power brings.
+    /// An unbiased estimate of the light of a cluster, from one of its lamps. A comb over their
+    /// power brings some candidates; one is chosen in proportion to its expected light.
     fn lit_by_one_of(&self, node: u32, view: &View, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
         let [shift, pick] = dice.pair();
         let node: &Node = &self.tree.nodes[node as usize];
@@ -237,7 +238,7 @@ impl Lighting<'_> {
         colour * share * (candela * reaching.per_cd)
     }
 
-    /// An unbiased estimate of the direct illuminance from a face by way of a chain of mirrors, by one shadow ray.
+    /// An unbiased estimate of the direct illuminance from a face by a chain of mirrors, with one shadow ray.
     pub(crate) fn lit_by_face(
         &self,
         chain: usize,
@@ -266,7 +267,8 @@ impl Lighting<'_> {
     }
 }
 
-/// A point of a triangle, uniformly by area, and the projected solid angle that it stands for, sr; `None` where that is nothing.
+/// A point of a triangle, uniform by area, and the projected solid angle that it stands for, sr;
+/// `None` where the point is not seen.
 fn by_area(
     [a, b, c]: [Point; 3],
     twice_m2: Vector,
@@ -283,7 +285,8 @@ fn by_area(
     is_seen.then(|| (point, 0.5 * height * depth / (distance2 * distance2)))
 }
 
-/// The same in proportion to the cosine at the receiver by direction.
+/// A point of a triangle with a density by direction in proportion to the cosine at the receiver,
+/// and the projected solid angle that it stands for, sr.
 fn by_direction(corners: [Point; 3], at: &SurfacePoint, dice: &mut Dice) -> Option<(Point, f64)> {
     let pieces = pieces(at, std::iter::once((0, corners)));
     let steradians: f64 = pieces.iter().map(|piece| piece.steradians).sum();

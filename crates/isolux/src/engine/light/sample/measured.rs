@@ -1,68 +1,71 @@
-//! Light with its own standard error, and how well it is to be known.
+//! Light with its standard error, and the standard error asked for.
 
 use crate::units::Rgb;
 
-/// Independent combs, whose spread tells the error of their mean.
+/// Independent replicates, whose spread tells the standard error of their mean.
 pub(crate) const REPLICATES: u32 = 8;
 
-/// The standard error by the spread of eight replicates, so that 1.96 of it hold the truth in 95 % of cases (quantiles of Student's
-/// distribution with seven degrees of freedom and of the normal one).
+/// Factor on a standard error from the spread of eight replicates, with which 1.96 standard errors hold the true
+/// value in 95 % of cases (quantiles of Student's distribution with seven degrees of freedom and of the normal one).
 pub(crate) const OF_FEW: f64 = 2.365 / 1.96;
 
-/// Where light may be so many times as noisy, rough clusters will do.
+/// Factor on the allowed noise from which rough clusters suffice.
 const ROUGH_FROM: f64 = 1.5;
 
-/// Noise of a reading, of the accuracy asked for, and the least and the most of it, of all light: rays grow like its power of -1.4.
+/// Standard error of a reading, as a share of the accuracy asked for.
 const OF_ACCURACY: f64 = 0.3;
+/// The smallest and the largest standard error of a reading, as a share of its light. The number of
+/// rays grows like its power of -1.4.
 const OF_READINGS: [f64; 2] = [3e-4, 3e-3];
 
-/// How well light is to be known.
+/// The standard error asked for in a measurement of light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Goal {
     /// Standard error, lx.
     pub(crate) lx: f64,
-    /// Or as a share of the light itself, whichever is larger.
+    /// Standard error as a share of the light; the larger of the two counts.
     pub(crate) share: f64,
-    /// Rays of a first look, which tells how many it takes; none for the fewest.
+    /// Rays of a first look, which tells how many rays are needed; with zero, the fewest are taken.
     pub(crate) first_look: usize,
     /// Whether clusters may be rough.
     pub(crate) is_rough: bool,
-    /// Whether to measure again, by more rays, what turns out to be noisier.
+    /// Whether to measure again, by more rays, if the light turns out to be noisier.
     pub(crate) insists: bool,
 }
 
 impl Goal {
-    /// A look by the fewest rays.
+    /// No standard error asked for: the fewest rays.
     pub(crate) const ANY: Self =
         Self { lx: 0.0, share: 0.0, first_look: 0, is_rough: true, insists: false };
 
-    /// What a reading of a map is worth that is to err by so much of its light.
+    /// The goal of a reading of a map that is accurate to this share of its light.
     pub(crate) fn reading(accuracy: f64) -> Self {
         let [least, most] = OF_READINGS;
         let share = (OF_ACCURACY * accuracy).clamp(least, most);
         Self { lx: 0.0, share, first_look: 64, is_rough: false, insists: true }
     }
 
-    /// Standard error where there is so much light, lx.
+    /// Standard error for an illuminance, lx.
     pub(super) fn of(self, lx: f64) -> f64 {
         self.lx.max(self.share * lx)
     }
 
-    /// With so many times the noise; where that is much, by clusters as rough as those that one luminaire is drawn from.
+    /// The goal with `by` times the noise. If `by` is large, clusters may be as rough as those from
+    /// which one luminaire is drawn.
     pub(crate) fn relaxed(self, by: f64) -> Self {
         Self { lx: self.lx * by, is_rough: by >= ROUGH_FROM, ..self }
     }
 
-    /// So many lux, after a short look.
+    /// A goal in lux, with a short first look.
     pub(crate) const fn lux(lx: f64) -> Self {
         Self { lx, share: 0.0, first_look: 16, is_rough: false, insists: false }
     }
 }
 
-/// Photometric light of a place with its error.
+/// Illuminance at a place with its variance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Measured {
     pub(crate) lx: Rgb,
-    /// Variance of its photometric value, lx2.
+    /// Variance of the photometric value, lx2.
     pub(crate) variance: f64,
 }

@@ -1,4 +1,4 @@
-//! Ways to draw luminaires and places on them.
+//! Sampling of luminaires and of places on them.
 
 mod adaptive;
 pub(super) mod area;

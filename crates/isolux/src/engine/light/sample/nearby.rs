@@ -1,10 +1,9 @@
-//! Luminaires as seen from about a place, to draw one of them for each of many places close by.
+//! A distribution over luminaires, shared by many close places that each draw one luminaire.
 //!
-//! A cut of the tree of luminaires for every place takes ten times as long as the shadow ray that it is
-//! for. Places close to each other see much the same: a distribution over clusters, made once for all
-//! of them, brings a few candidates to each, and what these would give there, unhidden, decides
-//! (resampled importance sampling: Talbot, Cline, Egbert 2005). The estimate has no bias, whatever the
-//! distribution, as long as it leaves nothing out.
+//! A cut of the light tree for every place takes ten times as long as the shadow ray that it serves. Places close to
+//! each other see nearly the same luminaires. One distribution over clusters, built for all of them, brings a few
+//! candidates to each place. One candidate is drawn in proportion to its unoccluded light there (resampled importance
+//! sampling: Talbot, Cline, Egbert 2005). The estimate has no bias for any distribution that leaves no luminaire out.
 
 use super::super::lighting::{Lighting, drawn};
 use super::super::tree::cut::Part;
@@ -15,24 +14,24 @@ use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
 use isolux_geometry::Point;
 
-/// Candidates, evenly over the distribution.
+/// Number of candidates, evenly spaced over the distribution.
 const CANDIDATES: usize = 8;
 
-/// Clusters are taken as one if their radius is at most this share of their distance.
+/// Radius of a cluster, as a share of its distance, up to which it is one part of the distribution.
 const TIGHTNESS: f64 = 0.4;
 
-/// What a cluster is expected to give at least, as a share of what it would at its highest intensity:
-/// elsewhere it may be seen from another side.
+/// The smallest expected light of a cluster, as a share of its light at the highest intensity.
+/// Other places may see it from another side.
 const LEAST_SHAPE: f64 = 0.03;
 
-/// Clusters and single luminaires, by chain of mirrors, and the running sums of what they are expected to give.
+/// Clusters and single luminaires, by chain of mirrors, with the running sums of their expected light.
 pub(crate) struct NearbyLuminaires {
     place: Point,
     parts: Vec<(usize, Part)>,
     sums: Vec<f64>,
 }
 
-/// Where a cluster or a luminaire is, and how strong at most.
+/// Position, size and highest intensity of a cluster or a luminaire.
 #[derive(Clone, Copy)]
 struct Extent {
     centre: Point,
@@ -41,7 +40,7 @@ struct Extent {
 }
 
 impl Lighting<'_> {
-    /// What is seen from about a place, as far as `reach_m`; `None` where luminaires are too few to be drawn so.
+    /// The distribution for places within `reach_m` of a place; `None` where the light tree is empty.
     pub(crate) fn about(&self, place: Point, reach_m: f64) -> Option<NearbyLuminaires> {
         if self.tree.lamps.is_empty() || without("nearby-luminaires") {
             return None;
@@ -78,7 +77,7 @@ impl Lighting<'_> {
         (about.total() > 0.0).then_some(about)
     }
 
-    /// A place as reflected by a chain of mirrors, back to where the luminaires are, and what the mirrors leave.
+    /// A place as reflected back to the luminaires by a chain of mirrors, and the reflectance of the chain.
     fn image_of(&self, place: Point, chain: usize) -> (Point, f64) {
         let planes = self.chains[chain].iter().map(|&p| &self.mirrors.planes[p as usize]);
         planes.rev().fold((place, 1.0), |(point, left), plane| {
@@ -86,7 +85,7 @@ impl Lighting<'_> {
         })
     }
 
-    /// What a cluster, or a part of it, may give about a place, any way it faces.
+    /// Expected light of a cluster, or of a part of it, about a place, for any direction that a receiver faces.
     fn expected(&self, node: &Node, part: Extent, from: Point, reach_m: f64) -> f64 {
         let to = part.centre - from;
         let extent_m = (part.radius_m + reach_m).max(f64::MIN_POSITIVE);
@@ -99,10 +98,13 @@ impl Lighting<'_> {
         part.peak_cd * shape.max(LEAST_SHAPE) / (distance_m * distance_m)
     }
 
-    /// An unbiased estimate of the direct illuminance at a place by one shadow ray, or two where some sources are not
-    /// luminaires without surface. Where a luminaire is nearer than the place that others are seen from, it gives far more than is
-    /// expected there, as on a ceiling close above it: such places have a cut of their own. Elsewhere none is nearer than half as
-    /// far as it is from there, so that it gives no more than some times what is expected.
+    /// An unbiased estimate of the direct illuminance at a place by one shadow ray, or two if there
+    /// are sources outside the light tree.
+    ///
+    /// A place has its own cut if a luminaire is nearer to it than the place of the distribution
+    /// is, as on a ceiling close above. That luminaire would give far more than the distribution
+    /// expects. For other places every luminaire is at least half as far away as from the place of
+    /// the distribution, so its light is at most a few times the expected.
     pub(crate) fn estimate_by(
         &self,
         about: &NearbyLuminaires,
@@ -132,7 +134,7 @@ impl Lighting<'_> {
         lit.unwrap_or(Rgb::BLACK) + self.estimate_of_others(at, dice)
     }
 
-    /// The chain and luminaire at a place from 0 to 1 of a distribution, and how likely they are.
+    /// The chain and luminaire at a place from 0 to 1 on a distribution, and their probability.
     fn candidate(&self, about: &NearbyLuminaires, place: f64) -> (usize, u32, f64) {
         let sum = place * about.total();
         let k = about.sums.partition_point(|&s| s <= sum).clamp(1, about.parts.len()) - 1;

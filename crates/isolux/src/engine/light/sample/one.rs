@@ -1,4 +1,4 @@
-//! Light of one source after the other.
+//! Direct light of sources evaluated one by one.
 
 use super::super::lighting::Lighting;
 use super::super::sources;
@@ -23,7 +23,7 @@ impl Lighting<'_> {
         }
     }
 
-    /// Illuminance from those of some sources that have no surface, one by one.
+    /// Illuminance from the sources among `some` that have no surface.
     pub(crate) fn lit_by_points<'a>(
         &self,
         some: impl Iterator<Item = &'a Source>,
@@ -42,12 +42,13 @@ impl Lighting<'_> {
         arriving.illuminance_lx * share
     }
 
-    /// [`Lighting::sampled`] with a look at every source.
+    /// [`Lighting::sampled`] with all sources evaluated one by one.
     pub(crate) fn by_all(&self, at: &SurfacePoint, samples: usize, dice: &mut Dice) -> Rgb {
         self.sources.iter().map(|s| self.lit_by(s, at, samples, dice)).sum()
     }
 
-    /// What comes to a place from luminaires without surface and their images: where from, and the illuminance of what faces them.
+    /// Calls `found` for every luminaire without surface, and every image of one, whose light reaches a
+    /// place. It receives the direction to the source, and the illuminance of a surface that faces it.
     pub(crate) fn points_at(&self, at: &SurfacePoint, mut found: impl FnMut(Direction, Rgb)) {
         for source in self.sources.iter().filter(|source| !source.is_area()) {
             let in_view = |target| self.chain_is_in_view(&source.chain, at, target);

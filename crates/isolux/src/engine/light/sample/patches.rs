@@ -1,9 +1,9 @@
-//! What is seen of many luminaires from patches of surfaces, found once for all readings there.
+//! Visible parts of the light tree from patches of surfaces, found once for all receivers on a patch.
 //!
-//! A cut of the tree of luminaires takes longer than the shadow rays that are chosen by it, and from places close by nearly
-//! the same is seen. Patches are so small against the distance of the nearest luminaire that it makes no difference to how
-//! luminaires are to be chosen; what may be seen from anywhere on one counts as seen, so that estimates have no bias. They
-//! are cells of a grid over a triangle, which depend on the place alone: who comes first does not matter.
+//! A cut of the light tree takes longer than the shadow rays that it chooses, and close places see nearly the same.
+//! A patch is so small against the distance of the nearest luminaire that the choice of luminaires hardly changes
+//! over it. Everything visible from anywhere on a patch counts as visible, so estimates have no bias. Patches are
+//! cells of a grid over a triangle and depend on the place alone, so the order of the receivers does not matter.
 
 use super::super::lighting::Lighting;
 use super::super::tree::Tree;
@@ -13,20 +13,20 @@ use crate::engine::ray::{INWARDS, SurfacePoint};
 use isolux_geometry::Point;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Cells are up to so long, as a share of the distance to the nearest luminaire: what these give differs by as much over
-/// half of one.
+/// The greatest length of a cell, as a share of the distance to the nearest luminaire. The light of
+/// that luminaire differs by the same share over half a cell.
 const SHARE: f64 = 0.1;
 
-/// Cosine between the normals of a surface and of its shading from which on they are the same, but for rounding.
+/// Cosine between the geometric and the shading normal above which they are equal but for rounding.
 const FLAT: f64 = 1.0 - 1e-12;
 
-/// Patches that every thread keeps.
+/// Number of patches that every thread keeps.
 const KEPT: usize = 64;
 
-/// Bits of the number of a cell along an edge.
+/// Bound of the number of cells along an edge.
 const CELLS: f64 = (1_u64 << 30) as f64;
 
-/// A cell of a triangle: which one of how many along the two edges from its first corner.
+/// A cell of a triangle: its index along the two edges from the first corner, and the number of cells along them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Cell {
     triangle: u32,
@@ -35,23 +35,23 @@ struct Cell {
     of: [u32; 2],
 }
 
-/// A patch of a surface, and its middle.
+/// A patch of a surface, with its middle and its radius about that.
 pub(crate) struct Patch {
     cell: Cell,
     middle: SurfacePoint,
     reach_m: f64,
 }
 
-/// What a thread has kept: by cell.
+/// The parts that a thread has kept, by cell.
 type Kept = Vec<Option<(Cell, Arc<Parts>)>>;
 
-/// Patches met before, for each thread.
+/// A cache of the parts seen from patches, one for each thread.
 pub(crate) struct Patches {
     of_threads: Vec<Mutex<Kept>>,
 }
 
 impl Lighting<'_> {
-    /// [`Lighting::fine_cut`] with what is seen from the patch that a receiver lies on, where there is one.
+    /// [`Lighting::fine_cut`] with the parts of the patch that a receiver lies on, where there is one.
     pub(crate) fn cut_on(&self, patches: &Patches, at: &SurfacePoint) -> Cut<'_> {
         match Patch::of(self, at).filter(|_| !without("patch-visibility")) {
             None => self.fine_cut(at),
@@ -65,13 +65,13 @@ impl Lighting<'_> {
 }
 
 impl Patches {
-    /// None yet.
+    /// An empty cache.
     pub(crate) fn new() -> Self {
         let threads = rayon::current_num_threads() + 1;
         Self { of_threads: (0..threads).map(|_| Mutex::default()).collect() }
     }
 
-    /// What is seen from a patch, found by `find` unless it is known.
+    /// The parts seen from a patch; `find` computes them if they are not in the cache.
     pub(crate) fn parts(
         &self,
         patch: Patch,
@@ -94,8 +94,8 @@ impl Patches {
 }
 
 impl Patch {
-    /// The one that a place lies on; none where a surface is shaded as if it were curved, where what is above the
-    /// horizon differs from place to place.
+    /// The patch that a place lies on. There is none where the shading normal differs from the
+    /// geometric one, since the horizon then differs from place to place.
     pub(crate) fn of(lighting: &Lighting, at: &SurfacePoint) -> Option<Self> {
         if at.shading.dot(at.geometric) < FLAT {
             return None;
@@ -130,7 +130,7 @@ impl Patch {
 }
 
 impl Cell {
-    /// Where it is kept: neighbours beside each other.
+    /// The index in the cache; neighbouring cells have different ones.
     fn slot(&self) -> usize {
         let [i, j] = self.along;
         let place = i.wrapping_add(j.wrapping_mul(8)).wrapping_add(self.triangle.wrapping_mul(21));
@@ -139,7 +139,7 @@ impl Cell {
 }
 
 impl Tree {
-    /// Distance to the nearest luminaire, m, or this if none is nearer.
+    /// Distance to the nearest luminaire, m, at most `most_m`.
     pub(crate) fn nearest_m(&self, from: Point, most_m: f64) -> f64 {
         let mut nearest_m = most_m;
         let mut waiting = vec![0_u32];
@@ -179,7 +179,7 @@ mod tests {
     use crate::sampling::{Key, Sequence};
     use crate::scene::Scene;
 
-    /// Whether a partition holds a luminaire by way of a chain of mirrors.
+    /// Whether a partition contains a luminaire by a chain of mirrors.
     fn holds(lighting: &Lighting, parts: &Parts, lamp: u32, chain: usize) -> bool {
         let is_it = |part: Part| match part {
             Part::Lamp(other) => other == lamp,
@@ -191,8 +191,8 @@ mod tests {
         parts.seen.iter().any(|seen| seen.chain == chain && is_it(seen.part))
     }
 
-    /// How many luminaires give light at places of a scene and are not held by what is seen from their patches, or from the
-    /// middles of these alone; and how many give light.
+    /// Two counts over places of a scene: the luminaires that give light but are missing from the
+    /// parts of the patch (or of its middle alone), and all that give light.
     fn lost(scene: &Scene, reach_counts: bool) -> [usize; 2] {
         let lighting = Lighting::new(scene);
         let [mut lost, mut lit] = [0; 2];
@@ -200,7 +200,7 @@ mod tests {
             let triangle = (k % u64::from(scene.triangle_count())) as u32;
             let [u, v] = [50, 51].map(|n| 0.25 + 0.24 * number(k, n));
             let at = SurfacePoint::new(scene, triangle, k % 3 == 0, u, v);
-            // None where a face is as near as can be.
+            // There is no patch where a face touches the place.
             let Some(patch) = Patch::of(&lighting, &at) else { continue };
             assert!((at.point - patch.middle.point).length() <= patch.reach_m);
             let reach_m = if reach_counts { patch.reach_m } else { 0.0 };

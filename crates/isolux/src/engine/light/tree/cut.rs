@@ -1,4 +1,4 @@
-//! Clusters of luminaires as seen from a receiver, straight or in mirrors.
+//! Cuts of the light tree for a receiver, straight and in mirrors.
 
 use super::super::lighting::Lighting;
 use super::super::mirrors::planar::Plane;
@@ -11,43 +11,43 @@ use crate::scene::Scene;
 use isolux_geometry::{Direction, Point, Vector};
 use std::sync::Arc;
 
-/// Clusters are taken as one if their radius is at most this share of their distance.
+/// Radius of a cluster, as a share of its distance, up to which it stays undivided.
 #[derive(Clone, Copy, Debug)]
 struct Tightness {
-    /// Clusters of few luminaires.
+    /// The share for leaves.
     leaf: f64,
-    /// Clusters of clusters.
+    /// The share for clusters of clusters.
     inner: f64,
 }
 
 impl Tightness {
-    /// Where one luminaire is to be drawn.
+    /// The shares for drawing one luminaire.
     const ROUGH: Self = Self { leaf: 0.4, inner: 0.4 };
-    /// Where light is to be known.
+    /// The shares for measuring the light.
     const FINE: Self = Self { leaf: 0.3, inner: 0.15 };
 }
 
-/// Where a member of a cluster gives less than this share of what another gives, the cluster is
-/// expected to give no less than this share of what its table says.
+/// The share of the highest expected light among members below which a cluster is uneven. It is
+/// also the smallest weight of an uneven cluster, as a share of the value from its table.
 const UNEVEN: f64 = 0.25;
 
-/// Faces that reach no further than this share of their distance are expected to give what they would by their middle.
+/// Radius of a face, as a share of its distance, up to which its weight comes from its centroid alone.
 const FAR: f64 = 0.3;
 
-/// A receiver as reflected by a chain of mirrors, back to where the luminaires are.
+/// A receiver as reflected back to the luminaires by a chain of mirrors.
 pub(crate) struct View<'a> {
     scene: &'a Scene,
     tree: &'a Tree,
-    /// Which chain.
+    /// Index of the chain.
     pub(crate) chain: usize,
     point: Point,
     shading: Vector,
     geometric: Vector,
-    /// Luminance that the mirrors leave.
+    /// Reflectance of the chain, as a factor on luminance.
     reflectance: f64,
-    /// The mirror that light meets first: nothing is seen but through it.
+    /// The mirror that light meets first; everything in the view is seen through it.
     window: Option<Window<'a>>,
-    /// What is seen from anywhere as near to the point as this counts as seen.
+    /// Radius about the point, m. Everything seen from anywhere within it counts as seen.
     reach_m: f64,
 }
 
@@ -65,8 +65,7 @@ pub(crate) enum Part {
     Lamp(u32),
 }
 
-/// A part of the tree as seen in a view, with an estimate of the illuminance it would give without
-/// obstacles, lx; zero only if that is zero.
+/// A part of the light tree in a view, with an estimate of its unoccluded illuminance, lx; zero only if that is zero.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     pub(crate) chain: usize,
@@ -74,31 +73,32 @@ pub(crate) struct Seen {
     pub(crate) weight: f64,
 }
 
-/// A partition of all that is seen from a receiver, or from a patch of a surface.
+/// A partition of all lamps seen from a receiver, or from a patch of a surface.
 #[derive(Debug, Default)]
 pub(crate) struct Parts {
     pub(crate) seen: Vec<Seen>,
     pub(crate) total: f64,
 }
 
-/// The views of a receiver along all chains, none from behind a mirror, and a partition of what it sees in them.
+/// A cut of the light tree for a receiver: its views along all chains (`None` from behind a
+/// mirror), and a partition of the lamps seen in them.
 pub(crate) struct Cut<'a> {
     pub(crate) views: Vec<Option<View<'a>>>,
     pub(crate) parts: Arc<Parts>,
 }
 
 impl Lighting<'_> {
-    /// What a receiver sees of the luminaires without surface and their images, to know their light.
+    /// A cut of the light tree for measuring light.
     pub(crate) fn fine_cut(&self, at: &SurfacePoint) -> Cut<'_> {
         self.cut(at, Tightness::FINE)
     }
 
-    /// The same, to draw one of them.
+    /// A cut of the light tree for drawing one lamp.
     pub(crate) fn rough_cut(&self, at: &SurfacePoint) -> Cut<'_> {
         self.cut(at, Tightness::ROUGH)
     }
 
-    /// What is seen from as far about a place as `reach_m`.
+    /// The parts seen from anywhere within `reach_m` of a place.
     pub(crate) fn parts_about(&self, middle: &SurfacePoint, reach_m: f64) -> Parts {
         parts(&self.views(middle, reach_m), Tightness::FINE)
     }
@@ -109,12 +109,12 @@ impl Lighting<'_> {
         Cut { views, parts }
     }
 
-    /// The views along all chains, and from as far about as `reach_m`.
+    /// The views along all chains, from anywhere within `reach_m` of a place.
     pub(crate) fn views(&self, at: &SurfacePoint, reach_m: f64) -> Vec<Option<View<'_>>> {
         (0..self.chains.len()).map(|chain| self.view(chain, at, reach_m)).collect()
     }
 
-    /// The view along a chain, and from as far about as `reach_m`; `None` from behind its last mirror.
+    /// The view along a chain, from anywhere within `reach_m` of a place; `None` from behind its last mirror.
     pub(crate) fn view(&self, chain: usize, at: &SurfacePoint, reach_m: f64) -> Option<View<'_>> {
         let (mut point, mut reflectance) = (at.point, 1.0);
         let mut normals = [at.shading.to_vector(), at.geometric.to_vector()];
@@ -146,7 +146,7 @@ fn parts(views: &[Option<View>], tight: Tightness) -> Parts {
 }
 
 impl View<'_> {
-    /// Appends the tight clusters, and the lamps of leaves that are near.
+    /// Appends the clusters that are small for their distance, and the lamps of near leaves.
     fn cut(&self, tight: Tightness, seen: &mut Vec<Seen>) {
         let mut take = |part: Part, weight: f64| {
             if weight > 0.0 {
@@ -176,7 +176,7 @@ impl View<'_> {
         }
     }
 
-    /// Whether nothing of a sphere is above the horizon and seen by way of the mirror.
+    /// Whether all of a cluster's sphere is below the horizon or not seen through the mirror.
     fn is_out_of_view(&self, to: Vector, node: &Node) -> bool {
         let radius_m = node.radius_m + self.reach_m;
         self.shading.dot(to) + radius_m <= 0.0
@@ -184,8 +184,8 @@ impl View<'_> {
             || self.window.as_ref().is_some_and(|w| !w.shows(self, node.centre, node.radius_m))
     }
 
-    /// What a cluster is expected to give: as its members do in the mean, unless these differ so much
-    /// that others may give light where they give none.
+    /// Expected illuminance from a cluster: the mean over its members. Where members differ strongly,
+    /// its table sets a lower bound, since other lamps may give light where these give none.
     fn node_weight(&self, node: &Node) -> f64 {
         let to = node.centre - self.point;
         if self.is_out_of_view(to, node) {
@@ -203,10 +203,10 @@ impl View<'_> {
         mean.max(UNEVEN * self.weight_by_table(to, node))
     }
 
-    /// What a cluster that may be in view may give, by its own table.
+    /// Illuminance from a cluster that may be in view, by its own table.
     fn weight_by_table(&self, to: Vector, node: &Node) -> f64 {
         let radius_m = node.radius_m + self.reach_m;
-        // A cluster around the receiver: as if it were at the distance of its rim.
+        // A cluster around the receiver counts at the distance of its radius.
         let distance2 = to.length_squared().max(radius_m * radius_m).max(f64::MIN_POSITIVE);
         let distance = distance2.sqrt();
         let cos = height_above(self.shading.dot(to), radius_m) / distance;
@@ -218,7 +218,7 @@ impl View<'_> {
         self.reflectance * node.peak_cd * shape * cos / distance2
     }
 
-    /// How light of a lamp reaches the receiver, if that faces it.
+    /// Direction and attenuation of light from a lamp to the receiver; `None` if the receiver faces away.
     pub(crate) fn reaching(&self, position: Point, frame: &[Vector; 3]) -> Option<Reaching> {
         let to = position - self.point;
         let towards = to.direction()?.to_vector();
@@ -230,7 +230,7 @@ impl View<'_> {
         Some(Reaching { local, per_cd: cos / to.length_squared() })
     }
 
-    /// What a lamp is expected to give.
+    /// Expected unoccluded illuminance from a lamp.
     pub(crate) fn lamp_weight(&self, lamp: &Lamp) -> f64 {
         if let Some(face) = self.tree.face(lamp) {
             return self.reflectance * self.face_weight(lamp, face);
@@ -255,12 +255,12 @@ impl View<'_> {
         self.reflectance * lamp.peak_cd * shape * height / (distance2 * distance2.sqrt())
     }
 
-    /// What a face is expected to give where mirrors take nothing off.
+    /// Expected unoccluded illuminance from a face, without the reflectance of mirrors.
     fn face_weight(&self, lamp: &Lamp, face: &Face) -> f64 {
         let to = lamp.position - self.point;
         let radius_m = face.radius_m + self.reach_m;
         let height_m = self.shading.dot(to);
-        // Frames shine along -z.
+        // Luminaires emit along -z of their frames.
         let depth_m = self.tree.kinds[lamp.kind as usize].frame[2].dot(to);
         if depth_m + self.reach_m <= 0.0
             || height_m + radius_m <= 0.0
@@ -281,7 +281,7 @@ impl View<'_> {
     }
 }
 
-/// The mean over heights between the rims of a sphere, of which those below the horizon count nothing.
+/// Mean height over a sphere, m; the part below the horizon counts as zero.
 fn height_above(height_m: f64, radius_m: f64) -> f64 {
     if height_m >= radius_m {
         return height_m;
@@ -292,15 +292,14 @@ fn height_above(height_m: f64, radius_m: f64) -> f64 {
 
 /// Light of a lamp on its way to a receiver.
 pub(crate) struct Reaching {
-    /// Where it leaves, in the frame of the lamp.
+    /// Direction in which it leaves, in the frame of the lamp.
     pub(crate) local: Direction,
-    /// Illuminance for every candela, without mirrors and obstacles, lx.
+    /// Unoccluded illuminance for every candela, without mirrors, lx.
     pub(crate) per_cd: f64,
 }
 
 impl Window<'_> {
-    /// Whether something of a sphere may be seen through the box around the mirror from a place
-    /// behind it.
+    /// Whether some of a sphere may be seen from a place behind the mirror through the box around the mirror.
     fn shows(&self, view: &View, centre: Point, radius_m: f64) -> bool {
         let (from, reach_m) = (view.point, view.reach_m);
         let (depth, height) = (self.depth_m, self.plane.height(centre));
@@ -316,7 +315,7 @@ impl Window<'_> {
         let crossing = from + to * (depth / (depth + height));
         let margin_m = depth / (depth + nearest) * radius_m
             + to.length() * depth * radius_m / ((depth + height) * (depth + nearest));
-        // The same the other way about: the place moves, and its depth changes.
+        // The crossing moves likewise if the place moves by `reach_m` and its depth changes.
         let away = depth + nearest;
         let margin_m = margin_m
             + reach_m * nearest / away

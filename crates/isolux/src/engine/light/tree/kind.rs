@@ -1,4 +1,4 @@
-//! Kinds of luminaires, so that what many have in common is tabulated once.
+//! Kinds of luminaires, which share one table.
 
 use super::lobe::{Lobe, Lobes};
 use crate::photometry::IntensityDistribution;
@@ -6,17 +6,17 @@ use isolux_geometry::Vector;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Lamps of the same distribution that hang the same way.
+/// A kind: lamps with the same distribution and orientation.
 #[derive(Clone, Debug)]
 pub(crate) struct Kind {
-    /// Axes of the frame in the world.
+    /// Axes of the lamp's frame in the world.
     pub(crate) frame: [Vector; 3],
     pub(crate) lobe: Lobe,
-    /// One of them, which has the distribution of all.
+    /// Number of one of these luminaires, whose distribution represents all.
     pub(crate) luminaire: u32,
 }
 
-/// Tables already made, by distribution.
+/// Kinds and tables made so far, by distribution.
 #[derive(Default)]
 pub(crate) struct Kinds {
     by_address: HashMap<usize, Lobe>,
@@ -26,11 +26,11 @@ pub(crate) struct Kinds {
 }
 
 impl Kinds {
-    /// The number of a kind.
+    /// Index of a kind; a new kind is added.
     pub(crate) fn kind(&mut self, intensity: &IntensityDistribution, kind: Kind) -> u32 {
         let of = match intensity {
             IntensityDistribution::Web(web) => (Arc::as_ptr(web) as usize, 0),
-            // One of these is told by its table and power.
+            // Its table and its highest intensity identify such a distribution.
             other => (kind.lobe.number(), other.max_intensity_cd().to_bits()),
         };
         let frame = kind.frame.map(|axis| [axis.x, axis.y, axis.z].map(f64::to_bits));
@@ -40,7 +40,7 @@ impl Kinds {
         })
     }
 
-    /// The table of a distribution; luminaires that differ in power alone share one.
+    /// Table of a distribution; luminaires that differ only in power share one.
     pub(crate) fn lobe(&mut self, intensity: &IntensityDistribution, lobes: &mut Lobes) -> Lobe {
         let address = match intensity {
             IntensityDistribution::Web(web) => Some(Arc::as_ptr(web) as usize),
@@ -58,7 +58,7 @@ impl Kinds {
     }
 }
 
-/// Names a distribution up to its power.
+/// Hash of a distribution without its power.
 fn shape(intensity: &IntensityDistribution) -> blake3::Hash {
     let mut hasher = blake3::Hasher::new();
     let mut numbers = |numbers: &mut dyn Iterator<Item = f64>| {
@@ -80,7 +80,7 @@ fn shape(intensity: &IntensityDistribution) -> blake3::Hash {
             numbers(&mut [kind, web.planes_deg().len() as f64].into_iter());
             numbers(&mut web.planes_deg().iter().copied());
             numbers(&mut web.gammas_deg().iter().copied());
-            // Six digits, so that the rounding of a factor does not tell them apart; zero stays.
+            // Six digits, so that the rounding of a factor makes no difference; zero stays zero.
             numbers(&mut web.candela().iter().map(|cd| (cd / most_cd * 1e6).ceil()));
         }
     }

@@ -1,60 +1,60 @@
-//! Intensity distributions as tables to look up soon: how likely a luminaire is to be drawn, never
-//! what it gives.
+//! Tables of intensity distributions for fast weights: they tell how likely a luminaire is drawn, never its light.
 //!
-//! A table is a map of all directions (the octahedral one of Meyer et al. 2010, "On floating-point
-//! normal vectors"), once for every spread of directions that a cluster of luminaires may be seen
-//! under. Its values are means over the spread, but not far below the highest intensity there, so that
-//! nothing bright is ever unlikely to be drawn, and zero only where all of the spread is dark.
+//! A table is an octahedral map of all directions (Meyer et al. 2010, "On floating-point normal
+//! vectors"), with one level for each angular spread under which a cluster of luminaires may be seen.
+//! Its values are means over the spread, but at least a share of the highest intensity there, so that
+//! no bright direction is unlikely to be drawn. They are zero only where all of the spread is dark.
 
 use crate::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux_geometry::{Direction, Vector};
 use std::collections::HashMap;
 
-/// Texels across of the table for luminaires one by one.
+/// Texels across of the plain table, for single luminaires.
 const PLAIN_SIZE: usize = 64;
 
-/// Spreads that every table is made for: the plain texel, then neighbourhoods that double, then
-/// the whole sphere.
+/// Number of angular spreads of every table: the texel alone, then neighbourhoods of doubling size,
+/// then the whole sphere.
 const SPREADS: usize = 6;
 
-/// Texels across, for one distribution and for a mixture.
+/// Texels across of the table of one distribution.
 const SIZE: usize = 32;
+/// Texels across of the table of a mixture.
 const MIXED_SIZE: usize = 16;
 
-/// Places a texel is sampled at along each side, its border included.
+/// Samples of a texel along each side, its border included.
 const SAMPLES: usize = 5;
 
-/// No value is below this share of the highest intensity over the spread.
+/// The smallest value, as a share of the highest intensity over the spread.
 const LEAST_SHARE: f64 = 0.125;
 
-/// The least of a texel beside one that is lit, as a share of that.
+/// The smallest value of a texel beside a lit one, as a share of that.
 const BORDER_SHARE: f64 = 0.02;
 
-/// A turn by an angle moves a direction on the map by at most so many times the angle: the square
-/// root of two at the corners of the octahedron, rounded up.
+/// Largest distance on the map for every radian of direction: the square root of two, at the
+/// corners of the octahedron, rounded up.
 const STRETCH: f64 = 1.5;
 
 /// Tables of several distributions.
 #[derive(Debug, Default)]
 pub(crate) struct Lobes {
     values: Vec<f32>,
-    /// For luminaires one by one.
+    /// Plain tables, for single luminaires.
     plain: Vec<f32>,
-    /// For tables of both sizes and every step, the neighbours of each texel.
+    /// Neighbours of each texel, by size of the table and step.
     around: HashMap<(usize, i32), Vec<[u16; 9]>>,
 }
 
-/// One of the tables.
+/// The position of one table in [`Lobes`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Lobe {
     first: u32,
     size: u32,
-    /// Where its plain table starts; mixtures have none.
+    /// Start of its plain table; mixtures have none.
     plain: u32,
 }
 
 impl Lobe {
-    /// Tells it from others.
+    /// A number that identifies the table.
     pub(crate) const fn number(self) -> usize {
         self.first as usize
     }
@@ -94,7 +94,7 @@ impl Lobes {
         lobe
     }
 
-    /// Adds the table of a mixture, in the frame of the world: parts by weight, each in its frame.
+    /// Adds the table of a mixture, in the axes of the world. Each part has a weight and a frame.
     pub(crate) fn mix<'a>(
         &mut self,
         parts: impl Iterator<Item = (Lobe, Option<&'a [Vector; 3]>, f64)>,
@@ -114,14 +114,13 @@ impl Lobes {
         self.push(texels)
     }
 
-    /// The value of a distribution towards a direction of any length: its mean over a texel, but not
-    /// far below the highest about there.
+    /// The value of a distribution in a direction (of any length), for a single luminaire: the mean
+    /// over a texel, but at least a share of the highest value nearby.
     pub(crate) fn plain(&self, lobe: Lobe, local: Vector) -> f64 {
         f64::from(self.plain[lobe.plain as usize + texel_of(local, PLAIN_SIZE)])
     }
 
-    /// The value towards a direction of any length, of directions that spread about it by an angle of
-    /// this sine.
+    /// The value for directions that spread about `local` (of any length) by an angle whose sine is `spread`.
     pub(crate) fn towards(&self, lobe: Lobe, spread: f64, local: Vector) -> f64 {
         let size = lobe.size as usize;
         let texels = spread * (STRETCH * 0.5 * size as f64);
@@ -147,7 +146,7 @@ impl Lobes {
         })
     }
 
-    /// What a texel of a mixture takes in of a finer table.
+    /// The value of a table over one texel of a mixture, which may be wider.
     fn wide_texel(&self, lobe: Lobe, local: Vector) -> f64 {
         self.read(lobe, if lobe.size as usize > MIXED_SIZE { 1 } else { 0 }, local)
     }
@@ -168,7 +167,7 @@ impl Lobes {
                 last if last == SPREADS - 1 => texels.spread_everywhere(),
                 _ => texels.spread(self.around(texels.size, 1 << (level - 1))),
             }
-            // Of a single direction the most is taken: what is drawn then has no heavy weight.
+            // A single direction takes the highest value, so that no sample gets a large weight.
             let share = if level == 0 { 1.0 } else { LEAST_SHARE };
             let value = |(&mean, &highest): (&f64, &f64)| mean.max(share * highest) as f32;
             self.values.extend(texels.means.iter().zip(&texels.highest).map(value));
@@ -182,7 +181,7 @@ impl Texels {
         Self { size, means: vec![0.0; size * size], highest: vec![0.0; size * size] }
     }
 
-    /// Peaks of measured tables, which samples may miss.
+    /// Includes the peaks of a measured table, which samples may miss.
     fn include_nodes(&mut self, web: &PhotometricWeb, most_cd: f64) {
         for (at, cd) in web.nodes() {
             let highest = &mut self.highest[texel_of(at, self.size)];
@@ -190,7 +189,7 @@ impl Texels {
         }
     }
 
-    /// Borders of light may pass between samples: beside light no texel is wholly dark.
+    /// Makes no texel beside a lit one wholly dark, because an edge of the beam may pass between samples.
     fn blur_borders(&mut self, around: &[[u16; 9]]) {
         let sharp = std::mem::take(&mut self.highest);
         self.highest.clone_from(&sharp);
@@ -202,7 +201,7 @@ impl Texels {
         }
     }
 
-    /// Takes in the neighbours.
+    /// Spreads every texel over its neighbours: their mean, and their highest value.
     fn spread(&mut self, around: &[[u16; 9]]) {
         let mean = |near: &[u16; 9]| near.iter().map(|&k| self.means[k as usize]).sum::<f64>();
         let most =
@@ -234,7 +233,7 @@ fn sampled(intensity: &IntensityDistribution, i: usize, j: usize) -> (f64, f64) 
     (sum / (SAMPLES * SAMPLES) as f64, highest)
 }
 
-/// Mean intensity over a texel of a plain table, as a linear function of its corners and its middle, cd.
+/// Mean intensity over a texel of a plain table, cd, from its corners and its middle (exact for linear functions).
 fn mean_of_corners(intensity: &IntensityDistribution, i: usize, j: usize) -> f64 {
     let at = |x: f64, y: f64| {
         let place = |texel: usize, inside: f64| (texel as f64 + inside) / PLAIN_SIZE as f64;
@@ -245,23 +244,23 @@ fn mean_of_corners(intensity: &IntensityDistribution, i: usize, j: usize) -> f64
     0.5 * at(0.5, 0.5) + 0.125 * corners.iter().map(|&(x, y)| at(x, y)).sum::<f64>()
 }
 
-/// A vector turned into a frame given by its axes.
+/// A vector in the coordinates of a frame given by its axes.
 pub(crate) fn turned([x, y, z]: &[Vector; 3], v: Vector) -> Vector {
     Vector::new(x.dot(v), y.dot(v), z.dot(v))
 }
 
-/// The texel of a direction of any length: nadir in the middle, zenith in the corners.
+/// Index of the texel of a direction (of any length): nadir in the middle, zenith in the corners.
 fn texel_of(v: Vector, size: usize) -> usize {
     let scale = 1.0 / (v.x.abs() + v.y.abs() + v.z.abs());
     let (x, y) = (v.x * scale, v.y * scale);
     let (x, y) =
         if v.z > 0.0 { ((1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)) } else { (x, y) };
-    // A cast of what is not a number gives zero.
+    // The cast of NaN gives zero.
     let index = |c: f64| ((((c + 1.0) * 0.5) * size as f64) as usize).min(size - 1);
     index(y) * size + index(x)
 }
 
-/// The direction at a place of the map, 0 to 1 both ways; of any length.
+/// The direction, of any length, at a place of the map from 0 to 1 along both sides.
 fn direction_at(u: f64, v: f64) -> Vector {
     let (x, y) = (2.0 * u - 1.0, 2.0 * v - 1.0);
     let down = 1.0 - x.abs() - y.abs();
@@ -272,7 +271,7 @@ fn direction_at(u: f64, v: f64) -> Vector {
     }
 }
 
-/// The texel at a place that may lie beyond the border, where the map is folded over.
+/// Index of the texel at a place that may lie beyond the border, where the map folds over.
 fn folded(mut i: i32, mut j: i32, size: i32) -> usize {
     if i < 0 || i >= size {
         (i, j) = (if i < 0 { -1 - i } else { 2 * size - 1 - i }, size - 1 - j);

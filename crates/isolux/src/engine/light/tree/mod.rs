@@ -1,5 +1,5 @@
-//! Luminaires without surface, and triangles of emitting surfaces where these are many, as a tree of clusters, each with a
-//! sphere around it and a table of where its light goes.
+//! The light tree: clusters of point luminaires and, where they are many, of triangles of emitting
+//! surfaces. Each cluster has a bounding sphere and a table of its directional distribution.
 
 pub(super) mod cut;
 mod kind;
@@ -13,26 +13,26 @@ use isolux_geometry::{Direction, Normal, Point, Vector};
 use kind::{Kind, Kinds};
 use lobe::{Lobe, Lobes};
 
-/// Luminaires of a leaf at most.
+/// The most lamps in a leaf.
 const GROUP: usize = 16;
 
-/// Luminaires that a cluster is judged by.
+/// Lamps of a cluster that its weight is estimated from.
 const MEMBERS: usize = 4;
 
-/// Clusters of at most so many are divided by kind before they are divided in space, if the most
-/// frequent kind has a share that is not below one in so many.
+/// The most lamps of a cluster that is divided by kind before it is divided in space.
 const SMALL: usize = 128;
+/// Such a division requires a share of at least one in this number for the most frequent kind.
 const FEW: usize = 8;
 
-/// A luminaire or a face, in a line of the cache.
+/// A lamp of the light tree: a point luminaire or a face. It fits in one cache line.
 #[derive(Clone, Debug)]
 pub(crate) struct Lamp {
     pub(crate) position: Point,
     pub(crate) colour: Rgb,
-    /// Its number in the scene; those of faces follow those of luminaires.
+    /// Number of the luminaire in the scene; faces have the numbers after those of luminaires.
     pub(crate) luminaire: u32,
     pub(crate) kind: u32,
-    /// Highest intensity times the luminance of its colour, cd.
+    /// Highest luminous intensity times the luminance of the colour, cd.
     pub(crate) peak_cd: f64,
 }
 
@@ -42,34 +42,34 @@ pub(crate) struct Node {
     pub(crate) centre: Point,
     pub(crate) radius_m: f64,
     pub(crate) lobe: Lobe,
-    /// The kind of all its lamps; none where they differ: then the axes of `lobe` are the world's.
+    /// Kind of all its lamps. `None` if they differ; `lobe` is then in the axes of the world.
     pub(crate) kind: Option<u32>,
     pub(crate) peak_cd: f64,
-    /// Its lamps.
+    /// Index of its first lamp.
     pub(crate) first: u32,
     pub(crate) count: u32,
-    /// Some of them, each for an equal part of their power.
+    /// Lamps of the cluster, each representing an equal part of its power.
     pub(crate) members: [u32; MEMBERS],
-    /// The second of its halves; the first follows it. None for a leaf.
+    /// Number of its second half, `None` for a leaf. The first half follows the node itself.
     pub(crate) second: Option<u32>,
 }
 
-/// All of them, in the order of the tree.
+/// The light tree, with lamps and nodes in its order.
 #[derive(Debug, Default)]
 pub(crate) struct Tree {
     pub(crate) lamps: Vec<Lamp>,
     pub(crate) kinds: Vec<Kind>,
-    /// Running sums of their highest intensities, starting with zero.
+    /// Running sums of the highest intensities of the lamps, starting with zero.
     pub(crate) peak_sums_cd: Vec<f64>,
     pub(crate) nodes: Vec<Node>,
     pub(crate) lobes: Lobes,
-    /// Faces among them, by number less that of the first.
+    /// Faces among the lamps, indexed by luminaire number less `first_face`.
     pub(crate) faces: Vec<Face>,
     first_face: u32,
 }
 
 impl Tree {
-    /// The tree of a scene's luminaires, if they are wanted, and of some faces; those without light are left out.
+    /// The light tree of a scene's point luminaires, if `has_points`, and of `faces`. Lamps without light are left out.
     pub(crate) fn of(scene: &Scene, has_points: bool, faces: Vec<Face>) -> Self {
         let first_face = scene.luminaires().len() as u32;
         let mut tree = Self { faces, first_face, ..Self::default() };
@@ -110,7 +110,7 @@ impl Tree {
         }
     }
 
-    /// They shine like the cosine of the angle to their normal.
+    /// Adds the faces, with intensities in proportion to the cosine of the angle from the normal.
     fn add_faces(&mut self, scene: &Scene, kinds: &mut Kinds) {
         let cosine = IntensityDistribution::CosinePower { peak_cd: 1.0, exponent: 1.0 };
         for (index, face) in self.faces.iter().enumerate() {
@@ -125,18 +125,18 @@ impl Tree {
         }
     }
 
-    /// The face that a lamp is, if it is none of the luminaires without surface.
+    /// The face of a lamp; `None` for a point luminaire.
     pub(crate) fn face(&self, lamp: &Lamp) -> Option<&Face> {
         let index = lamp.luminaire.checked_sub(self.first_face)?;
         Some(&self.faces[index as usize])
     }
 
-    /// All of a lamp is as near to its position, m.
+    /// Radius of a sphere about the position of a lamp that contains all of it, m.
     pub(crate) fn radius_m(&self, lamp: &Lamp) -> f64 {
         self.face(lamp).map_or(0.0, |face| face.radius_m)
     }
 
-    /// Running sums, and the members that they tell.
+    /// Computes the running sums, and the members of clusters from them.
     fn sum_up(&mut self) {
         let mut sum_cd = 0.0;
         let sums_cd = self.lamps.iter().map(|l| {
@@ -151,7 +151,7 @@ impl Tree {
         }
     }
 
-    /// The lamp of a cluster at a place from 0 to 1 of its power.
+    /// Index of the lamp at a place from 0 to 1 on the power of a cluster.
     pub(crate) fn member(&self, node: &Node, place: f64) -> u32 {
         let (first, end) = (node.first as usize, (node.first + node.count) as usize);
         let sums_cd = &self.peak_sums_cd[first..=end];
@@ -159,7 +159,7 @@ impl Tree {
         (first + place_in(sums_cd, from_cd + (to_cd - from_cd) * place)) as u32
     }
 
-    /// Appends the cluster of a range of lamps and its parts.
+    /// Appends the cluster of a range of lamps and its descendants.
     fn build(&mut self, first: usize, end: usize) -> u32 {
         let index = self.nodes.len();
         let (centre, radius_m, widest) = self.sphere(&self.lamps[first..end]);
@@ -180,14 +180,14 @@ impl Tree {
             self.build(first, middle);
             self.nodes[index].second = Some(self.build(middle, end));
         } else {
-            // The halves are the same on every machine, the order inside is not.
+            // The division is the same on every machine, the order inside a half is not.
             self.lamps[first..end].sort_unstable_by_key(|l| l.luminaire);
         }
         self.find_lobe(index);
         index as u32
     }
 
-    /// A sphere around lamps, and the axis along which they spread most.
+    /// A bounding sphere of lamps, and the axis of their largest extent.
     fn sphere(&self, lamps: &[Lamp]) -> (Point, f64, usize) {
         let first = lamps[0].position;
         let (low, high) = lamps.iter().fold((first, first), |(low, high), l| {
@@ -204,11 +204,11 @@ impl Tree {
         } else {
             2
         };
-        // The roundings of a length and of those that follow.
+        // Allowance for the rounding of a length and of the steps after it.
         (centre, radius_m * (1.0 + 1e-12), widest)
     }
 
-    /// The table of a cluster whose parts have theirs: one for all, if all are alike, or a mixture.
+    /// Sets the table of a cluster whose parts have theirs: the common one if all kinds are equal, else a mixture.
     fn find_lobe(&mut self, index: usize) {
         let node = &self.nodes[index];
         let lamps = &self.lamps[node.first as usize..][..node.count as usize];
@@ -238,7 +238,7 @@ impl Tree {
     }
 }
 
-/// The interval of running sums that a sum lies in: where it lies if all are alike, else searched for.
+/// Index of the interval of running sums that contains a sum. A linear guess comes before the binary search.
 fn place_in(sums: &[f64], sum: f64) -> usize {
     let last = sums.len() - 2;
     let share = (sum - sums[0]) / (sums[last + 1] - sums[0]);
@@ -249,7 +249,7 @@ fn place_in(sums: &[f64], sum: f64) -> usize {
     sums.partition_point(|&s| s <= sum).clamp(1, last + 1) - 1
 }
 
-/// Puts the lower half along an axis first; returns how many that are.
+/// Puts the lower half along an axis first; returns its size.
 fn halve(lamps: &mut [Lamp], axis: usize) -> usize {
     let along = |l: &Lamp| l.position.to_vector().component(axis);
     let middle = lamps.len() / 2;
@@ -259,8 +259,8 @@ fn halve(lamps: &mut [Lamp], axis: usize) -> usize {
     middle
 }
 
-/// Puts the lamps of one kind first, if these are neither all nor few, and the cluster small enough for
-/// its parts to stay together; returns how many that are.
+/// Puts the lamps of the most frequent kind first and returns their number. `None` if these are all
+/// or too few, or if the cluster is too large for its parts to stay close in space.
 fn divide_by_kind(lamps: &mut [Lamp]) -> Option<usize> {
     if lamps.len() > SMALL {
         return None;
@@ -275,14 +275,14 @@ fn divide_by_kind(lamps: &mut [Lamp]) -> Option<usize> {
     Some(alike)
 }
 
-/// The axes of a luminaire's frame, which shines along its -z, that shines along a normal.
+/// The axes of a frame whose -z, the main direction of luminaires, is along a normal.
 fn shining_along(normal: Normal) -> [Vector; 3] {
     let back = -normal.to_direction();
     let (x, y) = back.frame();
     [x, y, back].map(Direction::to_vector)
 }
 
-/// Which lamps have an image by which chain of mirrors.
+/// Whether each lamp has an image by each chain of mirrors.
 #[derive(Debug, Default)]
 pub(crate) struct Images {
     chains: usize,
@@ -290,13 +290,13 @@ pub(crate) struct Images {
 }
 
 impl Images {
-    /// Of all lamps of a tree, where `exists` knows it of a lamp and chain.
+    /// The images of all lamps of a tree, as told by `exists`.
     pub(crate) fn of(tree: &Tree, chains: usize, exists: impl Fn(&Lamp, usize) -> bool) -> Self {
         let all = tree.lamps.iter().flat_map(|l| (0..chains).map(move |c| (l, c)));
         Self { chains, exist: all.map(|(l, c)| exists(l, c)).collect() }
     }
 
-    /// Whether a lamp has one.
+    /// Whether a lamp has an image by a chain.
     pub(crate) fn has(&self, lamp: u32, chain: usize) -> bool {
         self.exist[lamp as usize * self.chains + chain]
     }

@@ -1,4 +1,4 @@
-//! What of a source's light reaches a receiver: along its chain of mirrors, through thin panes.
+//! Visibility of a source from a receiver: along its chain of mirrors and through thin panes.
 
 pub(super) mod shadows;
 pub(super) mod straight;
@@ -14,8 +14,8 @@ use crate::units::Rgb;
 use isolux_geometry::{Direction, Point};
 
 impl Lighting<'_> {
-    /// The share of light, 0 to 1 a channel, that comes from `target` to a receiver: the image is
-    /// looked at, its last mirror must be met first, and so back to the real luminaire. `emitter`
+    /// The share of light, 0 to 1 a channel, that comes from `target` to a receiver. A ray towards
+    /// the image must meet the last mirror first, and so on back to the real luminaire. `emitter`
     /// is the emitting triangle, which does not shade itself.
     pub(crate) fn visibility(
         &self,
@@ -30,8 +30,8 @@ impl Lighting<'_> {
         self.visibility_in_view(chain, at, target, emitter)
     }
 
-    /// The same where the chain is known to be in view. What comes by several chains, through an edge where mirrors meet, counts
-    /// once: by the first.
+    /// [`Lighting::visibility`] for a chain that is known to be in view. Light that comes by
+    /// several chains, through an edge where mirrors meet, counts once: by the first.
     pub(crate) fn visibility_in_view(
         &self,
         chain: &[u32],
@@ -76,8 +76,8 @@ impl Lighting<'_> {
         Some(share * passed)
     }
 
-    /// Looks towards an image: the first opaque thing must be the mirror. What panes before it
-    /// leave, and the place on the mirror.
+    /// The transmittance of the panes before a mirror and the place on it, on the way to an image.
+    /// `None` if another opaque surface comes first.
     fn meet_mirror(
         &self,
         from: &SurfacePoint,
@@ -89,9 +89,10 @@ impl Lighting<'_> {
         is_it.then_some((share, surface))
     }
 
-    /// What comes of an emitter's light along a direction from a place: through thin panes, unless something else is met first.
+    /// The share of an emitter's light that arrives along a direction, through thin panes; zero if
+    /// another surface comes first.
     pub(crate) fn seen_along(&self, view: &View<'_>, direction: Direction) -> Rgb {
-        // Without panes nothing more needs to be known of what is met.
+        // Without panes the triangle and side of the hit are enough.
         let met = if self.panes.exist() {
             let met = self.first_opaque(&view.at, direction);
             met.map(|(share, surface)| (share, surface.triangle, surface.back))

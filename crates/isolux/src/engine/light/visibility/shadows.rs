@@ -4,7 +4,7 @@ use super::super::sources::Target;
 use crate::units::Rgb;
 use isolux_geometry::{Bvh, Ray};
 
-/// Light that arrives unless something stands between.
+/// A batch of shadow rays, each with the light that arrives if nothing blocks it.
 #[derive(Default)]
 pub(crate) struct Shadows {
     rays: Vec<Ray>,
@@ -13,13 +13,13 @@ pub(crate) struct Shadows {
 }
 
 impl Shadows {
-    /// Light that comes along a ray from where it leads.
+    /// Adds a shadow ray towards `from`, and the light that comes along it.
     pub(crate) fn ask(&mut self, ray: Ray, from: Target, light: Rgb) {
         self.rays.push(ray);
         self.asked.push((from, light));
     }
 
-    /// All that nothing opaque stands before; none is left to ask for.
+    /// The rays that no opaque surface blocks; the batch is then empty.
     pub(crate) fn free(&mut self, bvh: &Bvh) -> impl Iterator<Item = (Ray, Target, Rgb)> + '_ {
         let Self { rays, are_hit, asked } = self;
         are_hit.clear();

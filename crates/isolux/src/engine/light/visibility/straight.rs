@@ -1,4 +1,4 @@
-//! What lets light straight through: nothing, and thin panes.
+//! Straight transmission of light, through free space and thin panes.
 
 use super::super::lighting::Lighting;
 use super::super::sources::Target;
@@ -7,11 +7,11 @@ use crate::scene::Body;
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray, Vector};
 
-/// Thin panes one behind the other that a shadow ray passes.
+/// The most thin panes in a row that a shadow ray passes.
 pub(crate) const MAX_PANES: usize = 64;
 
 impl Lighting<'_> {
-    /// The first opaque thing in a direction, and what panes before it leave.
+    /// The first opaque surface in a direction, and the transmittance of the panes before it.
     pub(crate) fn first_opaque(
         &self,
         from: &SurfacePoint,
@@ -41,8 +41,8 @@ impl Lighting<'_> {
         None
     }
 
-    /// What the transparent surfaces on an otherwise free segment let straight through: panes their
-    /// transmittance, solid glass nothing (its light is bent: particles bring it).
+    /// The straight transmittance of the transparent surfaces on an otherwise free segment. Solid
+    /// glass transmits nothing straight: particles carry its refracted light.
     pub(crate) fn through_glass(&self, mut ray: Ray, target: Target) -> Rgb {
         let mut share = Rgb::WHITE;
         for _ in 0..MAX_PANES {
@@ -55,7 +55,7 @@ impl Lighting<'_> {
         Rgb::BLACK
     }
 
-    /// What a surface lets straight through, if it is a thin pane.
+    /// The transmittance of a surface, if it is a thin pane.
     pub(crate) fn pane_share(&self, surface: &SurfacePoint, ray: &Ray) -> Option<Rgb> {
         let Body::Dielectric(glass) = &self.scene.material(surface.triangle).body else {
             return None;
@@ -65,8 +65,8 @@ impl Lighting<'_> {
     }
 }
 
-/// The segment that ends on the emitter, which must not stop it; a triangle that it starts on it leaves
-/// by its offset.
+/// The segment to an emitter, which must not block it. The offset at the start takes it off a
+/// triangle that it starts on.
 pub(crate) fn last_segment(from: &SurfacePoint, target: Target, emitter: Option<u32>) -> Ray {
     let ray = segment(from, target);
     emitter.map_or(ray, |index| ray.skipping(index))
