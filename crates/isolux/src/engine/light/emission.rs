@@ -1,4 +1,4 @@
-//! Particles leaving luminaires in proportion to flux.
+//! Particles that leave luminaires in proportion to flux.
 
 use super::sources::LuminaireId;
 use crate::engine::ray::{Dice, SurfacePoint};
@@ -8,8 +8,8 @@ use crate::units::Rgb;
 use isolux_geometry::{Direction, Normal, Point, Ray};
 use std::f64::consts::PI;
 
-/// The least intensity that a luminaire is taken to have towards something as large as to reach into other directions, too, as a
-/// share of its mean.
+/// The smallest intensity of a luminaire towards an extended target, as a share of its mean
+/// intensity. The target also extends into other directions.
 const LEAST_INTENSITY: f64 = 0.1;
 
 /// All luminaires of a scene as emitters of particles.
@@ -19,31 +19,31 @@ pub(crate) struct Emission<'s> {
     sums_lm: Vec<f64>,
     /// Running sums of the areas of the triangles of every emitting surface, m2.
     sums_m2: Vec<Vec<f64>>,
-    /// Sphere around the scene, which parallel light has to cover.
+    /// Centre of a sphere around the scene, which parallel light has to cover.
     centre: Point,
     radius_m: f64,
 }
 
 impl Emitted {
-    /// Whether it has left an emitting surface.
+    /// Whether the particle left an emitting surface.
     pub(crate) const fn is_of_surface(&self) -> bool {
         self.normal.is_some()
     }
 }
 
-/// A particle as it leaves.
+/// A particle as it leaves a luminaire.
 pub(crate) struct Emitted {
     pub(crate) ray: Ray,
     pub(crate) direction: Direction,
     pub(crate) luminaire: LuminaireId,
-    /// Flux it carries, of photometric value one.
+    /// Colour of its flux, with a photometric value of one.
     pub(crate) colour: Rgb,
-    /// Of the surface that it leaves.
+    /// Normal of the surface that it leaves.
     normal: Option<Normal>,
 }
 
 impl<'s> Emission<'s> {
-    /// `None` where there is no light.
+    /// The emitters of a scene; `None` where there is no light.
     pub(crate) fn new(scene: &'s Scene) -> Option<Self> {
         let (low, high) = scene.bvh().mesh().bounds()?;
         let radius_m = 0.5 * (high - low).length() * (1.0 + 1e-3);
@@ -72,12 +72,12 @@ impl<'s> Emission<'s> {
         Some(Self { scene, sums_lm, sums_m2, centre: low.lerp(high, 0.5), radius_m })
     }
 
-    /// Flux of all, lm.
+    /// Flux of all luminaires, lm.
     pub(crate) fn flux_lm(&self) -> f64 {
         self.sums_lm.last().copied().unwrap_or(0.0)
     }
 
-    /// One particle; `None` where a distribution has no flux after all.
+    /// One particle of all luminaires; `None` where a distribution has no flux after all.
     pub(crate) fn emit(&self, dice: &mut Dice) -> Option<Emitted> {
         let [pick, other] = dice.pair();
         let square = dice.pair();
@@ -86,7 +86,8 @@ impl<'s> Emission<'s> {
         self.emit_from(number.min(self.sums_lm.len() - 1), other, square, place)
     }
 
-    /// One particle of a luminaire: from a part of it, and for points of the unit square a direction and a place.
+    /// One particle of a luminaire. `other` chooses a triangle of a surface, `square` the
+    /// direction, and `place` the position.
     pub(crate) fn emit_from(
         &self,
         number: usize,
@@ -115,7 +116,7 @@ impl<'s> Emission<'s> {
         Some(self.sent(number, luminaire, origin, direction))
     }
 
-    /// A ray from a place of an emitting surface, told by its number among all luminaires, cosine-distributed.
+    /// A ray from a random place of an emitting surface, cosine-distributed. `number` is that among all luminaires.
     pub(crate) fn leaving(
         &self,
         number: usize,
@@ -129,17 +130,17 @@ impl<'s> Emission<'s> {
         Some(self.leave(number, area, &start, direction).ray)
     }
 
-    /// How much of all particles lands where luminaires without surface bring so much light straight, 1/m2.
+    /// Share of all particles that land on a square metre where point luminaires give this direct illuminance, 1/m2.
     pub(crate) fn landing(&self, direct_lx: Rgb) -> f64 {
         direct_lx.luminance() / self.flux_lm()
     }
 
-    /// How many luminaires there are; they have numbers, emitting surfaces the last.
+    /// Number of luminaires. Emitting surfaces have the last numbers.
     pub(crate) const fn count(&self) -> usize {
         self.sums_lm.len()
     }
 
-    /// The part of all flux that is a luminaire's.
+    /// Share of all flux that a luminaire emits.
     pub(crate) fn part(&self, number: usize) -> f64 {
         let before = number.checked_sub(1).map_or(0.0, |before| self.sums_lm[before]);
         (self.sums_lm[number] - before) / self.flux_lm()
@@ -175,8 +176,8 @@ impl<'s> Emission<'s> {
         }
     }
 
-    /// How many of all particles that [`Emission::emit`] sends out arrive at a place, of those that leave where this one did, per area
-    /// there, 1/m2.
+    /// Share of all particles of [`Emission::emit`] that would arrive for every square metre at a
+    /// place, 1/m2, if all particles of the luminaire left from the same place as `emitted`.
     pub(crate) fn density(&self, emitted: &Emitted, at: &SurfacePoint) -> f64 {
         let Emitted { direction, luminaire, normal, .. } = emitted;
         let number = self.number(*luminaire);
@@ -192,7 +193,8 @@ impl<'s> Emission<'s> {
         one_m2 * cos
     }
 
-    /// The same of a luminaire and a surface of one square metre, roughly, at a place no nearer than this.
+    /// Approximate share of all particles that a luminaire sends to a surface of one square metre,
+    /// 1/m2, with the distance at least `least_m`.
     pub(crate) fn reach(&self, number: usize, at: Point, least_m: f64) -> f64 {
         let from = |origin: Point| {
             let way = at - origin;
@@ -219,8 +221,8 @@ impl<'s> Emission<'s> {
         0.5 * one_m2
     }
 
-    /// The share of all particles that fall from a luminaire without surface on a square metre that faces it, so far in the
-    /// square, m2.
+    /// Share of all particles that a luminaire without surface sends to a square metre that faces
+    /// it, 1/m2, at a squared distance of `distance2` m2.
     fn on_one_m2(
         &self,
         number: usize,
@@ -273,7 +275,7 @@ impl<'s> Emission<'s> {
         }
     }
 
-    /// A ray from where the kernel has it start: there its way is counted from.
+    /// A ray whose origin is rounded as in the ray kernel, which counts distances from there.
     fn ray(&self, origin: Point, direction: Direction) -> Ray {
         Ray::new(self.scene.bvh().mesh().rounded(origin), direction)
     }
@@ -286,7 +288,7 @@ impl<'s> Emission<'s> {
         self.centre + u * (radius * c) + v * (radius * s) - direction * (2.0 * self.radius_m)
     }
 
-    /// A place of an emitting surface, evenly over its area.
+    /// A place of an emitting surface, uniform by area.
     fn start(&self, number: usize, area: &AreaLuminaire, pick: f64, [a, b]: [f64; 2]) -> Start {
         let sums_m2 = &self.sums_m2[number - self.scene.luminaires().len()];
         let drawn = sums_m2.partition_point(|&sum| sum <= pick * area.area_m2);
@@ -331,7 +333,7 @@ enum Emitter<'s> {
     Surface(&'s AreaLuminaire),
 }
 
-/// Where a particle leaves an emitting surface.
+/// The place where a particle leaves an emitting surface.
 struct Start {
     origin: Point,
     triangle: u32,

@@ -1,9 +1,9 @@
-//! What glossy surfaces show of luminaires.
+//! Luminaires as they show on glossy surfaces.
 //!
-//! Whoever looks along the facets of a rough surface meets a small bright luminaire once in hundreds of looks, and then
-//! far too bright. So directions are drawn to luminaires, too, and what either way finds is weighted by how likely both would have
-//! found it (Veach and Guibas 1995, the balance heuristic). Luminaires without surface only show so: all of them are looked at, as long
-//! as they are few.
+//! Rays drawn along the facets of a rough surface meet a small bright luminaire once in hundreds of
+//! samples, and then give far too much light. So directions are also drawn to luminaires, and both
+//! kinds of samples are weighted by the balance heuristic (Veach and Guibas 1995). Luminaires
+//! without surface only show by the second kind: all of them are evaluated, as long as they are few.
 
 use super::lighting::Lighting;
 use super::sample::area::Shape;
@@ -14,19 +14,19 @@ use crate::units::Rgb;
 use isolux_geometry::{Direction, Hit};
 use std::collections::HashMap;
 
-/// Looks that a place has for all emitting surfaces together, at least one for each of them.
+/// Samples at a place for all emitting surfaces together, with at least one for each.
 const LOOKS: usize = 16;
 
 /// The luminaires of a scene as they show on glossy surfaces.
 pub struct Highlights<'s> {
     scene: &'s Scene,
     lighting: Lighting<'s>,
-    /// By triangle and side: the number of the emitting surface, and of the triangle in it.
+    /// For each emitting triangle and side, the number of the emitting surface and the index of the triangle in it.
     emitters: HashMap<(u32, bool), (u32, usize)>,
     has_points: bool,
 }
 
-/// What is to be seen of them from a place of a surface.
+/// The luminaires as seen from a place on a surface.
 pub struct Highlighted<'h> {
     highlights: &'h Highlights<'h>,
     at: SurfacePoint,
@@ -37,19 +37,19 @@ pub struct Highlighted<'h> {
 /// Light that comes to a place from a direction.
 #[derive(Clone, Copy, Debug)]
 pub enum Shining {
-    /// Of an emitting surface.
+    /// Light of an emitting surface.
     Surface {
         /// Luminance, cd/m2.
         luminance_cd_m2: Rgb,
-        /// Of directions that are drawn to it, all looks together, 1/sr.
+        /// Density of the directions drawn to it, over all samples together, 1/sr.
         density: f64,
     },
-    /// Of a luminaire without: illuminance of what faces it, lx.
+    /// Light of a luminaire without surface: illuminance of a surface that faces it, lx.
     Point(Rgb),
 }
 
 impl<'s> Highlights<'s> {
-    /// `None` where nothing shows any.
+    /// The luminaires of a scene; `None` where no glossy surface shows any.
     pub fn new(scene: &'s Scene) -> Option<Self> {
         if !scene.materials().iter().any(Material::is_glossy) {
             return None;
@@ -69,7 +69,7 @@ impl<'s> Highlights<'s> {
         })
     }
 
-    /// What is to be seen from where a ray has arrived, with up to `looks` looks at every emitting surface.
+    /// The luminaires as seen from the place that a ray hits, with up to `looks` samples of every emitting surface.
     pub fn at(&self, hit: &Hit, looks: u32) -> Highlighted<'_> {
         let at = SurfacePoint::from_hit(self.scene, hit);
         let count = self.scene.area_luminaires().len();
@@ -80,8 +80,8 @@ impl<'s> Highlights<'s> {
 }
 
 impl Highlighted<'_> {
-    /// Looks at the luminaires: tells of each that is met, where, and what comes from there. Of emitting surfaces in proportion to the
-    /// density, with panes before them left to whoever looks along facets.
+    /// Samples the luminaires. `found` receives the direction and the light of each that is met. Emitting surfaces
+    /// are met in proportion to the density of their directions; those behind panes are left to rays along facets.
     pub fn look(&self, key: Key, mut found: impl FnMut(Direction, Shining)) {
         let Highlights { scene, lighting, has_points, .. } = self.highlights;
         let areas = scene.area_luminaires();
@@ -104,7 +104,8 @@ impl Highlighted<'_> {
         }
     }
 
-    /// The density of what is met in a direction among those drawn, all looks together, 1/sr; zero where it is no emitting surface.
+    /// Density of the direction to a hit among those drawn to its emitting surface, over all
+    /// samples together, 1/sr; zero if nothing emits there.
     pub fn density(&self, hit: &Hit, direction: Direction) -> f64 {
         let met = self.emitter(hit);
         let density = met.and_then(|(number, index)| {

@@ -1,12 +1,12 @@
-//! The transparent surfaces of a scene by themselves: few, as a rule, and soon asked.
+//! The transparent surfaces of a scene in their own hierarchy. They are usually few, so it is fast.
 
 use crate::scene::Scene;
 use isolux_geometry::{Bvh, Hit, Ray, TriangleMesh};
 
-/// Transparent triangles, in a tree of their own.
+/// Transparent triangles, with a bounding volume hierarchy of their own.
 pub(crate) struct Panes {
     tree: Option<Bvh>,
-    /// The triangle of the scene that each is, ascending.
+    /// The triangle of the scene for each triangle here, in ascending order.
     triangles: Vec<u32>,
 }
 
@@ -27,12 +27,12 @@ impl Panes {
         Self { tree, triangles }
     }
 
-    /// Whether there are any.
+    /// Whether there are any transparent triangles.
     pub(crate) fn exist(&self) -> bool {
         self.tree.is_some()
     }
 
-    /// The first transparent triangle that a ray meets, opaque ones left out.
+    /// The first transparent triangle on a ray; opaque triangles are ignored.
     pub(crate) fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         let own = |triangle: u32| self.triangles.binary_search(&triangle).ok().map(|k| k as u32);
         let hit = self.tree.as_ref()?.closest_hit(&Ray { skip: ray.skip.and_then(own), ..*ray })?;

@@ -1,4 +1,4 @@
-//! A particle of light on its way through the scene.
+//! A particle of light on its path through the scene.
 
 use super::emission::{Emission, Emitted};
 use super::lighting::Lighting;
@@ -10,16 +10,17 @@ use crate::scene::{Body, Finish, Material, Scene};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray};
 
-/// Light that even the brightest surface leaves after the last scattering of a path.
+/// Share of the light left after the last scattering of a path, even if all surfaces were the brightest one.
 const NEGLIGIBLE: f64 = 1e-6;
-/// Bounds of the scatterings of a path.
+/// Lower bound of the number of scatterings of a path.
 const FEWEST_SCATTERINGS: f64 = 128.0;
+/// Upper bound of the number of scatterings of a path.
 const MOST_SCATTERINGS: f64 = 4096.0;
-/// The same where some surface absorbs nothing (an ideal mirror, a white wall): shut in by such no
-/// number would be enough, and among others these are. What is given up is counted.
+/// Number of scatterings of a path if some surface absorbs nothing (an ideal mirror, a white wall). No number
+/// suffices for light enclosed by such surfaces; among others this one does. The light given up is counted.
 const SCATTERINGS_WITHOUT_LOSS: f64 = 64.0;
 
-/// Scatterings after which a particle is given up.
+/// Number of scatterings after which a particle is given up.
 pub(crate) fn scatterings(scene: &Scene) -> u32 {
     let reflected = |finish: &Finish| {
         (finish.diffuse.colour + finish.mirror + finish.glossy_f0()).max_channel()
@@ -43,13 +44,13 @@ pub(crate) struct Particle {
     dice: Dice,
     at: Option<SurfacePoint>,
     scatterings_left: u32,
-    /// Whether it was reflected diffusely before.
+    /// Whether it has been reflected diffusely.
     pub(crate) diffused: bool,
 }
 
 impl Particle {
-    /// Particle `index` of `count` that share the flux of all luminaires; it is given up after so
-    /// many scatterings.
+    /// Particle `index` of `count` that share the flux of all luminaires. It is given up after
+    /// `scatterings` scatterings.
     pub(crate) fn emit(
         emission: &Emission,
         sequence: Sequence,
@@ -63,7 +64,7 @@ impl Particle {
         Some(Self::sent(&emitted, flux_lm, dice, scatterings))
     }
 
-    /// A particle with that much flux, as it was emitted.
+    /// The particle that `emitted` describes, with a flux in lm.
     pub(crate) fn sent(emitted: &Emitted, flux_lm: f64, dice: Dice, scatterings: u32) -> Self {
         Self {
             ray: emitted.ray,
@@ -78,7 +79,7 @@ impl Particle {
         }
     }
 
-    /// Flies to the next surface; `None` when it leaves the scene.
+    /// Moves to the next surface; `None` when the particle leaves the scene.
     pub(crate) fn advance(&mut self, scene: &Scene) -> Option<SurfacePoint> {
         let hit = scene.bvh().closest_hit(&self.ray)?;
         let at = SurfacePoint::from_hit(scene, &hit);
@@ -91,11 +92,11 @@ impl Particle {
         !self.diffused && self.chain.is_covered(lighting, self.luminaire)
     }
 
-    /// Goes on without diffuse reflection; `false` when it is absorbed.
+    /// Goes on without diffuse reflection; `false` when the particle is absorbed.
     pub(crate) fn scatter_specular(&mut self, scene: &Scene, lighting: &Lighting) -> bool {
         let Some(at) = self.at else { return false };
         let body = &scene.material(at.triangle).body;
-        // Roulette relative to the flux it has: a share of one means it survives for sure.
+        // Russian roulette is relative to the present flux: a share of one always survives.
         let unit = self.flux_lm * (1.0 / self.flux_lm.max_channel().max(f64::MIN_POSITIVE));
         match specular_step(body, &at, self.direction, unit, &mut self.dice) {
             Some(next) => {
@@ -107,7 +108,7 @@ impl Particle {
         }
     }
 
-    /// Goes on diffusely or specularly, by Russian roulette; `false` when it is absorbed.
+    /// Goes on diffusely or specularly, by Russian roulette; `false` when the particle is absorbed.
     pub(crate) fn scatter(&mut self, scene: &Scene, lighting: &Lighting) -> bool {
         let Some(at) = self.at else { return false };
         let body = &scene.material(at.triangle).body;
@@ -145,7 +146,7 @@ impl Particle {
         direction.cos(at.geometric) > 0.0
     }
 
-    /// Whether it was scattered so often that it is not followed any longer.
+    /// Whether the particle has used up its scatterings.
     pub(crate) const fn is_given_up(&self) -> bool {
         self.scatterings_left == 0
     }
@@ -158,9 +159,8 @@ impl Particle {
     }
 }
 
-/// Chance of diffuse reflection: the luminance-weighted reflectance for the light it carries. The
-/// specular part decides by its own roulette in the rest, so a chance of one is only allowed where
-/// there is none.
+/// Probability of diffuse reflection: the reflectance for the luminance of the particle's light. The specular
+/// part has its own Russian roulette in the rest, so the probability is one only where there is no specular part.
 fn diffuse_chance(finish: &Finish, reflectance: Rgb, flux: Rgb) -> f64 {
     let chance =
         ((flux * reflectance).luminance() / flux.luminance().max(f64::MIN_POSITIVE)).min(1.0);

@@ -1,41 +1,41 @@
-//! Triangles of emitting surfaces as far as they are above the horizon of a receiver, and places of them by direction.
+//! Triangles of emitting surfaces, clipped at the horizon of a receiver, and places on them drawn by direction.
 
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::SphericalTriangle;
 use isolux_geometry::{Point, Vector};
 use std::cell::OnceCell;
 
-/// Directions drawn before one is taken as it is. Over a triangle above the horizon the mean cosine is
-/// above a quarter of the highest, so this happens once in a hundred million.
+/// The most directions drawn until one is accepted; the last is always taken. Over a triangle above the
+/// horizon the mean cosine is above a quarter of the highest, so this happens once in a hundred million cases.
 const TRIES: usize = 64;
 
-/// How far before a triangle rounding puts points of it, as a share of how far it is away and of their coordinates.
+/// Rounding of the height of a point above a triangle, as a share of its distance and of its coordinates.
 const ROUNDING: f64 = 1e-14;
 
-/// A triangle of an emitter, as far as it is above the horizon of a receiver.
+/// A part of an emitter's triangle above the horizon of a receiver.
 #[derive(Clone)]
 pub(crate) struct Piece {
-    /// From the receiver, m.
+    /// Corners relative to the receiver, m.
     pub(crate) corners: [Vector; 3],
-    /// Which of the emitter's triangles it belongs to.
+    /// Index of the emitter's triangle that it belongs to.
     pub(crate) triangle: usize,
     /// Projected solid angle: the integral of the cosine at the receiver, sr.
     pub(crate) steradians: f64,
-    /// Its directions and the highest cosine over them, once they are wanted; none where it is too
-    /// small or too near its plane to be told apart by direction.
+    /// The spherical triangle of its directions and the highest cosine over them, computed on demand.
+    /// `None` where the piece is too small, or too near its plane, to be sampled by direction.
     directions: OnceCell<Option<(SphericalTriangle, f64)>>,
 }
 
-/// A place of an emitter that was drawn.
+/// A sampled place on an emitter.
 pub(crate) struct Place {
     pub(crate) triangle: usize,
     pub(crate) point: Point,
-    /// The projected solid angle that it stands for, over the whole.
+    /// The projected solid angle that it stands for, as a share of the whole.
     pub(crate) share: f64,
 }
 
 impl Place {
-    /// `None` where the surface of the receiver hides it.
+    /// A place with the values given; `None` where the surface of the receiver hides it.
     pub(crate) fn seen(
         at: &SurfacePoint,
         triangle: usize,
@@ -63,12 +63,12 @@ pub(crate) fn drawn(pieces: &[Piece], mut sum: f64) -> Option<&Piece> {
         sum -= piece.steradians;
         sum < 0.0
     });
-    // Rounding may leave a sliver past the last.
+    // Rounding may leave a remainder past the last piece.
     found.or(pieces.last())
 }
 
-/// A point of a piece, with a density by direction in proportion to the cosine at the receiver: drawn
-/// uniformly by solid angle, and taken with a chance of its cosine over the highest.
+/// A point of a piece, with a density by direction in proportion to the cosine at the receiver. Directions
+/// are drawn uniformly by solid angle, and accepted with the probability of their cosine over the highest.
 pub(crate) fn target(
     piece: &Piece,
     corners: [Point; 3],
@@ -109,14 +109,14 @@ fn highest_cos(corners: [Vector; 3], up: Vector) -> f64 {
     if has_zenith { 1.0 } else { highest }
 }
 
-/// Where a ray meets the plane of a triangle.
+/// The point where a ray meets the plane of a triangle.
 fn on_plane(from: Point, direction: Vector, [a, b, c]: [Point; 3]) -> Option<Point> {
     let normal = (b - a).cross(c - a);
     let t = (a - from).dot(normal) / direction.dot(normal);
     (t > 0.0 && t.is_finite()).then(|| from + direction * t)
 }
 
-/// What a receiver sees of triangles that emit from their counter-clockwise side, each with its number.
+/// The parts that a receiver sees of triangles that emit from their counter-clockwise side, each with its number.
 pub(crate) fn pieces(
     at: &SurfacePoint,
     triangles: impl Iterator<Item = (usize, [Point; 3])>,
@@ -131,19 +131,20 @@ pub(crate) fn pieces(
     pieces
 }
 
-/// The projected solid angle of what a receiver sees of one of them.
+/// Projected solid angle of the part of a triangle that a receiver sees, sr.
 pub(crate) fn steradians(at: &SurfacePoint, triangle: [Point; 3]) -> f64 {
     steradians_from((at.point, at.shading.to_vector()), triangle)
 }
 
-/// The same of a place that faces a way.
+/// Projected solid angle of the part of a triangle seen from a point with a normal, sr.
 pub(crate) fn steradians_from(from: (Point, Vector), triangle: [Point; 3]) -> f64 {
     let mut whole = 0.0;
     visit(from, triangle, |_, steradians| whole += steradians);
     whole
 }
 
-/// The parts of a triangle above the horizon, from the receiver, and the projected solid angle of each.
+/// Calls `part` for the parts of a triangle above the horizon: their corners relative to the
+/// receiver, and projected solid angles.
 fn visit(
     (point, normal): (Point, Vector),
     [a, b, c]: [Point; 3],
@@ -162,7 +163,7 @@ fn visit(
     }
 }
 
-/// Whether a point lies on the side of a triangle that it emits from, by more than rounding: one on its back does not.
+/// Whether a point lies on the emitting side of a triangle by more than rounding. A point on its back does not.
 fn is_before(point: Point, [a, b, c]: [Point; 3]) -> bool {
     let normal = (b - a).cross(c - a);
     let height = normal.dot(point - a);
@@ -186,7 +187,7 @@ fn projected_solid_angle(corners: &[Vector; 3], normal: Vector) -> f64 {
     -0.5 * sum
 }
 
-/// Sutherland and Hodgman's clip of a triangle at the horizon: corners and their number.
+/// Clip of a triangle at the horizon by Sutherland and Hodgman: the corners and their number.
 fn above_horizon(corners: [Vector; 3], normal: Vector) -> ([Vector; 4], usize) {
     let heights = corners.map(|c| c.dot(normal));
     let (mut kept, mut count) = ([Vector::ZERO; 4], 0);
@@ -213,13 +214,13 @@ mod tests {
     use crate::sampling::{Key, Sequence};
     use isolux_geometry::Normal;
 
-    /// Triangles in all places about a receiver, as pieces above its horizon.
+    /// Pieces of random triangles all around a receiver.
     fn random_pieces(count: u64) -> Vec<Piece> {
         let floor = Point::new(0.0, 0.0, 0.0);
         let at = SurfacePoint::in_space(floor, Normal::Z, 0.0);
         let triangle = |k: u64| {
             let key = Key::new(5).with(k);
-            // Three shapes in turn: any, flat, thin.
+            // The three shapes take turns: any, flat, thin.
             let flat = [1.0, 0.05, 1.0][(k % 3) as usize];
             let thin = [1.0, 1.0, 0.05][(k % 3) as usize];
             let c = |n: u64| 2.0 * key.with(n).uniform() - 1.0;
@@ -243,7 +244,7 @@ mod tests {
             let sequence = Sequence::new(Key::new(6).with(index as u64));
             for k in 0..64 {
                 let z = spherical.sample(sequence.pair(k, 0)).unwrap().to_vector().z;
-                // Half the digits of the arcs are lost in thin triangles.
+                // Thin triangles lose half the digits of the arcs.
                 assert!(z > -1e-7 && z <= highest + 1e-7, "{corners:?}: {z} above {highest}");
             }
         }

@@ -1,35 +1,36 @@
-//! Chains of planar mirrors as such, for light that does not come from a luminaire.
+//! Chains of planar mirrors for light that does not come from a luminaire.
 
 use super::super::lighting::Lighting;
 use crate::engine::ray::SurfacePoint;
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 
-/// Mirrors in a row, and chains in all; the others are left to rays.
+/// The most mirrors in a chain; longer chains are left to rays.
 const MAX_CHAIN: usize = 6;
+/// The most chains; the others are left to rays.
 const MAX_CHAINS: usize = 64;
 
-/// Chains that leave less than this of the light are left to rays, too.
+/// Reflectance of a chain below which it is left to rays.
 const LEAST_REFLECTANCE: f64 = 1e-2;
 
-/// Planar mirrors that light meets one after the other; none for light that comes straight.
+/// Planar mirrors that light meets one after the other; empty for straight light.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Chain {
-    /// In the order the light meets them.
+    /// Indices of the planes, in the order in which the light meets them.
     pub(crate) planes: Vec<u32>,
-    /// What they leave of it.
+    /// Product of their reflectances.
     pub(crate) reflectance: Rgb,
 }
 
 impl Lighting<'_> {
-    /// The chains that images are made by, the empty one first, and whether there are others.
+    /// The chains that form images, the empty one first, and whether there are others.
     pub(crate) fn chains(&self) -> (Vec<Chain>, bool) {
         let mut found = vec![Chain { planes: Vec::new(), reflectance: Rgb::WHITE }];
-        // Where the scene is after these reflections, by the corners of a box about it.
+        // The box of the scene after the reflections of each chain, by its corners.
         let mut boxes = vec![self.corners_of_scene()];
         let mut leaves_some_out = self.mirrors.leaves_some_out;
         let mut next = 0;
-        // Breadth first: longer chains are appended and looked at in turn.
+        // Breadth first: each longer chain is appended, and extended in turn.
         while next < found.len() {
             let (before, corners) = (found[next].clone(), boxes[next]);
             next += 1;
@@ -67,8 +68,8 @@ impl Lighting<'_> {
         })
     }
 
-    /// From where, and facing where, a receiver would see what it sees by a chain if there were no
-    /// mirrors; `None` where it does not face the mirror that it would see.
+    /// Position and normal of the mirror image of a receiver that sees, without mirrors, what the
+    /// receiver sees by a chain. `None` where the receiver is behind a mirror of the chain.
     pub(crate) fn image_of_receiver(
         &self,
         chain: &Chain,

@@ -1,12 +1,12 @@
-//! Whether an image is seen in its mirrors.
+//! Visibility of an image in its mirrors, without obstacles.
 
 use super::super::lighting::Lighting;
 use super::super::sources::Target;
 use crate::engine::ray::SurfacePoint;
 
 impl Lighting<'_> {
-    /// Whether the way to an image goes through its mirrors, obstacles left out: without rays, and
-    /// soon, as most of a room does not see itself in a mirror.
+    /// Whether the path to an image passes through its mirrors, without obstacles. The test is fast
+    /// and takes no rays, since most of a room is out of view in a mirror.
     pub(crate) fn chain_is_in_view(
         &self,
         chain: &[u32],

@@ -1,4 +1,4 @@
-//! Which planar mirrors a path has met.
+//! The planar mirrors that a path has met.
 
 use super::super::lighting::Lighting;
 use super::super::sources::LuminaireId;
@@ -6,20 +6,20 @@ use crate::engine::ray::{Scattered, SurfacePoint};
 use crate::scene::Body;
 use isolux_geometry::Direction;
 
-/// The planar mirrors that a path has met so far, in order; nothing once it has met another specular surface.
-/// Passing straight through a pane leaves it as it is.
+/// The planar mirrors that a path has met so far, in order; `None` once it has met another specular
+/// surface. Passing straight through a pane does not change it.
 #[derive(Clone, Debug)]
 pub(crate) struct MirrorChain(Option<Vec<u32>>);
 
 impl Default for MirrorChain {
-    /// No mirror met yet.
+    /// The chain of a path that has met no mirror yet.
     fn default() -> Self {
         Self(Some(Vec::new()))
     }
 }
 
 impl MirrorChain {
-    /// Goes on over a specular surface.
+    /// Updates the chain as the path goes on over a specular surface.
     pub(crate) fn pass(
         &mut self,
         (at, incoming): (&SurfacePoint, Direction),
@@ -42,12 +42,12 @@ impl MirrorChain {
         };
     }
 
-    /// Whether the light of a luminaire that has come this way is part of direct light as evaluated at points.
+    /// Whether the light of a luminaire by this path is part of direct light as evaluated at points.
     pub(crate) fn is_covered(&self, lighting: &Lighting, luminaire: LuminaireId) -> bool {
         self.0.as_ref().is_some_and(|chain| lighting.covers(luminaire, chain))
     }
 
-    /// The same for a path that was followed from the place towards the luminaire.
+    /// [`MirrorChain::is_covered`] for a path that was followed from the place towards the luminaire.
     pub(crate) fn is_covered_backwards(&self, lighting: &Lighting, luminaire: LuminaireId) -> bool {
         let covers = |chain: &Vec<u32>| {
             let from_luminaire: Vec<u32> = chain.iter().rev().copied().collect();

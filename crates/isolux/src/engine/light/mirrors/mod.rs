@@ -1,4 +1,4 @@
-//! Planar mirrors and the chains of them that light takes.
+//! Planar mirrors, and chains of them that light follows.
 
 pub(super) mod chains;
 mod in_view;

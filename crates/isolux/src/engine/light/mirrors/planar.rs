@@ -4,14 +4,15 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point, Triangle, Vector};
 
-/// Planes that get virtual luminaires; the largest ones, if there are more.
+/// The most planes that get virtual luminaires; the largest ones are kept.
 const MAX_PLANES: usize = 16;
 
-/// Two mirror triangles lie in one plane if their normals and their distances agree to the
-/// rounding of `f32` coordinates: in units of the scene's extent.
+/// Tolerance within which mirror triangles lie in one plane, in normals and in distances as a share
+/// of the scene's extent: the rounding of `f32` coordinates.
 const PLANE_TOLERANCE: f64 = 1e-5;
 
-/// Heights that a ball around a mirror is widened by: those of [`Plane::crossing`] at right angles, once more.
+/// Widening of the ball around a mirror, in roundings of heights: twice the margin of
+/// [`Plane::crossing`] at right angles.
 const ROUNDINGS: f64 = 8.0;
 
 /// A ball.
@@ -28,7 +29,7 @@ pub(crate) struct Plane {
     pub(crate) normal: Normal,
     pub(crate) reflectance: Rgb,
     area_m2: f64,
-    /// The box around its mirror triangles, by its corners.
+    /// The bounding box of its mirror triangles, by two corners.
     low: Point,
     high: Point,
 }
@@ -39,7 +40,7 @@ impl Plane {
         (p - self.point).dot(self.normal.to_vector())
     }
 
-    /// Whether light that leaves this mirror can meet the other: some of it lies in front of this.
+    /// Whether light that leaves this mirror can meet the other, because some of the other lies in front of this one.
     pub(crate) fn can_light(&self, other: &Self, tolerance_m: f64) -> bool {
         let n = self.normal.to_vector();
         let farthest = |low: f64, high: f64, n: f64| if n > 0.0 { high } else { low };
@@ -51,9 +52,9 @@ impl Plane {
         self.height(corner) > tolerance_m
     }
 
-    /// Where light from `from` going `towards` meets the plane from its reflecting side, if that is
-    /// in the box around the mirror's triangles, widened by the rounding of heights: `tolerance_m`
-    /// over the sine of the angle to the plane.
+    /// The point where light from `from` in the direction `towards` meets the plane from its
+    /// reflecting side. `None` outside the bounding box of the mirror's triangles, widened by the
+    /// rounding of heights: `tolerance_m` over the sine of the angle to the plane.
     pub(crate) fn crossing(&self, from: Point, towards: Vector, tolerance_m: f64) -> Option<Point> {
         let descent = -towards.dot(self.normal.to_vector());
         let height = self.height(from).max(0.0);
@@ -65,7 +66,7 @@ impl Plane {
         self.is_near(at, margin_m).then_some(at)
     }
 
-    /// Whether a point is in the box around the mirror's triangles, widened by a margin.
+    /// Whether a point is in the bounding box of the mirror's triangles, widened by a margin.
     pub(crate) fn is_near(&self, at: Point, margin_m: f64) -> bool {
         let within = |low: f64, x: f64, high: f64| low - margin_m <= x && x <= high + margin_m;
         within(self.low.x, at.x, self.high.x)
@@ -91,7 +92,7 @@ impl Plane {
         p - self.normal * (2.0 * self.height(p))
     }
 
-    /// The mirror image of a triangle. Reflection turns it around; swapping two corners keeps its sides.
+    /// The mirror image of a triangle. Reflection reverses its orientation; swapping two corners restores it.
     pub(crate) fn image_of_triangle(&self, [a, b, c]: [Point; 3]) -> [Point; 3] {
         [a, c, b].map(|p| self.image(p))
     }
@@ -105,9 +106,9 @@ impl Plane {
 /// All planar mirrors of a scene.
 pub(crate) struct Mirrors {
     pub(crate) planes: Vec<Plane>,
-    /// Per triangle, the plane its front and its back belong to.
+    /// For each triangle, the planes that its front and its back belong to.
     sides: Vec<[Option<u32>; 2]>,
-    /// Whether some mirror is curved or one plane too many.
+    /// Whether some mirror is curved, or there are too many planes.
     pub(crate) leaves_some_out: bool,
     /// Heights below this are rounding, m.
     pub(crate) tolerance_m: f64,
@@ -180,7 +181,7 @@ impl Mirrors {
     }
 }
 
-/// Whether corner normals differ, beyond the rounding of normals given in `f32`.
+/// Whether corner normals differ beyond the rounding of normals given in `f32`.
 fn are_turned([a, b, c]: [Normal; 3]) -> bool {
     a.dot(b).min(a.dot(c)) < 1.0 - 1e-9
 }

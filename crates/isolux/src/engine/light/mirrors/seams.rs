@@ -1,15 +1,16 @@
-//! Ways exactly through the edge or the corner where mirrors meet.
+//! Paths exactly through the edge or the corner where mirrors meet.
 //!
-//! Two mirrors at right angles make one image by way of either and then the other, and so do, in general, the chains that come to
-//! the same motion: twins. A straight way to that image goes through the mirrors in one order, and so by one of the twins, unless
-//! it goes through the edge where they meet. Then all are the way of it, and rounding would tell which of them are open: none, one,
-//! or all. Here all of them are open, and the first counts:
+//! Two mirrors at right angles form the same image in either order. In general, chains whose reflections combine to
+//! the same motion form the same image: they are twins. A straight path to that image passes the mirrors in one order,
+//! and so belongs to one twin, unless it passes through the edge where they meet. Then it belongs to all twins, and
+//! rounding would decide which of them are open: none, one, or all. Here all of them are open, and the first counts:
 //!
-//! - What mirrors of the chain a place of reflection lies on but for rounding do not hide it, and one is met where it reaches to within that.
-//!   Anything else does: a way that comes to a mirror just above a floor from below is none.
+//! - Mirrors of the chain that a place of reflection lies on, within rounding, do not hide it. A mirror is met where it
+//!   reaches to within rounding of the place. Any other surface blocks the path, as does a mirror just above a floor that
+//!   the path meets from below.
 //! - A chain counts if none of its twins before it is open.
 //!
-//! The images of a luminaire are found breadth first, so that with a chain all its twins before it are there.
+//! The images of a luminaire are found breadth first, so a chain in the list comes with all its twins before it.
 
 use super::super::lighting::Lighting;
 use super::super::mirrors::twins::Twins;
@@ -22,19 +23,19 @@ use crate::units::Rgb;
 use isolux_geometry::{Normal, Point, Ray, Vector};
 use std::f64::consts::FRAC_PI_4;
 
-/// What is nearer than so many bounds of rounding to a place of reflection lies there: its own, that of where the ray started, those of
-/// its direction and of the plane.
+/// Distance up to which a surface counts as at a place of reflection, in bounds of rounding: those
+/// of the place, of the start of the ray, of its direction and of the plane.
 const ROUNDINGS: f64 = 4.0;
 
-/// The cosine from which on a surface lies along a mirror, and hides all of it, however near: of one that is as much inclined, no more than
-/// a strip of some hundred roundings does not count.
+/// Cosine from which on a surface lies along a mirror and hides all of it, however near. For a
+/// surface with this inclination, the strip that is ignored is some hundred roundings wide at most.
 const ALONG: f64 = 1.0 - 1e-4;
 
-/// A place of reflection and the normal of the mirror there, of a way over a chain of mirrors.
+/// A place of reflection, the normal of the mirror there, and the chain of mirrors of the path.
 type Reflection<'c> = (Point, Normal, &'c [u32]);
 
 impl Lighting<'_> {
-    /// The twins among the chains that images are made by.
+    /// The twins among the chains that form images.
     pub(crate) fn find_twins(&self) -> Twins {
         let Some((low, high)) = self.scene.bvh().mesh().bounds() else { return Twins::default() };
         let of_sources = self.sources.iter().map(|source| source.chain.clone());
@@ -42,8 +43,8 @@ impl Lighting<'_> {
         Twins::of(&self.mirrors, [low, high], of_sources.chain(of_surfaces).collect())
     }
 
-    /// Where a way to an image meets a mirror if rounding hides the place, and what panes before it leave. `reflected` says whether the
-    /// way starts on a mirror.
+    /// The place where a path to an image meets a mirror, if rounding hides the place, and the
+    /// transmittance of the panes before it. `reflected` tells whether the path starts on a mirror.
     #[cold]
     pub(crate) fn meet_at_edge(
         &self,
@@ -55,7 +56,7 @@ impl Lighting<'_> {
             return None;
         }
         let mirror = &self.mirrors.planes[plane as usize];
-        // Offsets of starts from mirrors would add up from one to the next.
+        // Offsets of starts from mirrors would add up from one mirror to the next.
         let start = if reflected { from.point } else { from.start() };
         let crossing = mirror.crossing(start, target.towards(start), self.mirrors.tolerance_m)?;
         let ends = [
@@ -66,7 +67,8 @@ impl Lighting<'_> {
         Some((share, self.mirror_near(mirror, plane, crossing)?))
     }
 
-    /// What panes leave of what comes straight to a mirror; nothing if something is between that it does not lie on.
+    /// The transmittance of the panes on the straight path from a place on a mirror to the source.
+    /// `None` if a surface blocks it that the place does not lie on.
     #[cold]
     pub(crate) fn leave_edge(
         &self,
@@ -77,7 +79,8 @@ impl Lighting<'_> {
         self.passed(from, towards, [Some((from.point, from.geometric, chain)), None])
     }
 
-    /// What panes leave on a way that meets nothing but mirrors of its chain that some of its ends lie on, across the mirrors of these.
+    /// The transmittance of the panes on a path. The path may cross mirrors of its chain that one of its
+    /// `ends` lies on, if they are inclined to the mirror there; any other opaque surface blocks it.
     fn passed(
         &self,
         from: &SurfacePoint,
@@ -111,7 +114,8 @@ impl Lighting<'_> {
         None
     }
 
-    /// A place on a plane's mirrors if they reach to within rounding of it: looked for there and in eight directions about it.
+    /// A place on a plane's mirrors, if they reach to within rounding of it. It is searched for
+    /// there and in eight directions about it.
     fn mirror_near(&self, mirror: &Plane, plane: u32, at: Point) -> Option<SurfacePoint> {
         let beside_m = ROUNDINGS * self.scene.bvh().offset_m(at);
         let above_m = beside_m + self.mirrors.tolerance_m;
@@ -124,7 +128,7 @@ impl Lighting<'_> {
         let met = |shift: Vector| {
             let mut ray = Ray::new(at + shift + mirror.normal * above_m, down);
             let mut left_m = 2.0 * above_m;
-            // Where mirrors meet at a sharp angle the other one lies before it.
+            // Where mirrors meet at a sharp angle, the other one lies in front.
             for _ in 0..MAX_PANES {
                 let hit = self.scene.bvh().closest_hit(&ray.up_to(left_m as f32))?;
                 let surface = SurfacePoint::from_hit(self.scene, &hit);

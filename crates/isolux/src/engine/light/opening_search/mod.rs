@@ -1,4 +1,4 @@
-//! Looks ahead that find the openings before emitting surfaces.
+//! Search for the openings in front of emitting surfaces, by trial rays.
 
 mod planes;
 mod seen;
@@ -17,42 +17,45 @@ use rayon::prelude::*;
 use seen::{Looked, ThroughOpenings};
 use std::f64::consts::PI;
 
-/// Places that look, and how often each, until enough is seen.
+/// Rounds of the search, until enough is seen: number of places, and trial rays of each.
 const ROUNDS: [(usize, usize); 4] = [(64, 8), (512, 8), (4096, 8), (4096, 24)];
 
-/// Of more triangles than this, every so many tell where places are.
+/// The most triangles from which places are drawn; of more, every n-th triangle is used.
 const TRIANGLES: u32 = 1 << 20;
 
-/// Looks for all emitters of a scene together.
+/// The most trial rays for all emitters of a scene together.
 const MOST_LOOKS: usize = 1 << 20;
 
-/// Openings are looked for where this share of the places is in the dark, and emitters are of so much projected solid angle from
-/// there if nothing were in the way, sr: rays to smaller ones bring little noise.
+/// The smallest share of dark places with which openings are searched for.
 const LEAST_DARK: f64 = 0.2;
+/// The smallest unoccluded projected solid angle of an emitter for a search, sr: rays to smaller
+/// ones make little noise.
 const LEAST_SR: f64 = 0.2;
 
-/// An emitter is all around where so much of the hemisphere would be it.
+/// Share of the hemisphere that an unoccluded emitter must fill to count as all around.
 const SURROUNDED: f64 = 0.99;
 
-/// Ways from dark places to the emitter, that tell where openings are: so many are enough, and fewer than those do not do.
+/// Number of free paths from dark places to the emitter that suffices to find openings.
 const ENOUGH: usize = 512;
+/// The fewest free paths with which openings are searched for.
 const FEWEST: usize = 16;
 
-/// Ways that something stands in, which tell what.
+/// The most blocked paths that are traced to the surface that blocks them.
 const STOPPED: usize = 4096;
 
-/// Openings before an emitter at most, and the least share of the ways that makes another one worth while.
+/// The most openings in front of an emitter.
 const MOST: usize = 16;
+/// The smallest share of the free paths that a further opening must explain.
 const WORTH: f64 = 0.02;
 
-/// Ways of either kind that tell of the openings in a plane.
+/// The most free, and the most blocked, paths from which the openings in a plane are found.
 const TELLING: usize = 1024;
 
-/// The least share of ways through an opening that get to the emitter.
+/// The smallest share of the paths through an opening that reach the emitter.
 const LEAST_FREE: f64 = 0.1;
 
 impl Lighting<'_> {
-    /// The openings before all emitting surfaces: they depend on the scene alone.
+    /// The openings in front of all emitting surfaces. They depend on the scene alone.
     pub(crate) fn look_out(&self) -> Openings {
         let areas = self.scene.area_luminaires();
         if areas.is_empty() || without("opening-search") {
@@ -71,7 +74,7 @@ impl Lighting<'_> {
     }
 }
 
-/// Where there is a map: half of the places by area, half in every triangle as often.
+/// The sides that carry a map, for drawing places: half of them uniform by area, half uniform over triangles.
 struct Surface {
     sides: Vec<(u32, bool)>,
     sums_m2: Vec<f64>,
@@ -108,7 +111,7 @@ impl Surface {
     }
 }
 
-/// Looks for openings before an emitter.
+/// A search for openings in front of an emitter.
 struct Finder<'a> {
     lighting: &'a Lighting<'a>,
     emitter: &'a Emitter,
@@ -117,12 +120,12 @@ struct Finder<'a> {
 }
 
 impl Finder<'_> {
-    /// What is known of the emitter, where that is of use.
+    /// The openings in front of the emitter; `None` where they are of no use.
     fn before(&self, surface: &Surface, back: bool, left: &mut usize) -> Option<Before> {
         if surface.sides.is_empty() {
             return None;
         }
-        // Of small ones, as most are, no more needs to be known.
+        // Most emitters are small: the search ends for these.
         let places = self.looked_from(surface, (ROUNDS[0].0, 0), self.key);
         let whole: f64 = places.iter().map(|looked| looked.whole).sum();
         if whole <= LEAST_DARK * LEAST_SR * places.len() as f64 {
@@ -140,7 +143,8 @@ impl Finder<'_> {
         (surrounds || before.zones.are_some()).then_some(before)
     }
 
-    /// Those of a round; none after the last, and where all emitters together have taken too many.
+    /// The places of a round with their trial rays. `None` after the last round, or if all emitters
+    /// together have used up their trial rays.
     fn looks(&self, surface: &Surface, round: usize, left: &mut usize) -> Option<Vec<Looked>> {
         let &(places, looks) =
             ROUNDS.get(round).filter(|(places, looks)| places * looks <= *left)?;
@@ -158,7 +162,8 @@ impl Finder<'_> {
         (0..places).into_par_iter().filter_map(one).collect()
     }
 
-    /// Looks at the emitter from places all over the scene, after some first ones; `None` where that is not worth while.
+    /// Places all over the scene with trial rays to the emitter, starting from `first`; `None`
+    /// where openings are not worth it.
     fn ways(&self, first: Vec<Looked>, surface: &Surface, left: &mut usize) -> Option<Vec<Looked>> {
         let mut looked = first;
         for round in 1.. {
@@ -199,7 +204,7 @@ impl Finder<'_> {
         Some(found)
     }
 
-    /// Openings by ways to the emitter from dark places.
+    /// Openings found from free and blocked paths between dark places and the emitter.
     fn openings(&self, looked: &[Looked]) -> Vec<Opening> {
         let dark = || looked.iter().filter(|looked| looked.is_dark());
         let ways = |to: fn(&Looked) -> &Vec<Point>| {
@@ -233,8 +238,8 @@ impl Finder<'_> {
     }
 }
 
-/// How many ways to the emitter go through openings in a plane, each counted by the share of all ways through its opening that get
-/// there, and the openings; some tell of so many free ways, others of so many that something stands in.
+/// The openings in a plane, and their worth: the number of free paths through them, each weighted by the share of all
+/// paths through its opening that are free. `counts` are the numbers of all free and blocked paths; `tell` are samples.
 fn worth_of(plane: &Plane, tell: &[Vec<Way>; 2], counts: [f64; 2]) -> (f64, Vec<Opening>) {
     let mut openings = plane.openings(&tell[0]);
     let mut worth = 0.0;

@@ -1,38 +1,42 @@
-//! Openings in the planes of what stands in the way.
+//! Openings in the planes of the surfaces that block an emitter.
 
 use super::super::openings::Opening;
 use crate::scene::Scene;
 use isolux_geometry::{Normal, Point, Vector};
 use std::collections::BTreeMap;
 
-/// Planes looked at, those that hide most first, and the triangles of one that tell how openings in it may lie.
+/// The most planes examined; those that block most paths come first.
 const PLANES: usize = 24;
+/// The most triangles of a plane whose edges are tried as axes of openings.
 const TELLING: usize = 8;
 
-/// The triangles of a plane that tell where openings in it may end.
+/// The most triangles of a plane whose corners may bound openings.
 const BORDERING: usize = 256;
 
-/// Sides of an opening are this share of its length further out for every way through it than the last of these ways, unless a
-/// corner is so many times as near: then they are there.
+/// Distance by which an opening reaches beyond its outermost paths, in mean spacings of the paths along that
+/// side. A corner from one such distance inside to two outside takes precedence: the opening then ends there.
 const BEYOND: f64 = 3.0;
 
-/// What rounding may leave out where they end at a corner.
+/// Allowance for rounding where an opening ends at a corner, as a share of its length.
 const ROUNDING: f64 = 1e-6;
 
-/// Normals of one plane agree to this cosine, distances to this share of what the scene measures.
+/// Cosine above which the normals of two triangles agree, so that these may lie in one plane.
 const ALIKE_COS: f64 = 1.0 - 1e-6;
+/// Distance up to which they do lie in one plane, as a share of the scene's extent.
 const ALIKE: f64 = 1e-5;
 
-/// Ways through an opening at least, and openings in one plane at most.
+/// The fewest paths through an opening.
 const FEWEST: usize = 8;
+/// The most openings in one plane.
 const MOST: usize = 16;
 
-/// Two openings are smaller by so much than one around both, or they are one; and between them lies so much more than its share
-/// for every way: in an opening one of thirty would do so by chance.
+/// The largest area of two openings, as a share of the area of one around both, with which they are divided.
 const APART: f64 = 0.95;
+/// The smallest gap between two openings, in mean spacings of the paths. One opening has such a gap
+/// by chance in one case of thirty.
 const GAP: f64 = 8.0;
 
-/// A straight way to a place of an emitter.
+/// A straight path to a place on an emitter.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
     pub(super) from: Point,
@@ -45,19 +49,19 @@ impl Way {
     }
 }
 
-/// A plane of what stands in the way.
+/// A plane of surfaces that block an emitter.
 #[derive(Clone, Debug)]
 pub(super) struct Plane {
     through: Point,
     normal: Normal,
     hits: usize,
-    /// How openings in it may lie: along these.
+    /// Edges that openings in it may be parallel to.
     edges: Vec<Vector>,
-    /// Where they may end.
+    /// Corners at which openings may end.
     corners: Vec<Point>,
 }
 
-/// The planes that hide most, by the triangle that each of the ways to the emitter ends at.
+/// The planes that block the most paths, from the triangle at which each path ends.
 pub(super) fn planes(scene: &Scene, stopped_at: impl Iterator<Item = u32>) -> Vec<Plane> {
     let mut hits = BTreeMap::<u32, usize>::new();
     for triangle in stopped_at {
@@ -99,7 +103,7 @@ pub(super) fn planes(scene: &Scene, stopped_at: impl Iterator<Item = u32>) -> Ve
 }
 
 impl Plane {
-    /// Openings that these ways go through, and which of them do.
+    /// The openings in the plane that explain these free paths.
     pub(super) fn openings(&self, ways: &[Way]) -> Vec<Opening> {
         let normal = self.normal.to_vector();
         let height_m = |p: Point| (p - self.through).dot(normal);
@@ -131,7 +135,8 @@ impl Plane {
         boxes.map(opening).collect()
     }
 
-    /// Two axes that what stands in the way is best enclosed along, right-handed with the way inwards, and where its corners are.
+    /// Axes of the smallest rectangle around the plane's corners, right-handed with the inward
+    /// direction, and the corners in these coordinates.
     fn axes(&self, outwards: Vector) -> Option<([Vector; 2], Vec<[f64; 2]>)> {
         let along = |edge: &Vector| {
             let first = edge.direction()?.to_vector();
@@ -166,7 +171,7 @@ impl Rectangle {
         (self.low[0]..=self.high[0]).contains(&x) && (self.low[1]..=self.high[1]).contains(&y)
     }
 
-    /// Around places that may be anywhere in it: the farthest ones do not lie at its edge.
+    /// The estimated extent of uniformly spread places: the outermost ones do not lie on its edge.
     fn around(places: &[[f64; 2]]) -> Self {
         let mut of = Self::of(places);
         for axis in 0..2 {
@@ -177,7 +182,7 @@ impl Rectangle {
         of
     }
 
-    /// The opening that these places lie in, which may end at some corner.
+    /// The opening that these places lie in, which may end at a corner.
     fn ending(places: &[[f64; 2]], corners: &[[f64; 2]]) -> Self {
         let mut of = Self::around(places);
         for axis in 0..2 {
@@ -200,7 +205,7 @@ impl Rectangle {
     }
 }
 
-/// Places that lie in one opening each.
+/// Groups of places, each in one opening.
 fn apart(places: Vec<[f64; 2]>) -> Vec<Vec<[f64; 2]>> {
     let mut waiting = vec![places];
     let mut found = Vec::new();
@@ -214,14 +219,14 @@ fn apart(places: Vec<[f64; 2]>) -> Vec<Vec<[f64; 2]>> {
     found
 }
 
-/// Two parts that lie apart.
+/// Two groups of places that lie apart; `None` if there are none.
 fn divided(places: &[[f64; 2]], whole: &Rectangle) -> Option<[Vec<[f64; 2]>; 2]> {
     let mut best = (APART * whole.area(), None);
     for axis in 0..2 {
         let mut sorted = places.to_vec();
         sorted
             .sort_by(|a, b| a[axis].total_cmp(&b[axis]).then(a[1 - axis].total_cmp(&b[1 - axis])));
-        // Between the farthest neighbours.
+        // The division is at the largest gap.
         let last = sorted.len().checked_sub(FEWEST)?;
         let gap = |k: &usize| sorted[*k][axis] - sorted[*k - 1][axis];
         let Some(at) = (FEWEST..=last).max_by(|a, b| gap(a).total_cmp(&gap(b)).then(b.cmp(a)))
@@ -246,7 +251,7 @@ mod tests {
     use super::*;
     use crate::sampling::Key;
 
-    /// Places of a rectangle, spread at random.
+    /// Random places in a rectangle.
     fn spread(key: Key, count: u64, low: [f64; 2], sides: [f64; 2]) -> Vec<[f64; 2]> {
         let at =
             |k: u64, axis: usize| low[axis] + sides[axis] * key.with(k).with(axis as u64).uniform();
@@ -265,7 +270,7 @@ mod tests {
             let places = openings.iter().enumerate().flat_map(|(k, opening)| of(k, *opening));
             let found = apart(places.collect());
             as_they_are += u32::from(found.len() == openings.len());
-            // Some are divided by chance, none are joined.
+            // Some openings are divided by chance, none are joined.
             for part in found {
                 let Rectangle { low, high } = Rectangle::of(&part);
                 let lies_in = |(corner, sides): &([f64; 2], [f64; 2])| {
@@ -284,7 +289,7 @@ mod tests {
             let count = 16 + trial % 100;
             apart(spread(Key::new(trial), count, [0.0; 2], [3.0, 1.0])).len() > 1
         });
-        // Gaps of more than eight times their share: once in thirty, along two axes.
+        // Gaps of more than eight mean spacings occur once in thirty cases, along two axes.
         assert!(divided.count() < trials as usize / 10);
     }
 

@@ -1,4 +1,4 @@
-//! What places have seen of an emitting surface, and what that says of where rays had better go.
+//! Trial rays of places to an emitting surface, and the better kind of rays that follows from them.
 
 use super::super::lighting::Lighting;
 use super::super::openings::{ANYWHERE, Before, Through, Told, View, Zones};
@@ -8,23 +8,24 @@ use isolux_geometry::Point;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Places from where up to this share of the looks at an emitter sees it are in the dark.
+/// The largest share of free trial rays to an emitter with which a place counts as dark.
 const DARK: f64 = 0.25;
 
-/// Looks of a place at each opening, and how many those of all places count beside them.
+/// Trial rays of a place to each opening.
 const LOOKS: usize = 4;
+/// Number of trial rays that the mean over all places counts as.
 const PRIOR: f64 = 1.0;
 
-/// Openings that less than a hundredth of the looks of a part gets through are not for it.
+/// The smallest weight of an opening in a part of the scene: a hundredth of the trial rays pass it.
 const LEAST_WEIGHT: f64 = 0.1;
 
-/// Rays go to openings where this leaves at most so much of the variance.
+/// The largest share of the variance that rays to openings may leave in order to be used.
 const GAIN: f64 = 0.5;
 
-/// A place that looked at an emitter.
+/// A place with its trial rays to an emitter.
 pub(super) struct Looked {
     pub(super) at: SurfacePoint,
-    /// Projected solid angle of the emitter if nothing were in the way, sr.
+    /// Projected solid angle of the emitter without obstacles, sr.
     pub(super) whole: f64,
     pub(super) looks: usize,
     pub(super) free: Vec<Point>,
@@ -37,16 +38,16 @@ impl Looked {
     }
 }
 
-/// What a place has seen through an opening.
+/// The trial rays of a place through an opening.
 #[derive(Clone, Copy)]
 struct Seen {
     /// Projected solid angle of the opening, sr.
     steradians: f64,
-    /// Looks through it that came to the emitter.
+    /// Number of rays through it that reach the emitter.
     looks: u32,
 }
 
-/// What all places have seen through openings: nothing where they are below the horizon.
+/// The trial rays of all places through openings; `None` where an opening is below the horizon.
 pub(super) struct ThroughOpenings<'a> {
     before: &'a Before,
     looked: &'a [Looked],
@@ -68,7 +69,7 @@ impl<'a> ThroughOpenings<'a> {
         Self { before, looked, seen: looked.par_iter().enumerate().map(one).collect() }
     }
 
-    /// From where rays had better go to which openings.
+    /// The parts of the scene, each with the openings that its rays should go to.
     pub(super) fn zones(&self) -> Zones {
         let all: Vec<u32> = (0..self.looked.len() as u32).collect();
         let mut everywhere = vec![0.0; self.before.openings.len()];
@@ -83,13 +84,15 @@ impl<'a> ThroughOpenings<'a> {
         Zones::of(&told, &|of| self.best(of, &everywhere))
     }
 
-    /// Whether a place sees anything of the emitter: in the dark inside of a wall nothing is known, and it does not matter.
+    /// Whether a place sees anything of the emitter. Places that see nothing, as inside a wall,
+    /// tell nothing and do not matter.
     fn sees_any(&self, place: usize) -> bool {
         let through = self.seen[place].iter().flatten().any(|seen| seen.looks > 0);
         through || !self.looked[place].free.is_empty()
     }
 
-    /// The openings that some places see the emitter through; `prior` is the share of one look more that does.
+    /// The openings through which some places see the emitter. `prior` is the assumed share of one
+    /// further trial ray that reaches it.
     fn through(&self, of: &[u32], prior: impl Fn(usize) -> f64) -> Vec<Through> {
         let one = |opening: usize| {
             let telling = of.iter().filter(|&&k| self.sees_any(k as usize));
@@ -105,7 +108,7 @@ impl<'a> ThroughOpenings<'a> {
         (0..self.before.openings.len()).filter_map(one).collect()
     }
 
-    /// The same, if rays had better go there.
+    /// The openings for some places, or none if rays to all of the emitter are better.
     fn best(&self, of: &[u32], everywhere: &[f64]) -> Vec<Through> {
         let mut through = self.through(of, |opening| everywhere[opening]);
         through.retain(|through| through.weight >= LEAST_WEIGHT);
@@ -118,8 +121,8 @@ impl<'a> ThroughOpenings<'a> {
         if to_openings <= GAIN * to_all { through } else { Vec::new() }
     }
 
-    /// Variance of a ray from a place to all of the emitter, and of one to openings or anywhere: of nothing where all rays go to the
-    /// emitter, as no opening is above the horizon.
+    /// Variance of a ray from a place to all of the emitter, and of one to openings or over the hemisphere.
+    /// Both are zero where no opening is above the horizon, as all rays then go to the emitter.
     fn variances(&self, place: usize, through: &[Through]) -> [f64; 2] {
         let (looked, seen) = (&self.looked[place], &self.seen[place]);
         let [mut inside, mut weighted, mut of_light] = [0.0; 3];
@@ -147,7 +150,7 @@ impl<'a> ThroughOpenings<'a> {
     }
 }
 
-/// Looks through an opening.
+/// The trial rays of a place through an opening.
 fn seen(
     lighting: &Lighting,
     before: &Before,

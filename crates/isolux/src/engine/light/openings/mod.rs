@@ -1,12 +1,13 @@
-//! Openings that large emitting surfaces are seen through: windows below a shining sky, doors to a lit room.
+//! Openings in front of large emitting surfaces: windows below a luminous sky, doors to a lit room.
 //!
-//! Where little of an emitter is seen, shadow rays that are spread over all of it mostly end at a wall. They go to the
-//! openings instead, as rectangles in the planes of what stands in the way (`planes`), found by looks ahead (`find`),
-//! which also tell from which parts of the scene light comes through which of them (`zones`). A quarter of all rays is
-//! spread over the hemisphere, for light that comes in elsewhere. A direction counts for the rays of which more go there (the
-//! maximum heuristic of Veach and Guibas 1995), so that nothing is lost wherever the openings are thought to be. (By the
-//! balance heuristic the few rays anywhere that meet an opening bring part of its light: mostly none do, then readings are too dark
-//! and their replicates agree.)
+//! Where little of an emitter is visible, most shadow rays to points all over it end at a wall. They go to
+//! the openings instead. Openings are rectangles in the planes of the surfaces that block the emitter
+//! (`opening_search/planes`), found by trial rays beforehand (`opening_search`). The trial rays also tell
+//! which openings bring light to which parts of the scene (`zones`). A quarter of all rays is spread over
+//! the hemisphere, for light that enters elsewhere. A direction counts only for the kind of rays that
+//! samples it more densely (the maximum heuristic of Veach and Guibas 1995), so no light is lost, wherever
+//! the openings are. With the balance heuristic, the few rays over the hemisphere that meet an opening would
+//! bring part of its light. Mostly none meets it; then readings are too dark and their replicates agree.
 
 mod zones;
 
@@ -23,42 +24,42 @@ use isolux_geometry::{Direction, Point, Vector};
 use std::f64::consts::PI;
 pub(crate) use zones::{Through, Told, Zones};
 
-/// Share of the rays that go anywhere, in all openings or none.
+/// Share of the rays that are spread over the hemisphere, through openings or not.
 pub(crate) const ANYWHERE: f64 = 0.25;
 
-/// A rectangle that light comes through.
+/// A rectangle through which light enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Opening {
     pub(crate) corner: Point,
-    /// Along its sides, which are square to each other: counter-clockwise as seen from where light goes.
+    /// Vectors along its sides, at right angles; counter-clockwise as seen from the side that light goes to.
     pub(crate) sides: [Vector; 2],
-    /// Of length one, to where light comes from.
+    /// Unit vector towards the side that light comes from.
     pub(crate) outwards: Vector,
 }
 
-/// Openings before one emitting surface, and where light comes through which of them.
+/// Openings in front of one emitting surface, and the parts of the scene that each of them lights.
 pub(crate) struct Before {
     pub(crate) openings: Vec<Opening>,
     pub(crate) zones: Zones,
-    /// Whether all directions lead to it from everywhere, where nothing is in the way.
+    /// Whether the emitter fills the hemisphere of every place, apart from obstacles.
     surrounds: bool,
-    /// The triangles that emit, ascending, and from which side.
+    /// The emitting triangles, in ascending order; `back` tells their emitting side.
     triangles: Vec<u32>,
     back: bool,
 }
 
-/// Openings before all emitting surfaces of a scene, by their number.
+/// Openings in front of all emitting surfaces of a scene, by number.
 #[derive(Default)]
 pub(crate) struct Openings(Vec<Option<Before>>);
 
-/// What a place sees of the openings before an emitter.
+/// The openings in front of an emitter as a receiver sees them.
 pub(crate) struct View<'a> {
     pub(crate) before: &'a Before,
     through: &'a [Through],
     pub(crate) at: SurfacePoint,
-    /// Halves of openings above its horizon, each with its number among `through`.
+    /// Halves of openings above the horizon, each with its index in `through`.
     pieces: Vec<Piece>,
-    /// Sum of their projected solid angles by weight, sr.
+    /// Sum of their projected solid angles times weights, sr.
     pub(crate) whole: f64,
 }
 
@@ -67,12 +68,13 @@ impl Openings {
         Self(of_emitters)
     }
 
-    /// Whether there are some before an emitting surface.
+    /// Whether there are openings in front of an emitting surface.
     pub(crate) fn are_before(&self, number: usize) -> bool {
         self.0.get(number).is_some_and(Option::is_some)
     }
 
-    /// Of an emitting surface, itself and no image of it; `None` where rays had better go to all of it.
+    /// The view of the openings in front of an emitting surface, without its images. `None` where
+    /// rays are better spread over all of the surface.
     pub(crate) fn view(&self, source: &Source, at: &SurfacePoint) -> Option<View<'_>> {
         let LuminaireId::Area(number) = source.luminaire else { return None };
         let before = self.0.get(number as usize)?.as_ref()?;
@@ -84,14 +86,14 @@ impl Openings {
 }
 
 impl Opening {
-    /// Its halves: both emit towards where light goes.
+    /// Its two halves, which emit towards the side that light goes to.
     fn halves(&self) -> [[Point; 3]; 2] {
         let [a, b] = self.sides;
         let far = self.corner + a + b;
         [[self.corner, self.corner + a, far], [self.corner, far, self.corner + b]]
     }
 
-    /// Whether a ray goes out through it.
+    /// Whether a ray passes out through it.
     pub(crate) fn is_passed(&self, from: Point, direction: Vector) -> bool {
         let to_corner = self.corner - from;
         let (height_m, rise) = (to_corner.dot(self.outwards), direction.dot(self.outwards));
@@ -122,12 +124,13 @@ impl<'a> View<'a> {
         is_wanted.then_some(Self { before, through, at: *at, pieces, whole })
     }
 
-    /// Share of the rays that go anywhere.
+    /// Share of the rays that are spread over the hemisphere.
     fn anywhere_share(&self) -> f64 {
         if self.whole > 0.0 { ANYWHERE } else { 1.0 }
     }
 
-    /// Mean projected solid angle of what is seen of the emitter, sr, by so many rays; `seen` says what of its light comes along one.
+    /// Mean projected solid angle of the visible part of the emitter, sr, by `samples` rays. `seen`
+    /// gives the share of its light that arrives along a ray.
     pub(crate) fn steradians(
         &self,
         samples: usize,
@@ -167,13 +170,13 @@ impl<'a> View<'a> {
         (0..samples).map(one).sum()
     }
 
-    /// What one more ray would bring that sees what none of so many have seen, sr.
+    /// Projected solid angle that the next ray would bring if it met light that none of `samples` rays has met, sr.
     pub(crate) fn unseen(&self, samples: f64) -> f64 {
         PI / (self.anywhere_share() * samples)
     }
 
-    /// Rays by solid angle in a direction, over the cosine, 1/sr, of the kind of which more go there; `None` for a ray of the
-    /// other kind, which does not count.
+    /// Number of rays for every projected solid angle in a direction, 1/sr, for the kind of rays
+    /// that samples it more densely. `None` for a ray of the other kind, which does not count.
     fn density(&self, direction: Direction, drawn: Option<usize>, counts: [f64; 2]) -> Option<f64> {
         let anywhere = counts[1] / PI;
         if self.whole <= 0.0 {
@@ -198,7 +201,8 @@ impl<'a> View<'a> {
         facing_cos(direction, self.at.shading, self.at.geometric).map(|_| (direction, None))
     }
 
-    /// A direction through an opening, in proportion to its cosine and the weight of the opening, and which one.
+    /// A direction through an opening, in proportion to its cosine and the weight of the opening,
+    /// and the opening's index.
     pub(crate) fn through_one(
         &self,
         [pick, accept]: [f64; 2],
@@ -209,7 +213,7 @@ impl<'a> View<'a> {
             left -= piece.steradians * self.through[piece.triangle].weight;
             left < 0.0
         });
-        // Rounding may leave a sliver past the last.
+        // Rounding may leave a remainder past the last piece.
         let piece = piece.or(self.pieces.last())?;
         let number = piece.triangle;
         let opening = &self.before.openings[self.through[number].opening as usize];
@@ -220,7 +224,7 @@ impl<'a> View<'a> {
 }
 
 impl Before {
-    /// Before an emitting surface, nothing known of openings yet.
+    /// An emitting surface without any openings yet.
     pub(crate) fn new(mut triangles: Vec<u32>, back: bool, surrounds: bool) -> Self {
         triangles.sort_unstable();
         Self { openings: Vec::new(), zones: Zones::none(), surrounds, triangles, back }

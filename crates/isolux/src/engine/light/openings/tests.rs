@@ -1,4 +1,4 @@
-//! A room below a sky, whose direct light is that of its windows.
+//! Tests with a room below a sky: its direct light is that of its windows.
 
 use super::super::lighting::Lighting;
 use super::super::polygon::steradians;
@@ -9,11 +9,13 @@ use crate::scene::{Finish, Material, Scene, Shape};
 
 const SKY_CD_M2: f64 = 4000.0;
 
-/// Rays of every measurement, and standard errors that none of a hundred such means are off.
+/// Rays of every measurement.
 const MANY: u32 = 2048;
+/// Standard errors by which none of a hundred such means is off.
 const SIGMAS: f64 = 4.5;
 
-/// A wall from a corner along two axes, in cells, without what is in the holes: from and to along both.
+/// A wall from a corner along two axes, divided into cells, without the cells in `holes` (start and
+/// end along both axes).
 fn wall(
     corner: [f64; 3],
     [along, up]: [[f64; 3]; 2],
@@ -59,7 +61,7 @@ fn room() -> Scene {
     scene(shapes, vec![wall, glowing(SKY_CD_M2)], vec![])
 }
 
-/// A cube of 160 m that shines inwards, in one piece.
+/// A cube of 160 m that emits inwards, in one piece.
 fn sky() -> Shape {
     let mut whole = Shape { name: "sky".into(), material: 1, ..Shape::default() };
     for side in inward_box([160.0; 3], 1) {
@@ -70,7 +72,7 @@ fn sky() -> Shape {
     whole
 }
 
-/// What windows give a place that sees all of them and nothing before them, lx.
+/// Illuminance from the windows at a place that sees all of them without obstacles, lx.
 fn windows_lx(at: &SurfacePoint) -> f64 {
     let window = |low: [f64; 3], high: [f64; 3], sides: [usize; 2]| {
         let corner = |s: usize, t: usize| {
@@ -88,7 +90,7 @@ fn windows_lx(at: &SurfacePoint) -> f64 {
     SKY_CD_M2 * (front(0.5) + front(2.2) + roof)
 }
 
-/// Inside, on the floor and on walls; and outside, on roof and walls.
+/// Places inside the room, on floor and walls, or outside, on roof and walls.
 fn places(scene: &Scene, is_inside: bool) -> Vec<SurfacePoint> {
     let sides = (0..scene.triangle_count()).flat_map(|t| [(t, false), (t, true)]);
     let middle = |(triangle, back)| SurfacePoint::new(scene, triangle, back, 0.4, 0.25);
@@ -136,7 +138,7 @@ fn windows_are_found_where_they_are() {
         ([2.2, 0.0, 0.9], 1.2 * 1.2, [0.0, -1.0, 0.0]),
     ];
     for ((low, sides, outwards), (corner, area, normal)) in found.iter().zip(expected) {
-        // Ends are at the corners of walls, but for a millionth of their length.
+        // Ends are at the corners of walls, to a millionth of their length.
         assert!(low.iter().zip(corner).all(|(a, b)| (a - b).abs() < 1e-5), "{low:?}");
         assert!((sides[0] * sides[1] - area).abs() < 1e-5, "{sides:?}");
         assert!((*outwards - Vector::from(normal)).length() < 1e-9, "{outwards:?}");
@@ -158,7 +160,7 @@ fn light_through_windows_is_exact_with_little_noise() {
         let [mean, variance] = by_one_ray(&lighting, at, k as u64);
         let error = (variance / f64::from(MANY)).sqrt();
         assert!((mean - exact).abs() < SIGMAS * error, "{k}: {mean} +- {error}, not {exact}");
-        // A quarter of the rays goes anywhere and three quarters share the rest, which is the same everywhere in the openings.
+        // A quarter of the rays is spread over the hemisphere; the rest share the openings, whose luminance is uniform.
         let lx = lighting.illuminance(at, &mut Dice::new(Sequence::new(Key::new(k as u64)), 0));
         assert!((lx.luminance() / exact - 1.0).abs() < 0.05, "{k}: {lx:?}, not {exact}");
         compared += 1.0;

@@ -1,28 +1,31 @@
-//! Parts of a scene, and the openings that light comes through to each: a decision tree by place and orientation.
+//! Parts of a scene with the openings that light them: a decision tree by position and orientation.
 
 use crate::engine::ray::SurfacePoint;
 
-/// Places of a part at most, and at least on either side of a border that separates what rays had better do.
+/// The most places of a part.
 const PLACES: usize = 64;
+/// The fewest places on either side of a border.
 const FEWEST: usize = 2;
 
-/// Borders tried along every coordinate, and the share of the variance that is saved by one.
+/// Number of borders tried along every coordinate.
 const BORDERS: usize = 32;
+/// The smallest share of the variance that a border must save.
 const WORTH: f64 = 0.02;
 
-/// Coordinates of a place and of its normal.
+/// Number of coordinates: those of a place and of its normal.
 const FEATURES: usize = 6;
+/// Number of coordinates of the place alone.
 const PLACE_ALONE: usize = 3;
 
-/// An opening that light comes through to a part of the scene.
+/// An opening through which light reaches a part of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Through {
     pub(crate) opening: u32,
-    /// How many rays go there for its projected solid angle.
+    /// Number of rays for every projected solid angle of the opening, relative to the other openings.
     pub(crate) weight: f64,
 }
 
-/// A place, and the variance of a ray from there to all of the emitter, and of one to openings.
+/// A place with two variances: of a ray to all of the emitter, and of a ray to openings.
 pub(crate) struct Told {
     features: [f64; FEATURES],
     variances: [f64; 2],
@@ -39,16 +42,16 @@ fn features(at: &SurfacePoint) -> [f64; FEATURES] {
     [point.x, point.y, point.z, normal.x, normal.y, normal.z]
 }
 
-/// A tree of halves, and the openings of a part.
+/// A node of the decision tree: two halves, or a part with its openings.
 enum Node {
     Halves { feature: usize, at: f64, second: u32 },
     Part(Vec<Through>),
 }
 
-/// Parts of a scene by the places that tell of them.
+/// Parts of a scene, as a decision tree.
 pub(crate) struct Zones(Vec<Node>);
 
-/// Makes them.
+/// The state while the tree is built.
 struct Maker<'a> {
     told: &'a [Told],
     through: &'a dyn Fn(&[u32]) -> Vec<Through>,
@@ -56,20 +59,20 @@ struct Maker<'a> {
 }
 
 impl Zones {
-    /// No openings anywhere.
+    /// One part without openings.
     pub(crate) fn none() -> Self {
         Self(vec![Node::Part(Vec::new())])
     }
 
-    /// Parts of a few places each, divided where rays had better do something else; `through` says what light comes through to some
-    /// places.
+    /// Parts of a few places each, divided where different rays are better. `through` gives the
+    /// openings that light some places.
     pub(crate) fn of(told: &[Told], through: &dyn Fn(&[u32]) -> Vec<Through>) -> Self {
         let mut maker = Maker { told, through, nodes: Vec::new() };
         maker.add((0..told.len() as u32).collect());
         Self(maker.nodes)
     }
 
-    /// What light comes through to a place.
+    /// The openings that light a place.
     pub(crate) fn through(&self, at: &SurfacePoint) -> &[Through] {
         let features = features(at);
         let mut number = 0;
@@ -84,7 +87,7 @@ impl Zones {
         }
     }
 
-    /// Whether light comes through openings to any part.
+    /// Whether any part has openings.
     pub(crate) fn are_some(&self) -> bool {
         self.0.iter().any(|node| matches!(node, Node::Part(through) if !through.is_empty()))
     }
@@ -111,7 +114,7 @@ impl Maker<'_> {
         all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
     }
 
-    /// The border that saves most variance where every side does what is best there.
+    /// The border that saves the most variance if both sides use the better kind of rays.
     fn border(&self, of: &[u32]) -> Option<(usize, f64)> {
         let mut best = None;
         let mut most = 0.0_f64;
@@ -147,7 +150,7 @@ impl Maker<'_> {
         best
     }
 
-    /// Halves of many places.
+    /// The border at the median along the longest axis, if there are too many places.
     fn middle(&self, of: &[u32]) -> Option<(usize, f64)> {
         let ranges = [0, 1, 2].map(|feature| self.range(of, feature));
         let long = |feature: &usize| ranges[*feature][1] - ranges[*feature][0];
@@ -159,7 +162,7 @@ impl Maker<'_> {
             of.iter().map(|&k| self.told[k as usize].features[feature]).collect();
         sorted.sort_unstable_by(f64::total_cmp);
         let at = sorted[sorted.len() / 2];
-        // Where many lie in one plane, the border is above it.
+        // Where many places lie in one plane, the border is above it.
         let at = if at > sorted[0] { at } else { *sorted.iter().find(|&&x| x > at)? };
         Some((feature, at))
     }
