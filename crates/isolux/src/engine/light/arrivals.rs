@@ -11,10 +11,12 @@ use crate::sampling::{Key, Sequence};
 use crate::scene::{LuminaireKind, Scene};
 use rayon::prelude::*;
 
-/// Particles of all luminaires together, and the bounds for one luminaire. The share of many
-/// luminaires together is known to a hundredth, that of a single one less well.
+/// Particles of all luminaires together. The share of many luminaires together is known to a
+/// hundredth, that of a single one less well.
 const PARTICLES: usize = 1 << 14;
+/// The fewest particles of one luminaire.
 const FEWEST: usize = 16;
+/// The most particles of one luminaire.
 const MOST: usize = 1 << 12;
 
 /// Share of arriving light below which [`MOST`] particles look again. Of a luminaire that sends a tenth

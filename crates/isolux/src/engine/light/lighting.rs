@@ -19,9 +19,9 @@ pub(super) const EXACT_SOURCES: usize = 4;
 /// read it from the map.
 const MOST_EVALUATED_AT_ENDS: usize = 8;
 
-/// Number of point sources above which the light tree draws them: here at the ends of gathering
-/// rays, below at receivers.
+/// Number of point sources above which the light tree draws them at the ends of gathering rays.
 pub(super) const DRAWN_AT_ENDS: usize = 32;
+/// Number of point sources above which the light tree draws them at receivers.
 const DRAWN_AT_RECEIVERS: usize = 512;
 
 /// The most point sources with which all of them show on glossy surfaces.

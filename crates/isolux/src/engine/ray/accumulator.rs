@@ -12,7 +12,9 @@
 
 use crate::units::Rgb;
 
+/// Units of the scene's reference illuminance.
 const UNITS_OF_REFERENCE: f64 = (1u64 << 24) as f64;
+/// The largest value of one increment, in units.
 const LARGEST: f64 = (1u64 << 47) as f64;
 /// The most halvings of the unit, for receivers with little light.
 const MOST_HALVINGS: u8 = 14;

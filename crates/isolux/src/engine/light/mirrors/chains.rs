@@ -68,8 +68,8 @@ impl Lighting<'_> {
         })
     }
 
-    /// Position and normal of the mirror image of a receiver that sees, without mirrors, what the
-    /// receiver sees by a chain. `None` where the receiver is behind a mirror of the chain.
+    /// Position and normal of a receiver's image by a chain: without mirrors, the image sees what the
+    /// receiver sees by the chain. `None` where the receiver is behind a mirror of the chain.
     pub(crate) fn image_of_receiver(
         &self,
         chain: &Chain,
