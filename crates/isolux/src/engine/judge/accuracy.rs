@@ -1,4 +1,4 @@
-//! How good a map is: the error of the scene from replicates, check points and details.
+//! The error of the scene, from replicates, check points and details.
 
 use super::check_points::InterpolationErrors;
 use crate::elements::Elements;
@@ -8,22 +8,24 @@ use crate::engine::ray::{Accumulator, Estimate};
 use crate::map::{Accuracy, Standing};
 use rayon::prelude::*;
 
-/// Replicates from which on their spread is believed. The scene figure pools thousands of
-/// receivers, so eight give it to a few per cent.
+/// The number of replicates from which their spread is reported. The scene figure pools thousands of
+/// receivers, so eight replicates give it to a few per cent.
 pub(crate) const BELIEVED_INCREMENTS: u64 = 8;
 
-/// Increments after which elements may be seen to be too coarse: the spread of fewer tells little of check points.
+/// The number of increments from which elements may be found too coarse. The spread of fewer says little at
+/// check points.
 pub(crate) const FEWEST_TO_MISS: u64 = 4;
 
-/// Errors are told relative to the root mean square of the light, but to no more than so many times its mean where there is any: of a
-/// lamp close below a ceiling a hand's breadth of that can have a hundred times the root mean square of all else.
+/// The most that the reference of relative errors may be, in multiples of the mean over the lit area. The
+/// reference is the root mean square of the light; below a ceiling with a lamp close to it, a hand's breadth
+/// can have a hundred times the root mean square of all else.
 const MOST_UNEVEN: f64 = 2.0;
 
-/// Vertices whose sums are added up by one task.
+/// The number of vertices that one task sums.
 const POOLED_TOGETHER: usize = 1024;
 
-/// The error of the scene so far, however few replicates there are; `None` where nothing is
-/// known: what paths given up would have brought may be more than what is there.
+/// The error of the scene so far, from any number of replicates. `None` where it is unknown: the light of
+/// paths given up may exceed all that was found.
 pub(crate) fn accuracy(
     plan: &Plan,
     pooled: &Pooled,
@@ -34,8 +36,8 @@ pub(crate) fn accuracy(
     in_all(plan, (pooled, noise_lx), interpolation)
 }
 
-/// The error of a map without replicates, of which check points tell all but what they do not see: the
-/// noise of the values at the vertices is part of what they see.
+/// The error of a map without replicates. Differences at check points include the noise of vertex values, so
+/// the noise is subtracted from them and reported apart.
 pub(crate) fn accuracy_of_map(
     plan: &Plan,
     estimate: impl Fn(usize) -> Estimate + Sync,
@@ -59,12 +61,13 @@ fn in_all(
 ) -> Option<Accuracy> {
     let Light { area_m2: area, lit_m2, squared, .. } = pooled.light;
     if !(squared > 0.0 && area > 0.0) {
-        // No light at all is known exactly, if none was lost on the way and the pilot saw none.
+        // A map without light is exact if no path was given up and the pilot found no light.
         let dark = area > 0.0 && plan.light.reference_lx == 0.0 && interpolation.given_up_lx == 0.0;
         return dark.then_some(NO_ERROR);
     }
     let reference_lx = pooled.light.reference_lx();
-    // What has one sign lies where light is: means over all of the surface are larger there.
+    // Errors of one sign lie where light is: their root mean square over all of the surface is the mean over
+    // `lit`.
     let lit = (lit_m2 / area).sqrt();
     let given_up = given_up_share(plan, interpolation.given_up_lx, reference_lx) / lit;
     if given_up > 1.0 {
@@ -73,15 +76,15 @@ fn in_all(
     let statistical = noise_lx / reference_lx;
     let of_readers = interpolation.close * interpolation.untrusted_lx;
     let discretization = libm::hypot(interpolation.indirect_lx, of_readers) / reference_lx;
-    // Check points see what their rays read of indirect light; direct light that is read, too, adds what
-    // is reflected of its own error.
+    // Check points measure the error of indirect light as rays read it. If rays read direct light, too, the
+    // reflected part of its mean error is added.
     let is_read = plan.lighting.are_read_at_ends();
     let direct_lx = if is_read { interpolation.direct_mean_lx } else { 0.0 };
     let mean_lx = interpolation.indirect_mean_lx + plan.light.mean_reflectance * direct_lx;
-    // What lookups get wrong on the mean is reflected, and reflected again; all of it has one sign, and so may have
-    // the mean of what is wrong where it is read, which is counted for itself already. Rays of vertices read all of it,
-    // those of readers what is seen from afar: the larger counts. What differs from place to place has either sign and
-    // is reflected as good as no more.
+    // The mean error of lookups is reflected again and again. It has one sign, so it may correlate with the
+    // mean error at the place that is read, which is counted already. Rays of vertices read all of it, rays
+    // of readers only the part seen from afar; the larger counts. Deviations from place to place have either
+    // sign and are hardly reflected.
     let rho = plan.light.mean_reflectance.min(0.99);
     let of_each = [rho * mean_lx, interpolation.seen_mean_lx];
     let larger = if of_each[0].abs() > of_each[1].abs() { of_each[0] } else { of_each[1] };
@@ -104,31 +107,31 @@ fn in_all(
     })
 }
 
-/// The statistical error alone, from two replicates on: not believed by anyone, but good enough to
-/// say when a run may end.
+/// The statistical error alone, from two replicates on, relative. It is too uncertain to report, but good
+/// enough to forecast when a run may end.
 pub(crate) fn early_statistical(plan: &Plan, sums: &Accumulator) -> Option<f64> {
     let Pooled { light, variance } = Pooled::of(plan, |k| sums.estimate(k));
     (sums.increments >= 2 && light.squared > 0.0)
         .then(|| (variance / light.area_m2).sqrt() / light.reference_lx())
 }
 
-/// The light of some surface: integrals over it.
+/// Integrals of light over a surface.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Light {
     area_m2: f64,
-    /// Where there is light.
+    /// The area with light, m2.
     lit_m2: f64,
     flux_lm: f64,
     squared: f64,
 }
 
 impl Light {
-    /// Of a surface that is lit everywhere.
+    /// The light of a surface that is lit everywhere.
     pub(crate) const fn of(area_m2: f64, flux_lm: f64, squared: f64) -> Self {
         Self { area_m2, lit_m2: area_m2, flux_lm, squared }
     }
 
-    /// Of the known surface.
+    /// The light of the known surface.
     pub(crate) fn of_vertices(
         elements: &Elements,
         standings: &[Option<Standing>],
@@ -158,7 +161,7 @@ impl Light {
         }
     }
 
-    /// What errors are told relative to, lx: zero where there is no light.
+    /// The reference of relative errors, lx; zero where there is no light.
     pub(crate) fn reference_lx(&self) -> f64 {
         if self.squared > 0.0 {
             (self.squared / self.area_m2).sqrt().min(MOST_UNEVEN * self.flux_lm / self.lit_m2)
@@ -168,7 +171,7 @@ impl Light {
     }
 }
 
-/// Over the known vertices, weighted by area: the light and variances of its mean.
+/// Light and variance of the mean, integrated over the known vertices.
 #[derive(Default)]
 pub(crate) struct Pooled {
     light: Light,
@@ -213,8 +216,8 @@ const NO_ERROR: Accuracy = Accuracy {
     interpolated: 0.0,
 };
 
-/// The light of paths given up, relative, once all surfaces have reflected it: by the balance of
-/// light what arrives is what was sent over what is absorbed. Without bound where all is reflected.
+/// The light of paths given up after all reflections, relative. By the energy balance, received flux is
+/// emitted flux over absorptance; it is infinite where all light is reflected.
 fn given_up_share(plan: &Plan, given_up_lx: f64, reference_lx: f64) -> f64 {
     if given_up_lx > 0.0 {
         given_up_lx / (1.0 - plan.light.mean_reflectance).max(0.0) / reference_lx

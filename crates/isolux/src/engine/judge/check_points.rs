@@ -1,11 +1,16 @@
-//! Check points: how wrong interpolation is, measured.
+//! Check points: places where the interpolation error is measured.
 //!
-//! At random places of the surfaces each increment gathers afresh and compares with its own map,
-//! interpolated. The mean difference over increments is the discretization error there, with a
-//! known variance that is subtracted: an unbiased estimate of the squared error of the scene. Points are
-//! drawn by area, where details are large (most of the error lies in little of the area), where they are
-//! large among elements that readers trust, and in proportion to details for the sake of the mean error, a
-//! fourth each, and weighted accordingly.
+//! At random places of the surfaces each increment gathers afresh and compares with its own interpolated map.
+//! The mean difference over increments is the interpolation error there. Its known variance is subtracted, so
+//! the squared error of the scene is estimated without bias. Points are drawn with a quarter of the density
+//! each
+//!
+//! * by area,
+//! * by squared details (most of the error lies in little of the area),
+//! * by squared details among elements that readers trust,
+//! * in proportion to details, for the mean error,
+//!
+//! and weighted by the inverse density.
 
 use super::seen_errors;
 use super::seen_errors::{ReadPlace, View, views};
@@ -19,129 +24,135 @@ use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// Check points: a part of the vertices that carry light, within limits.
+/// The number of vertices that carry light per check point.
 const SHARE: usize = 8;
+/// The least number of check points.
 const FEWEST: usize = 256;
+/// The largest number of check points.
 const MOST: usize = 1024;
 
-/// Points of one task: some take a hundred times as long as others.
+/// The number of check points per task; some take a hundred times as long as others.
 const AT_ONCE: usize = 8;
 
-/// Squared errors of the map that interpolation may have where readers would else gather: in rooms with little indirect light it
-/// has no more than that everywhere, among furniture eight times as much and more. Where light is resolved, so many of what was asked for.
+/// The squared interpolation error that is accepted where readers would otherwise gather, in squared errors
+/// of the map. In rooms with little indirect light it is never more; among furniture it is eight times as
+/// much and more.
 const NOT_WORTH: f64 = 1.5;
 
-/// Rays that tell how much a reader reads close by.
+/// The number of rays that measure the share of light that a reader reads close by.
 const CLOSE_RAYS: u32 = 16;
 
 /// A place where the map is checked.
 pub(crate) struct Check {
     pub(crate) gatherer: Gatherer,
-    /// Vertices and weights of the indirect map there, over the known ones.
+    /// Vertices and weights of the indirect map at the level of the mesh, known vertices only.
     read: [(u32, f64); 3],
-    /// The same of the whole map.
+    /// Vertices and weights of the whole map, known vertices only.
     fine: [(u32, f64); 3],
-    /// What rays read of the indirect map where that differs: where something stands across its element, which readers do not look for,
-    /// and where vertices gather for the bare map.
+    /// Vertices and weights of the indirect map as rays read it, where these differ: on elements that
+    /// something stands across, which readers ignore, and where vertices gather for the bare map.
     by_rays: Option<[(u32, f64); 3]>,
-    /// Surface that the point stands for, m2.
+    /// The area that the point stands for, m2.
     area_m2: f64,
-    /// Error expected of the element, lx.
+    /// The expected interpolation error of the element, lx.
     expected_lx: f64,
-    /// Whether readers interpolate there if they trust its element: it has vertices in the open, and is no gap.
+    /// Whether readers interpolate there if they trust its element: it has open vertices and the place is no
+    /// gap.
     may_be_trusted: bool,
-    /// Whether something stands close before it.
+    /// Whether something stands close before the place.
     is_beset: bool,
     /// Whether light is resolved there: in rooms where it is towards walls, and nothing else stands close.
     is_resolved: bool,
     /// The strip before a wall that it lies in.
     strip: usize,
-    /// The share of a unit of light that readers who gather there read close by all the same.
+    /// The share of a unit of light that readers who gather there still read close by.
     close: f64,
-    /// The longest edge of the element there, m.
+    /// The longest edge of the element, m.
     edge_m: f64,
-    /// Whether rays read direct light, too.
+    /// Whether rays read direct light from the map, too.
     reads_direct: bool,
-    /// Whether parts of its element are checked for caustics, whose noise they tell, too.
+    /// Whether parts of its element are checked for caustics; these parts also give the noise of caustics.
     has_parts: bool,
-    /// What it shows and sees of others.
+    /// The exchange of light with other check points.
     view: View,
 }
 
-/// All places where a map is checked, and what is summed there.
+/// All check points of a map, with the sums of increments there.
 pub(crate) struct Checks {
     pub(crate) points: Vec<Check>,
     pub(crate) sums: Accumulator,
-    /// What caustics lack in parts of elements.
+    /// The sums of caustics that the map lacks in parts of elements.
     pub(crate) lacking: Accumulator,
 }
 
 /// Direct light at the check points.
 pub(crate) struct DirectThere {
     pub(crate) lx: Vec<Rgb>,
-    /// Variance of readings of it, in the mean over the surface, that increments do not tell, as all have the same; lx2.
+    /// The mean variance of its readings over the surface, lx2. Their noise is the same in all increments,
+    /// whose spread does not show it.
     pub(crate) noise_lx2: f64,
-    /// Of the map whose readings these are.
+    /// The relative accuracy of the map whose readings these are.
     accuracy: f64,
 }
 
 impl DirectThere {
-    /// The same with other random numbers.
+    /// Direct light evaluated with other random numbers, lx.
     pub(crate) fn again(&self, plan: &Plan, checks: &[Check], key: Key) -> Vec<Rgb> {
         direct(plan, checks, self.accuracy, key).lx
     }
 }
 
-/// Errors beyond noise, lx: of interpolation over the surface, root mean squares and the signed
-/// mean; and of paths given up.
+/// Errors beyond noise, lx: interpolation errors over the surface, as root mean squares and signed means, and
+/// the light of paths given up.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct InterpolationErrors {
-    /// Of the indirect part, where readers interpolate it.
+    /// The interpolation error of indirect light where readers interpolate it, root mean square.
     pub(crate) indirect_lx: f64,
-    /// What of it lies in caustics and is told at the vertices there.
+    /// The part of it in caustics, which the vertices there report.
     pub(crate) caustics_lx: f64,
-    /// The same where they do not.
+    /// The interpolation error of indirect light where readers gather instead, root mean square.
     pub(crate) untrusted_lx: f64,
-    /// What is read close by there of a unit of light, root mean square over all the surface.
+    /// The share of a unit of light that readers read close by there, root mean square over all of the
+    /// surface.
     pub(crate) close: f64,
-    /// Of direct and indirect together, in gaps and all: of the bare map.
+    /// The interpolation error of direct and indirect light together, gaps included: that of the bare map.
     pub(crate) total_lx: f64,
-    /// Mean of the indirect error, with its sign and standard error.
+    /// The mean error of indirect light, with its sign, after the correction for its standard error.
     pub(crate) indirect_mean_lx: f64,
-    /// What of it lies where readers interpolate, likewise.
+    /// The part of that mean where readers interpolate.
     pub(crate) trusted_mean_lx: f64,
-    /// What arrives of errors that rays read from afar: its mean over the surface, with its sign.
+    /// The light that arrives from errors that rays read from afar: its mean over the surface, with its sign.
     pub(crate) seen_mean_lx: f64,
-    /// By how much that differs from place to place, root mean square.
+    /// The variation of that light from place to place, root mean square.
     pub(crate) seen_spread_lx: f64,
-    /// Mean of the interpolation error of direct light, with its sign.
+    /// The mean interpolation error of direct light, with its sign.
     pub(crate) direct_mean_lx: f64,
-    /// What paths given up would bring in the mean, before it is reflected.
+    /// The mean light that paths given up would bring, before reflection.
     pub(crate) given_up_lx: f64,
-    /// Of what is read over the surface, by the spread of increments; `None` where it was not looked
-    /// at.
+    /// The noise of readings over the surface, root mean square, from the spread of increments; `None` where
+    /// it was not measured.
     pub(crate) noise_lx: Option<f64>,
-    /// By how much more elements err than expected; `None` where nobody looked.
+    /// The factor by which elements err more than expected; `None` where it was not measured.
     pub(crate) over_expected: Option<f64>,
     /// The same of each strip before walls.
     pub(crate) over_in_strips: [Option<f64>; STRIPS],
 }
 
 impl Checks {
-    /// All sums.
+    /// The sums at all check points and in all parts of elements.
     pub(crate) fn all(&self) -> Vec<Sums> {
         [&self.sums, &self.lacking].iter().flat_map(|of| &of.sums).copied().collect()
     }
 }
 
-/// Places in the sums: of differences first, then of what the map reads, then of differences of what rays read where
-/// that is something else.
+/// The number of places in the sums: differences, then readings of the map, then differences as rays read, if
+/// these are separate.
 pub(crate) fn places(checks: &[Check], is_map_read_by_rays: bool) -> usize {
     let is_read_alike = is_map_read_by_rays && !are_cut(checks);
     if is_read_alike { 2 * checks.len() } else { 3 * checks.len() }
 }
 
-/// The light of vertices there, at every place in the sums, lx.
+/// The illuminance of the vertices at every place in the sums, lx.
 pub(crate) fn about_lx(checks: &[Check], light: &[Rgb]) -> impl Iterator<Item = f64> {
     let of = |check: &Check| {
         check.fine.iter().map(|&(v, weight)| weight * light[v as usize].luminance()).sum::<f64>()
@@ -149,12 +160,12 @@ pub(crate) fn about_lx(checks: &[Check], light: &[Rgb]) -> impl Iterator<Item = 
     (0..3).flat_map(move |_| checks.iter().map(of))
 }
 
-/// Whether rays read something else than readers anywhere.
+/// Whether rays read other vertices than readers at any point.
 fn are_cut(checks: &[Check]) -> bool {
     checks.iter().any(|check| check.by_rays.is_some())
 }
 
-/// How many there are for so many vertices that carry light.
+/// The number of check points for a number of vertices that carry light.
 pub(crate) fn count(carriers: usize) -> usize {
     (carriers / SHARE).clamp(FEWEST, MOST)
 }
@@ -168,8 +179,8 @@ pub(crate) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let whole: f64 = errors.iter().map(|e| e.error * e.area_m2).sum();
     let is_trusted = |e: &LeafError| plan.trust().includes(e.error, e.is_beset);
     let trusted = errors.iter().filter(|e| is_trusted(e)).map(|e| e.squared()).sum::<f64>();
-    // Density of the draw over elements: an even mixture of area, squared error, squared error where the map
-    // is trusted, and error, which tells the mean best (Kahn and Marshall 1953: with the signs unknown).
+    // The density of the draw over elements is an even mixture of area, squared error, squared error where
+    // the map is trusted, and error, which serves the mean best (Kahn and Marshall 1953, with unknown signs).
     let density = |k: usize| {
         let share = |part: f64, whole: f64| if whole > 0.0 { part / whole } else { 0.0 };
         let own = errors[k].squared();
@@ -189,7 +200,7 @@ pub(crate) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let one = |index: usize| {
         let mut dice = Dice::new(sequence, index as u32);
         let [pick, _] = dice.pair();
-        // Stratified: one point in each of `count` equal parts.
+        // Points are stratified: one in each of `count` equal parts.
         let at = (index as f64 + pick) / count as f64 * sum;
         let k = sums.partition_point(|&s| s <= at).min(errors.len() - 1);
         let surface =
@@ -201,7 +212,7 @@ pub(crate) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let is_gathered = |check: &Check| !check.is_trusted(plan.errors.trusts.least());
     let rows = checks.iter().filter(|check| is_gathered(check));
     let rows: Vec<Gatherer> = rows.map(|c| c.gatherer.with_rays(CLOSE_RAYS)).collect();
-    // Where rays go is asked, not what comes along them.
+    // The operator is only asked where rays end; the light along them is not used.
     let direct = DirectAtEnds::Read { values: &plan.light.direct, level: u32::MAX };
     let gathering =
         Gathering { regathers: true, direct, ..Gathering::of(plan, &plan.light.direct) };
@@ -213,7 +224,7 @@ pub(crate) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     checks
 }
 
-/// The same for light that no rays read from the map.
+/// Check points for light that no rays read from the map.
 pub(crate) fn draw_for_map(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let as_map = |check| Check { by_rays: None, ..check };
     draw(plan, rays, key).into_iter().map(as_map).collect()
@@ -222,7 +233,7 @@ pub(crate) fn draw_for_map(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
 fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Option<Check> {
     let weights =
         |level: u32| known_at(&plan.mesh.elements, level, &plan.mesh.standings, &gatherer.surface);
-    // As readers interpolate, who do not look for what stands across elements: rays, who do, err less.
+    // These are the weights of readers, who do not look for barriers across elements. Rays do, and err less.
     let (coarse, fine) = (weights(plan.mesh.level)?, weights(u32::MAX)?);
     let edge_m = nearby::longest_edge_m(&plan.mesh.elements, fine.map(|(vertex, _)| vertex));
     let is_beset = nearby::is_beset(plan.scene, &gatherer.surface, edge_m);
@@ -242,11 +253,11 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let cut = node.and_then(|node| plan.mesh.cuts.of_node(node));
     let on_side = cut.and_then(|cut| {
         let corners = plan.mesh.elements.locate_above(plan.mesh.level, triangle, back, u, v)?;
-        // Beyond a cut they read nothing where nothing is known.
+        // Beyond a barrier with no known vertex on their side, rays read nothing.
         let none = corners.map(|(vertex, _)| (vertex, 0.0));
         Some(known_on_side(corners, &plan.mesh.standings, cut).unwrap_or(none))
     });
-    // Readers read what vertices have gathered for the bare map, rays do not.
+    // Readers read what vertices have gathered for the bare map; rays do not.
     let is_alike = plan.mesh.gathering_for_bare.is_empty();
     let (by_rays, read) =
         if is_alike { (on_side, coarse) } else { (on_side.or(Some(coarse)), fine) };
@@ -272,23 +283,24 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
 }
 
 impl Check {
-    /// Whether readers with such trust interpolate there.
+    /// Whether readers with this trust interpolate there.
     fn is_trusted(&self, trust: Trust) -> bool {
         self.may_be_trusted && trust.includes(self.expected_lx, self.is_beset)
     }
 
-    /// As rays read it.
+    /// The place as rays read it.
     const fn as_read(&self) -> ReadPlace {
         let Self { gatherer, edge_m, area_m2, .. } = *self;
         ReadPlace { surface: gatherer.surface, edge_m, area_m2 }
     }
 }
 
-/// Direct light at the check points, as readings of a map of such an accuracy evaluate it; `key` only matters where it has noise.
+/// Direct light at the check points, as readings of a map of this accuracy evaluate it. `key` matters only
+/// where it has noise.
 pub(crate) fn direct(plan: &Plan, checks: &[Check], accuracy: f64, key: Key) -> DirectThere {
     let sequence = |k: usize| Sequence::new(key.with(k as u64));
     let reading = Goal::reading(accuracy);
-    // What counts is the error of the scene: in the dark a small share of its light will do.
+    // The error of the scene counts, so the goal is a share of its reference light even at dark places.
     let goal = Goal { lx: reading.share * plan.light.reference_lx, ..reading };
     let one = |(k, check): (usize, &Check)| {
         plan.lighting.measured(&check.gatherer.surface, goal, sequence(k))
@@ -304,9 +316,9 @@ pub(crate) fn direct(plan: &Plan, checks: &[Check], accuracy: f64, key: Key) -> 
     DirectThere { lx: measured.iter().map(|m| m.lx).collect(), noise_lx2, accuracy }
 }
 
-/// What one increment adds to the sums: `fresh` is what was gathered at the points, `direct` what luminaires give
-/// there, then the increment's map: direct light, caustics and indirect light. `lookups` is by what rays
-/// that end there would be wrong, where they do not read the map.
+/// The samples that one increment adds to the sums. `fresh` is the light gathered at the points,
+/// `fresh_direct` that of luminaires there; then comes the increment's map: direct light, caustics, indirect
+/// light. `lookups` are the errors of rays that end there, if these do not read the map.
 pub(crate) fn samples(
     checks: &[Check],
     (fresh, fresh_direct): (&[Rgb], &[Rgb]),
@@ -337,7 +349,7 @@ pub(crate) fn samples(
     let differences = checks.iter().enumerate().map(|(k, check)| difference(k, &check.read));
     let by_rays = |(k, check): (usize, &Check)| match lookups {
         Some(lookups) => Sample { indirect: lookups[k], ..Sample::default() },
-        // Neither rays nor views come to what is closed in.
+        // Neither rays nor views reach closed-in places.
         None if check.gatherer.in_gap => Sample::default(),
         None => difference(k, check.by_rays.as_ref().unwrap_or(&check.read)),
     };
@@ -346,7 +358,7 @@ pub(crate) fn samples(
     differences.chain(readings).chain(by_rays).collect()
 }
 
-/// The errors seen so far, of readers with such trust.
+/// The errors measured so far, for readers with this trust.
 pub(crate) fn errors(
     sums: &Accumulator,
     checks: &[Check],
@@ -354,7 +366,7 @@ pub(crate) fn errors(
 ) -> InterpolationErrors {
     let area = area_m2(checks);
     let (mut squared, mut mean, mut spread) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-    // Of the mean: what lies where the map is trusted, and the variance of all of it.
+    // Sums over the places where readers interpolate, and the variance of the mean of all places.
     let [mut expected, mut trusted_mean, mut of_mean] = [0.0; 3];
     let [mut untrusted, mut close, mut share_untrusted] = [0.0; 3];
     for (k, check) in checks.iter().enumerate() {
@@ -371,14 +383,14 @@ pub(crate) fn errors(
         let all = indirect + estimate.mean.direct.luminance();
         let both = [(indirect, estimate.indirect_variance), (all, estimate.variance)];
         for (part, (value, variance)) in both.into_iter().enumerate() {
-            // Neither rays nor readers of interpolated light come to what is closed in.
+            // Neither rays nor readers of interpolated light reach closed-in places.
             if !check.gatherer.in_gap {
                 mean[part] += share * value;
                 of_mean += if part == 0 { share * share * variance } else { 0.0 };
             }
             if part == 1 || check.is_trusted(trust) {
                 squared[part] += share * (value * value - variance);
-                // Variance of `value^2 - variance` for a normal value of mean zero.
+                // This is the variance of `value^2 - variance` for a normal value of mean zero.
                 spread[part] += share * share * 2.0 * variance * variance;
             }
         }
@@ -406,8 +418,8 @@ pub(crate) fn errors(
     }
 }
 
-/// Means of what rays read wrongly, of indirect light and of all, where that is something else than readers do: all of it, whichever
-/// light is read there.
+/// The mean errors that rays read, where these differ from those of readers: of indirect light, and of all
+/// light.
 fn mean_by_rays(sums: &Accumulator, checks: &[Check], area_m2: f64) -> [f64; 2] {
     let mut mean = [0.0; 2];
     for (k, check) in checks.iter().enumerate() {
@@ -440,17 +452,18 @@ fn over_in_strips(
     })
 }
 
-/// The surface that all points stand for.
+/// The area that all points stand for, m2.
 fn area_m2(checks: &[Check]) -> f64 {
     checks.iter().map(|c| c.area_m2).sum()
 }
 
-/// Variance of what the map reads, summed over the surface, lx2 m2.
+/// The variance of the map's readings, integrated over the surface, lx2 m2.
 fn noise_of_readings(sums: &Accumulator, checks: &[Check]) -> f64 {
     (0..checks.len()).map(|k| checks[k].area_m2 * noise_of_reading(sums, checks, k)).sum()
 }
 
-/// The same at one of the points, but for caustics, of which parts tell.
+/// The variance of the map's reading at one point, lx2; zero where parts of the element measure it for
+/// caustics.
 fn noise_of_reading(sums: &Accumulator, checks: &[Check], k: usize) -> f64 {
     if checks[k].has_parts { 0.0 } else { sums.estimate(checks.len() + k).variance }
 }
@@ -489,7 +502,8 @@ fn errs_where_gathered(
     Noise::Counted.of_squared(squared, spread.sqrt()) > NOT_WORTH * error_lx * error_lx * area_m2
 }
 
-/// What arrives of errors that rays read from afar: its mean, and by how much it differs from place to place.
+/// The light that arrives from errors that rays read from afar: its mean, and its variation from place to
+/// place, lx.
 fn seen(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> [f64; 2] {
     let area = area_m2(checks);
     let reads_other_light = sums.sums.len() > 2 * checks.len();
@@ -499,7 +513,7 @@ fn seen(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> [f64; 2] {
         let place = if reads_other_light { 2 * checks.len() + k } else { k };
         let estimate = sums.estimate(place);
         let (indirect, direct) = (estimate.mean.indirect, estimate.mean.direct);
-        // Neither rays nor views come to what is closed in.
+        // Neither rays nor views reach closed-in places.
         let is_closed_in = check.gatherer.in_gap && !reads_other_light;
         let (error, variance) = match check.reads_direct {
             _ if is_closed_in => (0.0, 0.0),
@@ -513,7 +527,7 @@ fn seen(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> [f64; 2] {
         errors.push(error);
     }
     let spread = match noise_is {
-        // A few hundred points tell its order and no more.
+        // A few hundred points give the order of this variation and no more.
         Noise::RuledOut => 0.0,
         Noise::Counted | Noise::TakenOff => {
             seen_errors::spread(shares.into_iter().zip(checks.iter().map(|c| &c.view)), &errors)

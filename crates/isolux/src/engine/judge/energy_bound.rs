@@ -1,8 +1,8 @@
-//! What energy allows: a map with more light than that is none.
+//! The energy bound: a map with more light than luminaires can cause is wrong.
 //!
-//! Of the light that falls on surfaces they reflect a share `rho` at most, and what they reflect is all that falls on them beside the
-//! flux that comes straight. So no more than `flux / (1 - rho)` falls on them in all, and of that `rho flux / (1 - rho)` after reflections:
-//! in the mean over their area what a white sphere around all luminaires has everywhere.
+//! Surfaces reflect a share `rho` of their light at most, and receive the direct flux and the reflected flux.
+//! So they receive at most `flux / (1 - rho)` in all, and `rho flux / (1 - rho)` after reflections. Its mean
+//! over their area is what a white sphere around all luminaires would have everywhere.
 
 use crate::elements::carries_map;
 use crate::engine::light::Emission;
@@ -10,24 +10,25 @@ use crate::engine::plan::Plan;
 use crate::scene::{Finish, Scene, Texture};
 use crate::units::Rgb;
 
-/// Noise and interpolation are part of a map: what it errs by where it knows nothing yet is all of the light, and so it may have twice as
-/// much as there is.
+/// The error that a map may have, as a share of the bound. Where it knows nothing yet, the error is all of
+/// the light, so a map may hold twice the bound.
 const ERRS_BY: f64 = 1.0;
 
-/// The most that comes to surfaces after diffuse reflections, in the mean, lx; infinite where some reflect all light.
+/// The bound on the mean illuminance after diffuse reflections, lx; infinite where a surface reflects all
+/// light.
 pub(crate) fn allowed_lx(scene: &Scene, area_m2: f64) -> f64 {
     let flux_lm = Emission::new(scene).map_or(0.0, |emission| emission.flux_lm());
     let share = most_reflected(scene);
     if share < 1.0 { flux_lm * share / (1.0 - share) / area_m2 } else { f64::INFINITY }
 }
 
-/// What energy allows the map of a plan.
+/// The energy bound for the map of a plan.
 pub(crate) struct Allowed {
-    /// In the mean over the surface, lx.
+    /// The bound on the mean over the surface, lx.
     lx: f64,
-    /// The surface that every vertex stands for where all of an element is known, m2.
+    /// The area that each vertex stands for on elements whose vertices are all known, m2.
     known_m2: Vec<f64>,
-    /// All of the surface, m2.
+    /// The area of all of the surface, m2.
     area_m2: f64,
 }
 
@@ -45,20 +46,20 @@ impl Allowed {
         Self { lx: allowed_lx(plan.scene, area_m2), known_m2, area_m2 }
     }
 
-    /// The mean of indirect light, as far as vertices know it, if that is more than energy allows, and what that is, lx.
+    /// The mean indirect light of the known vertices and the bound, lx, if the mean exceeds twice the bound.
     pub(crate) fn excess_lx(&self, indirect_lx: impl Fn(usize) -> f64) -> Option<[f64; 2]> {
         let known = self.known_m2.iter().enumerate().filter(|&(_, &m2)| m2 > 0.0);
         let (flux_lm, known_m2) = known.fold((0.0, 0.0), |(flux_lm, known_m2), (v, m2)| {
             (flux_lm + m2 * indirect_lx(v), known_m2 + m2)
         });
         let mean_lx = if known_m2 > 0.0 { flux_lm / self.area_m2.max(known_m2) } else { 0.0 };
-        // NaN is no light that is allowed, either.
+        // The comparison is such that NaN is an excess, too.
         let is_allowed = mean_lx <= (1.0 + ERRS_BY) * self.lx;
         (!is_allowed).then_some([mean_lx, self.lx])
     }
 }
 
-/// The greatest share of light that a surface with a map reflects.
+/// The largest reflectance of any surface that carries a map.
 fn most_reflected(scene: &Scene) -> f64 {
     let brightest: Vec<Rgb> = scene.textures().iter().map(Texture::brightest).collect();
     let of = |finish: &Finish| {

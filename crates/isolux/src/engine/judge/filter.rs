@@ -1,13 +1,16 @@
-//! The filter: noise is taken off where a map shows nothing but noise.
+//! The noise filter: a Wiener filter on the mesh.
 //!
-//! A Wiener filter on the mesh. What a vertex shows beyond the mean about it (its detail) is compared
-//! with the detail that noise alone would show, known from the replicates; pooled over the
-//! neighbours, the excess is signal. Of each detail the share of signal is kept. So noise falls where
-//! light is smooth, edges stay, and as replicates accumulate every detail becomes signal: the filter
-//! switches itself off, as that of Inspirer did (Kopylov, Khodulev, Volevich 1998). It never reaches
-//! over creases, borders or hidden vertices, since elements do not. Where light bends one way everywhere, as it does in rooms, all
-//! details that are taken off have one sign: each piece of surface gets back what it has lost in the mean, over its smoothed parts
-//! evenly. And what a room without things in it would show (`backdrop`) is no detail: only what differs from it is filtered. Standard errors stay those of the unfiltered values.
+//! The detail of a vertex is its difference from the mean about it. Replicates give the detail that noise
+//! alone would show. The squared excess of a detail, pooled over the neighbours, is signal, and the share of
+//! signal is kept of each detail. So noise falls where light is smooth and edges stay. As replicates
+//! accumulate, every detail becomes signal: the filter switches itself off, as that of Inspirer did (Kopylov,
+//! Khodulev, Volevich 1998).
+//!
+//! * It never reaches over creases, borders or hidden vertices, since elements do not.
+//! * In rooms light bends one way nearly everywhere, so the details taken off have one sign. Each piece of
+//!   surface gets its mean loss back, spread evenly over its smoothed parts.
+//! * The control variate (`behind`) has no noise; only the difference from it is filtered.
+//! * Standard errors stay those of the unfiltered values.
 
 use crate::engine::gather::areas_m2;
 use crate::engine::mesh::Range;
@@ -15,26 +18,27 @@ use crate::engine::plan::Plan;
 use crate::map::FilterReport;
 use crate::units::Rgb;
 
-/// Each pass smooths over one more ring of neighbours.
+/// The number of passes; each smooths over one more ring of neighbours.
 const PASSES: usize = 4;
 
-/// Weights of the mean about every vertex: of itself and of its neighbours, summing to one.
+/// The weights of the mean about every vertex, over itself and its neighbours; each row sums to one.
 struct Means {
     rows: Vec<Vec<(u32, f64)>>,
 }
 
-/// A squared normal number spreads by the root of two; over two rings some eight of them count.
+/// The excess that noise alone may cause, in variances of the detail. It is the standard deviation of the
+/// mean of about eight squared normal numbers, as two rings have: `sqrt(2 / 8)`.
 const CHANCE: f64 = 0.5;
 
-/// Values and what is left of their noise.
+/// Filtered values, and a report of the filter.
 pub(crate) struct Filtered {
-    /// Colour channels, as given, filtered.
+    /// Colour quantities, in the order given, filtered.
     pub(crate) values: Vec<Vec<Rgb>>,
     pub(crate) report: FilterReport,
 }
 
-/// Filters `parts`, colour quantities at the vertices that indirect light lives on, by the
-/// photometric sum of them all and its variance. The first is indirect light.
+/// Filters `parts`, colour quantities at the vertices that indirect light lives on, by the photometric sum of
+/// all of them and its variance. The first part is indirect light.
 pub(crate) fn filter(
     plan: &Plan,
     parts: &[Vec<Rgb>],
@@ -77,7 +81,7 @@ pub(crate) fn filter(
     parts[0].iter_mut().zip(&behind).for_each(|(value, &behind)| *value += behind);
     for (filtered, part) in values.iter_mut().zip(&parts) {
         means.hold(plan, filtered, part);
-        // What that took, in proportion to the light: none of it becomes negative.
+        // The light that `hold` took is given back in proportion to the light, so none becomes negative.
         let light = first.iter().zip(&*filtered).map(|(share, value)| share * value.luminance());
         give_back(&areas_m2, (&pieces, &light.collect::<Vec<f64>>()), filtered, part);
     }
@@ -85,8 +89,7 @@ pub(crate) fn filter(
     Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
 }
 
-/// Elements that the filter acts on, and the surface of every vertex, m2. Where light is resolved towards walls, those that carry light:
-/// the others show no noise of their own.
+/// The elements that the filter acts on, and the area of every vertex, m2.
 fn acts_on(plan: &Plan) -> (Vec<u32>, Vec<f64>) {
     if plan.mesh.resolves_walls {
         let elements = plan.errors.of_elements.iter().map(|e| e.node).collect();
@@ -96,7 +99,7 @@ fn acts_on(plan: &Plan) -> (Vec<u32>, Vec<f64>) {
     (plan.mesh.subdivision.leaves().collect(), vertices.iter().map(|v| v.area_m2).collect())
 }
 
-/// How much of a detail is signal, and how large the signal is, lx2.
+/// The share of signal in a detail, and the square of the signal, lx2.
 #[derive(Clone, Copy, Debug)]
 struct Kept {
     share: f64,
@@ -104,7 +107,7 @@ struct Kept {
 }
 
 impl Means {
-    /// Hat functions weighted by their overlap.
+    /// The means over elements of open vertices, weighted by the overlap of hat functions.
     fn of(plan: &Plan, elements: Vec<u32>) -> Self {
         let mut rows: Vec<Vec<(u32, f64)>> = vec![Vec::new(); plan.mesh.indirect_vertices];
         for leaf in elements {
@@ -134,8 +137,8 @@ impl Means {
         Self { rows }
     }
 
-    /// What vertices get from the walls of a room: it has no noise, and nearly all the details of the light. Nothing on pieces of
-    /// surface where some do not know it.
+    /// The light of the control variate at vertices, which has no noise and nearly all of the details. It is
+    /// black on pieces of surface where some vertices do not know theirs.
     fn behind(&self, plan: &Plan, pieces: &[u32]) -> Vec<Rgb> {
         let of = |k: usize| plan.mesh.gatherers[k].behind;
         let mut is_known = vec![true; self.rows.len()];
@@ -146,7 +149,7 @@ impl Means {
         (0..self.rows.len()).map(|k| behind(k).unwrap_or(Rgb::BLACK)).collect()
     }
 
-    /// Of every vertex, the first of those that are connected with it.
+    /// The first vertex of the connected piece that each vertex belongs to.
     fn pieces(&self) -> Vec<u32> {
         let mut pieces = vec![u32::MAX; self.rows.len()];
         let mut waiting = Vec::new();
@@ -197,7 +200,7 @@ impl Means {
             (0..values.len()).map(|i| detail(i) * detail(i) - noise[i]).collect();
         let once: Vec<f64> = (0..values.len()).map(|i| self.mean(i, |j| excess[j])).collect();
         let kept = |i: usize| {
-            // Pooled over two rings; what chance makes of noise there does not count as signal.
+            // The excess is pooled over two rings, and its expected chance part is no signal.
             let pooled = self.mean(i, |j| once[j]);
             let signal = (pooled - CHANCE * noise[i]).max(0.0);
             let both = signal + noise[i];
@@ -228,7 +231,8 @@ impl Means {
     }
 }
 
-/// Gives every piece of surface the light that filtering took from it, in proportion to some weights of its vertices.
+/// Gives every piece of surface the light that the filter took from it, in proportion to the weights of its
+/// vertices.
 fn give_back(
     areas_m2: &[f64],
     (pieces, weights): (&[u32], &[f64]),
@@ -249,8 +253,8 @@ fn give_back(
     }
 }
 
-/// Share of the surface where less than half of the detail is kept, and the signal that may be lost,
-/// root mean square in lx.
+/// The share of the surface where less than half of the detail is kept, and the signal that may be lost, root
+/// mean square in lx.
 fn smoothing(areas_m2: &[f64], kept: &[Kept]) -> (f64, f64) {
     let (mut area, mut smoothed, mut lost) = (0.0, 0.0, 0.0);
     for (&own_m2, k) in areas_m2.iter().zip(kept) {

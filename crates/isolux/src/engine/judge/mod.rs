@@ -1,4 +1,4 @@
-//! How good a map is: its error by replicates, check points and details, the filter, and the bound of energy.
+//! The quality of a map: its error from replicates and check points, the noise filter, and the energy bound.
 
 mod accuracy;
 pub(crate) mod check_points;

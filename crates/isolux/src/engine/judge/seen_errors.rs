@@ -1,11 +1,11 @@
-//! What rays read wrongly, as other places see it.
+//! Errors of the map, as other places see them.
 //!
-//! Check points tell what a map is wrong by where they lie. Rays do not see all of that alike: what lies below and
-//! behind things is hidden from nearly everywhere, and those that end close by gather again. Where elements reach from
-//! the open to below a cupboard, they are too bright there and too dark in the open, right in the mean and wrong for
-//! everyone who looks. And what is seen from one place is not what is seen from another. So every check point knows
-//! which share of its surroundings sees it from afar, and some of them, which others they see: as discs of the area
-//! that those stand for.
+//! Check points measure the error of the map where they lie. Rays do not read all of these errors alike.
+//! Surfaces below and behind things are hidden from nearly everywhere, and rays that end close by gather
+//! again. An element that reaches from the open to below a cupboard is too bright there and too dark in the
+//! open: right in the mean, wrong for every viewer. And different places see different errors. So every check
+//! point knows the share of its surroundings that sees it from afar. Some of them also know which others they
+//! see, as discs of the area that those stand for.
 
 use crate::ablation::without;
 use crate::engine::ray::{ShortRays, SurfacePoint};
@@ -16,34 +16,36 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-/// Rays that tell from how much of its surroundings a place is seen.
+/// The number of rays that estimate the share of its surroundings that sees a place.
 const FEELERS: usize = 16;
 static DIRECTIONS: LazyLock<ShortRays<FEELERS>> =
     LazyLock::new(|| ShortRays::of(Key::new(0).with(9)));
 
-/// One place in so many looks about. (Of 64 in the hall, what was seen differed from seed to seed by as much as it was.)
+/// One place in this many records which others it sees. (With 64 in the hall, the result differed from seed
+/// to seed by as much as its value.)
 const LOOKING: usize = 4;
 
-/// A place that rays read at.
+/// A place where rays read the map.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ReadPlace {
     pub(crate) surface: SurfacePoint,
-    /// The longest edge of the element there: rays that have come less far gather again, m.
+    /// The longest edge of the element there, m. Rays that have travelled less gather again.
     pub(crate) edge_m: f64,
-    /// The surface that it stands for, m2.
+    /// The area that the place stands for, m2.
     pub(crate) area_m2: f64,
 }
 
-/// What places see of each other.
+/// The exchange of light between a place and others.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct View {
-    /// Of a unit of light at the place, what arrives from afar elsewhere, in the mean over its surroundings.
+    /// The light that arrives elsewhere from afar per unit of light at the place, mean over its surroundings.
     pub(crate) shown: f64,
-    /// If it looks about: other places, and what arrives from them of a unit of light there.
+    /// Other places that it sees, and the light that arrives from them per unit of light there; `None` for
+    /// most places.
     seen: Option<Vec<(u32, f64)>>,
 }
 
-/// What each of some places sees and shows.
+/// The views of some places.
 pub(crate) fn views(scene: &Scene, places: &[ReadPlace]) -> Vec<View> {
     let reflected: Vec<f64> =
         places.iter().map(|place| place.surface.reflectance(scene).luminance()).collect();
@@ -66,9 +68,9 @@ pub(crate) fn views(scene: &Scene, places: &[ReadPlace]) -> Vec<View> {
     (0..places.len()).into_par_iter().map(view).collect()
 }
 
-/// By how much what places see of errors differs from place to place, root mean square; each view is that of a share
-/// of the surface. Errors at different places are independent draws: products of two of them tell the square without
-/// their noise.
+/// The variation from place to place of the errors that places see, root mean square. Each view stands for a
+/// share of the surface. Errors at different places are independent, so products of two of them estimate the
+/// square without noise.
 pub(crate) fn spread<'a>(views: impl Iterator<Item = (f64, &'a View)>, errors: &[f64]) -> f64 {
     let mut of_mean = vec![0.0; errors.len()];
     let (mut squared, mut whole) = (0.0, 0.0);
@@ -89,7 +91,7 @@ pub(crate) fn spread<'a>(views: impl Iterator<Item = (f64, &'a View)>, errors: &
     if whole > 0.0 { (squared.max(0.0) / whole).sqrt() } else { 0.0 }
 }
 
-/// The share of its surroundings that sees a place from farther away than its element is long.
+/// The share of its surroundings that sees a place from farther away than the longest edge of its element.
 fn far(scene: &Scene, place: &ReadPlace) -> f64 {
     let at = &place.surface;
     let axis = at.geometric;
@@ -101,7 +103,8 @@ fn far(scene: &Scene, place: &ReadPlace) -> f64 {
     are_hit.iter().filter(|&&is_hit| !is_hit).count() as f64 / FEELERS as f64
 }
 
-/// The share of what one place sees that another is, as a disc, if it is seen from afar and nothing is between.
+/// The share of the view of one place that another fills as a disc; zero if it is near or faces away.
+/// Occlusion is not tested.
 fn share(from: &ReadPlace, at: &ReadPlace) -> f64 {
     let between = at.surface.point - from.surface.point;
     let distance_m = between.length();

@@ -1,23 +1,24 @@
-//! What a map is found to be, and how far readers are to trust it.
+//! The accuracy of a map as readers use it, and where they interpolate.
 //!
-//! How good a map is depends on who reads it: what readers gather afresh does not err by interpolation. Details tell the
-//! pilot roughly in which elements they need not gather; check points tell what that comes to. Where it is too much for the
-//! accuracy asked for, readers trust fewer elements, as far as that helps, before finer ones are made; where to gather would
-//! change no more than the map errs by, they gather in gaps alone.
+//! The error depends on the reader: light that readers gather afresh has no interpolation error. Details tell
+//! the pilot roughly in which elements readers can interpolate; check points measure the resulting error. If
+//! it is too large for the accuracy goal, readers trust fewer elements, as far as that helps, before elements
+//! are refined. If gathering would change less than the error of the map, readers gather in gaps alone.
 
 use super::check_points::InterpolationErrors;
 use crate::ablation::without;
 use crate::engine::mesh::{Trust, TrustLevels};
 use crate::map::Accuracy;
 
-/// The part of the accuracy asked for that readers leave to where they would gather, however good the map is elsewhere.
+/// The least error that gathering is weighed against, as a share of the accuracy goal, however small the
+/// error of the map is.
 pub(crate) const OF_GOAL: f64 = 0.25;
 
-/// Greatest factor between the interpolation error seen and that expected that is believed, either
-/// way: details tell the order at least.
+/// The largest factor between measured and expected interpolation error that is believed, either way. Details
+/// give at least the order of magnitude.
 const MOST_OVER: f64 = 10.0;
 
-/// A map as it is to be read.
+/// A map's errors, and the trust that readers have in it.
 #[derive(Clone, Copy)]
 pub(crate) struct Verdict {
     pub(crate) trust: Trust,
@@ -26,7 +27,8 @@ pub(crate) struct Verdict {
 }
 
 impl Verdict {
-    /// As found by `by`, with as much trust as reaches a goal, of several, the most first; with the least if none does.
+    /// The verdict with the most trust that reaches a goal, or with the least trust if none does; `by` judges
+    /// with a given trust.
     pub(crate) fn for_goal(goal: f64, trusts: TrustLevels, by: impl Fn(Trust) -> Self) -> Self {
         if without("trust-ladder") {
             return by(trusts.foreseen());
@@ -35,7 +37,8 @@ impl Verdict {
         more.map(&by).find(|judged| judged.reaches(goal)).unwrap_or_else(|| by(least))
     }
 
-    /// The same, or trusting all but gaps where that is enough and a goal is still reached.
+    /// This verdict, or the one with trust everywhere but in gaps, where that is enough and still reaches the
+    /// goal.
     pub(crate) fn or_all_but_gaps(
         self,
         goal: f64,
@@ -48,12 +51,12 @@ impl Verdict {
         let reached = self.accuracy.filter(|accuracy| accuracy.reached <= goal);
         let all = reached.filter(is_enough).map(|_| by(Trust::AllButGaps));
         let Some(mut all) = all.filter(|all| all.reaches(goal)) else { return self };
-        // Who gathers in space reads what stands close by all the same.
+        // Rays of a reader in free space still read places close to things.
         all.errors.untrusted_lx = all.errors.untrusted_lx.max(self.errors.untrusted_lx);
         all
     }
 
-    /// The factor by which elements err more than the pilot has expected, within reason.
+    /// The factor by which elements err more than the pilot expected, within [`MOST_OVER`].
     pub(crate) fn over_expected(&self) -> f64 {
         bounded(self.errors.over_expected)
     }
