@@ -1,4 +1,4 @@
-//! Readings of a map at any place, and over texels and pixels.
+//! Readings of a map: at any place, and over texels and pixels.
 
 mod map_reader;
 pub mod net;

@@ -1,25 +1,29 @@
-//! How many rays gathering takes where the map is not to be trusted.
+//! The numbers of rays and replicates for gathering where the map is not trusted.
 
-/// Independent gatherings of a place where the map is not trusted, and rays of each, at least and at most.
+/// The number of independent replicates that gather at a place where the map is not trusted.
 pub(super) const FRESH_REPLICATES: u32 = 16;
+/// The fewest rays of a replicate.
 pub(super) const FRESH_FEWEST_RAYS: f64 = 8.0;
+/// The most rays of a replicate.
 pub(super) const FRESH_MOST_RAYS: f64 = 1024.0;
 
-/// The standard error by their spread, which is found too small as often as too large: 1.96 of it hold the truth in 93 % of
-/// cases, of so much more in 95 % (quantiles of Student's distribution with 15 degrees of freedom and of the normal one).
+/// The factor on a standard error from 16 replicates. Intervals of 1.96 of them hold the truth in 93 % of
+/// cases, with this factor in 95 % (quantiles of Student's distribution with 15 degrees of freedom and of the
+/// normal one).
 pub(super) const OF_FEW: f64 = 2.131 / 1.96;
 
-/// Rays of each in the trial that tells how many it takes: half of the fewest, as they are thrown away.
+/// The number of rays of a replicate in the trial that measures noise: half of the fewest, since the trial is
+/// discarded.
 pub(super) const TRIAL_RAYS: u32 = 4;
 
-/// What a reading takes, as a trial tells.
+/// The effort of a reading, from a trial.
 pub(super) struct Needed {
-    /// Rays of a replicate.
+    /// The number of rays of a replicate.
     pub(super) rays: u32,
-    /// Of the mean of replicates, expected, lx2.
+    /// The expected variance of the mean of all replicates, lx2.
     pub(super) variance: f64,
 }
 
-/// Rays that look about from a place in space: one that sees light in a fifth of its hemisphere is taken to be
-/// inside something once in a thousand times.
+/// The number of rays that test the view of a place in space. A place that sees light in a fifth of its
+/// hemisphere is taken to be inside something once in a thousand times.
 pub(super) const LOOKS: u32 = 32;

@@ -1,10 +1,11 @@
-//! The part of what a map errs by that is to be expected about a place.
+//! The local factor on the errors of a map.
 //!
-//! A map tells its error over the whole scene, as a share of all light. What lookups and interpolation get wrong arrives with
-//! the light that they read, so that of a dim room beside a bright one that figure says nothing. Every vertex has a part of it instead: by the
-//! light of what is seen from there, and from what is seen; in one room that is about the same everywhere. Elements of a dim
-//! room may be coarse for its light: where more is expected of those than by the light, that decides. Both are relative to their own root
-//! mean square over the surface, so that over all of it errors are what they were told to be.
+//! A map reports its error over the whole scene, as a share of all light. Lookup and interpolation errors
+//! arrive with the light that was read, so the figure is wrong for a dim room beside a bright one. Every
+//! vertex therefore has a factor on it, from the light of surfaces that it sees and that see it. In a single
+//! room the factor is about the same everywhere. Elements of a dim room may be coarse for its light, so the
+//! factor from their expected errors counts if it is larger. Both factors are relative to their own root mean
+//! square over the surface, so over all of it the reported errors hold.
 
 use super::effort::LOOKS;
 use super::state::MapReader;
@@ -16,20 +17,20 @@ use crate::map::Illuminance;
 use crate::sampling::Key;
 use crate::units::Rgb;
 
-/// Reflections over which surroundings are taken together, as the pilot takes them.
+/// The number of reflections over which surroundings are averaged, as in the pilot.
 const REFLECTIONS: usize = 3;
-/// Rays of an element at most; one at least, however many elements there are. About a vertex there are half a dozen elements, and what they
-/// see counts together.
+/// The most rays per element; the least is one. About a vertex there are half a dozen elements, whose views
+/// count together.
 const MOST_RAYS: u32 = 2;
-/// Rays of all elements, unless these are more.
+/// The total number of rays of all elements, unless there are more elements.
 const RAYS: usize = 1 << 16;
 
-/// An element that looks about, and its surface, m2.
+/// An element, its gatherer, and its area, m2.
 type Looking<'e> = (&'e Element, Gatherer, f64);
 
 impl MapReader<'_> {
-    /// The parts of all vertices, relative to their root mean square, and how much of them arrives, reflected once: the root mean square
-    /// of that. None are known where the map does not know its error.
+    /// The factors of all vertices, relative to their root mean square, and the root mean square of the
+    /// factors that arrive after one reflection. Empty where the map does not know its error.
     pub(super) fn parts_of_vertices(&self) -> (Vec<Rgb>, f64) {
         if self.map.provenance.accuracy.is_none() {
             return (Vec::new(), 0.0);
@@ -54,7 +55,7 @@ impl MapReader<'_> {
         };
         let ambient_lx = self.map.ambient_lx().luminance();
         let by_light = of(&|value| value.illuminance_lx() + ambient_lx);
-        // Where more is expected readers gather.
+        // Where more error is expected, readers gather.
         let trusted_lx = self.map.provenance.fresh.and_then(|fresh| fresh.above_lx);
         let most_lx = trusted_lx.unwrap_or(f64::INFINITY);
         let expected = |value: &Illuminance| value.interpolation_error_lx;
@@ -68,8 +69,9 @@ impl MapReader<'_> {
         (of_vertices, root_mean_square(seen))
     }
 
-    /// What is about every vertex of some values of vertices: of what it sees, and what is seen from there, as it is reflected. Where
-    /// nothing is seen, its own.
+    /// The mean of some vertex values over the surroundings of every vertex: over the surfaces it sees and
+    /// their surroundings in turn, weighted by reflected light. A vertex that sees nothing keeps its own
+    /// value.
     fn about(&self, operator: &Operator, elements: &[Looking<'_>], own: Vec<f64>) -> Vec<f64> {
         let whole = operator.reflected(&vec![Rgb::grey(1.0); own.len()]);
         let mut about = own;
@@ -93,7 +95,7 @@ impl MapReader<'_> {
         about
     }
 
-    /// Values of vertices over their root mean square on the known surface.
+    /// Values of vertices divided by their root mean square on the known surface.
     fn relative(&self, values: Vec<f64>) -> Vec<f64> {
         let vertices = self.map.elements.vertices().iter().zip(&self.standings).zip(&values);
         let known = vertices.filter(|((_, standing), _)| standing.is_some());
@@ -101,7 +103,7 @@ impl MapReader<'_> {
         values.into_iter().map(|value| if over > 0.0 { value / over } else { 0.0 }).collect()
     }
 
-    /// The part of a place on a surface.
+    /// The local factor of a place on a surface.
     pub(super) fn part_at(&self, at: &SurfacePoint) -> f64 {
         if self.parts.is_empty() || without("local-errors") {
             return 1.0;
@@ -112,8 +114,8 @@ impl MapReader<'_> {
         corners.iter().map(|&(v, weight)| weight * self.parts[v as usize].luminance()).sum()
     }
 
-    /// The part of a place that gathers, on a surface or in space: what arrives there of the parts of what is seen. Vertices about it may
-    /// stand on the other side of something.
+    /// The local factor of a gatherer, on a surface or in space: the mean of the factors that arrive from the
+    /// surfaces it sees. Vertices about it may lie beyond an obstacle.
     pub(super) fn part_of(&self, from: &Gatherer) -> f64 {
         if self.parts.is_empty() || without("local-errors") {
             return 1.0;
@@ -129,14 +131,14 @@ impl MapReader<'_> {
         vec![Rgb::BLACK; self.map.values.len()]
     }
 
-    /// Rays that read vertices as readings do, and look for no direct light.
+    /// Rays that read vertices as readings do, without direct light.
     fn reading_alone<'b>(&'b self, dark: &'b [Rgb]) -> Gathering<'b> {
         let direct = DirectAtEnds::Read { values: dark, level: u32::MAX };
         Gathering { backdrop: None, ..self.gathering(direct) }
     }
 }
 
-/// Of values that each stand for some surface, m2.
+/// The root mean square of values, each with the area that it stands for, m2.
 fn root_mean_square(values: impl Iterator<Item = (f64, f64)>) -> f64 {
     let sum = |[area_m2, squared]: [f64; 2], (of_m2, value): (f64, f64)| {
         [area_m2 + of_m2, squared + of_m2 * value * value]

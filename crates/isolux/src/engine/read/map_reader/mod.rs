@@ -1,4 +1,4 @@
-//! Reading a map: direct light afresh, the rest interpolated; or all of it afresh.
+//! Readings of a map: direct light evaluated afresh, the rest interpolated or gathered.
 
 mod effort;
 mod local_error;
@@ -29,30 +29,32 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
 pub use told::{Allowance, IndirectReading, Told};
 
-/// Shadow rays to every emitting surface in a reading for a picture; and so many where two halves of these tell light that differs
-/// by more than a share of all of it, as they do in half-shadows: noise is grain there.
+/// The number of shadow rays per emitting surface in a reading for a picture.
 pub(crate) const GLANCE_SAMPLES: usize = 4;
+/// The number of shadow rays per emitting surface where two halves of the first ones differ by more than
+/// [`GRAIN`], as in half-shadows, where noise shows as grain.
 const GRAINY_SAMPLES: usize = 32;
 
-/// The same to all emitting surfaces together where they are chosen among.
+/// The number of shadow rays to all emitting surfaces together, where rays choose among these.
 const GLANCE_RAYS: usize = 16;
+/// The number of such shadow rays where two halves of the first ones differ by more than [`GRAIN`].
 const GRAINY_RAYS: usize = 128;
 
-/// The share of all light that the two halves may differ by.
+/// The difference of the two halves that is accepted, as a share of all light.
 const GRAIN: f64 = 0.05;
 
-/// Samples of an element that tell readers what direct light lacks between vertices: all readings have their noise in common, so it is
-/// to be half of that of one.
+/// The number of samples per element of the residual of direct light between vertices. All readings share
+/// their noise, which should be half of that of one sample.
 const KEPT: u64 = 4;
 
-/// How hard [`MapReader::estimate`] tries.
+/// The effort of [`MapReader::estimate`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ExactSettings {
-    /// Gathering rays of one replicate.
+    /// The number of gathering rays of one replicate.
     pub rays: u32,
-    /// Independent replicates, at least two.
+    /// The number of independent replicates, at least two.
     pub replicates: u32,
-    /// Seed of the random numbers.
+    /// The seed of the random numbers.
     pub seed: u64,
 }
 
@@ -63,14 +65,14 @@ impl Default for ExactSettings {
 }
 
 impl<'a> MapReader<'a> {
-    /// Prepares the luminaires of the scene.
+    /// A reader of a map; prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
         let lighting = Arc::new(Lighting::new(scene));
         let (bright, _) = BrightSurfaces::of(scene, &lighting, map.provenance.seed);
         Self::prepared((scene, map), lighting, bright)
     }
 
-    /// The same with luminaires, and with what is bright for the seed of the map, that are prepared already.
+    /// A reader of a map with prepared luminaires, and with bright surfaces prepared for the seed of the map.
     pub(crate) fn prepared(
         (scene, map): (&'a Scene, &'a IlluminationMap),
         lighting: Arc<Lighting<'a>>,
@@ -108,7 +110,8 @@ impl<'a> MapReader<'a> {
         Self { backdrop: reader.walls(), direct_values, varying, parts, arriving, ..reader }
     }
 
-    /// Direct light at the vertices as rays read it, with what is lacking between them, and where; `None` where nothing is.
+    /// Direct light at the vertices as rays read it, with its residual between them, and the elements where
+    /// it varies between vertices; `None` where there is no residual.
     fn kept(&self) -> Option<(Vec<Rgb>, Vec<bool>)> {
         let over = Over {
             scene: self.scene,
@@ -124,7 +127,7 @@ impl<'a> MapReader<'a> {
         Some((kept.read(&over, (KEPT, key.with(1))), kept.varying))
     }
 
-    /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of replicates
+    /// A reading of [`MapReader::at`] or [`MapReader::probe`] with the standard errors of its replicates
     /// alone, without the interpolation error and the bias of the map.
     pub fn by_replicates(&self, reading: Illuminance) -> Illuminance {
         let unseen = libm::hypot(reading.interpolation_error_lx, reading.bias_lx);
@@ -140,11 +143,11 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// The illuminance at barycentric weights `(1 - u - v, u, v)` of a side of a triangle: direct
-    /// light evaluated afresh there, caustics interpolated, indirect light interpolated where the map
-    /// is to be trusted and gathered over the map where not. The standard error counts, beside that
-    /// of replicates, the interpolation error expected there and the part of the bias that the map reports for
-    /// the scene; it is infinite where the map does not know its error. `None` where the map knows nothing.
+    /// The illuminance at barycentric weights `(1 - u - v, u, v)` of a side of a triangle. Direct light is
+    /// evaluated there, and caustics are interpolated. Indirect light is interpolated where the map is
+    /// trusted, and gathered over the map elsewhere. The standard error counts the spread of replicates, the
+    /// interpolation error expected there, and the local part of the bias of the scene. It is infinite where
+    /// the map does not know its error. `None` where the map knows nothing.
     pub fn at(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         self.read(SurfacePoint::new(self.scene, triangle, back, u, v))
     }
@@ -155,7 +158,7 @@ impl<'a> MapReader<'a> {
         Some(self.told(self.with_fresh_direct(indirect, (&at, part))))
     }
 
-    /// What is known of the indirect light at a place, and the place to evaluate direct light at.
+    /// The indirect light at a place, and the place at which direct light is evaluated.
     fn indirect(
         &self,
         surface: SurfacePoint,
@@ -178,8 +181,8 @@ impl<'a> MapReader<'a> {
         Some((indirect, at))
     }
 
-    /// Indirect light gathered over the map, by as many rays as bring its noise down to that
-    /// of the map, and to a share of the light. What is read close by all the same is wrong by `lookup_lx`.
+    /// Indirect light gathered over the map. The number of rays is such that noise falls to that of the map
+    /// and to a share of the light. The part of the light still read close by has the error `lookup_lx`.
     fn gathered(
         &self,
         stored: Illuminance,
@@ -190,7 +193,8 @@ impl<'a> MapReader<'a> {
         let part = self.part_of(&trial);
         let behind = self.backdrop.as_ref().and_then(|b| b.behind(self.scene, &trial.stand()));
         let trial = Gatherer { behind, ..trial };
-        // With numbers of its own: who stopped at a small variance would report too small ones.
+        // Other random numbers than those of the trial: stopping at a small variance would report too small
+        // variances.
         let gatherer = trial.with_rays(self.rays_needed((trial, noise, part), key).rays);
         let Gathered { lx, variance, close, common_lx } =
             self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
@@ -210,9 +214,9 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// The same by a few shadow rays for every emitting surface, for pictures, which take a mean over
-    /// many places anyway: noisy, and the standard error leaves that noise out. `number` tells
-    /// readings of one place apart. Indirect light is interpolated, unless it is known from elsewhere.
+    /// The illuminance at a place by a few shadow rays per emitting surface, for pictures, which average over
+    /// many places. It is noisy, and the standard error leaves that noise out. `number` tells readings of one
+    /// place apart. Indirect light is interpolated, unless `known` gives it.
     pub fn glance(
         &self,
         place: PlaceOnSide,
@@ -236,7 +240,7 @@ impl<'a> MapReader<'a> {
         })
     }
 
-    /// Direct light for a picture, where there is about so much light in all.
+    /// Direct light for a picture, at a place with about `about_lx` of light in all.
     fn glanced(&self, at: &SurfacePoint, about_lx: f64, dice: &mut Dice) -> Rgb {
         let (lighting, patches) = (&self.lighting, &self.patches);
         if lighting.has_faces() {
@@ -250,15 +254,16 @@ impl<'a> MapReader<'a> {
         without_grain(of, [GLANCE_SAMPLES, GRAINY_SAMPLES], about_lx)
     }
 
-    /// As [`MapReader::at`] at a point on a surface, on the side that `normal` points to. `None` where no
-    /// surface that carries a known value lies within a ten-thousandth of the scene's extent.
+    /// The illuminance at a point on a surface, on the side that `normal` points to, as [`MapReader::at`]
+    /// reads it. `None` where no surface with a known value lies within a ten-thousandth of the scene's
+    /// extent.
     pub fn probe(&self, at: ProbePoint) -> Option<Illuminance> {
         self.read(self.find_surface(at)?)
     }
 
-    /// As [`MapReader::probe`] where there is a surface with a known value, and else as in free space:
-    /// direct light afresh, indirect light gathered over the map until its noise is below the error
-    /// of the map, caustics unknown and left out. `None` where nothing but the inside of something is
+    /// The illuminance as [`MapReader::probe`] reads it on a surface with a known value, else as in free
+    /// space: direct light is evaluated, indirect light is gathered over the map until its noise is below the
+    /// error of the map, and caustics are unknown and left out. `None` where only the inside of something is
     /// seen.
     pub fn measure(&self, at: ProbePoint) -> Option<Illuminance> {
         self.probe(at).or_else(|| {
@@ -279,8 +284,8 @@ impl<'a> MapReader<'a> {
         self.find_surface(at).is_some()
     }
 
-    /// Whether some ray leaves the scene or meets a place that sees a vertex of its element of which the map
-    /// knows something: elements may reach below what stands on them.
+    /// Whether some ray leaves the scene or meets a place that sees a known vertex of its element. (Elements
+    /// may reach below things that stand on them.)
     fn sees_light(&self, from: &Gatherer) -> bool {
         let sequence = Sequence::new(place_key(from.surface.point).with(8));
         let axis = from.normal.to_direction();
@@ -301,17 +306,17 @@ impl<'a> MapReader<'a> {
         })
     }
 
-    /// The same of the bare map, direct light interpolated, too. The standard error is that of
-    /// replicates alone.
+    /// The illuminance at a point on a surface as the bare map interpolates it, direct light included. The
+    /// standard error is that of replicates alone.
     pub fn interpolated(&self, at: ProbePoint) -> Option<Illuminance> {
         let SurfacePoint { triangle, back, u, v, .. } = self.find_surface(at)?;
         self.map.interpolate(triangle, back, u, v)
     }
 
-    /// The illuminance at any point that faces any way, on a surface or not: direct light afresh,
-    /// indirect light by gathering over the map. Caustics are read from the map where the point is
-    /// on a surface; in free space they are unknown and left out. The standard error counts the
-    /// part of the interpolation error and the bias of the map that is to be expected there, and is infinite where these are not known.
+    /// The illuminance at any point that faces any way, on a surface or not. Direct light is evaluated, and
+    /// indirect light is gathered over the map. Caustics are read from the map where the point is on a
+    /// surface; in free space they are unknown and left out. The standard error counts the expected local
+    /// part of the interpolation error and the bias of the map; it is infinite where these are unknown.
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
         let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
         let gatherer = on_surface
@@ -327,7 +332,8 @@ impl<'a> MapReader<'a> {
         let replicates = settings.replicates.max(2);
         let Gathered { lx: indirect_lx, variance, common_lx, .. } =
             self.gather(gatherer, DirectAtEnds::Evaluated, (replicates, key));
-        // In proportion to what was read, but no less than it is about there: where it is dark, what is bright may be read.
+        // The lookup error is in proportion to the light read, but at least the local bias, since a dark
+        // place may read bright ones.
         let part = self.part_of(&gatherer);
         let bias_lx = part * self.unseen.bias_lx;
         let looked_up = (self.lookup_error() * indirect_lx.luminance()).max(bias_lx);
@@ -356,14 +362,14 @@ impl<'a> MapReader<'a> {
         })
     }
 
-    /// What the map that gathering rays read may be off by, other than by noise, relative.
+    /// The error beyond noise of the map that gathering rays read, relative.
     fn lookup_error(&self) -> f64 {
         let accuracy = self.map.provenance.accuracy;
         accuracy.map_or(0.0, |a| (a.bias * a.bias + a.discretization * a.discretization).sqrt())
     }
 }
 
-/// Light by a few samples, or by more where two halves of these differ much.
+/// Light by a few samples, or by many where two halves of the few differ much.
 fn without_grain(
     mut sampled: impl FnMut(usize) -> Rgb,
     [few, many]: [usize; 2],
@@ -376,16 +382,16 @@ fn without_grain(
     if is_grainy { sampled(many) } else { mean }
 }
 
-/// The least variance of what so many rays gather where the map tells a value of some noise: fewer rays may all have missed what
-/// brings most of the light.
+/// The least variance of light gathered by `samples` rays where the map has a value with noise. Fewer rays
+/// may all have missed the direction that most of the light comes from.
 fn least_variance(stored: &Illuminance, samples: u64) -> f64 {
     let [all, caustics] = [stored.indirect_standard_error_lx, of_caustics(stored)];
     let of_map = (all * all - caustics * caustics).max(0.0);
     LEAST_OF_NOISE * of_map * stored.samples as f64 / samples.max(1) as f64
 }
 
-/// What caustics err by where only they are read from the map: no more than the map tells of them and indirect light together, and
-/// no more than they are.
+/// The error of caustics where only they are read from the map: at most the map's error of caustics and
+/// indirect light together, and at most their own value.
 fn of_caustics(stored: &Illuminance) -> f64 {
     stored.indirect_standard_error_lx.min(stored.caustic_lx.luminance().abs())
 }

@@ -1,4 +1,4 @@
-//! The parts of a reading apart, for means over a surface.
+//! Single parts of a reading, for means over a surface.
 
 use super::effort::{FRESH_REPLICATES, Needed, TRIAL_RAYS};
 use super::state::MapReader;
@@ -11,16 +11,17 @@ use crate::map::Illuminance;
 use crate::sampling::Sequence;
 use crate::units::Rgb;
 
-/// How light differs within a surface counts as if it had been read at so many places of it: for the mean over all of it that is
-/// more than enough, for its middle just so.
+/// The number of places that the variation of light within a surface counts as. For the mean over the surface
+/// it overestimates the error; for the middle it is about right.
 const AS_OF_PLACES: f64 = 4.0;
-/// What indirect light that is interpolated where no ray has looked whether the map is to be trusted may err by, of itself.
+/// The error of indirect light that is interpolated without a test whether the map is trusted there, as a
+/// share of it.
 const OF_UNLOOKED: f64 = 0.1;
 
 impl MapReader<'_> {
-    /// One estimate of the direct light of a place, caustics of the map included, by about `rays` shadow rays: it
-    /// has no error of its own, noise is part of what places differ by. Points of one sequence are spread evenly.
-    /// `None` where the map knows nothing.
+    /// One estimate of the direct light at a place by about `rays` shadow rays, with the caustics of the map.
+    /// It has no error of its own: its noise is part of the variation between places. Points of one sequence
+    /// are spread evenly. `None` where the map knows nothing.
     pub fn direct_once(
         &self,
         place: PlaceOnSide,
@@ -35,7 +36,7 @@ impl MapReader<'_> {
         Some(direct + stored.caustic_lx)
     }
 
-    /// Indirect light as the map tells it. `None` where the map knows nothing.
+    /// Indirect light as the map gives it without gathering. `None` where the map knows nothing.
     pub fn told_at(&self, place: PlaceOnSide, allowance: Allowance) -> Option<Told> {
         let surface = SurfacePoint::on_side(self.scene, place);
         let stored = self.stored_at(&surface)?;
@@ -52,9 +53,9 @@ impl MapReader<'_> {
         })
     }
 
-    /// Indirect light as the map interpolates it, be it to be trusted there or not: no ray looks. Its error is what a map
-    /// trusted everywhere would be told to err by and a share of the light, for what stands before the place and elements do not know.
-    /// `None` where the map knows nothing.
+    /// Indirect light as the map interpolates it, trusted there or not; no ray is traced. Its error is that
+    /// of a map trusted everywhere, and a share of the light for obstacles before the place that elements do
+    /// not know. `None` where the map knows nothing.
     pub fn interpolated_at(&self, place: PlaceOnSide) -> Option<IndirectReading> {
         let stored = self.map.interpolate(place.triangle, place.back, place.uv[0], place.uv[1])?;
         let part = self.part_at(&SurfacePoint::on_side(self.scene, place));
@@ -66,20 +67,22 @@ impl MapReader<'_> {
         Some(Self::reading(&Illuminance { interpolation_error_lx, bias_lx, ..stored }, 0.0))
     }
 
-    /// Indirect light as [`MapReader::at`] reads it, but gathered also where interpolation is expected to err by more than is
-    /// allowed.
+    /// Indirect light as [`MapReader::at`] reads it, but gathered also where the expected interpolation error
+    /// is larger than allowed.
     pub fn indirect_at(&self, place: PlaceOnSide, allowance: Allowance) -> Option<IndirectReading> {
         let surface = SurfacePoint::on_side(self.scene, place);
         let (read, _) = self.indirect(surface, allowance)?;
         Some(Self::gathered_reading(&read))
     }
 
-    /// Places that tell the indirect light of a surface, of [`MapReader::indirect_over`]: as many as a reading has replicates.
+    /// The number of places for the indirect light of a surface in [`MapReader::indirect_over`]: as many as a
+    /// reading has replicates.
     pub const PLACES: u32 = FRESH_REPLICATES;
 
-    /// The mean indirect light of a surface, by places spread evenly over it: at each of them as the map tells it, or
-    /// gathered by as many rays as one replicate of a reading has. Its error counts how light differs between places as if it
-    /// had been read at four of them, at random: it is to hold for the middle of the surface, too. `None` where the map knows none of them.
+    /// The mean indirect light of a surface, from places spread evenly over it. At each place it is read from
+    /// the map, or gathered with the rays of one replicate of a reading. The error counts the variation
+    /// between places as if four of them had been drawn at random, so that it also holds for the middle of
+    /// the surface. `None` where the map knows none of the places.
     pub fn indirect_over(
         &self,
         places: impl Iterator<Item = PlaceOnSide>,
@@ -101,7 +104,7 @@ impl MapReader<'_> {
             }
         }
         if let ([], [(surface, _)]) = (&told[..], &trials[..]) {
-            // One place alone tells nothing of its own noise.
+            // A single place gives no estimate of its own noise.
             return self
                 .indirect(*surface, Allowance::ANY)
                 .map(|(read, _)| Self::gathered_reading(&read));
@@ -126,14 +129,14 @@ impl MapReader<'_> {
             bias_lx: common(|t| t.bias_lx) + bias_lx,
             ..Illuminance::NOTHING
         };
-        // What is not the noise of rays is how light differs within the surface.
+        // The variance beyond the noise of rays is the variation of light within the surface.
         let noise = (replicate_variance * gathered.len() as f64 / (n * n)).min(variance);
         let spread = noise + (variance - noise) * n / AS_OF_PLACES.min(n);
         let error_lx = libm::hypot(Self::indirect_error_lx(&of_map), spread.sqrt());
         Some(IndirectReading { lx, error_lx, noise_lx: variance.sqrt() })
     }
 
-    /// What would gather at a place, unless the map is to be trusted there.
+    /// The gatherer of a place; `None` where the map is trusted.
     fn trial(
         &self,
         stored: &Illuminance,
@@ -149,8 +152,9 @@ impl MapReader<'_> {
         })
     }
 
-    /// What one replicate at each of many places gathers, and the part of the error of what is read close by that it has. How
-    /// many rays they take is told at the first of them, and the variance of one by noise that is expected then.
+    /// The light that one replicate at each of many places gathers, and the local part of the share of light
+    /// read close by. The second value is the expected noise variance of one replicate. The number of rays is
+    /// determined at the first place.
     fn one_of_each(&self, trials: &[Gatherer]) -> (Vec<(Rgb, f64)>, f64) {
         let Some(first) = trials.first() else { return (Vec::new(), 0.0) };
         let key = self.gathering_key(first);

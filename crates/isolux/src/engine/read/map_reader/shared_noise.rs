@@ -1,4 +1,4 @@
-//! What readings nearby have in common: the noise of the surfaces that they read.
+//! The error that readings nearby have in common: the noise of the surfaces that they read.
 
 use crate::engine::gather::Operator;
 use crate::engine::ray::SurfacePoint;
@@ -6,7 +6,7 @@ use crate::map::IlluminationMap;
 use crate::units::Rgb;
 use std::sync::OnceLock;
 
-/// What is common about every vertex, and as much of one everywhere, once they are wanted.
+/// The common error at every vertex, lx, and the value one at every known vertex; computed when first used.
 #[derive(Default)]
 pub(super) struct SharedNoise(OnceLock<[Vec<Rgb>; 2]>);
 
@@ -21,8 +21,8 @@ impl SharedNoise {
         })
     }
 
-    /// What light that is gathered at a place errs by together with all that is gathered nearby, lx: as vertices about it do, or in
-    /// space the surfaces that are seen.
+    /// The error that light gathered at a place has in common with light gathered nearby, lx: that of the
+    /// vertices about it, or in space that of the surfaces seen.
     pub(super) fn lx(&self, map: &IlluminationMap, at: &SurfacePoint, operator: &Operator) -> f64 {
         let on_surface = at.triangle != u32::MAX;
         let stored = on_surface.then(|| map.interpolate(at.triangle, at.back, at.u, at.v));

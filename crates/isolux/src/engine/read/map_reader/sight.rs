@@ -1,4 +1,4 @@
-//! Whether places of a surface see each other.
+//! Visibility between places of a surface.
 
 use super::MapReader;
 use crate::elements::PlaceOnSide;
@@ -6,13 +6,14 @@ use crate::engine::occlusion::{LOW, NEAR};
 use crate::engine::ray::SurfacePoint;
 use isolux_geometry::{Normal, Ray};
 
-/// Where a surface is bent, looks go above it by this share of their length for a right angle: a ball rises over the line between
-/// two of its places by a quarter of that for a small one, a crease by a half.
+/// The height of test rays above a bent surface, as a share of their length at a bend of a right angle. A
+/// ball rises over the line between two of its places by a quarter of that for a small bend, a crease by a
+/// half.
 const BENT: f64 = 0.5;
 
 impl MapReader<'_> {
-    /// Whether nothing parts the light of two places of a surface that lie near to each other: nothing stands between them, close to the
-    /// surface and well above it. Panes part light, too.
+    /// Whether nothing separates the light of two near places of a surface: no obstacle stands between them,
+    /// both close to the surface and well above it. Panes separate light, too.
     pub fn sees(&self, from: PlaceOnSide, to: PlaceOnSide) -> bool {
         let [from, to] =
             [from, to].map(|place| self.places.pulled_in(SurfacePoint::on_side(self.scene, place)));
@@ -24,7 +25,7 @@ impl MapReader<'_> {
             let way = Ray::between(from.point + up * height_m, to.point + up_there * height_m);
             self.scene.bvh().closest_hit(&way.skipping(from.triangle)).is_some()
         };
-        // As a rule nothing is so high.
+        // The high ray is usually free, so the low one is rarely traced.
         !(is_blocked(NEAR * length_m) && is_blocked(LOW * from.away_m.max(to.away_m)))
     }
 }

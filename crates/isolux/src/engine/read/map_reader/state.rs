@@ -1,4 +1,4 @@
-//! What a reader holds, and what its readings are made of.
+//! The state of a reader, and the parts that its readings consist of.
 
 use super::effort::{FRESH_FEWEST_RAYS, FRESH_MOST_RAYS, FRESH_REPLICATES, Needed, TRIAL_RAYS};
 use super::shared_noise::SharedNoise;
@@ -15,72 +15,74 @@ use crate::units::Rgb;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What emitting surfaces give dim places is known as well as where there is this share of the light about them.
+/// The light about a place that the noise of direct light is at least relative to, as a share of the local
+/// part of the reference illuminance.
 const DIMMEST: f64 = 0.05;
 
-/// Noise of what readers gather, in errors of the map: it adds half of the square of that, and only where the map
-/// is not trusted.
+/// The noise of gathered light in readings, in errors of the map. It adds about half of the squared error,
+/// and only where the map is not trusted.
 const FRESH_NOISE: f64 = 0.7;
 
-/// Nets of n rays err like this power of 1/n from so few on, where something is close: with the 0.85 of
-/// places in the open, readings of SPHERE erred a quarter more than by a trial of twice the rays.
+/// The order of convergence of low-discrepancy rays from a few on, where something is close: noise falls like
+/// this power of 1/n. With the 0.85 of places in the open, readings of SPHERE had a quarter more error than
+/// with a trial of twice the rays.
 const ORDER_CLOSE_BY: f64 = 0.75;
 
-/// Reads a map with its scene at hand.
+/// A reader of a map, with the map's scene.
 pub struct MapReader<'a> {
     pub(super) scene: &'a Scene,
     pub(super) map: &'a IlluminationMap,
     pub(super) lighting: Arc<Lighting<'a>>,
     pub(super) standings: Vec<Option<Standing>>,
     pub(super) light: Vec<Rgb>,
-    /// Direct light at the vertices, where sources are many: there rays read it.
+    /// Direct light at the vertices where sources are many; rays read it there.
     pub(super) direct_values: Option<Vec<Rgb>>,
-    /// Elements on which it varies between vertices, by node.
+    /// Elements on which direct light varies between vertices, by node.
     pub(super) varying: Option<Vec<bool>>,
     pub(super) bright: Option<Arc<BrightSurfaces>>,
     /// Elements that something stands across.
     pub(super) cuts: Barriers,
     pub(super) places: Places<'a>,
-    /// Walls that rays are judged by.
+    /// The control variate for gathering rays.
     pub(crate) backdrop: Option<ControlVariate>,
     pub(super) patches: Patches,
     pub(super) unseen: Unseen,
-    /// The part of that which falls to every vertex.
+    /// The local factor on errors of the scene, at every vertex.
     pub(super) parts: Vec<Rgb>,
-    /// How much of it arrives, root mean square.
+    /// The root mean square of that factor in arriving light.
     pub(super) arriving: f64,
     pub(super) shared_noise: SharedNoise,
-    /// Rays that readings have gathered by.
+    /// The number of rays that readings have used.
     pub(super) rays: AtomicU64,
 }
 
-/// What replicates have gathered.
+/// Light gathered by replicates.
 pub(super) struct Gathered {
     pub(super) lx: Rgb,
-    /// Of the mean, lx2.
+    /// The variance of the mean, lx2.
     pub(super) variance: f64,
-    /// The share of a unit of light that was read close by all the same.
+    /// The share of a unit of light that was still read close by.
     pub(super) close: f64,
-    /// Standard error of what it has in common with what is gathered nearby, lx.
+    /// The standard error that it shares with light gathered nearby, lx.
     pub(super) common_lx: f64,
 }
 
-/// Errors of what is read from vertices that replicates do not tell, lx.
+/// Errors of light read from vertices that replicates do not show, lx.
 pub(super) struct Unseen {
-    /// Root mean square of the light.
+    /// The illuminance that errors of the map are relative to ([`reference_lx`]).
     pub(super) reference_lx: f64,
-    /// Of interpolation, root mean square over the scene.
+    /// The interpolation error, root mean square over the scene.
     pub(super) discretization_lx: f64,
-    /// Common to all of the map.
+    /// The bias that all of the map shares.
     pub(super) bias_lx: f64,
-    /// Of the whole map.
+    /// The error of the whole map.
     pub(super) reached_lx: f64,
-    /// How well readings are to know direct light.
+    /// The accuracy goal for direct light in readings.
     pub(super) of_direct: Goal,
 }
 
 impl<'a> MapReader<'a> {
-    /// What nobody knows of the error of the map, nobody knows of a reading's.
+    /// A reading, with infinite errors if the error of the map is unknown.
     pub(super) fn told(&self, reading: Illuminance) -> Illuminance {
         match self.map.provenance.accuracy {
             Some(_) => reading,
@@ -92,7 +94,7 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// Whether what the map tells of a place on an element of such edges is to be trusted.
+    /// Whether the map's value is trusted at a place on an element with these edges.
     pub(super) fn is_trusted(
         &self,
         fresh: Fresh,
@@ -109,15 +111,16 @@ impl<'a> MapReader<'a> {
             && !nearby::is_beset(self.scene, at, edge_m)
     }
 
-    /// A value of the map with what interpolation is expected to err by. Half of the part of the error of the
-    /// scene is taken to be spread evenly, half as expected of the elements.
+    /// A value of the map with its expected interpolation error. Half of the squared error of the scene is
+    /// taken to be spread evenly, half as the elements expect.
     pub(super) fn with_interpolation_error(&self, stored: Illuminance, part: f64) -> Illuminance {
         let (even, own) = (part * self.unseen.discretization_lx, stored.interpolation_error_lx);
         let interpolation_error_lx = (0.5 * (even * even + own * own)).sqrt();
         Illuminance { interpolation_error_lx, ..stored }
     }
 
-    /// Rays that it was prepared with and that its readings have gathered by so far, with as many shadow rays at their ends as there may be.
+    /// The number of rays of preparation and of readings so far. Each is counted with as many shadow rays at
+    /// its end as there may be.
     pub(crate) fn rays(&self) -> u64 {
         self.rays.load(Ordering::Relaxed)
     }
@@ -126,7 +129,8 @@ impl<'a> MapReader<'a> {
         self.rays.fetch_add(rays, Ordering::Relaxed);
     }
 
-    /// Random numbers of a place; other ones for every seed of the map: readings of several maps have errors of their own.
+    /// The key of the random numbers for a place. Each seed of the map has its own, so readings of several
+    /// maps have independent errors.
     pub(super) fn gathering_key(&self, at: &Gatherer) -> Key {
         place_key(at.surface.point).with(7).with(self.map.provenance.seed)
     }
@@ -138,7 +142,7 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// The rays of a replicate that bring noise to what is asked, as a trial tells, which is then thrown away.
+    /// The number of rays per replicate that reaches the noise goal, from a trial that is then discarded.
     pub(super) fn rays_needed(
         &self,
         (trial, noise, part): (Gatherer, f64, f64),
@@ -170,7 +174,7 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// By so many replicates.
+    /// Light gathered by this number of replicates.
     pub(super) fn gather(
         &self,
         gatherer: Gatherer,
@@ -199,7 +203,7 @@ impl<'a> MapReader<'a> {
         })
     }
 
-    /// Of replicates, of interpolation, and what is common to the surroundings.
+    /// The error of indirect light, lx, from replicates, interpolation and bias.
     pub(super) fn indirect_error_lx(read: &Illuminance) -> f64 {
         let unseen = libm::hypot(read.interpolation_error_lx, read.bias_lx);
         libm::hypot(read.indirect_standard_error_lx, unseen)
@@ -220,10 +224,11 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// Direct light at a place where there is about so much in all, and such a part of the light of the scene, and the variance of its mean.
+    /// Direct light with the variance of its mean, at a place with about `about_lx` of light in all and the
+    /// local factor `part`.
     pub(super) fn direct(&self, at: &SurfacePoint, (about_lx, part): (f64, f64)) -> Measured {
         let of_direct = self.unseen.of_direct;
-        // Choosing among many luminaires goes by what these give.
+        // With many luminaires, the goal is relative to their own light alone.
         let least_lx = match self.lighting.has_many() {
             true => 0.0,
             false => about_lx.max(DIMMEST * part * self.unseen.reference_lx),
@@ -233,7 +238,7 @@ impl<'a> MapReader<'a> {
         self.lighting.read(at, goal, sequence)
     }
 
-    /// The middle of an element, and its surface, m2.
+    /// The centroid of an element as a gatherer, and the area of the element, m2.
     pub(super) fn amid(&self, element: &Element) -> (Gatherer, f64) {
         let [a, b, c] = element.vertices.map(|v| self.map.elements.vertices()[v as usize].position);
         let middle = a + ((b - a) + (c - a)) * (1.0 / 3.0);
@@ -244,8 +249,9 @@ impl<'a> MapReader<'a> {
 }
 
 impl Unseen {
-    /// As reported: shares of what errors are relative to, of which every place has its part. (In proportion to the indirect light there
-    /// fewer intervals hold the truth: dark edges err most.)
+    /// The errors that the map reports, as shares of the reference illuminance; each place takes its local
+    /// factor of them. (In proportion to the local indirect light fewer intervals hold the truth, since dark
+    /// edges err most.)
     pub(super) fn of(map: &IlluminationMap) -> Self {
         let reference_lx = reference_lx(map);
         let accuracy = map.provenance.accuracy.as_ref();
@@ -260,8 +266,8 @@ impl Unseen {
     }
 }
 
-/// What the errors of a map are shares of, lx: the root mean square of its light over the surface, but no more than twice the mean over
-/// what is lit. A small bright surface is a part of both.
+/// The illuminance that errors of a map are relative to, lx: the root mean square of its light over the
+/// surface, but at most twice the mean over the lit area. A small bright surface is part of both.
 pub fn reference_lx(map: &IlluminationMap) -> f64 {
     let mut light = Light::default();
     for (vertex, value) in map.elements.vertices().iter().zip(&map.values) {

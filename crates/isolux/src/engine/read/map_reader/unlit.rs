@@ -1,4 +1,4 @@
-//! What places without light see.
+//! Places without light.
 
 use super::effort::LOOKS;
 use super::state::MapReader;
@@ -8,14 +8,16 @@ use crate::map::{Illuminance, Standing};
 use crate::sampling::{CosineHemisphere, Sequence};
 use isolux_geometry::{Point, Ray};
 
-/// No more than this share of the light of an element is as good as none, where rays read some through cracks.
+/// The light of a place, as a share of that of its element, up to which the place counts as unlit. Rays read
+/// some light through cracks.
 const NO_LIGHT: f64 = 3e-3;
-/// Estimates of direct light that tell whether any luminaire shines on a place.
+/// The number of estimates of direct light that test whether any luminaire shines on a place.
 const LOOKS_AT_LUMINAIRES: u32 = 4;
 
 impl MapReader<'_> {
-    /// What the map tells of a place; nothing where no light can come to it, like the floor below a box that stands across an
-    /// element: the corners of that lie in light, beyond something, or nothing is known of them, and the place sees none.
+    /// The map's value at a place; `None` where the map knows nothing or no light reaches the place, like the
+    /// floor below a box that stands across an element. The vertices of that element lie beyond something or
+    /// are unknown, and the place itself sees no light.
     pub(super) fn stored_at(&self, at: &SurfacePoint) -> Option<Illuminance> {
         let stored = self.map.interpolate(at.triangle, at.back, at.u, at.v)?;
         let bias_lx = self.part_at(at) * self.unseen.bias_lx;
@@ -23,7 +25,7 @@ impl MapReader<'_> {
         is_known.then_some(Illuminance { bias_lx, ..stored })
     }
 
-    /// Of a place whose element has so much light.
+    /// Whether no light reaches a place whose element has the light `light_lx`.
     fn is_closed_off(&self, at: &SurfacePoint, light_lx: f64) -> bool {
         let Some(corners) = self.map.elements.locate(at.triangle, at.back, at.u, at.v) else {
             return false;
@@ -52,7 +54,7 @@ impl MapReader<'_> {
         gathered.lx.luminance() <= NO_LIGHT * light_lx
     }
 
-    /// Whether a place sees a vertex of its element of which the map knows something, and that stands for what is asked.
+    /// Whether a place sees a vertex of its element with a known standing that `is_asked` accepts.
     pub(super) fn sees_vertex(
         &self,
         place: &SurfacePoint,
@@ -66,8 +68,8 @@ impl MapReader<'_> {
         })
     }
 
-    /// Whether anything that is lit, as the map tells it, is seen from a point, on a surface or not: a point in shadow sees
-    /// surfaces in light, one outside of the walls of a room sees none. Best effort: a few rays look.
+    /// Whether a lit surface of the map is seen from a point, on a surface or not. A point in shadow sees lit
+    /// surfaces; one outside the walls of a room sees none. Best effort: a few rays test it.
     pub fn sees_lit(&self, at: ProbePoint) -> bool {
         let on_surface = self.find_surface(at).map(|s| self.places.pulled_in(s));
         let from = on_surface.map_or_else(

@@ -1,4 +1,4 @@
-//! Walls that rays of a reader are judged by.
+//! The control variate for the rays of a reader.
 
 use super::state::MapReader;
 use crate::elements::Element;
@@ -11,8 +11,8 @@ use crate::sampling::{Key, Sequence};
 use crate::units::Rgb;
 
 impl MapReader<'_> {
-    /// Walls, if there are any that take much of the noise off what places of the map gather. To find them takes longer than to
-    /// gather in the gaps of a map that is trusted everywhere else.
+    /// The control variate, if it removes much of the noise of light gathered at places of the map. Finding
+    /// it takes longer than gathering in gaps, so there is none for a map that is trusted everywhere else.
     pub(super) fn walls(&self) -> Option<ControlVariate> {
         self.map.provenance.fresh.filter(|fresh| !fresh.in_gaps_alone)?;
         let places = self.some_places();
@@ -27,7 +27,7 @@ impl MapReader<'_> {
         left.is_some_and(|left| left <= control_variate::WORTH).then_some(backdrop)
     }
 
-    /// Places of the map in the open, with the surface that each stands for, m2.
+    /// Some gatherers in the open, each with the area of its element, m2.
     fn some_places(&self) -> Vec<(Gatherer, f64)> {
         let all = self.map.elements.elements();
         let is_open = |v: u32| self.standings[v as usize] == Some(Standing::Open);
@@ -37,7 +37,7 @@ impl MapReader<'_> {
         open.iter().step_by(every).map(|element| self.amid(element)).collect()
     }
 
-    /// All light that comes to a place, as the map tells it.
+    /// All light at a place, as the map gives it.
     fn light_at(&self, at: &SurfacePoint) -> Option<Rgb> {
         let known = known_at(&self.map.elements, u32::MAX, &self.standings, at)?;
         let read = |values: &[Rgb]| -> Rgb {

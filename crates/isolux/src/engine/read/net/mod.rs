@@ -1,12 +1,15 @@
-//! Indirect light gathered on a net of texels, as fine as it needs to be, and continued between them.
+//! Adaptive gathering of indirect light on a net of texels, with interpolation between them.
 //!
-//! Indirect light is smooth along most of a surface, and to gather it costs most of a lightmap, or of a picture. Where the
-//! map is not to be trusted it is therefore gathered at one texel of every wide square, of 8 x 8 as a rule, then of every
-//! one half as wide; what the second say is compared with what the first made them expect. Where that differs by more than
-//! is asked for, noise aside, squares of 2 x 2 follow, and in the end every texel. Between, a plane is laid through the
-//! texels about (moving least squares), and half of the differences that were found there, or at the texels that it leans on,
-//! counts as error: they shrink at least so much from net to net. The texels of a picture are its pixels.
-//! Light is not continued past what stands between.
+//! Indirect light is smooth along most of a surface, and gathering it costs most of a lightmap or a picture.
+//! So where the map is not trusted, light is gathered at one texel of every wide square (as a rule 8 x 8),
+//! then of every square half as wide. The second readings are compared with the values that the first
+//! predict. Where these differ by more than allowed, noise aside, squares of 2 x 2 follow, and in the end
+//! every texel.
+//!
+//! A texel between gets the value of a plane through the gathered texels about it (moving least squares). Its
+//! error counts half of the differences found there, or at the texels that the plane depends on, since
+//! differences shrink at least so much from net to net. Light is not interpolated past obstacles. The texels
+//! of a picture are its pixels.
 
 mod plane;
 mod sight;
@@ -18,65 +21,67 @@ use sight::Parted;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// From one net to the next twice as fine differences shrink by this at least: by a quarter where light is smooth,
-/// by a half where it has a kink.
+/// The factor on differences from one net to the next, twice as fine. Differences shrink to a quarter where
+/// light is smooth, to a half at a kink.
 const SHRINK: f64 = 0.5;
-/// Differences in a square count as much as so many in each of its parts.
+/// The weight of the mean difference of a square in each of its parts, in differences.
 const OF_SQUARE: f64 = 2.0;
-/// What is left may be this share of the error that a reading has anyway.
+/// The allowed interpolation error, as a share of the error that a reading has anyway.
 const OF_ERROR: f64 = 0.5;
-/// Texels that a plane is laid through where light is smoothed, and so many times as many at most where that is noisy.
+/// The number of texels in a plane that smooths light.
 const SMOOTHED_OVER: f64 = 12.0;
+/// The largest factor on that number for noisy light.
 const MOST_SMOOTHED: f64 = 8.0;
-/// Of the texels that a net leaves out, those that it will be refined by, as far as can be foreseen: half of them.
+/// The share of the texels left out by a net that refinement is expected to gather.
 const REFINED: f64 = 0.5;
 
-/// How fine a net is.
+/// The fineness of a net.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
-    /// Texels across the widest squares, a power of two from 4 to 256.
+    /// The number of texels across the widest squares, a power of two from 4 to 256.
     pub widest: usize,
-    /// Texels across the finest: 1, or a smaller power of two.
+    /// The number of texels across the finest squares: 1, or a smaller power of two than `widest`.
     pub finest: usize,
-    /// What is left may be this share of the light, if that is more than half of the error of a reading.
+    /// The allowed interpolation error as a share of the light, if that is more than half of the error of a
+    /// reading.
     pub of_light: f64,
-    /// In the end texels whose noise is more than this share of their light, those gathered at, too, get the light of a plane through
-    /// many of those nearest: a picture shows noise that an interval only states.
+    /// The relative noise above which a texel, gathered or not, is smoothed in the end by a plane through
+    /// many of its nearest. A picture shows noise that an interval only states.
     pub smoothed_above: f64,
-    /// These have no more noise than this share of the light, if planes through several times as many texels will do.
+    /// The relative noise that smoothing aims at, with planes through several times as many texels at most.
     pub smoothed_to: f64,
 }
 
 impl Fineness {
-    /// For lightmaps: as good as readings, but for those that are seen as spots.
+    /// The fineness for lightmaps: as good as readings, except that visible spots are smoothed.
     pub const TEXELS: Self =
         Self { widest: 8, finest: 1, of_light: 0.0, smoothed_above: 0.05, smoothed_to: 0.02 };
-    /// For pictures, in which pixels are many and steps of a few per cent are not to be seen.
+    /// The fineness for pictures, whose pixels are many and where steps of a few per cent are invisible.
     pub const PIXELS: Self =
         Self { widest: 16, finest: 2, of_light: 0.02, smoothed_above: 0.0, smoothed_to: 0.005 };
 
-    /// Texels farther away than this are not read: half as far again as the widest squares are wide.
+    /// The distance beyond which texels do not count, texels: one and a half times the widest squares.
     fn reach(&self) -> f64 {
         1.5 * self.widest as f64
     }
 
-    /// Texels nearer than this weigh little more: one alone makes no plane.
+    /// The distance below which the weight of texels hardly grows, texels. One texel alone makes no plane.
     fn soft(&self) -> f64 {
         0.25 * self.widest as f64
     }
 
-    /// Where a plane is continued farther than this beyond the texels that it was laid through, one of a square tells
-    /// how far off that is.
+    /// The distance of a texel from the centroid of its plane beyond which one texel of its square is
+    /// gathered, to measure the error there; in texels.
     fn beyond(&self) -> f64 {
         0.1875 * self.widest as f64
     }
 
-    /// No plane is continued farther.
+    /// The largest distance of a texel from the centroid of its plane, texels.
     fn most_beyond(&self) -> f64 {
         0.3125 * self.widest as f64
     }
 
-    /// In their order.
+    /// The steps of gathering, in order.
     fn steps(&self) -> impl Iterator<Item = Step> + use<> {
         let (half, finest) = (self.widest / 2, self.finest);
         let refined = std::iter::successors(Some(half / 2), move |size| Some(size / 2))
@@ -88,79 +93,80 @@ impl Fineness {
 /// A texel whose indirect light is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted {
-    /// Its number among those of the caller.
+    /// The caller's number of the texel.
     pub number: usize,
     /// Column and row.
     pub at: [usize; 2],
-    /// Light is continued only among texels of the same kind: of one piece of surface.
+    /// The kind of the texel. Light is interpolated only among texels of one kind: of one piece of surface.
     pub kind: u64,
 }
 
-/// What is known of a texel that is wanted.
+/// The state of a wanted texel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Light {
-    /// Nothing yet.
+    /// Neither gathered nor interpolated yet.
     Waiting,
-    /// It was gathered, and the map knew nothing.
+    /// Gathered, but the map knows no light there.
     Unknown,
-    /// It was gathered; with the square of how it differed from what was expected, and of what of that is noise.
+    /// Gathered; with the squared difference from the predicted value and the noise in it, if a value was
+    /// predicted.
     Gathered(IndirectReading, Option<Difference>),
-    /// It was continued from others.
+    /// Interpolated from others.
     Continued(IndirectReading),
 }
 
-/// What became of a texel.
+/// The result at a texel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Filled {
-    /// Its number among those of the caller.
+    /// The caller's number of the texel.
     pub number: usize,
-    /// Its light; nothing where the map knows none.
+    /// Its light; `None` where the map knows none.
     pub reading: Option<IndirectReading>,
-    /// Whether that was gathered there, and not continued from others.
+    /// Whether its light was gathered there, not interpolated from others.
     pub is_gathered: bool,
 }
 
-/// Squares of a difference and of its noise, lx2.
+/// The square of a difference and the variance of its noise, lx2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Difference {
     squared: f64,
     noise: f64,
 }
 
-/// Whether two texels see each other, by their numbers among those of the caller.
+/// Whether two texels, by the caller's numbers, see each other.
 pub type Sight<'a> = Box<dyn Fn(usize, usize) -> bool + Sync + 'a>;
 
-/// A net over the texels that are wanted.
+/// A net over the wanted texels.
 pub struct Net<'a> {
     fineness: Fineness,
     sight: Sight<'a>,
-    /// In the order of squares, of each the squares within.
+    /// The texels ordered by their widest squares, then by the squares within.
     wanted: Vec<Wanted>,
-    /// Of each of them.
+    /// The state of each texel.
     light: Vec<Light>,
-    /// The widest squares.
+    /// The texels of each widest square.
     squares: Vec<Range<usize>>,
-    /// Of each square, what was gathered.
+    /// The gathered texels of each widest square.
     nodes: Vec<Vec<usize>>,
     by_place: HashMap<(u64, [usize; 2]), usize>,
     parted: Parted,
-    /// Whether less was gathered than was asked for.
+    /// Whether fewer texels were gathered than were chosen.
     is_cut_short: bool,
 }
 
-/// What comes next.
+/// A step of gathering.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
-    /// One texel of every square of so many texels across.
+    /// One texel of every square of this width, texels.
     Squares(usize),
-    /// One of every square of so many texels across whose rim lies beyond what was gathered.
+    /// One texel of every square of this width that extends too far beyond the gathered texels.
     Rims(usize),
-    /// One of every square where texels before disagree.
+    /// One texel of every square of this width where gathered texels deviate from their predictions.
     Refined(usize),
 }
 
 impl<'a> Net<'a> {
-    /// Orders the texels.
+    /// An empty net over the texels, which are put in order.
     pub fn new(mut wanted: Vec<Wanted>, fineness: Fineness, sight: Sight<'a>) -> Self {
         let widest = fineness.widest;
         wanted.sort_unstable_by_key(|w| (w.kind, square(w.at, widest), within(w.at), w.number));
@@ -188,9 +194,10 @@ impl<'a> Net<'a> {
         }
     }
 
-    /// Gathers light, step by step, and continues it to all texels. `gather` is told the numbers of texels to gather at, and
-    /// how many more are expected after them. Where it gives readings of the first of them alone no more is asked of it: light is
-    /// continued only to where it is known how good that is.
+    /// Gathers light step by step, and interpolates it to all texels. `gather` receives the numbers of the
+    /// texels to gather at and the number expected after them. If it returns readings of the first texels
+    /// only, it is not called again. Light is then interpolated only to texels where the error of that is
+    /// known.
     pub fn fill<E>(
         &mut self,
         mut gather: impl FnMut(&[usize], f64) -> Result<Vec<Option<IndirectReading>>, E>,
@@ -218,12 +225,12 @@ impl<'a> Net<'a> {
         Ok(())
     }
 
-    /// Whether less was gathered than was asked for.
+    /// Whether fewer texels were gathered than were chosen.
     pub fn is_cut_short(&self) -> bool {
         self.is_cut_short
     }
 
-    /// What all texels have come to.
+    /// The results at all texels.
     pub fn filled(&self) -> impl Iterator<Item = Filled> + '_ {
         self.wanted.iter().zip(&self.light).map(|(wanted, light)| {
             let (reading, is_gathered) = match *light {
@@ -235,8 +242,8 @@ impl<'a> Net<'a> {
         })
     }
 
-    /// How many texels are still to be gathered at, about: one of each square that has none yet, and a share of the rest, as far as it
-    /// is not known yet that they can be continued.
+    /// The estimated number of texels still to be gathered: one of each square that has none, and a share of
+    /// the rest, except where interpolation is known to be good enough.
     pub fn foreseen(&self) -> f64 {
         let parts = self.parts(self.fineness.widest / 2).into_iter();
         let (mut squares, mut waiting) = (0.0, 0.0);
@@ -267,8 +274,8 @@ impl<'a> Net<'a> {
         }
     }
 
-    /// Of every part, the texel farthest from all that was gathered, or chosen before it: there a plane is most
-    /// likely to be off, and there it is told by how much.
+    /// The texel of each part that is farthest from all gathered or chosen texels. A plane is likely to be
+    /// worst there, and the reading there measures its error.
     fn farthest(&self, parts: impl Iterator<Item = Range<usize>>) -> Vec<usize> {
         let mut taken = self.nodes.clone();
         parts
@@ -286,7 +293,7 @@ impl<'a> Net<'a> {
             .collect()
     }
 
-    /// Square of the distance to the nearest texel that is taken, texels squared.
+    /// The square of the distance to the nearest taken texel, texels squared.
     fn away(&self, k: usize, taken: &[Vec<usize>]) -> usize {
         let off = |other: usize, c: usize| self.wanted[other].at[c].abs_diff(self.wanted[k].at[c]);
         let taken = self.squares_about(k).flat_map(|square| &taken[square]);
@@ -294,7 +301,7 @@ impl<'a> Net<'a> {
         away.min().unwrap_or(usize::MAX)
     }
 
-    /// The texel of a part that lies farthest beyond what was gathered.
+    /// The texel of a part farthest from the centroid of its plane, if that is too far.
     fn farthest_out(&self, part: Range<usize>) -> Option<usize> {
         let waiting = part.filter(|&k| self.light[k] == Light::Waiting);
         let beyond = waiting.filter_map(|k| Some((k, self.continued(k)?.beyond)));
@@ -302,7 +309,7 @@ impl<'a> Net<'a> {
         farthest.filter(|&(_, beyond)| beyond > self.fineness.beyond()).map(|(k, _)| k)
     }
 
-    /// The square that a texel lies in, and those around it.
+    /// The square of a texel and its neighbours.
     fn squares_about(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
         let Wanted { at, kind, .. } = self.wanted[k];
         let [x, y] = square(at, self.fineness.widest);
@@ -336,7 +343,7 @@ impl<'a> Net<'a> {
         self.light[part.clone()].iter().any(|light| *light != Light::Waiting)
     }
 
-    /// The texel nearest to the middle of all of a part.
+    /// The texel nearest to the centroid of a part.
     fn middle(&self, part: Range<usize>) -> usize {
         let texels = &self.wanted[part.clone()];
         let mean = [0, 1]
@@ -348,7 +355,7 @@ impl<'a> Net<'a> {
         part.start + nearest.map_or(0, |(k, _)| k)
     }
 
-    /// Whether texels there are not yet to be continued from those that were gathered.
+    /// Whether a part needs more gathered texels before the others can be interpolated.
     fn is_rough(&self, part: &Range<usize>) -> bool {
         if !self.light[part.clone()].contains(&Light::Waiting) {
             return false;
@@ -368,8 +375,8 @@ impl<'a> Net<'a> {
         signal > goal_lx * goal_lx
     }
 
-    /// Mean differences in a part, to which those in the square that it is part of add as much as a few of its own:
-    /// one or two may be small by chance.
+    /// The mean difference in a part. The mean of its widest square counts as [`OF_SQUARE`] of its own, since
+    /// one or two differences may be small by chance.
     fn found_about(&self, part: &Range<usize>) -> Option<Difference> {
         let (own, count) = self.found(part);
         let (around, count_around) = self.found(&self.squares[self.square_of(part.start)]);
@@ -384,7 +391,7 @@ impl<'a> Net<'a> {
         })
     }
 
-    /// The sum of differences in a part, and how many.
+    /// The sum of the differences in a part, and their number.
     fn found(&self, part: &Range<usize>) -> (Difference, f64) {
         let differences = self.light[part.clone()].iter().filter_map(|light| match light {
             Light::Gathered(_, difference) => *difference,
@@ -396,7 +403,7 @@ impl<'a> Net<'a> {
         })
     }
 
-    /// Takes in what was gathered in a step: no value of it is expected from another.
+    /// Stores the readings of a step. None of them predicts another.
     fn store(&mut self, chosen: &[usize], gathered: &[Option<IndirectReading>]) {
         let light: Vec<Light> = chosen
             .par_iter()
@@ -424,7 +431,7 @@ impl<'a> Net<'a> {
         }
     }
 
-    /// What was gathered about a texel that was, too, is not like it, and not seen from there.
+    /// The gathered texels about a gathered texel that differ from it and do not see it.
     fn parted_from(&self, k: usize) -> Vec<usize> {
         let Light::Gathered(own, _) = self.light[k] else { return Vec::new() };
         let is_seen = self.seen_from(k);
@@ -432,19 +439,19 @@ impl<'a> Net<'a> {
         others.filter(|node| !is_seen(node)).map(|node| node.index).collect()
     }
 
-    /// Texels that are left and cannot be continued, or see nothing that was gathered: they are to be gathered, too.
+    /// The texels that cannot be interpolated, or that see no gathered texel. They are gathered, too.
     fn left(&self) -> Vec<usize> {
         let is_told = |k: usize| self.continued_in_sight(k).is_some_and(|c| self.is_near(&c));
         let is_left = |&k: &usize| self.light[k] == Light::Waiting && !is_told(k);
         (0..self.light.len()).into_par_iter().filter(is_left).collect()
     }
 
-    /// Whether a plane is continued no farther than is allowed.
+    /// Whether the texel is near enough to the centroid of its plane.
     fn is_near(&self, continued: &Continued) -> bool {
         continued.beyond <= self.fineness.most_beyond()
     }
 
-    /// Continues light to the texels that are left.
+    /// Interpolates light to the remaining texels, then smooths noisy ones.
     fn finish(&mut self) {
         let parts = self.parts(self.fineness.widest / 2).into_par_iter();
         let continued: Vec<(usize, IndirectReading)> =
@@ -463,7 +470,7 @@ impl<'a> Net<'a> {
         }
     }
 
-    /// Light of the texels of a part that are left, as far as it can be continued.
+    /// The light of the remaining texels of a part, as far as it can be interpolated.
     fn told_of(&self, part: Range<usize>) -> Vec<(usize, IndirectReading)> {
         let found = self.found_about(&part);
         if self.is_cut_short && found.is_none() {
@@ -480,7 +487,8 @@ impl<'a> Net<'a> {
         part.filter(|&k| self.light[k] == Light::Waiting).filter_map(told).collect()
     }
 
-    /// Light of a texel by a plane through many of the nearest that were gathered; nothing where it is quiet.
+    /// The light of a noisy texel by a plane through many of its nearest gathered texels; `None` where noise
+    /// is low.
     fn smoothed(&self, k: usize) -> Option<IndirectReading> {
         let (Light::Gathered(own, _) | Light::Continued(own)) = self.light[k] else { return None };
         let Fineness { smoothed_above, smoothed_to, .. } = self.fineness;
@@ -493,7 +501,7 @@ impl<'a> Net<'a> {
         self.keep_seen(k, &mut about);
         let mut by = |count: f64| {
             let last = about.len().checked_sub(1)?.min(count as usize);
-            // The last one has no weight, so that who comes and goes at the rim is not to be seen.
+            // The last texel has weight zero, so texels that enter or leave at the rim cause no step.
             let reach = about[last].away_squared() + 1.0;
             for node in &mut about[..=last] {
                 node.weight = (1.0 - node.away_squared() / reach).max(0.0).powi(2);
@@ -508,21 +516,21 @@ impl<'a> Net<'a> {
         Some(IndirectReading { error_lx, ..reading })
     }
 
-    /// Light of a texel by a plane through what was gathered about it; nothing if too little was.
+    /// The light of a texel by a plane through the gathered texels about it; `None` if they are too few.
     fn continued(&self, k: usize) -> Option<Continued> {
         let mut about: Vec<Node> = self.nodes_about(k).filter(|node| node.weight > 0.0).collect();
         self.keep_seen(k, &mut about);
         plane(&about)
     }
 
-    /// The same; nothing if none of what lies nearest is seen.
+    /// The light of a texel by such a plane; `None` if it sees none of the nearest gathered texels.
     fn continued_in_sight(&self, k: usize) -> Option<Continued> {
         let about: Vec<Node> = self.nodes_about(k).filter(|node| node.weight > 0.0).collect();
         sight::nearest_seen(&about, self.seen_from(k))?;
         self.continued(k)
     }
 
-    /// Keeps what nothing parts from a texel.
+    /// Keeps the gathered texels that no obstacle separates from a texel.
     fn keep_seen(&self, k: usize, about: &mut Vec<Node>) {
         let square = |k: usize| square(self.wanted[k].at, self.fineness.widest);
         let are_near = |a: usize, b: usize| {
@@ -532,13 +540,13 @@ impl<'a> Net<'a> {
         self.parted.keep_seen(about, self.seen_from(k), are_near);
     }
 
-    /// Whether a texel sees one that was gathered.
+    /// Whether a texel sees a gathered one.
     fn seen_from(&self, k: usize) -> impl Fn(&Node) -> bool {
         let own = self.wanted[k].number;
         move |node| node.index == k || (self.sight)(own, self.wanted[node.index].number)
     }
 
-    /// What was gathered about a texel.
+    /// The gathered texels about a texel, with their weights.
     fn nodes_about(&self, k: usize) -> impl Iterator<Item = Node> + '_ {
         let at = self.wanted[k].at;
         let (reach, soft) = (self.fineness.reach(), self.fineness.soft());
@@ -555,12 +563,12 @@ impl<'a> Net<'a> {
     }
 }
 
-/// The square of a size that a texel lies in.
+/// The square of a given width that contains a texel.
 fn square(at: [usize; 2], size: usize) -> [usize; 2] {
     at.map(|c| c / size)
 }
 
-/// Order within the widest squares, such that every square within is in one piece.
+/// The Morton order of a texel within its widest square, in which every smaller square is contiguous.
 fn within([x, y]: [usize; 2]) -> usize {
     (0..8).map(|bit| ((x >> bit & 1) << (2 * bit)) | ((y >> bit & 1) << (2 * bit + 1))).sum()
 }

@@ -1,43 +1,44 @@
-//! Planes through what was gathered.
+//! Weighted least-squares planes through gathered texels.
 
 use crate::engine::IndirectReading;
 use crate::engine::mesh::corrected;
 use crate::units::Rgb;
 
-/// Planes lean by no more than what the spread of their places tells: this share of it is added both ways.
+/// The regularization of a plane's slope: the share of the total variance of the texels' places that is added
+/// in both directions.
 const STIFFNESS: f64 = 0.1;
-/// Sum of the shares of a plane, taken as positive, beyond which it is a guess.
+/// The largest sum of absolute weights of a plane; beyond it the value is a guess.
 const MOST_SHARES: f64 = 3.0;
 
-/// A texel that was gathered, near another.
+/// A gathered texel near another.
 pub(super) struct Node {
-    /// In the order of squares.
+    /// Its index in the order of the net.
     pub(super) index: usize,
-    /// From that, texels.
+    /// Its offset from the other, texels.
     pub(super) off: [f64; 2],
     pub(super) weight: f64,
     pub(super) reading: IndirectReading,
-    /// Square of how it differed from what was expected, lx2.
+    /// The square of its difference from its prediction, lx2.
     pub(super) squared: f64,
 }
 
 impl Node {
-    /// Square of the distance, texels squared.
+    /// The square of the distance, texels squared.
     pub(super) fn away_squared(&self) -> f64 {
         self.off[0] * self.off[0] + self.off[1] * self.off[1]
     }
 }
 
-/// Light of a plane.
+/// The light of a plane at a texel.
 pub(super) struct Continued {
     pub(super) reading: IndirectReading,
-    /// Squares of differences, each as far as the plane leans on where it was found, lx2.
+    /// The squared differences of the texels, weighted by the absolute weights of the plane, lx2.
     pub(super) squared: f64,
-    /// How far from the texel the middle of what it was continued from is, texels.
+    /// The distance of the texel from the weighted centroid of the others, texels.
     pub(super) beyond: f64,
 }
 
-/// The value at nought of a plane through weighted readings.
+/// The value of a plane through weighted readings at the texel itself.
 pub(super) fn plane(about: &[Node]) -> Option<Continued> {
     if about.len() < 2 {
         return None;
@@ -50,7 +51,7 @@ pub(super) fn plane(about: &[Node]) -> Option<Continued> {
         about.iter().map(one).sum::<f64>() / total
     };
     let (xx, xy, yy) = (spread(0, 0), spread(0, 1), spread(1, 1));
-    // A row of places tells nothing of the way across: the plane is level there.
+    // A row of texels says nothing of the slope across it, so the plane is level in that direction.
     let stiff = STIFFNESS * (xx + yy);
     let (xx, yy) = (xx + stiff, yy + stiff);
     let determinant = xx * yy - xy * xy;

@@ -1,30 +1,34 @@
-//! Which of the texels that were gathered may lend their light to one: a thin wall that stands on a floor parts two rooms, and what is
-//! gathered in one tells nothing of the other.
+//! The choice of gathered texels that a texel may be interpolated from. A thin wall on a floor separates two
+//! rooms, and readings in one say nothing of the other.
 
 use super::plane::Node;
 use crate::engine::IndirectReading;
 use std::collections::HashSet;
 
-/// Light that differs by no more than this share of the greater is alike: it may come from behind something, like the leg of a table.
+/// The relative difference up to which light counts as alike. It may come from behind something thin, like
+/// the leg of a table.
 const UNEVEN: f64 = 0.2;
-/// Where that is noisy it may differ by so many standard deviations, but by no more than this share.
+/// The difference up to which noisy light counts as alike, in standard deviations.
 const DEVIATIONS: f64 = 2.0;
+/// The largest relative difference of noisy light that counts as alike.
 const MOST_UNEVEN: f64 = 0.5;
-/// Where none of so many of the nearest is seen nothing is lent.
+/// The number of nearest texels tested for visibility. If the texel sees none of them, it is not
+/// interpolated.
 const MOST_TRIED: usize = 16;
 
-/// Pairs of texels that were gathered, the lower first, whose light is not alike and which do not see each other.
+/// Pairs of gathered texels, the lower first, that differ in light and do not see each other.
 #[derive(Debug, Default)]
 pub(super) struct Parted(HashSet<[usize; 2]>);
 
 impl Parted {
-    /// Takes in those of a texel that was gathered.
+    /// Adds the pairs of a gathered texel.
     pub(super) fn add(&mut self, one: usize, others: impl Iterator<Item = usize>) {
         self.0.extend(others.map(|other| [one.min(other), one.max(other)]));
     }
 
-    /// Keeps what the nearest that is seen from a texel sees, or has light like it: few rays tell of all. Where all is alike nobody
-    /// looks. What does not lie near to that one was not looked at from there: it is to be seen from the texel itself.
+    /// Keeps the nodes whose light is like that of the nearest visible one, or that it sees; so few rays
+    /// decide for all. If all light is alike, no ray is traced. Visibility from the nearest was tested only
+    /// close to it; nodes farther off must be visible from the texel itself.
     pub(super) fn keep_seen(
         &self,
         nodes: &mut Vec<Node>,
@@ -47,7 +51,7 @@ impl Parted {
     }
 }
 
-/// The nearest that is seen.
+/// The nearest visible node.
 pub(super) fn nearest_seen(nodes: &[Node], is_seen: impl Fn(&Node) -> bool) -> Option<&Node> {
     let mut nearest: Vec<&Node> = nodes.iter().collect();
     let by_distance = |a: &&Node, b: &&Node| {
