@@ -1,5 +1,5 @@
-//! Caustics: light that reaches diffuse surfaces over specular ones that virtual luminaires do not
-//! cover, carried by particles.
+//! Caustics: light that reaches diffuse surfaces over specular ones without virtual luminaires, carried by
+//! particles.
 
 use super::tally::Tally;
 use crate::engine::particle::Flights;
@@ -9,18 +9,18 @@ use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// What particles have brought.
+/// Caustics from particles.
 pub(crate) struct Caustics {
-    /// Illuminance at the vertices that indirect light lives on.
+    /// The illuminance at the vertices that indirect light lives on, lx.
     pub(crate) light: Vec<Rgb>,
-    /// The means about them, which are nowhere less than nothing: what is reflected on.
+    /// The mean illuminance about these vertices, lx, nowhere negative. Further reflections start from it.
     pub(crate) means: Vec<Rgb>,
-    /// What it lacks in the parts of elements that are checked, lx.
+    /// The caustics that the vertices lack in the checked parts of elements, lx.
     pub(crate) lacking: Vec<f64>,
     pub(crate) effort: Effort,
 }
 
-/// Caustics by so many particles.
+/// Caustics from `count` particles.
 pub(crate) fn deposit(plan: &Plan, count: u32, key: Key) -> Caustics {
     let nothing = |effort: Effort| Caustics {
         light: vec![Rgb::BLACK; plan.mesh.indirect_vertices],

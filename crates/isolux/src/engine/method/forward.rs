@@ -1,8 +1,8 @@
-//! `forward`: particles from the luminaires, reflected until absorbed, counted where they arrive.
+//! `forward`: particles from the luminaires, reflected until absorbed, and counted where they arrive.
 //!
-//! The way of Inspirer (Kopylov, Khodulev, Volevich 1998). An increment is a range of particles with
-//! its own randomization; increments share nothing random. Caustics, which few of them find, are left to particles of their own,
-//! sent where they are made.
+//! The method follows Inspirer (Kopylov, Khodulev, Volevich 1998). An increment is a range of particles with
+//! its own randomization; increments share nothing random. Few of these particles find caustics, so separate
+//! particles are aimed at the surfaces that cause them.
 
 use super::caustics;
 use super::tally::Tally;
@@ -15,27 +15,29 @@ use crate::sampling::{Key, Sequence};
 use crate::scene::Body;
 use rayon::prelude::*;
 
-/// Particles of an increment for every vertex, within limits.
+/// The number of particles per vertex in an increment.
 const PARTICLES_A_VERTEX: usize = 8;
+/// The least number of particles in an increment.
 const FEWEST: usize = 1 << 14;
+/// The largest number of particles in an increment.
 const MOST: usize = 1 << 20;
 
 const DIRECT: usize = 0;
 const INDIRECT: usize = 1;
 
-/// The engine, ready for increments.
+/// The method, ready for increments.
 pub(crate) struct Forward<'p, 's> {
     plan: &'p Plan<'s>,
     emission: Emission<'s>,
     particles: u32,
-    /// For caustics.
+    /// The number of particles for caustics per increment.
     of_caustics: u32,
     scatterings: u32,
     key: Key,
 }
 
 impl<'p, 's> Forward<'p, 's> {
-    /// With particles in proportion to the vertices.
+    /// The method with particles in proportion to the vertices.
     pub(crate) fn new(plan: &'p Plan<'s>, emission: Emission<'s>, target: f64, seed: u64) -> Self {
         let particles = (PARTICLES_A_VERTEX * plan.mesh.indirect_vertices).clamp(FEWEST, MOST);
         let particles = particles.next_power_of_two() as u32;
@@ -44,7 +46,7 @@ impl<'p, 's> Forward<'p, 's> {
         Self { plan, emission, particles, of_caustics, scatterings, key }
     }
 
-    /// Adds increment `index`, and what the map of it lacks in parts of elements.
+    /// Adds increment `index`, and the caustics that its map lacks in parts of elements.
     pub(crate) fn increment(
         &self,
         index: u64,
@@ -69,7 +71,7 @@ impl<'p, 's> Forward<'p, 's> {
             indirect: indirect[k],
             passed_on: 0.0,
         }));
-        // What is given up on the way of a caustic is so among these particles, too.
+        // Flux given up on the way to caustics is counted by these particles already.
         Effort { rays: rays + of_caustics.effort.rays, given_up_lx: tally.given_up_lx() }
     }
 
@@ -98,8 +100,8 @@ impl<'p, 's> Forward<'p, 's> {
     }
 }
 
-/// Which light it is; none of its own where it is a caustic. What little luminaires and their images leave out where nothing makes
-/// caustics comes along.
+/// The quantity that a particle adds to; `None` for caustics, which have particles of their own. Where
+/// nothing makes caustics, the little light beyond luminaires and their images counts as direct.
 fn part(particle: &Particle, lighting: &Lighting) -> Option<usize> {
     if particle.diffused {
         return Some(INDIRECT);

@@ -1,8 +1,9 @@
-//! `hybrid`: exact direct light, gathered indirect light with a shared tail, particles for caustics.
+//! `hybrid`: direct light exact, indirect light by final gathering with a shared fixed point, caustics by
+//! particles.
 //!
-//! An increment is a whole replicate: its own random rays, its own operator, its own fixed point, on
-//! the elements that the pilot has fixed. Replicates share nothing random, so their spread tells the
-//! error of their mean.
+//! An increment is an independent replicate on the elements that the pilot has fixed: it has its own random
+//! rays, operator and fixed point. Replicates share nothing random, so their spread gives the error of their
+//! mean.
 
 use super::caustics::{self, Caustics};
 use crate::ablation::without;
@@ -21,76 +22,85 @@ use rayon::prelude::*;
 use std::collections::VecDeque;
 use std::time::Instant;
 
-/// What the last sweep of the fixed point may change, once all surfaces have reflected that, as a share of the accuracy asked for:
-/// all increments start from one guess, so that what is left of it does not average out.
+/// The largest change in the last sweep of the fixed point after all its reflections, as a share of the
+/// accuracy goal. All increments start from one guess, so a remainder of it does not average out.
 const UNSETTLED: f64 = 0.03;
-/// Coarser accuracies count as this: where walls take the noise off, what is left of the guess would be more than all noise.
+/// The coarsest accuracy that this share is taken of. Where the control variate removes noise, the remainder
+/// of the guess would else exceed all noise.
 const COARSEST: f64 = 0.01;
-/// The least share of light that is taken to be absorbed.
+/// The least absorptance assumed for that bound.
 const LEAST_ABSORBED: f64 = 1e-3;
 
-/// Increments are made ahead of being asked for as long as they have no more rays together.
+/// The most rays that increments made ahead have together.
 const RAYS_AHEAD: u64 = 1 << 19;
 
-/// Rays of a vertex that tell what readings have in common, one of so many that memory is there for at most; and means over the
-/// elements about it, one after the other.
+/// The number of rays per vertex that measure the error which readings have in common.
 pub(crate) const READERS: u32 = 16;
+/// The divisor of the memory limit of rays per vertex that gives the limit of these rays.
 const OF_READERS: u32 = 4;
+/// The number of passes that average over the elements about each vertex.
 const SMOOTHINGS: u32 = 4;
 
-/// With no fewer rays a receiver, or in all, it is tried where they are noisy: with so many of a net, of so many receivers first.
+/// The number of rays per receiver from which a trial looks for noisy receivers.
 const WORTH_TRYING: f64 = 32.0;
+/// The number of rays in all from which a trial looks for noisy receivers.
 const WORTH_TRYING_ANY: f64 = 262_144.0;
+/// The largest number of rays of a receiver in such a trial.
 const RAYS_TRIED: u32 = 8;
+/// The number of receivers in the first round of such a trial.
 const TRIED_FIRST: usize = 1024;
+/// The factor on the number of receivers from round to round.
 const TRIED_NEXT: usize = 4;
-/// Noise, of what was thought, from which on it is worth it: the run will not end when it should.
+/// The ratio of measured to expected noise from which sharing rays anew pays: the run would not end in time.
 const MORE_THAN_THOUGHT: f64 = 1.5;
-/// Powers of two that rays are multiplied by at most, if that shows more noise than was thought. If less, they stay: what housings
-/// of lamps err by is passed on, so that there is more than receivers alone tell.
+/// The largest power of two that the rays are multiplied by if the trial shows more noise than expected. They
+/// are never fewer: noise inside housings of lamps is passed on to others, so receivers alone show too little
+/// of it.
 const MORE: f64 = 4.0;
 
-/// One receiver in so many is tried to tell how long an increment takes.
+/// One receiver in this many is timed for the duration of an increment.
 const TRIED: usize = 64;
 
-/// The engine, ready for increments.
+/// The method, ready for increments.
 pub(crate) struct Hybrid<'p, 's> {
     plan: &'p Plan<'s>,
     check_direct: DirectThere,
     rows: Vec<Gatherer>,
-    /// Of every place where the mean of an element is measured: as many as vertices have, or there would be more noise there.
+    /// The number of rays at each place where the mean of an element is measured. It is that of vertices, so
+    /// these places are no noisier.
     rays_of_means: u32,
-    /// Check points, then the vertices that gather for the bare map.
+    /// The check points, then the vertices that gather for the bare map.
     fresh_rows: Vec<Gatherer>,
-    /// Few rays of every vertex, the same for all increments.
+    /// A few rays of every vertex, the same in all increments.
     reader: Operator,
-    /// Vertices of the elements that indirect light lives on.
+    /// The vertices of the elements that indirect light lives on.
     corners: Vec<[u32; 3]>,
-    /// What rays read of direct light, where they read it.
+    /// The residual of direct light between vertices, where rays read direct light.
     kept: Option<DirectResidual>,
-    /// For caustics.
+    /// The number of particles for caustics per increment.
     particles: u32,
-    /// Accuracy that the increments are for.
+    /// The accuracy goal of the increments.
     goal: f64,
     key: Key,
-    /// Increments made ahead, in order.
+    /// The increments made ahead, in order.
     ahead: VecDeque<Increment>,
 }
 
-/// What an increment has found.
+/// The result of an increment.
 pub(crate) struct Increment {
-    /// At the vertices.
+    /// The light at the vertices.
     pub(crate) receivers: Vec<Sample>,
-    /// For the sums of the check points.
+    /// The samples for the sums of the check points.
     pub(crate) checks: Vec<Sample>,
-    /// What caustics lack in parts of elements, lx.
+    /// The caustics that the map lacks in parts of elements, lx.
     pub(crate) lacking: Vec<f64>,
     pub(crate) effort: Effort,
 }
 
 impl<'p, 's> Hybrid<'p, 's> {
-    /// With so many gathering rays in every increment for each vertex that is not hidden, or others that serve as well, and so
-    /// many particles; for an accuracy, and with the rays halved so many times. Memory is there for `most` rays of a vertex.
+    /// The method with about `rays` gathering rays per increment and visible vertex and `particles`
+    /// particles, for an accuracy goal. The rays are halved `halvings` times. Memory allows `most` rays per
+    /// vertex.
     pub(crate) fn new(
         plan: &'p Plan<'s>,
         checks: &[Check],
@@ -144,12 +154,12 @@ impl<'p, 's> Hybrid<'p, 's> {
         }
     }
 
-    /// Variance of direct light as readings evaluate it, lx2, that all increments have in common.
+    /// The variance of direct light in readings that all increments have in common, lx2.
     pub(crate) const fn noise_of_direct_lx2(&self) -> f64 {
         self.check_direct.noise_lx2
     }
 
-    /// Time that an increment takes, s, roughly: a part of its receivers is tried.
+    /// The approximate duration of an increment, s, from a part of its receivers.
     pub(crate) fn pace_s(&self) -> f64 {
         let started = Instant::now();
         let lighting = self.plan.lighting;
@@ -167,7 +177,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         started.elapsed().as_secs_f64() * TRIED as f64
     }
 
-    /// Rays of a vertex in an increment; none where it does not gather.
+    /// The number of rays of a vertex in an increment; zero where it does not gather.
     pub(crate) fn rays_of(&self, vertex: usize) -> u32 {
         let is_for_bare =
             || self.plan.mesh.gathering_for_bare.binary_search(&(vertex as u32)).is_ok();
@@ -175,9 +185,9 @@ impl<'p, 's> Hybrid<'p, 's> {
         self.rows.get(vertex).map_or_else(beyond, |row| row.rays)
     }
 
-    /// Increment `index`; `None` if its deadline passes meanwhile. Where increments are small, those that will be asked for
-    /// in any case are made beside it, if they are whole by a deadline of their own: alone they would keep threads waiting for
-    /// each other.
+    /// Increment `index`; `None` if its deadline passes meanwhile. Small increments that will be needed
+    /// anyway are made beside it, if they are complete by a deadline of their own. One small increment alone
+    /// would leave threads idle.
     pub(crate) fn increment(
         &mut self,
         index: u64,
@@ -199,7 +209,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         self.ahead.pop_front()
     }
 
-    /// How many increments are made already that were not asked for.
+    /// The number of increments made ahead.
     pub(crate) fn ahead(&self) -> u64 {
         self.ahead.len() as u64
     }
@@ -235,7 +245,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         let gathered = fit.read(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&reflected_on).map(|(&e, &c)| e + c).collect();
         let passed_on = self.passed_on(&light);
-        // As readers gather.
+        // Check points gather as readers do.
         let gathering = Gathering { regathers: true, ..gathering };
         let fresh = gathering.operator(&self.fresh_rows, |row| key.with(3).with(row as u64));
         let fresh_light = fresh.apply(&light);
@@ -249,7 +259,7 @@ impl<'p, 's> Hybrid<'p, 's> {
             Sample { direct: direct[k], caustic: caustic[k], indirect: indirect[k], passed_on }
         };
         let receivers = (0..direct.len()).map(vertex).collect();
-        // Rays given up would have seen what others see.
+        // Rays given up are taken to have seen the mean light.
         let unseen_lx = operator.given_up() * plan.light.reference_lx;
         let effort = Effort {
             rays: operator.rays + fresh.rays + particles.rays,
@@ -258,9 +268,9 @@ impl<'p, 's> Hybrid<'p, 's> {
         Some(Increment { receivers, checks, lacking, effort })
     }
 
-    /// What rays that are always the same read at the vertices of the light of an increment: as that differs from increment to
-    /// increment, so does what is read of their mean by any rays, and close by in the same way. What few rays see more of than others
-    /// is taken out by means over the elements about every vertex.
+    /// The light of an increment that fixed rays read at the vertices. Its variation between increments is
+    /// the error that all readings of their mean share nearby. Means over the elements about every vertex
+    /// even out the views of few rays.
     fn passed_on(&self, light: &[Rgb]) -> Vec<f64> {
         let plan = self.plan;
         let mut passed_on = self.reader.reflected(light);
@@ -287,7 +297,8 @@ impl<'p, 's> Hybrid<'p, 's> {
     }
 }
 
-/// What rays read of the light of an increment: values of best fit, moved so that elements have the mean that was measured.
+/// The light of an increment as rays read it: vertex values of best fit, shifted to the measured means of the
+/// elements.
 struct Fitted<'a> {
     plan: &'a Plan<'a>,
     places: &'a MeanPlaces,
@@ -315,19 +326,20 @@ impl Fitting for Fitted<'_> {
     }
 }
 
-/// Whether it is tried where so many rays of so many receivers are noisy.
+/// Whether a trial for noisy receivers pays.
 fn is_worth_trying(rows: usize, rays: f64) -> bool {
     rays >= WORTH_TRYING || rays * rows as f64 >= WORTH_TRYING_ANY
 }
 
-/// Rays that tell that of some of so many receivers.
+/// The number of rays of that trial.
 pub(crate) fn rays_tried(rows: usize, rays: f64) -> f64 {
     let tried = if is_worth_trying(rows, rays) { rows.min(TRIED_FIRST) } else { 0 };
     (tried as u32 * RAYS_TRIED * ray_trial::INCREMENTS as u32).into()
 }
 
-/// Receivers with their rays shared out anew where some are far noisier than others, as inside of housings of lamps, if there is more
-/// noise than the pilot thought and that leaves much less; and more in all if that is still more than so many of each should leave.
+/// The receivers, with rays shared anew where some are far noisier than others, as inside housings of lamps.
+/// They change only if there is more noise than the pilot expected and sharing leaves much less. If the
+/// remaining noise is still more than expected, the total number of rays grows.
 fn shared_by_noise(
     plan: &Plan,
     rows: Vec<Gatherer>,
@@ -349,7 +361,7 @@ fn shared_by_noise(
         allot_by_noise(&areas_m2, &variances_lx2, &rays)
             .filter(|shared| of_one * shared.before_lx > MORE_THAN_THOUGHT * thought_lx)
     };
-    // Where few tell that it may be worth it, more are asked before all are.
+    // The trial grows step by step while the receivers tried so far show that sharing may pay.
     let mut every = rows.len().div_ceil(TRIED_FIRST).max(1);
     let mut found = shared(every);
     while every > 1 && found.is_some() {
@@ -367,7 +379,7 @@ fn shared_by_noise(
     rows.into_iter().zip(shared.rays).map(with).collect()
 }
 
-/// Rays of vertices that read indirect light alone.
+/// A few rays of every vertex that read indirect light alone.
 fn reader(plan: &Plan, rows: &[Gatherer], (rays, key): (u32, Key)) -> Operator {
     let dark = vec![Rgb::BLACK; plan.mesh.elements.vertices().len()];
     let direct = DirectAtEnds::Read { values: &dark, level: u32::MAX };
@@ -376,7 +388,8 @@ fn reader(plan: &Plan, rows: &[Gatherer], (rays, key): (u32, Key)) -> Operator {
     gathering.operator(&few, |row| key.with(row as u64))
 }
 
-/// Direct light of an increment at vertices and check points: the plan's where it is measured once.
+/// The direct light of an increment at vertices and check points; that of the plan if it is measured once.
+/// `None` if the deadline passes.
 pub(crate) fn direct_light(
     plan: &Plan,
     (check_direct, checks): (&DirectThere, &[Check]),

@@ -1,4 +1,5 @@
-//! The methods: hybrid, forward, radiosity, cache; and the textbook path tracer beside them.
+//! The methods of computing a map: hybrid, forward, radiosity and cache; beside them the textbook path
+//! tracer.
 
 mod cache;
 mod caustics;

@@ -1,10 +1,10 @@
-//! Flux deposited on the vertices of a map.
+//! Deposits of flux on the vertices of a map.
 //!
-//! A particle gives its flux to the vertices of the element it hits, by their hat functions; divided
-//! by the integrals of the hats that is a mean of the illuminance about each vertex. The mean lags
-//! behind where the illuminance bends, and more so at borders, where a hat has one side only; one
-//! step of Van Cittert's deconvolution (twice the mean less the mean of the means) removes the first
-//! order of it and tells its size.
+//! A particle gives its flux to the vertices of the element that it hits, weighted by their hat functions.
+//! Divided by the integrals of the hats, this is a mean of the illuminance about each vertex. The mean is
+//! biased where the illuminance bends, and more so at borders, where a hat has one side only. One step of Van
+//! Cittert's deconvolution (twice the mean less the mean of the means) removes the first order of the bias
+//! and gives its size.
 
 use crate::engine::gather::known_weights;
 use crate::engine::judge::InterpolationErrors;
@@ -14,24 +14,24 @@ use crate::engine::ray::{Accumulator, Estimate, SurfacePoint};
 use crate::units::Rgb;
 use std::sync::atomic::{AtomicI64, Ordering};
 
-/// Flux of all particles of an increment in units of the fixed point. A particle deposits at most at
-/// every reflection; 2^14 times the flux of the luminaires would need a mean reflectance of 0.9999.
+/// The number of fixed-point units of the flux of all particles of an increment. A particle deposits at most
+/// its flux at every reflection; an overflow, 2^14 times that flux, would need a mean reflectance of 0.9999.
 const UNITS_OF_FLUX: f64 = (1u64 << 48) as f64;
 
-/// Deposits of one increment: integers, so the order of the particles does not matter.
+/// The deposits of one increment, in integers, so that the order of the particles does not matter.
 pub(crate) struct Tally<'p, 's> {
     plan: &'p Plan<'s>,
     hats: HatFunctions,
     parts: usize,
     units_per_lm: f64,
     flux: Vec<AtomicI64>,
-    /// What came to the parts of elements that are checked, all quantities together.
+    /// The flux in the checked parts of elements, all quantities together.
     came: Vec<AtomicI64>,
     given_up: AtomicI64,
 }
 
 impl<'p, 's> Tally<'p, 's> {
-    /// For `parts` separate quantities over the vertices that indirect light lives on.
+    /// A tally of `parts` separate quantities over the vertices that indirect light lives on.
     pub(crate) fn new(plan: &'p Plan<'s>, flux_lm: f64, parts: usize) -> Self {
         let zeros = |count: usize| (0..count).map(|_| AtomicI64::new(0)).collect();
         Self {
@@ -45,13 +45,13 @@ impl<'p, 's> Tally<'p, 's> {
         }
     }
 
-    /// Counts the flux of a particle that is not followed any longer.
+    /// Counts the flux of a particle that is given up.
     pub(crate) fn give_up(&self, flux_lm: Rgb) {
         let units = (flux_lm.luminance() * self.units_per_lm).round_ties_even() as i64;
         self.given_up.fetch_add(units, Ordering::Relaxed);
     }
 
-    /// The illuminance that the flux given up would bring, if it were spread over all surfaces, lx.
+    /// The illuminance of the flux given up, spread over all surfaces, lx.
     pub(crate) fn given_up_lx(&self) -> f64 {
         self.given_up.load(Ordering::Relaxed) as f64 / self.units_per_lm / self.plan.area_m2()
     }
@@ -76,7 +76,7 @@ impl<'p, 's> Tally<'p, 's> {
         }
     }
 
-    /// Mean illuminance about every vertex, lx.
+    /// The mean illuminance about every vertex, lx.
     pub(crate) fn means(&self, part: usize) -> Vec<Rgb> {
         let flux = |vertex: usize| {
             let first = (vertex * self.parts + part) * 3;
@@ -86,7 +86,7 @@ impl<'p, 's> Tally<'p, 's> {
         self.hats.means((0..self.plan.mesh.indirect_vertices).map(flux))
     }
 
-    /// What light at the vertices, of all quantities together, lacks in the parts of elements that are checked, lx.
+    /// The light that the vertices lack in the checked parts of elements, all quantities together, lx.
     pub(crate) fn lacking(&self, light: impl Fn(usize) -> Rgb) -> Vec<f64> {
         self.plan.errors.parts.lacking(
             |part| self.came[part].load(Ordering::Relaxed) as f64 / self.units_per_lm,
@@ -95,19 +95,19 @@ impl<'p, 's> Tally<'p, 's> {
         )
     }
 
-    /// Illuminance at the vertices, lx: the means, corrected.
+    /// The illuminance at the vertices after deconvolution, lx.
     pub(crate) fn illuminance(&self, part: usize) -> Vec<Rgb> {
         self.hats.corrected(&self.means(part))
     }
 }
 
-/// Of the elements that indirect light lives on.
+/// The hat functions of the elements that indirect light lives on.
 fn hats(plan: &Plan) -> HatFunctions {
     HatFunctions::new(&plan.mesh.subdivision, &plan.mesh.standings)
 }
 
-/// Errors of a map of particles beyond its noise: what the hats still blur, and what interpolation
-/// loses, both with the part that noise explains taken off. What parts of elements tell is left to them.
+/// The errors of a map of particles beyond its noise: the remaining blur and the interpolation error, both
+/// less the part that noise explains. Elements whose parts are checked are left out.
 pub(crate) fn errors(plan: &Plan, sums: &Accumulator) -> InterpolationErrors {
     let estimates: Vec<Estimate> =
         (0..plan.mesh.indirect_vertices).map(|k| sums.estimate(k)).collect();
@@ -118,7 +118,7 @@ pub(crate) fn errors(plan: &Plan, sums: &Accumulator) -> InterpolationErrors {
     InterpolationErrors { indirect_lx, total_lx, ..InterpolationErrors::default() }
 }
 
-/// What a quantity at vertices errs by in the root mean square, beyond its noise: by blur and by details.
+/// The root mean square error of a quantity at vertices beyond its noise, from blur and details, lx.
 fn error_lx(
     plan: &Plan,
     estimates: &[Estimate],
@@ -130,7 +130,7 @@ fn error_lx(
     (blur_squared(plan, &values, &variances) + detail_squared(plan, &values, &variances)).sqrt()
 }
 
-/// Mean square of what one more step of the correction would change: what is left of the blur.
+/// The mean square of the change that one more step of the deconvolution would make, lx2: the remaining blur.
 fn blur_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let hats = hats(plan);
     let blurred = hats.blur(values);
@@ -144,19 +144,19 @@ fn blur_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
         if is_checked[k] {
             continue;
         }
-        // A vertex has half its weight in its own mean, its neighbours share the rest: noise of
-        // independent vertices makes a quarter of the variance, and a little more.
+        // A vertex has half the weight in its own mean; its neighbours share the rest. So noise of
+        // independent vertices contributes a quarter of the variance and a little more.
         sum += m2 * (change * change - 0.3 * variances[k]);
     }
     if area > 0.0 { (sum / area).max(0.0) } else { 0.0 }
 }
 
-/// Mean square of the interpolation error from the details of the means.
+/// The mean square interpolation error, from details, lx2.
 fn detail_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
     let known: Vec<Option<f64>> =
         (0..values.len()).map(|k| plan.is_open(k as u32).then_some(values[k])).collect();
     let (mut area, mut sum) = (0.0, 0.0);
-    // Particles come to all vertices.
+    // Particles reach all vertices, so all of them carry light.
     let (carriers, no) = (Carriers::all(), |_, _| false);
     let details = Details::of(&plan.mesh.subdivision, &plan.mesh.elements, &known, &carriers, no);
     for error in details.leaf_errors(|_| None, |_| false, |_, _| false) {
@@ -166,8 +166,8 @@ fn detail_squared(plan: &Plan, values: &[f64], variances: &[f64]) -> f64 {
         if plan.errors.parts.has(error.node) {
             continue;
         }
-        // A detail of three independent values has one and a half times their variance, of which
-        // the estimate takes the square of 0.3; the largest of three details is twice that.
+        // A detail of three independent values has one and a half times their variance. The estimate takes
+        // the square of 0.3 of that; the largest of three details is twice as large.
         sum += error.squared() - error.area_m2 * 0.27 * noise;
     }
     if area > 0.0 { (sum / area).max(0.0) } else { 0.0 }

@@ -1,17 +1,17 @@
-//! The textbook way: path tracing at single places, the oracle of the engines.
+//! The reference: path tracing at single places, which checks the methods.
 //!
-//! At a place every luminaire is asked for its direct light. Indirect light is the mean of random
-//! paths (Kajiya 1986, "The rendering equation"): cosine-distributed, over specular surfaces to a
-//! diffuse one, where direct light is estimated once, and on from there with the chance of its
-//! reflectance. Where a lamp hangs close to a surface such paths seldom meet what it lights there, and are all wrong when none does; few
-//! luminaires therefore send light out as well: where it lands is looked at from every place of a path, weighted against
-//! paths that come there by chance by the balance heuristic (Veach and Guibas 1995).
+//! Direct light of every luminaire is evaluated at the place. Indirect light is the mean of random paths
+//! (Kajiya 1986, "The rendering equation"). A path starts cosine-distributed and passes specular surfaces up
+//! to a diffuse one. Direct light is estimated there once, and the path goes on with the probability of the
+//! reflectance. Where a lamp is close to a surface, few paths meet its light there, and the others are too
+//! dark. So few luminaires also send out light: its landing places are connected to every place of a path,
+//! and weighted against random hits by the balance heuristic (Veach and Guibas 1995).
 //!
-//! Light that glass, gloss and curved mirrors throw has no virtual luminaires. That of emitting surfaces is found by
-//! paths that meet these by chance; that of luminaires without surface by particles, whose first diffuse surface is looked at
-//! from every place of a path. No map is read and there are no elements, so nothing is biased but by what is left
-//! out: such light of luminaires without surface where it falls on the place itself, which no path can meet, and paths caught by
-//! more than 128 specular surfaces in a row.
+//! Light by way of glass, gloss and curved mirrors has no virtual luminaires. That of emitting surfaces is
+//! found by random hits. That of luminaires without surface is found by particles, whose first diffuse
+//! surface is connected to every place of a path. No map and no elements are used, so the only bias is the
+//! light left out: such light of luminaires without surface on the place itself, which no path can meet, and
+//! paths over more than 128 specular surfaces in a row.
 
 mod paths;
 
@@ -29,26 +29,26 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What paths have found at a place.
+/// The result of paths at a place.
 pub(crate) struct Traced {
-    /// One a replicate: direct and indirect light, lx.
+    /// Direct and indirect light of each replicate, lx.
     pub(crate) replicates: Vec<[Rgb; 2]>,
     /// The brightest of all paths, photometric, lx.
     pub(crate) brightest: Vec<f64>,
-    /// Rays followed, and shadow rays as far as their number is known.
+    /// The number of rays, with shadow rays as far as their number is known.
     pub(crate) rays: u64,
 }
 
-/// Shadow rays of a replicate to each emitting surface at the place itself.
+/// The number of shadow rays of a replicate to each emitting surface at the place itself.
 const SHADOW_RAYS: usize = 4;
 
 impl<'a> PathTracer<'a> {
-    /// Prepares the luminaires of a scene.
+    /// A path tracer; prepares the luminaires of the scene.
     pub fn new(scene: &'a Scene) -> Self {
         Self::with_lighting(scene, Arc::new(Lighting::new(scene)))
     }
 
-    /// The same with luminaires that are prepared already.
+    /// A path tracer with prepared luminaires.
     pub(crate) fn with_lighting(scene: &'a Scene, lighting: Arc<Lighting<'a>>) -> Self {
         let senders = Emission::new(scene).filter(|_| lighting.are_few_points());
         let leaves = lighting.leaves_caustics();
@@ -58,14 +58,14 @@ impl<'a> PathTracer<'a> {
         Self { scene, lighting, places: Places::of(scene), senders, over_specular, emitters }
     }
 
-    /// Whether there is light that paths leave out: caustics of luminaires without surface, where they fall on the place itself.
+    /// Whether some light is left out: caustics of luminaires without surface, on the place itself.
     pub fn leaves_caustics(&self) -> bool {
         self.over_specular.is_some()
     }
 
-    /// The illuminance at any point that faces any way, on a surface or not, with its standard error
-    /// from independent replicates, each of low-discrepancy points of its own. Caustics of luminaires without surface are left
-    /// out. Every place has random numbers of its own: errors of neighbours are independent.
+    /// The illuminance at any point that faces any way, on a surface or not. The standard error comes from
+    /// independent replicates, each with its own low-discrepancy points. Caustics of luminaires without
+    /// surface are left out. Every place has its own random numbers, so errors of neighbours are independent.
     pub fn estimate(&self, at: ProbePoint, settings: &ExactSettings) -> Illuminance {
         let start = self.start(at);
         let key = place_key(at.position).with(settings.seed);
@@ -96,14 +96,14 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// Shadow rays of a reading of direct light by a map, about.
+    /// The approximate number of shadow rays of direct light in one reading of a map.
     pub(crate) fn rays_of_reading(&self) -> u64 {
         let looks = if self.lighting.samples_exactly() { 1 } else { REPLICATES };
         u64::from(looks) * self.lighting.rays_of_sampled(SHADOW_RAYS)
     }
 
-    /// Light at a place of a surface by so many independent replicates of so many paths; direct light, too, is estimated anew by
-    /// each, unless it is exact.
+    /// The light at a place of a surface from independent replicates of `paths` paths each. Each replicate
+    /// estimates direct light anew, unless it is exact.
     pub(crate) fn traced(
         &self,
         at: &SurfacePoint,
@@ -143,7 +143,7 @@ impl<'a> PathTracer<'a> {
         )
     }
 
-    /// Direct light of all luminaires and the variance of its mean.
+    /// The direct light of all luminaires and the variance of its mean.
     fn direct(&self, at: &SurfacePoint, settings: &ExactSettings) -> Measured {
         let sequence = Sequence::new(place_key(at.point).with(settings.seed).with(u64::MAX));
         let shadow_rays = u64::from(settings.replicates.max(2)) * u64::from(settings.rays);
@@ -151,7 +151,7 @@ impl<'a> PathTracer<'a> {
     }
 }
 
-/// The emitting surfaces of a scene by triangle and side.
+/// The emitting surfaces of a scene, by triangle and side.
 fn emitters(scene: &Scene) -> HashMap<(u32, bool), LuminaireId> {
     let of_one = |(number, area): (u32, &crate::scene::AreaLuminaire)| {
         let back = area.back;

@@ -1,4 +1,4 @@
-//! Single paths.
+//! Single paths of the path tracer.
 
 use crate::engine::gather::Gatherer;
 use crate::engine::light::{Emission, Lighting, LuminaireId, MirrorChain, Particle};
@@ -14,31 +14,31 @@ use std::f64::consts::PI;
 use std::ops::AddAssign;
 use std::sync::Arc;
 
-/// Greatest chance of a further reflection, so that paths end between surfaces that absorb nothing.
+/// The largest probability of a further reflection, so that paths end between surfaces that absorb nothing.
 const MOST_LIKELY: f64 = 0.99;
 
-/// The brightest paths of a place that are told.
+/// The number of brightest paths that a place reports.
 pub(super) const BRIGHTEST: usize = 8;
 
-/// Estimates illuminance at places of a scene, without a map.
+/// A path tracer: it estimates the illuminance at places of a scene without a map.
 pub struct PathTracer<'a> {
     pub(super) scene: &'a Scene,
     pub(super) lighting: Arc<Lighting<'a>>,
     pub(super) places: Places<'a>,
-    /// Luminaires that send out light straight, if they do.
+    /// The luminaires that also send out light directly; `None` if they do not.
     pub(super) senders: Option<Emission<'a>>,
-    /// All luminaires, where some without surface send light over specular surfaces that no virtual luminaires stand for.
+    /// All luminaires, if some without surface send light over specular surfaces without virtual luminaires.
     pub(super) over_specular: Option<Emission<'a>>,
-    /// Emitting surfaces by triangle and side, where paths may meet them over such surfaces.
+    /// The emitting surfaces that paths may meet over such specular surfaces, by triangle and side.
     pub(super) emitters: HashMap<(u32, bool), LuminaireId>,
 }
 
-/// Light that paths bring to a place, lx.
+/// The light that paths bring to a place, lx.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Brought {
-    /// Without diffuse reflection, over specular surfaces that no virtual luminaires stand for.
+    /// Light without diffuse reflection, over specular surfaces without virtual luminaires.
     pub(super) caustic: Rgb,
-    /// After at least one diffuse reflection.
+    /// Light after at least one diffuse reflection.
     pub(super) indirect: Rgb,
 }
 
@@ -49,11 +49,11 @@ impl AddAssign for Brought {
     }
 }
 
-/// What the paths of a replicate have found together.
+/// The sum of the paths of a replicate.
 #[derive(Default)]
 pub(super) struct Paths {
     pub(super) sum: Brought,
-    /// The brightest of them, photometric, lx.
+    /// The brightest paths, photometric, lx.
     pub(super) brightest: Vec<f64>,
     pub(super) rays: u64,
 }
@@ -61,23 +61,23 @@ pub(super) struct Paths {
 /// A diffuse surface at the end of a ray.
 struct End {
     surface: SurfacePoint,
-    /// What of its illuminance comes back along the ray.
+    /// The share of its illuminance that comes back along the ray.
     share: Rgb,
-    /// How likely it was to be met, 1/m2; none of one that is met by way of mirrors.
+    /// The density of random hits there, 1/m2; `None` if it is met by way of specular surfaces.
     density: Option<f64>,
 }
 
-/// What a ray finds.
+/// The result of following a ray.
 #[derive(Default)]
 struct Found {
     ends: Vec<End>,
-    /// The light of emitting surfaces that no virtual luminaires stand for, lx at its start.
+    /// The light of emitting surfaces without virtual luminaires, as illuminance at the start of the ray, lx.
     shining: Rgb,
     rays: u64,
 }
 
 impl PathTracer<'_> {
-    /// So many paths from a place, of one sequence.
+    /// The sum of `count` paths from a place, with points of one sequence.
     pub(super) fn replicate(&self, start: Gatherer, key: Key, count: u32) -> Paths {
         let sequence = Sequence::new(key);
         let mut all = Paths::default();
@@ -90,11 +90,11 @@ impl PathTracer<'_> {
         all
     }
 
-    /// What one path brings, and its rays.
+    /// The light of one path, and its number of rays.
     fn path(&self, start: Gatherer, dice: &mut Dice) -> (Brought, u64) {
         let mut light = Brought::default();
         let mut rays = 0;
-        // A surface that is both diffuse and a mirror divides a path.
+        // A surface that is both diffuse and a mirror splits a path.
         let mut waiting = vec![(start, Rgb::WHITE, true)];
         while let Some((from, throughput, is_first)) = waiting.pop() {
             if let Some(senders) = &self.senders {
@@ -109,7 +109,8 @@ impl PathTracer<'_> {
             let found = self.follow(&from, dice);
             rays += found.rays;
             match is_first {
-                // Beside caustics of luminaires without surface, which paths cannot meet, they are part of what is left out.
+                // Where caustics of luminaires without surface are left out, those of emitting surfaces are
+                // left out of the place itself, too.
                 true if self.over_specular.is_some() => {}
                 true => light.caustic += found.shining,
                 false => light.indirect += throughput * found.shining,
@@ -118,7 +119,7 @@ impl PathTracer<'_> {
                 let throughput = throughput * share;
                 let direct_lx = self.lighting.estimate(&surface, dice);
                 rays += self.lighting.rays_of_estimate();
-                // Where no light lands, a ray may end that could hardly come there, too.
+                // Without direct light the weight is one; both densities may be zero there.
                 let lit = self.senders.as_ref().filter(|_| !direct_lx.is_black());
                 let met = lit.zip(density).map_or(1.0, |(senders, by_chance)| {
                     by_chance / (by_chance + senders.landing(direct_lx))
@@ -135,7 +136,7 @@ impl PathTracer<'_> {
         (light, rays)
     }
 
-    /// What a place gets from where a luminaire has sent some of its light straight, lx.
+    /// The indirect light at a place from the landing place of light that a luminaire sends out directly, lx.
     fn sent(&self, senders: &Emission, from: &Gatherer, dice: &mut Dice) -> Rgb {
         let landed = senders.emit(dice).and_then(|sent| self.scene.bvh().closest_hit(&sent.ray));
         let Some(surface) = landed.map(|hit| SurfacePoint::from_hit(self.scene, &hit)) else {
@@ -150,8 +151,8 @@ impl PathTracer<'_> {
         reflectance * direct_lx * (by_chance / (by_chance + senders.landing(direct_lx)))
     }
 
-    /// What a place gets from where a luminaire without surface has sent some of its light over specular surfaces that no virtual
-    /// luminaires stand for, lx, and the rays that took.
+    /// The indirect light at a place from light that a luminaire without surface sends over specular surfaces
+    /// without virtual luminaires, lx, and the number of rays.
     fn sent_over_specular(
         &self,
         senders: &Emission,
@@ -181,8 +182,9 @@ impl PathTracer<'_> {
         (light, rays)
     }
 
-    /// How likely a cosine-distributed ray is to end at a place straight, 1/m2. Glass on the way counts as nothing: what is seen through it is not
-    /// dimmed, for what it would reflect besides.
+    /// The density of a cosine-distributed ray at a visible place, 1/m2; zero if the place is hidden or
+    /// black. Transparent surfaces on the way are ignored: light is not dimmed there, in place of the light
+    /// that they would reflect.
     fn seen(&self, from: &Gatherer, surface: &SurfacePoint) -> f64 {
         let by_chance = density(from, surface);
         let way = Ray::between(from.origin, surface.start()).skipping(from.surface.triangle);
@@ -190,7 +192,7 @@ impl PathTracer<'_> {
         if is_dark || self.scene.bvh().any_hit(&way) { 0.0 } else { by_chance }
     }
 
-    /// The diffuse surfaces that a cosine-distributed ray meets, and what shines on its way.
+    /// The diffuse surfaces that a cosine-distributed ray meets, and the emitted light on its way.
     fn follow(&self, from: &Gatherer, dice: &mut Dice) -> Found {
         let axis = from.normal.to_direction();
         let mut direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
@@ -198,8 +200,8 @@ impl PathTracer<'_> {
         let mut hit = self.scene.bvh().closest_hit(&ray);
         let mut chain = MirrorChain::default();
         let mut found = Found { rays: 1, ..Found::default() };
-        // Without the square of the index where the path is over that where it began: roulette must not
-        // end paths for being in a dense medium, which they may leave again.
+        // The throughput leaves out the squared ratio of the refractive index to that at the start. Russian
+        // roulette must not end paths in a dense medium, which they may leave again.
         let (mut throughput, mut luminance_of_start) = (Rgb::WHITE, 1.0);
         for number in 0..MAX_SPECULAR {
             let Some(at) = hit else { break };
@@ -224,7 +226,7 @@ impl PathTracer<'_> {
 }
 
 impl Found {
-    /// An opaque surface on the way, met with the throughput of luminance from there.
+    /// Adds an opaque surface that was met, with the throughput of luminance from there.
     fn meet(
         &mut self,
         tracer: &PathTracer,
@@ -237,7 +239,7 @@ impl Found {
         if let Some(&luminaire) = luminaire
             && !chain.is_covered_backwards(&tracer.lighting, luminaire)
         {
-            // Illuminance of cosine-distributed rays: pi times their mean luminance.
+            // The illuminance of cosine-distributed rays is pi times their mean luminance.
             self.shining += throughput * finish.luminance_cd_m2 * PI;
         }
         let reflectance = tracer.scene.diffuse_reflectance(finish, triangle, u, v);
@@ -259,7 +261,7 @@ impl Paths {
     }
 }
 
-/// How likely a cosine-distributed ray is to end at a place if nothing is between, 1/m2.
+/// The density of a cosine-distributed ray at a place if nothing stands between, 1/m2.
 fn density(from: &Gatherer, at: &SurfacePoint) -> f64 {
     let way = at.point - from.origin;
     let away = way.dot(from.normal.to_vector());
