@@ -15,7 +15,8 @@ use crate::units::Rgb;
 use std::sync::atomic::{AtomicI64, Ordering};
 
 /// The number of fixed-point units of the flux of all particles of an increment. A particle deposits at most
-/// its flux at every reflection; an overflow, 2^14 times that flux, would need a mean reflectance of 0.9999.
+/// its flux at every reflection; 2^14 times that flux, half of the range, would need a mean reflectance of
+/// 0.9999.
 const UNITS_OF_FLUX: f64 = (1u64 << 48) as f64;
 
 /// The deposits of one increment, in integers, so that the order of the particles does not matter.

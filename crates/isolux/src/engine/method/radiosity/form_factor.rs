@@ -1,12 +1,12 @@
-//! The form factor of a polygon as seen from a point, in closed form.
+//! The form factor of a triangle as seen from a point, in closed form.
 
 use isolux_geometry::{Point, Vector};
 use std::f64::consts::PI;
 
-/// The share of what a receiver sees, weighted by the cosine, that a triangle takes, nothing standing
-/// in between: of a surface of exitance M in the triangle comes the illuminance F M. Exact (Lambert
-/// 1760, "Photometria"; Baum, Rushmeier, Winget 1989); what lies below the horizon of the receiver is
-/// cut off first. Which side of the triangle is seen is not asked.
+/// The form factor F of a triangle without obstacles: the share of the cosine-weighted view of a receiver. A
+/// surface of exitance M in the triangle causes the illuminance F M. Exact (Lambert 1760, "Photometria";
+/// Baum, Rushmeier, Winget 1989); the part below the receiver's horizon is clipped first. Both sides of the
+/// triangle count.
 pub(super) fn form_factor(from: Point, normal: Vector, corners: [Point; 3]) -> f64 {
     let corners = corners.map(|corner| corner - from);
     let (polygon, count) = above_horizon(normal, corners);
@@ -18,7 +18,7 @@ pub(super) fn form_factor(from: Point, normal: Vector, corners: [Point; 3]) -> f
         let (a, b) = (polygon[k], polygon[(k + 1) % count]);
         let cross = a.cross(b);
         let length = cross.length();
-        // An edge in line with the receiver takes nothing.
+        // An edge in line with the receiver contributes nothing.
         if length > 0.0 {
             sum += cross.dot(normal) / length * libm::atan2(length, a.dot(b));
         }
@@ -26,7 +26,7 @@ pub(super) fn form_factor(from: Point, normal: Vector, corners: [Point; 3]) -> f
     sum.abs() / (2.0 * PI)
 }
 
-/// The part of a triangle above the plane through the origin: at most four corners.
+/// The part of a triangle above the plane through the origin, with at most four corners.
 fn above_horizon(normal: Vector, corners: [Vector; 3]) -> ([Vector; 4], usize) {
     let heights = corners.map(|corner| corner.dot(normal));
     let mut kept = [Vector::ZERO; 4];
@@ -59,8 +59,8 @@ mod tests {
         form_factor(Point::ORIGIN, UP, [a, b, c]) + form_factor(Point::ORIGIN, UP, [a, c, d])
     }
 
-    /// An element facing a parallel rectangle below its corner: Siegel and Howell, "Thermal Radiation
-    /// Heat Transfer".
+    /// The form factor from an element to a parallel rectangle with a corner above it: Siegel and Howell,
+    /// "Thermal Radiation Heat Transfer".
     fn parallel(a: f64, b: f64, c: f64) -> f64 {
         let (x, y) = (a / c, b / c);
         let term = |x: f64, y: f64| x / (1.0 + x * x).sqrt() * libm::atan(y / (1.0 + x * x).sqrt());
@@ -72,14 +72,14 @@ mod tests {
         for (a, b, c) in [(1.0, 1.0, 1.0), (3.0, 0.5, 2.0), (10.0, 10.0, 0.01)] {
             let at = |x: f64, y: f64| Point::new(x, y, c);
             let found = square([at(0.0, 0.0), at(a, 0.0), at(a, b), at(0.0, b)]);
-            // Sums of angles are right to some roundings.
+            // Sums of angles have a few rounding errors.
             assert!((found - parallel(a, b, c)).abs() < 1e-12, "{a} {b} {c}: {found}");
         }
     }
 
     #[test]
     fn what_lies_below_the_horizon_is_cut_off() {
-        // A wall far beyond all bounds fills half the hemisphere; its lower half counts for nothing.
+        // A very large wall fills half of the hemisphere; its lower half does not count.
         let at = |y: f64, z: f64| Point::new(1e-3, y, z);
         let found = square([at(-1e6, -1e6), at(1e6, -1e6), at(1e6, 1e6), at(-1e6, 1e6)]);
         assert!((found - 0.5).abs() < 1e-8, "{found}");

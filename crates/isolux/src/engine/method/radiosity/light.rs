@@ -1,21 +1,21 @@
-//! What a source sends out.
+//! The light that a source sends out.
 
 use crate::units::Rgb;
 
-/// The exitance of a node, lm/m2. It has a sign: what was shot too much is taken back.
+/// The exitance of a node, lm/m2. It has a sign: excess light that was shot is taken back.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Light {
     pub(super) mean: Rgb,
-    /// Of a triangle, what the linear function nearest in the mean square adds to the mean at the corners.
+    /// The deviations from the mean at the corners of a triangle, of the linear function of least squares.
     pub(super) slopes: [Rgb; 3],
-    /// Mean square of the photometric value.
+    /// The mean square of the photometric value.
     square: f64,
-    /// Mean of the photometric value without its sign.
+    /// The mean absolute photometric value.
     pub(super) size: f64,
 }
 
 impl Light {
-    /// Of an element, linear between its corners.
+    /// The light of an element, linear between its corners.
     pub(super) fn of_corners(corners: [Rgb; 3]) -> Self {
         let values = corners.map(Rgb::luminance);
         let mean = corners.iter().copied().sum::<Rgb>() / 3.0;
@@ -28,7 +28,7 @@ impl Light {
         }
     }
 
-    /// Of two nodes together, each with its area.
+    /// The light of two nodes together, each with its area.
     pub(super) fn of_both([(a_m2, a), (b_m2, b)]: [(f64, Self); 2]) -> Self {
         let share = b_m2 / (a_m2 + b_m2);
         Self {
@@ -39,10 +39,11 @@ impl Light {
         }
     }
 
-    /// Of the halves of a triangle that is bisected at the edge from corner `edge` on.
+    /// The light of a triangle from its halves, bisected at the edge that starts at corner `edge`.
     ///
-    /// Means of the light times the barycentric coordinates tell the nearest linear function, and those
-    /// of the triangle are linear over the halves: at the middle of the edge two of them are one half.
+    /// The means of the light times the barycentric coordinates determine the linear function of least
+    /// squares. The coordinates are linear over the halves; two of them are one half at the middle of the
+    /// edge.
     pub(super) fn of_halves(edge: usize, halves: [Self; 2]) -> Self {
         let next = (edge + 1) % 3;
         let mut products = [Rgb::BLACK; 3];
@@ -61,7 +62,7 @@ impl Light {
         Self { slopes: products.map(|p| p * 12.0 - both.mean * 4.0), ..both }
     }
 
-    /// In the mean, weighted by a kernel that is linear between its values at the corners.
+    /// The mean light, weighted by a kernel that is linear between its values at the corners.
     pub(super) fn weighted(&self, kernel: [f64; 3]) -> Rgb {
         let sum: f64 = kernel.iter().sum();
         if sum <= 0.0 {
@@ -71,16 +72,15 @@ impl Light {
         self.mean + slope * (0.25 / sum)
     }
 
-    /// The root mean square of what the nearest linear function adds to the mean, and that of what it
-    /// leaves of the light.
+    /// The root mean squares of the linear part of the light and of the rest beyond it.
     pub(super) fn spreads(&self) -> (f64, f64) {
         let mean = self.mean.luminance();
-        // The mean of the square of a linear function whose values at the corners sum to zero.
+        // This is the mean square of a linear function whose values at the corners sum to zero.
         let slopes: f64 = self.slopes.map(Rgb::luminance).iter().map(|d| d * d / 12.0).sum();
         (slopes.sqrt(), (self.square - mean * mean - slopes).max(0.0).sqrt())
     }
 
-    /// Whether there is nothing to send.
+    /// Whether there is no light.
     pub(super) fn is_none(&self) -> bool {
         self.size == 0.0 && self.mean.is_black()
     }
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn a_linear_kernel_weighs_exactly() {
-        // The mean of the product of two linear functions: (sum a_k b_k + sum a sum b) / 12.
+        // The mean product of two linear functions is (sum a_k b_k + sum a sum b) / 12.
         let (light, kernel) = ([1.0, 4.0, 10.0], [0.5, 2.0, 3.0]);
         let products: f64 = light.iter().zip(kernel).map(|(a, b)| a * b).sum();
         let sums = light.iter().sum::<f64>() * kernel.iter().sum::<f64>();

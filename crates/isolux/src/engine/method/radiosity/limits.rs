@@ -1,12 +1,12 @@
-//! How finely a shot is received.
+//! The limits on how finely a shot is received.
 
-/// The limits of shots, in lux.
+/// The limits of one shot, lx.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// What the light of a source may be off by.
+    /// The largest error of the light of one source.
     pub(super) tolerance_lx: f64,
-    /// What the visibility of one source may be in doubt by.
+    /// The largest uncertainty of the visibility of one source.
     pub(super) noise_lx: f64,
-    /// What one source may bring by two rays.
+    /// The most light from one source by two rays.
     pub(super) most_lx: f64,
 }

@@ -1,15 +1,15 @@
-//! `radiosity`: shots from the patches with most light still to send, over form factors.
+//! `radiosity`: progressive refinement with form factors.
 //!
-//! Progressive refinement (Cohen, Chen, Wallace, Greenberg 1988) on the elements of the pilot: the
-//! patch with most unshot flux sends it to all receivers, and so on until little is left. A patch
-//! sends at once what the pilot's first look expects it to have in the end (overshooting: Feda,
-//! Purgathofer 1992, "Accelerating radiosity by overshooting"), and later what was too little or too
-//! much. With `X` the light that vertices have shot, `D` direct light and `R` what was received,
-//! `R = A X` holds after every shot, and `D + R - X` is unshot; without it the map is the solution.
+//! The patch with the most unshot flux sends it to all receivers, and so on until little is left (Cohen,
+//! Chen, Wallace, Greenberg 1988), on the elements of the pilot. At its first shot a patch sends the light
+//! that the pilot expects it to have in the end (overshooting: Feda, Purgathofer 1992, "Accelerating
+//! radiosity by overshooting"), and later the difference. With `X` the light that vertices have shot, `D`
+//! direct light and `R` received light, `R = A X` holds after every shot, and `D + R - X` is unshot. Where it
+//! is zero, the map is the solution.
 //!
-//! There are no replicates: rays tell how visible sources are, two each, whose spread is the noise of
-//! a receiver. How good the map is, check points tell: there light is gathered over the map by rays
-//! that have nothing to do with form factors.
+//! There are no replicates. Two rays measure the visibility of each source; their spread is the noise of a
+//! receiver. Check points measure the error of the map: light is gathered there over the map by rays
+//! independent of form factors.
 
 mod form_factor;
 mod light;
@@ -38,31 +38,32 @@ use receive::{Received, Shot};
 use sources::{Face, Kind, Sources, corner_values, corner_values_in_gap};
 use specular::Specular;
 
-/// Independent gatherings of a check point.
+/// The number of independent gatherings at a check point.
 const CHECKINGS: u64 = 8;
-/// Independent measurements of direct light with noise, and of caustics.
+/// The number of independent measurements of noisy direct light and of caustics.
 const REPLICATES: u64 = 8;
-/// Rays of a receiver over specular surfaces, each of two times, for an accuracy of one per cent.
+/// The number of rays of a receiver over specular surfaces in each of two halves, for an accuracy of one per
+/// cent.
 const SPECULAR_RAYS_AT_ONE_PERCENT: f64 = 64.0;
-/// Shadow rays to every emitting surface from a place of an element.
+/// The number of shadow rays to every emitting surface from a place of an element.
 const SAMPLES_OF_ELEMENT: usize = 4;
-/// Places of an element for its mean direct light: exact for quadratic functions.
+/// The places of an element for its mean direct light: a quadrature that is exact for quadratic functions.
 const PLACES: [[f64; 3]; 3] = [
     [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
     [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
     [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
 ];
 
-/// Where surfaces absorb less than this share of light, nobody knows how much there is of it.
+/// The share of absorbed light below which the amount of light has no known bound.
 const LEAST_ABSORBED: f64 = 1e-6;
 
-/// How far the light that an ambient term stands for is from it at a place, as a share of it: its interval of 95 % goes from none, in gaps and
-/// outside, to twice as much.
+/// The standard error of the ambient term at a place, as a share of it. Its 95 % interval reaches from no
+/// light, as in gaps and outside, to twice as much.
 const DOUBT_OF_AMBIENT: f64 = 1.0 / 1.96;
 
-/// The engine, ready for shots. What they come to is kept in sums of its run: of each vertex what was
-/// received in the place of direct light, what was shot in that of caustics, what was sent over
-/// specular surfaces in that of indirect light, and the variance; of each patch how often it was shot.
+/// The method, ready for shots. The results are kept in sums of its run. A vertex has the received light in
+/// place of direct light, the shot light in place of caustics, the light sent over specular surfaces in place
+/// of indirect light, and the variance. A patch has the number of its shots.
 pub(crate) struct Radiosity<'p, 's> {
     plan: &'p Plan<'s>,
     sources: Sources,
@@ -71,19 +72,19 @@ pub(crate) struct Radiosity<'p, 's> {
     limits: Limits,
     stop_unshot: f64,
     ambient: bool,
-    /// Direct light at the vertices and its variance.
+    /// Direct light at the vertices, lx, and its variance.
     direct: Vec<Rgb>,
     direct_variance: Vec<f64>,
     caustic: Vec<Rgb>,
     caustic_variance: Vec<f64>,
-    /// What patches are expected to send in the end, beside direct light.
+    /// The light that vertices are expected to have in the end, beside direct light, lx.
     expected: Vec<Rgb>,
-    /// By source, what the mean exitance by direct light is more than that interpolated, lm/m2.
+    /// By source, the exitance from direct light less the interpolated exitance, mean, lm/m2.
     corrections: Vec<Rgb>,
-    /// Flux that will have to be sent in all, lm.
+    /// The flux to be shot in all, lm.
     whole_lm: f64,
     area_m2: f64,
-    /// Root mean square of the light, as far as is known before the first shot, lx.
+    /// The root mean square of the light, as far as it is known before the first shot, lx.
     reference_lx: f64,
     reflectance: Rgb,
     checks: Checks,
@@ -92,19 +93,19 @@ pub(crate) struct Radiosity<'p, 's> {
     key: Key,
 }
 
-/// Gathering at the check points.
+/// The gathering at the check points.
 struct Checks {
     operators: Vec<Operator>,
     direct: Vec<Rgb>,
 }
 
-/// Received, shot, and sent over specular surfaces: their places in the sums.
+/// The places of received light, shot light, and light sent over specular surfaces in the sums.
 const RECEIVED: usize = 0;
 const SHOT: usize = 3;
 const SENT: usize = 6;
 
 impl<'p, 's> Radiosity<'p, 's> {
-    /// With all that shots share.
+    /// The method with everything that shots share.
     pub(crate) fn new(
         plan: &'p Plan<'s>,
         points: &[Check],
@@ -166,23 +167,23 @@ impl<'p, 's> Radiosity<'p, 's> {
         engine
     }
 
-    /// Number of patches.
+    /// The number of patches.
     pub(crate) fn patches(&self) -> usize {
         self.sources.patches.len()
     }
 
-    /// What sums are in proportion to, lx.
+    /// The illuminance that sums are relative to, lx.
     pub(crate) fn reference_lx(&self) -> f64 {
         self.reference_lx
     }
 
-    /// What was left out on the way of rays and particles that were given up, in the mean, lx.
+    /// The mean light of rays and particles that were given up, lx.
     pub(crate) fn given_up_lx(&self) -> f64 {
         self.given_up_lx
     }
 
-    /// By source, the exitance by direct light in the mean over elements less that of its vertices,
-    /// where it is evaluated and not read from a finer mesh.
+    /// By source, the mean exitance from direct light over the element less that of its vertices, where
+    /// direct light is evaluated and not read from a finer mesh.
     fn corrections(&self) -> Vec<Rgb> {
         let Plan { scene, lighting, .. } = self.plan;
         let elements = &self.plan.mesh.elements;
@@ -222,7 +223,8 @@ impl<'p, 's> Radiosity<'p, 's> {
         reflected.sum::<Rgb>() / self.area_m2
     }
 
-    /// What a vertex has not shot: what it is expected to have in the end, until it has shot once.
+    /// The light that a vertex has not shot; before its first shot, the light it is expected to have in the
+    /// end.
     fn unshot(&self, sums: &Accumulator, is_first: bool, vertex: u32) -> Rgb {
         let k = vertex as usize;
         let own = self.direct[k] + self.caustic[k];
@@ -233,7 +235,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         }
     }
 
-    /// Unshot exitance at the corners of an element.
+    /// The unshot exitance at the corners of an element.
     fn corners(
         &self,
         sums: &Accumulator,
@@ -255,7 +257,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         self.sources.light(patch, |node, face| self.corners(sums, is_first, (node, face), false))
     }
 
-    /// Unshot flux of every patch.
+    /// The unshot flux of every patch.
     fn fluxes(&self, sums: &Accumulator, patches: &Accumulator) -> Vec<Flux> {
         let of = |patch: usize| {
             let is_first = patches.count_at(patch) == 0;
@@ -266,7 +268,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         (0..self.patches()).into_par_iter().map(of).collect()
     }
 
-    /// What is left to shoot.
+    /// The light that is left to shoot.
     pub(crate) fn left(&self, sums: &Accumulator, patches: &Accumulator) -> Left {
         let fluxes = self.fluxes(sums, patches);
         let unsent_lm = self.specular.as_ref().map_or(0.0, |s| self.unsent_lm(s, sums));
@@ -276,7 +278,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         let all_have_shot = fluxes.iter().all(|f| !f.is_first || f.size_lm == 0.0);
         let is_shot = all_have_shot && share <= self.stop_unshot;
         let absorbed = 1.0 - self.reflectance.luminance();
-        // Of what was expected all further reflections are known; of the rest they are a series.
+        // Expected light contains all further reflections; for other light they are a geometric series.
         let series = if all_have_shot { 1.0 / absorbed } else { 1.0 };
         let most_lm = self.reference_lx * self.area_m2;
         let is_bounded =
@@ -284,7 +286,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         Left { is_bounded, fluxes, unsent_lm, share, ambient_lx, doubt_lx, all_have_shot, is_shot }
     }
 
-    /// The increments after which what is left will be little enough, if it fades as it has done.
+    /// The expected number of increments until shooting can stop, if unshot light decreases at the same rate.
     pub(crate) fn shots_needed(&self, count: u64, left: &Left) -> Option<f64> {
         let count = count as f64;
         if left.is_shot {
@@ -294,13 +296,14 @@ impl<'p, 's> Radiosity<'p, 's> {
             .then(|| count * (libm::log(self.stop_unshot) / libm::log(left.share)).max(1.0))
     }
 
-    /// The light that takes the place of what is unshot, the same everywhere, and its standard error at a place, lx. Where too much was shot
-    /// that would be less than none: there is none, and what is left out is in doubt.
+    /// The ambient term in place of unshot light, the same everywhere, and its standard error at a place, lx.
+    /// Where too much was shot the term would be negative: it is zero, and the negative part is added to the
+    /// error.
     fn ambient(&self, fluxes: &[Flux]) -> (Rgb, f64) {
         if !self.ambient || self.area_m2 <= 0.0 {
             return (Rgb::BLACK, 0.0);
         }
-        // What was expected has all further reflections in it.
+        // Expected light contains all further reflections.
         let once: Rgb = fluxes.iter().filter(|f| f.is_first).map(|f| f.sum_lm).sum();
         let again: Rgb = fluxes.iter().filter(|f| !f.is_first).map(|f| f.sum_lm).sum();
         let series = self.reflectance.map(|rho| 1.0 / (1.0 - rho.min(0.99)));
@@ -311,7 +314,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         (ambient_lx, libm::hypot(DOUBT_OF_AMBIENT * ambient_lx.luminance(), left_out_lx))
     }
 
-    /// One shot; what it took, or nothing if the deadline passes before it is done.
+    /// One shot and its effort; `None` if the deadline passes before it is done.
     pub(crate) fn shoot(
         &self,
         sums: &mut Accumulator,
@@ -387,11 +390,11 @@ impl<'p, 's> Radiosity<'p, 's> {
         Some(rays)
     }
 
-    /// Adds what has arrived at the receivers.
+    /// Adds the light that arrived at the receivers.
     fn arrive(&self, sums: &mut Accumulator, received: Vec<(Rgb, f64)>) {
         let mut light: Vec<Rgb> = received.iter().map(|r| r.0).collect();
         let mut variances: Vec<Rgb> = received.iter().map(|r| Rgb::grey(r.1)).collect();
-        // What is interpolated is no better than what it comes from.
+        // Interpolated values get interpolated variances: they are no better than their sources.
         self.plan.mesh.waiting.fill(&mut light);
         self.plan.mesh.waiting.fill(&mut variances);
         let light = self.plan.prolongate(&self.plan.mesh.fit.apply(&light));
@@ -403,7 +406,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         }
     }
 
-    /// What vertices have not sent over specular surfaces.
+    /// The light that vertices have not sent over specular surfaces.
     fn unsent(&self, sums: &Accumulator) -> Vec<Rgb> {
         let is_first = (0..self.direct.len()).all(|k| sums.part(k, SENT).is_black());
         let one = |k: usize| {
@@ -414,7 +417,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         (0..self.direct.len()).map(one).collect()
     }
 
-    /// About the flux that would come of it.
+    /// The approximate flux that sending it would bring, lm.
     fn unsent_lm(&self, specular: &Specular, sums: &Accumulator) -> f64 {
         let unsent = self.unsent(sums);
         let vertices = self.plan.mesh.elements.vertices().iter().zip(&unsent).enumerate();
@@ -435,8 +438,8 @@ impl<'p, 's> Radiosity<'p, 's> {
 
     /// The light at a vertex and its variance.
     pub(crate) fn estimate(&self, sums: &Accumulator, vertex: usize) -> Estimate {
-        // Later shots take back by rays of their own what earlier ones have brought too much: where that is more than has come, none is
-        // left, and what is left out counts as error.
+        // Later shots take excess light back with other rays. Where they take more than has come, the light
+        // is zero and the negative part counts as error.
         let received = sums.part(vertex, RECEIVED);
         let indirect = received.greater(Rgb::BLACK);
         let left_out_lx = (indirect - received).luminance();
@@ -456,7 +459,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         }
     }
 
-    /// How wrong the map is, by the check points.
+    /// The errors of the map at the check points.
     pub(crate) fn errors(
         &self,
         sums: &Accumulator,
@@ -477,32 +480,32 @@ impl<'p, 's> Radiosity<'p, 's> {
     }
 }
 
-/// What is left to shoot.
+/// The light that is left to shoot.
 #[derive(Clone, Debug)]
 pub(crate) struct Left {
     fluxes: Vec<Flux>,
-    /// About the flux that would come of what was not sent over specular surfaces, lm.
+    /// The approximate flux from light not yet sent over specular surfaces, lm.
     unsent_lm: f64,
-    /// Of all light.
+    /// The share of unshot light in all light.
     pub(crate) share: f64,
-    /// What takes its place, the same everywhere, lx.
+    /// The ambient term in its place, lx.
     pub(crate) ambient_lx: Rgb,
-    /// Its standard error at a place, lx.
+    /// The standard error of the ambient term at a place, lx.
     pub(crate) doubt_lx: f64,
-    /// Whether there is no patch that has not shot yet.
+    /// Whether every patch has shot.
     pub(crate) all_have_shot: bool,
-    /// Whether it is known how much it can come to: no more than what is there.
+    /// Whether unshot light has a known bound: no more than the light there is.
     pub(crate) is_bounded: bool,
-    /// Whether it is so little that shooting should stop.
+    /// Whether so little is unshot that shooting stops.
     pub(crate) is_shot: bool,
 }
 
-/// Unshot flux of a patch.
+/// The unshot flux of a patch.
 #[derive(Clone, Copy, Debug)]
 struct Flux {
     is_first: bool,
     sum_lm: Rgb,
-    /// Without its sign, photometric.
+    /// The photometric flux without its sign, lm.
     size_lm: f64,
 }
 
@@ -514,7 +517,7 @@ impl Checks {
         direct: &[Rgb],
         key: Key,
     ) -> Self {
-        // As readers gather.
+        // Check points gather as readers do.
         let gathering = Gathering { regathers: true, ..Gathering::of(plan, direct) };
         let rows: Vec<Gatherer> = points.iter().map(|p| p.gatherer.with_rays(rays)).collect();
         let operator = |k: u64| {
@@ -528,7 +531,7 @@ impl Checks {
     }
 }
 
-/// Root mean square of light that has not been reflected diffusely, lx.
+/// The root mean square of light before any diffuse reflection, lx.
 fn root_mean_square(plan: &Plan, direct: &[Rgb], caustic: &[Rgb]) -> f64 {
     let (mut squared, mut area_m2) = (0.0, 0.0);
     for (k, vertex) in plan.mesh.elements.vertices().iter().enumerate() {
@@ -539,7 +542,7 @@ fn root_mean_square(plan: &Plan, direct: &[Rgb], caustic: &[Rgb]) -> f64 {
     if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
 }
 
-/// Direct light at the vertices, and the variance of its mean: the plan's where it is measured once.
+/// Direct light at the vertices and the variance of its mean; those of the plan if it is measured once.
 fn direct(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>) {
     if plan.lighting.is_measured_once() {
         return (plan.light.direct.clone(), plan.light.direct_variance.clone());
@@ -555,7 +558,7 @@ fn direct(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>) {
     plan.mesh.gatherers.par_iter().enumerate().map(vertex).unzip()
 }
 
-/// Caustics at the vertices, by particles, their variance, and what it took.
+/// Caustics at the vertices from particles, their variance, and the effort.
 fn caustic(plan: &Plan, accuracy: f64, key: Key) -> (Vec<Rgb>, Vec<f64>, Effort) {
     let particles = plan.particles(accuracy, REPLICATES);
     let mut sum = Effort::default();

@@ -1,13 +1,12 @@
-//! What a receiver gets from one shot.
+//! The light that a receiver gets from one shot.
 //!
-//! It walks down the tree of the patch until a node is as good as constant for it and, as far as
-//! two rays tell, seen or hidden as a whole. Of a triangle it takes the form factor in closed form
-//! times the mean share of two rays to places on it; so what nothing stands in between is exact but
-//! for the light being taken as constant over the node. Elements that are near, those across an edge
-//! or a corner above all, are divided further for this receiver alone, their light linear between
-//! their corners. Of clusters of many triangles that are far it takes two places, drawn in
-//! proportion to their light. Planar mirrors are windows into the same scene once more: the receiver
-//! looks from its own image.
+//! A receiver walks down the tree of the patch until the light of a node is nearly constant for it and two
+//! rays show the node visible or hidden as a whole. A triangle contributes its closed-form form factor times
+//! the mean transmittance of two rays to places on it. So unoccluded light is exact but for the approximation
+//! of the light over the node. Near elements, above all across an edge or a corner, are divided further for
+//! this receiver alone, with light linear between their corners. Far clusters of many triangles contribute
+//! through two places, drawn in proportion to their light. For planar mirrors the receiver looks from its own
+//! image.
 
 use super::form_factor::form_factor;
 use super::light::Light;
@@ -21,60 +20,59 @@ use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 use std::f64::consts::PI;
 
-/// What light errs by when a kernel linear over a node is taken for the true one, in units of the square
-/// of the angle that the node is seen under: as shares of the spread of its linear part, and of the
-/// rest. (That kernel sees nothing of the rest; the true one differs from it by so much.)
+/// The error from a kernel that is linear over a node, in units of the squared angle that the node subtends,
+/// as a share of the spread of the linear part of the light.
 const ERROR_OF_LINEAR: f64 = 0.4;
+/// The error from the rest of the light, in the same unit, as a share of its spread. A linear kernel ignores
+/// the rest; the true one differs from a linear one by about this much.
 const ERROR_OF_REST: f64 = 0.4;
 
-/// A standard error of their sum over a receiver, as a share of all of them with one sign: measured on
-/// CUBE at accuracies from 0.3 % to 5 %, where vertices are off by a fifth to a half.
+/// The standard error of the sum of these errors over a receiver, as a share of their sum with one sign.
+/// Measured on CUBE at accuracies from 0.3 % to 5 %, where vertices are off by a fifth to a half.
 const DOUBT: f64 = 0.5;
 
-/// Clusters are taken as a whole only from so many radii.
+/// The least distance of a cluster that is taken as a whole, in its radii.
 const CLUSTER_APART: f64 = 1.5;
 
-/// Halvings of an element for one receiver at most: light from a thousandth of its edge away is
-/// resolved by then.
+/// The most halvings of an element for one receiver. They resolve light from a thousandth of its edge away.
 const MOST_HALVINGS: u32 = 16;
 
-/// Attempts to find a place on a triangle above the horizon.
+/// The number of attempts to find a place on a triangle above the horizon.
 const TRIES: u32 = 4;
 
-/// What arrived.
+/// The light received.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Received {
     pub(super) lx: Rgb,
-    /// Of its photometric value: by the spread of visibility, and by what form factors leave in doubt,
+    /// The variance of its photometric value, from the spread of visibility and the doubt in form factors,
     /// lx2.
     pub(super) variance: f64,
-    /// What light may be off by for being taken as linear under a linear kernel, if all of it has one
-    /// sign, lx.
+    /// The error from treating light as linear under a linear kernel, if all of it has one sign, lx.
     doubt_lx: f64,
     pub(super) rays: u64,
 }
 
-/// A shot.
+/// A shot of one patch.
 pub(super) struct Shot<'a> {
     pub(super) sources: &'a Sources,
     pub(super) lighting: &'a Lighting<'a>,
     pub(super) chains: &'a [Chain],
     pub(super) patch: usize,
-    /// Of the nodes of the patch.
+    /// The light of the nodes of the patch.
     pub(super) light: &'a [Light],
-    /// Flux of the elements of the patch before each node, and before its end, lm.
+    /// The absolute flux of the elements of the patch before each node, and before its end, lm.
     pub(super) sums_lm: &'a [f64],
-    /// Exitance at the corners of an element; as seen from within a gap of which it is part, or not.
+    /// The exitance at the corners of an element, seen from within a gap that it is part of or not.
     pub(super) corners: &'a (dyn Fn(u32, &Face, bool) -> [Rgb; 3] + Sync),
     pub(super) limits: Limits,
 }
 
-/// One receiver looking by one chain of mirrors.
+/// One receiver that looks by way of one chain of mirrors.
 struct Look<'a> {
     shot: &'a Shot<'a>,
     chain: &'a Chain,
     gatherer: &'a Gatherer,
-    /// From where it would see the same without mirrors.
+    /// The image of the receiver: the point from which it would see the same without mirrors.
     from: Point,
     normal: Vector,
     sequence: Sequence,
@@ -82,7 +80,7 @@ struct Look<'a> {
     received: Received,
 }
 
-/// Part of an element for one receiver.
+/// A part of an element, for one receiver.
 #[derive(Clone, Copy)]
 struct Piece {
     corners: [Point; 3],
@@ -92,7 +90,7 @@ struct Piece {
 }
 
 impl Shot<'_> {
-    /// What a receiver gets.
+    /// The light that a receiver gets from the shot.
     pub(super) fn receive(&self, gatherer: &Gatherer, key: Key) -> Received {
         let mut sum = Received::default();
         for (number, chain) in (0..).zip(self.chains) {
@@ -152,15 +150,15 @@ impl Look<'_> {
         self.below(source);
     }
 
-    /// Takes the mean of two estimates, which share nothing random with the decision to make them: who
-    /// decides by what it then takes believes in what is all seen or all hidden.
+    /// Adds the mean of two estimates. They share no random numbers with the decision to stop here; otherwise
+    /// nodes that seem all visible or all hidden would be trusted too much.
     fn add(&mut self, two: [Rgb; 2]) {
         let half = 0.5 * (two[0] - two[1]).luminance();
         self.received.lx += (two[0] + two[1]) * 0.5;
         self.received.variance += half * half;
     }
 
-    /// The light of a cluster from one place in it, drawn in proportion.
+    /// The light of a cluster from one place in it, drawn in proportion to light.
     fn drawn(&mut self, cluster: u32, whole: &Source) -> Rgb {
         let Shot { sources, light, sums_lm, .. } = *self.shot;
         let first = sources.patches[self.shot.patch].start;
@@ -170,7 +168,7 @@ impl Look<'_> {
         let at = low + pick * (high - low);
         let k = sums[1..].partition_point(|&sum| sum <= at).min(sums.len() - 2);
         let (own_lm, node) = (sums[k + 1] - sums[k], cluster + k as u32);
-        // What is left of a number after a choice is as good as a new one.
+        // The remainder of a random number after a choice is again uniform.
         let left = ((at - sums[k]) / own_lm).clamp(0.0, 1.0 - f64::EPSILON);
         let chance = own_lm / (high - low);
         let source = &sources.nodes[node as usize];
@@ -188,7 +186,7 @@ impl Look<'_> {
     }
 
     fn face(&mut self, node: u32, source: &Source, face: &Face, light: &Light) {
-        // A receiver in the plane of a triangle, as vertices of smooth surfaces are, does not see it.
+        // A receiver in the plane of a triangle, like vertices of smooth surfaces, does not see it.
         let height_m = (self.from - face.corners[0]).dot(face.normal);
         if height_m <= self.gatherer.surface.away_m {
             return;
@@ -211,7 +209,7 @@ impl Look<'_> {
         self.piece(Piece { corners, values, triangle, halvings: 0 });
     }
 
-    /// Takes a piece of an element, or its halves.
+    /// Adds the light of a piece of an element, or of its halves.
     fn piece(&mut self, piece: Piece) {
         let light = Light::of_corners(piece.values);
         if light.is_none() {
@@ -230,8 +228,8 @@ impl Look<'_> {
         }
     }
 
-    /// Takes a triangle as it is; false, and nothing, if it should be divided: never without the angle
-    /// (radius over distance) that it is seen under.
+    /// Adds the light of a triangle as a whole. Returns false and adds nothing if it should be divided.
+    /// `angle` is its radius over its distance; without it, the triangle is never divided.
     fn take(
         &mut self,
         corners: [Point; 3],
@@ -266,14 +264,14 @@ impl Look<'_> {
         true
     }
 
-    /// What light from a place counts by, but for what is the same over a plane.
+    /// The kernel of light from a place, without the factors that are constant over a plane.
     fn kernel(&self, place: Point) -> f64 {
         let to = place - self.from;
         let squared = to.length_squared();
         to.dot(self.normal).max(0.0) / (squared * squared).max(f64::MIN_POSITIVE)
     }
 
-    /// The share of light that comes from a place on a triangle, above the horizon if one is found.
+    /// The transmittance to a random place on a triangle, above the horizon if one is found.
     fn seen(&mut self, corners: [Point; 3], triangle: u32) -> Rgb {
         let mut target = place(corners, self.pair());
         for _ in 1..TRIES {
@@ -297,7 +295,7 @@ impl Look<'_> {
 }
 
 impl Piece {
-    /// Bisected at its longest edge.
+    /// The halves of the piece, bisected at its longest edge.
     fn halves(self) -> [Self; 2] {
         let p = self.corners;
         let length = |k: usize| (p[(k + 1) % 3] - p[k]).length_squared();
@@ -316,7 +314,7 @@ impl Piece {
     }
 }
 
-/// The point of a triangle for one of the unit square, evenly over its area.
+/// The point of a triangle for a point of the unit square, uniform over its area.
 fn place([a, b, c]: [Point; 3], [x, y]: [f64; 2]) -> Point {
     let root = x.sqrt();
     a + (b - a) * (root * (1.0 - y)) + (c - a) * (root * y)

@@ -1,23 +1,24 @@
-//! How finely radiosity works: presets, and what is set by hand.
+//! Settings of radiosity, and the limits that follow from them.
 
 use serde::{Deserialize, Serialize};
 
-/// What is set by hand; what is not follows from the accuracy.
+/// Settings given by the user; the others follow from the accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RadiositySettings {
-    /// What taking light as constant over a source may change at a receiver, a share of the root mean
-    /// square of the light in the scene.
+    /// The largest error at a receiver from treating light as constant over a source, as a share of the root
+    /// mean square of the light in the scene.
     pub form_factor_tolerance: Option<f64>,
-    /// Stop shooting when this share of all light is unshot.
+    /// The share of unshot light at which shooting stops.
     pub unshot: Option<f64>,
-    /// Receivers that indirect light is computed at, at most, unless the scene has more.
+    /// The largest number of receivers that indirect light is computed at, unless the scene has more
+    /// vertices.
     pub max_receivers: Option<u32>,
-    /// Elements are not bisected below this edge, m.
+    /// The least edge of an element, m; shorter ones are not bisected.
     pub min_element_m: Option<f64>,
-    /// Whether maps have an ambient term in place of the light that is unshot.
+    /// Whether maps have an ambient term in place of unshot light.
     pub ambient: bool,
-    /// Whether the scene was made diffuse ([`crate::scene::Scene::diffuse_only`]) before; the engine only
-    /// writes it down.
+    /// Whether the scene was made diffuse ([`crate::scene::Scene::diffuse_only`]) before. It is only
+    /// recorded.
     pub diffuse_only: bool,
 }
 
@@ -34,32 +35,37 @@ impl Default for RadiositySettings {
     }
 }
 
-/// The limits that settings come to for an accuracy.
+/// The limits for an accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RadiosityLimits {
     /// See [`RadiositySettings::form_factor_tolerance`].
     pub form_factor_tolerance: f64,
-    /// What the visibility of one source may be in doubt by, a share of the same.
+    /// The largest uncertainty of the visibility of one source, as a share of the root mean square of the
+    /// light.
     pub visibility_tolerance: f64,
-    /// What one source may bring to a receiver by two rays at most, a share of the same.
+    /// The most light from one source to a receiver by two rays, as a share of the root mean square of the
+    /// light.
     pub largest_link: f64,
     /// See [`RadiositySettings::unshot`].
     pub unshot: f64,
-    /// Rays for the check of the map at one place, eight times over.
+    /// The number of rays at each check point; each is gathered eight times.
     pub check_rays: u32,
 }
 
-/// Parts of the accuracy: some hundred sources of a receiver, whose errors have either sign, make ten
-/// times the error of one.
+/// The form-factor tolerance, as a share of the accuracy. Errors of about a hundred sources of a receiver
+/// have either sign, so they add up to ten times that of one.
 const FORM_FACTOR_SHARE: f64 = 0.25;
+/// The visibility tolerance, as a share of the accuracy.
 const VISIBILITY_SHARE: f64 = 0.1;
-/// What is unshot is reflected again and again: at a mean reflectance of 0.8 five times.
+/// The unshot light, as a share of the accuracy. It is reflected again and again: five times at a mean
+/// reflectance of 0.8.
 const UNSHOT_SHARE: f64 = 0.05;
-/// Shadows of things smaller than what brings so much are missed by two rays; a few accuracies.
+/// The most light from one source by two rays, in accuracies. Two rays miss the shadows of things that block
+/// less.
 const LINK_SHARE: f64 = 4.0;
 
 impl RadiositySettings {
-    /// What they come to for an accuracy (a fraction).
+    /// The limits for an accuracy (a fraction).
     pub fn limits(&self, accuracy: f64) -> RadiosityLimits {
         let tolerance = self.form_factor_tolerance.unwrap_or(FORM_FACTOR_SHARE * accuracy);
         RadiosityLimits {

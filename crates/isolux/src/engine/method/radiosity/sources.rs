@@ -1,10 +1,10 @@
-//! What shoots: elements, the nodes of their trees above them, and clusters of whole trees.
+//! Sources of radiosity: elements, the nodes of their bisection trees, and clusters of whole trees.
 //!
-//! Patches are what is shot at once: surfaces that share no vertex with others, put together with
-//! their neighbours until there are few. In each a binary tree goes down from clusters of many
-//! triangles to single ones and on to the elements of the map. A receiver takes from it what is
-//! coarse enough for it (Hanrahan, Salzman, Aupperle 1991, "A rapid hierarchical radiosity
-//! algorithm"; Smits, Arvo, Greenberg 1994, "A clustering algorithm for radiosity").
+//! A patch is shot at once. It consists of surfaces that share no vertex with others, joined with their
+//! neighbours until patches are few. Each patch has a binary tree, from clusters of many triangles to single
+//! ones, down to the elements of the map. A receiver uses the nodes that are fine enough for it (Hanrahan,
+//! Salzman, Aupperle 1991, "A rapid hierarchical radiosity algorithm"; Smits, Arvo, Greenberg 1994, "A
+//! clustering algorithm for radiosity").
 
 use super::light::Light;
 use crate::elements::{Elements, Origin, Split};
@@ -16,24 +16,24 @@ use crate::units::Rgb;
 use isolux_geometry::{Point, Triangle, Vector};
 use std::ops::Range;
 
-/// Patches: surfaces are put together until they have at least such a share of the area.
+/// The share of the total area up to which surfaces are joined into one patch.
 const SHARE_OF_PATCH: f64 = 1.0 / 48.0;
 
 /// A node of the trees.
 #[derive(Clone, Debug)]
 pub(super) struct Source {
     pub(super) centre: Point,
-    /// No place of it is farther from the centre, m.
+    /// The radius of a sphere around the centre that contains the node, m.
     pub(super) radius_m: f64,
     pub(super) area_m2: f64,
     pub(super) kind: Kind,
-    /// Two nodes below, by their numbers; none of an element.
+    /// The two child nodes, by number; `None` for an element.
     pub(super) children: Option<[u32; 2]>,
-    /// After all that is below it.
+    /// The number after the last node of its subtree.
     pub(super) end: u32,
 }
 
-/// What a node is.
+/// The kind of a node.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Kind {
     /// Surfaces of any kind.
@@ -46,27 +46,27 @@ pub(super) enum Kind {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
     pub(super) corners: [Point; 3],
-    /// Vertices of the map at the corners.
+    /// The vertices of the map at the corners.
     pub(super) vertices: [u32; 3],
     pub(super) normal: Vector,
     pub(super) triangle: u32,
     pub(super) back: bool,
-    /// The edge that it is bisected at, where it is, by the corner it starts from.
+    /// The edge where it is bisected, by the corner it starts from; zero if it is not.
     split_at: usize,
-    /// Of its side, in the mean.
+    /// The mean reflectance of its side.
     pub(super) reflectance: Rgb,
 }
 
-/// All that shoots.
+/// All sources of a plan.
 pub(super) struct Sources {
     pub(super) nodes: Vec<Source>,
-    /// The nodes of every patch, its root first, children after their parents.
+    /// The nodes of every patch: its root first, children after their parents.
     pub(super) patches: Vec<Range<u32>>,
     /// The vertices of every patch.
     pub(super) vertices: Vec<Vec<u32>>,
 }
 
-/// A tree of bisections that reflects.
+/// A bisection tree that reflects.
 #[derive(Clone, Copy, Debug)]
 struct Tree {
     root: u32,
@@ -84,7 +84,7 @@ struct Surface {
 }
 
 impl Sources {
-    /// Those of a plan, down to the nodes below number `level`.
+    /// The sources of a plan, down to nodes with numbers below `level`.
     pub(super) fn new(plan: &Plan, level: u32) -> Self {
         let mut surfaces = surfaces(plan);
         let area_m2: f64 = surfaces.iter().map(|s| s.area_m2).sum();
@@ -97,7 +97,7 @@ impl Sources {
         Self { nodes: Vec::new(), patches: Vec::new(), vertices: Vec::new() }
     }
 
-    /// The light of the nodes of a patch, from that of its elements' corners.
+    /// The light of the nodes of a patch, from that at the corners of its elements.
     pub(super) fn light(
         &self,
         patch: usize,
@@ -125,7 +125,7 @@ impl Sources {
         light
     }
 
-    /// Flux of the elements of a patch before each of its nodes and before its end, signs left out, lm.
+    /// The absolute flux of the elements of a patch before each of its nodes, and before its end, lm.
     pub(super) fn sums_lm(&self, patch: usize, light: &[Light]) -> Vec<f64> {
         let mut sum_lm = 0.0;
         let nodes = self.patches[patch].clone().zip(light);
@@ -147,7 +147,7 @@ struct Build<'a, 's> {
 }
 
 impl Build<'_, '_> {
-    /// Puts surfaces together by place, the larger half of the way down to patches.
+    /// Splits surfaces by place into halves of about equal area, down to patches.
     fn patches(&mut self, surfaces: &mut [Surface], least_m2: f64) {
         let area_m2: f64 = surfaces.iter().map(|s| s.area_m2).sum();
         if surfaces.len() > 1 && area_m2 > least_m2 {
@@ -178,13 +178,13 @@ impl Build<'_, '_> {
         self.found.patches.push(nodes);
     }
 
-    /// The tree over trees; returns its number.
+    /// Builds the cluster over some trees; returns its number.
     fn cluster(&mut self, trees: &mut [Tree]) -> u32 {
         if let [tree] = trees {
             return self.face(tree.root, &tree.origin, self.reflectance(tree));
         }
         let extent_m = extent_m(trees);
-        // Surfaces that face other ways are as if they were elsewhere.
+        // Surfaces that face other ways are treated as if they were elsewhere.
         let key = |tree: &Tree| tree.centre.to_vector() + tree.normal * (0.5 * extent_m);
         let axis = longest_axis(trees.iter().map(|t| Point::ORIGIN + key(t)));
         trees.sort_by(|a, b| key(a).component(axis).total_cmp(&key(b).component(axis)));
@@ -243,7 +243,7 @@ impl Build<'_, '_> {
         end - 1
     }
 
-    /// Of a side without texture.
+    /// The reflectance of a side without texture.
     fn reflectance(&self, tree: &Tree) -> Option<Rgb> {
         let finish = self.finish(&tree.origin)?;
         finish.diffuse.texture.is_none().then_some(finish.diffuse.colour)
@@ -254,7 +254,7 @@ impl Build<'_, '_> {
     }
 }
 
-/// The surfaces that reflect diffusely: trees that share vertices are one.
+/// The surfaces that reflect diffusely; trees that share vertices are one surface.
 fn surfaces(plan: &Plan) -> Vec<Surface> {
     let trees = trees(plan);
     let elements = &plan.mesh.elements;
@@ -278,7 +278,7 @@ fn surfaces(plan: &Plan) -> Vec<Surface> {
     by_leader.into_values().map(surface).collect()
 }
 
-/// The first vertex of the surface that a vertex belongs to, as far as is known.
+/// The first known vertex of the surface that a vertex belongs to.
 fn found(leader: &mut [u32], mut vertex: u32) -> u32 {
     while leader[vertex as usize] != vertex {
         let above = leader[leader[vertex as usize] as usize];
@@ -333,7 +333,7 @@ fn extent_m(trees: &[Tree]) -> f64 {
     all.clone().fold(f64::NEG_INFINITY, f64::max) - all.fold(f64::INFINITY, f64::min)
 }
 
-/// How many of some make up half, at least one and not all.
+/// The number of leading parts that make up half of the whole, at least one and not all.
 fn half_way(parts: impl ExactSizeIterator<Item = f64>, whole: f64) -> usize {
     let count = parts.len();
     let mut sum = 0.0;
@@ -346,8 +346,8 @@ fn half_way(parts: impl ExactSizeIterator<Item = f64>, whole: f64) -> usize {
     first.clamp(1, count - 1)
 }
 
-/// Values at the corners of an element: those that are not of the highest standing there say nothing
-/// and take the mean of the others; black where nothing is known.
+/// The values at the corners of an element. Corners below the highest standing there take the mean of the
+/// others; all are black where nothing is known.
 pub(super) fn corner_values(
     plan: &Plan,
     vertices: [u32; 3],
@@ -356,7 +356,7 @@ pub(super) fn corner_values(
     over_known(vertices, &plan.mesh.standings, value)
 }
 
-/// The same for a receiver in a gap, of which the element is a part.
+/// The values at the corners of an element for a receiver in a gap that the element is part of.
 pub(super) fn corner_values_in_gap(
     plan: &Plan,
     vertices: [u32; 3],

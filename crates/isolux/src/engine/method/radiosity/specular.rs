@@ -1,10 +1,9 @@
-//! Diffuse light that comes by way of gloss, glass, curved mirrors and longer chains of mirrors:
-//! what form factors and images do not cover.
+//! Diffuse light by way of gloss, glass, curved mirrors and long chains of mirrors, which form factors and
+//! images do not cover.
 //!
-//! Rays leave every receiver once, distributed by the cosine, and are followed over specular surfaces.
-//! Those that come to a diffuse surface on a way that images cover are let go; of the others remains
-//! what they read from the map: an extended form factor (Sillion, Puech 1989, "A general two-pass
-//! method integrating specular and diffuse reflection").
+//! Rays leave every receiver once, cosine-distributed, and pass specular surfaces. A ray that meets a diffuse
+//! surface on a covered path is dropped. The others keep the vertices that they read: an extended form factor
+//! (Sillion, Puech 1989, "A general two-pass method integrating specular and diffuse reflection").
 
 use crate::engine::gather::{Gatherer, known_weights};
 use crate::engine::light::Chain;
@@ -16,13 +15,13 @@ use crate::units::Rgb;
 use isolux_geometry::Ray;
 use rayon::prelude::*;
 
-/// Specular surfaces after which a path is given up, as elsewhere.
+/// The number of specular surfaces after which a path is given up, as elsewhere.
 const MAX_SPECULAR: u32 = 128;
 
-/// Independent halves of the rays, for the error.
+/// The number of independent halves of the rays, for the standard error.
 const HALVES: u64 = 2;
 
-/// What one ray reads.
+/// The vertices that one ray reads, with their weights and the share of their light.
 #[derive(Clone, Copy, Debug)]
 struct Entry {
     vertices: [u32; 3],
@@ -30,18 +29,18 @@ struct Entry {
     share: [f32; 3],
 }
 
-/// What all receivers see on uncovered ways, by each half of their rays.
+/// The light that all receivers see on uncovered paths, for each half of their rays.
 pub(super) struct Specular {
     rows: Vec<[Vec<Entry>; HALVES as usize]>,
     pub(super) rays: u64,
-    /// The share of all that is gathered whose rays were given up.
+    /// The share of the gathered light whose rays were given up.
     pub(super) given_up: f64,
-    /// The share of what a receiver sees that is seen so, in the mean.
+    /// The mean share of a receiver's view on such paths.
     pub(super) mean_share: f64,
 }
 
 impl Specular {
-    /// Follows the rays; `chains` are covered.
+    /// Traces the rays; paths over `chains` are covered.
     pub(super) fn new(plan: &Plan, level: u32, chains: &[Chain], rays: u32, key: Key) -> Self {
         let tracer = Tracer { plan, level, chains };
         let receivers = &plan.mesh.gatherers[..plan.mesh.indirect_vertices];
@@ -74,7 +73,8 @@ impl Specular {
         }
     }
 
-    /// What every receiver gets of light at the vertices, and the variance of its photometric value.
+    /// The light that every receiver gets from light at the vertices, and the variance of its photometric
+    /// value.
     pub(super) fn apply(&self, light: &[Rgb]) -> Vec<(Rgb, f64)> {
         let one = |entries: &Vec<Entry>| -> Rgb {
             let read = |e: &Entry| {
@@ -99,16 +99,16 @@ struct Tracer<'a, 's> {
     chains: &'a [Chain],
 }
 
-/// A way back from a receiver so far.
+/// The path from a receiver so far.
 struct Way {
-    /// Planar mirrors met, the last one first seen by light last.
+    /// The planar mirrors met, in order from the receiver.
     mirrors: Vec<u32>,
-    /// Nothing else was met but panes, straight through.
+    /// Whether nothing else was met but panes, without refraction.
     is_plain: bool,
 }
 
 impl Tracer<'_, '_> {
-    /// Adds what one ray reads; returns the share of its light that was given up.
+    /// Adds the entries of one ray; returns the share of its light that was given up.
     fn ray(
         &self,
         gatherer: &Gatherer,

@@ -15,7 +15,7 @@ use crate::units::Rgb;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The light about a place that the noise of direct light is at least relative to, as a share of the local
+/// The smallest illuminance that the noise goal of direct light is relative to, as a share of the local
 /// part of the reference illuminance.
 const DIMMEST: f64 = 0.05;
 
