@@ -1,10 +1,10 @@
-//! What a sample sees, as a linear function of the light on it: irradiance and its two gradients.
+//! The view of a sample as a linear function of the light in it: irradiance and its two gradients.
 //!
-//! Rays are cosine-distributed and stratified: one in every cell of a polar grid over the hemisphere.
-//! Their light makes the irradiance; its differences between neighbouring cells, as they widen and
-//! shrink when the sample moves, the translational gradient; the way their cosines change when it turns, the
-//! rotational one (Ward and Heckbert 1992, "Irradiance gradients"). Where rays end, direct light is
-//! evaluated at once and the light of further reflections is left open, as ties to other samples.
+//! Rays are cosine-distributed and stratified: one in every cell of a polar grid over the hemisphere. Their
+//! light gives the irradiance. The translational gradient comes from the differences between neighbouring
+//! cells, which widen and shrink when the sample moves. The rotational gradient comes from the change of
+//! cosines when it turns (Ward and Heckbert 1992, "Irradiance gradients"). Where rays end, direct light is
+//! evaluated at once. The light of further reflections stays open, as contributions (ties) of far samples.
 
 use super::layer::{Layer, Site, Tie};
 use crate::engine::gather::{BrightSurfaces, Seen};
@@ -19,15 +19,15 @@ use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray, Vector};
 use std::f64::consts::PI;
 
-/// Obstacles nearer than this share of the radius of a sample move no faster past it: so near, two rays in
-/// neighbouring cells do not tell where an edge lies.
+/// The least distance of obstacles in the translational gradient, as a share of the radius of the sample. At
+/// smaller distances two rays in neighbouring cells do not locate an edge.
 const NEAREST_EDGE: f64 = 0.25;
 
-/// Samples that one ray reads at most.
+/// The largest number of samples that one ray reads.
 pub(super) const TIES_OF_RAY: usize = 4;
 
-/// Irradiance at a sample: its value, lx, how it changes along the axes of the world, lx/m, and how when
-/// the normal turns about them, lx/rad; channels one after the other.
+/// The irradiance at a sample: its value, lx, its gradient along the axes of the world, lx/m, and its
+/// gradient when the normal turns about them, lx/rad; each with three channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Light(pub(super) [[f64; 3]; 7]);
 
@@ -37,12 +37,12 @@ impl Light {
     }
 }
 
-/// The light of some ties: the mean of what samples have, corrected by how light turns and moves away from them.
+/// The light of some ties: the mean of the samples' values, corrected by their gradients.
 pub(super) fn tied(ties: &[Tie], lights: &[Light]) -> Rgb {
     let (mut mean, mut turned) = ([0.0; 3], [0.0; 3]);
     for tie in ties {
         let Light(parts) = &lights[tie.sample as usize];
-        // Most surfaces are flat: nothing turns there.
+        // Most surfaces are flat: the rotational part is zero there.
         let is_flat = tie.shares[4..] == [0.0; 3];
         let shares = if is_flat { &tie.shares[..4] } else { &tie.shares[..] };
         for (k, (part, &share)) in parts.iter().zip(shares).enumerate() {
@@ -55,40 +55,40 @@ pub(super) fn tied(ties: &[Tie], lights: &[Light]) -> Rgb {
     corrected(Rgb(mean), Rgb(turned))
 }
 
-/// Caustics at a place, lx.
+/// A function for the caustics at a place, lx.
 pub(super) type Caustic<'a> = &'a (dyn Fn(&SurfacePoint) -> Rgb + Sync);
 
-/// All that rays read where they end.
+/// The scene as rays read it where they end.
 #[derive(Clone, Copy)]
 pub(super) struct Surroundings<'a> {
     pub(super) scene: &'a Scene,
-    /// The samples that stand for light of further reflections.
+    /// The far samples, for the light of further reflections.
     pub(super) far: &'a Layer,
-    /// Evaluated there, unless it is read from the samples with the rest.
+    /// The luminaires, if direct light is evaluated at ray ends; `None` if it is read from far samples.
     pub(super) lighting: Option<&'a Lighting<'a>>,
-    /// What is so bright that rays are sent there, where direct light is evaluated.
+    /// Bright surfaces that rays are sent to, where direct light is evaluated.
     pub(super) bright: Option<&'a BrightSurfaces>,
-    /// Caustics.
+    /// The caustics at ray ends.
     pub(super) caustic: Caustic<'a>,
 }
 
-/// What a sample sees.
+/// The view of a sample.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hemisphere {
     rays: Vec<Sight>,
     ends: Vec<End>,
     ties: Vec<Tie>,
-    /// Light from luminaires here, where it is read with the rest.
+    /// The direct light at the sample itself, where it is read with the rest.
     pub(super) own: Rgb,
-    /// What rays have brought that were sent to what is bright, and how many those were.
+    /// The light of rays sent to bright surfaces, and their number.
     of_sent: Light,
     sent: u32,
-    /// Share of the rays that were given up on their way over specular surfaces, or that ended where
-    /// no sample is.
+    /// The share of rays that were given up over specular surfaces, or that ended where no far sample is.
     pub(super) lost: f64,
 }
 
-/// What a unit of light along a ray adds to each part of the irradiance, and where its ends end among all.
+/// The contribution of a unit of light along a ray to each part of the irradiance, and the end of its range
+/// in `ends`.
 #[derive(Clone, Copy, Debug)]
 struct Sight {
     adds: [f64; 7],
@@ -100,14 +100,14 @@ struct Sight {
 struct End {
     /// The share of its light that comes back along the ray.
     share: Rgb,
-    /// Light from luminaires.
+    /// Its direct light and caustics.
     given: Rgb,
-    /// Where its ties end among all.
+    /// The end of its range in `ties`.
     ties: u32,
 }
 
 impl Hemisphere {
-    /// Looks along so many rays, a power of two.
+    /// The view along `rays` rays, a power of two.
     pub(super) fn look(of: &Surroundings, from: &Site, rays: u32, sequence: Sequence) -> Self {
         let grid = Grid::of(rays);
         let axis = from.normal.to_direction();
@@ -137,7 +137,7 @@ impl Hemisphere {
         seen
     }
 
-    /// Sends a ray to what is bright, for the light there that comes straight from luminaires.
+    /// Adds a ray to a bright surface, for the direct light there.
     fn send(
         &mut self,
         (of, lighting): (&Surroundings, &Lighting),
@@ -158,7 +158,7 @@ impl Hemisphere {
         }
     }
 
-    /// Adds a ray; returns the inverse of the distance of what it meets, 1/m.
+    /// Adds a ray; returns the inverse of the distance to the first surface it meets, 1/m.
     fn ray(
         &mut self,
         (of, bright): (&Surroundings, Option<&Seen>),
@@ -201,7 +201,7 @@ impl Hemisphere {
         nearness
     }
 
-    /// The light here, with so much on the samples that it is tied to.
+    /// The irradiance at the sample, given the light of the far samples.
     pub(super) fn light(&self, far: &[Light]) -> Light {
         let mut light = self.of_sent;
         light.0[0].iter_mut().zip(self.own.0).for_each(|(part, own)| *part += own);
@@ -230,7 +230,8 @@ impl Hemisphere {
     }
 }
 
-/// By which parts what a place gets from a small patch changes as it moves, 1/m, and turns, 1/rad.
+/// The relative gradients of the light from a small patch when the place moves, 1/m, and when it turns,
+/// 1/rad.
 fn gradients_of_patch(from: &Site, to: &SurfacePoint) -> [Vector; 2] {
     let way = to.point - from.origin;
     let (normal, facing) = (from.normal.to_vector(), to.geometric.to_vector());
@@ -238,34 +239,34 @@ fn gradients_of_patch(from: &Site, to: &SurfacePoint) -> [Vector; 2] {
     let along = way * (4.0 / way.length_squared())
         - normal * (1.0 / rises)
         - facing * (1.0 / way.dot(facing));
-    // As of the other rays: along the surface alone.
+    // As for the other rays, the gradient is along the surface alone.
     [along - normal * along.dot(normal), normal.cross(way) * (1.0 / rises)]
 }
 
-/// What a surface reflects diffusely; nothing where it is the black back of something.
+/// The diffuse reflectance of a surface; black for the back of one without.
 pub(super) fn reflected(scene: &Scene, at: &SurfacePoint, finish: &Finish) -> Rgb {
     scene.diffuse_reflectance(finish, at.triangle, at.u, at.v)
 }
 
-/// The cosine-distributed direction at a point of the unit square: the square of the sine of its angle
-/// to the normal, and its azimuth in turns.
+/// The cosine-distributed direction at a point of the unit square, whose coordinates are the squared sine of
+/// the angle to the normal and the azimuth in turns.
 pub(super) fn polar([sine_squared, turns]: [f64; 2]) -> Vector {
     let (sin, cos) = (sine_squared.sqrt(), (1.0 - sine_squared).max(0.0).sqrt());
     let (y, x) = libm::sincos(2.0 * PI * turns);
     Vector::new(sin * x, sin * y, cos)
 }
 
-/// A polar grid over the hemisphere: every cell has one ray, as points of a net lie.
+/// A polar grid over the hemisphere, with one ray of a low-discrepancy sequence in every cell.
 struct Grid {
-    /// Rings about the normal.
+    /// The number of rings about the normal.
     rings: usize,
-    /// Cells of a ring.
+    /// The number of cells in a ring.
     sectors: usize,
 }
 
 impl Grid {
     fn of(rays: u32) -> Self {
-        // Four times as many sectors as rings make cells about as long as wide.
+        // With four times as many sectors as rings, cells are about as long as wide.
         let rings = 1 << (rays.max(1).ilog2().saturating_sub(2) / 2);
         Self { rings, sectors: (rays as usize / rings).max(1) }
     }
@@ -275,7 +276,8 @@ impl Grid {
         part(sine_squared, self.rings) * self.sectors + part(turns, self.sectors)
     }
 
-    /// What a unit of light along each ray adds to the two gradients; `cells` has each ray and its nearness.
+    /// The contribution of a unit of light along each ray to the two gradients. `cells` has each ray and its
+    /// inverse distance, 1/m.
     fn gradients(&self, cells: &[(u32, f64)], axis: Direction) -> Vec<[Vector; 2]> {
         let mut gradients = vec![[Vector::ZERO; 2]; cells.len()];
         let (rings, sectors) = (self.rings, self.sectors);
@@ -296,7 +298,7 @@ impl Grid {
                     gradients[other.0 as usize][0] += -along;
                 };
                 if ring > 0 {
-                    // The inner edge of the cell, which sweeps inwards as the sample goes outwards.
+                    // This is the inner edge of the cell, which moves inwards as the sample moves outwards.
                     let (sin, cos_squared) = (sine(ring), 1.0 - sine(ring) * sine(ring));
                     let width = 2.0 * PI / sectors as f64;
                     shift(outwards, at(ring - 1, sector), width * sin * cos_squared);
@@ -314,7 +316,7 @@ impl Grid {
     }
 }
 
-/// Mean over a ring of the tangent of the angle to the normal: the integral of `sqrt(s / (1 - s))`.
+/// The mean over a ring of the tangent of the angle to the normal: the integral of `sqrt(s / (1 - s))`.
 fn mean_tangent(ring: usize, rings: usize) -> f64 {
     let integral = |s: f64| libm::asin(s.sqrt()) - (s * (1.0 - s)).max(0.0).sqrt();
     let part = |ring: usize| ring as f64 / rings as f64;

@@ -1,74 +1,75 @@
-//! Where samples lie and how far they reach: the split-sphere model.
+//! Positions and validity radii of samples: the split-sphere model.
 //!
-//! A sample serves places around it as long as the estimated error of doing so, the sum of the distance
-//! over the mean distance of what it sees and of how much the surface turns, is below what is allowed
-//! (Ward, Rubinstein, Clear 1988). Its weight falls to zero there, so that nothing jumps.
+//! The estimated error of extrapolating a sample is the distance over its radius plus a term for the change
+//! of the normal. A sample serves places where this error is below the allowed one (Ward, Rubinstein, Clear
+//! 1988). Its weight falls to zero at that limit, so there are no jumps.
 
 use super::octree::Octree;
 use crate::engine::ray::SurfacePoint;
 use crate::scene::Scene;
 use isolux_geometry::{Normal, Point, Ray, Vector};
 
-/// By how much more than allowed a sample may err for a ray that ends where none reaches.
+/// The factor on the allowed error for a ray that ends where no sample serves.
 const RELAXED: f64 = 3.0;
 
-/// Out of the plane of a sample by more than this share of the distance is another surface: the next
-/// step of a stair.
+/// The largest distance of a place from the plane of a sample, as a share of their distance. Beyond it lies
+/// another surface, like the next step of a stair.
 const STEEPEST: f64 = 0.3;
 
-/// Farther below a sample than its surface bends down, by this share of the distance, is on the other side of it.
+/// The depth of a place below a sample, as a share of their distance, beyond which it lies behind the
+/// sample's surface. The bend of the surface is allowed in addition.
 const BELOW: f64 = 1e-4;
 
-/// What is nearer to a sample than this share of the nearest that it sees cannot be behind a wall.
+/// The share of the distance to the nearest visible surface within which no wall can hide a sample.
 const CLEAR: f64 = 0.5;
 
-/// Where a sample lies and how far it reaches.
+/// The position and reach of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Site {
-    /// Where its rays start, just above the surface.
+    /// The start of its rays, just above the surface.
     pub(super) origin: Point,
     /// The shading normal.
     pub(super) normal: Normal,
-    /// A triangle that its rays do not meet, as it lies on it.
+    /// The triangle that it lies on, which its rays skip.
     pub(super) triangle: u32,
-    /// Harmonic mean of the distances of what it sees, within bounds, m.
+    /// The harmonic mean of the distances to the surfaces it sees, within bounds, m.
     pub(super) radius_m: f64,
-    /// Distance of the nearest that it sees, m.
+    /// The distance to the nearest surface it sees, m.
     pub(super) nearest_m: f64,
 }
 
-/// What a place takes from a sample.
+/// The contribution of a sample to a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tie {
-    /// Number of the sample.
+    /// The number of the sample.
     pub(super) sample: u32,
-    /// Share of the value, and that times what the gradients are multiplied by: the way from the sample to
-    /// the place, m, and axis times sine of the angle between their normals.
+    /// The weight of its value, then that weight times the factors of its gradients: the vector from the
+    /// sample to the place, m, and the cross product of their normals.
     pub(super) shares: [f32; 7],
 }
 
-/// Samples of one kind.
+/// The samples of one kind.
 #[derive(Clone, Debug)]
 pub(super) struct Layer {
     pub(super) sites: Vec<Site>,
-    /// The error that is allowed, relative: the inverse of Ward's least weight.
+    /// The allowed error, relative: the inverse of Ward's least weight.
     allowed: f64,
     near: Octree,
-    /// By wider reaches.
+    /// The samples by their reach with [`RELAXED`] error.
     wide: Octree,
 }
 
 impl Layer {
-    /// Without samples.
+    /// A layer without samples.
     pub(super) fn new(scene: &Scene, allowed: f64) -> Self {
         let bounds = scene.bvh().mesh().bounds().unwrap_or((Point::ORIGIN, Point::ORIGIN));
         let tree = Octree::over(bounds);
         Self { sites: Vec::new(), allowed, near: tree.clone(), wide: tree }
     }
 
-    /// Adds a sample; returns its number. Its radius is held to those of the ones that reach it, and
-    /// theirs to its own (Krivanek, Bouatouch, Pattanaik, Zara 2006, "Making radiance and irradiance caching
-    /// practical"): what one sample has seen close by is as close to the next one.
+    /// Adds a sample and returns its number. Its radius is limited by those of samples that reach it, and
+    /// theirs by its own (neighbour clamping: Krivanek, Bouatouch, Pattanaik, Zara 2006, "Making radiance and
+    /// irradiance caching practical"). A surface close to one sample is as close to the next.
     pub(super) fn insert(&mut self, site: Site) -> u32 {
         let number = self.sites.len() as u32;
         let mut radius_m = site.radius_m;
@@ -104,8 +105,8 @@ impl Layer {
         found
     }
 
-    /// What a place takes from the samples around it, weights summing to one, or from those farther
-    /// off where none serves it; nothing where there is none either.
+    /// Appends the contributions of at most `most` samples to a place, with weights that sum to one. Where
+    /// none serves it, samples farther off do. Nothing is appended if there are none either.
     pub(super) fn ties(
         &self,
         scene: &Scene,
@@ -118,7 +119,7 @@ impl Layer {
         if ties.len() == first {
             self.collect(&self.wide, RELAXED * self.allowed, (scene, at, normal), ties);
         }
-        // The heaviest tell nearly all.
+        // The samples with the largest weights are kept.
         if ties.len() > first + most {
             ties[first..].sort_by(|a, b| b.shares[0].total_cmp(&a.shares[0]));
             ties.truncate(first + most);
@@ -143,7 +144,7 @@ impl Layer {
                 return;
             }
             let (shift, turn) = (at - site.origin, cross(site.normal, normal));
-            // One sample right here is not the only one.
+            // The weight of a very close sample is limited, so that others count, too.
             let weight = 1.0 / error.max(1e-3 * allowed) - 1.0 / allowed;
             let shares = [1.0, shift.x, shift.y, shift.z, turn.x, turn.y, turn.z];
             ties.push(Tie { sample: number, shares: shares.map(|s| (weight * s) as f32) });
@@ -152,14 +153,14 @@ impl Layer {
 }
 
 impl Site {
-    /// The place for direct light.
+    /// The sample as a place for direct light.
     pub(super) fn surface(&self) -> SurfacePoint {
-        // The origin is clear of the surface.
+        // The origin is already clear of the surface.
         let surface = SurfacePoint::in_space(self.origin, self.normal, 0.0);
         SurfacePoint { triangle: self.triangle, ..surface }
     }
 
-    /// The estimated error of serving a place, relative; `None` where it lies on another surface.
+    /// The estimated error of serving a place, relative; `None` where the place lies on another surface.
     fn error_at(&self, at: Point, normal: Normal) -> Option<f64> {
         let shift = at - self.origin;
         let distance_m = shift.length();
@@ -170,15 +171,15 @@ impl Site {
         is_surface.then(|| distance_m / self.radius_m + (1.0 - cos).max(0.0).sqrt())
     }
 
-    /// Whether nothing stands between the sample and a place. Over a bent surface it is looked for
-    /// as high as the surface bulges between them. Of what lies below its own surface, as the room does below
-    /// a sample on the outside of a wall, it has seen nothing, and that surface stands between.
+    /// Whether nothing stands between the sample and a place. Over a bent surface the test ray is raised by
+    /// the bulge between them. A place below the sample's own surface was not seen by its rays, since that
+    /// surface stands between; so it is with the room below a sample on the outside of a wall.
     fn sees(&self, scene: &Scene, at: Point, normal: Normal) -> bool {
         let shift = at - self.origin;
         let distance_m = shift.length();
         let bend = (normal.to_vector() - self.normal.to_vector()).length();
         let slack_m = (bend + BELOW) * distance_m + 1e-5 * self.radius_m;
-        // The surface of the place itself hides what is below that.
+        // The surface of the place itself hides samples that are below it.
         if shift.dot(normal.to_vector()) > slack_m {
             return false;
         }

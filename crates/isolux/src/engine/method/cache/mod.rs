@@ -1,13 +1,13 @@
-//! The irradiance cache: indirect light sampled where it is asked for, and carried over from there to the
-//! places around by its gradients.
+//! The irradiance cache: indirect light is sampled where it is needed, and extrapolated from samples by their
+//! gradients.
 //!
-//! As of Ward, Rubinstein, Clear (1988), "A ray tracing solution for diffuse interreflection", and Ward
-//! and Heckbert (1992), "Irradiance gradients". There are two kinds of samples. Those that are read
-//! look about with many rays and lie as densely as is asked for. Those that rays read where they
-//! end are fewer and coarser; they see each other, and the light of all reflections among them is
-//! solved for as a fixed point, so that no number of reflections is chosen. Direct light is never kept. Every
-//! sample has independent replicates, each over its own replicate of what rays read, and their spread
-//! tells its standard error.
+//! The method follows Ward, Rubinstein, Clear (1988), "A ray tracing solution for diffuse interreflection",
+//! and Ward and Heckbert (1992), "Irradiance gradients". There are two kinds of samples. Near samples are
+//! read at places; they have many rays and lie as densely as the accuracy requires. Far samples are read at
+//! the ends of rays; they are fewer and coarser. Far samples see each other, and the light of all reflections
+//! among them is solved as a fixed point, so no number of reflections is chosen. Direct light is never
+//! stored. Every sample has independent replicates, each over its own replicate of the far samples, and their
+//! spread gives its standard error.
 
 mod hemisphere;
 mod increments;

@@ -1,8 +1,8 @@
-//! Placing samples: where places are asked for that none serves yet.
+//! Placing of samples at places that no sample serves yet.
 //!
-//! Places are taken in a random order of their own, fixed by where they are, in batches that double:
-//! the first samples come to lie far apart, later ones between them. A batch is looked at all at once,
-//! then samples are taken one after another; so nothing depends on threads.
+//! Places are processed in a random order that depends on their positions alone, in batches that double. So
+//! the first samples lie far apart and later ones between them. The rays of a batch are traced in parallel;
+//! then samples are accepted one after another, so nothing depends on threads.
 
 use super::hemisphere::{polar, reflected};
 use super::layer::{Layer, Site};
@@ -14,23 +14,23 @@ use crate::scene::{Body, Scene};
 use isolux_geometry::{Normal, Point, Ray};
 use rayon::prelude::*;
 
-/// Rays that tell how far things are from a place.
+/// The number of rays that measure distances around a place.
 const FEELERS: u32 = 32;
 
-/// Places of all surfaces that tell how large rooms are.
+/// The number of places on all surfaces that determine the typical size of rooms.
 const TYPICAL_PLACES: u32 = 256;
 
-/// Places of the first batch.
+/// The number of places in the first batch.
 const FIRST_BATCH: usize = 32;
 
-/// Rounds in which samples are placed where rays of those of the round before end: what the last one
-/// leaves is served from farther off.
+/// The number of rounds in which samples are placed at the ray ends of samples of the round before. Places
+/// left over after the last round are served from farther off.
 const ROUNDS: usize = 12;
 
-/// A place that light is asked for at.
+/// A place where light is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
-    /// Where rays start.
+    /// The start of its rays.
     pub(super) origin: Point,
     pub(super) normal: Normal,
     /// The triangle that it lies on.
@@ -49,7 +49,7 @@ impl From<&Gatherer> for Place {
     }
 }
 
-/// Least and greatest radius of a sample, m.
+/// The least and the largest radius of samples, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Radii {
     pub(super) least_m: f64,
@@ -57,14 +57,14 @@ pub(super) struct Radii {
 }
 
 impl Radii {
-    /// That of a place from which things lie so far: no more than the nearest of them, as what is near
-    /// an edge or a contact changes within the distance of it.
+    /// The radius of a sample with this mean and nearest distance. It is at most the nearest distance, since
+    /// light near an edge or a contact changes within that.
     fn of(self, mean_m: f64, nearest_m: f64) -> f64 {
         mean_m.min(nearest_m).clamp(self.least_m, self.most_m)
     }
 }
 
-/// Mean over the area of the radius that samples would have, m: the size of the rooms.
+/// The mean radius that samples over all of the surface would have, m: the typical size of rooms.
 pub(super) fn typical_radius_m(scene: &Scene, most_m: f64) -> f64 {
     let mut sides = Vec::new();
     let mut area_m2 = 0.0;
@@ -77,7 +77,7 @@ pub(super) fn typical_radius_m(scene: &Scene, most_m: f64) -> f64 {
     let radii = Radii { least_m: 0.0, most_m };
     let one = |index: u32| {
         let mut dice = Dice::new(Sequence::new(Key::new(0).with(10)), index);
-        // Stratified: one place in each of so many equal parts of the area.
+        // Places are stratified: one in each of [`TYPICAL_PLACES`] equal parts of the area.
         let [pick, _] = dice.pair();
         let at_m2 = (f64::from(index) + pick) / f64::from(TYPICAL_PLACES) * area_m2;
         let (_, triangle, back) =
@@ -93,16 +93,17 @@ pub(super) fn typical_radius_m(scene: &Scene, most_m: f64) -> f64 {
     (sum / f64::from(TYPICAL_PLACES)).max(f64::MIN_POSITIVE)
 }
 
-/// What feelers find about a place.
+/// The result of the rays that measure distances around a place.
 struct Felt {
     site: Site,
-    /// Harmonic mean of the distances, m, but not more than the greatest radius.
+    /// The harmonic mean of the distances, m, limited to the largest radius.
     mean_m: f64,
-    /// The places that they end on.
+    /// The places where the rays end.
     ends: Vec<Place>,
 }
 
-/// Adds samples until all places are served; returns the places that those see, and the rays traced.
+/// Adds samples until all places are served. Returns the places that the new samples see, and the number of
+/// rays.
 pub(super) fn serve(
     scene: &Scene,
     layer: &mut Layer,
@@ -132,7 +133,8 @@ pub(super) fn serve(
     (seen, rays)
 }
 
-/// The same, and again for the places that the new samples see, and so on.
+/// Adds samples until all places are served, then for the places that the new samples see, and so on, up to
+/// [`ROUNDS`] times. Returns the number of rays.
 pub(super) fn serve_all_seen(
     scene: &Scene,
     layer: &mut Layer,
@@ -151,7 +153,7 @@ pub(super) fn serve_all_seen(
     rays
 }
 
-/// Each place once, in an order that is random but depends on the places alone.
+/// Each place once, in a random order that depends on the places alone.
 fn in_random_order(places: Vec<Place>) -> Vec<Place> {
     let bits = |p: &Place| {
         let n = p.normal.to_vector();

@@ -1,4 +1,4 @@
-//! Reading a scene by its cache alone, without a map: for views.
+//! Readings of a scene from its cache alone, without a map, for views.
 
 use super::hemisphere::Light;
 use super::increments::allowed;
@@ -16,23 +16,23 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use std::sync::Arc;
 
-/// How densely samples are placed and how well they are known.
+/// The density of samples and their number of rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CacheSettings {
-    /// The error of carrying a sample over that the split-sphere model may estimate, relative; what is
-    /// read errs far less, like its square.
+    /// The largest error that the split-sphere model may estimate for extrapolating a sample, relative. The
+    /// error of readings is far smaller, about its square.
     pub allowed: f64,
-    /// Rays of a sample and replicate, a power of two.
+    /// The number of rays per near sample and replicate, a power of two.
     pub rays: u32,
-    /// Rays of one that other rays read.
+    /// The number of rays per far sample and replicate.
     pub far_rays: u32,
-    /// Seed of the random numbers.
+    /// The seed of the random numbers.
     pub seed: u64,
 }
 
 impl CacheSettings {
-    /// As densely as a map of this accuracy (a fraction) would have them, with rays in the same
-    /// proportion. Best effort: a view has no check points that would tell whether it is reached.
+    /// The density that a map of this accuracy (a fraction) would have, with rays in the same proportion.
+    /// Best effort: a view has no check points to measure its accuracy.
     pub fn for_accuracy(accuracy: f64) -> Self {
         let rays = (RAYS_AT_ONE_PERCENT * 0.01 / accuracy.max(1e-6)).clamp(16.0, 1024.0);
         let rays = (rays as u32).next_power_of_two();
@@ -40,17 +40,18 @@ impl CacheSettings {
     }
 }
 
-/// Rays of a sample and replicate for an accuracy of one per cent: a trial of maps asks for 16 to 64.
+/// The number of rays per sample and replicate for an accuracy of one per cent. In maps a trial chooses 16 to
+/// 64.
 const RAYS_AT_ONE_PERCENT: f64 = 64.0;
 
-/// What more samples took.
+/// The result of making further samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Served {
     /// The new samples.
     pub made: IrradianceCache,
-    /// Rays traced for them.
+    /// The number of rays traced for them.
     pub rays: u64,
-    /// Whether all are there.
+    /// Whether all needed samples were made.
     pub is_whole: bool,
 }
 
@@ -58,17 +59,17 @@ pub struct Served {
 /// corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CachedPlace {
-    /// Index of the triangle.
+    /// The index of the triangle.
     pub triangle: u32,
-    /// Whether it is on the back of it.
+    /// Whether the place is on the back.
     pub back: bool,
-    /// Weight of the second corner.
+    /// The weight of the second corner.
     pub u: f64,
-    /// Weight of the third corner.
+    /// The weight of the third corner.
     pub v: f64,
 }
 
-/// Reads a scene by samples.
+/// A reader of a scene by samples.
 pub struct CacheReader<'s> {
     scene: &'s Scene,
     lighting: Lighting<'s>,
@@ -77,13 +78,13 @@ pub struct CacheReader<'s> {
     places: Places<'s>,
     store: Store<'s>,
     settings: CacheSettings,
-    /// Means of the samples that are read, and their variances.
+    /// The means of the near samples, and their variances.
     lights: Vec<Light>,
     variances: Vec<f64>,
 }
 
 impl<'s> CacheReader<'s> {
-    /// With the samples of a cache, which may come from anywhere.
+    /// A reader with the samples of a cache of any origin; an error if they cannot belong to the scene.
     pub fn new(
         scene: &'s Scene,
         cache: &IrradianceCache,
@@ -107,20 +108,20 @@ impl<'s> CacheReader<'s> {
         Ok(reader)
     }
 
-    /// Whether some light reaches surfaces by ways that samples do not see: caustics of glass, gloss and
-    /// curved mirrors. It is left out.
+    /// Whether some light is left out because samples do not see it: caustics of glass, gloss and curved
+    /// mirrors.
     pub fn leaves_caustics(&self) -> bool {
         self.lighting.leaves_caustics()
     }
 
-    /// Makes the samples that these places still need. The same places in any order and number, from
-    /// the same cache, make the same samples on any number of threads.
+    /// Makes the samples that these places still need. The same places in any order and number, with the same
+    /// cache, give the same samples on any number of threads.
     pub fn serve(&mut self, places: &[CachedPlace]) -> Served {
         self.serve_until(places, &|| false)
     }
 
-    /// The same, until it is over: then those made so far are the first of them, each as it would be otherwise, and the
-    /// reader tells nothing any more.
+    /// Makes the samples that these places still need until `is_over`. The samples made by then are the first
+    /// of all, unchanged. The reader then gives no readings.
     pub fn serve_until(&mut self, places: &[CachedPlace], is_over: &dyn Fn() -> bool) -> Served {
         let Self { scene, lighting, bright, store, settings, .. } = self;
         let places = places.iter().filter_map(|at| place(scene, &self.places, at));
@@ -166,7 +167,7 @@ impl<'s> CacheReader<'s> {
         served
     }
 
-    /// Takes up the means of samples that are known since the last time.
+    /// Adds the means of samples that became known since the last call.
     fn learn(&mut self) {
         let new = self.store.near.known[self.lights.len()..].iter().map(CacheSample::mean);
         let (lights, variances): (Vec<Light>, Vec<f64>) = new.unzip();
@@ -174,10 +175,10 @@ impl<'s> CacheReader<'s> {
         self.variances.extend(variances);
     }
 
-    /// The illuminance at a place: direct light afresh by a few shadow rays for every emitting surface,
-    /// for pictures, which take a mean over many places anyway; indirect light from the samples around.
-    /// The standard error is that of the samples. `None` where no sample is near, and where the surface
-    /// carries no map. `number` tells readings of one place apart.
+    /// The illuminance at a place, for pictures, which average over many places. Direct light is evaluated by
+    /// a few shadow rays per emitting surface; indirect light comes from the samples around. The standard
+    /// error is that of the samples. `None` where no sample is near, and where the surface carries no map.
+    /// `number` tells readings of one place apart.
     pub fn glance(&self, at: &CachedPlace, number: u64) -> Option<Illuminance> {
         let at = place(self.scene, &self.places, at)?;
         let ties = self.store.ties(&Place::from(&at));
@@ -208,7 +209,7 @@ impl<'s> CacheReader<'s> {
     }
 }
 
-/// The surface at a place, if it carries light.
+/// The surface at a place, if it carries a map.
 fn place(scene: &Scene, places: &Places, at: &CachedPlace) -> Option<SurfacePoint> {
     let CachedPlace { triangle, back, u, v } = *at;
     carries_map(scene, triangle, back)

@@ -1,4 +1,4 @@
-//! Samples as they are kept: plain values.
+//! Samples as plain values.
 
 use super::hemisphere::Light;
 use super::layer::Site;
@@ -7,74 +7,75 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Normal, Point};
 
-/// Independent replicates of every sample.
+/// The number of independent replicates of every sample.
 pub const CACHE_REPLICATES: usize = 8;
 
-/// What a sample is for.
+/// The kind of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleKind {
-    /// What is read: sees the other kind.
+    /// A sample that is read at places. Its rays read far samples.
     Near,
-    /// What rays read where they end: sees its own kind, so that all reflections are in it.
+    /// A sample that rays read where they end. Its own rays read far samples, too, so its light includes all
+    /// reflections.
     Far,
 }
 
 /// A sample of indirect irradiance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CacheSample {
-    /// What it is for.
+    /// The kind of the sample.
     pub kind: SampleKind,
-    /// Where, just above the surface, m.
+    /// The position, just above the surface, m.
     pub position: Point,
-    /// Shading normal of the side.
+    /// The shading normal of the side.
     pub normal: Normal,
     /// The triangle of the scene that it lies on.
     pub triangle: u32,
-    /// Harmonic mean of the distances of what it sees, within bounds, m.
+    /// The harmonic mean of the distances to the surfaces it sees, within bounds, m.
     pub radius_m: f64,
-    /// Distance of the nearest that it sees, m; infinite where it sees nothing.
+    /// The distance to the nearest surface it sees, m; infinite where it sees nothing.
     pub nearest_m: f64,
-    /// Indirect illuminance in independent replicates, lx.
+    /// The indirect illuminance in independent replicates, lx.
     pub replicates_lx: [Rgb; CACHE_REPLICATES],
-    /// Change of their mean along the axes of the world, lx/m.
+    /// The gradient of their mean along the axes of the world, lx/m.
     pub along: [Rgb; 3],
-    /// Change of their mean when the normal turns about the axes of the world, lx/rad.
+    /// The gradient of their mean when the normal turns about the axes of the world, lx/rad.
     pub turning: [Rgb; 3],
 }
 
-/// Samples of one scene.
+/// The samples of one scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IrradianceCache {
-    /// All of them, in the order in which they were made.
+    /// All samples, in the order in which they were made.
     pub samples: Vec<CacheSample>,
 }
 
-/// Why samples are not those of a scene.
+/// The reason why samples do not belong to a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CacheError {
-    /// A sample lies on a triangle that there is not.
+    /// A sample lies on a triangle that does not exist.
     #[error("sample {sample} lies on triangle {triangle}, but the scene has {triangles}")]
     Triangle {
-        /// Number of the sample.
+        /// The number of the sample.
         sample: usize,
-        /// Its triangle.
+        /// The triangle of the sample.
         triangle: u32,
-        /// Triangles of the scene.
+        /// The number of triangles in the scene.
         triangles: u32,
     },
-    /// A number is not what it can be.
+    /// A value of a sample is impossible.
     #[error("the {what} of sample {sample} is not a possible one")]
     Value {
-        /// Number of the sample.
+        /// The number of the sample.
         sample: usize,
-        /// Which number.
+        /// The name of the value.
         what: &'static str,
     },
 }
 
 impl IrradianceCache {
-    /// Refuses what no run can have made of this scene; values of any origin may be tried.
+    /// Checks samples of any origin; an error if no run can have made them for this scene.
     pub fn check(&self, scene: &Scene) -> Result<(), CacheError> {
         let triangles = scene.triangle_count();
         for (number, sample) in self.samples.iter().enumerate() {
@@ -89,7 +90,7 @@ impl IrradianceCache {
         Ok(())
     }
 
-    /// Samples of a kind.
+    /// The number of samples of a kind.
     pub fn count(&self, kind: SampleKind) -> usize {
         self.samples.iter().filter(|sample| sample.kind == kind).count()
     }
@@ -113,12 +114,12 @@ impl CacheSample {
         Site { origin, normal, triangle, radius_m, nearest_m }
     }
 
-    /// A replicate; gradients are those of the mean.
+    /// The light of a replicate, with the gradients of the mean.
     pub(super) fn light(&self, replicate: usize) -> Light {
         self.with_gradients(self.replicates_lx[replicate])
     }
 
-    /// The mean and the variance of its photometric value.
+    /// The mean light and the variance of its photometric value.
     pub(super) fn mean(&self) -> (Light, f64) {
         let (value, variance) = mean_and_variance(&self.replicates_lx);
         (self.with_gradients(value), variance)
@@ -130,7 +131,7 @@ impl CacheSample {
     }
 }
 
-/// Replicates of a sample that is being made.
+/// The sums of the replicates of a sample in progress.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sum {
     values: [Rgb; CACHE_REPLICATES],
@@ -140,7 +141,7 @@ pub(super) struct Sum {
 }
 
 impl Sum {
-    /// Adds increment `index`; increments beyond the replicates kept are shared out among them.
+    /// Adds increment `index`. Increments beyond [`CACHE_REPLICATES`] are spread over the replicates.
     pub(super) fn add(&mut self, index: u64, light: &Light) {
         let replicate = (index % CACHE_REPLICATES as u64) as usize;
         let [value, gradients @ ..] = light.0.map(Rgb);
@@ -152,7 +153,7 @@ impl Sum {
         }
     }
 
-    /// The sample; `None` before every replicate has a value.
+    /// The sample; `None` until every replicate has a value.
     pub(super) fn sample(&self, kind: SampleKind, site: &Site) -> Option<CacheSample> {
         if self.counts.contains(&0) {
             return None;

@@ -1,4 +1,4 @@
-//! Samples at work: where they lie, what is known of them, and how more are made.
+//! The samples of a scene: their positions, their known light, and the making of more.
 
 use super::hemisphere::{Caustic, Hemisphere, Light, Surroundings, TIES_OF_RAY};
 use super::layer::{Layer, Site, Tie};
@@ -14,33 +14,37 @@ use crate::units::Rgb;
 use isolux_geometry::Point;
 use rayon::prelude::*;
 
-/// Least radius of a sample, in typical radii of the scene: at vertices, of which there are only so many;
-/// in views, which would ask for a sample at every pixel along an edge; and of those that rays read, which
-/// look at it from afar: on CUBE four times as many samples at its edges bring little.
+/// The least radius of a sample at the vertices of a map, in typical radii of the scene. There are only so
+/// many vertices, so it can be small.
 pub(super) const LEAST_RADIUS_AT_VERTICES: f64 = 0.01;
+/// The least radius of a sample in views, in typical radii. A smaller one would ask for a sample at every
+/// pixel along an edge.
 pub(super) const LEAST_RADIUS_IN_VIEWS: f64 = 0.1;
+/// The least radius of a far sample, in typical radii. Rays read these from afar: on CUBE four times as many
+/// samples at its edges bring little.
 const LEAST_RADIUS_FAR: f64 = 0.2;
 
-/// Greatest radius, in extents of the scene.
+/// The largest radius, in extents of the scene.
 const MOST_RADIUS: f64 = 0.5;
 
-/// Sweeps over the light between samples end when they change less than this, relative; and at most.
+/// The relative change at which sweeps over the light between samples end.
 const TOLERANCE: f64 = 1e-4;
+/// The largest number of these sweeps.
 const MAX_SWEEPS: usize = 2000;
 
-/// Greatest factor from change to change that is believed.
+/// The largest ratio of successive changes that the extrapolation assumes.
 const MOST: f64 = 0.99;
 
-/// Samples and how densely they are to lie.
+/// The samples of a scene, and the density that they need.
 pub(super) struct Store<'s> {
     scene: &'s Scene,
     pub(super) near: Family,
     pub(super) far: Family,
-    /// First guess of the light that rays read.
+    /// A first guess of the light at far samples.
     guess: Vec<Light>,
 }
 
-/// Samples of one kind: those at the front are known.
+/// The samples of one kind; the first of them are known.
 pub(super) struct Family {
     kind: SampleKind,
     pub(super) layer: Layer,
@@ -49,25 +53,26 @@ pub(super) struct Family {
     sums: Vec<Sum>,
 }
 
-/// The light of one replicate at all samples of a kind, and what it took.
+/// The light of one replicate at all samples of a kind, with its effort.
 pub(super) struct Replicate {
     pub(super) lights: Vec<Light>,
     pub(super) rays: u64,
-    /// Share of the rays whose light is lost, mean over those traced.
+    /// The share of lost rays, mean over the samples traced.
     pub(super) lost: f64,
-    /// What the last sweep over the light between samples has changed, root mean square, lx.
+    /// The last change of the light between samples, root mean square, lx.
     pub(super) unsettled_lx: f64,
 }
 
-/// How a replicate is made.
+/// The settings of a replicate.
 #[derive(Clone, Copy)]
 pub(super) struct Making<'a> {
-    /// Which one.
+    /// The number of the replicate.
     pub(super) index: u64,
-    /// Rays of a sample.
+    /// The number of rays per sample.
     pub(super) rays: u32,
     pub(super) key: Key,
-    /// Where sources are many, rays read their light from samples, too; else they evaluate it.
+    /// The luminaires. Where they are many, rays read direct light from far samples, too; else they evaluate
+    /// it.
     pub(super) lighting: &'a Lighting<'a>,
     pub(super) bright: Option<&'a BrightSurfaces>,
     pub(super) caustic: Caustic<'a>,
@@ -75,7 +80,8 @@ pub(super) struct Making<'a> {
 }
 
 impl<'s> Store<'s> {
-    /// With the samples of a cache, to be as dense as an error allows and no denser than a least radius.
+    /// A store with the samples of a cache. Further samples lie as densely as the allowed error requires,
+    /// limited by a least radius.
     pub(super) fn new(
         scene: &'s Scene,
         cache: &IrradianceCache,
@@ -103,28 +109,30 @@ impl<'s> Store<'s> {
         }
     }
 
-    /// Places samples so that these places are served, and all that rays from them see.
+    /// Places samples so that these places and all places seen by their rays are served. Returns the number
+    /// of rays.
     pub(super) fn serve(&mut self, places: Vec<Place>) -> u64 {
         let Self { scene, near, far, .. } = self;
         let (seen, rays) = serve(scene, &mut near.layer, places, near.radii);
         rays + serve_all_seen(scene, &mut far.layer, seen, far.radii)
     }
 
-    /// What a place takes from the samples that are read.
+    /// The contributions of near samples to a place.
     pub(super) fn ties(&self, place: &Place) -> Vec<Tie> {
         let mut ties = Vec::new();
         self.near.layer.ties(self.scene, (place.origin, place.normal), usize::MAX / 2, &mut ties);
         ties
     }
 
-    /// The same of those that rays read.
+    /// The contributions of far samples to a place.
     pub(super) fn far_ties(&self, place: &Place) -> Vec<Tie> {
         let mut ties = Vec::new();
         self.far.layer.ties(self.scene, (place.origin, place.normal), TIES_OF_RAY, &mut ties);
         ties
     }
 
-    /// Takes a first guess of the light that rays read from a replicate that is not counted.
+    /// Sets the first guess of the light at far samples, from a replicate that is not counted. Returns the
+    /// number of rays.
     pub(super) fn guess(&mut self, making: &Making) -> u64 {
         let Some(seen) = self.look_far(0, making) else { return 0 };
         let mut lights = vec![Light::default(); seen.len()];
@@ -133,8 +141,8 @@ impl<'s> Store<'s> {
         seen.iter().map(Hemisphere::ray_count).sum()
     }
 
-    /// One replicate of the light that rays read: all reflections, as the fixed point of the light
-    /// between samples. `None` if the deadline passes meanwhile.
+    /// One replicate of the far samples, with all reflections: the fixed point of the light between them.
+    /// `None` if the deadline passes meanwhile.
     pub(super) fn far_replicate(&mut self, making: &Making) -> Option<Replicate> {
         let (mut lights, first) = self.far.start(making.index);
         let seen = self.look_far(first, making)?;
@@ -146,7 +154,8 @@ impl<'s> Store<'s> {
         Some(Replicate { unsettled_lx, ..Replicate::of(&seen, lights) })
     }
 
-    /// One replicate of the light that is read, over one of what rays read.
+    /// One replicate of the near samples, over one of the far samples. `None` if the deadline passes
+    /// meanwhile.
     pub(super) fn near_replicate(&mut self, making: &Making, far: &[Light]) -> Option<Replicate> {
         let (mut lights, first) = self.near.start(making.index);
         let mut whole = Replicate { lights: Vec::new(), rays: 0, lost: 0.0, unsettled_lx: 0.0 };
@@ -163,8 +172,8 @@ impl<'s> Store<'s> {
         Some(Replicate { lights, lost, ..whole })
     }
 
-    /// The next of the samples that are read, in every replicate, over those of what rays read; and the rays traced for
-    /// them. Each is what it would be whoever was made before it.
+    /// The next near samples in all replicates, over those of the far samples, and the number of rays. Each
+    /// sample is independent of those made before it.
     pub(super) fn make_near<'a>(
         &mut self,
         making: &dyn Fn(u64) -> Making<'a>,
@@ -190,7 +199,7 @@ impl<'s> Store<'s> {
         (made, rays)
     }
 
-    /// Light at other places over what rays read, traced afresh.
+    /// The light at other places over the far samples, traced anew, and the number of rays.
     pub(super) fn fresh(
         &self,
         places: &[Place],
@@ -225,7 +234,7 @@ impl<'s> Store<'s> {
         sites.par_iter().map(one).collect()
     }
 
-    /// What samples see that rays read, with the light from luminaires on them if it is read there.
+    /// The hemispheres of the far samples, with direct light at the samples where rays read it there.
     fn look_far(&self, first: usize, making: &Making) -> Option<Vec<Hemisphere>> {
         let sites = &self.far.layer.sites[first..];
         let mut seen = self.look(sites, making)?;
@@ -239,7 +248,8 @@ impl<'s> Store<'s> {
         Some(seen)
     }
 
-    /// The samples made since the last time, if every replicate of them is there; they are known then.
+    /// The samples made since the last call; empty unless all their replicates are complete. They become
+    /// known.
     pub(super) fn make_known(&mut self) -> Vec<CacheSample> {
         let mut made = self.far.make_known();
         made.extend(self.near.make_known());
@@ -247,11 +257,11 @@ impl<'s> Store<'s> {
     }
 }
 
-/// Samples whose rays are in memory at once.
+/// The number of samples whose rays are in memory at once.
 const SITES_AT_ONCE: usize = 1024;
 
 impl Family {
-    /// What is known of a replicate, and the first sample of which nothing is.
+    /// The known light of a replicate, and the number of the first unknown sample.
     fn start(&mut self, index: u64) -> (Vec<Light>, usize) {
         let count = self.layer.sites.len() - self.known.len();
         self.sums.resize(count, Sum::default());
@@ -294,9 +304,9 @@ impl Replicate {
     }
 }
 
-/// Light of samples from `first` on, given that of those before: the fixed point of what they see, from a
-/// first guess. Every third sweep goes on at once to where the changes would end if they shrank by one
-/// factor, channel by channel (Aitken 1926). Returns what the last sweep has changed, root mean square, lx.
+/// The light of samples from `first` on, given those before: the fixed point of the light between them, from
+/// a first guess. Every third sweep extrapolates to the limit of the changes as a geometric series, channel
+/// by channel (Aitken 1926). Returns the last change, root mean square, lx.
 fn settle(seen: &[Hemisphere], lights: &mut [Light], first: usize) -> f64 {
     let mut unsettled_lx = 0.0;
     let mut before: Option<Vec<Light>> = None;
@@ -330,8 +340,8 @@ fn minus(a: &Light, b: &Light) -> Light {
     difference
 }
 
-/// Adds to the light what further changes would, if each were that factor times the one before by
-/// which the last one differs from `before`.
+/// Adds the sum of all further changes, as a geometric series. Its ratio is that of the last change to the
+/// one `before`.
 fn extrapolate(lights: &mut [Light], changes: &[Light], before: &[Light]) {
     for channel in 0..3 {
         let product = |a: &[Light], b: &[Light]| -> f64 {

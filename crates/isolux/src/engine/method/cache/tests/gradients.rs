@@ -1,13 +1,14 @@
-//! Gradients against differences.
+//! Gradients compared with differences.
 
 use super::{look, room, site};
 use isolux_geometry::{Normal, Vector};
 
-/// Rays of a replicate: 16 rings. Coarser grids see less of what changes near the horizon.
+/// The number of rays of a replicate, which gives 16 rings. Coarser grids resolve changes near the horizon
+/// less well.
 const RAYS: u32 = 1024;
 
-/// What a grid of 16 rings and noise leave of a gradient: the worst of 12 differs by 9 % of the largest
-/// gradient at its place.
+/// The error of a gradient from a grid of 16 rings and from noise. The worst of 12 gradients differs by 9 %
+/// of the largest gradient at its place.
 const TOLERANCE: f64 = 0.1;
 
 const STEP_M: f64 = 0.1;
@@ -15,7 +16,7 @@ const TURN_RAD: f64 = 0.1;
 
 const PLACES: [[f64; 3]; 3] = [[1.0, 1.0, 1e-4], [3.0, 2.0, 1e-4], [0.4, 0.3, 1e-4]];
 
-/// Central differences of a function of the axis and of what is added along it.
+/// The central differences of a function along the two axes.
 fn differences(step: f64, value: impl Fn(usize, f64) -> f64) -> [f64; 2] {
     [0, 1].map(|axis| (value(axis, step) - value(axis, -step)) / (2.0 * step))
 }

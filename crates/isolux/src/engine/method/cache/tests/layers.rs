@@ -1,4 +1,4 @@
-//! Where samples serve and where they do not.
+//! Places that samples serve, and places that they do not.
 
 use super::super::layer::{Layer, Site};
 use super::super::octree::Octree;
@@ -45,7 +45,7 @@ fn a_sample_serves_what_is_near_and_faces_its_way() {
     assert!(covers(2.0, 1e-4, Normal::Z) && covers(2.29, 1e-4, Normal::Z));
     assert!(!covers(2.31, 1e-4, Normal::Z));
     assert!(!covers(2.0, 1e-4, -Normal::Z));
-    // A table above the floor, near enough by distance alone.
+    // This is a table above the floor, near enough by distance alone.
     assert!(!covers(2.0, 0.2, Normal::Z));
 }
 
@@ -67,8 +67,8 @@ fn no_sample_serves_what_is_behind_a_wall() {
     assert!(ties.is_empty());
 }
 
-/// A corridor with sides of which both carry light: nothing is seen from a sample on the outside of one, not even
-/// the other, which is nearly in its plane as seen from there.
+/// In a corridor with walls that carry light on both sides, a sample on the outside of one wall sees nothing,
+/// not even the other wall, which is nearly in its plane as seen from there.
 #[test]
 fn no_sample_on_the_outside_serves_the_inside() {
     let grey = crate::scene::Finish::diffuse(Rgb::grey(0.5));
@@ -90,7 +90,8 @@ fn no_sample_on_the_outside_serves_the_inside() {
     assert!(!layer.covers(&scene, Point::new(18.0, 1e-4, 1.95), y));
 }
 
-/// The floor of a house, half a metre above the ground, as seen from the ground beside it: nearly in its plane, but from below.
+/// The floor of a house, half a metre above the ground, is nearly in the plane of the ground beside it, but
+/// is seen from below.
 #[test]
 fn no_sample_serves_a_surface_that_it_lies_below() {
     let ground = rectangle([-20.0, -20.0, 0.0], [40.0, 0.0, 0.0], [0.0, 40.0, 0.0], 0);
@@ -112,7 +113,7 @@ fn radii_differ_no_more_than_places_do() {
     layer.insert(Site { radius_m: 1.0, ..floor_site(2.1, 1.5) });
     // Coordinates are sums of decimals.
     let is_near = |k: usize, expected: f64| (layer.sites[k].radius_m - expected).abs() < 1e-12;
-    // The second is too far from the third for its small radius to reach it.
+    // The small radius of the second does not reach the third.
     assert!(is_near(0, 0.4) && is_near(1, 0.1) && is_near(2, 0.5), "{:?}", layer.sites);
 }
 
@@ -128,12 +129,12 @@ fn weights_sum_to_one_and_carry_light_over() {
     let at = Point::new(2.1, 1.52, 1e-4);
     layer.ties(&scene, (at, Normal::Z), usize::MAX, &mut ties);
     let weights: f32 = ties.iter().map(|tie| tie.shares[0]).sum();
-    // Three single-precision quotients of one sum.
+    // These are three single-precision quotients of one sum.
     assert!((weights - 1.0).abs() < 1e-6 && ties.len() == 3, "{ties:?}");
     let lights: Vec<_> = sites.iter().map(|site| look(&scene, site, 256)).collect();
     let exact = look(&scene, &floor_site(2.1, 1.52), 256).value().0[0];
     let read = super::super::hemisphere::tied(&ties, &lights).0[0];
-    // Second order of 0.1 m in a room of metres, and noise of 16 x 256 rays.
+    // The tolerance is second order of 0.1 m in a room of metres, and noise of 16 x 256 rays.
     assert!((read / exact - 1.0).abs() < 0.01, "{read} for {exact}");
 }
 
@@ -155,7 +156,7 @@ fn places_are_served_whatever_their_order() {
     let backwards: Vec<Place> = places.iter().rev().chain(&places).copied().collect();
     assert_eq!(served(backwards).sites, layer.sites);
     let unserved = places.iter().filter(|p| !layer.covers(&scene, p.origin, p.normal)).count();
-    // Those whose sample has shrunk since beside a later one with a smaller radius.
+    // These are places whose sample has shrunk beside a later one with a smaller radius.
     assert!(unserved < 40, "{unserved}");
 }
 

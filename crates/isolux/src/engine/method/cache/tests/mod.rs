@@ -1,4 +1,4 @@
-//! The cache, part by part.
+//! Tests of the parts of the cache.
 
 mod gradients;
 mod layers;
@@ -29,7 +29,7 @@ fn site(point: [f64; 3], normal: Vector) -> Site {
     }
 }
 
-/// Mean of some replicates of light after one reflection.
+/// The mean of some replicates of light after one reflection.
 fn look(scene: &Scene, from: &Site, rays: u32) -> Light {
     let lighting = Lighting::new(scene);
     let far = Layer::new(scene, 0.3);

@@ -1,4 +1,4 @@
-//! The same again: on any number of threads, and from a cache.
+//! Repeated runs: on any number of threads, and from a cache.
 
 use super::room;
 use crate::engine::{
@@ -42,7 +42,7 @@ fn views_make_the_same_samples_on_any_number_of_threads_and_none_twice() {
     let mut again = CacheReader::new(&scene, &first, settings).unwrap();
     assert_eq!(again.glance(&asked[7], 0), Some(glance));
     let more = again.serve(&asked).made.samples.len();
-    // Places whose sample has shrunk beside a later one.
+    // These are places whose sample has shrunk beside a later one.
     assert!(more * 5 < first.samples.len(), "{more} of {}", first.samples.len());
 }
 
@@ -60,7 +60,7 @@ fn serving_cut_short_makes_the_first_of_the_same_samples() {
     };
     let whole = served_until(u32::MAX);
     assert!(whole.is_whole);
-    // Asked before each of the replicates of what rays read, and then before parts of what is read.
+    // It is asked before each replicate of the far samples, then before parts of the near samples.
     let replicates = CACHE_REPLICATES as u32;
     assert_eq!(served_until(replicates - 1).made, IrradianceCache::default());
     let short = served_until(replicates);
@@ -100,6 +100,6 @@ fn a_map_from_its_own_cache_costs_little_and_says_the_same() {
         squares += b * b;
         differences += (a - b) * (a - b);
     }
-    // Within the accuracy asked for.
+    // The values agree within the accuracy goal.
     assert!((differences / squares).sqrt() < 0.05);
 }
