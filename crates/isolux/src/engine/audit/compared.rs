@@ -1,4 +1,4 @@
-//! A place read and estimated afresh.
+//! The comparison of a reading with paths at one place.
 
 use super::places::{Drawn, Where};
 use crate::engine::method::{PathTracer, Traced};
@@ -7,28 +7,28 @@ use crate::engine::read::MapReader;
 use crate::map::{Illuminance, IlluminationMap};
 use crate::sampling::Key;
 
-/// How far a place may differ from paths in 95 % of cases, in standard errors.
+/// The half-width of a 95 % interval, in standard errors.
 const IN_95_OF_100: f64 = 1.96;
 
-/// What was read at a place and what paths have found there, photometric.
+/// The reading and the paths at a place, photometric.
 pub(super) struct Compared {
     pub(super) at: SurfacePoint,
     pub(super) drawn: Where,
     pub(super) read_lx: f64,
-    /// As the reading tells.
+    /// The standard error that the reading reports, lx.
     pub(super) standard_error_lx: f64,
     pub(super) traced_lx: f64,
     pub(super) traced_variance: f64,
-    /// Estimate of the squared error of the reading, free of bias, lx2; it may be negative.
+    /// The unbiased estimate of the squared error of the reading, lx2; it may be negative.
     pub(super) squared_lx2: f64,
-    /// The same of the bare map.
+    /// The unbiased estimate of the squared error of the bare map, lx2.
     pub(super) interpolated_lx2: f64,
     /// The brightest paths, as multiples of the mean of the place.
     pub(super) brightest: Vec<f64>,
 }
 
 impl Compared {
-    /// What is read beyond what paths find, lx.
+    /// The reading less the mean of the paths, lx.
     pub(super) const fn apart_lx(&self) -> f64 {
         self.read_lx - self.traced_lx
     }
@@ -40,14 +40,15 @@ impl Compared {
         if apart == 0.0 { 0.0 } else { apart / error }
     }
 
-    /// Whether it lies outside of the interval of 95 %.
+    /// Whether the difference lies outside the 95 % interval.
     pub(super) fn is_outside(&self) -> bool {
         self.in_errors().abs() > IN_95_OF_100
     }
 }
 
-/// Reads a map at a place, and traces so many paths from there in so many replicates; `None` for what the map knows nothing of. Also, whether the place was drawn by area, and the
-/// rays of the paths.
+/// Compares a map with paths at a place, in `replicates` replicates of `paths / replicates` paths. The first
+/// value is `None` where the map knows nothing. The others are whether the place was drawn by area, and the
+/// number of rays of the paths and of direct light in the reading.
 pub(super) fn compare(
     (map, reader, tracer): (&IlluminationMap, &MapReader, &PathTracer),
     place: &Drawn,
@@ -58,9 +59,9 @@ pub(super) fn compare(
     let SurfacePoint { triangle, back, u, v, .. } = place.at;
     let Some(read) = reader.at(triangle, back, u, v) else { return (None, by_area, 0) };
     let traced = tracer.traced(&place.at, (replicates, paths.div_ceil(replicates)), key.with(3));
-    // Readings look at luminaires themselves, by several replicates where these are chosen.
+    // Readings evaluate luminaires, in several replicates where luminaires are sampled.
     let rays = traced.rays + tracer.rays_of_reading();
-    // What paths leave out is taken off what they are compared with.
+    // Light that paths leave out is subtracted from the readings.
     let left_out = |of: &Illuminance| match tracer.leaves_caustics() {
         true => of.caustic_lx.luminance(),
         false => 0.0,
@@ -82,7 +83,7 @@ fn compared(
     let traced_lx = values.iter().sum::<f64>() / n;
     let squares: f64 = values.iter().map(|v| (v - traced_lx) * (v - traced_lx)).sum();
     let traced_variance = squares / (n * (n - 1.0));
-    // The mean of the products of the differences of two replicates.
+    // This is the mean product of the differences of two replicates.
     let squared = |lx: f64| (lx - traced_lx) * (lx - traced_lx) - traced_variance;
     let brightest = match traced_lx > 0.0 {
         true => traced.brightest.iter().map(|lx| lx / traced_lx).collect(),

@@ -3,37 +3,39 @@
 use super::compared::Compared;
 use crate::map::{Audit, AuditedError, AuditedReadings};
 
-/// Audits of a run at most.
+/// The largest number of audits of a run.
 pub(crate) const MOST_AUDITS: u32 = 3;
 
-/// Quantile of the normal distribution for intervals of 95 %.
+/// The normal quantile for intervals of 95 %.
 const TWO_SIDED: f64 = 1.96;
-/// The same for a probability of 95 % on one side.
+/// The normal quantile for a one-sided probability of 95 %.
 const POWER: f64 = 1.645;
-/// Quantile for one-sided bounds: the false alarms of a run ([`Audit::FALSE_ALARMS`], one in a thousand) shared out among three bounds
-/// in each of three audits.
+/// The normal quantile for one-sided bounds. The probability of a false alarm in a run
+/// ([`Audit::FALSE_ALARMS`], one in a thousand) is divided among three bounds in each of three audits.
 const ONE_SIDED: f64 = 3.692;
 const _: () = assert!(MOST_AUDITS == 3 && Audit::FALSE_ALARMS == 1000.0);
 
-/// Places that tell of a part of the surface at least.
+/// The least number of places for a statement on a part of the surface.
 pub(super) const FEWEST_OF_PART: usize = 8;
 
-/// The brightest paths that tell of the tail: a twentieth of those kept, and no fewer.
+/// The share of the kept paths, the brightest, that the tail index is estimated from.
 const OF_TAIL: f64 = 0.05;
+/// The least number of paths for a tail index.
 const FEWEST_IN_TAIL: usize = 25;
 
-/// A mean over places with what it errs by.
+/// A mean over places, with its standard error.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Figures {
     pub(super) mean: f64,
-    /// Standard error of the mean.
+    /// The standard error of the mean.
     pub(super) error: f64,
-    /// Relative variance of the variance.
+    /// The relative variance of the variance.
     pub(super) variance_of_variance: f64,
 }
 
 impl Figures {
-    /// Of values at places drawn independently. With fewer than two nothing is known.
+    /// The figures of values at independent places. With fewer than two values the standard error is
+    /// infinite.
     pub(super) fn of(values: &[f64]) -> Self {
         let n = values.len() as f64;
         if values.len() < 2 {
@@ -47,7 +49,7 @@ impl Figures {
         Self { mean, error: (squares / (n * (n - 1.0))).sqrt(), variance_of_variance }
     }
 
-    /// The root of the mean, as a share of so much light.
+    /// The root of a mean square, relative to an illuminance, with its 95 % interval.
     pub(super) fn relative(&self, reference_lx: f64) -> AuditedError {
         let root = |square: f64| share(square.max(0.0).sqrt(), reference_lx);
         AuditedError {
@@ -57,36 +59,39 @@ impl Figures {
         }
     }
 
-    /// The least that the mean is, beyond doubt.
+    /// The one-sided lower bound on the mean, at least zero.
     pub(super) fn at_least(&self) -> f64 {
         (self.mean - ONE_SIDED * self.error).max(0.0)
     }
 
-    /// The least that the square of the mean is, beyond doubt.
+    /// The one-sided lower bound on the square of the mean.
     pub(super) fn square_at_least(&self) -> f64 {
         let least = (self.mean.abs() - ONE_SIDED * self.error).max(0.0);
         least * least
     }
 
-    /// Whether the mean is not zero, beyond doubt.
+    /// Whether the mean differs significantly from zero.
     pub(super) fn is_beyond_doubt(&self) -> bool {
         self.mean.abs() > ONE_SIDED * self.error
     }
 
-    /// Of mean squares: an error that would have been found beyond that which is told.
+    /// The error that would have contradicted the reported one with a probability of 95 %, relative, from
+    /// figures of a mean square.
     pub(super) fn would_find(&self, told: f64, reference_lx: f64) -> f64 {
         let beyond = share(((ONE_SIDED + POWER) * self.error).sqrt(), reference_lx);
         libm::hypot(told, beyond)
     }
 
-    /// Of means: an error alike everywhere that would have been found.
+    /// The uniform error that would have contradicted the reported one with a probability of 95 %, relative,
+    /// from figures of a mean.
     pub(super) fn would_find_alike(&self, told: f64, reference_lx: f64) -> f64 {
         told + share((ONE_SIDED + POWER) * self.error, reference_lx)
     }
 }
 
-/// The least that the mean square over all places is, beyond doubt, by the squares of the means over parts. A mean d of n values of variance s2
-/// tells the square d2 - s2/n without bias, with the variance 4 d2 s2/n + 2 (s2/n)2 of normal numbers.
+/// The one-sided lower bound on the mean square over all places, from the squares of the means over parts.
+/// For a mean d of n values with variance s2, the unbiased estimate of its square is d2 - s2/n. Its variance
+/// for normal values is 4 d2 s2/n + 2 (s2/n)2.
 pub(super) fn parts_at_least<'a>(parts: impl Iterator<Item = &'a [&'a Compared]>) -> f64 {
     let (mut count, mut sum, mut variance) = (0.0, 0.0, 0.0);
     for part in parts {
@@ -105,12 +110,12 @@ pub(super) fn parts_at_least<'a>(parts: impl Iterator<Item = &'a [&'a Compared]>
     if count == 0.0 { 0.0 } else { ((sum - ONE_SIDED * variance.sqrt()) / count).max(0.0) }
 }
 
-/// Any error is infinite beside no light, but none.
+/// An error relative to an illuminance: zero if it is zero, even without light.
 pub(super) fn share(lx: f64, reference_lx: f64) -> f64 {
     if lx == 0.0 { 0.0 } else { lx / reference_lx }
 }
 
-/// Readings beside what they tell.
+/// The true errors of readings beside the reported ones.
 pub(super) fn readings<'a>(some: impl Iterator<Item = &'a Compared>) -> AuditedReadings {
     let all: Vec<&Compared> = some.filter(|c| c.standard_error_lx.is_finite()).collect();
     let count = all.len() as f64;
@@ -126,8 +131,8 @@ pub(super) fn readings<'a>(some: impl Iterator<Item = &'a Compared>) -> AuditedR
     }
 }
 
-/// The least c for which the mean of what squared errors exceed c2 times those told by is beyond doubt not above zero: by linearization of the
-/// ratio of two means.
+/// The one-sided lower bound on the ratio of true to reported errors, from the linearized variance of a ratio
+/// of two means.
 fn ratio_at_least(all: &[&Compared], told: f64) -> f64 {
     if told <= 0.0 {
         return 0.0;
@@ -141,7 +146,7 @@ fn ratio_at_least(all: &[&Compared], told: f64) -> f64 {
     (ratio - ONE_SIDED * error / mean_told).max(0.0).sqrt()
 }
 
-/// The index of the power law of the brightest of some values, by the estimator of Hill (1975); `None` of few.
+/// The index of the power law of the largest values, by the estimator of Hill (1975); `None` if they are few.
 pub(super) fn tail_index(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.filter(|v| *v > 0.0).collect();
     values.sort_by(|a, b| b.total_cmp(a));
@@ -151,7 +156,8 @@ pub(super) fn tail_index(values: impl Iterator<Item = f64>) -> Option<f64> {
     (logs > 0.0).then(|| count as f64 / logs)
 }
 
-/// The power of the number of increments that noise falls with, by least squares of logarithms; `None` of fewer than three figures.
+/// The exponent with which noise falls with the number of increments, by least squares of logarithms; `None`
+/// for fewer than three figures.
 pub(crate) fn trend(noise: &[(u64, f64)]) -> Option<f64> {
     let points: Vec<(f64, f64)> = noise
         .iter()
@@ -179,14 +185,15 @@ mod tests {
         for index in [1.5, 3.0] {
             let value = |k: u64| libm::pow(Key::new(3).with(k).uniform(), -1.0 / index);
             let found = tail_index((0..20_000).map(value)).unwrap();
-            // Hill's estimator has the relative standard error 1 / sqrt(k); k = 1000, five of them.
+            // Hill's estimator has the relative standard error 1 / sqrt(k). The tolerance is five of them at
+            // k = 1000.
             assert!((found / index - 1.0).abs() < 5.0 / 1000_f64.sqrt(), "{index}: {found}");
         }
     }
 
     #[test]
     fn bounds_of_true_claims_are_passed_as_seldom_as_they_say() {
-        // Squared errors that are told right, of 64 places each: passed in one of 9000.
+        // Each trial has 64 places with correctly reported squared errors; one in 9000 passes the bound.
         let passes = |trial: &u64| {
             let square = |k: u64| {
                 let normal = |j: u64| {
@@ -201,8 +208,8 @@ mod tests {
             Figures::of(&values).at_least() > 1.0
         };
         let false_alarms = (0..20_000).filter(passes).count();
-        // Skewed to the right, the mean of squares passes its bound less often than a normal one: 2.2 are expected at most, and 10 or more
-        // seen once in 10,000 times (Poisson).
+        // The mean of squares is skewed to the right and passes its bound less often than a normal one. At
+        // most 2.2 are expected; 10 or more occur once in 10,000 times (Poisson).
         assert!(false_alarms < 10, "{false_alarms}");
     }
 }

@@ -1,19 +1,20 @@
-//! An independent, unbiased test of what a map claims.
+//! An independent, unbiased test of a map's error.
 //!
-//! Whatever judges a map while it is made shares elements, rays and rules with what it judges. The audit shares none of them:
-//! places are drawn on the surfaces, the map is read there as users read it, and the illuminance is estimated afresh by complete
-//! paths ([`super::PathTracer`]). With independent replicates p_r of the paths at a place, the reading m gives
-//! the estimate (sum over r != s of (m - p_r)(m - p_s)) / (R (R - 1)) of the squared error there, which is free of bias
-//! however noisy paths are. Its mean over places drawn by area estimates the squared error of the scene, and its spread over the places
-//! the standard error of that.
+//! The error estimates made during a run share elements, rays and rules with the map. The audit shares none
+//! of them: places are drawn on the surfaces, the map is read there as users read it, and the illuminance is
+//! estimated anew by complete paths ([`super::PathTracer`]). With R independent replicates p_r of the paths
+//! at a place, the reading m has the squared error (sum over r != s of (m - p_r)(m - p_s)) / (R (R - 1)).
+//! This estimate is unbiased, however noisy the paths are. Its mean over places drawn by area estimates the
+//! squared error of the scene, and its spread over the places gives the standard error.
 //!
-//! The mean square of an error is no less than the square of its mean, nor than the mean of the squares of its means over any parts of the surface.
-//! Noise averages out in such means, so that light that is lost is found by far fewer paths than the mean square takes. The three bounds share the
-//! false alarms that are allowed.
+//! The mean square of an error is at least the square of its mean, and at least the mean of the squares of
+//! its means over parts of the surface. Noise averages out in these means, so they reveal lost light with far
+//! fewer paths than the mean square needs. The three bounds share the allowed probability of a false alarm.
 //!
-//! A claim is contradicted where the error told lies below one of these one-sided bounds. A run that goes on after a contradiction may
-//! be audited again, [`MOST_AUDITS`] times in all, with places and paths of its own each time; the false alarms that are allowed are shared out evenly
-//! among these, so that repeating an audit cannot make a wrong claim pass by luck more often than it is told.
+//! A claim is contradicted where the reported error lies below one of these one-sided bounds. A run that goes
+//! on after a contradiction may be audited again, [`MOST_AUDITS`] times in all, each time with new places and
+//! paths. The allowed probability of a false alarm is divided evenly among these audits, so repeating them
+//! does not raise it.
 
 mod compared;
 mod figures;
@@ -34,49 +35,50 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Places that are compared together, before the rays they took are counted.
+/// The number of places compared in parallel, before their rays are counted.
 const BATCH: u64 = 64;
-/// Maps keep light in single precision: no claim is wrong for less.
+/// The relative excess over the reported error that is no contradiction: maps store light in single
+/// precision.
 const ROUNDING: f64 = f32::EPSILON as f64;
-/// The worst surfaces and places that are told.
+/// The number of worst surfaces and worst places that an audit lists.
 const FINDINGS: usize = 8;
 
-/// How much an audit does.
+/// The extent of an audit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AuditSettings {
-    /// Places at most; a quarter of them where trouble is likely.
+    /// The largest number of places; a quarter of them are hard places.
     pub places: u64,
-    /// Paths of a place, in [`AuditSettings::REPLICATES`] independent replicates.
+    /// The number of paths at a place, in [`AuditSettings::REPLICATES`] independent replicates.
     pub paths: u32,
-    /// No more places are compared once so many rays were traced.
+    /// The number of rays after which no further places are compared.
     pub most_rays: u64,
-    /// Seed of the random numbers.
+    /// The seed of the random numbers.
     pub seed: u64,
-    /// Which audit of its run this is, counted from one.
+    /// The number of this audit in its run, from one.
     pub number: u32,
 }
 
 impl AuditSettings {
-    /// Independent replicates of the paths of a place.
+    /// The number of independent replicates of the paths at a place.
     pub const REPLICATES: u32 = 16;
 }
 
 impl Default for AuditSettings {
-    /// A thousand places by 64 paths tell 2 % from 1 % in a room.
+    /// A thousand places with 64 paths distinguish 2 % from 1 % in a room.
     fn default() -> Self {
         Self { places: 1024, paths: 64, most_rays: u64::MAX, seed: 1, number: 1 }
     }
 }
 
-/// Audits a map of a scene; `None` where it tells no error that could be tested, where next to nothing of it is known, and where neither map nor paths
-/// have any light.
+/// Audits a map of a scene. `None` where the map reports no error, where almost nothing of it is known, and
+/// where neither map nor paths have light.
 pub fn audit(scene: &Scene, map: &IlluminationMap, settings: &AuditSettings) -> Option<Audit> {
     let lighting = Arc::new(Lighting::new(scene));
     let (bright, _) = BrightSurfaces::of(scene, &lighting, map.provenance.seed);
     audit_with((scene, map), (lighting, bright), settings)
 }
 
-/// The same with luminaires, and with what is bright for the seed of the map, that are prepared already.
+/// An audit with prepared luminaires, and with bright surfaces prepared for the seed of the map.
 pub(super) fn audit_with<'a>(
     (scene, map): (&'a Scene, &'a IlluminationMap),
     (lighting, bright): (Arc<Lighting<'a>>, Option<Arc<BrightSurfaces>>),
@@ -108,7 +110,7 @@ pub(super) fn audit_with<'a>(
     found.audit(tracer.leaves_caustics())
 }
 
-/// Everything that an audit has compared.
+/// All comparisons of an audit.
 struct Found<'a> {
     scene: &'a Scene,
     map: &'a IlluminationMap,
@@ -124,7 +126,8 @@ impl Found<'_> {
         self.all.iter().filter(move |c| c.drawn == which)
     }
 
-    /// What errors are relative to: the light of the map, or of paths where the map has none, lx. `None` where neither has, or places are few.
+    /// The illuminance that errors are relative to, lx: that of the map, or of the paths where the map is
+    /// dark. `None` where both are dark, or places are few.
     fn reference_lx(&self) -> Option<f64> {
         let traced: Vec<f64> = self.of(Where::ByArea).map(|c| c.traced_lx * c.traced_lx).collect();
         let by_paths = (traced.iter().sum::<f64>() / traced.len().max(1) as f64).sqrt();
@@ -168,7 +171,7 @@ impl Found<'_> {
             trust: AuditTrust {
                 variance_of_variance: errors.variance_of_variance,
                 tail_index: tail_index(self.all.iter().flat_map(|c| c.brightest.iter().copied())),
-                // Known of the run alone.
+                // The trend of noise is known of the run alone, so it is taken over from there.
                 trend: self.map.provenance.audit.as_ref().and_then(|audit| audit.trust.trend),
             },
             contradicts: at_least > self.told + ROUNDING,
@@ -177,7 +180,7 @@ impl Found<'_> {
         })
     }
 
-    /// Places drawn by area, by shape.
+    /// The places drawn by area, by shape.
     fn by_shape(&self) -> Vec<(u32, Vec<&Compared>)> {
         let mut shapes: BTreeMap<u32, Vec<&Compared>> = BTreeMap::new();
         for compared in self.of(Where::ByArea) {
@@ -186,7 +189,7 @@ impl Found<'_> {
         shapes.into_iter().collect()
     }
 
-    /// Shapes that are wrong in the mean beyond doubt.
+    /// The shapes whose mean error is significant, worst first.
     fn surfaces(&self) -> Vec<AuditedSurface> {
         let mean = |places: &[&Compared], of: fn(&Compared) -> f64| {
             Figures::of(&places.iter().map(|c| of(c)).collect::<Vec<_>>())
@@ -209,7 +212,7 @@ impl Found<'_> {
         wrong.into_iter().map(|(_, surface)| surface).collect()
     }
 
-    /// The places that differ most beyond what both sides tell.
+    /// The places where reading and paths differ by most standard errors.
     fn worst(&self) -> Vec<AuditedPlace> {
         let is_far = |c: &&Compared| c.in_errors().abs() > Audit::FAR;
         let mut far: Vec<&Compared> = self.all.iter().filter(is_far).collect();

@@ -1,4 +1,4 @@
-//! Places that an audit compares.
+//! The places that an audit compares.
 
 use crate::elements::carries_map;
 use crate::engine::light::Emission;
@@ -8,28 +8,29 @@ use crate::sampling::{CosineHemisphere, Key};
 use crate::scene::{LuminaireKind, Scene};
 use isolux_geometry::{Direction, Ray, Vector};
 
-/// One in so many places is drawn where trouble is likely.
+/// One place in this many is drawn as a hard place.
 const HARD_EVERY: u64 = 4;
 
-/// Places of which the most troublesome is taken.
+/// The number of candidates of which the hardest is taken.
 const CANDIDATES: u64 = 8;
 
-/// Places near an edge lie as near as this share of the triangle's height, all scales down to it alike.
+/// The least distance of places near an edge, as a share of the triangle's height. The logarithm of the
+/// distance is uniform.
 const NEAREST: f64 = 1e-3;
 
-/// The golden ratio less one: multiples of it fill the unit interval evenly, however many they are.
+/// The golden ratio less one. Its multiples fill the unit interval evenly, whatever their number.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// How a place was drawn.
+/// The way a place was drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Where {
-    /// In proportion to area.
+    /// A place drawn in proportion to area.
     ByArea,
-    /// Where trouble is likely.
+    /// A place where large errors are likely.
     Hard,
 }
 
-/// A place, and how it was drawn.
+/// A place and the way it was drawn.
 pub(super) struct Drawn {
     pub(super) at: SurfacePoint,
     pub(super) drawn: Where,
@@ -40,14 +41,14 @@ pub(super) struct Places<'a> {
     scene: &'a Scene,
     map: &'a IlluminationMap,
     sides: Vec<(u32, bool)>,
-    /// Running sums of their areas, m2.
+    /// The running sums of their areas, m2.
     sums_m2: Vec<f64>,
     emission: Option<Emission<'a>>,
     key: Key,
 }
 
 impl<'a> Places<'a> {
-    /// `None` where there is no surface.
+    /// The surfaces of a scene; `None` if none carries a map.
     pub(super) fn new(scene: &'a Scene, map: &'a IlluminationMap, key: Key) -> Option<Self> {
         let all = (0..scene.triangle_count()).flat_map(|t| [(t, false), (t, true)]);
         let sides: Vec<_> = all.filter(|&(t, back)| carries_map(scene, t, back)).collect();
@@ -67,7 +68,7 @@ impl<'a> Places<'a> {
         })
     }
 
-    /// Place `number`.
+    /// The place with this number.
     pub(super) fn draw(&self, number: u64) -> Drawn {
         let key = self.key.with(number).with(2);
         if number % HARD_EVERY < HARD_EVERY - 1 {
@@ -86,7 +87,7 @@ impl<'a> Places<'a> {
         Drawn { at, drawn: Where::Hard }
     }
 
-    /// So far along all surfaces, one after the other.
+    /// A place at the share `along` of the running sum of areas.
     fn by_area(&self, along: f64, key: Key) -> SurfacePoint {
         let all_m2 = self.sums_m2[self.sums_m2.len() - 1];
         let side = self.sums_m2.partition_point(|&sum| sum <= along * all_m2);
@@ -103,13 +104,13 @@ impl<'a> Places<'a> {
         self.by_area(key.with(2).uniform(), key)
     }
 
-    /// On any triangle, however small.
+    /// A place on a random triangle, whatever its size.
     fn by_count(&self, key: Key) -> SurfacePoint {
         let side = (key.with(2).uniform() * self.sides.len() as f64) as usize;
         self.inside(side.min(self.sides.len() - 1), key)
     }
 
-    /// Near an edge, or near a corner.
+    /// A place near an edge or a corner.
     fn at_edge(&self, key: Key) -> SurfacePoint {
         let at = self.anywhere(key);
         let near = |k: u64| libm::pow(NEAREST, key.with(k).uniform()) / 3.0;
@@ -125,7 +126,7 @@ impl<'a> Places<'a> {
         SurfacePoint::new(self.scene, at.triangle, at.back, u, v)
     }
 
-    /// Where something is close.
+    /// The candidate with the nearest obstacle along a random ray.
     fn beside_something(&self, key: Key) -> SurfacePoint {
         let candidate = |k: u64| {
             let key = key.with(8 + k);
@@ -139,7 +140,7 @@ impl<'a> Places<'a> {
         self.least(candidate)
     }
 
-    /// Where the map shows little light.
+    /// The candidate with the least light in the map.
     fn dim(&self, key: Key) -> SurfacePoint {
         let candidate = |k: u64| {
             let at = self.anywhere(key.with(8 + k));
@@ -157,7 +158,7 @@ impl<'a> Places<'a> {
         (1..CANDIDATES).map(candidate).fold(first, nearer).1
     }
 
-    /// Where a ray arrives that leaves a luminaire any way: most such places are near it.
+    /// The place where a random ray from a luminaire arrives; most such places are near it.
     fn near_luminaire(&self, key: Key) -> Option<SurfacePoint> {
         let scene = self.scene;
         let count = scene.luminaires().len() + scene.area_luminaires().len();
@@ -181,7 +182,7 @@ impl<'a> Places<'a> {
     }
 }
 
-/// A direction, all of them alike.
+/// A direction uniform over the sphere.
 fn any_way([a, b]: [f64; 2]) -> Option<Direction> {
     let z = 1.0 - 2.0 * a;
     let (s, c) = libm::sincos(std::f64::consts::TAU * b);
