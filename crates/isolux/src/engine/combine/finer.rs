@@ -1,8 +1,9 @@
-//! A map with more vertices where direct light changes between them: what viewers see of it is the bare map.
+//! A map with more vertices where direct light varies, for viewers that draw the bare map.
 //!
-//! Elements are made for readings, which evaluate direct light afresh; whoever draws the bare map sees shadows as coarse as the
-//! elements. Here they are bisected where direct light in the middle of an edge differs visibly from what the ends tell. Indirect
-//! light stays that of the map. The longest edges come first, so that it may end at any time.
+//! Elements are made for readings, which evaluate direct light anew. A viewer that draws the bare map shows
+//! shadows as coarse as the elements. Here elements are bisected where direct light at the midpoint of an
+//! edge differs visibly from the mean of its ends. Indirect light stays that of the map. The longest edges
+//! come first, so the process may stop at any time.
 
 use super::trees::{SidePlace, bisected_like, own_vertices};
 use crate::elements::{PlaceOnSide, Subdivision, edge_key};
@@ -14,41 +15,44 @@ use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
 
-/// The least relative difference of luminance that eyes tell apart in a picture (Weber's fraction, 1 to 2 % in good light).
+/// The least relative difference of luminance that is visible in a picture (Weber's fraction, 1 to 2 % in
+/// good light).
 const VISIBLE: f64 = 0.02;
-/// Eyes that are adapted to the light of a scene see as much less in places this share as bright, and darker.
+/// The share of the reference illuminance that is added to the light of a place for its visible difference.
+/// Eyes adapted to a scene see no finer differences in darker places.
 const DIM: f64 = 0.05;
-/// Readings of a place that may be seen to differ: of luminaires with a surface they are noisy.
+/// The number of readings of a place where a difference may be visible. Readings of luminaires with a surface
+/// are noisy.
 const READINGS: u64 = 4;
-/// Variances of the mean that a difference is to exceed: two standard errors.
+/// The variances that a squared difference must exceed: two standard errors.
 const DOUBT: f64 = 4.0;
-/// Elements that are looked at between two words to whoever watches.
+/// The number of elements between two calls of `wanted`.
 const TOGETHER: usize = 2048;
 
-/// Where to end.
+/// The limits of refinement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FinerSettings {
-    /// No edge shorter than this is bisected, m.
+    /// The least edge, m; shorter ones are not bisected.
     pub least_edge_m: f64,
-    /// Vertices at most.
+    /// The largest number of vertices.
     pub most_vertices: usize,
 }
 
-/// A map that becomes finer.
+/// A map under refinement.
 pub struct Finer<'a> {
     scene: &'a Scene,
     map: &'a IlluminationMap,
     reader: MapReader<'a>,
     subdivision: Subdivision,
     values: Vec<Option<Illuminance>>,
-    /// Values in the middles of edges that are not bisected.
+    /// The values at the midpoints of edges that are not bisected.
     middles: HashMap<[u32; 2], Option<Illuminance>>,
     waiting: BinaryHeap<Waiting>,
-    /// What counts as some light, lx.
+    /// The constant illuminance in the visible difference, lx.
     dim_lx: f64,
 }
 
-/// An element that has not been looked at.
+/// An element that has not been examined.
 #[derive(Clone, Copy, PartialEq)]
 struct Waiting {
     longest_m: f64,
@@ -70,7 +74,7 @@ impl PartialOrd for Waiting {
 }
 
 impl<'a> Finer<'a> {
-    /// Begins with the elements of a map.
+    /// A refinement that starts with the elements of a map.
     pub fn new(scene: &'a Scene, map: &'a IlluminationMap) -> Self {
         let all = vec![true; map.elements.node_count()];
         let subdivision = bisected_like(scene, &[(&map.elements, all)]);
@@ -96,12 +100,12 @@ impl<'a> Finer<'a> {
         Waiting { longest_m: self.subdivision.longest_edge_m(node), node }
     }
 
-    /// How many vertices there are.
+    /// The number of vertices.
     pub fn vertices(&self) -> usize {
         self.values.len()
     }
 
-    /// Goes on as long as `wanted` says so; false once nothing is left to do.
+    /// Refines while `wanted` returns true. Returns false once nothing is left to do.
     pub fn refine(&mut self, how: &FinerSettings, wanted: &mut dyn FnMut() -> bool) -> bool {
         while wanted() {
             let nodes = self.next_elements(how);
@@ -121,7 +125,7 @@ impl<'a> Finer<'a> {
         true
     }
 
-    /// The next elements to look at: those with the longest edges.
+    /// The next elements to examine: those with the longest edges.
     fn next_elements(&mut self, how: &FinerSettings) -> Vec<u32> {
         let mut nodes = Vec::new();
         while nodes.len() < TOGETHER {
@@ -135,7 +139,7 @@ impl<'a> Finer<'a> {
         nodes
     }
 
-    /// Reads the middles of the edges of elements.
+    /// Reads the midpoints of the edges of elements.
     fn look(&mut self, nodes: &[u32]) {
         let mut asked: HashMap<[u32; 2], SidePlace> = HashMap::new();
         for &node in nodes {
@@ -147,7 +151,7 @@ impl<'a> Finer<'a> {
                 }
             }
         }
-        // In the order of edges, whatever order the table has.
+        // Edges are sorted, whatever the order of the table.
         let mut asked: Vec<([u32; 2], SidePlace)> = asked.into_iter().collect();
         asked.sort_unstable_by_key(|(edge, _)| *edge);
         let read = |(edge, place): &([u32; 2], SidePlace)| (*edge, self.read(*edge, *place));
@@ -155,7 +159,7 @@ impl<'a> Finer<'a> {
         self.middles.extend(found);
     }
 
-    /// Where the middle of an edge lies on a side of a triangle.
+    /// The place of the midpoint of an edge on a side of a triangle.
     fn middle_on(&self, (triangle, back): (u32, bool), edge: [u32; 2]) -> SidePlace {
         let [p, q] = edge.map(|v| self.subdivision.vertices()[v as usize].position);
         let [u, v] = self.scene.triangle(triangle).barycentric(p.lerp(q, 0.5));
@@ -163,7 +167,8 @@ impl<'a> Finer<'a> {
         (triangle, back, u, v.min(1.0 - u))
     }
 
-    /// Direct light afresh, by as many readings as it takes to see whether it differs from what the ends of the edge tell.
+    /// The value at the midpoint of an edge. Direct light is evaluated, by several readings where it may
+    /// differ from the ends of the edge.
     fn read(&self, edge: [u32; 2], (triangle, back, u, v): SidePlace) -> Option<Illuminance> {
         let reading =
             |number| self.reader.glance(PlaceOnSide { triangle, back, uv: [u, v] }, number, None);
@@ -179,23 +184,23 @@ impl<'a> Finer<'a> {
         let mean_lx = direct_lx.luminance();
         let squares = all().map(|value| (value.direct_lx.luminance() - mean_lx).powi(2));
         let variance = squares.sum::<f64>() / (count * (count - 1.0).max(1.0));
-        // What a few readings leave in doubt is an error of this one.
+        // The uncertainty of the mean of few readings is part of the standard error.
         let standard_error_lx = (first.standard_error_lx.powi(2) + variance).sqrt();
         Some(Illuminance { direct_lx, standard_error_lx, ..first })
     }
 
-    /// What the ends of an edge tell of its middle, lx.
+    /// The mean illuminance of the ends of an edge, lx.
     fn expected_lx(&self, edge: [u32; 2]) -> Option<f64> {
         let ends = edge.map(|v| (self.values[v as usize], 0.5));
         Illuminance::mix(ends).map(|value| value.illuminance_lx())
     }
 
-    /// The least difference that is seen where there is so much light, lx.
+    /// The least visible difference at a given illuminance, lx.
     fn visible_lx(&self, about_lx: f64) -> f64 {
         VISIBLE * (about_lx + self.dim_lx)
     }
 
-    /// Whether direct light differs visibly in the middle of an edge.
+    /// Whether direct light differs visibly at the midpoint of an edge.
     fn differs(&self, node: u32) -> bool {
         let vertices = self.subdivision.node(node).0.vertices;
         (0..3).any(|k| {
@@ -214,7 +219,7 @@ impl<'a> Finer<'a> {
     fn bisect(&mut self, node: u32) {
         let (nodes, vertices) = (self.subdivision.node_count(), self.values.len());
         self.subdivision.bisect(node);
-        // Bisection goes on over neighbours, which may be parts of other triangles.
+        // Bisection propagates to neighbours, which may belong to other triangles.
         let mut sides = vec![None; self.subdivision.vertex_count() - vertices];
         for node in nodes as u32..self.subdivision.node_count() as u32 {
             let (of, origin) = self.subdivision.node(node);
@@ -228,7 +233,7 @@ impl<'a> Finer<'a> {
         sides.into_iter().for_each(|side| self.add_vertex(side));
     }
 
-    /// The value of the next vertex, in the middle of an edge on a side of a triangle.
+    /// The value of the next vertex, at the midpoint of an edge on a side of a triangle.
     fn add_vertex(&mut self, side: Option<(u32, bool)>) {
         let parents = self.subdivision.vertices()[self.values.len()].parents;
         let value = parents.zip(side).and_then(|([a, b], side)| {
@@ -239,7 +244,7 @@ impl<'a> Finer<'a> {
         self.values.push(value);
     }
 
-    /// The map as it is now: a map like any other, whose accuracy is still told of the one that it began with.
+    /// The current map. Its accuracy is still that of the original map.
     pub fn map(&self) -> IlluminationMap {
         IlluminationMap {
             elements: self.subdivision.elements(),

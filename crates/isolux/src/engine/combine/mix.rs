@@ -1,10 +1,10 @@
-//! Maps of the same surfaces in different light, added: luminaires re-dimmed without a new run.
+//! Sums of maps of the same surfaces in different light: luminaires are dimmed anew without another run.
 //!
-//! Light adds up, so the map of several groups of luminaires is the sum of the maps of each, times
-//! what each is dimmed to. The sum lives on the coarsest elements that refine those of all parts: trees
-//! of bisections over the same triangles, whose splits are united. Noise of parts with seeds of their own is
-//! independent and adds in squares; errors of interpolation and bias may agree in sign, and are added
-//! as they are: by the triangle inequality the sum is never worse than that.
+//! Light is additive, so the map of several groups of luminaires is the sum of the maps of each, times its
+//! dimming. The sum uses the coarsest elements that refine those of all parts: bisection trees over the same
+//! triangles with united splits. Noise of parts with different seeds is independent and adds in squares.
+//! Interpolation errors and bias may agree in sign and are added as they are: by the triangle inequality the
+//! error of the sum is no larger.
 
 use super::trees::{SidePlace, bisected_like, own_vertices, places_of_vertices};
 use crate::elements::Elements;
@@ -22,26 +22,26 @@ use rayon::prelude::*;
 pub struct MixPart<'a> {
     /// The scene that was solved.
     pub scene: &'a Scene,
-    /// Its map.
+    /// The map of the scene.
     pub map: &'a IlluminationMap,
-    /// What all of its light is multiplied by: finite, not negative.
+    /// The factor on all of its light: finite, not negative.
     pub dimming: f64,
 }
 
-/// Why maps cannot be added; parts are counted from 0.
+/// The reason why maps cannot be added; parts are counted from 0.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MixError {
-    /// There is no part whose light is not dimmed to nothing.
+    /// All parts are dimmed to zero.
     #[error("nothing is left of the light: every part is dimmed to 0")]
     Dark,
-    /// A factor is no factor.
+    /// A dimming is not a valid factor.
     #[error("a dimming of part {0} is negative or not finite")]
     Dimming(usize),
-    /// Parts were computed by different engines, whose errors mean different things.
+    /// Parts were computed by different methods, whose errors have different meanings.
     #[error("part {0} was computed by another method than the first")]
     Method(usize),
-    /// Parts are of different surfaces.
+    /// Parts have different surfaces.
     #[error("part {0} has other surfaces or materials than the first")]
     Surfaces(usize),
     /// The map of a part does not belong to its scene.
@@ -49,24 +49,25 @@ pub enum MixError {
     Stale(usize),
 }
 
-/// The scene with all luminaires dimmed, and its map. Parts dimmed to nothing are left out with
-/// their luminaires.
+/// The scene with all luminaires dimmed, and its map. Parts dimmed to zero are left out with their
+/// luminaires.
 pub fn mix(parts: &[MixPart<'_>]) -> Result<(Scene, IlluminationMap), MixError> {
     mix_apart(parts).map(|mixed| (mixed.scene, mixed.map))
 }
 
-/// A sum of maps, and what each part has at its vertices.
+/// A sum of maps, and the light of each part at its vertices.
 #[derive(Clone, Debug)]
 pub struct Mixed {
     /// The scene with all luminaires dimmed.
     pub scene: Scene,
-    /// Its map.
+    /// The map of that scene.
     pub map: IlluminationMap,
-    /// Of each part that is not dimmed to nothing, what it gives at every vertex before it is dimmed; `None` where it is not known.
+    /// The light of each part that is not dimmed to zero, at every vertex before dimming; `None` where it is
+    /// unknown.
     pub parts: Vec<Vec<Option<Illuminance>>>,
 }
 
-/// As [`mix`], with the parts of the light apart.
+/// The sum of [`mix`] with the light of each part.
 pub fn mix_apart(parts: &[MixPart<'_>]) -> Result<Mixed, MixError> {
     check(parts)?;
     let lit: Vec<Part<'_>> = parts.iter().filter(|p| p.dimming > 0.0).map(Part::new).collect();
@@ -120,7 +121,7 @@ fn check(parts: &[MixPart<'_>]) -> Result<(), MixError> {
     }
 }
 
-/// A part that gives light.
+/// A part that is not dimmed to zero.
 struct Part<'a> {
     scene: &'a Scene,
     map: &'a IlluminationMap,
@@ -136,8 +137,8 @@ impl<'a> Part<'a> {
         Self { scene, map, reader, dimming, reference_lx: reference_lx(map) }
     }
 
-    /// What the part has at a vertex of the sum: its own value, or, where it has no vertex, what a
-    /// reader finds, with the errors that its own vertices would have.
+    /// The value of the part at a vertex of the sum: its own, or a reading where it has no vertex, with the
+    /// errors that its own vertices would have.
     fn value(&self, own: Option<u32>, (triangle, back, u, v): SidePlace) -> Option<Illuminance> {
         if let Some(vertex) = own {
             return self.map.values[vertex as usize];
@@ -145,7 +146,7 @@ impl<'a> Part<'a> {
         let between = self.map.interpolate(triangle, back, u, v)?;
         let read = self.reader.by_replicates(self.reader.at(triangle, back, u, v)?);
         Some(Illuminance {
-            // What stands in place of light unshot is added by who reads the sum.
+            // Readers of the sum add the ambient term for unshot light.
             indirect_lx: read.indirect_lx - self.map.ambient_lx(),
             interpolation_error_lx: between.interpolation_error_lx,
             bias_lx: 0.0,
@@ -153,14 +154,14 @@ impl<'a> Part<'a> {
         })
     }
 
-    /// A relative error of the whole map as light in the sum, lx.
+    /// A relative error of the whole map, as light in the sum, lx.
     fn dimmed_lx(&self, relative: f64) -> f64 {
         self.dimming * self.reference_lx * relative
     }
 }
 
-/// The elements of all parts in one, as far as each knows some light there, and, by part, which of its vertices is there what a
-/// vertex of the sum is.
+/// The united elements of all parts, as far as each knows light there; and for each part, its vertex at each
+/// vertex of the sum.
 fn unite(scene: &Scene, parts: &[Part<'_>]) -> (Elements, Vec<Vec<Option<u32>>>) {
     let likes: Vec<(&Elements, Vec<bool>)> =
         parts.iter().map(|part| (&part.map.elements, known_nodes(part.map))).collect();
@@ -169,12 +170,12 @@ fn unite(scene: &Scene, parts: &[Part<'_>]) -> (Elements, Vec<Vec<Option<u32>>>)
     (united, own)
 }
 
-/// By node, whether a map knows light there or in a part of it.
+/// Whether a map knows light on each node or a part of it.
 fn known_nodes(map: &IlluminationMap) -> Vec<bool> {
     let elements = &map.elements;
     let is_known = |v: u32| map.values[v as usize].is_some();
     let mut known = vec![false; elements.node_count()];
-    // Parts come after what they are parts of.
+    // Children come after their parents.
     for node in (0..known.len()).rev() {
         let of = elements.node(node as u32);
         let parts = of.split.map(|split| split.first_child as usize);
@@ -190,7 +191,7 @@ fn have_seeds_of_their_own(parts: &[Part<'_>]) -> bool {
     seeds.windows(2).all(|pair| pair[0] != pair[1])
 }
 
-/// Errors that replicates tell: in squares where they are independent.
+/// The sum of errors that replicates show: in squares where they are independent.
 fn add_noise(parts: impl Iterator<Item = f64>, is_independent: bool) -> f64 {
     match is_independent {
         true => parts.map(|lx| lx * lx).sum::<f64>().sqrt(),
@@ -198,8 +199,9 @@ fn add_noise(parts: impl Iterator<Item = f64>, is_independent: bool) -> f64 {
     }
 }
 
-/// What all parts have at a vertex; `None` where it is unknown. A place that one part knows is none inside of something: parts that do
-/// not know it bring no light there, but for those made by particles alone, which may have met it too seldom.
+/// The values of all parts at a vertex; `None` where the sum is unknown. A place that one part knows is not
+/// inside something, so parts that do not know it have no light there. The exception is `forward`, whose
+/// particles may have missed it.
 fn known(parts: &[Part<'_>], row: &[Option<Illuminance>]) -> Option<Vec<Illuminance>> {
     let is_known = row.iter().any(Option::is_some);
     let of_part = |(part, own): (&Part<'_>, &Option<Illuminance>)| {
@@ -223,13 +225,13 @@ fn sum(parts: &[Part<'_>], row: &[Illuminance], is_independent: bool) -> Illumin
         common_error_lx: noise(|v| v.common_error_lx),
         interpolation_error_lx: dimmed().map(|(v, by)| v.interpolation_error_lx * by).sum(),
         bias_lx: 0.0,
-        // What lies in a gap for the elements of one part is not interpolated into the open.
+        // A place in a gap for the elements of one part is in a gap in the sum.
         standing: row.iter().map(|v| v.standing).min().unwrap_or(Standing::Open),
         samples: row.iter().map(|v| v.samples).sum(),
     }
 }
 
-/// All but the accuracy.
+/// The provenance of the sum, without its accuracy.
 fn first_provenance(scene: &Scene, parts: &[Part<'_>]) -> Provenance {
     let from = || parts.iter().map(|part| &part.map.provenance);
     let reference_lx: f64 = parts.iter().map(|part| part.dimmed_lx(1.0)).sum();
@@ -266,7 +268,7 @@ fn first_provenance(scene: &Scene, parts: &[Part<'_>]) -> Provenance {
 }
 
 impl Part<'_> {
-    /// As it is told of in the sum; parts that are sums themselves by what they are made of.
+    /// The part as listed in the sum; a part that is a sum itself is listed by its parts.
     fn as_mixed(&self) -> Vec<MixedPart> {
         let from = &self.map.provenance;
         if !from.mixed.is_empty() {
@@ -291,7 +293,7 @@ impl Part<'_> {
     }
 }
 
-/// Elements whose errors are at their limit in every part are at the limit of the sum.
+/// The trust of the sum: elements at the limit of error in every part are at the limit of the sum.
 fn fresh(parts: &[Part<'_>]) -> Option<Fresh> {
     let all: Option<Vec<(Fresh, f64, f64)>> = parts
         .iter()
@@ -343,8 +345,8 @@ fn accuracy(
     Some(Accuracy { reached, statistical, discretization, caustics, bias, interpolated })
 }
 
-/// Root mean square of the sum of errors, lx, each spread over the surface like `shape`, with the root
-/// mean square that it is known to have in its part.
+/// The root mean square of a sum of errors, lx. Each is distributed over the surface like `shape`, scaled to
+/// its known root mean square in its part.
 fn spread(
     map: &IlluminationMap,
     columns: &[Vec<Option<Illuminance>>],
@@ -361,7 +363,7 @@ fn spread(
         let squared: f64 = areas().map(|(k, area)| area * at(k) * at(k)).sum();
         let rms = (squared / area_m2.max(f64::MIN_POSITIVE)).sqrt();
         for (k, sum) in sums.iter_mut().enumerate() {
-            // Without any shape it is the same everywhere.
+            // Where `shape` is zero everywhere, the error is uniform.
             *sum += error_lx * if rms > 0.0 { at(k) / rms } else { 1.0 };
         }
     }

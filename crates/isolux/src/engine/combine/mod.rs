@@ -1,4 +1,4 @@
-//! Maps of the same surfaces put together, and refined for display.
+//! Operations on finished maps: sums of maps of the same surfaces, and finer shadows for display.
 
 mod finer;
 mod mix;

@@ -1,13 +1,13 @@
-//! Trees of bisections over the same triangles: what two of them share, and where their vertices lie.
+//! Bisection trees over the same triangles: their shared nodes, and the places of their vertices.
 
 use crate::elements::{Elements, Split, Subdivision};
 use crate::scene::Scene;
 
-/// A side of a triangle of the scene and the barycentric weights of its second and third corner.
+/// A side of a triangle of the scene, and the barycentric weights of its second and third corner.
 pub(crate) type SidePlace = (u32, bool, f64, f64);
 
-/// Visits the nodes that two trees share. Where an element is split at different edges (two of them are
-/// equally long) they share no more below.
+/// Visits the nodes that two trees share. If a node is split at different edges (two of them are equally
+/// long), no nodes below it are shared.
 pub(crate) fn walk_both(a: &Elements, b: &Elements, visit: &mut impl FnMut(u32, u32)) {
     let roots = a.roots().iter().flatten().zip(b.roots().iter().flatten());
     let mut open: Vec<(u32, u32)> = roots.filter_map(|(&a, &b)| a.zip(b)).collect();
@@ -21,7 +21,7 @@ pub(crate) fn walk_both(a: &Elements, b: &Elements, visit: &mut impl FnMut(u32, 
     }
 }
 
-/// Which vertex of a part each vertex of elements that refine it is.
+/// The vertex of a part, if any, at each vertex of elements that refine the part.
 pub(crate) fn own_vertices(united: &Elements, part: &Elements) -> Vec<Option<u32>> {
     let mut own = vec![None; united.vertices().len()];
     walk_both(united, part, &mut |node, of_part| {
@@ -33,7 +33,7 @@ pub(crate) fn own_vertices(united: &Elements, part: &Elements) -> Vec<Option<u32
     own
 }
 
-/// A side of a triangle that every vertex lies on, and where.
+/// A place on a side of a triangle for every vertex.
 pub(crate) fn places_of_vertices(elements: &Elements) -> Vec<SidePlace> {
     let mut places = vec![(0, false, 0.0, 0.0); elements.vertices().len()];
     for (triangle, sides) in elements.roots().iter().enumerate() {
@@ -59,7 +59,7 @@ pub(crate) fn places_of_vertices(elements: &Elements) -> Vec<SidePlace> {
     places
 }
 
-/// The triangles of a scene, bisected wherever some elements of it are, at the nodes that count.
+/// The triangles of a scene, bisected wherever one of the parts is bisected at a node that counts.
 pub(crate) fn bisected_like(scene: &Scene, parts: &[(&Elements, Vec<bool>)]) -> Subdivision {
     let mut subdivision = Subdivision::new(scene);
     loop {
@@ -76,7 +76,7 @@ pub(crate) fn bisected_like(scene: &Scene, parts: &[(&Elements, Vec<bool>)]) -> 
         if finer.is_empty() {
             return subdivision;
         }
-        // In the order of nodes, whatever the order of parts.
+        // Nodes are in their own order, whatever the order of parts.
         finer.sort_unstable();
         finer.iter().for_each(|&node| subdivision.bisect(node));
     }

@@ -36,7 +36,7 @@ const AT_ONCE: usize = 8;
 
 /// The squared interpolation error that is accepted where readers would otherwise gather, in squared errors
 /// of the map. In rooms with little indirect light it is never more; among furniture it is eight times as
-/// much and more.
+/// much and more. Where light is resolved towards walls, the unit is the squared accuracy goal.
 const NOT_WORTH: f64 = 1.5;
 
 /// The number of rays that measure the share of light that a reader reads close by.
@@ -61,9 +61,9 @@ pub(crate) struct Check {
     may_be_trusted: bool,
     /// Whether something stands close before the place.
     is_beset: bool,
-    /// Whether light is resolved there: in rooms where it is towards walls, and nothing else stands close.
+    /// Whether light is resolved there: if the mesh resolves it towards walls, and nothing else stands close.
     is_resolved: bool,
-    /// The strip before a wall that it lies in.
+    /// The number of the strip before a wall that the place lies in.
     strip: usize,
     /// The share of a unit of light that readers who gather there still read close by.
     close: f64,
@@ -134,7 +134,7 @@ pub(crate) struct InterpolationErrors {
     pub(crate) noise_lx: Option<f64>,
     /// The factor by which elements err more than expected; `None` where it was not measured.
     pub(crate) over_expected: Option<f64>,
-    /// The same of each strip before walls.
+    /// The factor by which elements of each strip before walls err more than expected.
     pub(crate) over_in_strips: [Option<f64>; STRIPS],
 }
 
@@ -431,7 +431,8 @@ fn mean_by_rays(sums: &Accumulator, checks: &[Check], area_m2: f64) -> [f64; 2] 
     mean
 }
 
-/// By how much more than expected elements err in every strip before walls, as far as readers with such trust interpolate there.
+/// The factor by which elements of each strip before walls err more than expected, where readers with this
+/// trust interpolate.
 fn over_in_strips(
     sums: &Accumulator,
     checks: &[Check],
@@ -468,9 +469,9 @@ fn noise_of_reading(sums: &Accumulator, checks: &[Check], k: usize) -> f64 {
     if checks[k].has_parts { 0.0 } else { sums.estimate(checks.len() + k).variance }
 }
 
-/// Whether to gather is worth while anywhere but in gaps: whether places that readers with such trust gather at would have, by noise
-/// and interpolation, more than [`NOT_WORTH`] times the squared error `goal_lx` where light is resolved, or `error_lx`, that of
-/// the map, elsewhere.
+/// Whether gathering pays anywhere but in gaps. It pays if places where readers with this trust gather would
+/// have a squared error, noise and interpolation together, of more than [`NOT_WORTH`] times that of `goal_lx`
+/// where light is resolved towards walls, or that of `error_lx`, the error of the map, elsewhere.
 pub(crate) fn is_gathering_worth_while(
     sums: &Accumulator,
     checks: &[Check],

@@ -89,7 +89,8 @@ pub(crate) fn filter(
     Filtered { values, report: FilterReport { share: smoothed_m2, bias } }
 }
 
-/// The elements that the filter acts on, and the area of every vertex, m2.
+/// The elements that the filter acts on, and the area of every vertex, m2. Where light is resolved towards
+/// walls, these are the elements that carry light; the others have no noise of their own.
 fn acts_on(plan: &Plan) -> (Vec<u32>, Vec<f64>) {
     if plan.mesh.resolves_walls {
         let elements = plan.errors.of_elements.iter().map(|e| e.node).collect();
@@ -166,8 +167,8 @@ impl Means {
         pieces
     }
 
-    /// Keeps filtered values between the values about them: what is given back to pieces of surface may not make more light than there
-    /// is anywhere about, or less. What does not carry light and only follows has more about it.
+    /// Clamps filtered values to the range of the unfiltered values about them, so that the light given back
+    /// to pieces makes no new extremes. Vertices that do not carry light have a larger neighbourhood.
     fn hold(&self, plan: &Plan, filtered: &mut [Rgb], before: &[Rgb]) {
         let held = |(k, &value): (usize, &Rgb)| {
             let mut range = Range::of(before[k]);

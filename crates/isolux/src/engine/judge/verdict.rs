@@ -61,7 +61,8 @@ impl Verdict {
         bounded(self.errors.over_expected)
     }
 
-    /// The same in a strip before walls. Who gathers elsewhere than in gaps goes by what all are expected to err by.
+    /// The factor by which elements of a strip before walls err more than expected. Unless readers gather in
+    /// gaps alone, it is that of all elements.
     pub(crate) fn over_expected_in(&self, strip: usize) -> f64 {
         let own = self.errors.over_in_strips[strip].filter(|_| self.trust == Trust::AllButGaps);
         bounded(own.or(self.errors.over_expected))

@@ -1,10 +1,11 @@
-//! Particles aimed at specular surfaces.
+//! Importance sampling of specular surfaces by particles.
 //!
-//! Where specular surfaces are few and small, next to none of the particles that luminaires send out meet one: in the hall one in
-//! seventy, and one in six hundred brings a caustic. So most are sent from a luminaire to a place on a specular surface, both drawn
-//! together by how much light is expected to go that way, and the others as luminaires send them, so that none counts for much
-//! where that was expected wrongly: the two are weighted by the balance heuristic (Veach and Guibas 1995, "Optimally combining
-//! sampling techniques for Monte Carlo rendering"). What comes first to another surface is direct light, and not counted here.
+//! Where specular surfaces are few and small, hardly any particle from a luminaire meets one: in the hall one
+//! in seventy, and one in six hundred brings a caustic. So most particles are aimed from a luminaire at a
+//! place on a specular surface; the pair is drawn by the light expected between them. The others are emitted
+//! as luminaires emit, so that no particle has a large weight where the expectation was wrong. The two are
+//! weighted by the balance heuristic (Veach and Guibas 1995, "Optimally combining sampling techniques for
+//! Monte Carlo rendering"). Light that meets another surface first is direct light, and not counted here.
 
 use crate::engine::light::{Emission, Emitted};
 use crate::engine::ray::{Dice, SurfacePoint};
@@ -12,33 +13,36 @@ use crate::scene::{Body, Finish, Scene};
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
 
-/// One particle in so many is sent as luminaires send them.
+/// One particle in this many is not aimed.
 const UNAIMED: u32 = 8;
 
-/// Groups of specular triangles at most, and pairs of a group and a luminaire.
+/// The largest number of groups of specular triangles.
 const MOST_GROUPS: usize = 64;
+/// The largest number of pairs of a group and a luminaire.
 const MOST_PAIRS: usize = 1 << 20;
 
-/// The part of aimed particles that still goes where none was seen to bring a caustic.
+/// The share of aimed particles that is distributed as before learning, so that groups without a caustic so
+/// far get some.
 const UNLEARNED: f64 = 0.1;
 
-/// How far from where it was sent an aimed particle may arrive, as a share of its way: single precision.
+/// The largest distance from its target at which an aimed particle may arrive, as a share of its path. The
+/// reason is single precision.
 const OFF: f64 = 1e-4;
 
-/// Where particles are sent.
+/// The distribution of aimed particles.
 pub(crate) struct Aim {
     groups: Vec<Group>,
-    /// Of every triangle of the scene, if it is specular.
+    /// The group of every triangle of the scene; `None` if it is not specular.
     group_of: Vec<Option<u32>>,
     luminaires: usize,
-    /// Running sums of the chances of pairs, all luminaires of the first group first.
+    /// The running sums of the probabilities of pairs, all luminaires of the first group first.
     sums: Vec<f64>,
 }
 
-/// Specular triangles that lie together.
+/// Specular triangles close to each other.
 struct Group {
     triangles: Vec<u32>,
-    /// Running sums of their areas.
+    /// The running sums of their areas, m2.
     sums_m2: Vec<f64>,
     low: Point,
     high: Point,
@@ -47,12 +51,12 @@ struct Group {
 /// A particle on its way to a specular surface.
 pub(crate) struct Aimed {
     pub(crate) emitted: Emitted,
-    /// Where it was sent, if it was.
+    /// The place it is aimed at; `None` if it is not aimed.
     target: Option<Point>,
 }
 
 impl Aim {
-    /// `None` where nothing is specular.
+    /// The distribution for a scene; `None` where nothing is specular.
     pub(crate) fn new(scene: &Scene, emission: &Emission) -> Option<Self> {
         let is_specular = specular(scene);
         let specular = |t: &u32| {
@@ -84,7 +88,8 @@ impl Aim {
         self.groups.len()
     }
 
-    /// The same with more particles to the groups that bring more: told by the root mean square of what one to each brought.
+    /// The distribution with more particles to groups that bring more light; `brought` is the root mean
+    /// square of the particles to each group.
     pub(crate) fn learned(self, brought: &[f64]) -> Self {
         let whole = self.whole();
         let of_pair = |pair: usize| self.of_pair(pair) / whole;
@@ -101,17 +106,17 @@ impl Aim {
         Self { sums: running_sums(&chances), ..self }
     }
 
-    /// How many of so many particles are sent as luminaires send them; one at least.
+    /// The number of `count` particles that are not aimed, at least one.
     pub(crate) fn unaimed(count: u32) -> u32 {
         count.div_ceil(UNAIMED)
     }
 
-    /// The group that a particle is sent to.
+    /// The group that a particle is aimed at.
     pub(crate) fn group(&self, dice: &mut Dice) -> usize {
         self.pair(dice.pair()[0]).0 / self.luminaires
     }
 
-    /// A particle that is sent; `None` if there is no light that way.
+    /// An aimed particle; `None` if there is no light in that direction.
     pub(crate) fn send(
         &self,
         scene: &Scene,
@@ -132,7 +137,8 @@ impl Aim {
         Some(Aimed { emitted, target: Some(target) })
     }
 
-    /// What a particle counts for where it has arrived first, if such a part of all is not aimed; `None` if not at all.
+    /// The weight of a particle at the first surface that it meets, if the share `unaimed` of all is not
+    /// aimed. `None` if it does not count.
     pub(crate) fn weight(
         &self,
         emission: &Emission,
@@ -160,7 +166,7 @@ impl Aim {
         self.sums[pair] - pair.checked_sub(1).map_or(0.0, |before| self.sums[before])
     }
 
-    /// A pair by a number of [0, 1), and what is left of that, such a number again.
+    /// The pair for a number of [0, 1), and the remainder of that number, uniform again.
     fn pair(&self, pick: f64) -> (usize, f64) {
         let wanted = pick * self.whole();
         let pair = self.sums.partition_point(|&sum| sum <= wanted).min(self.sums.len() - 1);
@@ -171,7 +177,7 @@ impl Aim {
 }
 
 impl Aimed {
-    /// A particle as luminaires send them.
+    /// A particle as luminaires emit it.
     pub(crate) fn let_go(emission: &Emission, dice: &mut Dice) -> Option<Self> {
         Some(Self { emitted: emission.emit(dice)?, target: None })
     }
@@ -200,7 +206,7 @@ impl Group {
         (self.high - self.low).length_squared()
     }
 
-    /// Two halves along its longest side.
+    /// The two halves of the group along the longest side of its bounds.
     fn halves(self, scene: &Scene) -> [Self; 2] {
         let Vector { x, y, z } = self.high - self.low;
         let middle = |triangle: u32| {
@@ -218,7 +224,7 @@ impl Group {
             self.triangles.into_iter().map(|t| (middle(t), t)).collect();
         let half = keyed.len() / 2;
         keyed.select_nth_unstable_by(half, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        // Which they are is told by that order, theirs among each other by their numbers.
+        // The order of centroids decides the half; within it, triangles are ordered by number.
         let sorted = |some: &[(f64, u32)]| {
             let mut triangles: Vec<u32> = some.iter().map(|&(_, t)| t).collect();
             triangles.sort_unstable();
@@ -228,12 +234,12 @@ impl Group {
     }
 }
 
-/// Which materials are specular.
+/// The specular materials.
 pub(crate) fn specular(scene: &Scene) -> Vec<bool> {
     scene.materials().iter().map(|material| sends_on(&material.body)).collect()
 }
 
-/// Whether light goes on from something without being reflected diffusely.
+/// Whether a body passes on light other than by diffuse reflection.
 fn sends_on(body: &Body) -> bool {
     let finish = |finish: &Finish| finish.is_glossy() || !finish.mirror.is_black();
     match body {
@@ -242,7 +248,7 @@ fn sends_on(body: &Body) -> bool {
     }
 }
 
-/// Triangles by their material, then the widest halved until there are so many.
+/// Groups of triangles by material; then the widest group is halved until there are `most`.
 fn grouped(scene: &Scene, all: Vec<u32>, most: usize) -> Vec<Group> {
     let mut by_material: Vec<Vec<u32>> = vec![Vec::new(); scene.materials().len()];
     all.iter().for_each(|&t| by_material[scene.material_index(t) as usize].push(t));

@@ -1,8 +1,9 @@
 //! Parts of elements in which caustics are checked.
 //!
-//! Nothing can gather a caustic, so no check point sees what a map lacks of it. But particles tell it: of each increment what came
-//! to the sixteenth parts of an element is counted, and what its own map has there taken off. The mean of that over increments
-//! squared, less its variance, is the squared error without bias, as at check points, but for what differs within the parts.
+//! Caustics cannot be gathered, so check points do not measure their error. Particles do: in every increment
+//! the flux on each sixteenth of an element is counted, and the increment's own map there is subtracted. The
+//! square of the mean of that difference over increments, less its variance, is an unbiased squared error, as
+//! at check points. It leaves out variations within the parts.
 
 use crate::elements::Subdivision;
 use crate::engine::gather::known_weights;
@@ -10,22 +11,24 @@ use crate::engine::ray::{Accumulator, Noise, Sample};
 use crate::map::Standing;
 use crate::units::Rgb;
 
-/// Parts of an element: the four that the middles of its edges make, each of them so divided again.
+/// The number of parts from one division of an element, at the midpoints of its edges.
 const QUARTERS: usize = 4;
+/// The number of parts of an element: each part of the first division is divided again.
 pub(crate) const PARTS: usize = QUARTERS * QUARTERS;
 
-/// All of the squared error, as a multiple of what parts tell in the mean: below a ball of glass they told four thirds of what
-/// quarters did. Of borders, parts of half the size leave half as much untold.
+/// The factor from the squared error of the means of parts to the whole squared error. Below a ball of glass,
+/// parts showed four thirds of the error of quarters. At a border, parts of half the size leave out half as
+/// much.
 const WITHIN: f64 = 1.25;
 
-/// No element.
+/// The value for no element.
 const NONE: u32 = u32::MAX;
 
-/// Elements that are checked.
+/// The checked elements.
 #[derive(Debug, Default)]
 pub(crate) struct ElementParts {
     elements: Vec<Checked>,
-    /// By node, which of them it is.
+    /// The index in `elements` of each node.
     of_node: Vec<u32>,
 }
 
@@ -35,7 +38,7 @@ struct Checked {
     area_m2: f64,
 }
 
-/// A squared error over some surface, lx2 m2, without bias, and its variance that is noise.
+/// The unbiased squared error over some surface, lx2 m2, and its variance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Squared {
     pub(crate) sum: f64,
@@ -43,7 +46,7 @@ pub(crate) struct Squared {
 }
 
 impl ElementParts {
-    /// Of these nodes, which are not bisected.
+    /// The checked elements, from nodes that are not bisected.
     pub(crate) fn new(subdivision: &Subdivision, nodes: &[u32]) -> Self {
         let mut of_node = vec![NONE; if nodes.is_empty() { 0 } else { subdivision.node_count() }];
         let checked = |(k, &node): (usize, &u32)| {
@@ -54,7 +57,7 @@ impl ElementParts {
         Self { elements: nodes.iter().enumerate().map(checked).collect(), of_node }
     }
 
-    /// How many parts there are.
+    /// The number of parts.
     pub(crate) fn count(&self) -> usize {
         self.elements.len() * PARTS
     }
@@ -64,20 +67,20 @@ impl ElementParts {
         self.of_node.get(node as usize).is_some_and(|&k| k != NONE)
     }
 
-    /// Which of so many vertices are corners of such elements.
+    /// Whether each of `count` vertices is a corner of a checked element.
     pub(crate) fn vertices(&self, count: usize) -> Vec<bool> {
         let mut of = vec![false; count];
         self.elements.iter().flat_map(|e| e.corners).for_each(|v| of[v as usize] = true);
         of
     }
 
-    /// The part that weights of its vertices tell.
+    /// The part at some barycentric weights; `None` if the element is not checked.
     pub(crate) fn at(&self, node: u32, weights: [f64; 3]) -> Option<usize> {
         let element = *self.of_node.get(node as usize)?;
         (element != NONE).then(|| element as usize * PARTS + part_of(weights))
     }
 
-    /// What a map lacks in every part in the mean, lx, of which flux came to it, lm.
+    /// The mean light that the map lacks in every part, lx, given the flux on each part, lm.
     pub(crate) fn lacking(
         &self,
         flux_lm: impl Fn(usize) -> f64,
@@ -96,7 +99,7 @@ impl ElementParts {
         lacking
     }
 
-    /// What elements err by, given what increments lacked in the parts.
+    /// The errors of the elements, given the light that increments lacked in the parts.
     pub(crate) fn errors(&self, lacking: &Accumulator) -> Vec<Squared> {
         let of_one = |(element, checked): (usize, &Checked)| {
             let estimates = std::array::from_fn(|part| {
@@ -108,8 +111,8 @@ impl ElementParts {
         self.elements.iter().enumerate().map(of_one).collect()
     }
 
-    /// What is said of these errors in the mean of the elements at every vertex, lx2: all of it together, what noise may hide shared
-    /// out as it is expected.
+    /// The mean squared error of the elements at every vertex, lx2. The standard error of the total is added,
+    /// divided among elements by their variances.
     pub(crate) fn at_vertices(&self, errors: &[Squared]) -> Vec<(u32, f64)> {
         let all: Squared = errors.iter().copied().sum();
         let hidden = all.variance.max(0.0).sqrt();
@@ -127,7 +130,7 @@ impl ElementParts {
         at_vertices.chunk_by(|a, b| a.0 == b.0).map(of_one).collect()
     }
 
-    /// The integral of the variance of what is interpolated, from that at the vertices, lx2 m2.
+    /// The integral of the variance of interpolated light, from that at the vertices, lx2 m2.
     pub(crate) fn noise(&self, variance: impl Fn(u32) -> f64, of_interpolated: f64) -> f64 {
         let of_one = |Checked { corners, area_m2 }: &Checked| {
             area_m2 * of_interpolated * corners.map(&variance).iter().sum::<f64>() / 3.0
@@ -153,33 +156,33 @@ impl std::iter::Sum for Squared {
 }
 
 impl Squared {
-    /// What it is said to be, given what noise may hide.
+    /// The reported value, given the treatment of noise.
     pub(crate) fn with(self, noise_is: Noise) -> f64 {
         noise_is.of_squared(self.sum, self.variance.max(0.0).sqrt())
     }
 
-    /// Whether it is more than noise makes it.
+    /// Whether it exceeds noise by this many standard errors.
     pub(crate) fn is_believed(self, standard_errors: f64) -> bool {
         self.sum > standard_errors * self.variance.sqrt()
     }
 }
 
-/// What an increment adds to the sums of the parts.
+/// The samples that an increment adds to the sums of the parts.
 pub(crate) fn samples(lacking: &[f64]) -> impl Iterator<Item = Sample> {
     lacking.iter().map(|&lx| Sample { caustic: Rgb::grey(lx), ..Sample::default() })
 }
 
-/// The squared error of an element whose parts lack so much in the mean, with the variances of that.
+/// The squared error of an element, given the mean lack of light in each part and its variance.
 pub(crate) fn squared_error(parts: &[(f64, f64); PARTS], area_m2: f64) -> Squared {
     let each_m2 = WITHIN * area_m2 / PARTS as f64;
     parts.iter().fold(Squared::default(), |sum, (mean, variance)| Squared {
         sum: sum.sum + each_m2 * (mean * mean - variance),
-        // That of `mean^2 - variance` for a normal mean of zero.
+        // This is the variance of `mean^2 - variance` for a normal mean of zero.
         variance: sum.variance + 2.0 * each_m2 * each_m2 * variance * variance,
     })
 }
 
-/// What is read in the middle of every part of an element with such values at its vertices; nothing where none is known.
+/// The interpolated value in the middle of every part; zero where nothing is known.
 pub(crate) fn read_in_parts(
     corners: [u32; 3],
     values: [f64; 3],
@@ -192,13 +195,13 @@ pub(crate) fn read_in_parts(
     })
 }
 
-/// The part that barycentric weights lie in.
+/// The part at some barycentric weights.
 pub(crate) fn part_of(weights: [f64; 3]) -> usize {
     let (first, within) = quarter(weights);
     QUARTERS * first + quarter(within).0
 }
 
-/// The quarter that weights lie in, at a vertex or amid them, and the weights in it.
+/// The quarter at some weights (a corner or the middle one), and the weights within it.
 fn quarter(weights: [f64; 3]) -> (usize, [f64; 3]) {
     match weights.iter().position(|&weight| weight >= 0.5) {
         Some(k) => {
@@ -209,7 +212,7 @@ fn quarter(weights: [f64; 3]) -> (usize, [f64; 3]) {
     }
 }
 
-/// Weights in the middle of a part.
+/// The barycentric weights of the middle of a part.
 fn middle_of(part: usize) -> [f64; 3] {
     let out_of = |quarter: usize, within: [f64; 3]| {
         [0, 1, 2].map(|k| match quarter {

@@ -1,4 +1,4 @@
-//! Particles on their way over specular surfaces: how they fly, and how many it takes.
+//! The flights of particles over specular surfaces, and their number.
 
 use super::aim::{Aim, Aimed, specular};
 use crate::ablation::without;
@@ -11,55 +11,62 @@ use crate::units::Rgb;
 use rayon::prelude::*;
 use std::cell::Cell;
 
-/// Particles a vertex and increment at most.
+/// The largest number of particles per vertex and increment.
 const PARTICLES_A_VERTEX: usize = 4;
 
-/// Particles of an increment at least, and of a trial at most: let go or aimed.
+/// The least number of particles in an increment.
 const FEWEST: f64 = 1024.0;
+/// The largest number of unaimed particles in a trial.
 const TRIED: u32 = 1 << 15;
+/// The largest number of aimed particles in a trial.
 const TRIED_AIMED: u32 = 1 << 13;
 
-/// Particles of an increment at most.
+/// The largest number of particles in an increment.
 const MOST: u32 = 1 << 20;
 
-/// Particles are aimed where no more than this share of those let go come to a specular surface first, as told by so many.
+/// The largest share of unaimed particles that meet a specular surface first for which particles are aimed.
 const SELDOM: f64 = 0.25;
+/// The number of unaimed particles that measure this share.
 const LET_GO: u32 = 1024;
 
-/// The part of the noise allowed, in the square, that caustics may take.
+/// The least share of the allowed noise variance that caustics may have.
 pub(crate) const LEAST_SHARE: f64 = 0.1;
+/// The largest share of the allowed noise variance that caustics may have.
 const MOST_SHARE: f64 = 0.75;
-/// What a particle costs, in rays that gather.
+/// The cost of a particle, in gathering rays.
 const RAYS_OF_ONE: f64 = 4.0;
-/// How much may be in doubt of the error of interpolation, in the square, as a part of the accuracy asked for.
+/// The largest uncertainty of the squared interpolation error, as a share of the squared accuracy goal.
 pub(crate) const DOUBT: f64 = 0.15;
 
-/// The most particles of an increment for so many vertices.
+/// The most particles of an increment for a number of vertices.
 pub(crate) fn particles(vertices: usize) -> u32 {
     (PARTICLES_A_VERTEX * vertices).next_power_of_two() as u32
 }
 
-/// How noisy caustics are.
+/// The noise of caustics.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CausticNoise {
-    /// Mean square over the surface if one particle carried all light, lx2: it falls with their number.
+    /// The mean square over the surface if one particle carried all light, lx2. It falls with the number of
+    /// particles.
     lx2: f64,
-    /// On so many vertices, with which it grows.
+    /// The number of vertices, with which the noise grows.
     vertices: usize,
-    /// The standard error of the mean square of what interpolation errs by if there were one particle, lx2: it falls likewise.
+    /// The standard error of the mean square interpolation error for one particle, lx2. It falls in the same
+    /// way.
     doubt_lx2: f64,
 }
 
 impl CausticNoise {
-    /// Tries some particles; also returns where they are best aimed, if they are, and the rays they took. `read` gives the vertices
-    /// and weights at a place, and `areas_m2` what each stands for.
+    /// Measures the noise with some particles. Also returns their aim, if aiming pays, and the number of
+    /// rays. `read` gives the vertices and weights at a place; `areas_m2` are the areas that vertices stand
+    /// for.
     pub(crate) fn tried(
         of: (&Scene, &Lighting),
         areas_m2: &[f64],
         read: impl Fn(&SurfacePoint) -> Option<[(u32, f64); 3]> + Sync,
         key: Key,
     ) -> (Self, Option<Aim>, u64) {
-        // A deposit of flux f makes f w / area of illuminance at a vertex, by its weight there.
+        // A deposit of flux f adds the illuminance f w / area at a vertex with weight w.
         let square = |at: &SurfacePoint, flux_lm: f64| -> f64 {
             let corners = read(at).into_iter().flatten();
             let known = corners.filter(|&(v, _)| areas_m2[v as usize] > 0.0);
@@ -86,23 +93,24 @@ impl CausticNoise {
         let Some(flights) = Flights::new(of, aim.as_ref(), count, key) else {
             return Default::default();
         };
-        // In the order of the particles, whoever flies them.
+        // The squares are in the order of the particles, whichever threads trace them.
         let all = flights.squares(square);
         let sum: f64 = all.iter().map(|(square, _)| square).sum();
         let area_m2: f64 = areas_m2.iter().sum();
-        // Each carries one part of `count`.
+        // Each particle carries one part in `count` of the light.
         let lx2 = if area_m2 > 0.0 { sum * f64::from(count) / area_m2 } else { 0.0 };
         let rays = first_rays + all.iter().map(|(_, rays)| rays).sum::<u64>();
         (Self { lx2, vertices, doubt_lx2: 0.0 }, aim, rays)
     }
 
-    /// As seen of particles that shared all light: the mean square over the surface for one, lx2, on so many vertices, and the
-    /// standard error of the squared error of interpolation.
+    /// The noise as measured with particles that share all light: the mean square over the surface for one
+    /// particle, lx2, the number of vertices, and the standard error of the squared interpolation error, lx2.
     pub(crate) const fn seen(lx2: f64, vertices: usize, doubt_lx2: f64) -> Self {
         Self { lx2, vertices, doubt_lx2 }
     }
 
-    /// Particles of each of so many increments on so many vertices for a target, if they are to make such a part of its noise.
+    /// The number of particles in each increment for an accuracy goal, if they are to cause this share of its
+    /// noise variance.
     pub(crate) fn particles(
         self,
         vertices: usize,
@@ -111,15 +119,15 @@ impl CausticNoise {
         share: f64,
     ) -> u32 {
         let least = particles(vertices);
-        // Without light to compare with, as few as there may be.
+        // Without light to compare with, the number is the least.
         let Some(wanted) = self.wanted(vertices, goal, increments, share) else { return least };
-        // On few vertices the most is less than the fewest.
+        // On few vertices the most may be less than [`FEWEST`].
         let fewest = FEWEST.min(f64::from(least));
         let wanted = wanted.clamp(fewest, f64::from(least.max(MOST)));
         libm::exp2(libm::ceil(libm::log2(wanted))) as u32
     }
 
-    /// Particles of all increments together for a target on the vertices of which this was seen.
+    /// The number of particles in all increments together for a goal, on the vertices of the measurement.
     pub(crate) fn needed(self, goal: (f64, f64)) -> f64 {
         self.wanted(self.vertices, goal, 1, 1.0).unwrap_or(0.0)
     }
@@ -137,7 +145,8 @@ impl CausticNoise {
         (goal_lx2 > 0.0).then(|| by_noise.max(self.doubt_lx2 / (DOUBT * goal_lx2)))
     }
 
-    /// The part of all noise that caustics best have, beside so many rays of an increment that gather.
+    /// The optimal share of caustics in the noise variance, given the number of gathering rays of an
+    /// increment.
     pub(crate) fn share(
         self,
         vertices: usize,
@@ -151,22 +160,22 @@ impl CausticNoise {
     }
 }
 
-/// Particles that share all light, before they are reflected diffusely.
+/// Particles that share all light, until they are reflected diffusely.
 pub(crate) struct Flights<'a> {
     scene: &'a Scene,
     lighting: &'a Lighting<'a>,
     emission: Emission<'a>,
-    /// Where most are sent, if they are.
+    /// The aim of most particles, if they are aimed.
     aim: Option<&'a Aim>,
-    /// Those let go, and those aimed.
+    /// The sequences of unaimed and of aimed particles.
     sequences: [Sequence; 2],
     count: u32,
-    /// Scatterings of each at most.
+    /// The largest number of scatterings of a particle.
     most: u32,
 }
 
 impl<'a> Flights<'a> {
-    /// None where there is no light.
+    /// The flights of `count` particles; `None` where there is no light.
     pub(crate) fn new(
         (scene, lighting): (&'a Scene, &'a Lighting<'a>),
         aim: Option<&'a Aim>,
@@ -178,12 +187,12 @@ impl<'a> Flights<'a> {
         Some(Self { scene, lighting, emission, aim, sequences, count, most: scatterings(scene) })
     }
 
-    /// How many of them are let go as luminaires send them.
+    /// The number of particles that are not aimed.
     fn unaimed(&self) -> u32 {
         if self.aim.is_some() { Aim::unaimed(self.count) } else { self.count }
     }
 
-    /// Numbers for a particle, and whether it is aimed.
+    /// The random numbers of a particle, and its aim.
     fn dice(&self, index: u32) -> (Dice, Option<&'a Aim>) {
         let unaimed = self.unaimed();
         match index.checked_sub(unaimed) {
@@ -192,8 +201,8 @@ impl<'a> Flights<'a> {
         }
     }
 
-    /// Follows a particle until it is reflected diffusely; `deposit` is told where it comes on its way, and with which
-    /// flux. Returns the rays it took, and the flux that was given up.
+    /// Follows a particle until it is reflected diffusely. `deposit` receives the places on its way and its
+    /// flux there. Returns the number of rays, and the flux given up, if any.
     pub(crate) fn fly(
         &self,
         index: u32,
@@ -218,7 +227,7 @@ impl<'a> Flights<'a> {
                 particle.flux_lm = particle.flux_lm * weight;
             }
             let opaque = matches!(scene.material(at.triangle).body, Body::Opaque { .. });
-            // What virtual luminaires bring is theirs.
+            // Light of virtual luminaires is counted there.
             if opaque && !particle.is_covered(lighting) {
                 deposit(&at, particle.flux_lm);
             }
@@ -234,7 +243,7 @@ impl<'a> Flights<'a> {
         (rays, None)
     }
 
-    /// What every particle adds to a sum over its deposits, and its rays.
+    /// The sum of `square` over the deposits of each particle, and its number of rays.
     fn squares(&self, square: impl Fn(&SurfacePoint, f64) -> f64 + Sync) -> Vec<(f64, u64)> {
         let of_one = |index: u32| {
             let sum = Cell::new(0.0);
@@ -246,7 +255,7 @@ impl<'a> Flights<'a> {
         (0..self.count).into_par_iter().map(of_one).collect()
     }
 
-    /// The root of the mean of that over the particles aimed at each group, and the rays they took.
+    /// The root mean of these sums over the particles aimed at each group, and the number of rays.
     fn brought(
         &self,
         aim: &Aim,
@@ -266,13 +275,13 @@ impl<'a> Flights<'a> {
         (brought.collect(), all.iter().map(|(_, rays)| rays).sum())
     }
 
-    /// All light, lm.
+    /// The flux of all luminaires, lm.
     pub(crate) fn flux_lm(&self) -> f64 {
         self.emission.flux_lm()
     }
 }
 
-/// Whether few of the particles that are let go come to a specular surface first.
+/// Whether few unaimed particles meet a specular surface first.
 fn specular_is_seldom_met(scene: &Scene, emission: &Emission, key: Key) -> bool {
     let sequence = Sequence::new(key.with(2));
     let is_specular = specular(scene);

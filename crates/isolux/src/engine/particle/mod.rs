@@ -1,4 +1,4 @@
-//! Particles for caustics: their flights, where they are aimed at, and where they land in elements.
+//! Particles for caustics: their flights, their aim, and the parts of elements where they land.
 
 mod aim;
 pub(crate) mod element_parts;
