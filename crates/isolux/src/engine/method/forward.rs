@@ -22,7 +22,9 @@ const FEWEST: usize = 1 << 14;
 /// The largest number of particles in an increment.
 const MOST: usize = 1 << 20;
 
+/// The index of direct light in the tally.
 const DIRECT: usize = 0;
+/// The index of indirect light in the tally.
 const INDIRECT: usize = 1;
 
 /// The method, ready for increments.

@@ -45,9 +45,9 @@ const SMOOTHINGS: u32 = 4;
 const WORTH_TRYING: f64 = 32.0;
 /// The number of rays in all from which a trial looks for noisy receivers.
 const WORTH_TRYING_ANY: f64 = 262_144.0;
-/// The largest number of rays of a receiver in such a trial.
+/// The largest number of rays of a receiver in a trial for noisy receivers.
 const RAYS_TRIED: u32 = 8;
-/// The number of receivers in the first round of such a trial.
+/// The number of receivers in the first round of that trial.
 const TRIED_FIRST: usize = 1024;
 /// The factor on the number of receivers from round to round.
 const TRIED_NEXT: usize = 4;

@@ -1,7 +1,8 @@
 //! `cache`: the increments of a map that is read from samples.
 //!
-//! An increment is a whole replicate of the cache: its own random rays at every sample, its own
-//! fixed point of the light between samples. Where the samples lie is fixed before the first.
+//! An increment is an independent replicate of the cache, with its own random rays at every sample and its
+//! own fixed point of the light between samples. The positions of samples are fixed before the first
+//! increment.
 
 use super::super::caustics::Caustics;
 use super::super::{caustics, hybrid};
@@ -19,40 +20,44 @@ use crate::units::Rgb;
 use rayon::prelude::*;
 use std::time::Instant;
 
-/// The error allowed in the split-sphere model, for an accuracy of one per cent: it errs, with gradients, like
-/// its square. Measured on CUBE and SPHERE.
+/// The allowed error of the split-sphere model for an accuracy of one per cent. With gradients, the true
+/// error is about its square. Measured on CUBE and SPHERE.
 const ALLOWED_AT_ONE_PERCENT: f64 = 0.35;
+/// The least allowed error.
 const LEAST_ALLOWED: f64 = 0.05;
+/// The largest allowed error.
 const MOST_ALLOWED: f64 = 0.6;
 
-/// Rays of a sample that rays read, as a share of those of one that is read: its noise is read in the
-/// mean over many.
+/// The rays of a far sample, as a share of those of a near one. Readings average the noise of many far
+/// samples.
 const FAR_RAYS: f64 = 0.5;
+/// The least number of rays of a near sample.
 const FEWEST_RAYS: u32 = 32;
+/// The least number of rays of a far sample.
 const FEWEST_FAR_RAYS: u32 = 16;
 
-/// The engine, ready for increments.
+/// The method, ready for increments.
 pub(crate) struct Cached<'p, 's> {
     plan: &'p Plan<'s>,
     store: Store<'s>,
-    /// What vertices take from the samples.
+    /// The contributions of near samples to vertices.
     ties: Vec<Vec<Tie>>,
     checks: Vec<Place>,
     far_ties: Vec<Vec<Tie>>,
     check_direct: DirectThere,
     rays: u32,
-    /// For caustics.
+    /// The number of particles for caustics per increment.
     particles: u32,
     key: Key,
 }
 
-/// The error that samples are placed for.
+/// The allowed error that samples are placed for, given the accuracy goal.
 pub(super) fn allowed(target: f64) -> f64 {
     (ALLOWED_AT_ONE_PERCENT * (target / 0.01).sqrt()).clamp(LEAST_ALLOWED, MOST_ALLOWED)
 }
 
 impl<'p, 's> Cached<'p, 's> {
-    /// Places samples for the vertices of a plan, beside those of a cache.
+    /// The method, with samples placed for the vertices of a plan beside those of a cache.
     pub(crate) fn new(
         plan: &'p Plan<'s>,
         checks: &[Check],
@@ -88,12 +93,12 @@ impl<'p, 's> Cached<'p, 's> {
         Self { plan, store, ties, checks: checked, far_ties, check_direct, rays, particles, key }
     }
 
-    /// Variance of direct light as readings evaluate it, lx2, that all increments have in common.
+    /// The variance of direct light in readings that all increments have in common, lx2.
     pub(crate) const fn noise_of_direct_lx2(&self) -> f64 {
         self.check_direct.noise_lx2
     }
 
-    /// Time that an increment takes, s, roughly: the light between samples is tried.
+    /// The approximate duration of an increment, s, from a part of the check points.
     pub(crate) fn pace_s(&mut self) -> f64 {
         let started = Instant::now();
         let making = Making {
@@ -123,7 +128,7 @@ impl<'p, 's> Cached<'p, 's> {
         ((f64::from(self.rays) * FAR_RAYS) as u32).max(FEWEST_FAR_RAYS)
     }
 
-    /// Adds increment `index`; nothing, and `None`, if the deadline passes meanwhile.
+    /// Adds increment `index`; adds nothing and returns `None` if the deadline passes meanwhile.
     pub(crate) fn increment(
         &mut self,
         index: u64,
@@ -177,11 +182,12 @@ impl<'p, 's> Cached<'p, 's> {
         })
     }
 
-    /// What rays of check points read of samples beyond what they gather afresh, lx.
+    /// The error at check points of light that rays read from far samples, compared with light gathered
+    /// there, lx.
     fn lookups(&self, far: &[Light], fresh: &[Rgb], direct: &[Rgb]) -> Vec<Rgb> {
         let is_direct_read = self.plan.lighting.are_read_at_ends();
         let lookup = |k: usize| {
-            // No ray ends where no sample is.
+            // No ray reads where no sample is.
             if self.far_ties[k].is_empty() {
                 return Rgb::BLACK;
             }
@@ -191,13 +197,13 @@ impl<'p, 's> Cached<'p, 's> {
         (0..fresh.len()).map(lookup).collect()
     }
 
-    /// The samples made, if they have all their replicates.
+    /// The samples made, if all their replicates are complete.
     pub(crate) fn made(&mut self) -> Vec<CacheSample> {
         self.store.make_known()
     }
 }
 
-/// Caustics where a ray ends, read from those at vertices.
+/// The caustics at the end of a ray, interpolated from vertices, lx.
 fn caustic_at(plan: &Plan, caustic: &[Rgb], at: &SurfacePoint) -> Rgb {
     if plan.lighting.leaves_caustics() {
         plan.read(plan.mesh.level, caustic, at)

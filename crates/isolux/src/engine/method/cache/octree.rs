@@ -1,12 +1,12 @@
-//! Samples by place: an octree in which each lies as deep as its reach allows.
+//! An octree of samples, in which the depth of a sample depends on its reach.
 //!
-//! As of Ward, Rubinstein, Clear (1988, "A ray tracing solution for diffuse interreflection"): a sample
-//! is kept in all cells that its reach touches, of the depth whose cells are about as large as it, so
-//! that a place finds all that may reach it on the one way down to it.
+//! The structure follows Ward, Rubinstein, Clear (1988, "A ray tracing solution for diffuse
+//! interreflection"). A sample is stored in all cells that its reach touches, at the depth where cells are
+//! about as large as the reach. So a place finds all samples that may reach it on one way down.
 
 use isolux_geometry::Point;
 
-/// Halvings of the root at most: cells of a millionth of the scene.
+/// The largest depth: cells of a millionth of the scene.
 const MAX_DEPTH: u32 = 20;
 
 /// A cube of space.
@@ -18,13 +18,13 @@ struct Cell {
 
 #[derive(Clone, Debug, Default)]
 struct Node {
-    /// Numbers of the children, 0 for none: the root is nobody's child.
+    /// The numbers of the children; 0 for none, since the root is not a child.
     children: [u32; 8],
-    /// Samples, in the order in which they came.
+    /// The samples, in order of insertion.
     samples: Vec<u32>,
 }
 
-/// Samples by place.
+/// An octree of samples.
 #[derive(Clone, Debug)]
 pub(super) struct Octree {
     root: Cell,
@@ -32,7 +32,7 @@ pub(super) struct Octree {
 }
 
 impl Octree {
-    /// Over a box, a little enlarged.
+    /// An empty octree over a box, slightly enlarged.
     pub(super) fn over((low, high): (Point, Point)) -> Self {
         let extent = high - low;
         let half_m = 0.51 * extent.x.max(extent.y).max(extent.z).max(f64::MIN_POSITIVE);
@@ -40,7 +40,7 @@ impl Octree {
         Self { root, nodes: vec![Node::default()] }
     }
 
-    /// Adds a sample that reaches so far.
+    /// Adds a sample with its reach.
     pub(super) fn insert(&mut self, sample: u32, at: Point, reach_m: f64) {
         self.insert_below(0, self.root, (sample, at, reach_m), 0);
     }

@@ -99,9 +99,11 @@ struct Checks {
     direct: Vec<Rgb>,
 }
 
-/// The places of received light, shot light, and light sent over specular surfaces in the sums.
+/// The place of received light in the sums.
 const RECEIVED: usize = 0;
+/// The place of shot light in the sums.
 const SHOT: usize = 3;
+/// The place of light sent over specular surfaces in the sums.
 const SENT: usize = 6;
 
 impl<'p, 's> Radiosity<'p, 's> {

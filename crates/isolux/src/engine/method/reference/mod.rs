@@ -4,8 +4,8 @@
 //! (Kajiya 1986, "The rendering equation"). A path starts cosine-distributed and passes specular surfaces up
 //! to a diffuse one. Direct light is estimated there once, and the path goes on with the probability of the
 //! reflectance. Where a lamp is close to a surface, few paths meet its light there, and the others are too
-//! dark. So few luminaires also send out light: its landing places are connected to every place of a path,
-//! and weighted against random hits by the balance heuristic (Veach and Guibas 1995).
+//! dark. Where luminaires are few, they therefore send out light as well: its landing places are connected to
+//! every place of a path, and weighted against random hits by the balance heuristic (Veach and Guibas 1995).
 //!
 //! Light by way of glass, gloss and curved mirrors has no virtual luminaires. That of emitting surfaces is
 //! found by random hits. That of luminaires without surface is found by particles, whose first diffuse

@@ -8,7 +8,7 @@
 //!
 //! A texel between gets the value of a plane through the gathered texels about it (moving least squares). Its
 //! error counts half of the differences found there, or at the texels that the plane depends on, since
-//! differences shrink at least so much from net to net. Light is not interpolated past obstacles. The texels
+//! differences at least halve from net to net. Light is not interpolated past obstacles. The texels
 //! of a picture are its pixels.
 
 mod plane;
@@ -523,7 +523,8 @@ impl<'a> Net<'a> {
         plane(&about)
     }
 
-    /// The light of a texel by such a plane; `None` if it sees none of the nearest gathered texels.
+    /// The light of a texel by a plane as [`Net::continued`] gives it; `None` if it sees none of the nearest
+    /// gathered texels.
     fn continued_in_sight(&self, k: usize) -> Option<Continued> {
         let about: Vec<Node> = self.nodes_about(k).filter(|node| node.weight > 0.0).collect();
         sight::nearest_seen(&about, self.seen_from(k))?;

@@ -26,7 +26,7 @@ impl Parted {
         self.0.extend(others.map(|other| [one.min(other), one.max(other)]));
     }
 
-    /// Keeps the nodes whose light is like that of the nearest visible one, or that it sees; so few rays
+    /// Keeps the nodes whose light is like that of the nearest visible one, or that it sees. Few rays
     /// decide for all. If all light is alike, no ray is traced. Visibility from the nearest was tested only
     /// close to it; nodes farther off must be visible from the texel itself.
     pub(super) fn keep_seen(
