@@ -2,15 +2,13 @@
 //!
 //! At random places of the surfaces each increment gathers afresh and compares with its own interpolated map.
 //! The mean difference over increments is the interpolation error there. Its known variance is subtracted, so
-//! the squared error of the scene is estimated without bias. Points are drawn with a quarter of the density
-//! each
+//! the squared error of the scene is estimated without bias. Points are weighted by their inverse density,
+//! which is an even mixture of four:
 //!
-//! * by area,
-//! * by squared details (most of the error lies in little of the area),
-//! * by squared details among elements that readers trust,
-//! * in proportion to details, for the mean error,
-//!
-//! and weighted by the inverse density.
+//! * area,
+//! * squared details (most of the error lies in little of the area),
+//! * squared details among elements that readers trust,
+//! * details, for the mean error.
 
 use super::seen_errors;
 use super::seen_errors::{ReadPlace, View, views};

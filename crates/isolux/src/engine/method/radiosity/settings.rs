@@ -38,7 +38,7 @@ impl Default for RadiositySettings {
 /// The limits for an accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RadiosityLimits {
-    /// See [`RadiositySettings::form_factor_tolerance`].
+    /// The form-factor tolerance: [`RadiositySettings::form_factor_tolerance`].
     pub form_factor_tolerance: f64,
     /// The largest uncertainty of the visibility of one source, as a share of the root mean square of the
     /// light.
@@ -46,7 +46,7 @@ pub struct RadiosityLimits {
     /// The most light from one source to a receiver by two rays, as a share of the root mean square of the
     /// light.
     pub largest_link: f64,
-    /// See [`RadiositySettings::unshot`].
+    /// The share of unshot light at which shooting stops: [`RadiositySettings::unshot`].
     pub unshot: f64,
     /// The number of rays at each check point; each is gathered eight times.
     pub check_rays: u32,
