@@ -65,7 +65,9 @@ fn method(method: Method) -> String {
              independently, so that their spread is the error."
         }
         Method::Cache => {
-            "Direct light is evaluated at every receiver, indirect light sampled where it varies and carried              over to the receivers around by its gradients (an irradiance cache). Rays from samples              read coarser samples of all further reflections. Each increment repeats all of it \
+            "Direct light is evaluated at every receiver, indirect light sampled where it varies and carried \
+             over to the receivers around by its gradients (an irradiance cache). Rays from samples \
+             read coarser samples of all further reflections. Each increment repeats all of it \
              independently at the same places, so that their spread is the error."
         }
         Method::Forward => {

@@ -72,15 +72,7 @@ pub(crate) struct Radiosity<'p, 's> {
     limits: Limits,
     stop_unshot: f64,
     ambient: bool,
-    /// Direct light at the vertices, lx, and its variance.
-    direct: Vec<Rgb>,
-    direct_variance: Vec<f64>,
-    caustic: Vec<Rgb>,
-    caustic_variance: Vec<f64>,
-    /// The light that vertices are expected to have in the end, beside direct light, lx.
-    expected: Vec<Rgb>,
-    /// By source, the exitance from direct light less the interpolated exitance, mean, lm/m2.
-    corrections: Vec<Rgb>,
+    light: KnownLight,
     /// The flux to be shot in all, lm.
     whole_lm: f64,
     area_m2: f64,
@@ -91,6 +83,19 @@ pub(crate) struct Radiosity<'p, 's> {
     rays_before: u64,
     given_up_lx: f64,
     key: Key,
+}
+
+/// Light that is known before the first shot.
+struct KnownLight {
+    /// Direct light at the vertices, lx, and its variance.
+    direct: Vec<Rgb>,
+    direct_variance: Vec<f64>,
+    caustic: Vec<Rgb>,
+    caustic_variance: Vec<f64>,
+    /// The light that vertices are expected to have in the end, beside direct light, lx.
+    expected: Vec<Rgb>,
+    /// By source, the exitance from direct light less the interpolated exitance, mean, lm/m2.
+    corrections: Vec<Rgb>,
 }
 
 /// The gathering at the check points.
@@ -140,8 +145,14 @@ impl<'p, 's> Radiosity<'p, 's> {
             },
             stop_unshot: asked.unshot,
             ambient: settings.ambient,
-            expected: plan.prolongate(&plan.mesh.fit.apply(&plan.light.guess)),
-            corrections: Vec::new(),
+            light: KnownLight {
+                direct,
+                direct_variance,
+                caustic,
+                caustic_variance,
+                expected: plan.prolongate(&plan.mesh.fit.apply(&plan.light.guess)),
+                corrections: Vec::new(),
+            },
             whole_lm: 0.0,
             area_m2: plan.area_m2(),
             reference_lx,
@@ -154,16 +165,12 @@ impl<'p, 's> Radiosity<'p, 's> {
             sources,
             chains,
             specular,
-            direct,
-            direct_variance,
-            caustic,
-            caustic_variance,
             checks,
             key,
         };
-        engine.corrections = engine.corrections();
+        engine.light.corrections = engine.corrections();
         engine.reflectance = engine.mean_reflectance();
-        let nothing = Accumulator::new(engine.direct.len(), reference_lx);
+        let nothing = Accumulator::new(engine.light.direct.len(), reference_lx);
         let none_shot = Accumulator::new(engine.sources.patches.len(), reference_lx);
         engine.whole_lm = engine.fluxes(&nothing, &none_shot).iter().map(|f| f.size_lm).sum();
         engine
@@ -209,7 +216,7 @@ impl<'p, 's> Radiosity<'p, 's> {
                 light * scene.diffuse_reflectance(finish, face.triangle, u, v)
             };
             let evaluated = PLACES.map(&mut at).into_iter().sum::<Rgb>() / PLACES.len() as f64;
-            let value = |v: u32| self.direct[v as usize];
+            let value = |v: u32| self.light.direct[v as usize];
             let corners = corner_values(self.plan, face.vertices, value);
             evaluated - corners.into_iter().sum::<Rgb>() / 3.0 * face.reflectance
         };
@@ -229,9 +236,9 @@ impl<'p, 's> Radiosity<'p, 's> {
     /// end.
     fn unshot(&self, sums: &Accumulator, is_first: bool, vertex: u32) -> Rgb {
         let k = vertex as usize;
-        let own = self.direct[k] + self.caustic[k];
+        let own = self.light.direct[k] + self.light.caustic[k];
         if is_first {
-            own + self.expected[k]
+            own + self.light.expected[k]
         } else {
             own + sums.part(k, RECEIVED) - sums.part(k, SHOT)
         }
@@ -246,7 +253,7 @@ impl<'p, 's> Radiosity<'p, 's> {
         in_gap: bool,
     ) -> [Rgb; 3] {
         let value = |vertex: u32| self.unshot(sums, is_first, vertex);
-        let correction = if is_first { self.corrections[node as usize] } else { Rgb::BLACK };
+        let correction = if is_first { self.light.corrections[node as usize] } else { Rgb::BLACK };
         let corners = if in_gap {
             corner_values_in_gap(self.plan, face.vertices, value)
         } else {
@@ -410,13 +417,13 @@ impl<'p, 's> Radiosity<'p, 's> {
 
     /// The light that vertices have not sent over specular surfaces.
     fn unsent(&self, sums: &Accumulator) -> Vec<Rgb> {
-        let is_first = (0..self.direct.len()).all(|k| sums.part(k, SENT).is_black());
+        let is_first = (0..self.light.direct.len()).all(|k| sums.part(k, SENT).is_black());
         let one = |k: usize| {
-            let own = self.direct[k] + self.caustic[k];
-            let indirect = if is_first { self.expected[k] } else { sums.part(k, RECEIVED) };
+            let own = self.light.direct[k] + self.light.caustic[k];
+            let indirect = if is_first { self.light.expected[k] } else { sums.part(k, RECEIVED) };
             own + indirect - sums.part(k, SENT)
         };
-        (0..self.direct.len()).map(one).collect()
+        (0..self.light.direct.len()).map(one).collect()
     }
 
     /// The approximate flux that sending it would bring, lm.
@@ -446,16 +453,16 @@ impl<'p, 's> Radiosity<'p, 's> {
         let indirect = received.greater(Rgb::BLACK);
         let left_out_lx = (indirect - received).luminance();
         let indirect_variance = sums.variance_at(vertex)
-            + self.caustic_variance.get(vertex).copied().unwrap_or(0.0)
+            + self.light.caustic_variance.get(vertex).copied().unwrap_or(0.0)
             + left_out_lx * left_out_lx;
         Estimate {
             mean: Sample {
-                direct: self.direct[vertex],
-                caustic: self.caustic[vertex],
+                direct: self.light.direct[vertex],
+                caustic: self.light.caustic[vertex],
                 indirect,
                 passed_on: 0.0,
             },
-            variance: indirect_variance + self.direct_variance[vertex],
+            variance: indirect_variance + self.light.direct_variance[vertex],
             indirect_variance,
             common_variance: 0.0,
         }
@@ -468,13 +475,14 @@ impl<'p, 's> Radiosity<'p, 's> {
         points: &[Check],
         ambient: Rgb,
     ) -> InterpolationErrors {
-        let vertices = 0..self.direct.len();
+        let vertices = 0..self.light.direct.len();
         let indirect: Vec<Rgb> = vertices.map(|k| sums.part(k, RECEIVED) + ambient).collect();
-        let light: Vec<Rgb> = indirect.iter().zip(&self.caustic).map(|(&e, &c)| e + c).collect();
+        let light: Vec<Rgb> =
+            indirect.iter().zip(&self.light.caustic).map(|(&e, &c)| e + c).collect();
         let mut found = Accumulator::new(check_points::places(points, true), self.reference_lx);
         for operator in &self.checks.operators {
             let fresh = operator.apply(&light);
-            let map = [self.direct.as_slice(), &self.caustic, &indirect];
+            let map = [self.light.direct.as_slice(), &self.light.caustic, &indirect];
             found.add(check_points::samples(points, (&fresh, &self.checks.direct), map, None));
         }
         let seen = check_points::errors(&found, points, (self.plan.trust(), Noise::Counted));
