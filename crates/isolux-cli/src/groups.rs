@@ -107,14 +107,7 @@ pub(crate) fn run(
         match solved.outcome {
             Outcome::Done => {}
             Outcome::Interrupted if left > 1 => {
-                let path = whole.output.path().display();
-                note(
-                    Note::Warning,
-                    format!(
-                        "{path}: not written, {} no map yet; go on with --resume",
-                        counted(left - 1, "group has", "groups have")
-                    ),
-                );
+                tell_what_is_missing(whole.output, left - 1);
                 return Ok(Outcome::Interrupted);
             }
             other => outcome = other,
@@ -152,6 +145,13 @@ pub(crate) fn run(
         print(&report.text())?
     }
     Ok(outcome)
+}
+
+/// Says that there is no sum yet, as so many groups have no map.
+fn tell_what_is_missing(sum: &OutputPath, groups: usize) {
+    let (path, groups) = (sum.path().display(), counted(groups, "group has", "groups have"));
+    let text = format!("{path}: not written, {groups} no map yet; go on with --resume");
+    note(Note::Warning, text);
 }
 
 /// Where the map of each group goes.

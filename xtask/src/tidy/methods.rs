@@ -24,7 +24,7 @@ pub(super) fn blocks(source: &str) -> Vec<Block> {
             Item::Impl(block) if block.trait_.is_none() => Some(block),
             _ => None,
         })
-        .filter_map(|block| read(block))
+        .filter_map(read)
         .collect()
 }
 
@@ -56,12 +56,12 @@ impl<'a> Visit<'a> for Calls {
         if let Expr::Path(function) = &*call.func {
             let segments: Vec<String> =
                 function.path.segments.iter().map(|s| s.ident.to_string()).collect();
-            if let [first, name] = segments.as_slice() {
-                if first == "Self" {
-                    let line =
-                        function.path.segments.first().map_or(1, |s| s.ident.span().start().line);
-                    self.0.push((name.clone(), line));
-                }
+            if let [first, name] = segments.as_slice()
+                && first == "Self"
+            {
+                let line =
+                    function.path.segments.first().map_or(1, |s| s.ident.span().start().line);
+                self.0.push((name.clone(), line));
             }
         }
         visit::visit_expr_call(self, call);

@@ -48,7 +48,7 @@ impl<'s> Pilot<'s> {
             indirect_vertices,
             level: coarse.node_count() as u32,
             waiting: self.mesh.carriers.waiting(),
-            carriers: self.mesh.carriers,
+            carriers: std::mem::take(&mut self.mesh.carriers),
             gatherers,
             gathering_for_bare,
             fit,
@@ -61,13 +61,18 @@ impl<'s> Pilot<'s> {
             subdivision: coarse,
         };
         let errors = PlannedErrors { of_elements: look.errors, ..errors };
+        self.plan(mesh, errors, look.reference_lx)
+    }
+
+    /// The plan over a mesh, with the light and the noise that are known.
+    fn plan(self, mesh: PlannedMesh, errors: PlannedErrors, reference_lx: f64) -> Plan<'s> {
         let light = PlannedLight {
             direct: self.direct.lx,
             direct_variance: self.direct.variance,
             guess: self.indirect.lx,
             bright: self.bright,
             backdrop: self.walls.backdrop,
-            reference_lx: look.reference_lx,
+            reference_lx,
             mean_reflectance: reflectance::of_all(self.scene, &mesh.subdivision),
         };
         Plan {
@@ -77,7 +82,7 @@ impl<'s> Pilot<'s> {
             light,
             errors,
             tried: PlannedNoise {
-                trial: self.tried.trial.unwrap_or(RayTrial::usual(look.reference_lx)),
+                trial: self.tried.trial.unwrap_or(RayTrial::usual(reference_lx)),
                 caustic_noise: self.tried.caustic_noise,
                 aim: self.tried.aim,
             },

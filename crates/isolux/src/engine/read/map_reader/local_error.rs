@@ -105,26 +105,29 @@ impl MapReader<'_> {
 
     /// The local factor of a place on a surface.
     pub(super) fn part_at(&self, at: &SurfacePoint) -> f64 {
-        if self.parts.is_empty() || without("local-errors") {
+        if self.local.of_vertices.is_empty() || without("local-errors") {
             return 1.0;
         }
         let Some(corners) = self.map.elements.locate(at.triangle, at.back, at.u, at.v) else {
             return 1.0;
         };
-        corners.iter().map(|&(v, weight)| weight * self.parts[v as usize].luminance()).sum()
+        corners
+            .iter()
+            .map(|&(v, weight)| weight * self.local.of_vertices[v as usize].luminance())
+            .sum()
     }
 
     /// The local factor of a gatherer, on a surface or in space: the mean of the factors that arrive from the
     /// surfaces it sees. Vertices about it may lie beyond an obstacle.
     pub(super) fn part_of(&self, from: &Gatherer) -> f64 {
-        if self.parts.is_empty() || without("local-errors") {
+        if self.local.of_vertices.is_empty() || without("local-errors") {
             return 1.0;
         }
         let dark = self.dark();
         let key = place_key(from.surface.point).with(19);
         let operator = self.reading_alone(&dark).operator(&[from.with_rays(LOOKS)], |_| key);
-        let arrives = operator.reflected(&self.parts)[0].luminance();
-        if self.arriving > 0.0 { arrives / self.arriving } else { 0.0 }
+        let arrives = operator.reflected(&self.local.of_vertices)[0].luminance();
+        if self.local.arriving > 0.0 { arrives / self.local.arriving } else { 0.0 }
     }
 
     fn dark(&self) -> Vec<Rgb> {

@@ -23,7 +23,7 @@ use crate::units::Rgb;
 use effort::{FRESH_REPLICATES, LOOKS, OF_FEW, TRIAL_RAYS};
 use isolux_geometry::Ray;
 use shared_noise::SharedNoise;
-use state::{Gathered, Unseen};
+use state::{Gathered, LocalFactors, StoredDirect, Unseen};
 pub use state::{MapReader, reference_lx};
 use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
@@ -90,8 +90,10 @@ impl<'a> MapReader<'a> {
             map,
             lighting,
             bright,
-            varying: None,
-            direct_values: are_read.then(|| map.values.iter().map(direct).collect()),
+            at_ends: StoredDirect {
+                values: are_read.then(|| map.values.iter().map(direct).collect()),
+                varying: None,
+            },
             standings: map.values.iter().map(|v| v.map(|v| v.standing)).collect(),
             cuts: Barriers::of_map(scene, &map.elements, &light),
             light,
@@ -99,15 +101,19 @@ impl<'a> MapReader<'a> {
             backdrop: None,
             patches: Patches::new(),
             unseen: Unseen::of(map),
-            parts: Vec::new(),
-            arriving: 0.0,
+            local: LocalFactors { of_vertices: Vec::new(), arriving: 0.0 },
             shared_noise: SharedNoise::default(),
             rays: AtomicU64::new(0),
         };
-        let (direct_values, varying) = reader.kept().unzip();
-        let direct_values = direct_values.or(reader.direct_values.clone());
-        let (parts, arriving) = reader.parts_of_vertices();
-        Self { backdrop: reader.walls(), direct_values, varying, parts, arriving, ..reader }
+        let (values, varying) = reader.kept().unzip();
+        let values = values.or(reader.at_ends.values.clone());
+        let (of_vertices, arriving) = reader.parts_of_vertices();
+        Self {
+            backdrop: reader.walls(),
+            at_ends: StoredDirect { values, varying },
+            local: LocalFactors { of_vertices, arriving },
+            ..reader
+        }
     }
 
     /// Direct light at the vertices as rays read it, with its residual between them, and the elements where
@@ -118,7 +124,7 @@ impl<'a> MapReader<'a> {
             lighting: &self.lighting,
             elements: &self.map.elements,
             standings: &self.standings,
-            direct: self.direct_values.as_deref()?,
+            direct: self.at_ends.values.as_deref()?,
             bright: self.bright.as_deref(),
         };
         let key = Key::new(self.map.provenance.seed).with(14);

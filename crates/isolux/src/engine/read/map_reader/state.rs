@@ -35,10 +35,7 @@ pub struct MapReader<'a> {
     pub(super) lighting: Arc<Lighting<'a>>,
     pub(super) standings: Vec<Option<Standing>>,
     pub(super) light: Vec<Rgb>,
-    /// Direct light at the vertices where sources are many; rays read it there.
-    pub(super) direct_values: Option<Vec<Rgb>>,
-    /// Elements on which direct light varies between vertices, by node.
-    pub(super) varying: Option<Vec<bool>>,
+    pub(super) at_ends: StoredDirect,
     pub(super) bright: Option<Arc<BrightSurfaces>>,
     /// Elements that something stands across.
     pub(super) cuts: Barriers,
@@ -47,13 +44,26 @@ pub struct MapReader<'a> {
     pub(crate) backdrop: Option<ControlVariate>,
     pub(super) patches: Patches,
     pub(super) unseen: Unseen,
-    /// The local factor on errors of the scene, at every vertex.
-    pub(super) parts: Vec<Rgb>,
-    /// The root mean square of that factor in arriving light.
-    pub(super) arriving: f64,
+    pub(super) local: LocalFactors,
     pub(super) shared_noise: SharedNoise,
     /// The number of rays that readings have used.
     pub(super) rays: AtomicU64,
+}
+
+/// Direct light of the map as rays read it where they end.
+pub(super) struct StoredDirect {
+    /// Direct light at the vertices where sources are many; rays read it there.
+    pub(super) values: Option<Vec<Rgb>>,
+    /// Elements on which direct light varies between vertices, by node.
+    pub(super) varying: Option<Vec<bool>>,
+}
+
+/// Factors on errors of the scene that make them errors of a place.
+pub(super) struct LocalFactors {
+    /// The local factor on errors of the scene, at every vertex.
+    pub(super) of_vertices: Vec<Rgb>,
+    /// The root mean square of that factor in arriving light.
+    pub(super) arriving: f64,
 }
 
 /// Light gathered by replicates.
@@ -136,8 +146,10 @@ impl<'a> MapReader<'a> {
     }
 
     pub(super) fn direct_at_ends(&self) -> DirectAtEnds<'_> {
-        match &self.direct_values {
-            Some(values) => DirectAtEnds::ReadFarOff { values, varying: self.varying.as_deref() },
+        match &self.at_ends.values {
+            Some(values) => {
+                DirectAtEnds::ReadFarOff { values, varying: self.at_ends.varying.as_deref() }
+            }
             None => DirectAtEnds::Evaluated,
         }
     }

@@ -43,7 +43,7 @@ impl MapReader<'_> {
         let read = |values: &[Rgb]| -> Rgb {
             known.iter().map(|&(vertex, weight)| values[vertex as usize] * weight).sum()
         };
-        let direct = self.direct_values.as_deref().map_or_else(
+        let direct = self.at_ends.values.as_deref().map_or_else(
             || self.lighting.estimate(at, &mut Dice::new(Sequence::new(Key::new(0)), 0)),
             read,
         );
