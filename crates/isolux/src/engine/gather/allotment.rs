@@ -1,28 +1,32 @@
-//! Which receiver gets how many rays.
+//! The number of rays of each receiver.
 //!
-//! The error of a scene counts noise by area. Nets of n rays err like n^-o, so that of all ways to spend rays the one
-//! that leaves the least noise gives receivers a number that grows like their area to the power 1 / (1 + 2 o): the
-//! allocation of Neyman (1934), for nets. Where objects are small and many, as in furnished rooms, half of the rays are left.
+//! The error of a scene weights noise by area. Nets of n rays err like n^-o. The least noise for a given number of
+//! rays
+//! then needs numbers that grow like the area of receivers to the power 1 / (1 + 2 o): the allocation of Neyman
+//! (1934),
+//! for nets. Where objects are small and many, as in furnished rooms, this halves the number of rays.
 
 use super::ray_trial::NET_ORDER;
 use crate::ablation::without;
 use crate::elements::Subdivision;
 use crate::engine::mesh::Carriers;
 
-/// Powers of two that numbers of rays are apart from the mean at most, fewer and more: what is small errs by no more
-/// than six times what errs in the mean.
+/// The largest number of halvings from the mean to the fewest rays of a receiver. The noise of small receivers is
+/// then no more than six times the mean.
 const FEWER: i32 = 3;
+/// The largest number of doublings from the mean to the most rays of a receiver.
 const MORE: i32 = 2;
 
-/// Rays of a receiver at least, as a power of two, unless the mean is lower.
+/// The fewest rays of a receiver, as a power of two, unless the mean is lower.
 const FEWEST: i32 = 3;
 
-/// Steps to a factor of two in which the numbers are tried, and how many either way.
+/// Steps per factor of two in the search for the numbers.
 const STEPS: i32 = 8;
+/// The largest number of those steps in either direction.
 const MOST_STEPS: i32 = 8 * STEPS;
 
-/// Surface that the light of every vertex is for, m2: a third of its elements, and its part of that of the vertices that
-/// are interpolated from it. Vertices that do not carry light have none.
+/// The surface that the light of each vertex stands for, m2: a third of its elements, and a share of the areas of the
+/// vertices interpolated from it. Vertices that do not carry light have zero.
 pub(crate) fn areas_m2(subdivision: &Subdivision, carriers: &Carriers) -> Vec<f64> {
     let mut areas_m2 = vec![0.0; subdivision.vertex_count()];
     for leaf in subdivision.leaves() {
@@ -35,8 +39,9 @@ pub(crate) fn areas_m2(subdivision: &Subdivision, carriers: &Carriers) -> Vec<f6
     areas_m2
 }
 
-/// Rays of receivers that stand for these areas, powers of two, such that the noise over all of it is no more than if
-/// each of them had `mean` rays; none where there is no area.
+/// The rays of receivers that stand for these areas, as powers of two. The noise over the whole surface is no more
+/// than
+/// with `mean` rays for each. Receivers without area get no rays.
 pub(crate) fn allot(areas_m2: &[f64], mean: f64) -> Vec<u32> {
     let count = areas_m2.iter().filter(|&&m2| m2 > 0.0).count();
     let whole_m2: f64 = areas_m2.iter().sum();
@@ -60,7 +65,8 @@ pub(crate) fn allot(areas_m2: &[f64], mean: f64) -> Vec<u32> {
         };
         areas_m2.iter().zip(&logs).map(of).sum::<f64>() <= allowed
     };
-    // With the fewest none has more than the mean, with the most none has fewer. The more rays, the less noise.
+    // At the lowest step no receiver has more rays than the mean, at the highest none has fewer. Noise falls with
+    // rays.
     let (mut too_few, mut enough) = (-MOST_STEPS - 1, MOST_STEPS);
     while enough - too_few > 1 {
         let middle = i32::midpoint(too_few, enough);
@@ -70,21 +76,27 @@ pub(crate) fn allot(areas_m2: &[f64], mean: f64) -> Vec<u32> {
     logs.iter().map(|log| log.map_or(0, |log| 1 << exponent(log, step))).collect()
 }
 
-/// What others may have at most where noise differs, in multiples of the mean.
+/// The largest number of rays where noise differs, in multiples of the mean.
 const MOST_TIMES: f64 = 16.0;
-/// Noise that is left, of what there was, at most, or it is not worth it: variances of four samples each that are alike but for
-/// chance seem to leave nine tenths.
+/// The largest ratio of noise after to noise before for which new shares are worth it. Variances from four samples
+/// each
+/// that differ by chance alone seem to leave nine tenths.
 const WORTH_IT: f64 = 0.7;
 
-/// Rays shared out anew, and what noise that leaves, lx, if it falls with the rays as that of one does from one on; and what there was.
+/// Rays shared out anew, with the noise before and after. Each variance counts as that of one ray and falls with more
+/// rays like the noise of a net.
 pub(crate) struct Shared {
+    /// The rays of each receiver, powers of two or zero.
     pub(crate) rays: Vec<u32>,
+    /// The noise after, root mean square over the surface, lx.
     pub(crate) left_lx: f64,
+    /// The noise before, root mean square over the surface, lx.
     pub(crate) before_lx: f64,
 }
 
-/// As many rays in all for receivers of such variances, lx2 with as many rays each, as they have been allotted by area: half of
-/// them as they were, half where they leave the least noise. Nothing where that does not leave much less.
+/// Rays shared out by variance, lx2, measured with equally many rays for each receiver. The total is about that of
+/// `allotted`: half of it stays as allotted by area, half goes where it reduces noise most. `None` if noise falls too
+/// little.
 pub(crate) fn allot_by_noise(
     areas_m2: &[f64],
     variances_lx2: &[f64],
@@ -111,7 +123,7 @@ pub(crate) fn allot_by_noise(
     (left_lx < WORTH_IT * before_lx).then_some(Shared { rays, left_lx, before_lx })
 }
 
-/// How many rays that is for each receiver in the mean.
+/// The mean number of rays over receivers that have any.
 pub(crate) fn mean_of(rays: &[u32]) -> f64 {
     let with = rays.iter().filter(|&&rays| rays > 0).count();
     rays.iter().map(|&rays| f64::from(rays)).sum::<f64>() / with.max(1) as f64

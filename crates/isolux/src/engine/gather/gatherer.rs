@@ -1,9 +1,11 @@
-//! Gathering: what a receiver sees, as a row of a linear operator over the vertices of the map.
+//! Gathering: the light that a receiver sees, as a row of a linear operator over the vertices of the map.
 //!
-//! From a receiver, cosine-distributed rays are followed to diffuse surfaces. There the direct light
-//! is evaluated at once (or read from the map, where luminaires are many), and the indirect light
-//! is left open: the ray becomes an entry of a sparse matrix, so that the light of all further
-//! reflections is the fixed point of `E = source + A E`, solved without tracing the rays again.
+//! From a receiver, cosine-distributed rays are followed to diffuse surfaces. Direct light is evaluated there at
+//! once, or
+//! read from the map where luminaires are many. Indirect light is left open: each ray becomes an entry of a sparse
+//! matrix.
+//! The light of all further reflections is then the fixed point of `E = source + A E`, solved without tracing rays
+//! again.
 
 use super::bright_surfaces::BrightSurfaces;
 use super::control_variate::{ControlVariate, Stand};
@@ -19,22 +21,22 @@ use isolux_geometry::{Normal, Point};
 /// A place that gathers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gatherer {
-    /// Where rays start.
+    /// The point where rays start.
     pub(crate) origin: Point,
-    /// About what they are distributed.
+    /// The axis of the cosine distribution of rays.
     pub(crate) normal: Normal,
-    /// The place for direct light.
+    /// The surface point for direct light.
     pub(crate) surface: SurfacePoint,
-    /// How many rays.
+    /// The number of rays.
     pub(crate) rays: u32,
-    /// Whether it lies in a gap: what its rays meet close by does not lie in the open.
+    /// Whether the place lies in a gap. Surfaces that its rays meet close by are then not in the open.
     pub(crate) in_gap: bool,
-    /// What it gets from the [`ControlVariate`] with nothing between, lx, if rays are judged by that.
+    /// The light of the [`ControlVariate`] at the place without obstacles, lx, if rays are corrected by it.
     pub(crate) behind: Option<Rgb>,
 }
 
 impl Gatherer {
-    /// The receiver of a vertex. Its normal is that of the smooth surface, whose facets meet at it.
+    /// The gatherer at a vertex. Its normal is that of the smooth surface whose facets meet at the vertex.
     pub(crate) fn at_vertex(scene: &Scene, receiver: &Receiver, rays: u32) -> Self {
         let Receiver { point, normal, triangle, back } = *receiver;
         let flat = SurfacePoint::new(scene, triangle, back, 0.0, 0.0);
@@ -43,17 +45,17 @@ impl Gatherer {
         Self { origin, normal, surface, rays, in_gap: false, behind: None }
     }
 
-    /// The same, in a gap or not.
+    /// This gatherer with the flag `in_gap` set or cleared.
     pub(crate) const fn in_gap(self, in_gap: bool) -> Self {
         Self { in_gap, ..self }
     }
 
-    /// The same with another number of rays.
+    /// This gatherer with another number of rays.
     pub(crate) const fn with_rays(self, rays: u32) -> Self {
         Self { rays, ..self }
     }
 
-    /// A place inside a triangle.
+    /// A gatherer at a place inside a triangle.
     pub(crate) fn on_surface(surface: SurfacePoint, rays: u32) -> Self {
         Self {
             origin: surface.start(),
@@ -65,17 +67,17 @@ impl Gatherer {
         }
     }
 
-    /// Where its rays start, and how.
+    /// The origin, axis and triangle of its rays.
     pub(crate) const fn stand(&self) -> Stand {
         Stand { origin: self.origin, normal: self.normal, triangle: self.surface.triangle }
     }
 
-    /// Whether it lies where another does.
+    /// Whether two gatherers share their origin and triangle.
     pub(super) fn is_at(&self, other: &Self) -> bool {
         self.origin == other.origin && self.surface.triangle == other.surface.triangle
     }
 
-    /// A place in space that faces a way.
+    /// A gatherer at a point in space that faces a direction.
     pub(crate) fn in_space(scene: &Scene, point: Point, normal: Normal, rays: u32) -> Self {
         Self {
             origin: point,
@@ -88,51 +90,55 @@ impl Gatherer {
     }
 }
 
-/// Everything gathering reads.
+/// All inputs of gathering.
 pub(crate) struct Gathering<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) lighting: &'a Lighting<'a>,
     pub(crate) elements: &'a Elements,
-    /// Nodes of the elements from this number on are finer than the level gathered over.
+    /// The number of the first node that is finer than the level gathered over.
     pub(crate) level: u32,
-    /// What vertices stand for; those without have no value to be read.
+    /// The standing of each vertex; vertices without one have no value to be read.
     pub(crate) standings: &'a [Option<Standing>],
     pub(crate) direct: DirectAtEnds<'a>,
-    /// Whether a ray that ends nearer than the element there is long gathers again from there, instead of
-    /// reading a map that tells little of places so close to something: a few times.
+    /// Whether a ray that ends nearer than the element there is long gathers again from its end, a few times. The map
+    /// tells
+    /// little of places so close to something.
     pub(crate) regathers: bool,
-    /// What is so bright that rays are sent there.
+    /// Surfaces so bright that extra rays are sent to them.
     pub(crate) bright: Option<&'a BrightSurfaces>,
     /// Elements that something stands across, if they were looked for.
     pub(crate) cuts: Option<&'a Barriers>,
-    /// Walls that rays are judged by, for gatherers that know them.
+    /// The control variate of walls, for gatherers that have its value.
     pub(crate) backdrop: Option<&'a ControlVariate>,
 }
 
-/// Where rays get the direct light of the surfaces that they end on.
+/// The source of direct light at the ends of rays.
 #[derive(Clone, Copy)]
 pub(crate) enum DirectAtEnds<'a> {
-    /// Evaluated there: no bias, but a source is drawn where there are many.
+    /// Direct light is evaluated there. This has no bias; where sources are many, one is drawn.
     Evaluated,
-    /// Read from these values of vertices, nodes from number `level` on left out.
+    /// Direct light is interpolated between vertices. Nodes from number `level` on are left out.
     Read {
-        /// A value a vertex, lx.
+        /// Direct light of each vertex, lx.
         values: &'a [Rgb],
-        /// As for indirect light, or finer.
+        /// The first node left out: that of indirect light, or a finer one.
         level: u32,
     },
-    /// Read, but evaluated where a ray that regathers ends nearer than the element there is long, as what stands that
-    /// close may throw shadows that the map does not resolve, and on elements that some shadow ends on.
+    /// Direct light is read from vertices, with two exceptions where it is evaluated. One is a ray that regathers and
+    /// ends
+    /// nearer than the element there is long: objects that close may throw shadows that the map does not resolve. The
+    /// other is an element that a shadow ends on.
     ReadFarOff {
-        /// A value a vertex, lx.
+        /// Direct light of each vertex, lx.
         values: &'a [Rgb],
-        /// Elements that light may vary on whatever their vertices tell, by node: who evaluated it only where vertices differ would
-        /// read it where all of them lie in the dark.
+        /// Elements, by node, that light may vary over even where their vertices agree, such as where all of them lie
+        /// in the
+        /// dark.
         varying: Option<&'a [bool]>,
     },
 }
 
-/// Known vertices and their weights at a place, nodes from number `level` on left out.
+/// Known vertices and their weights at a place. Nodes from number `level` on are left out.
 pub(crate) fn known_at(
     elements: &Elements,
     level: u32,
@@ -144,7 +150,7 @@ pub(crate) fn known_at(
     Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
 }
 
-/// Interpolation weights over the known vertices of the highest standing alone.
+/// Interpolation weights over the known vertices of the highest standing.
 pub(crate) fn known_weights(
     corners: [(u32, f64); 3],
     standings: &[Option<Standing>],
@@ -152,7 +158,8 @@ pub(crate) fn known_weights(
     weights_of_highest(corners, corners.map(|(vertex, _)| standings[vertex as usize]))
 }
 
-/// The same over those in gaps; without any, light there is as little as none.
+/// Interpolation weights over the known vertices in gaps, of the highest standing among them; `None` if there are
+/// none.
 pub(super) fn weights_in_gap(
     corners: [(u32, f64); 3],
     standings: &[Option<Standing>],
@@ -164,7 +171,7 @@ pub(super) fn weights_in_gap(
     )
 }
 
-/// Those on the side of a cut that a place lies on; `None` if none is known.
+/// Known vertices and weights on the side of a barrier that a place lies on; `None` if none is known there.
 pub(crate) fn known_on_side(
     corners: [(u32, f64); 3],
     standings: &[Option<Standing>],
@@ -181,14 +188,14 @@ fn weights_of_highest(corners: [(u32, f64); 3], of: [Option<Standing>; 3]) -> Op
     Some(weights_over(corners, of.map(|standing| standing == Some(highest))))
 }
 
-/// Interpolation weights over some of the vertices, at least one, alone.
+/// Interpolation weights over the vertices marked in `read`, at least one.
 fn weights_over(corners: [(u32, f64); 3], read: [bool; 3]) -> [f64; 3] {
     if read == [true; 3] {
         return corners.map(|(_, weight)| weight);
     }
     let weights = [0, 1, 2].map(|k| if read[k] { corners[k].1 } else { 0.0 });
     let sum: f64 = weights.iter().sum();
-    // On the far side of the element only other vertices have weight.
+    // On the far side of the element only vertices that are not read have weight.
     if sum < 1e-9 {
         let count = read.iter().filter(|&&read| read).count();
         return read.map(|read| if read { 1.0 / count as f64 } else { 0.0 });

@@ -1,4 +1,4 @@
-//! Final gathering: what a receiver sees, by rays that read the map where they end.
+//! Final gathering: the indirect light of a receiver, by rays that read the map where they end.
 
 mod allotment;
 mod bright_surfaces;

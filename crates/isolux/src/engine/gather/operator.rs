@@ -1,24 +1,26 @@
-//! What gathering gives: a sparse matrix and what needs no further reflection, and the fixed point of both.
+//! The operator of gathering: a sparse matrix, the light that needs no further reflection, and the fixed point of
+//! both.
 
 use crate::engine::mesh::{Waiting, corrected};
 use crate::engine::ray::Anderson;
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// From the light at receivers to what rays read at them: each value a mean of the light of some, with weights that are not
-/// negative and sum to one.
+/// A map from the light at receivers to the light that rays read there. Each value read is a weighted mean, with
+/// weights
+/// that are not negative and sum to one.
 pub(crate) trait Fitting {
-    /// What rays read.
+    /// The light that rays read.
     fn read(&self, light: &[Rgb]) -> Vec<Rgb>;
 
-    /// The same with the weights that some light has, for any other.
+    /// The map with weights fixed as for `light`, to be applied to any other light.
     fn held<'a>(&'a self, light: &[Rgb]) -> Reading<'a>;
 }
 
-/// What rays read of some light.
+/// A [`Fitting`] with fixed weights.
 pub(crate) type Reading<'a> = Box<dyn Fn(&[Rgb]) -> Vec<Rgb> + 'a>;
 
-/// Rays read the first so many receivers as they are.
+/// A [`Fitting`] that returns the first receivers unchanged, as many as given.
 struct AsItIs(usize);
 
 impl Fitting for AsItIs {
@@ -31,19 +33,19 @@ impl Fitting for AsItIs {
     }
 }
 
-/// What a ray reads from the map: the light of three vertices.
+/// The light of three vertices that a ray reads from the map.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Entry {
     pub(crate) vertices: [u32; 3],
     pub(crate) weights: [f32; 3],
 }
 
-/// Entries of one row, one after the other, that reflect alike: rays end on few materials.
+/// Consecutive entries of one row with equal reflectance. Runs are long, since rays end on few materials.
 #[derive(Clone, Copy, Debug)]
 struct Run {
-    /// Where they end among all entries.
+    /// The index after its last entry among all entries.
     end: u32,
-    /// The share of what is read there that arrives at the receiver.
+    /// The share of the light read that arrives at the receiver.
     share: [f32; 3],
 }
 
@@ -52,35 +54,36 @@ struct Run {
 pub(crate) struct Rows {
     pub(crate) entries: Vec<Entry>,
     runs: Vec<Run>,
-    /// End of the runs of every row.
+    /// The index after the last run of each row.
     ends: Vec<usize>,
-    /// Light that needs no further reflection, lx, and what walls tell that is lacking of all (see [`corrected`]).
+    /// The light of each row that needs no further reflection, lx.
     sources: Vec<Rgb>,
+    /// The correction of each row by the control variate of walls, lx (see [`corrected`]).
     lacking: Vec<Rgb>,
-    /// Whether some ray left the scene or came to a surface that could be lit.
+    /// Whether some ray of each row left the scene or met a surface that could be lit.
     open: Vec<bool>,
-    /// Of every row, the share of a unit of light that is read close by.
+    /// The share of a unit of light that each row reads close by.
     close: Vec<f64>,
-    /// Sum of the shares of rays that were given up on their way over specular surfaces.
+    /// The summed shares of rays that were given up on their way over specular surfaces.
     pub(crate) given_up: f64,
-    /// Rays beside those of the receivers.
+    /// The number of rays beside those of the receivers.
     pub(crate) further_rays: u64,
 }
 
-/// A row that a test gives: its light, and the vertices and weights of each of its rays.
+/// A row given by a test: its light, and the vertices and weights of each of its rays.
 #[cfg(test)]
 pub(crate) type GivenRow = (Rgb, Vec<([u32; 3], [f32; 3])>);
 
 /// The operator of all receivers: one noisy sample of light transport.
 pub(crate) struct Operator {
     pub(crate) chunks: Vec<Rows>,
-    /// Rows that have rays.
+    /// The number of rows that have rays.
     pub(crate) receivers: usize,
     pub(crate) rays: u64,
 }
 
 impl Operator {
-    /// Of rows that are given: of each its light, and the vertices and weights of its rays, which all reflect alike.
+    /// The operator of given rows, all of one reflectance.
     #[cfg(test)]
     pub(crate) fn of_rows(rows: &[GivenRow], reflectance: f64) -> Self {
         let mut all = Rows::default();
@@ -93,7 +96,7 @@ impl Operator {
         Self { chunks: vec![all], receivers: rows.len(), rays: 0 }
     }
 
-    /// `source + A light`, one value a receiver.
+    /// `source + A light`, one value per receiver, lx.
     pub(crate) fn apply(&self, light: &[Rgb]) -> Vec<Rgb> {
         let count = self.chunks.iter().map(|rows| rows.ends.len()).sum();
         let mut values = vec![Rgb::BLACK; count];
@@ -102,7 +105,7 @@ impl Operator {
         values
     }
 
-    /// `A light` alone, one value a receiver.
+    /// `A light`, one value per receiver, lx.
     pub(crate) fn reflected(&self, light: &[Rgb]) -> Vec<Rgb> {
         let reflected = |rows: &Rows| {
             let mut values = vec![Rgb::BLACK; rows.ends.len()];
@@ -112,7 +115,7 @@ impl Operator {
         self.chunks.par_iter().flat_map_iter(reflected).collect()
     }
 
-    /// Of every vertex, how much of such values of receivers its light is read for: `A` transposed, of white light.
+    /// `A` transposed, for white light, applied to values of receivers: the weight with which each vertex is read.
     pub(crate) fn read_by(&self, receivers: &[f64]) -> Vec<f64> {
         let mut read = vec![0.0; receivers.len()];
         let mut left = receivers;
@@ -124,31 +127,33 @@ impl Operator {
         read
     }
 
-    /// Adds the receivers of another.
+    /// Appends the receivers of another operator.
     pub(crate) fn append(&mut self, other: Self) {
         self.chunks.extend(other.chunks);
         self.receivers += other.receivers;
         self.rays += other.rays;
     }
 
-    /// Whether each receiver is open: not closed in by black backs.
+    /// Whether each receiver is open, that is, not closed in by black backs.
     pub(crate) fn open(&self) -> Vec<bool> {
         self.chunks.iter().flat_map(|rows| rows.open.iter().copied()).collect()
     }
 
-    /// Of every receiver, the share of a unit of light everywhere that it reads close by all the same.
+    /// The share of a unit of light everywhere that each receiver still reads close by.
     pub(crate) fn close(&self) -> impl Iterator<Item = f64> + '_ {
         self.chunks.iter().flat_map(|rows| rows.close.iter().copied())
     }
 
-    /// The share of all that is gathered whose rays were given up.
+    /// The share of all gathered light whose rays were given up.
     pub(crate) fn given_up(&self) -> f64 {
         self.chunks.iter().map(|rows| rows.given_up).sum::<f64>() / self.receivers.max(1) as f64
     }
 
-    /// The fixed point `E = source + A (E + given)` over the first `given.len()` receivers, then one
-    /// application for all of them. Starts from `guess`. Ends when a sweep changes nothing beyond
-    /// `tolerance`, relative to the root mean square.
+    /// The fixed point `E = source + A (E + given)` over the first `given.len()` receivers, followed by one
+    /// application for
+    /// all receivers. The iteration starts from `guess`. It ends when a sweep changes nothing beyond `tolerance`,
+    /// relative to
+    /// the root mean square.
     pub(crate) fn solve(
         &self,
         guess: &[Rgb],
@@ -160,14 +165,18 @@ impl Operator {
         self.solve_or_give_up(guess, given, (waiting, &fit), tolerance).0
     }
 
-    /// The same, and the root mean square of what the last sweep changed. What does not carry light is
-    /// interpolated; with a fit, the light that is applied to is that of best fit.
+    /// The fixed point as from [`Operator::solve`], and the root mean square change of the last sweep, lx. Vertices
+    /// that do
+    /// not carry light are interpolated. The operator is applied to the light of best fit.
     ///
-    /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of
-    /// the operator; [`Anderson`] takes what the sweeps have told of it into account. Rows, interpolation and fit have weights
-    /// that are not negative, and rows sum to no more than surfaces reflect: so no sweep returns more than it receives. Which weights
-    /// interpolation and fit have depends on the light; once so many sweeps have not settled, they stay
-    /// ([`Bounded`](super::super::held::Held)), and what is left shrinks in every sweep.
+    /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of the operator.
+    /// [`Anderson`]
+    /// acceleration uses this. Rows, interpolation and fit have weights that are not negative, and rows sum to no
+    /// more than
+    /// the reflectance of surfaces. So no sweep returns more than it receives. The weights of interpolation and fit
+    /// depend on
+    /// the light. If [`FREE_SWEEPS`] sweeps have not settled, these weights stay fixed
+    /// ([`Bounded`](crate::engine::mesh::Bounded)), and the rest shrinks in every sweep.
     pub(crate) fn solve_or_give_up(
         &self,
         guess: &[Rgb],
@@ -207,7 +216,8 @@ impl Operator {
         }
     }
 
-    /// Whether any light comes to receivers, over however many reflections, if such light is given; so for those that have no rays.
+    /// Whether any light reaches each receiver after any number of reflections, with `given` light. It is true for
+    /// receivers without rays.
     fn lit(&self, given: &[Rgb]) -> Vec<bool> {
         let mut lit: Vec<bool> = self.chunks.iter().flat_map(Rows::lit_by_themselves).collect();
         loop {
@@ -222,14 +232,14 @@ impl Operator {
         }
     }
 
-    /// One sweep.
+    /// The light after one sweep.
     fn swept(&self, light: &[Rgb], (read, fill): Rules<'_>) -> Vec<Rgb> {
         let mut next = self.apply(&read(light));
         fill(&mut next);
         next
     }
 
-    /// Sweeps until the light settles, so many at most. Without success, the light that it has come to.
+    /// Sweeps until the light settles, at most `most` times. The error is the light reached without success.
     fn settle(
         &self,
         mut light: Vec<Rgb>,
@@ -250,8 +260,10 @@ impl Operator {
         Err(light)
     }
 
-    /// The same where few vertices carry light: what a sweep changes there is followed on its further ways over a rough operator,
-    /// whose rays read the nearest carrier. Without success, the light it has come to.
+    /// Sweeps until the light settles, where few vertices carry light. The further reflections of the change of a
+    /// sweep are
+    /// followed over a rough operator, whose rays read the nearest carrier. The error is the light reached without
+    /// success.
     fn settle_roughly(
         &self,
         rough: &Rough,
@@ -279,7 +291,7 @@ impl Operator {
             let whole = rough.followed(change, &weights(&now, &then));
             let of = rough.carriers.iter().zip(then).zip(whole);
             of.zip(now).for_each(|(((&vertex, then), whole), now)| {
-                // There is no light below none.
+                // Light is not negative.
                 let whole = then + whole;
                 light[vertex as usize] = if whole.min_channel() < 0.0 { now } else { whole };
             });
@@ -289,32 +301,37 @@ impl Operator {
     }
 }
 
-/// Of a change what is left from one sweep to the next, at most, where its further ways are followed roughly: else it does not help.
+/// The largest ratio of changes of successive sweeps, root mean square, for which the rough operator still helps.
 const ROUGHLY: f64 = 0.5;
-/// Those ways are followed until they change less than this, relative, and so many at most.
+/// The relative change at which the iteration over the rough operator ends.
 const FOLLOWED: f64 = 0.01;
+/// The most iterations over the rough operator.
 const MOST_FOLLOWED: usize = 100;
 
-/// Sweeps of the fixed point before giving up: at mean reflectance 0.99 the light left is e^-20.
+/// The most sweeps before giving up: at mean reflectance 0.99 the light left is e^-20.
 const MAX_SWEEPS: usize = 2000;
 
-/// Light of less than this share of the root mean square counts as that much: a unit of the sums, so that dim rooms settle by their own light.
+/// The least light in relative changes, as a share of the root mean square: a unit of the integer sums. Dim rooms so
+/// settle by their own light.
 const FAINT: f64 = 1.0 / (1 << 24) as f64;
-/// Sweeps after which the weights of interpolation and fit stay: at reflectance 0.9 without any mixing, the light left is e^-10, less
-/// than any tolerance.
+/// The number of sweeps after which the weights of interpolation and fit stay fixed. At reflectance 0.9 without any
+/// mixing, the light left is e^-10, less than any tolerance.
 const FREE_SWEEPS: usize = 100;
 
-/// What rays read of some light, and how what does not gather is filled.
+/// The light that rays read, and the filling of vertices that do not gather.
 type Rules<'a> = (&'a dyn Fn(&[Rgb]) -> Vec<Rgb>, &'a dyn Fn(&mut [Rgb]));
 
-/// What changes most may change so many times as much as all do in the root mean square: a small room beside a bright yard is to settle, too.
+/// The largest relative change of a value, in root mean squares of all, so that a small room beside a bright yard
+/// settles, too.
 const MOST_UNSETTLED: f64 = 10.0;
 
-/// How far a sweep has gone.
+/// The changes by a sweep.
 struct Settling {
-    /// The mean square of what has changed, lx2, and the mean and the greatest square of what has of the light there.
+    /// The mean square of the change, lx2.
     change: f64,
+    /// The mean square of the change relative to the light at each place.
     relative: f64,
+    /// The greatest square of that relative change.
     greatest: f64,
 }
 
@@ -344,7 +361,8 @@ impl Settling {
     }
 }
 
-/// One over the light at every place, before or after a sweep, whichever is more, as much as counts.
+/// One over the light at each place, 1/lx. The light is the greater of before and after a sweep, and at least
+/// [`FAINT`] of the root mean square.
 fn weights(next: &[Rgb], light: &[Rgb]) -> Vec<f64> {
     let size: f64 = next.iter().map(|a| a.luminance() * a.luminance()).sum();
     let faint = ((size / next.len().max(1) as f64).sqrt() * FAINT).max(f64::MIN_POSITIVE);
@@ -352,7 +370,7 @@ fn weights(next: &[Rgb], light: &[Rgb]) -> Vec<f64> {
     next.iter().zip(light).map(one).collect()
 }
 
-/// Whether a change is followed as far as it matters, relative to the light.
+/// Whether an iteration over the rough operator has changed light by no more than [`FOLLOWED`], relative.
 fn is_followed(next: &[Rgb], whole: &[Rgb], weights: &[f64]) -> bool {
     let (mut change, mut size) = (0.0, 0.0);
     for ((a, b), weight) in next.iter().zip(whole).zip(weights) {
@@ -370,7 +388,7 @@ struct Rough {
 }
 
 impl Rough {
-    /// Of an operator whose rows are vertices, if few of them carry light.
+    /// The rough operator, if rows are vertices and at most half of these carry light.
     fn of(operator: &Operator, vertices: usize, waiting: &Waiting) -> Option<Self> {
         let count: usize = operator.chunks.iter().map(|rows| rows.ends.len()).sum();
         if count != vertices || 2 * waiting.count() < vertices {
@@ -395,7 +413,7 @@ impl Rough {
                 runs: rows.runs.clone(),
                 ..Rows::default()
             };
-            // Rows of what waits have no rays.
+            // Rows of vertices that wait have no rays.
             for &end in &rows.ends {
                 if is_carrier(vertex) {
                     own.ends.push(end);
@@ -409,7 +427,7 @@ impl Rough {
         Some(Self { carriers, chunks })
     }
 
-    /// What a change comes to once it is reflected again and again; weights are one over the light.
+    /// The sum of a change and all its further reflections, lx; `weights` are one over the light.
     fn followed(&self, change: Vec<Rgb>, weights: &[f64]) -> Vec<Rgb> {
         let mut whole = change.clone();
         let mut mixing = Anderson::new();
@@ -426,7 +444,7 @@ impl Rough {
     }
 }
 
-/// Rows, each with their own of the values of all.
+/// Rows, each with its own part of all values.
 fn parts<'a>(chunks: &'a [Rows], mut values: &'a mut [Rgb]) -> Vec<(&'a Rows, &'a mut [Rgb])> {
     let part = |rows: &'a Rows| {
         let (part, others) = std::mem::take(&mut values).split_at_mut(rows.ends.len());
@@ -436,14 +454,15 @@ fn parts<'a>(chunks: &'a [Rows], mut values: &'a mut [Rgb]) -> Vec<(&'a Rows, &'
     chunks.iter().map(part).collect()
 }
 
-/// Shares and weights of a row, stored in `f32`, sum to one within this: each is rounded by 2^-24 of it at most.
+/// The tolerance on sums of shares and weights, which are stored in `f32`: each is rounded by a relative 2^-24 at
+/// most.
 const STORED: f64 = 1e-6;
 
 impl Rows {
-    /// Adds an entry to the row that is being made.
+    /// Adds an entry to the row under construction.
     pub(crate) fn push(&mut self, entry: Entry, share: [f32; 3]) {
         self.entries.push(entry);
-        // As many as 32 bits count are 100 GB, more than a part of the receivers is ever given.
+        // As many entries as 32 bits count take 100 GB, more than one part of the receivers is ever given.
         let end = self.entries.len() as u32;
         let first_of_row = self.ends.last().copied().unwrap_or(0);
         match self.runs[first_of_row..].last_mut().filter(|run| run.share == share) {
@@ -452,7 +471,7 @@ impl Rows {
         }
     }
 
-    /// Ends the row that is being made.
+    /// Ends the row under construction.
     pub(crate) fn end_row(&mut self, [source, lacking]: [Rgb; 2], open: bool, close: f64) {
         self.hold_row();
         self.ends.push(self.runs.len());
@@ -462,8 +481,9 @@ impl Rows {
         self.close.push(close);
     }
 
-    /// Has the row that is being made return no more than it receives. By roulette over specular surfaces a few rays may carry more than
-    /// there is; what is beyond counts as given up.
+    /// Scales the row under construction so that it returns no more than it receives. Roulette over specular surfaces
+    /// may
+    /// leave a few rays with too large a share. The excess counts as given up.
     fn hold_row(&mut self) {
         let first_of_row = self.ends.last().copied().unwrap_or(0);
         let mut entry = first_of_row.checked_sub(1).map_or(0, |before| self.runs[before].end);
@@ -482,7 +502,7 @@ impl Rows {
         }
     }
 
-    /// Of every row, whether it has light that needs no further reflection, or no rays.
+    /// Whether each row has light that needs no further reflection, or no rays.
     fn lit_by_themselves(&self) -> impl Iterator<Item = bool> + '_ {
         let first = |row: usize| row.checked_sub(1).map_or(0, |before| self.ends[before]);
         self.ends
@@ -491,7 +511,8 @@ impl Rows {
             .map(move |(row, &end)| end == first(row) || !self.sources[row].is_black())
     }
 
-    /// Marks rows, the first of which has such a number, that read what is lit; whether there were any.
+    /// Marks rows that read lit vertices, where `first` is the number of the first row; returns whether any was
+    /// marked.
     fn light(&self, first: usize, given: &[Rgb], lit: &mut [bool]) -> bool {
         let (mut run, mut has_changed) = (0_usize, false);
         for (row, &end) in self.ends.iter().enumerate() {
@@ -519,7 +540,7 @@ impl Rows {
         });
     }
 
-    /// Adds to vertices what rows of such values read of them.
+    /// Adds the weights with which rows of such values read each vertex.
     fn add_read_by(&self, receivers: &[f64], read: &mut [f64]) {
         let (mut run, mut entry) = (0, 0);
         for (value, &end) in receivers.iter().zip(&self.ends) {
@@ -535,7 +556,7 @@ impl Rows {
         }
     }
 
-    /// Adds what is read to the values of all rows.
+    /// Adds the light read to the values of all rows.
     fn add(&self, light: &[Rgb], values: &mut [Rgb]) {
         let (mut run, mut entry) = (0, 0);
         for (value, &end) in values.iter_mut().zip(&self.ends) {

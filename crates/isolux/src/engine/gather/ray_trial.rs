@@ -1,4 +1,4 @@
-//! How many rays an increment needs: a few receivers are tried.
+//! Trials on a few receivers that tell the number of rays of an increment.
 
 use super::control_variate::Stand;
 use super::gatherer::{Gatherer, Gathering};
@@ -7,54 +7,60 @@ use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// Receivers, increments and rays of a trial.
+/// The number of receivers of a trial.
 pub(crate) const RECEIVERS: usize = 128;
+/// The number of increments of a trial.
 pub(crate) const INCREMENTS: u64 = 4;
+/// The number of rays of a receiver in a trial.
 const RAYS: u32 = 16;
 
-/// Where more rays than that times this are wanted, the trial is made again with so many: what is left is a step of
-/// no more than this.
+/// The ratio of wanted to tried rays above which the trial is repeated, with the wanted rays divided by this. The
+/// extrapolation then spans no more than this factor.
 const NEARER: u32 = 4;
 
-/// The part of the accuracy asked for that noise may take in any case, and where interpolation errs by nothing: what is left is
-/// for what noise may hide of other errors.
+/// The share of the accuracy goal that noise may always take.
 pub(crate) const NOISE_SHARE: f64 = 0.45;
+/// The share that noise may take where interpolation has no error. The rest is for errors that noise may hide.
 const MOST_NOISE_SHARE: f64 = 0.8;
-/// The part of it that interpolation errs by where it leaves nothing for noise, as rays read wrongly in the mean, too; and where that
-/// is measured. Between these ends an ellipse: measured on the hall, CUBE and SPHERE to reach the accuracy in as many
-/// increments as are believed, or a few more.
+/// The share of the accuracy goal at which interpolation leaves nothing for noise, since rays read its mean error,
+/// too.
+/// Between these ends the noise follows an ellipse. On the hall, CUBE and SPHERE, runs were measured to reach the
+/// accuracy in as many increments as are believed, or a few more.
 const ALONE: f64 = 0.6;
+/// The same share where the means of elements are measured.
 const ALONE_WITH_MEANS: f64 = 0.75;
 
-/// Variance of what is interpolated between three vertices, in the mean over an element, as a share of
-/// theirs: the integral of the sum of the squares of the hat functions over the area.
+/// The ratio of the variance interpolated between three vertices, in the mean over an element, to that of the
+/// vertices:
+/// the integral of the summed squares of the hat functions over the area.
 pub(crate) const OF_INTERPOLATED: f64 = 0.5;
 
-/// Nets of n rays err like this power of 1/n: measured between 0.8 and 1.1 on CUBE and SPHERE from 8
-/// to 128 rays (independent rays err like 0.5).
+/// Order of convergence of nets: their error falls like this power of 1/n for n rays. Measured between 0.8 and 1.1 on
+/// CUBE and SPHERE from 8 to 128 rays (independent rays: 0.5).
 pub(crate) const NET_ORDER: f64 = 0.85;
 
-/// Rays of a receiver and increment, whatever is asked for, where walls take most of the noise off; and where they do not.
+/// The fewest rays of a receiver and increment where the control variate of walls removes most of the noise.
 const FEWEST_WANTED: f64 = 4.0;
+/// The fewest rays of a receiver and increment elsewhere.
 pub(crate) const FEWEST_UNJUDGED: u32 = 8;
 
-/// And at most: a run can soon be stopped after that many.
+/// The most rays of a receiver and increment, so that a run can soon be stopped.
 const MOST_WANTED: f64 = 1024.0;
 
-/// The noise that a map may have that is to reach a target and that interpolation is expected to add so much to, relative;
-/// where means of elements are measured, more of it.
+/// The relative noise allowed in a map for a relative accuracy `target`, given the relative error expected of
+/// interpolation. More noise is allowed where the means of elements are measured.
 pub(crate) fn noise_for(target: f64, interpolation: f64, has_means: bool) -> f64 {
     let others = interpolation / target / if has_means { ALONE_WITH_MEANS } else { ALONE };
     let share = MOST_NOISE_SHARE * (1.0 - others * others).max(0.0).sqrt();
     target * share.max(NOISE_SHARE)
 }
 
-/// Where receivers stand, each with its surface, m2.
+/// The stands of receivers, each with its surface, m2.
 pub(crate) fn stands(some: &[(Gatherer, f64)]) -> impl Iterator<Item = (Stand, f64)> + '_ {
     some.iter().map(|(of, m2)| (of.stand(), *m2))
 }
 
-/// Variance of nets of receivers, each with its rays, lx2; also returns the rays traced.
+/// The variances of the nets of receivers, each with its own number of rays, lx2, and the number of rays traced.
 pub(crate) fn variances_lx2(
     gathering: &Gathering,
     rows: &[Gatherer],
@@ -74,23 +80,27 @@ pub(crate) fn variances_lx2(
     ((0..rows.len()).map(of_one).collect(), traced)
 }
 
-/// What a trial has found: the noise of one net of so many rays, root mean square over the surface, lx.
+/// The result of a trial: the noise of one net of `rays` rays, root mean square over the surface, lx.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RayTrial {
     noise_lx: f64,
     rays: u32,
-    /// What errors were relative to then, lx.
+    /// The reference illuminance of relative errors at the time of the trial, lx.
     pub(crate) reference_lx: f64,
 }
 
 impl RayTrial {
-    /// What is mostly found, as long as nothing is tried: 1.5 to 3.2 % of the light in CUBE, SPHERE and the hall.
+    /// The result assumed before any trial: 2 % of the reference. Measured: 1.5 to 3.2 % of the light in CUBE, SPHERE
+    /// and
+    /// the hall.
     pub(crate) fn usual(reference_lx: f64) -> Self {
         Self { noise_lx: 0.02 * reference_lx, rays: RAYS, reference_lx }
     }
 
-    /// Tries some receivers, each with the surface it stands for, m2, for a run of so many increments that
-    /// is to reach a target; also returns the rays traced. What [`RayTrial::of_walls`] has found already is not tried again.
+    /// A trial on some receivers, each with the surface it stands for, m2, for a run of `increments` increments that
+    /// is to
+    /// reach a target. Also returns the number of rays traced. A result of [`RayTrial::of_walls`] replaces the first
+    /// trial.
     pub(crate) fn of(
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
@@ -108,8 +118,8 @@ impl RayTrial {
         (trial, traced + more)
     }
 
-    /// With few rays that are judged by walls; and their noise as a share of what it is if they are not, if that is any, and the rays
-    /// traced.
+    /// A trial with few rays corrected by the control variate of walls. Also returns the ratio of their noise to that
+    /// without walls, `None` if that is zero, and the number of rays traced.
     pub(crate) fn of_walls(
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
@@ -143,22 +153,24 @@ impl RayTrial {
         (Self { noise_lx: variance.sqrt(), rays, reference_lx }, traced)
     }
 
-    /// The noise of one net of so many rays, lx.
+    /// The noise of one net of `rays` rays, lx.
     pub(crate) fn noise_lx(self, rays: f64) -> f64 {
         self.noise_lx * libm::pow(f64::from(self.rays) / rays, NET_ORDER)
     }
 
-    /// Gathering rays of a receiver with which so many increments leave no more than some noise, a power of two.
+    /// The rays of a receiver, a power of two, for which `increments` increments leave this relative noise.
     pub(crate) fn rays_for(self, noise: f64, reference_lx: f64, increments: u64) -> u32 {
         libm::exp2(libm::round(libm::log2(self.wanted(noise, reference_lx, increments)))) as u32
     }
 
-    /// The same of receivers that may lie where walls take no noise off.
+    /// The rays of a receiver as from [`RayTrial::rays_for`], for receivers where walls may remove no noise.
     pub(crate) fn rays_anywhere(self, noise: f64, reference_lx: f64, increments: u64) -> u32 {
         self.rays_for(noise, reference_lx, increments).max(FEWEST_UNJUDGED)
     }
 
-    /// The same as [`RayTrial::rays_for`], any number: what receivers that share rays as best they can should have in the mean.
+    /// The mean number of rays of receivers for which `increments` increments leave this relative noise, not rounded
+    /// to a
+    /// power of two.
     pub(crate) fn wanted(self, noise: f64, reference_lx: f64, increments: u64) -> f64 {
         let noise_lx = self.noise_lx * (OF_INTERPOLATED / increments as f64).sqrt();
         let allowed_lx = noise * reference_lx;

@@ -1,7 +1,7 @@
-//! The rays of a row: many at a time, one step of all of them after the other.
+//! The rays of a row, traced as waves: all rays take one step before any takes the next.
 //!
-//! While one ray waits for memory, or for the result of an instruction, others go on: all are traced together, their
-//! places are sought together, and what is read there lies ready when it is asked for.
+//! While one ray waits for memory or for the result of an instruction, others go on. Rays are traced together, their
+//! ends are located together, and the data of the ends is in the cache when it is read.
 
 use super::gatherer::{
     DirectAtEnds, Gatherer, Gathering, known_on_side, known_weights, weights_in_gap,
@@ -18,95 +18,102 @@ use crate::units::Rgb;
 use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
 use rayon::prelude::*;
 
-/// Receivers of one task: enough work to be worth handing out, few enough to share evenly.
+/// The number of receivers of one task: enough work to hand out, few enough to share evenly.
 const CHUNK: usize = 64;
-/// Where there are few, tasks at least, and the least of one.
+/// The least number of tasks where receivers are few.
 const FEWEST_CHUNKS: usize = 16;
+/// The least number of receivers of a task.
 const LEAST_CHUNK: usize = 4;
 
-/// Rays of a row that are followed together.
+/// The number of rays of a row that are followed together.
 const TOGETHER: u32 = 64;
 
-/// Random numbers of rays that are sent to what is bright.
+/// The key of the random numbers of rays sent to bright surfaces.
 const SENT: u64 = 0x6272_6967_6874;
 
-/// How often a ray goes on from surfaces that are close by. In a corner half of the rays meet the other wall close
-/// by, and half of those the first again: with usual reflectances a hundredth of the light is left.
+/// The number of times a ray goes on from surfaces close by. In a corner half of the rays meet the other wall close
+/// by,
+/// and half of those the first again: with usual reflectances a hundredth of the light is left.
 const REGATHERED: u32 = 3;
-/// How often at most it does where nothing is known in the gap that it may still be in: by Russian roulette, so that few come to
-/// the end of it.
+/// The number of times a ray goes on where nothing is known in the gap that it may still be in. Russian roulette ends
+/// most of them before.
 const LOST_IN_GAP: u32 = 32;
 
-/// A shadow ends on an element whose vertices have light that differs by more than this share, and who reads it there errs by as much.
-/// From farther away than so many of its edges many such are seen, and their errors balance.
+/// The relative difference of light between the vertices of an element above which a shadow is taken to end on it.
+/// Reading the light there errs by about as much.
 const UNEVEN: f64 = 0.25;
+/// The distance, in longest edges of the element, within which such elements are not read. Farther away many are
+/// seen, and their errors balance.
 const NEARBY: f64 = 4.0;
 
-/// A row while it is made.
+/// A row under construction.
 #[derive(Default)]
 struct Row {
     source: Rgb,
-    /// What walls tell that is lacking of all that rays find.
+    /// The correction by the control variate, lx: its exact value minus its estimate by these rays.
     lacking: Rgb,
     open: bool,
     close: f64,
-    /// What is seen from about the receiver, once it was asked for.
+    /// Luminaires near the receiver; the outer option is `None` until they are asked for.
     about: Option<Option<NearbyLuminaires>>,
 }
 
-/// Rays that are followed together; kept, as to ask for memory at every row takes its time.
+/// Buffers of rays that are followed together. They are kept from row to row, since allocation takes time.
 #[derive(Default)]
 struct Wave {
-    /// Numbers of the rays that the row has begun.
+    /// The random numbers of the rays begun, one for each.
     dice: Vec<Dice>,
     legs: Vec<Leg>,
     directions: Vec<Direction>,
     rays: Vec<Ray>,
     hits: Vec<Option<Hit>>,
-    /// Diffuse surfaces that they have come to, and where those are on the level gathered over.
+    /// Diffuse surfaces that rays have met.
     met: Vec<Met>,
+    /// The places of these surfaces on the level gathered over.
     places: Vec<Option<Place>>,
+    /// These places with vertices and weights.
     located: Vec<Option<Located>>,
-    /// What they wait for to know of direct light there.
+    /// Shadow rays that direct light there waits for.
     shadows: Shadows,
     /// Rays that go on from there.
     next: Vec<Leg>,
 }
 
-/// A ray of a row, or what goes on from where one has ended.
+/// A ray of a row, or its continuation from where it has ended.
 #[derive(Clone, Copy)]
 struct Leg {
-    /// Where it starts, and the triangle there.
+    /// The point where it starts.
     origin: Point,
+    /// The triangle where it starts.
     triangle: u32,
-    /// About what its direction is distributed.
+    /// The axis of the distribution of its direction.
     normal: Normal,
-    /// What of the light there arrives at the receiver.
+    /// The share of the light at its end that arrives at the receiver.
     share: Rgb,
     /// Whether it starts in a gap.
     in_gap: bool,
-    /// The ray that it is part of.
+    /// The number of the ray in the wave that it is part of.
     ray: u32,
 }
 
-/// What all rays of a row have in common.
+/// The data that all rays of a row share.
 struct Receiver<'a> {
     place: &'a SurfacePoint,
-    /// What is bright, as seen from there, if rays are sent to it, too.
+    /// Bright surfaces as seen from the receiver, if rays are sent to them.
     bright: Option<&'a bright_surfaces::Seen<'a>>,
 }
 
-/// A diffuse surface that a ray has come to, and what it reflects along it.
+/// A diffuse surface that a ray has met, with the reflectance along the ray.
 #[derive(Clone, Copy)]
 struct Met {
     leg: u32,
     surface: SurfacePoint,
     reflectance: Rgb,
-    /// Whether nothing specular was between.
+    /// Whether the ray met no specular surface before.
     straight: bool,
 }
 
-/// A place on the level gathered over, and the vertices and weights there.
+/// A place on the level gathered over, with vertices and weights.
 #[derive(Clone, Copy)]
 struct Located {
     place: Place,
@@ -118,31 +125,31 @@ struct End {
     surface: SurfacePoint,
     located: Option<Located>,
     distance_m: f64,
-    /// Whether the map tells little there, so close to where the ray starts.
+    /// Whether the end is so close to the start of the ray that the map tells little there.
     is_close: bool,
-    /// How far the ray has come if it starts in a gap.
+    /// The length of the ray, m, if it starts in a gap.
     out_of_gap_m: Option<f64>,
 }
 
-/// What a surface is to a gathering ray.
+/// The kind of surface that a gathering ray meets.
 enum Side {
-    /// It reflects.
+    /// A surface that reflects, with its reflectance.
     Lit(Rgb),
-    /// It could be lit, but reflects nothing diffusely.
+    /// A surface that could be lit, but reflects nothing diffusely.
     Black,
-    /// It is the black back of something: nothing is ever lit there.
+    /// The black back of an object, where nothing is ever lit.
     Closed,
 }
 
 impl Row {
-    /// With what is known of about the receiver.
+    /// An empty row with the luminaires known near its receiver.
     fn after(about: Option<Option<NearbyLuminaires>>) -> Self {
         Self { about, ..Self::default() }
     }
 }
 
 impl Gathering<'_> {
-    /// Traces the rays of all receivers; `key_of` gives each its random numbers.
+    /// The operator from tracing the rays of all receivers; `key_of` gives each receiver its random numbers.
     pub(crate) fn operator(
         &self,
         gatherers: &[Gatherer],
@@ -152,7 +159,7 @@ impl Gathering<'_> {
         whole.expect("without a deadline nothing is given up")
     }
 
-    /// The same; `None` if the deadline passes meanwhile.
+    /// The operator as from [`Gathering::operator`]; `None` if the deadline passes meanwhile.
     pub(crate) fn operator_until(
         &self,
         deadline: Deadline,
@@ -168,7 +175,7 @@ impl Gathering<'_> {
             rows.entries.reserve(part.iter().map(|g| g.rays as usize).sum());
             let (mut row, mut wave) = (Row::default(), Wave::default());
             for (k, gatherer) in part.iter().enumerate() {
-                // Readers have many rows of one place.
+                // Readers make many rows for one place.
                 let before = k.checked_sub(1).map(|k| &part[k]);
                 let about = row.about.filter(|_| before.is_some_and(|b| b.is_at(gatherer)));
                 row = Row::after(about);
@@ -231,7 +238,7 @@ impl Gathering<'_> {
         rows.end_row([row.source, row.lacking], row.open, row.close);
     }
 
-    /// Finds the diffuse surfaces that rays come to.
+    /// Finds the diffuse surfaces that rays meet.
     fn trace(&self, wave: &mut Wave, row: &mut Row, rows: &mut Rows) {
         let Wave { dice, legs, directions, rays, hits, met, .. } = wave;
         directions.clear();
@@ -266,7 +273,7 @@ impl Gathering<'_> {
         }
     }
 
-    /// Finds where those surfaces are on the level gathered over.
+    /// Finds the places of these surfaces on the level gathered over.
     fn locate(&self, wave: &mut Wave) {
         let Wave { met, places, located, .. } = wave;
         places.clear();
@@ -274,12 +281,12 @@ impl Gathering<'_> {
             let SurfacePoint { triangle, back, u, v, .. } = met.surface;
             self.elements.place(self.level, triangle, back, [u, v])
         }));
-        // What is known of them lies far apart in memory: all is asked for at once.
+        // Their data lies far apart in memory, so all of it is requested at once.
         located.clear();
         located.extend(places.iter().map(|place| place.map(|place| self.located(place))));
     }
 
-    /// Reads the light there, or has the rays go on.
+    /// Reads the light at the ends of rays, or lets rays go on from there.
     fn read(
         &self,
         receiver: &Receiver<'_>,
@@ -296,7 +303,7 @@ impl Gathering<'_> {
             let dice = &mut dice[leg.ray as usize];
             let spot = self.bright.and_then(|bright| bright.at(&end.surface));
             let is_evaluated = spot.is_some() || matches!(self.direct, DirectAtEnds::Evaluated);
-            // What rays that are sent there find, too.
+            // Rays sent to the bright surface find this light, too.
             let beside_sent = spot.filter(|_| met.straight).map_or(1.0, |spot| {
                 let seen = if number == 0 { None } else { self.bright_from(leg) };
                 let seen = if number == 0 { receiver.bright } else { seen.as_ref() };
@@ -340,20 +347,21 @@ impl Gathering<'_> {
         std::mem::swap(legs, next);
     }
 
-    /// What is bright as seen from where a ray goes on.
+    /// Bright surfaces as seen from the start of a ray that goes on.
     fn bright_from(&self, leg: &Leg) -> Option<bright_surfaces::Seen<'_>> {
         self.bright.and_then(|bright| bright.seen_from(leg.origin, leg.normal, 1))
     }
 
-    /// What is found of it from there.
+    /// The light that rays sent from there to bright surfaces find, lx.
     fn sent_on(&self, leg: &Leg, dice: &mut Dice, rows: &mut Rows) -> Rgb {
         let Some(bright) = self.bright_from(leg) else { return Rgb::BLACK };
         rows.further_rays += u64::from(bright.sent);
         (0..bright.sent).map(|_| self.sent(leg, &bright, dice, rows)).sum()
     }
 
-    /// A ray to what is bright: what comes there straight from luminaires, and what is read there where others seldom come; close by, where
-    /// others go on, the former alone.
+    /// The light found by one ray sent to a bright surface, lx: direct light from luminaires. Where other rays seldom
+    /// come,
+    /// the ray also adds an entry to the row, but not close by, where other rays go on.
     fn sent(
         &self,
         leg: &Leg,
@@ -382,7 +390,7 @@ impl Gathering<'_> {
         reflected * beside_others * self.lighting.estimate(&end.surface, dice)
     }
 
-    /// The end of a ray at a place.
+    /// The end of a ray on a surface.
     fn end(&self, leg: &Leg, surface: SurfacePoint, located: Option<Located>) -> End {
         let distance_m = (surface.point - leg.origin).length();
         let is_near =
@@ -396,7 +404,7 @@ impl Gathering<'_> {
         Located { place, corners: self.elements.corners(place) }
     }
 
-    /// Vertices and weights of a place on that level or a finer one.
+    /// Vertices and weights of a place on the level gathered over or a finer one.
     fn corners(&self, of: &Located, level: u32) -> [(u32, f64); 3] {
         if level == self.level {
             return of.corners;
@@ -416,7 +424,8 @@ impl Gathering<'_> {
         may_be_in_gap && weights_in_gap(located.corners, self.standings).is_none()
     }
 
-    /// Whether values differ so much over the element at an end nearby that they tell little of what is between, or may.
+    /// Whether values differ, or may differ, so much over a nearby element that its vertices tell little of the light
+    /// between.
     fn is_uneven(&self, end: &End, values: &[Rgb], varying: Option<&[bool]>) -> bool {
         let Some(located) = end.located else { return false };
         let corners = self.corners(&located, u32::MAX);
@@ -480,7 +489,7 @@ impl Gathering<'_> {
     /// The entry for an end, over the known vertices of its element; `None` if there is none.
     fn entry(&self, at: &Located, out_of_gap_m: Option<f64>) -> Option<Entry> {
         let cut = self.cuts.and_then(|cuts| cuts.of_node(at.place.node()));
-        // Beyond a cut nothing of this side is seen, whether anything is known there or not.
+        // Vertices beyond a barrier are not read, even if none is known on this side.
         let corners = match cut {
             Some(cut) => known_on_side(at.corners, self.standings, cut),
             None => self.known(at.corners, out_of_gap_m),
@@ -491,8 +500,9 @@ impl Gathering<'_> {
         })
     }
 
-    /// Vertices and weights of a place, over the known ones; for a ray that has come so far from within a
-    /// gap, over those in gaps as long as it may still be there.
+    /// Vertices and weights of a place, over the known vertices. For a ray that starts in a gap and may still be in
+    /// it, only
+    /// vertices in gaps count.
     fn known(
         &self,
         corners: [(u32, f64); 3],
@@ -506,7 +516,7 @@ impl Gathering<'_> {
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     }
 
-    /// Longest edge of the element of some corners, m.
+    /// Longest edge of the element of three corners, m.
     fn edge_m(&self, corners: [(u32, f64); 3]) -> f64 {
         nearby::longest_edge_m(self.elements, corners.map(|(vertex, _)| vertex))
     }
