@@ -1,10 +1,8 @@
 //! The number of rays of each receiver.
 //!
 //! The error of a scene weights noise by area. Nets of n rays err like n^-o. The least noise for a given number of
-//! rays
-//! then needs numbers that grow like the area of receivers to the power 1 / (1 + 2 o): the allocation of Neyman
-//! (1934),
-//! for nets. Where objects are small and many, as in furnished rooms, this halves the number of rays.
+//! rays then needs numbers that grow like the area of receivers to the power 1 / (1 + 2 o): the allocation of Neyman
+//! (1934), for nets. Where objects are small and many, as in furnished rooms, this halves the number of rays.
 
 use super::ray_trial::NET_ORDER;
 use crate::ablation::without;
@@ -40,8 +38,7 @@ pub(crate) fn areas_m2(subdivision: &Subdivision, carriers: &Carriers) -> Vec<f6
 }
 
 /// The rays of receivers that stand for these areas, as powers of two. The noise over the whole surface is no more
-/// than
-/// with `mean` rays for each. Receivers without area get no rays.
+/// than with `mean` rays for each. Receivers without area get no rays.
 pub(crate) fn allot(areas_m2: &[f64], mean: f64) -> Vec<u32> {
     let count = areas_m2.iter().filter(|&&m2| m2 > 0.0).count();
     let whole_m2: f64 = areas_m2.iter().sum();
@@ -79,8 +76,7 @@ pub(crate) fn allot(areas_m2: &[f64], mean: f64) -> Vec<u32> {
 /// The largest number of rays where noise differs, in multiples of the mean.
 const MOST_TIMES: f64 = 16.0;
 /// The largest ratio of noise after to noise before for which new shares are worth it. Variances from four samples
-/// each
-/// that differ by chance alone seem to leave nine tenths.
+/// each that differ by chance alone seem to leave nine tenths.
 const WORTH_IT: f64 = 0.7;
 
 /// Rays shared out anew, with the noise before and after. Each variance counts as that of one ray and falls with more

@@ -1,11 +1,12 @@
-//! Direct light as rays read it from a map: right in the mean, where it varies between vertices.
+//! Direct light as rays read it from a map, corrected to be right in the mean where it varies between vertices.
 //!
-//! Where luminaires are many, rays read direct light between vertices. That errs where it varies from element to element, as on a
-//! ceiling close above rows of lamps, and errs alike over many elements where these and the lamps both lie in rows, so that means
-//! over what is seen err, too: in all increments by the same, of which their spread tells nothing. So increments take samples of
-//! the light that lands on such elements, each of its own, and hand it to the vertices around: what elements reflect is then right in the mean
-//! over increments, and their spread tells how well it is known. A vertex has the mean of light weighted by its hat function, where all that
-//! other elements add is its own value; so light is kept, and never negative.
+//! Where luminaires are many, rays interpolate direct light between vertices. This errs where light varies from
+//! element to element, as on a ceiling close above rows of lamps. Where elements and lamps both lie in rows, many
+//! elements have the same error, so means over the visible surface err, too. All increments share this error, and
+//! their spread does not show it. Each increment therefore samples the light that lands on such elements and
+//! distributes it to the vertices around. The light that elements reflect is then right in the mean over increments,
+//! and their spread tells its error. A vertex gets the mean of light weighted by its hat function; other elements add
+//! the vertex's own value. Light is so conserved and never negative.
 
 use super::bright_surfaces::BrightSurfaces;
 use super::gatherer::known_weights;
@@ -21,10 +22,11 @@ use isolux_geometry::Point;
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Places that tell by how much light differs from what is read there: enough to know that of one surface in a hundred.
+/// The number of places where the residual of interpolated direct light is measured: enough to find that of one
+/// surface in a hundred.
 const PLACES: usize = 1024;
 
-/// A map of direct light, and what it is of.
+/// A map of direct light with its scene.
 #[derive(Clone, Copy)]
 pub(crate) struct Over<'a> {
     pub(crate) scene: &'a Scene,
@@ -32,16 +34,16 @@ pub(crate) struct Over<'a> {
     pub(crate) elements: &'a Elements,
     pub(crate) standings: &'a [Option<Standing>],
     pub(crate) direct: &'a [Rgb],
-    /// There rays evaluate it.
+    /// Bright surfaces, where rays evaluate direct light.
     pub(crate) bright: Option<&'a BrightSurfaces>,
 }
 
-/// Elements that samples are taken of.
+/// Elements whose direct light is sampled.
 pub(crate) struct DirectResidual {
     leaves: Vec<Leaf>,
-    /// Whether they are, by node.
+    /// Whether each node is such an element.
     pub(crate) varying: Vec<bool>,
-    /// Integrals of the functions that vertices stand for where rays read, m2.
+    /// The integral of the function that rays read for each vertex, m2.
     hats_m2: Vec<f64>,
 }
 
@@ -52,19 +54,20 @@ struct Leaf {
     back: bool,
     vertices: [u32; 3],
     area_m2: f64,
-    /// By how much what is reflected differs between vertices, or from what is read, lx: in the mean over the element it errs by half of
-    /// that at most, if vertices tell all.
+    /// The range of reflected light over the vertices, or its measured residual, lx. If the vertices tell all, the
+    /// mean error of the element is at most half of this.
     varies_lx: f64,
 }
 
-/// What lands on an element, and which vertices it is handed to.
+/// The flux on an element, and the vertices and weights that it is distributed to.
 struct Lit {
     lm: Rgb,
     corners: [(u32, f64); 3],
 }
 
 impl DirectResidual {
-    /// Where so many lux are allowed to lack in the mean; `None` where rays do not read direct light or vertices tell it well enough.
+    /// The elements to sample if a mean error of `allowed_lx` may remain; `None` where rays do not read direct light
+    /// or its interpolation is good enough.
     pub(crate) fn of(over: &Over<'_>, allowed_lx: f64, key: Key) -> Option<Self> {
         if !over.lighting.are_read_at_ends() || without("direct-residual") {
             return None;
@@ -97,12 +100,12 @@ impl DirectResidual {
         (count > 0).then_some(Self { leaves, varying, hats_m2 })
     }
 
-    /// Rays that finding out where they are and so many samples of each take, about.
+    /// The approximate number of rays to find these elements and to take `samples` samples of each.
     pub(crate) const fn rays(&self, samples: u64) -> u64 {
         PLACES as u64 + samples * self.leaves.len() as u64
     }
 
-    /// Direct light at vertices as rays are to read it, by so many samples of an element.
+    /// Direct light at vertices as rays are to read it, lx, from `samples` samples of each element.
     pub(crate) fn read(&self, over: &Over<'_>, (samples, key): (u64, Key)) -> Vec<Rgb> {
         let one = |(number, leaf): (usize, &Leaf)| {
             let sequence = Sequence::new(key.with(number as u64));
@@ -126,7 +129,7 @@ impl DirectResidual {
             if sampled_m2[v] == 0.0 {
                 return own;
             }
-            // Rounding may leave less than nothing of what others add.
+            // Rounding may make the share of other elements negative.
             own * (1.0 - sampled_m2[v] / hat_m2).max(0.0) + sums_lm[v] / hat_m2
         };
         (0..over.direct.len()).map(read).collect()
@@ -134,7 +137,7 @@ impl DirectResidual {
 }
 
 impl Over<'_> {
-    /// The parts of an element that vertices stand for where rays read.
+    /// The shares of an element that each of its vertices stands for where rays read.
     fn thirds(&self, vertices: [u32; 3]) -> Option<[(u32, f64); 3]> {
         let weights = known_weights(vertices.map(|v| (v, 1.0 / 3.0)), self.standings)?;
         Some([0, 1, 2].map(|k| (vertices[k], weights[k])))
@@ -167,7 +170,7 @@ impl Over<'_> {
         SurfacePoint::new(self.scene, triangle, back, u, v)
     }
 
-    /// Looks at some places: vertices may all have the same light, and have other light between them.
+    /// Measures the residual at some places, since vertices may agree and light still vary between them.
     fn look(&self, leaves: &mut [Leaf], key: Key) {
         let sums: Vec<f64> = leaves
             .iter()
@@ -204,7 +207,7 @@ impl Over<'_> {
         }
     }
 
-    /// A place of an element, evenly over its area, and its vertices with their weights there; none where vertices are not known.
+    /// A place of an element, uniform over its area, with vertices and weights; `None` where vertices are not known.
     fn somewhere_on(
         &self,
         leaf: &Leaf,
@@ -223,7 +226,7 @@ impl Over<'_> {
         corners.iter().map(|&(vertex, weight)| self.direct[vertex as usize] * weight).sum()
     }
 
-    /// What lands on an element, by one place of it.
+    /// The flux on an element from one place of it.
     fn sample(&self, leaf: &Leaf, dice: &mut Dice) -> Lit {
         let Some((at, corners)) = self.somewhere_on(leaf, dice) else {
             return Lit { lm: Rgb::BLACK, corners: leaf.vertices.map(|v| (v, 0.0)) };
@@ -235,7 +238,7 @@ impl Over<'_> {
         Lit { lm: lx * leaf.area_m2, corners }
     }
 
-    /// Whether rays evaluate direct light there and read none.
+    /// Whether rays evaluate direct light there instead of reading it.
     fn is_bright(&self, at: &SurfacePoint) -> bool {
         self.bright.is_some_and(|bright| bright.at(at).is_some())
     }

@@ -1,10 +1,10 @@
-//! Means of beset elements, measured, for the sake of the rays that read them.
+//! Measured means of elements that something stands close to, for the rays that read them.
 //!
 //! Along the edges of a room light bends more sharply than any vertices tell: close to the edge its slope has no
-//! bound. Readers gather there, but rays read the elements all the same, thousands of them in the mean, so that
-//! what counts is the mean over an element. An increment gathers at one random place of each, which exceeds what
-//! is interpolated there by as much as the element lacks in the mean, with noise that averages out. That is given to vertices
-//! which no reader reads: those all of whose elements are beset or not trusted, along edges.
+//! bound. Readers gather there, but rays still read the elements, thousands of them on average, so the mean over an
+//! element counts. An increment gathers at one random place of each element. The difference to the interpolated light
+//! is, in expectation, the mean error of the element, with noise that averages out. It is added to vertices that no
+//! reader reads: those along edges whose elements all have something close by or are not trusted.
 
 use super::gatherer::Gatherer;
 use crate::elements::Subdivision;
@@ -16,28 +16,30 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// The elements whose means are measured, and the vertices that have them.
+/// The elements whose means are measured, and the vertices that are moved for them.
 #[derive(Debug, Default)]
 pub(crate) struct ElementMeans {
-    /// Nodes of the elements.
+    /// The nodes of the elements.
     nodes: Vec<u32>,
-    /// For each vertex that is moved, in order, where its shares end.
+    /// Each vertex that is moved, in order, with the end of its shares.
     ends: Vec<(u32, usize)>,
-    /// Elements, and the share of what they lack that moves the vertex.
+    /// Elements, with the share of their residual that moves the vertex.
     shares: Vec<(u32, f64)>,
-    /// The first vertex that lies on the edge of an element, and between which others each of these does.
+    /// The first vertex that lies on the edge of an element.
     first_smoothed: usize,
+    /// The two vertices that each vertex from there on lies between.
     between: Vec<[u32; 2]>,
 }
 
-/// Where an increment measures: places and what is interpolated there.
+/// The places where an increment measures, and the vertices interpolated there.
 pub(crate) struct MeanPlaces {
     pub(crate) gatherers: Vec<Gatherer>,
     corners: Vec<Option<[(u32, f64); 3]>>,
 }
 
 impl ElementMeans {
-    /// Of elements that are beset, or not `trusted`, as far as they have vertices in the open that no others have.
+    /// The means of elements that something stands close to and that have an open vertex which no trusted element
+    /// reads.
     pub(crate) fn new(
         (scene, subdivision): (&Scene, &Subdivision),
         errors: &[LeafError],
@@ -86,12 +88,12 @@ impl ElementMeans {
         means
     }
 
-    /// Whether there are none.
+    /// Whether no element is measured.
     pub(crate) const fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// Random places of the elements, one each, where so many rays are to be gathered, and what is interpolated there.
+    /// One random place of each element, with `rays` rays to gather and the vertices interpolated there.
     pub(crate) fn places(
         &self,
         (scene, subdivision): (&Scene, &Subdivision),
@@ -108,8 +110,8 @@ impl ElementMeans {
         MeanPlaces { gatherers, corners }
     }
 
-    /// Moves vertices so that elements have the mean that was gathered, as far as each stays between its own value, what was
-    /// gathered on its elements, and what their corners have.
+    /// Moves vertices so that elements have the mean that was gathered. Each value stays within the range of its own
+    /// value, the light gathered on its elements, and the values at their corners.
     pub(crate) fn apply(&self, values: &mut [Rgb], places: &MeanPlaces, gathered: &[Rgb]) {
         let moves = self.moves(values, places, gathered);
         let held = |k: usize| {
@@ -128,7 +130,7 @@ impl ElementMeans {
         }
     }
 
-    /// The same as means of some light, with weights that stay: of that of all vertices, as given, and after it what was gathered.
+    /// The move as weighted means with fixed weights: of the values of all vertices, followed by the gathered light.
     pub(crate) fn held(
         &self,
         values: &[Rgb],
@@ -161,7 +163,7 @@ impl ElementMeans {
         HeldMeans { means: self, own, between }
     }
 
-    /// What the vertex number `k` of those that are moved lies between, beside its own value.
+    /// The values that bound vertex number `k` of those moved, beside its own.
     fn from(&self, k: usize, places: &MeanPlaces, mut add: impl FnMut(Of)) {
         let first = k.checked_sub(1).map_or(0, |before| self.ends[before].1);
         for &(element, _) in &self.shares[first..self.ends[k].1] {
@@ -171,7 +173,7 @@ impl ElementMeans {
         }
     }
 
-    /// By how much vertices are to be moved so that elements have the mean that was gathered.
+    /// The change of each vertex with which elements have the mean that was gathered, lx.
     pub(crate) fn moves(&self, values: &[Rgb], places: &MeanPlaces, gathered: &[Rgb]) -> Vec<Rgb> {
         let lacking = |(corners, &light): (&Option<[(u32, f64); 3]>, &Rgb)| {
             corners.map_or(Rgb::BLACK, |corners| light - places.read(values, &corners))
@@ -182,7 +184,8 @@ impl ElementMeans {
             let ends = starts().zip(&self.ends);
             ends.map(|(first, &(vertex, end))| (vertex as usize, &self.shares[first..end]))
         };
-        // In proportion to the light: where an element reaches beyond a wall, what it lacks is that of the bright side.
+        // Changes are proportional to the light: where an element reaches beyond a wall, its residual is that of the
+        // bright side.
         let light = |vertex: usize| values[vertex].luminance().max(0.0);
         let mut about = vec![(0.0, 0.0); self.nodes.len()];
         for (vertex, shares) in of_vertices() {
@@ -208,12 +211,12 @@ impl ElementMeans {
     }
 }
 
-/// What a vertex that is moved lies between.
+/// A value that bounds a vertex that is moved.
 #[derive(Clone, Copy)]
 enum Of {
     /// The light of a vertex.
     Vertex(u32),
-    /// What was gathered at a place.
+    /// The light gathered at a place.
     Place(u32),
 }
 
@@ -226,7 +229,7 @@ impl Of {
     }
 }
 
-/// Vertices that are moved, with the values that each lies between.
+/// Vertices that are moved, as means with fixed weights.
 pub(crate) struct HeldMeans<'a> {
     means: &'a ElementMeans,
     own: Bounded,
@@ -234,7 +237,7 @@ pub(crate) struct HeldMeans<'a> {
 }
 
 impl HeldMeans<'_> {
-    /// Moves vertices of other light.
+    /// Moves the vertices of any light.
     pub(crate) fn apply(&self, values: &mut Vec<Rgb>, gathered: &[Rgb]) {
         let ElementMeans { ends, first_smoothed, between, .. } = self.means;
         let vertices = values.len();
@@ -250,7 +253,7 @@ impl HeldMeans<'_> {
 }
 
 impl MeanPlaces {
-    /// What is interpolated at the places.
+    /// The light interpolated at the places, lx.
     pub(crate) fn interpolated<'a>(&'a self, values: &'a [Rgb]) -> impl Iterator<Item = Rgb> + 'a {
         self.corners.iter().map(|c| c.map_or(Rgb::BLACK, |corners| self.read(values, &corners)))
     }

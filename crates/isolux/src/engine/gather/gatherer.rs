@@ -1,11 +1,9 @@
 //! Gathering: the light that a receiver sees, as a row of a linear operator over the vertices of the map.
 //!
 //! From a receiver, cosine-distributed rays are followed to diffuse surfaces. Direct light is evaluated there at
-//! once, or
-//! read from the map where luminaires are many. Indirect light is left open: each ray becomes an entry of a sparse
-//! matrix.
-//! The light of all further reflections is then the fixed point of `E = source + A E`, solved without tracing rays
-//! again.
+//! once, or read from the map where luminaires are many. Indirect light is left open: each ray becomes an entry of a
+//! sparse matrix. The light of all further reflections is then the fixed point of `E = source + A E`, solved without
+//! tracing rays again.
 
 use super::bright_surfaces::BrightSurfaces;
 use super::control_variate::{ControlVariate, Stand};
@@ -101,8 +99,7 @@ pub(crate) struct Gathering<'a> {
     pub(crate) standings: &'a [Option<Standing>],
     pub(crate) direct: DirectAtEnds<'a>,
     /// Whether a ray that ends nearer than the element there is long gathers again from its end, a few times. The map
-    /// tells
-    /// little of places so close to something.
+    /// tells little of places so close to something.
     pub(crate) regathers: bool,
     /// Surfaces so bright that extra rays are sent to them.
     pub(crate) bright: Option<&'a BrightSurfaces>,
@@ -125,15 +122,13 @@ pub(crate) enum DirectAtEnds<'a> {
         level: u32,
     },
     /// Direct light is read from vertices, with two exceptions where it is evaluated. One is a ray that regathers and
-    /// ends
-    /// nearer than the element there is long: objects that close may throw shadows that the map does not resolve. The
-    /// other is an element that a shadow ends on.
+    /// ends nearer than the element there is long: objects that close may throw shadows that the map does not
+    /// resolve. The other is an element that a shadow ends on.
     ReadFarOff {
         /// Direct light of each vertex, lx.
         values: &'a [Rgb],
         /// Elements, by node, that light may vary over even where their vertices agree, such as where all of them lie
-        /// in the
-        /// dark.
+        /// in the dark.
         varying: Option<&'a [bool]>,
     },
 }

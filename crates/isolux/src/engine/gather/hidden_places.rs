@@ -1,11 +1,10 @@
-//! Hidden places: those that no light can reach.
+//! Hidden places: places that no light can reach.
 //!
-//! A receiver in the floor below a cabinet is neither dark nor lit, and no light must be interpolated
-//! from there or to there. A place is open if a luminaire shines on it, if it sees out of the scene, or
-//! if it sees a place that is open; the rest is hidden, whether it lies in something solid or in a
-//! closed box that is painted inside. What a ray sees is asked of the very spot where it ends, never of
-//! an element that may reach below the wall of a box: of its vertices those count that the spot
-//! sees, and of these not those that something stands on.
+//! A receiver in the floor below a cabinet is neither dark nor lit, and no light must be interpolated from there or
+//! to there. A place is open if a luminaire shines on it, if it sees out of the scene, or if it sees an open place.
+//! All other places are hidden, in solids and in closed boxes that are painted inside. A ray is judged at the very
+//! spot where it ends, not by an element that may reach below the wall of a box. Of the element's vertices those
+//! count that the spot sees, except those that something stands on.
 
 use super::gatherer::Gatherer;
 use crate::elements::Elements;
@@ -19,58 +18,57 @@ use isolux_geometry::{Point, Ray};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Rays that look for light at most: a place that sees it in less than a tenth of its hemisphere
-/// is still found with a chance of 19 in 20.
+/// The most rays that look for light. A place that sees it in less than a tenth of its hemisphere is still found with
+/// a chance of 19 in 20.
 const RAYS: u32 = 32;
 
-/// A vertex is looked at to this far beyond it, as a share of the distance, so that one that lies in
-/// a wall is not seen from behind it.
+/// The distance beyond a vertex to which rays look at it, as a share of their length. A vertex that lies in a wall is
+/// then not seen from behind that wall.
 const BEYOND: f64 = 1e-3;
 
-/// All that is needed to look about on the vertices of a mesh.
+/// The inputs of a search for open vertices of a mesh.
 pub(crate) struct Sight<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) lighting: &'a Lighting<'a>,
     pub(crate) elements: &'a Elements,
-    /// Those of all vertices of the elements.
+    /// The gatherers of all vertices of the elements.
     pub(crate) gatherers: &'a [Gatherer],
-    /// Places that light comes to over specular surfaces.
+    /// Places that light reaches over specular surfaces.
     pub(crate) reached: &'a [SurfacePoint],
     /// Vertices that something stands on, which are seen from both of its sides.
     pub(crate) footprints: &'a Footprints,
     pub(crate) key: Key,
 }
 
-/// An element: its number, which its places are drawn by, and where its corners are.
+/// An element: the number by which its places are drawn, and the positions of its corners.
 pub(crate) type Element = (u32, [[u64; 3]; 3]);
 
-/// By element, its places from which nothing was seen that luminaires shine on: vertices are found to be open later, but
-/// that stays, for later pilots of a run, too.
+/// The places of each element from which no lit surface was seen. Vertices may be found to be open later, but this
+/// stays true, also for later pilots of a run.
 #[derive(Debug, Default)]
 pub(crate) struct Unlit(pub(crate) HashMap<Element, u16>);
 
 /// Whether a place is cut off from the light of its element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum CutOff {
-    /// Light comes there, but it sees no open vertex of its element.
+    /// Light reaches the place, but it sees no open vertex of its element.
     Yes,
-    /// It sees one.
+    /// The place sees an open vertex of its element.
     No,
-    /// What is seen from there is neither open nor lit.
+    /// The place sees nothing that is open or lit.
     Unlit,
 }
 
-/// What a place sees.
+/// The result of looking for light from a place.
 enum Seen {
-    /// Light, or the open.
+    /// The place sees light or out of the scene.
     Light,
-    /// Places that reflect, whether there is light or not.
+    /// The place sees these reflecting places only; whether they are lit is open.
     Places(Vec<SurfacePoint>),
 }
 
 impl Sight<'_> {
-    /// Appends which of the vertices after those of `known` are open; `direct` is the light that
-    /// luminaires bring to all of them.
+    /// Appends to `known` whether each further vertex is open; `direct` is the light from luminaires at all vertices.
     pub(crate) fn extend_known(&self, direct: &[Rgb], known: &mut Vec<bool>) {
         let first = known.len();
         let mut lit = known.clone();
@@ -88,7 +86,7 @@ impl Sight<'_> {
                 waiting.push((first + k, places));
             }
         }
-        // From the light on, reflection by reflection; every round opens some vertex or is the last.
+        // Each round adds one reflection; it opens some vertex or is the last.
         loop {
             let open: Vec<bool> =
                 waiting.par_iter().map(|(_, places)| self.any_open(places, known)).collect();
@@ -103,7 +101,7 @@ impl Sight<'_> {
         }
     }
 
-    /// Opens the vertices from number `first` on that are seen from places of their elements that light reaches.
+    /// Opens the vertices from number `first` on that are seen from places of their elements which light reaches.
     fn open_reached(&self, first: usize, open: &mut [bool]) {
         for place in self.reached {
             let SurfacePoint { triangle, back, u, v, .. } = *place;
@@ -114,8 +112,9 @@ impl Sight<'_> {
         }
     }
 
-    /// Whether a place is open, but sees no open vertex of its element: what is interpolated there
-    /// comes from behind something. `number` tells places apart; of some it is known that what they see is unlit.
+    /// Whether a place is open, but sees no open vertex of its element. The light interpolated there then comes from
+    /// behind something. `number` selects the random numbers; `is_unlit` says that the places seen from there are
+    /// known to be unlit.
     pub(crate) fn cut_off(
         &self,
         (place, number): (&SurfacePoint, u64),
@@ -135,7 +134,7 @@ impl Sight<'_> {
         }
     }
 
-    /// Looks for places that see a vertex known to be open, which asks no luminaires, and then for light.
+    /// Looks for an open vertex, which asks no luminaires, and then for light on the places seen.
     fn look(&self, from: &Gatherer, number: u64, known: &[bool]) -> Seen {
         match self.look_for_open(from, number, known) {
             Seen::Places(places) if self.any_lit(from, number, &places) => Seen::Light,
@@ -154,7 +153,7 @@ impl Sight<'_> {
             let ray = Ray::new(from.origin, direction);
             let before = places.len();
             let end = follow(self.scene, ray, direction, &mut dice, |surface, finish, _| {
-                // The black back of something is not part of the scene's space.
+                // The black back of an object is not part of the scene's space.
                 if !(surface.back && *finish == Finish::BLACK) {
                     places.push(*surface);
                 }
@@ -166,7 +165,7 @@ impl Sight<'_> {
         Seen::Places(places)
     }
 
-    /// Whether a luminaire shines on one of the places seen from somewhere.
+    /// Whether a luminaire shines on any of the places seen from a gatherer.
     fn any_lit(&self, from: &Gatherer, number: u64, places: &[SurfacePoint]) -> bool {
         let reach_m = nearby::edge_at_m(self.elements, &from.surface);
         let about = self.lighting.about(from.surface.point, reach_m);
@@ -186,7 +185,7 @@ impl Sight<'_> {
         places.iter().any(|place| self.sees_open(place, known))
     }
 
-    /// Whether a place sees an open vertex of its element, one that tells of its side alone.
+    /// Whether a place sees an open vertex of its element that nothing stands on.
     fn sees_open(&self, place: &SurfacePoint, known: &[bool]) -> bool {
         let SurfacePoint { triangle, back, u, v, .. } = *place;
         let corners = self.elements.locate(triangle, back, u, v);

@@ -7,8 +7,7 @@ use crate::units::Rgb;
 use rayon::prelude::*;
 
 /// A map from the light at receivers to the light that rays read there. Each value read is a weighted mean, with
-/// weights
-/// that are not negative and sum to one.
+/// weights that are not negative and sum to one.
 pub(crate) trait Fitting {
     /// The light that rays read.
     fn read(&self, light: &[Rgb]) -> Vec<Rgb>;
@@ -150,10 +149,8 @@ impl Operator {
     }
 
     /// The fixed point `E = source + A (E + given)` over the first `given.len()` receivers, followed by one
-    /// application for
-    /// all receivers. The iteration starts from `guess`. It ends when a sweep changes nothing beyond `tolerance`,
-    /// relative to
-    /// the root mean square.
+    /// application for all receivers. The iteration starts from `guess`. It ends when a sweep changes nothing beyond
+    /// `tolerance`, relative to the root mean square.
     pub(crate) fn solve(
         &self,
         guess: &[Rgb],
@@ -166,17 +163,13 @@ impl Operator {
     }
 
     /// The fixed point as from [`Operator::solve`], and the root mean square change of the last sweep, lx. Vertices
-    /// that do
-    /// not carry light are interpolated. The operator is applied to the light of best fit.
+    /// that do not carry light are interpolated. The operator is applied to the light of best fit.
     ///
     /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of the operator.
-    /// [`Anderson`]
-    /// acceleration uses this. Rows, interpolation and fit have weights that are not negative, and rows sum to no
-    /// more than
-    /// the reflectance of surfaces. So no sweep returns more than it receives. The weights of interpolation and fit
-    /// depend on
-    /// the light. If [`FREE_SWEEPS`] sweeps have not settled, these weights stay fixed
-    /// ([`Bounded`](crate::engine::mesh::Bounded)), and the rest shrinks in every sweep.
+    /// [`Anderson`] acceleration uses this. Rows, interpolation and fit have weights that are not negative, and rows
+    /// sum to no more than the reflectance of surfaces. So no sweep returns more than it receives. The weights of
+    /// interpolation and fit depend on the light. If [`FREE_SWEEPS`] sweeps have not settled, these weights stay
+    /// fixed ([`Bounded`](crate::engine::mesh::Bounded)), and the rest shrinks in every sweep.
     pub(crate) fn solve_or_give_up(
         &self,
         guess: &[Rgb],
@@ -261,9 +254,8 @@ impl Operator {
     }
 
     /// Sweeps until the light settles, where few vertices carry light. The further reflections of the change of a
-    /// sweep are
-    /// followed over a rough operator, whose rays read the nearest carrier. The error is the light reached without
-    /// success.
+    /// sweep are followed over a rough operator, whose rays read the nearest carrier. The error is the light reached
+    /// without success.
     fn settle_roughly(
         &self,
         rough: &Rough,
@@ -482,8 +474,7 @@ impl Rows {
     }
 
     /// Scales the row under construction so that it returns no more than it receives. Roulette over specular surfaces
-    /// may
-    /// leave a few rays with too large a share. The excess counts as given up.
+    /// may leave a few rays with too large a share. The excess counts as given up.
     fn hold_row(&mut self) {
         let first_of_row = self.ends.last().copied().unwrap_or(0);
         let mut entry = first_of_row.checked_sub(1).map_or(0, |before| self.runs[before].end);

@@ -23,16 +23,14 @@ pub(crate) const NOISE_SHARE: f64 = 0.45;
 /// The share that noise may take where interpolation has no error. The rest is for errors that noise may hide.
 const MOST_NOISE_SHARE: f64 = 0.8;
 /// The share of the accuracy goal at which interpolation leaves nothing for noise, since rays read its mean error,
-/// too.
-/// Between these ends the noise follows an ellipse. On the hall, CUBE and SPHERE, runs were measured to reach the
-/// accuracy in as many increments as are believed, or a few more.
+/// too. Between these ends the noise follows an ellipse. On the hall, CUBE and SPHERE, runs were measured to reach
+/// the accuracy in as many increments as are believed, or a few more.
 const ALONE: f64 = 0.6;
 /// The same share where the means of elements are measured.
 const ALONE_WITH_MEANS: f64 = 0.75;
 
 /// The ratio of the variance interpolated between three vertices, in the mean over an element, to that of the
-/// vertices:
-/// the integral of the summed squares of the hat functions over the area.
+/// vertices: the integral of the summed squares of the hat functions over the area.
 pub(crate) const OF_INTERPOLATED: f64 = 0.5;
 
 /// Order of convergence of nets: their error falls like this power of 1/n for n rays. Measured between 0.8 and 1.1 on
@@ -91,16 +89,14 @@ pub(crate) struct RayTrial {
 
 impl RayTrial {
     /// The result assumed before any trial: 2 % of the reference. Measured: 1.5 to 3.2 % of the light in CUBE, SPHERE
-    /// and
-    /// the hall.
+    /// and the hall.
     pub(crate) fn usual(reference_lx: f64) -> Self {
         Self { noise_lx: 0.02 * reference_lx, rays: RAYS, reference_lx }
     }
 
     /// A trial on some receivers, each with the surface it stands for, m2, for a run of `increments` increments that
-    /// is to
-    /// reach a target. Also returns the number of rays traced. A result of [`RayTrial::of_walls`] replaces the first
-    /// trial.
+    /// is to reach a target. Also returns the number of rays traced. A result of [`RayTrial::of_walls`] replaces the
+    /// first trial.
     pub(crate) fn of(
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
@@ -169,8 +165,7 @@ impl RayTrial {
     }
 
     /// The mean number of rays of receivers for which `increments` increments leave this relative noise, not rounded
-    /// to a
-    /// power of two.
+    /// to a power of two.
     pub(crate) fn wanted(self, noise: f64, reference_lx: f64, increments: u64) -> f64 {
         let noise_lx = self.noise_lx * (OF_INTERPOLATED / increments as f64).sqrt();
         let allowed_lx = noise * reference_lx;

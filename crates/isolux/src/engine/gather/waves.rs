@@ -32,8 +32,7 @@ const TOGETHER: u32 = 64;
 const SENT: u64 = 0x6272_6967_6874;
 
 /// The number of times a ray goes on from surfaces close by. In a corner half of the rays meet the other wall close
-/// by,
-/// and half of those the first again: with usual reflectances a hundredth of the light is left.
+/// by, and half of those the first again: with usual reflectances a hundredth of the light is left.
 const REGATHERED: u32 = 3;
 /// The number of times a ray goes on where nothing is known in the gap that it may still be in. Russian roulette ends
 /// most of them before.
@@ -360,8 +359,7 @@ impl Gathering<'_> {
     }
 
     /// The light found by one ray sent to a bright surface, lx: direct light from luminaires. Where other rays seldom
-    /// come,
-    /// the ray also adds an entry to the row, but not close by, where other rays go on.
+    /// come, the ray also adds an entry to the row, but not close by, where other rays go on.
     fn sent(
         &self,
         leg: &Leg,
@@ -501,8 +499,7 @@ impl Gathering<'_> {
     }
 
     /// Vertices and weights of a place, over the known vertices. For a ray that starts in a gap and may still be in
-    /// it, only
-    /// vertices in gaps count.
+    /// it, only vertices in gaps count.
     fn known(
         &self,
         corners: [(u32, f64); 3],

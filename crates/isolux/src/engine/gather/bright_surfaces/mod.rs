@@ -1,11 +1,12 @@
-//! Small surfaces that are lit far more than all others, as a ceiling is above a lamp that hangs below it.
+//! Small surfaces that are lit far more than all others, such as a ceiling close above a lamp.
 //!
-//! Rays that are spread over the hemisphere seldom meet them, and bring much light when they do: what few rays gather is mostly too
-//! little, and the same in all replicates, so that their spread tells nothing of it. Some rays are therefore sent there. Direct light that is
-//! reflected there is weighted between these and the others by the balance heuristic (Veach and Guibas 1995, "Optimally combining sampling
-//! techniques for Monte Carlo rendering"). Light that was reflected before is, in a housing, as much brighter than elsewhere, too, but even
-//! within: who sees much of it finds it with little noise by the others. Rays that are sent bring it where they come far more often, and the
-//! others where they do not (the cutoff heuristic there).
+//! Rays over the whole hemisphere seldom meet them and bring much light when they do. Few rays mostly gather too
+//! little, by the same amount in all replicates, so the spread does not show it. Some rays are therefore sent there.
+//! Reflected direct light is weighted between these and the other rays by the balance heuristic (Veach and Guibas
+//! 1995, "Optimally combining sampling techniques for Monte Carlo rendering"). Light of further reflections is
+//! brighter in a housing, too, but even within: a place that sees much of it finds it with little noise by the other
+//! rays. Sent rays bring it where they arrive far more often, the others elsewhere (the cutoff heuristic of that
+//! paper).
 
 mod patches;
 
@@ -20,26 +21,29 @@ use patches::{Patch, Patches, reflected_lm};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Bright is what reflects so many times as much direct light as surfaces do in the mean.
+/// The ratio of reflected direct light to its mean over all surfaces above which a surface is bright.
 const BRIGHT: f64 = 8.0;
 
-/// What is bright is divided into cubes of this share of its extent, larger ones if they were more than so many.
+/// The edge of the cubes that bright surfaces are divided into, as a share of their extent.
 const CUBE: f64 = 1.0 / 16.0;
+/// The largest number of cubes; with more, cubes are made larger.
 const MOST_CUBES: usize = 64;
 
-/// No more than this share as many rays are sent as there are others.
+/// The largest ratio of sent rays to other rays.
 const MOST_SENT: f64 = 0.5;
 
-/// Rays that are sent bring light that was reflected before from where they come as many times as often as others: as many as there is more of it.
+/// The ratio of densities of sent to other rays above which sent rays bring light of further reflections. It equals
+/// the ratio by which bright surfaces have more of it.
 const SENT_ALONE: f64 = BRIGHT;
 
-/// Bright surfaces.
+/// The bright surfaces of a scene.
 pub(crate) struct BrightSurfaces {
     parts: Vec<Part>,
     patches: Patches,
-    /// Of every patch, the part that it belongs to, and how likely a place there is to be drawn from it, 1/m2.
+    /// The part that each patch belongs to, and the density with which a place on the patch is drawn from the part,
+    /// 1/m2.
     of_patches: Vec<(usize, f64)>,
-    /// What all surfaces reflect of direct light in the mean, lx.
+    /// The direct light that all surfaces reflect in the mean, lx.
     mean_lx: f64,
 }
 
@@ -47,23 +51,23 @@ pub(crate) struct BrightSurfaces {
 struct Part {
     centre: Point,
     radius_m: f64,
-    /// Half of the box around them.
+    /// Half of the sides of their bounding box, m.
     half: Vector,
-    /// The way they face in the mean: the shorter, the less it says.
+    /// The mean direction that they face, weighted by flux; the shorter, the more the directions differ.
     facing: Vector,
-    /// Direct light that they reflect, lm.
+    /// The direct light that they reflect, lm.
     flux_lm: f64,
     patches: Vec<Patch>,
-    /// Running sums of what patches reflect, lm.
+    /// Running sums of the light that patches reflect, lm.
     sums_lm: Vec<f64>,
 }
 
-/// Where a place lies among what is bright.
+/// The position of a place among the bright surfaces.
 #[derive(Clone, Copy)]
 pub(crate) struct Spot {
-    /// The part.
+    /// The number of the part.
     part: usize,
-    /// How likely a place there is to be drawn from it, 1/m2.
+    /// The density with which the place is drawn from the part, 1/m2.
     density: f64,
 }
 
@@ -72,15 +76,16 @@ pub(crate) struct Seen<'b> {
     bright: &'b BrightSurfaces,
     origin: Point,
     axis: Normal,
-    /// Running sums of how likely parts are to be drawn.
+    /// Running sums of the weights with which parts are drawn, lx.
     sums: Vec<f64>,
-    /// Rays that are sent to them, and all others.
+    /// The number of rays sent to them.
     pub(crate) sent: u32,
+    /// The number of all other rays.
     others: u32,
 }
 
 impl BrightSurfaces {
-    /// What is bright, as particles of a seed tell, and how many those are; `None` where nothing is.
+    /// The bright surfaces found by particles of a seed, `None` if there are none, and the number of those particles.
     pub(crate) fn of(
         scene: &Scene,
         lighting: &Lighting<'_>,
@@ -126,7 +131,7 @@ impl BrightSurfaces {
         Some(Self { parts, patches, of_patches, mean_lx })
     }
 
-    /// As seen by so many rays from a place; `None` where none is worth sending.
+    /// The bright surfaces as seen from a place with `rays` rays; `None` where no ray is worth sending.
     pub(crate) fn seen_from(&self, origin: Point, axis: Normal, rays: u32) -> Option<Seen<'_>> {
         let mut sum_lx = 0.0;
         let expected = self.parts.iter().map(|part| part.expected_lx(origin, axis));
@@ -142,7 +147,7 @@ impl BrightSurfaces {
         (sent > 0).then_some(Seen { bright, origin, axis, sums, sent, others })
     }
 
-    /// The part that a place belongs to and how likely it is to be drawn from it, 1/m2; `None` where nothing is bright.
+    /// The part and density of a place; `None` where it is not bright.
     pub(crate) fn at(&self, place: &SurfacePoint) -> Option<Spot> {
         let (part, density) = self.of_patches[self.patches.at(place)?];
         Some(Spot { part, density })
@@ -176,7 +181,7 @@ impl Part {
         Self { centre, radius_m, half, facing, flux_lm, patches, sums_lm }
     }
 
-    /// The illuminance that it is expected to give at a place, without obstacles, lx.
+    /// The illuminance expected from the part at a place, without obstacles, lx.
     fn expected_lx(&self, from: Point, axis: Normal) -> f64 {
         let to = self.centre - from;
         let distance_m = to.length() + self.radius_m;
@@ -192,8 +197,9 @@ impl Part {
 }
 
 impl Seen<'_> {
-    /// A place to send a ray to from a triangle; `None` if that lies below the horizon, faces away, or has something before it: rays that come
-    /// there through glass are none of those that [`Seen::share`] weighs them with.
+    /// A random place to send a ray to; `triangle` is the one that the ray leaves. `None` if the place lies below the
+    /// horizon, faces away, or has something before it. Rays that arrive there through glass are none of those that
+    /// [`Seen::share`] weighs sent rays with.
     pub(crate) fn draw(
         &self,
         (scene, triangle): (&Scene, u32),
@@ -221,8 +227,8 @@ impl Seen<'_> {
         is_seen.then_some((place, Spot { part: number, density: reflected_lx / part.flux_lm }))
     }
 
-    /// What a ray of those sent there, or of the others, counts that has come straight to a place, as a share of what one of the
-    /// others would if none were sent: the same for both.
+    /// The weight of a ray that has come straight to a place, by the balance heuristic, as a share of that of one of
+    /// the other rays if none were sent. It is the same for sent and other rays.
     pub(crate) fn share(&self, spot: Spot, at: &SurfacePoint) -> f64 {
         let to = at.point - self.origin;
         let Some(direction) = to.direction() else { return 1.0 };
@@ -241,13 +247,14 @@ impl Seen<'_> {
     }
 }
 
-/// Of light that was reflected before, what counts of a ray of those sent, by [`Seen::share`] of direct light: nothing where the others bring it.
+/// The weight of a sent ray for light of further reflections, from the weight [`Seen::share`] of direct light; `None`
+/// where the other rays bring it.
 pub(crate) fn sent_alone(share: f64) -> Option<f64> {
     let of_others = share / (1.0 - share);
     (of_others * SENT_ALONE < 1.0).then_some(of_others)
 }
 
-/// Surface that may be lit, m2.
+/// The area of all surfaces that may be lit, m2.
 fn area_m2(scene: &Scene) -> f64 {
     let sides = |triangle: u32| {
         let carrying = [false, true].into_iter().filter(|&back| carries_map(scene, triangle, back));
@@ -257,7 +264,7 @@ fn area_m2(scene: &Scene) -> f64 {
     (0..count).map(|triangle| sides(triangle) * scene.triangle(triangle).area()).sum()
 }
 
-/// Patches by the cube of space that they lie in.
+/// Patches grouped by the cube of space that they lie in.
 fn divided(bright: &[Patch]) -> Vec<Vec<usize>> {
     let middle = |of: &Patch| of.corners[0].lerp(of.corners[1], 0.5).lerp(of.corners[2], 1.0 / 3.0);
     let extent_m = |k: usize| {
@@ -273,7 +280,7 @@ fn divided(bright: &[Patch]) -> Vec<Vec<usize>> {
             let cube = [0, 1, 2].map(|k| (at.component(k) / edge_m).floor() as i64);
             cubes.entry(cube).or_default().push(number);
         }
-        // What is left out would be as noisy as if nothing were sent there.
+        // All cubes are kept: light from a cube left out would be as noisy as if no rays were sent.
         if cubes.len() <= MOST_CUBES {
             return cubes.into_values().collect();
         }

@@ -1,7 +1,7 @@
-//! Patches of surfaces on which about equally many particles of light land: the smaller, the more there is.
+//! Patches of surfaces with about equally many particles each: the more light there is, the smaller the patches.
 //!
-//! Every side of a triangle on which particles land is bisected until few are left in a patch, whatever the elements of a map are:
-//! light as narrow as the gap before a lamp is told from what surrounds it.
+//! Every side of a triangle on which particles land is bisected until few are left in a patch, whatever the elements
+//! of a map. So light as narrow as the gap before a lamp is separated from its surroundings.
 
 use crate::engine::light::{BELIEVED, Landing, Sum};
 use crate::engine::ray::SurfacePoint;
@@ -10,64 +10,65 @@ use crate::units::Rgb;
 use isolux_geometry::Point;
 use std::collections::BTreeMap;
 
-/// Patches with more particles than this are bisected: what they tell of the density of light errs by a third.
+/// The number of particles above which a patch is bisected. The density of light in a patch of so few errs by a
+/// third.
 const FEW: usize = 8;
 
-/// None are shorter than so many bounds of rounding.
+/// The least length of the longest edge of a patch that is bisected, in rounding bounds of positions.
 const LEAST_EDGE: f64 = 4.0;
 
-/// No patch, or none below.
+/// The number that stands for no patch and for no node below.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A patch that is bisected, or not.
+/// A node of the bisection of a side.
 #[derive(Clone, Copy)]
 struct Node {
     /// The corner opposite to the edge that is bisected.
     corner: u8,
-    /// The first of the two halves, or none.
+    /// The first of the two halves, or [`NONE`].
     below: u32,
-    /// If there is none: number of the patch.
+    /// The number of the patch if the node has no halves, or [`NONE`].
     patch: u32,
 }
 
-/// A patch that is not bisected.
+/// A patch that is not bisected further.
 #[derive(Clone, Copy)]
 pub(super) struct Patch {
     pub(super) triangle: u32,
     pub(super) back: bool,
     pub(super) corners: [Point; 3],
     pub(super) area_m2: f64,
-    /// Direct light that is reflected there, lx.
+    /// The direct light that it reflects, lx.
     pub(super) reflected_lx: f64,
 }
 
-/// All patches on which there is more light than everywhere in the mean, and which one a place lies in.
+/// All patches that are brighter than a limit.
 pub(super) struct Patches {
-    /// Of every triangle of the scene, front and back, the first node.
+    /// The first node of the front and back of each triangle.
     roots: Vec<[u32; 2]>,
     nodes: Vec<Node>,
     pub(super) all: Vec<Patch>,
 }
 
-/// A particle and where it has landed, by the weights of the corners of its triangle.
+/// A particle, with the barycentric coordinates of the place where it has landed.
 #[derive(Clone, Copy)]
 struct Arrived {
     at: [f64; 2],
     reflected_lm: f64,
 }
 
-/// Part of a triangle, by the weights of its corners, and the particles there.
+/// A part of a triangle in barycentric coordinates, with the particles there.
 struct Part {
     node: u32,
     corners: [[f64; 2]; 3],
     area_m2: f64,
     arrived: Vec<Arrived>,
-    /// Whether it, or what it is part of, has so much light that it is no chance.
+    /// Whether the part, or one that contains it, is bright beyond chance.
     is_sure: bool,
 }
 
 impl Patches {
-    /// Where more light is reflected than so much, lx, and surely so.
+    /// The patches that reflect more than `least_lx`, beyond chance.
     pub(super) fn of(scene: &Scene, landed: &[Landing], least_lx: f64) -> Self {
         let mut sides: BTreeMap<(u32, bool), Vec<Arrived>> = BTreeMap::new();
         for of in landed {
@@ -85,7 +86,7 @@ impl Patches {
         patches
     }
 
-    /// The patch that a place lies in.
+    /// The number of the patch that a place lies in.
     pub(super) fn at(&self, place: &SurfacePoint) -> Option<usize> {
         let root = self.roots.get(place.triangle as usize)?[usize::from(place.back)];
         if root == NONE {
@@ -179,7 +180,7 @@ impl Part {
     }
 }
 
-/// What is reflected of the light of a particle, lm.
+/// The light of a particle that the surface reflects, lm.
 pub(super) fn reflected_lm(scene: &Scene, of: &Landing) -> f64 {
     let Landing { triangle, back, place: [u, v], flux_lm } = *of;
     let reflectance = scene.material(triangle).finish(back);
@@ -192,8 +193,8 @@ const fn around(corner: usize) -> [usize; 3] {
     [corner, (corner + 1) % 3, (corner + 2) % 3]
 }
 
-/// Which half of a triangle, bisected opposite to a corner, a place lies in; its weights become those of the corners of that half,
-/// in which the middle of the edge stands for the corner that it lacks.
+/// The number of the half that a place lies in, of a triangle bisected opposite to a corner. Its weights become those
+/// of the half's corners, where the middle of the edge replaces the missing corner.
 fn half(weights: &mut [f64; 3], corner: usize) -> usize {
     let [_, second, third] = around(corner);
     let half = usize::from(weights[second] < weights[third]);
@@ -203,7 +204,7 @@ fn half(weights: &mut [f64; 3], corner: usize) -> usize {
     half
 }
 
-/// Weights of the corners of a part of a triangle at a place.
+/// The weights at a place of the corners of a part of a triangle.
 fn weights_in([a, b, c]: [[f64; 2]; 3], [u, v]: [f64; 2]) -> [f64; 3] {
     let cross =
         |p: [f64; 2], q: [f64; 2]| (p[0] - a[0]) * (q[1] - a[1]) - (p[1] - a[1]) * (q[0] - a[0]);
@@ -212,7 +213,7 @@ fn weights_in([a, b, c]: [[f64; 2]; 3], [u, v]: [f64; 2]) -> [f64; 3] {
     [1.0 - second - third, second, third]
 }
 
-/// The corner opposite to the longest edge, and how long that is, m.
+/// The corner opposite to the longest edge, and the length of that edge, m.
 fn longest(corners: [Point; 3]) -> (usize, f64) {
     let edge_m = |corner: usize| {
         let [_, second, third] = around(corner);

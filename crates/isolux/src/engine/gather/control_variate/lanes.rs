@@ -1,17 +1,17 @@
-//! Numbers that are worked out side by side: no branches, so that vector instructions can.
+//! Numbers computed side by side without branches, so that vector instructions can be used.
 //!
-//! Functions are polynomials on the ranges that all numbers are brought to, interpolated at Chebyshev's nodes to less than the
-//! rounding of the numbers: they give the same bits wherever they run.
+//! Functions are polynomials on reduced ranges, interpolated at Chebyshev nodes to less than the rounding of `f64`.
+//! They give the same bits on every platform.
 
 use std::ops::{Add, Div, Mul, Sub};
 
-/// How many there are.
+/// The number of numbers side by side.
 pub(super) const LANES: usize = 8;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lanes(pub(super) [f64; LANES]);
 
-/// `atan(z) / z` by powers of `z^2`, up to the tangent of an eighth of a half circle.
+/// The coefficients of `atan(z) / z` in powers of `z^2`, for `z` up to the tangent of pi / 8.
 const ATAN: [f64; 11] = [
     1.0,
     -0.3333333333332844,
@@ -25,10 +25,13 @@ const ATAN: [f64; 11] = [
     -0.04348052215716462,
     0.021135373157693246,
 ];
+/// An eighth of pi.
 const EIGHTH: f64 = std::f64::consts::FRAC_PI_8;
+/// The tangent of pi / 8.
 const TAN_OF_EIGHTH: f64 = std::f64::consts::SQRT_2 - 1.0;
 
-/// `ln((1 + s) / (1 - s)) / s` by powers of `s^2`, where the ratio is no farther from one than by the root of two.
+/// The coefficients of `ln((1 + s) / (1 - s)) / s` in powers of `s^2`, for ratios between the root of 1/2 and the
+/// root of 2.
 const LN: [f64; 7] = [
     2.0000000000000004,
     0.6666666666655292,
@@ -39,7 +42,7 @@ const LN: [f64; 7] = [
     0.16837659970680488,
 ];
 
-/// `exp` up to half of the logarithm of two.
+/// The coefficients of `exp` in powers, for arguments up to half of `ln 2`.
 const EXP: [f64; 12] = [
     1.0,
     1.0,
@@ -55,11 +58,13 @@ const EXP: [f64; 12] = [
     2.511015364692893e-08,
 ];
 
-/// Numbers of this size have no digits after the point: what is added to one is rounded to whole numbers.
+/// A number so large that it has no digits after the point: a number added to it is rounded to an integer.
 const WHOLE: f64 = (3_u64 << 51) as f64;
-/// Bits of a number before those of its exponent; the exponent of one; the bits of the root of a half.
+/// The number of bits of the mantissa of an `f64`.
 const MANTISSA: u32 = 52;
+/// The bits of the number one.
 const ONE: u64 = 1.0_f64.to_bits();
+/// The bits of the root of 1/2.
 const ROOT_OF_HALF: u64 = std::f64::consts::FRAC_1_SQRT_2.to_bits();
 
 impl Lanes {
@@ -91,7 +96,7 @@ impl Lanes {
         self.0.iter().sum()
     }
 
-    /// By Horner's rule.
+    /// The polynomial with these coefficients, by Horner's rule.
     #[inline(always)]
     fn polynomial<const N: usize>(self, coefficients: &[f64; N]) -> Self {
         let mut value = Self::of(coefficients[N - 1]);
@@ -101,21 +106,21 @@ impl Lanes {
         value
     }
 
-    /// Of numbers that are not negative.
+    /// The arc tangent of numbers that are not negative.
     #[inline(always)]
     pub(super) fn atan(self) -> Self {
         let turned = self.map(|x| if x > 1.0 { 1.0 / x } else { x });
-        // Between minus and plus an eighth of a half circle.
+        // The angle whose tangent is `z` lies between -pi / 8 and pi / 8.
         let from_eighth = |z: f64| (z - TAN_OF_EIGHTH) / (1.0 + TAN_OF_EIGHTH * z);
         let z = turned.map(from_eighth);
         let angle = Self::of(EIGHTH) + z * (z * z).polynomial(&ATAN);
         self.with(angle, |x, angle| if x > 1.0 { 4.0 * EIGHTH - angle } else { angle })
     }
 
-    /// Of positive numbers as they usually are: neither infinite nor the very smallest.
+    /// The natural logarithm of positive, finite, normal numbers.
     #[inline(always)]
     pub(super) fn ln(self) -> Self {
-        // Twos in them, so that what is left is near one.
+        // The powers of two in them; the remaining factor is near one.
         let twos = self.map(|x| {
             let above = x.to_bits().wrapping_sub(ROOT_OF_HALF).wrapping_add(ONE) >> MANTISSA;
             f64::from_bits(WHOLE.to_bits() | above) - WHOLE - (ONE >> MANTISSA) as f64
@@ -128,7 +133,7 @@ impl Lanes {
         twos * Self::of(std::f64::consts::LN_2) + s * (s * s).polynomial(&LN)
     }
 
-    /// Of numbers up to a few hundred, of either sign.
+    /// The exponential function of numbers up to a few hundred in magnitude.
     #[inline(always)]
     pub(super) fn exp(self) -> Self {
         let rounded = self.map(|x| x * std::f64::consts::LOG2_E + WHOLE);
@@ -138,7 +143,7 @@ impl Lanes {
         left.polynomial(&EXP) * power
     }
 
-    /// The inverse of the hyperbolic sine.
+    /// The inverse hyperbolic sine.
     #[inline(always)]
     pub(super) fn asinh(self) -> Self {
         let size = self.map(f64::abs);
@@ -183,10 +188,10 @@ impl Div for Lanes {
 mod tests {
     use super::*;
 
-    /// A few roundings of numbers as large as those that come together.
+    /// The tolerance of the tests: a few roundings of `f64`.
     const ROUNDINGS: f64 = 1e-15;
 
-    /// Relative to the larger of the result and `size`.
+    /// Compares a function with `known`, with errors relative to the larger of the result and `size`.
     fn check(
         own: impl Fn(Lanes) -> Lanes,
         known: fn(f64) -> f64,
@@ -200,7 +205,7 @@ mod tests {
         }
     }
 
-    /// Powers of a number close to one, from very small to large ones.
+    /// A geometric sequence from 1e-9 to `most`.
     fn growing(most: f64) -> impl Iterator<Item = f64> {
         std::iter::successors(Some(1e-9), |x| Some(1.013 * x)).take_while(move |x| *x < most)
     }
@@ -212,7 +217,7 @@ mod tests {
         check(Lanes::ln, libm::log, one, growing(1e30).chain([1.0, 2.0, 0.5]));
         let signed = |most: f64| growing(most).flat_map(|x| [-x, x]).chain([0.0]);
         check(Lanes::asinh, libm::asinh, one, signed(1e9));
-        // The argument itself is rounded.
+        // The argument itself is rounded, which this size includes.
         let rounded = |x: f64| libm::exp(x) * (1.0 + x.abs());
         check(Lanes::exp, libm::exp, rounded, signed(24.0));
     }

@@ -1,8 +1,9 @@
-//! The walls of a room, as if nothing stood before them: a control variate of gathering.
+//! The walls of a room without obstacles: a control variate of gathering.
 //!
-//! What a place gathers from large plane surfaces whose light is a polynomial, with nothing between, has a closed form. What rays
-//! find of the same is known, too. Where most of what a place sees are walls, rays are as wrong about both, so that the difference of the two
-//! takes most of their noise off what they gather, whatever stands in the room: its mean is zero.
+//! The illuminance from large plane surfaces whose light is a polynomial, without obstacles, has a closed form. The
+//! estimate of this value by rays is known, too. Where a place mostly sees walls, both estimates of the rays have
+//! about the same error. Adding the difference of closed form and estimate removes most of the noise of gathering,
+//! whatever stands in the room: the mean of this difference is zero.
 
 mod lanes;
 mod planes;
@@ -19,31 +20,37 @@ use polynomial::{COUNT, Polynomial, View, powers};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-/// Walls at most: a room has six.
+/// The largest number of walls: a room has six.
 const MOST: usize = 8;
-/// Places of a wall each way whose light is asked for.
+/// The number of places of a wall along each side whose light is evaluated.
 const PLACES: usize = 16;
-/// A polynomial is held as if it were nothing at so many more places, in proportion: where few places are lit.
+/// The ridge term of the fit, relative to the weight of all places. It matters where few places are lit.
 const HELD: f64 = 1e-6;
-/// The share of all surface that has to see mostly walls, for which some places stand.
+/// The least share of the surface that has to see mostly walls.
 const CLEAR_SHARE: f64 = 0.3;
+/// The number of places that stand for the surface in this test.
 pub(crate) const SOME: usize = 64;
-/// What polynomials may leave out of direct light on walls: where they leave out more, as pools of many luminaires, they take no noise off.
+/// The largest share of the variation of direct light on walls that polynomials may leave out. Where they leave out
+/// more, as with pools of many luminaires, they remove no noise.
 pub(crate) const LEFT_OUT: f64 = 0.3;
-/// Noise that is left of what it is without walls, for which they are worth while.
+/// The largest share of the noise that walls may leave to be worth their cost.
 pub(crate) const WORTH: f64 = 0.7;
-/// Rays tell whether something stands before the walls; of so many so many have to come to them.
+/// The number of rays that test whether something stands before the walls.
 const TRIED: usize = 16;
+/// The number of these rays that have to reach the walls.
 const CLEAR: usize = 12;
+/// The Gauss rule for places along a side of a wall.
 static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::new(PLACES));
+/// The directions of the test rays.
 static DIRECTIONS: LazyLock<ShortRays<TRIED>> = LazyLock::new(|| ShortRays::of(Key::new(0)));
-/// How far a ray to a wall may end before or behind it, as a share of its length and the size of the wall.
+/// The distance before or behind a wall at which a ray still ends on it, relative to its length plus the size of the
+/// wall.
 const BESIDE: f64 = 1e-3;
-/// Walls are left out for places farther away from their middle than so many halves of their sides: the closed form loses its
-/// digits there.
+/// The distance from the middle of a wall, in half sides, beyond which the wall is left out. The closed form loses
+/// its digits there.
 const FAR: f64 = 24.0;
 
-/// Where rays start, about what they are distributed, and the triangle that they leave.
+/// The origin of rays, the axis of their distribution, and the triangle that they leave.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stand {
     pub(crate) origin: Point,
@@ -51,7 +58,7 @@ pub(crate) struct Stand {
     pub(crate) triangle: u32,
 }
 
-/// Walls and their light.
+/// The walls of a scene and their light.
 #[derive(Debug)]
 pub(crate) struct ControlVariate {
     walls: Vec<Wall>,
@@ -60,14 +67,15 @@ pub(crate) struct ControlVariate {
 #[derive(Debug)]
 struct Wall {
     rectangle: Rectangle,
-    /// What it reflects, lx, photometric, and its colour.
+    /// The light that it reflects, lx, photometric.
     light: Polynomial,
+    /// The colour of that light.
     tint: Rgb,
-    /// What it does at the places asked for, lx, photometric: nothing where that is not known.
+    /// The light that it reflects at the evaluated places, lx, photometric; `None` where it is not known.
     lit: Vec<Option<f64>>,
 }
 
-/// Integrals over walls: of light, of its square, and of the square of what is left of it.
+/// Integrals over walls: of light, of its square, and of the squared residual.
 #[derive(Default)]
 struct Moments {
     area_m2: f64,
@@ -84,7 +92,7 @@ impl Moments {
         self.left += m2 * left * left;
     }
 
-    /// The root mean square of what is left, as a share of that of the differences; all if there are none.
+    /// The root mean square of the residual, as a share of that of the variation of light; 1 if light does not vary.
     fn left_out(&self) -> f64 {
         let spread = self.squared - self.light * self.light / self.area_m2;
         if spread > 0.0 { (self.left / spread).sqrt() } else { 1.0 }
@@ -98,8 +106,8 @@ pub(crate) struct Seen<'a> {
 }
 
 impl ControlVariate {
-    /// The walls of a scene that has large plane surfaces, in the dark, if enough of these places, each with the surface that it stands
-    /// for, see them.
+    /// The walls of a scene with large plane surfaces, still dark, if enough of these places see them. Each place
+    /// comes with the surface that it stands for, m2.
     pub(crate) fn seen_by(
         scene: &Scene,
         places: impl Iterator<Item = (Stand, f64)>,
@@ -108,7 +116,7 @@ impl ControlVariate {
         Self::of(scene).filter(|walls| walls.share_of_clear(scene, &places) >= CLEAR_SHARE)
     }
 
-    /// The same, whoever sees them.
+    /// The walls of a scene with large plane surfaces, still dark, whether places see them or not.
     pub(crate) fn of(scene: &Scene) -> Option<Self> {
         let dark = |rectangle: Rectangle| {
             let light = Polynomial([0.0; COUNT]);
@@ -120,8 +128,8 @@ impl ControlVariate {
         (!walls.is_empty()).then_some(Self { walls })
     }
 
-    /// Takes down their light: `light_at` tells what comes to a place of them, if that is known. Returns what of its differences from
-    /// place to place that leaves out, root mean square.
+    /// Fits the light of the walls; `light_at` is the illuminance of a place, if known. Returns the share of the
+    /// variation of light that the fit leaves out, root mean square.
     pub(crate) fn see(
         &mut self,
         scene: &Scene,
@@ -138,8 +146,8 @@ impl ControlVariate {
         all.left_out()
     }
 
-    /// What it leaves out of the differences between some places, likewise: of each, its surface, m2, and what is reflected there, lx.
-    /// Those that do not lie on walls do not count.
+    /// The share of the variation between some places that the fit leaves out, root mean square. Each place has its
+    /// surface, m2, and the light reflected there, lx. Places off the walls do not count.
     pub(crate) fn leaves_out(&self, places: impl Iterator<Item = (Stand, f64, f64)>) -> f64 {
         let mut all = Moments::default();
         for (of, m2, light) in places {
@@ -150,7 +158,7 @@ impl ControlVariate {
         all.left_out()
     }
 
-    /// Of the surface that some places stand for, the share that sees mostly walls.
+    /// The share of the surface that the places stand for which sees mostly walls.
     fn share_of_clear(&self, scene: &Scene, places: &[(Stand, f64)]) -> f64 {
         let is_clear = |(of, _): &(Stand, f64)| Self::is_clear(scene, of, &self.seen_from(of));
         let clear: Vec<bool> = places.par_iter().map(is_clear).collect();
@@ -160,7 +168,7 @@ impl ControlVariate {
         if all_m2 > 0.0 { clear_m2 / all_m2 } else { 0.0 }
     }
 
-    /// What a place gets from it if nothing is between; nothing where too much is.
+    /// The illuminance of a place from the walls without obstacles, lx; `None` where obstacles hide too much.
     pub(crate) fn behind(&self, scene: &Scene, of: &Stand) -> Option<Rgb> {
         let seen = self.seen_from(of);
         if seen.is_empty() || !Self::is_clear(scene, of, &seen) {
@@ -174,9 +182,9 @@ impl ControlVariate {
         self.walls.iter().filter_map(|wall| Seen::from(of, wall)).collect()
     }
 
-    /// Whether enough rays come to the walls, and as large a share of their light; and whether polynomials tell the light there. A bright
-    /// part that something hides, or one that the polynomial alone has, would add more noise than all others take off; and what
-    /// noise makes of light is bounded, which makes light.
+    /// Whether enough rays, and as large a share of the light, reach the walls, and whether polynomials tell the
+    /// light there. A bright part that is hidden, or that only the polynomial has, would add more noise than all
+    /// others remove. The bound on noisy light then adds light.
     fn is_clear(scene: &Scene, of: &Stand, seen: &[Seen<'_>]) -> bool {
         let ray = |k: usize| DIRECTIONS.ray(k, (of.origin, of.normal, of.triangle));
         let met = DIRECTIONS.met(scene, ray);
@@ -191,7 +199,7 @@ impl ControlVariate {
             let mut along = seen.iter().filter_map(far);
             let Some((far_m, size_m)) = along.next() else { continue };
             let is_at = |other_m: f64| (other_m - far_m).abs() <= BESIDE * (far_m + size_m);
-            // A wall that another stands before is not seen.
+            // A wall behind another one is not seen.
             let comes_there = along.all(|(other_m, _)| is_at(other_m))
                 && met.is_some_and(|hit| is_at(f64::from(hit.t)));
             if comes_there {
@@ -208,14 +216,14 @@ impl ControlVariate {
     }
 }
 
-/// What is to be added to what rays find for what they find of the walls.
+/// The negative sum of the walls' light that the rays find, lx, to be added to their estimate.
 pub(crate) fn lacking(walls: &[Seen<'_>], directions: &[Direction]) -> Rgb {
     let found = walls.iter().flat_map(|wall| directions.iter().filter_map(|&d| wall.light(d)));
     found.fold(Rgb::BLACK, |lacking, light| lacking - light)
 }
 
 impl Wall {
-    /// Finds the polynomial that comes nearest to the light of its places.
+    /// Fits the polynomial to the light of the wall's places.
     fn see(
         &mut self,
         scene: &Scene,
@@ -253,7 +261,7 @@ impl Wall {
         moments
     }
 
-    /// Its light at a place on it; nothing of one elsewhere.
+    /// The fitted light at a place on the wall; `None` for a place elsewhere.
     fn tells(&self, of: &Stand) -> Option<f64> {
         let Rectangle { middle, axes, half_m } = &self.rectangle;
         let to = of.origin - *middle;
@@ -279,7 +287,7 @@ impl<'a> Seen<'a> {
         is_before.then_some(Self { wall, view })
     }
 
-    /// Half of the shorter side of the wall.
+    /// Half of the shorter side of the wall, m.
     fn size_m(&self) -> f64 {
         let [a, b] = self.wall.rectangle.half_m;
         a.min(b)
@@ -290,7 +298,7 @@ impl<'a> Seen<'a> {
         *tint * light.illuminance(rectangle.half_m, &self.view)
     }
 
-    /// Where a ray comes to it: how far away, m, and the place.
+    /// The distance at which a ray meets the wall, m, and the place.
     fn at(&self, direction: Direction) -> Option<(f64, [f64; 2])> {
         let Rectangle { axes, half_m, .. } = &self.wall.rectangle;
         let direction = direction.to_vector();
@@ -304,8 +312,8 @@ impl<'a> Seen<'a> {
         (place[0].abs() <= 1.0 && place[1].abs() <= 1.0).then_some((far_m, place))
     }
 
-    /// The least light that is known of the four places asked for about where a ray comes to it, and what is told of that: what stands on
-    /// the wall may hide others.
+    /// The least known light of the four evaluated places around the end of a ray, and the fitted light there. The
+    /// others may be hidden by objects on the wall.
     fn lit_and_told(&self, direction: Direction) -> Option<[f64; 2]> {
         let (_, place) = self.at(direction)?;
         let [x, y] = place.map(|c| {
@@ -325,7 +333,7 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// Normal equations of a polynomial.
+/// The normal equations of the fit.
 struct Sums {
     products: [[f64; COUNT]; COUNT],
     values: [f64; COUNT],
@@ -347,7 +355,7 @@ impl Sums {
         }
     }
 
-    /// By Cholesky's method; `None` without any place.
+    /// The coefficients by Cholesky's method; `None` without any place.
     fn solved(mut self) -> Option<[f64; COUNT]> {
         let held = HELD * self.products[0][0];
         let rows = &mut self.products;

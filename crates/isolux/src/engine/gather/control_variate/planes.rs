@@ -7,39 +7,42 @@ use crate::scene::Scene;
 use isolux_geometry::{Point, Ray, Triangle, Vector};
 use std::collections::HashMap;
 
-/// Rectangles at most: a room has six walls, each with two sides.
+/// The largest number of rectangles: a room has six walls, each with two sides.
 const MOST: usize = 16;
-/// Each has this share of all surface, and of itself, at least.
+/// The least share of all surface that a rectangle has.
 const LEAST_SHARE: f64 = 0.02;
+/// The least share of a rectangle that the surface fills.
 const LEAST_FILLED: f64 = 0.5;
-/// Triangles lie in one plane if their normals agree so far, and their distances from the origin, as a share of the size of the scene.
+/// The tolerance for triangles of one plane: on components of normals, and on distances as a share of the size of the
+/// scene.
 const ALIKE: f64 = 1e-4;
-/// From how far before it a place of a rectangle is looked for, as a share of its size.
+/// The distance before a rectangle from which its surface is looked for, as a share of its size.
 const BEFORE: f64 = 1e-3;
 /// A rectangle that faces the room.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rectangle {
     pub(super) middle: Point,
-    /// Along its sides, and the normal.
+    /// The directions of its sides, and its normal.
     pub(super) axes: [Vector; 3],
-    /// Half of its sides.
+    /// Half of its sides, m.
     pub(super) half_m: [f64; 2],
 }
 
-/// Planes that are kept apart at most, and triangles of one that tell by their edges how it lies.
+/// The largest number of planes that are kept apart.
 const MOST_PLANES: usize = 1 << 16;
+/// The number of triangles of a plane whose edges are tried as directions of its sides.
 const TELLING: usize = 8;
 
-/// Which plane, roughly: its normal, and how far it is from a place.
+/// The rounded normal of a plane and its distance from a point.
 type Key = [i32; 4];
 
-/// Triangles in one plane.
+/// The triangles of one plane.
 struct Plane {
     normal: Vector,
     triangles: Vec<Triangle>,
 }
 
-/// The largest plane surfaces that carry a map, as the rectangles about them, as long as they fill these.
+/// The largest plane surfaces that carry a map, as bounding rectangles that they fill well enough.
 pub(super) fn largest(scene: &Scene) -> Vec<Rectangle> {
     let Some((low, high)) = scene.bvh().mesh().bounds() else { return Vec::new() };
     let of = (low, (high - low).length());
@@ -72,7 +75,7 @@ pub(super) fn largest(scene: &Scene) -> Vec<Rectangle> {
     planes.iter().flatten().zip(areas_m2).filter_map(|(plane, m2)| plane.rectangle(m2)).collect()
 }
 
-/// In which plane a side of a triangle lies, the normal of that, and where.
+/// The key of the plane of a side of a triangle, the normal, and the triangle.
 fn plane_of(
     triangle: Triangle,
     back: bool,
@@ -87,7 +90,7 @@ fn plane_of(
 }
 
 impl Plane {
-    /// The smallest rectangle about it with sides along some edge, if so much surface fills it.
+    /// The smallest bounding rectangle with sides along some edge, if the surface fills enough of it.
     fn rectangle(&self, area_m2: f64) -> Option<Rectangle> {
         let every = self.triangles.len().div_ceil(TELLING).max(1);
         let edges = self.triangles.iter().step_by(every).flat_map(|t| {
@@ -116,11 +119,11 @@ impl Plane {
     }
 }
 
-/// Rays that tell whether a rectangle faces anything: the inner side of a wall does.
+/// The number of rays that test whether a rectangle faces anything, as the inner side of a wall does.
 const FACING: u32 = 16;
 
 impl Rectangle {
-    /// Whether rays from all over it mostly meet something.
+    /// Whether more than half of the rays from all over it meet something.
     pub(super) fn faces_something(&self, scene: &Scene) -> bool {
         let sequence = Sequence::new(sampling::Key::new(0));
         let Some(axis) = self.axes[2].direction() else { return false };
@@ -134,7 +137,7 @@ impl Rectangle {
         2 * (0..FACING).filter(meets).count() as u32 > FACING
     }
 
-    /// The place of a surface there, if there is one.
+    /// The surface point at a place of the rectangle, if there is a surface.
     pub(super) fn surface(&self, scene: &Scene, [x, y]: [f64; 2]) -> Option<SurfacePoint> {
         let at =
             self.middle + self.axes[0] * (x * self.half_m[0]) + self.axes[1] * (y * self.half_m[1]);

@@ -1,4 +1,4 @@
-//! Polynomials over a rectangle, and the light that a place gets from a surface that is as bright as one tells.
+//! Polynomials over a rectangle, and the illuminance from a surface whose light is a polynomial.
 
 use super::lanes::{LANES, Lanes};
 use crate::quadrature::GaussRule;
@@ -6,41 +6,43 @@ use isolux_geometry::{Vector, Vectorized, with_vectors};
 use std::f64::consts::FRAC_1_PI;
 use std::sync::OnceLock;
 
-/// The highest power. On CUBE, whose walls are five times as bright in the middle as in a corner, polynomials of degree
-/// 0, 2, 4, 6 leave 26, 7.7, 2.3, 0.7 % of the light; nets of 64 rays then err by 1.3, 0.56, 0.19, 0.06 %.
+/// The highest degree. On CUBE, whose walls are five times as bright in the middle as in a corner, polynomials of
+/// degree 0, 2, 4, 6 leave 26, 7.7, 2.3, 0.7 % of the light; nets of 64 rays then err by 1.3, 0.56, 0.19, 0.06 %.
 pub(super) const DEGREE: usize = 6;
-/// Coefficients of a polynomial in two unknowns.
+/// The number of coefficients of a polynomial in two variables.
 pub(super) const COUNT: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
-/// Functions of an angle are integrated at so many places, and so many more for every unit of the variable.
+/// The least number of nodes of an integral along an edge.
 const FEWEST_NODES: f64 = 3.0;
+/// The number of further nodes for each unit of the variable.
 const NODES_A_UNIT: f64 = 1.0;
+/// The largest number of nodes of such an integral.
 const MOST_NODES: usize = 51;
-/// Nodes of a rectangle as it is usually seen.
+/// The number of nodes of a rectangle as it is usually seen.
 const USUAL_NODES: usize = 32;
-/// Variables beyond this hold nothing.
+/// The limit of the variable of integration; the integrand vanishes beyond it.
 const FAR: f64 = 24.0;
 
-/// A polynomial in two unknowns that go from -1 to 1: coefficients of `x^i y^k`, by `i`, then `k`.
+/// A polynomial in two variables from -1 to 1: the coefficients of `x^i y^k`, ordered by `i`, then `k`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polynomial(pub(super) [f64; COUNT]);
 
-/// The light of a surface element in a plane, seen from a place beside the plane.
+/// The position and normal of a place relative to a plane.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
-    /// How far the place is from the plane, m.
+    /// The distance of the place from the plane, m.
     pub(super) height_m: f64,
-    /// The point of the plane nearest to it, m along its two axes from the middle of the rectangle.
+    /// The foot of the place: the nearest point of the plane, m along its two axes from the middle of the rectangle.
     pub(super) foot_m: [f64; 2],
-    /// The normal of the place along both, and along that of the plane.
+    /// The normal of the place in the two axes and the normal of the plane.
     pub(super) normal: [f64; 3],
 }
 
-/// Where the coefficient of `x^i` and `y^0` is.
+/// The index of the coefficient of `x^i y^0`.
 const fn first(i: usize) -> usize {
     i * (DEGREE + 1) - i * i.saturating_sub(1) / 2
 }
 
-/// The powers in their order, times what is given.
+/// All powers `x^i y^k` in the order of the coefficients.
 pub(super) fn powers([x, y]: [f64; 2]) -> [f64; COUNT] {
     let mut powers = [0.0; COUNT];
     let mut of_x = 1.0;
@@ -56,7 +58,7 @@ pub(super) fn powers([x, y]: [f64; 2]) -> [f64; COUNT] {
 }
 
 impl Polynomial {
-    /// By Horner's rule, twice.
+    /// The value at a place, by Horner's rule in both variables.
     pub(super) fn at(&self, [x, y]: [f64; 2]) -> f64 {
         let mut value = 0.0;
         for i in (0..=DEGREE).rev() {
@@ -66,7 +68,7 @@ impl Polynomial {
         value
     }
 
-    /// The same function of what the unknowns are more than these.
+    /// The polynomial with its origin shifted to a place.
     fn about(&self, [x, y]: [f64; 2]) -> Self {
         let mut shifted = *self;
         for i in 0..=DEGREE {
@@ -87,7 +89,7 @@ impl Polynomial {
         shifted
     }
 
-    /// Its parts of every degree in some directions.
+    /// The homogeneous parts of each degree in some directions.
     #[inline(always)]
     fn parts(&self, x: Lanes, y: Lanes) -> [Lanes; DEGREE + 1] {
         let mut of_y = [Lanes::of(1.0); DEGREE + 1];
@@ -105,11 +107,12 @@ impl Polynomial {
         parts
     }
 
-    /// Illuminance from a rectangle of these half sides, m, whose radiosity this is, at a place that nothing hides it from.
+    /// The illuminance from a rectangle with these half sides, m, whose radiosity is the polynomial, without
+    /// obstacles.
     ///
-    /// In polar coordinates about the foot of the place the integral over the radius has a closed form. That over the angle
-    /// goes along the edges of the part of the rectangle above the horizon: at `x = d sinh w` on an edge that is `d` away
-    /// the angle grows by `dw / cosh w`, and the rest is smooth in `w`.
+    /// In polar coordinates about the foot of the place the integral over the radius has a closed form. The integral
+    /// over the angle runs along the edges of the part of the rectangle above the horizon. At `x = d sinh w` on an
+    /// edge at distance `d` the angle grows by `dw / cosh w`, and the rest is smooth in `w`.
     pub(super) fn illuminance(&self, half_m: [f64; 2], view: &View) -> f64 {
         let about = self.about([0, 1].map(|k| view.foot_m[k] / half_m[k]));
         let corners = &view.above_horizon(half_m);
@@ -119,11 +122,11 @@ impl Polynomial {
 
 /// A rectangle as seen from a place.
 struct OfRectangle<'a> {
-    /// By what the unknowns are more than at the foot.
+    /// The polynomial with its origin at the foot.
     light: &'a Polynomial,
     half_m: [f64; 2],
     view: &'a View,
-    /// Of the part above the horizon.
+    /// The corners of the part above the horizon.
     corners: &'a [[f64; 2]],
 }
 
@@ -141,17 +144,18 @@ impl Vectorized for OfRectangle<'_> {
     }
 }
 
-/// An edge of a polygon about the foot.
+/// An edge of a polygon, relative to the foot.
 #[derive(Clone, Copy, Default)]
 struct Edge {
-    /// Of length one: from the foot to the nearest place of its line, and along it.
+    /// The unit vector from the foot to the nearest point of the edge's line.
     out: [f64; 2],
+    /// The unit vector along the edge.
     along: [f64; 2],
-    /// How far that place is, m.
+    /// The distance of that line from the foot, m.
     away_m: f64,
 }
 
-/// A part of the angle that an edge is seen under: where on the edge, and how much it counts.
+/// A node of the integral over the angle: an edge, the variable there, and the weight.
 #[derive(Clone, Copy, Default)]
 struct Node {
     edge: Edge,
@@ -159,7 +163,7 @@ struct Node {
     weight: f64,
 }
 
-/// The angles that the edges are seen under from the foot, in parts.
+/// The nodes of the integral over the angles of all edges as seen from the foot.
 #[inline(always)]
 fn along_edges(corners: &[[f64; 2]]) -> Vec<Node> {
     let mut edges = [(Edge::default(), 0.0); LANES];
@@ -184,14 +188,14 @@ fn along_edges(corners: &[[f64; 2]]) -> Vec<Node> {
 }
 
 impl Edge {
-    /// The edge between two corners, and whether its angle is to be added (1) or taken off (-1). An edge through the foot is seen under
-    /// no angle.
+    /// The edge between two corners, and the sign of its angle: 1 or -1. `None` for an edge through the foot, which
+    /// spans no angle.
     #[inline(always)]
     fn between(from: [f64; 2], to: [f64; 2]) -> Option<(Self, f64)> {
         let side = [to[0] - from[0], to[1] - from[1]];
         let length = (side[0] * side[0] + side[1] * side[1]).sqrt();
         let along = side.map(|s| s / length);
-        // To the right of an edge that goes round to the left.
+        // Edges run counterclockwise, and this vector points to their right.
         let out = [along[1], -along[0]];
         let apart = from[0] * out[0] + from[1] * out[1];
         let (away_m, sign) = (apart.abs(), apart.signum());
@@ -200,7 +204,7 @@ impl Edge {
         is_seen.then_some((edge, sign))
     }
 
-    /// Where along it a place is, from the nearest to the foot, in distances of that.
+    /// The position of a place along the edge from the point nearest to the foot, in distances of that point.
     #[inline(always)]
     fn place(&self, at: [f64; 2]) -> f64 {
         (at[0] * self.along[0] + at[1] * self.along[1]) / self.away_m
@@ -208,7 +212,7 @@ impl Edge {
 }
 
 impl View {
-    /// The part of a rectangle about the middle that the place may see, its corners from the foot, m, round to the left.
+    /// The corners of the part of a rectangle that the place may see, relative to the foot, m, counterclockwise.
     fn above_horizon(&self, half_m: [f64; 2]) -> Vec<[f64; 2]> {
         let [a, b] = half_m;
         let corners = [[-a, -b], [a, -b], [a, b], [-a, b]]
@@ -230,7 +234,7 @@ impl View {
         seen
     }
 
-    /// The integrals over the radius in some directions of the plane.
+    /// The sum over nodes of the integrals over the radius.
     #[inline(always)]
     fn along_radii(&self, half_m: [f64; 2], some: &[Node], about: &Polynomial) -> f64 {
         let mut nodes = [Node::default(); LANES];
@@ -259,7 +263,7 @@ impl View {
         (sum * over_cosh * lanes(&nodes, |node| node.weight)).sum()
     }
 
-    /// Of a place and the axes of a plane through a point, the third its normal.
+    /// The view of a place relative to a plane; the third axis is the plane's normal.
     pub(super) fn new(from_middle: Vector, normal: Vector, axes: &[Vector; 3]) -> Self {
         Self {
             height_m: from_middle.dot(axes[2]),
@@ -269,7 +273,7 @@ impl View {
     }
 }
 
-/// One over every number but zero.
+/// The inverse of each number; entry zero is not used.
 const INVERSE: [f64; DEGREE + 2] = {
     let mut inverse = [0.0; DEGREE + 2];
     let mut k = 1;
@@ -280,7 +284,7 @@ const INVERSE: [f64; DEGREE + 2] = {
     inverse
 };
 
-/// A number of every node.
+/// A value of each node.
 #[inline(always)]
 fn lanes(nodes: &[Node; LANES], of: impl Fn(&Node) -> f64) -> Lanes {
     let mut all = Lanes::of(0.0);
@@ -290,7 +294,7 @@ fn lanes(nodes: &[Node; LANES], of: impl Fn(&Node) -> f64) -> Lanes {
     all
 }
 
-/// The integrals of `u^k / (1 + u^2)^2` from zero, by `k`.
+/// The integrals of `u^k / (1 + u^2)^2` from zero to `to`, by `k`.
 #[inline(always)]
 fn radial(to: Lanes) -> [Lanes; DEGREE + 3] {
     let squared = to * to;
@@ -316,14 +320,14 @@ fn rule_of(nodes: usize) -> &'static GaussRule {
     RULES[nodes].get_or_init(|| GaussRule::new(nodes))
 }
 
-/// By their number of nodes, each made when it is first needed.
+/// The Gauss rules by number of nodes, each made on first use.
 static RULES: [OnceLock<GaussRule>; MOST_NODES + 1] = [const { OnceLock::new() }; MOST_NODES + 1];
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// What panels that small leave out.
+    /// The relative error of the sum over panels.
     const BY_PANELS: f64 = 2e-5;
 
     fn some() -> Polynomial {
