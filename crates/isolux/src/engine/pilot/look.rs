@@ -1,104 +1,113 @@
-//! What a round of the pilot sees, and whether that is good enough.
+//! The survey of a round: elements with their interpolation errors, and the goals of these errors.
 
 use crate::ablation::without;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::mesh::{EdgeFalloffs, LeafError, TrustLevels, WorstElements, trust};
 
-/// The part of the accuracy asked for that interpolating indirect light may take.
+/// The allowed interpolation error of indirect light, as a share of the accuracy goal.
 const DISCRETIZATION_SHARE: f64 = 0.5;
-/// The part of the area whose elements may stay coarse, as readers gather afresh there; and what it
-/// may be where refinement comes to nothing.
+/// The share of the area whose elements may stay coarse. Readers gather afresh there.
 const FRESH_SHARE: f64 = 0.1;
+/// The same share where refinement makes no progress.
 const MOST_FRESH: f64 = 0.5;
-/// What all elements may err by, in accuracies asked for: rays read them all, but in the mean over many. Measured
-/// on CUBE: at 3 the bias at its edges takes half of the accuracy, at 1 a third more elements bring nothing.
+/// The allowed interpolation error of all elements, in accuracy goals. Rays read all of them, but as a mean over
+/// many. Measured on CUBE: at 3 the bias at its edges takes half of the accuracy; at 1 a third more elements
+/// bring nothing.
 const BARE: f64 = 2.0;
-/// The same where their means are measured, or light is resolved towards walls.
+/// The same error where increments measure means of elements, or light is resolved towards walls.
 const BARE_WITH_MEANS: f64 = 6.0;
-/// What elements may err by that dim places see, in accuracies asked for: it is read in the mean over many, but reflected again and again.
+/// The allowed interpolation error of elements that dim places see, in accuracy goals. Rays read it as a mean
+/// over many elements, but it is reflected repeatedly.
 const SEEN_FROM_DIM: f64 = 3.0;
-/// Means are measured where what beset elements lack in the mean over the surface is more than this, in accuracies
-/// asked for: soon in empty rooms, late among furniture, whose shadows and hollows balance.
+/// The mean error of elements with objects close before them from which increments measure means of elements, in
+/// accuracy goals. It is high among furniture, where the errors of shadows and hollows balance.
 const MEANS_FROM: f64 = 0.5;
+/// The same mean error where light is smooth, as in empty rooms.
 const MEANS_FROM_IF_SMOOTH: f64 = 0.15;
 
-/// Light of which a fit leaves less than this is smooth: empty rooms leave 0.4 to 0.55 of the error of interpolation, furnished
-/// ones 0.8 and more.
+/// The share of the interpolation error that a fit leaves, below which light counts as smooth. The share is 0.4
+/// to 0.55 in empty rooms, 0.8 and more in furnished ones.
 const SMOOTH: f64 = 0.7;
-/// What quadratic functions leave of the error of linear ones there.
+/// The error of quadratic functions on smooth light, as a share of that of linear ones.
 const LEFT_BY_SMOOTHING: f64 = 0.5;
-/// Vertices made so at most where direct light has noise: each then takes up to half a millisecond for its direct light alone.
+/// The largest number of vertices of such a mesh where direct light has noise. Each takes up to half a millisecond
+/// then for its direct light alone.
 const MOST_SMOOTHED_IF_NOISY: usize = 12_000;
 
-/// What functions that fall off towards walls leave of the error of linear ones, along the edges of CUBE, beside what is left elsewhere.
+/// The error of functions that fall off towards walls, as a share of that of linear ones. Measured along the edges
+/// of CUBE, on top of the share left elsewhere.
 const LEFT_AT_WALLS: f64 = 0.5;
 
-/// What is asked of the pilot.
+/// The request to the pilot: accuracies and limits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PilotRequest {
+    /// The relative accuracy that the elements are made for.
     pub(crate) target: f64,
-    /// Accuracy asked for, however much finer elements have to become.
+    /// The accuracy goal of the run, even if elements have to be made for a finer one.
     pub(crate) goal: f64,
+    /// The relative accuracy goal of the stored (interpolated) map.
     pub(crate) mesh_target: f64,
     pub(crate) seed: u64,
     /// Whether the map will be fitted to the light over elements.
     pub(crate) is_fitted: bool,
-    /// Whether increments measure means of elements and gather for the bare map, and smooth walls are interpolated for them.
+    /// Whether increments measure means of elements, gather for the stored map and interpolate over smooth walls.
     pub(crate) has_means: bool,
-    /// Whether elements become finer for caustics: radiosity would shoot all of them.
+    /// Whether elements are refined for caustics. Radiosity does not: it would shoot all of them.
     pub(crate) refines_caustics: bool,
     pub(crate) max_vertices: usize,
-    /// Set by hand: vertices for indirect light at most, and the shortest edge, m.
+    /// The largest number of vertices for indirect light, if set by hand.
     pub(crate) most_for_indirect_light: Option<usize>,
+    /// The shortest edge that is bisected, m, if set by hand.
     pub(crate) least_edge_m: Option<f64>,
 }
 
-/// What errors count by.
+/// The weights of errors, by the light of their surroundings.
 #[derive(Debug, Default)]
 pub(crate) struct Surroundings {
-    /// How much they count at the vertices so far: there, for who sees them from where it is dim, and there if that is a room.
+    /// The weights of errors by vertex so far: at the place itself, for dim places that see it, and at the place
+    /// itself if it lies in a room.
     pub(crate) weights: Vec<[f64; 3]>,
-    /// Surface where it is dim, m2.
+    /// The area of dim surfaces, m2.
     pub(crate) dim_m2: f64,
 }
 
-/// What a round of the pilot sees.
+/// The survey of a round of the pilot.
 pub(crate) struct Survey {
     pub(crate) elements: Elements,
-    /// That carry indirect light.
+    /// The number of vertices that carry indirect light.
     pub(crate) carriers: usize,
     pub(crate) errors: Vec<LeafError>,
-    /// Where surfaces end before walls, if light is smooth.
+    /// The places where surfaces end at walls, if light is smooth.
     pub(crate) walls: EdgeFalloffs,
-    /// Those that are not beset, worst first.
+    /// The elements without objects close before them, worst first.
     pub(crate) worst: WorstElements,
-    /// Share of them that a fit leaves.
+    /// The share of the errors that a fit leaves.
     pub(crate) left_by_fit: f64,
     pub(crate) reference_lx: f64,
-    /// Surface where it is dim, m2.
+    /// The area of dim surfaces, m2.
     pub(crate) dim_m2: f64,
     /// Whether direct light at a vertex has noise, and so costs much.
     pub(crate) is_noisy: bool,
 }
 
-/// What elements are read for.
+/// The kind of reading that elements serve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReadFor {
-    /// By readers that interpolate.
+    /// Readers that interpolate.
     Trusted,
-    /// By rays, and with the bare map.
+    /// Rays, and viewers of the stored map.
     All,
-    /// By rays from dim places, for which errors count by the light there.
+    /// Rays from dim places; errors are weighted by the light at these.
     FromDim,
 }
 
 impl ReadFor {
-    /// By whom gathered maps are read, in the order in which elements are refined for them.
+    /// All kinds for gathered maps, in the order in which elements are refined for them.
     pub(crate) const EVERY: [Self; 3] = [Self::FromDim, Self::Trusted, Self::All];
 }
 
 impl Survey {
-    /// The elements that are read so, if their error is more than it should be, and how many times it is.
+    /// The elements for one kind of reading and the ratio of their error to its goal; `None` up to a ratio of one.
     pub(crate) fn excess(
         &self,
         what: ReadFor,
@@ -110,7 +119,7 @@ impl Survey {
         Some((self.errors.iter().filter(|e| is_read(e)).map(counted).collect(), excess))
     }
 
-    /// The most by which errors exceed what they should be, if they do, for whatever elements are read.
+    /// The largest ratio of error to goal over all kinds of reading, at least one.
     pub(crate) fn greatest_excess(&self, request: &PilotRequest) -> f64 {
         ReadFor::EVERY
             .into_iter()
@@ -118,7 +127,7 @@ impl Survey {
             .fold(1.0, f64::max)
     }
 
-    /// Finds how often elements are to be halved towards walls, and what that leaves of their errors.
+    /// Finds how often elements are to be halved towards walls, and reduces their errors accordingly.
     pub(crate) fn resolve(
         &mut self,
         mut walls: EdgeFalloffs,
@@ -153,7 +162,7 @@ impl Survey {
         }
     }
 
-    /// In which strip before a wall vertices lie, where light is resolved towards them.
+    /// The number of the strip before a wall, by vertex, where light is resolved towards walls.
     pub(crate) fn strips(&self) -> Vec<u8> {
         let close = self.errors.iter().filter(|e| e.is_at_wall).map(|e| e.node);
         self.walls.strips(&self.elements, close)
@@ -161,7 +170,7 @@ impl Survey {
 
     fn excess_of(&self, what: ReadFor, request: &PilotRequest) -> Option<f64> {
         let goal_lx = match what {
-            // Fits do little for what is steep at edges.
+            // Fits do little for steep light at edges.
             ReadFor::All if request.is_fitted => {
                 let is_right_in_the_mean =
                     self.asks_for_means(request) || self.walls.are_resolved();
@@ -179,7 +188,7 @@ impl Survey {
         (excess > 1.0 && self.reference_lx > 0.0).then_some(excess)
     }
 
-    /// What elements err by as dim places see them, root mean square over the surface of these, lx.
+    /// The error of elements as dim places see it, root mean square over the dim surfaces, lx.
     fn error_seen_from_dim(&self) -> f64 {
         let squared: f64 = self.errors.iter().map(|e| e.seen_from_dim().squared()).sum();
         if squared > 0.0 { (squared / self.dim_m2).sqrt() } else { 0.0 }
@@ -198,18 +207,20 @@ impl Survey {
         }
     }
 
-    /// The error of elements up to which readers trust the map.
+    /// The error of elements up to which readers trust the map, lx.
     pub(crate) fn trusted_up_to_lx(&self, request: &PilotRequest) -> f64 {
         let limit = self.worst.limit(self.goal_lx(request.target, request), MOST_FRESH);
         limit.min(trust::above_all(&self.errors))
     }
 
-    /// The same, and less, for where more than expected is found.
+    /// The levels of trust: the error up to which readers trust the map, and lower ones for maps with larger errors
+    /// than expected.
     pub(crate) fn trusts(&self, request: &PilotRequest) -> TrustLevels {
         TrustLevels::of(&self.worst, self.trusted_up_to_lx(request))
     }
 
-    /// Whether rays read too much wrongly in the mean of beset elements, unless that is measured.
+    /// Whether the mean error of elements with objects close before them is too large, so that their means are to be
+    /// measured.
     pub(crate) fn asks_for_means(&self, request: &PilotRequest) -> bool {
         if without("element-means") {
             return false;
@@ -221,39 +232,40 @@ impl Survey {
         request.has_means && lacking.abs() > from * request.target * area_m2 * self.reference_lx
     }
 
-    /// Whether light is so smooth that quadratic functions over its vertices are nearer than linear ones.
+    /// Whether light is so smooth that quadratic functions over its vertices err less than linear ones.
     pub(crate) fn is_smooth(&self, request: &PilotRequest) -> bool {
-        // Twice as many elements as vertices, four of each.
+        // There are twice as many elements as vertices, and each vertex becomes four.
         let most = if self.is_noisy { MOST_SMOOTHED_IF_NOISY } else { usize::MAX };
         let has_room = 2 * self.errors.len() <= request.max_vertices.min(most);
         request.has_means && self.left_by_fit < SMOOTH && has_room && !without("smoothing")
     }
 
-    /// How many elements are beset by something else than walls that light is resolved towards.
+    /// The number of elements with objects close before them other than walls towards which light is resolved.
     pub(crate) fn beset(&self) -> f64 {
         self.errors.iter().filter(|e| e.is_beset && !e.is_at_wall).count() as f64
     }
 
-    /// Into how many vertices each is made by bisecting the others twice, and those at walls as often as they are to be.
+    /// The growth factor of the number of vertices, if all other elements are bisected twice and those at walls as
+    /// often as planned.
     pub(crate) fn smoothed(&self) -> f64 {
         let free = 1.0 - self.beset() / self.errors.len().max(1) as f64;
-        // Twice as many elements as vertices.
+        // There are twice as many elements as vertices.
         1.0 + 3.0 * free + 2.0 * self.walls.more_vertices() / self.errors.len().max(1) as f64
     }
 
-    /// What interpolation may err by, before it is fitted, lx.
+    /// The allowed interpolation error before the fit, lx.
     fn goal_lx(&self, target: f64, request: &PilotRequest) -> f64 {
         DISCRETIZATION_SHARE * target * self.reference_lx / self.left(request)
     }
 
-    /// What fit and quadratic functions leave of the error of elements.
+    /// The share of the error of elements that the fit and quadratic functions leave.
     fn left(&self, request: &PilotRequest) -> f64 {
         let fitted = if request.is_fitted { self.left_by_fit } else { 1.0 };
         let smoothed = if self.is_smooth(request) { LEFT_BY_SMOOTHING } else { 1.0 };
         fitted * smoothed
     }
 
-    /// What interpolation is expected to err by where readers trust it, of all light.
+    /// The expected interpolation error where readers trust the map, as a share of all light.
     pub(crate) fn interpolation(&self, request: &PilotRequest) -> f64 {
         let limit = self.trusted_up_to_lx(request);
         let is_trusted = |e: &LeafError| e.is_at_wall || !e.is_beset && e.error <= limit;

@@ -1,8 +1,8 @@
-//! The pilot: a deterministic first look that fixes the elements before increments are counted.
+//! The pilot: the deterministic loop of adaptive refinement that fixes the elements before the first increment.
 //!
-//! Coarse to fine: solve, see where the details are, bisect there, until the interpolation error is
-//! a fixed part of the accuracy asked for. All receivers use the same random numbers here, so that
-//! noise is smooth over surfaces and does not pass for detail.
+//! Each round solves for the light, finds the elements with large details and bisects them. The loop ends when
+//! the interpolation error is a fixed part of the accuracy goal. All receivers use the same random numbers
+//! here: noise is then smooth over surfaces and is not mistaken for detail.
 
 mod bare;
 mod batches;
@@ -39,7 +39,8 @@ pub(super) use look::Survey;
 use state::Pilot;
 use std::mem;
 
-/// Looks and refines; `go_on` is asked after every round. Adds to what earlier pilots of the run have found unlit.
+/// Runs the pilot to its end and returns the plan. `go_on` is asked after every round. Places found unlit are
+/// added to `unlit`, which holds those of earlier pilots of the run.
 pub(super) fn pilot<'s>(
     scene: &'s Scene,
     lighting: &'s Lighting<'s>,
@@ -54,7 +55,7 @@ pub(super) fn pilot<'s>(
     pilot.finish(look, request, go_on)
 }
 
-/// What a pilot would find, without the whole of its work.
+/// Runs the first part of a pilot, elements for indirect light, for its reports to `go_on` alone.
 pub(super) fn foresee<'s>(
     scene: &'s Scene,
     lighting: &'s Lighting<'s>,

@@ -1,4 +1,5 @@
-//! The loop: look at the light on the elements as they are, bisect those that err too much.
+//! The loop of adaptive refinement: light on the present elements, their interpolation errors, bisection of the
+//! worst.
 
 use super::forecast::{GoOn, LONGER};
 use super::look::{PilotRequest, ReadFor, Survey};
@@ -8,17 +9,18 @@ use crate::engine::judge::Light;
 use crate::engine::mesh::{EdgeFalloffs, Refinement, WorstElements, refine_worst};
 use std::time::Instant;
 
-/// So often may the error rise instead.
+/// The largest number of rounds in which the error may rise.
 const MOST_RISEN: usize = 3;
-/// Vertices for indirect light, unless the scene has nearly as many from the start.
+/// The largest number of vertices for indirect light, unless the first mesh has nearly as many.
 const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
-/// More than this part of the vertices there may be are all: the worst elements are bisected some at a time.
+/// The share of the largest number of vertices above which the mesh counts as full. The worst elements are
+/// bisected in groups.
 const FULL: f64 = 0.95;
-/// Bisections of elements with hidden vertices.
+/// The largest number of rounds that bisect elements with hidden vertices.
 const ROUNDS_FOR_HIDDEN: usize = 4;
 
 impl Pilot<'_> {
-    /// Elements that are fine enough for indirect light, or as fine as there is time for.
+    /// Refines the elements until they are fine enough for indirect light, or as fine as time allows.
     pub(super) fn elements_for_indirect_light(
         &mut self,
         request: &PilotRequest,
@@ -43,7 +45,7 @@ impl Pilot<'_> {
             look = self.look(request, go_on);
             has_time = self.has_time(&look, request, excess(&look), go_on);
         }
-        // Readers gather over gathered maps alone: particles blur what is close by.
+        // Readers gather over gathered maps alone: maps of particles are blurred nearby.
         let reads = if request.is_fitted { &ReadFor::EVERY[..] } else { &[ReadFor::All] };
         for &what in reads {
             look = self.refine(look, request, (what, most), go_on);
@@ -52,7 +54,8 @@ impl Pilot<'_> {
         look
     }
 
-    /// Solves on the first mesh; later, gathers at the new vertices over what is known already.
+    /// Surveys the present mesh. The first call solves for the light; later calls gather at the new vertices over
+    /// the known light.
     pub(super) fn look(&mut self, request: &PilotRequest, go_on: &mut GoOn<'_>) -> Survey {
         let mut elements = self.mesh.subdivision.elements();
         let is_first = self.indirect.lx.is_empty();
@@ -114,7 +117,7 @@ impl Pilot<'_> {
         look
     }
 
-    /// Finds the walls that surfaces end at, and what elements err by once light is resolved towards them.
+    /// Finds the walls at which surfaces end, and the errors of elements with light resolved towards these walls.
     pub(super) fn look_for_walls(
         &self,
         look: &mut Survey,
@@ -126,7 +129,7 @@ impl Pilot<'_> {
         look.resolve(walls, &self.mesh.subdivision, luminances, request.target * look.reference_lx);
     }
 
-    /// Bisects until elements are good enough for what they are read for, or that comes to nothing.
+    /// Bisects elements until they are good enough for these readers, or bisection makes no progress.
     pub(super) fn refine(
         &mut self,
         mut look: Survey,
@@ -138,8 +141,8 @@ impl Pilot<'_> {
         let (mut risen, mut stalls) = (0, 0);
         for _ in 0..MAX_ROUNDS {
             let Some((errors, excess)) = look.excess(what, request) else { break };
-            // Where bisection no longer helps, what is left is noise: the check points will tell. As long as it finds light
-            // in gaps, errors may rise.
+            // Where bisection no longer helps, the rest is noise, which check points measure. While it finds light in
+            // gaps, errors may rise.
             let carriers = look.carriers as f64;
             let has_risen = self.indirect.sees_lit_gaps && excess > before.0;
             risen += usize::from(has_risen);

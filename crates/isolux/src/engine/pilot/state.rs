@@ -1,4 +1,4 @@
-//! What the pilot knows: elements, light at their vertices, what stands near them.
+//! The state of the pilot: elements, light at their vertices, geometry near them, costs.
 
 use super::forecast::Costs;
 use super::look::{PilotRequest, Surroundings};
@@ -22,40 +22,45 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Vertices that the pilot starts with, unless the scene has more.
+/// The number of vertices of the first mesh, unless the scene has more.
 const FIRST_VERTICES: f64 = 700.0;
-/// And for each that the scene has: among many things light varies on walls, too, in ways that a
-/// coarse look does not find.
+/// The number of vertices added to that per vertex of the scene. Among many objects light varies on walls, too,
+/// in ways that a coarse mesh does not show.
 const MORE_A_VERTEX: f64 = 0.05;
-/// The part of them that tells whether light is so smooth that no more are needed to start with.
+/// The share of the first vertices on which the pilot tests whether light is smooth. Smooth light needs no more
+/// vertices to start with.
 const COARSE: f64 = 0.5;
-/// The first again where nothing is fitted: particles, whose hat functions blur what they are deposited in.
+/// The number of vertices of the first mesh where the map is not fitted. Hat functions blur the light of
+/// particles there.
 const FIRST_UNFITTED: f64 = 1500.0;
-/// The part of the first gathering, and before it of the first direct light, that tells how long all takes.
+/// The divisor for trial portions: one in so many vertices is computed first, to predict the time of all of
+/// them. It applies to the first gathering and to the first direct light.
 pub(super) const FIRST_PART: usize = 16;
-/// How far apart the coarsest vertices that carry light may be, in edges of the first mesh: four of them, to
-/// start with two, as the details of those in between tell more than vertices twice as dense alone.
+/// The largest distance between the coarsest vertices that carry light, in edges of the first mesh. At four
+/// edges carriers start two apart; details of the vertices between show more than a mesh twice as dense alone.
 const COARSEST: f64 = 4.0;
-/// Rounds of refinement at most.
+/// The largest number of rounds of refinement.
 pub(super) const MAX_ROUNDS: usize = 16;
-/// Elements are not bisected below this share of the scene's extent: a centimetre in a room.
+/// The shortest edge that is bisected, as a share of the scene's extent: a centimetre in a room.
 const LEAST_EDGE_SHARE: f64 = 1e-3;
-/// Receivers on borders are pulled in by this share of the way to the middle of their element.
+/// The displacement of receivers on borders, as a share of the way to the middle of their element.
 const PULL_IN: f64 = 2e-3;
-/// A round in which the error falls with a lower power of the vertices was in vain. Where functions
-/// are smooth it is one; chasing light that comes in through narrow places, less for some rounds.
+/// The least order of convergence, in the number of vertices, at which a round of refinement counts as
+/// progress. For smooth functions the order is one. It is lower for some rounds where light enters through
+/// narrow places.
 pub(super) const LEAST_ORDER: f64 = 0.25;
-/// So many rounds in a row may be in vain: at borders of gaps as much error is found as is taken off, until elements are as narrow.
+/// The largest number of successive rounds without progress. At borders of gaps each round finds as much error
+/// as it removes, until elements are as narrow as the gap.
 pub(super) const MOST_STALLS: usize = 1;
-/// The part of the mesh accuracy asked for that noise of direct light may take, where it is not exact.
+/// The allowed noise of direct light where it is not exact, as a share of the accuracy goal of the mesh.
 const NOISE_OF_DIRECT_LIGHT: f64 = 0.25;
-/// Something that stands closer before a vertex than this part of an element takes light from it that the rest of the element
-/// has: pictures on walls, shelves.
+/// The distance below which an object before a vertex shades the vertex more than the rest of its element, in
+/// edges of the element: pictures on walls, shelves.
 pub(super) const HEM: f64 = 0.125;
-/// Sweeps of the pilot end when they change less than this.
+/// The change of light below which the pilot's sweeps of the fixed point end.
 pub(super) const PILOT_TOLERANCE: f64 = 1e-4;
 
-/// The pilot: what it works on, what it knows so far, and what that has cost.
+/// The pilot: its scene, its knowledge so far, and the cost of that knowledge.
 pub(super) struct Pilot<'s> {
     pub(super) scene: &'s Scene,
     pub(super) lighting: &'s Lighting<'s>,
@@ -69,53 +74,54 @@ pub(super) struct Pilot<'s> {
     pub(super) bright: Option<Arc<BrightSurfaces>>,
     pub(super) tried: Tried,
     pub(super) costs: Costs,
-    /// Rays traced so far.
+    /// The number of rays traced so far.
     pub(super) traced: u64,
-    /// Whether there was time for all that it wanted to do.
+    /// Whether there was time for all steps of the pilot.
     pub(super) is_whole: bool,
 }
 
-/// The elements so far, and how fine they may become.
+/// The elements so far, with the limits of their refinement.
 pub(super) struct Mesh {
     pub(super) subdivision: Subdivision,
     /// The vertices that carry indirect light.
     pub(super) carriers: Carriers,
-    /// The greatest distance between the coarsest of them, m.
+    /// The largest distance between the coarsest carriers, m; zero where every vertex carries light.
     pub(super) spacing_m: f64,
-    /// Gathering rays of every vertex: the same number all over a surface, so that its noise is the same.
+    /// Gathering rays by vertex: the same number all over a surface, so that its noise is uniform.
     pub(super) rays: Vec<u32>,
     /// The shortest edge that may be bisected, m.
     pub(super) least_edge_m: f64,
-    /// Edges of the usual first mesh, m, where the pilot starts with a coarser one.
+    /// The edge length of the usual first mesh, m, where the pilot starts with a coarser one.
     pub(super) usual_edge_m: Option<f64>,
-    /// Whether most vertices belong to things in the scene, not to its walls.
+    /// Whether most vertices belong to objects of the scene, not to its walls.
     pub(super) has_many_things: bool,
-    /// Vertices that indirect light may have; no limit until that is known.
+    /// The largest number of vertices for indirect light; infinite until it is known.
     pub(super) most_for_indirect_light: f64,
-    /// Whether there are about as many vertices for indirect light as there may be.
+    /// Whether the number of vertices for indirect light is about at its limit.
     pub(super) is_full: bool,
-    /// Vertices that indirect light is interpolated from, and the surface that each stands for, m2, once they are fixed.
+    /// The number of vertices for indirect light, and the area that each stands for, m2; `None` until they are
+    /// fixed.
     pub(super) for_indirect_light: Option<(usize, Vec<f64>)>,
 }
 
-/// What stands near vertices and elements.
+/// The geometry near vertices and elements.
 #[derive(Default)]
 pub(super) struct Near {
-    /// By vertex, whether light can come to it.
+    /// By vertex, whether light can reach it.
     pub(super) known: Vec<bool>,
-    /// By vertex, what it stands for.
+    /// By vertex, its standing; `None` where it is hidden in other geometry.
     pub(super) standings: Vec<Option<Standing>>,
-    /// Places of elements that are known to be unlit.
+    /// Places of elements that are known to get no light.
     pub(super) unlit: Unlit,
-    /// Places that some particles have reached over specular surfaces.
+    /// Places that trial particles have reached by way of specular surfaces.
     pub(super) reached: Vec<SurfacePoint>,
     pub(super) felt: ClosedIn,
     pub(super) footprints: Footprints,
-    /// By carrier, the distance to other carriers from which on something stands nearer before it than they do.
+    /// By carrier, the spacing of carriers above which some object before it is nearer than the next carrier, m.
     pub(super) beset_from_m: HashMap<u32, f64, FewNumbers>,
-    /// By vertex, how close something stands before it, m, if that is less than a part of its elements.
+    /// By vertex, the distance to the nearest object before it, m, if that is less than a share of its elements.
     pub(super) hemmed_in_m: Vec<f64>,
-    /// By node, whether something stands close before its middle.
+    /// By node, whether an object stands close before its middle.
     pub(super) beset: Vec<bool>,
 }
 
@@ -124,16 +130,17 @@ pub(super) struct Near {
 pub(super) struct DirectLight {
     pub(super) lx: Vec<Rgb>,
     pub(super) variance: Vec<f64>,
-    /// Where it was measured.
+    /// By vertex, the place where direct light was measured.
     pub(super) measured_at: Vec<Point>,
-    /// The noise it may have where it is measured once by part of the luminaires: of all light, and in lx.
+    /// The allowed noise where direct light is measured once with part of the luminaires, as a share of all light.
     pub(super) noise: Option<f64>,
+    /// The same allowed noise, lx.
     pub(super) noise_lx: Option<f64>,
-    /// By how much its interpolation errs more than it should, with so many vertices.
+    /// The number of vertices, and the ratio of the interpolation error to its goal on them.
     pub(super) excess: Option<(usize, f64)>,
-    /// Vertices that the last round of refinement for it has added.
+    /// The number of vertices that the last round of refinement for direct light has added.
     pub(super) added: usize,
-    /// Whether it is what it will be.
+    /// Whether direct light has its final values.
     pub(super) is_measured: bool,
 }
 
@@ -141,18 +148,18 @@ pub(super) struct DirectLight {
 #[derive(Default)]
 pub(super) struct IndirectLight {
     pub(super) lx: Vec<Rgb>,
-    /// By vertex, whether it has gathered.
+    /// By vertex, whether light was gathered there.
     pub(super) gathered: Vec<bool>,
-    /// Nodes there were when it was last solved for.
+    /// The number of nodes when indirect light was last solved for.
     pub(super) solved_nodes: u32,
-    /// In the middle of elements without details, by node, lx; nothing where that is not asked for.
+    /// By node, indirect light in the middle of elements without details, lx; `None` where none is gathered.
     pub(super) middles: HashMap<u32, Option<f64>>,
-    /// Whether some of these lay in gaps that luminaires shine into.
+    /// Whether some of the latest middles lay in gaps that luminaires shine into.
     pub(super) sees_lit_gaps: bool,
-    /// Whether it has quadratic functions between carriers already.
+    /// Whether indirect light already has quadratic functions between carriers.
     pub(super) is_smoothed: bool,
     pub(super) surroundings: Surroundings,
-    /// Of the stored map, where elements do not resolve it.
+    /// Indirect light of the stored map where the elements for indirect light do not resolve it.
     pub(super) bare: Option<Bare>,
 }
 
@@ -160,11 +167,11 @@ pub(super) struct IndirectLight {
 #[derive(Default)]
 pub(super) struct WallLight {
     pub(super) backdrop: Option<ControlVariate>,
-    /// By vertex, where it was and what it gets from them with nothing between.
+    /// By vertex, its place, and the light that the walls would send there without occluders.
     pub(super) behind: HashMap<u32, (Point, Option<Rgb>)>,
 }
 
-/// What trials with few rays and particles have told of noise.
+/// Noise as measured by trials with few rays and particles.
 #[derive(Default)]
 pub(super) struct Tried {
     pub(super) trial: Option<RayTrial>,
@@ -172,20 +179,21 @@ pub(super) struct Tried {
     pub(super) aim: Option<Aim>,
 }
 
-/// What the vertices for direct light have gathered for the bare map.
+/// Indirect light gathered at the vertices for direct light, for the stored (interpolated) map.
 pub(super) struct Bare {
-    /// The first of them, and the light of all from there on.
+    /// The first vertex for direct light.
     pub(super) first: usize,
+    /// Indirect light of the first and all later vertices.
     pub(super) indirect: Vec<Rgb>,
-    /// Elements that something stands close before, on which they gather.
+    /// Elements with an object close before them; only vertices on these gather.
     pub(super) beset: Vec<u32>,
 }
 
-/// The elements to start with, the edges of the usual ones, m, and whether the scene has so many things that most vertices are theirs.
+/// The first mesh, the edge length of the usual first mesh, m, and whether most vertices belong to objects.
 fn first_mesh(scene: &Scene, request: &PilotRequest) -> (Subdivision, f64, bool) {
     let mut subdivision = Subdivision::new(scene);
     let area_m2: f64 = subdivision.leaves().map(|n| subdivision.triangle(n).area()).sum();
-    // Half squares of hypotenuse h have area h^2 / 4, and there are two a vertex.
+    // Half squares of hypotenuse h have area h^2 / 4, and there are two per vertex.
     let first = if request.is_fitted { FIRST_VERTICES } else { FIRST_UNFITTED };
     let more = MORE_A_VERTEX * subdivision.vertex_count() as f64;
     let edge_m = (2.0 * area_m2 / (first + more)).sqrt();
@@ -256,7 +264,7 @@ impl<'s> Pilot<'s> {
         Details::of(&self.mesh.subdivision, elements, values, &self.mesh.carriers, is_beset)
     }
 
-    /// What rays read on a level of the elements.
+    /// The gathering of rays that read the light on a level of the elements.
     pub(super) fn gathering<'a>(
         &'a self,
         elements: &'a Elements,
@@ -292,7 +300,7 @@ impl<'s> Pilot<'s> {
         Sight { scene, lighting, elements, gatherers, reached, footprints, key }
     }
 
-    /// New vertices gather as their parents do.
+    /// Gives new vertices the number of rays of their parents.
     pub(super) fn complete_rays(&mut self) {
         for vertex in &self.mesh.subdivision.vertices()[self.mesh.rays.len()..] {
             let [parent, _] =
@@ -301,8 +309,8 @@ impl<'s> Pilot<'s> {
         }
     }
 
-    /// Rays of the vertices in the pilot: so many where a surface has no more vertices than others for its area, fewer where it
-    /// has (see [`allot`]), a quarter of them at least.
+    /// Rays by vertex in the pilot: the usual number, or fewer on surfaces with more vertices per area than others
+    /// (see [`allot`]), but at least a quarter of it.
     pub(super) fn shared_rays(subdivision: &Subdivision, target: f64) -> Vec<u32> {
         let usual = pilot_rays(target);
         let surfaces = subdivision.least_connected();
@@ -325,9 +333,9 @@ impl<'s> Pilot<'s> {
     }
 }
 
-/// Rays of a receiver in the pilot: more for finer accuracies, so that their noise stays below the
-/// details looked for. The power of two nearest to what was measured on CUBE: with half as many, elements are made
-/// anew for 0.3 %.
+/// The usual number of rays of a receiver in the pilot. It grows with the accuracy, so that noise stays below
+/// the details to be found. It is the power of two nearest to a measurement on CUBE: with half as many rays,
+/// elements are made anew for 0.3 %.
 fn pilot_rays(target: f64) -> u32 {
     let wanted = (0.64 / target.max(1e-6)).clamp(32.0, 1024.0);
     libm::exp2(libm::round(libm::log2(wanted))) as u32
