@@ -1,13 +1,14 @@
-//! The maximum principle: what is made of some values lies between the least and the greatest of them.
+//! The maximum principle: a value made from others lies between the least and the greatest of them.
 //!
-//! What fits or extrapolates has weights below zero: it may make of some light more than there is of it anywhere, or less than none,
-//! and what is reflected of that again and again then has no bound. A value that is held between those that it is made from is a
-//! mean of two of them, with weights that are not negative and sum to one. So is every mean of such means, and no sweep of a
-//! fixed point over surfaces that reflect less than one returns as much as it receives (Harten 1983, "High resolution schemes
-//! for hyperbolic conservation laws"; Kuzmin, Turek 2002, on limiters with weights of one sign).
+//! Fits and extrapolation have negative weights. They may return more light than there is anywhere, or less than
+//! none, and light that is reflected again and again then has no bound. A value bounded by those that it is made from
+//! is a mean of two of them, with weights that are not negative and sum to one. So is every mean of such means. Over
+//! surfaces that reflect less than one, a sweep of the fixed point then returns less than it receives (Harten 1983,
+//! "High resolution schemes for hyperbolic conservation laws"; Kuzmin, Turek 2002, on limiters with weights of one
+//! sign).
 //!
-//! Which two they are depends on the light, so that sweeps may go on and on from one pair to another. [`Bounded`] keeps the
-//! pairs that they have come to: over these a fixed point exists, is one, and every sweep comes nearer to it.
+//! The two values depend on the light, so that sweeps may go on and on from one pair to another. [`Bounded`] keeps
+//! the pairs reached: over these exactly one fixed point exists, and every sweep comes nearer to it.
 
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -20,38 +21,38 @@ pub(crate) struct Range {
 }
 
 impl Range {
-    /// Of one value.
+    /// The range of one value.
     #[inline]
     pub(crate) const fn of(value: Rgb) -> Self {
         Self { low: value, high: value }
     }
 
-    /// Of one more.
+    /// Extends the range to one more value.
     #[inline]
     pub(crate) fn include(&mut self, value: Rgb) {
         (self.low, self.high) = (self.low.lesser(value), self.high.greater(value));
     }
 
-    /// From the least to the greatest.
+    /// The difference of the greatest and the least.
     #[inline]
     pub(crate) fn width(&self) -> Rgb {
         self.high - self.low
     }
 
-    /// The value within that is nearest to another.
+    /// The value within the range that is nearest to `value`.
     #[inline]
     pub(crate) fn hold(&self, value: Rgb) -> Rgb {
         value.greater(self.low).lesser(self.high)
     }
 }
 
-/// The share of light that corrections leave at least before they are bounded.
+/// The least share of light that a correction leaves before it is bounded.
 const LEFT: f64 = 1.0 / 16.0;
 
-/// Light with a correction that takes no more off than there is: that of rays by walls, that of a mean by the slope about it. Where less
-/// than [`LEFT`] would be left, that falls like one over what is taken off, without a kink, and is never nothing. What comes out grows no
-/// faster than the light, of which there is some. As more is left than without the bound, and never less, it makes light in the mean: the
-/// less, the seldomer it acts.
+/// Light with a correction that removes no more than there is: the control variate of walls, or the slope about a
+/// mean. Where less than [`LEFT`] would be left, the result falls like one over the removed light, without a kink,
+/// and stays positive. It grows no faster than the light. The bound never leaves less than the plain sum, so it adds
+/// light in the mean: the less, the less often it acts.
 pub(crate) fn corrected(light: Rgb, by: Rgb) -> Rgb {
     Rgb([0, 1, 2].map(|c| {
         let (light, by) = (light.0[c], by.0[c]);
@@ -61,12 +62,12 @@ pub(crate) fn corrected(light: Rgb, by: Rgb) -> Rgb {
     }))
 }
 
-/// What a value is made from: numbers of others, and those.
+/// The values that a value is made from, each with its number.
 pub(crate) type Stencil = Vec<(u32, Rgb)>;
 
-/// Values as means of two others each, with weights that stay.
+/// Values as means of two others each, with fixed weights.
 pub(crate) struct Bounded {
-    /// Of every value and channel.
+    /// The means of each value, by channel.
     means: Vec<[Mean; 3]>,
 }
 
@@ -74,12 +75,13 @@ pub(crate) struct Bounded {
 #[derive(Clone, Copy, Debug)]
 struct Mean {
     vertices: [u32; 2],
-    /// What the second has of it.
+    /// The weight of the second; the first has the rest.
     share: f64,
 }
 
 impl Bounded {
-    /// Of values that are held between others, as [`Range`] holds them; `from` appends what one is made from.
+    /// The means for values that lie within the range of others, see [`Range`]; `from` appends the values that bound
+    /// a value.
     pub(crate) fn of(values: &[Rgb], from: impl Fn(usize, &mut Stencil) + Sync) -> Self {
         let one = |some: &mut Stencil, k: usize| {
             some.clear();
@@ -89,12 +91,12 @@ impl Bounded {
         Self { means: (0..values.len()).into_par_iter().map_init(Stencil::new, one).collect() }
     }
 
-    /// The means of other values.
+    /// The means with other values in place of those.
     pub(crate) fn apply(&self, values: &[Rgb]) -> Vec<Rgb> {
         self.some(0..self.means.len(), values)
     }
 
-    /// Some of them.
+    /// The means in a range of indices.
     pub(crate) fn some(&self, some: std::ops::Range<usize>, values: &[Rgb]) -> Vec<Rgb> {
         let one = |means: &[Mean; 3]| {
             Rgb([0, 1, 2].map(|channel| {
@@ -108,7 +110,7 @@ impl Bounded {
 }
 
 impl Mean {
-    /// The least and the greatest of some, so that their mean is a value between.
+    /// The mean of the least and the greatest of some values that equals `value` within their range.
     fn of(value: f64, some: &Stencil, channel: usize) -> Self {
         let of = |k: usize| some[k].1.0[channel];
         let (mut low, mut high) = (0, 0);

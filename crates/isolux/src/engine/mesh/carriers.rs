@@ -1,13 +1,12 @@
-//! Vertices that carry indirect light, and those that it is interpolated to.
+//! Vertices that carry indirect light, and vertices that it is interpolated to.
 //!
-//! Where the surfaces of a scene come in triangles far smaller than light varies over, not every
-//! vertex has to gather. Vertices are numbered in levels, each so dense that no two of it are nearer
-//! than half the spacing of the one before; the coarsest gather first, the next where details ask
-//! for them, as elements are bisected elsewhere. What the others are is a linear combination of the
-//! carriers of the level before about them: the value at the vertex of the quadratic function over
-//! the tangent plane that fits those best (moving least squares: Lancaster, Salkauskas 1981), or the
-//! linear one where they do not tell a quadratic one. A vertex that neither can be had for carries
-//! light itself. So do those that stand for gaps and rims, and all that bisection makes.
+//! Where triangles are far smaller than the distance over which light varies, not every vertex has to gather.
+//! Vertices are divided into levels. On each, no two are nearer than half the spacing of the level before. The
+//! coarsest level gathers first, the next where details require it, as elements are bisected elsewhere. The value at
+//! any other vertex is a linear combination of carriers of the level before: the quadratic function over the tangent
+//! plane that fits these best (moving least squares: Lancaster, Salkauskas 1981), or a linear one where they do not
+//! determine a quadratic one. A vertex with neither carries light itself. So do vertices that stand for gaps and
+//! rims, and all that bisection makes.
 
 use super::bounded::{Bounded, Range, Stencil};
 use super::coarsening::{Coarsening, Link, weights_at};
@@ -16,55 +15,59 @@ use crate::elements::{Subdivision, Vertex};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// Root mean square of the linear interpolation error over an element, as a share of the detail of
-/// its newest vertex. For a parabola across the edge the error at the middle of the next edge is a
-/// quarter of the detail and the root mean square over the edge is 0.73 of that; kinks and shadow
-/// borders, which come to matter as the rest is resolved, make it up to twice as much.
+/// The root mean square of the linear interpolation error over an element, as a share of the detail of its newest
+/// vertex. For a parabola across the edge the error at the middle of the next edge is a quarter of the detail, and
+/// the root mean square over the edge is 0.73 of that. Kinks and shadow borders, which dominate once the rest is
+/// resolved, make it up to twice as much.
 pub(crate) const ERROR_OF_DETAIL: f64 = 0.3;
 
-/// Vertices of one task.
+/// The number of vertices of one task.
 const TOGETHER: usize = 1024;
 
-/// Which vertices carry light.
+/// The vertices that carry light.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Carriers {
-    /// Of the vertices of the first mesh; those without always carry light.
+    /// The link of each vertex of the first mesh; vertices without a link always carry light.
     links: Vec<Option<Link>>,
-    /// Whether they do; vertices beyond these carry light.
+    /// Whether each vertex carries light; vertices beyond these do.
     active: Vec<bool>,
-    /// Those with links, coarse to fine, and where each level ends.
+    /// The vertices with links, coarse to fine.
     order: Vec<u32>,
+    /// The end of each level in `order`.
     ends: Vec<usize>,
 }
 
-/// Vertices that do not carry light and what they are interpolated from, one after the other as they are read again and again.
+/// Vertices that wait, that is, do not carry light, and their parents in one array, since these are read again and
+/// again.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Waiting {
-    /// Coarse to fine, and where each level ends.
+    /// The vertices, coarse to fine.
     vertices: Vec<u32>,
+    /// The end of each level in `vertices`.
     levels: Vec<usize>,
-    /// Of all of them what they are interpolated from, and where that of each ends.
+    /// The vertices that each is interpolated from, with weights.
     parents: Vec<(u32, f64)>,
+    /// The end of the parents of each vertex.
     ends: Vec<usize>,
 }
 
-/// What is told of the light at a vertex that does not carry it.
+/// The estimate of the error at a vertex that does not carry light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Told {
-    /// What interpolation there errs by, root mean square, as by details of the carriers about it.
+    /// The interpolation error, root mean square, from details of the carriers about it.
     pub(crate) error: f64,
-    /// Whether something stands closer before one of them than they are apart.
+    /// Whether something stands closer to one of these carriers than they are apart.
     pub(crate) is_beset: bool,
 }
 
 impl Carriers {
-    /// All vertices.
+    /// Carriers where all vertices carry light.
     pub(crate) fn all() -> Self {
         Self::default()
     }
 
-    /// As few as possible, no farther than `spacing_m` apart, and those half as far. Vertices that are not
-    /// `open` carry light in any case, and no other is interpolated from them.
+    /// As few carriers as possible: one level at most `spacing_m` apart, and one at half of that. Vertices that are
+    /// not `open` carry light in any case, and no other vertex is interpolated from them.
     pub(crate) fn sparse(subdivision: &Subdivision, spacing_m: f64, open: &[bool]) -> Self {
         let Coarsening { levels, links } = Coarsening::of(subdivision, spacing_m, open);
         let mut order: Vec<u32> =
@@ -80,10 +83,10 @@ impl Carriers {
         Self { links, active, order, ends }
     }
 
-    /// Makes vertices from `first` on, made by bisecting `elements`, wait: each is interpolated from the corners of the elements
-    /// about it that carry light, or lies between the ends of its edge where those do not tell it. Before walls some
-    /// carry light beside those. Of some vertices `keep_seen` keeps those that tell the light at another: what none of them does
-    /// carries light itself.
+    /// Lets vertices from `first` on, made by bisecting `elements`, wait. Each is interpolated from the carriers at
+    /// corners of the elements around it, or between the ends of its edge where those do not determine it. Beside
+    /// walls, `rows` carry light, too. `keep_seen` keeps those vertices whose light applies at another; a vertex left
+    /// with none carries light itself.
     pub(crate) fn smooth(
         &mut self,
         subdivision: &Subdivision,
@@ -119,7 +122,7 @@ impl Carriers {
                 told.map(|of| of.into_iter().map(|(v, weight)| (v as u32, weight)).collect());
             let ends_seen = seen(ends_of().collect());
             between.retain(|(end, _)| ends_seen.contains(end));
-            // What is hidden has no light to tell.
+            // Hidden ends have no light to interpolate.
             if between.iter().any(|&(end, _)| open[end as usize]) {
                 between.retain(|&(end, _)| open[end as usize]);
             }
@@ -136,13 +139,14 @@ impl Carriers {
         }
         self.active.resize(first, true);
         self.active.extend(self.links[first..].iter().map(Option::is_none));
-        // Those that lie between others, after these.
+        // Vertices that lie between others come after these.
         let all = first as u32..vertices.len() as u32;
         self.order.extend(all.filter(|&v| self.links[v as usize].is_some()));
         self.ends.push(self.order.len());
     }
 
-    /// Makes vertices from `first` on, made by bisection, wait: each lies between those ends of its edge that are open, if any.
+    /// Lets vertices from `first` on, made by bisection, wait. Each lies between those ends of its edge that are
+    /// open, if any.
     pub(crate) fn between(&mut self, subdivision: &Subdivision, first: usize, open: &[bool]) {
         let vertices = subdivision.vertices();
         let mut depths = vec![0_u32; vertices.len() - first];
@@ -172,13 +176,13 @@ impl Carriers {
         self.active.get(vertex as usize).is_none_or(|&active| active)
     }
 
-    /// How many of so many vertices do.
+    /// The number of carriers among the first `vertices` vertices.
     pub(crate) fn count(&self, vertices: usize) -> usize {
         vertices - self.active.iter().filter(|&&active| !active).count()
     }
 
-    /// Of each of these vertices that does not carry light, makes the coarsest that it waits for do so:
-    /// one level and no more, however many ask.
+    /// Makes carriers of the coarsest vertices that the `asked` ones wait for. Each call adds one level, however many
+    /// ask.
     pub(crate) fn activate(&mut self, asked: &[u32]) {
         let mut next: Vec<u32> = Vec::new();
         let mut asking: Vec<u32> = asked.iter().copied().filter(|&v| !self.is_active(v)).collect();
@@ -209,7 +213,7 @@ impl Carriers {
         parents
     }
 
-    /// What belongs to those that do not carry light, shared among the carriers that they are interpolated from.
+    /// Distributes the quantities of vertices that wait among the carriers that they are interpolated from.
     pub(crate) fn hand_down(&self, of_vertices: &mut [f64]) {
         for &vertex in self.order.iter().rev().filter(|&&v| !self.active[v as usize]) {
             let Some(link) = &self.links[vertex as usize] else { continue };
@@ -221,7 +225,7 @@ impl Carriers {
         }
     }
 
-    /// Those that do not carry light.
+    /// The vertices that wait.
     pub(crate) fn waiting(&self) -> Waiting {
         let mut waiting = Waiting::default();
         let mut start = 0;
@@ -238,12 +242,12 @@ impl Carriers {
         waiting
     }
 
-    /// Puts the values of those that do not carry light where they belong.
+    /// Interpolates the values of vertices that wait.
     pub(crate) fn fill(&self, values: &mut [Rgb]) {
         self.waiting().fill(values);
     }
 
-    /// Changes of those that do not carry light, by changes of the others.
+    /// Interpolates the changes of vertices that wait, without bounds.
     pub(crate) fn spread(&self, changes: &mut [Rgb]) {
         for &vertex in self.order.iter().filter(|&&v| !self.active[v as usize]) {
             let Some(link) = &self.links[vertex as usize] else { continue };
@@ -252,8 +256,8 @@ impl Carriers {
         }
     }
 
-    /// The detail of a carrier: its value but what would be interpolated there, and over which spacing;
-    /// `None` where it is not interpolated, or from vertices that say nothing.
+    /// The detail of a carrier, that is, its value minus its interpolation, and the spacing of that; `None` where it
+    /// is not interpolated, or from vertices that say nothing.
     pub(crate) fn detail(&self, values: &[Option<f64>], vertex: u32) -> Option<(f64, f64)> {
         let link = self.links.get(vertex as usize)?.as_ref()?;
         let mut detail = values[vertex as usize]?;
@@ -263,8 +267,8 @@ impl Carriers {
         Some((detail, link.spacing_m))
     }
 
-    /// What is told of the vertices of the first mesh that do not carry light; `is_beset` says of a
-    /// carrier whether something stands nearer before it than so far.
+    /// The estimates at the vertices of the first mesh that wait; `is_beset` tells whether something stands nearer to
+    /// a carrier than a distance.
     pub(crate) fn told(
         &self,
         values: &[Option<f64>],
@@ -273,7 +277,7 @@ impl Carriers {
         let mut told: Vec<Option<Told>> = vec![None; self.links.len()];
         let mut start = 0;
         for &end in &self.ends {
-            // A level needs those before it alone.
+            // A level needs only those before it.
             let level = &self.order[start..end];
             let waiting = level.par_iter().with_min_len(TOGETHER);
             let waiting = waiting.filter(|&&v| !self.active[v as usize]);
@@ -318,7 +322,7 @@ impl Carriers {
     }
 }
 
-/// The vertices before the `first` new one between which one made on an edge lies, and how much of each it has.
+/// The vertices before `first` that a vertex made on an edge lies between, with weights.
 fn first_ends(vertices: &[Vertex], first: usize, ends: [u32; 2]) -> Vec<(u32, f64)> {
     let mut between = ends.map(|end| (end, 0.5)).to_vec();
     while let Some(k) = between.iter().position(|&(end, _)| end as usize >= first) {
@@ -329,11 +333,12 @@ fn first_ends(vertices: &[Vertex], first: usize, ends: [u32; 2]) -> Vec<(u32, f6
     between
 }
 
-/// Of vertices, those about them that carry light.
+/// The carriers around each vertex.
 struct Rings(Vec<Vec<u32>>);
 
 impl Rings {
-    /// Of the first so many: corners of the elements about them that tell of light, and rows beside walls.
+    /// The carriers around each of the `first` vertices: corners of its elements that carry light, and rows beside
+    /// walls.
     fn of(
         elements: &[[u32; 3]],
         first: usize,
@@ -347,7 +352,7 @@ impl Rings {
         }
         rings.iter_mut().for_each(sort_once);
         for row in rows {
-            // Whoever sees the vertex on the wall sees it, too.
+            // A place that sees the vertex on the wall sees the row, too.
             let about = rings[row.of as usize].clone();
             let before = about.into_iter().filter(|&v| (v as usize) < first);
             before.for_each(|v| rings[v as usize].push(row.vertex));
@@ -355,14 +360,14 @@ impl Rings {
         Self(rings)
     }
 
-    /// The same about all of those.
+    /// The carriers around the carriers of each ring.
     fn wider(&self, found: impl Fn() -> Found + Sync + Send) -> Self {
         let about =
             |found: &mut Found, ring: &Vec<u32>| self.about(ring.iter().copied(), found).to_vec();
         Self(self.0.par_iter().map_init(found, about).collect())
     }
 
-    /// Those about any of some, each once.
+    /// The carriers around any of some vertices, each once.
     fn about<'f>(&self, some: impl Iterator<Item = u32>, found: &'f mut Found) -> &'f [u32] {
         found.begin();
         for ring in some.filter_map(|v| self.0.get(v as usize)) {
@@ -372,11 +377,12 @@ impl Rings {
     }
 }
 
-/// Vertices that were found, each once.
+/// Vertices found in a search, each once.
 struct Found {
     all: Vec<u32>,
-    /// Of every vertex the search in which it was found last, and which search this is.
+    /// The number of the last search that found each vertex.
     last: Vec<u32>,
+    /// The number of the current search.
     search: u32,
 }
 
@@ -403,12 +409,12 @@ fn sort_once(some: &mut Vec<u32>) {
 }
 
 impl Waiting {
-    /// How many there are.
+    /// The number of vertices that wait.
     pub(crate) fn count(&self) -> usize {
         self.vertices.len()
     }
 
-    /// Of so many vertices, for each the carrier that it is mostly interpolated from; carriers have themselves.
+    /// The carrier with the largest weight for each of the first `vertices` vertices; for a carrier, itself.
     pub(crate) fn nearest_carriers(&self, vertices: usize) -> Vec<u32> {
         let mut nearest: Vec<u32> = (0..vertices as u32).collect();
         let mut start = 0;
@@ -422,11 +428,11 @@ impl Waiting {
         nearest
     }
 
-    /// Puts their values where they belong.
+    /// Interpolates the values of vertices that wait.
     pub(crate) fn fill(&self, values: &mut [Rgb]) {
         let mut start = 0;
         for &end in &self.levels {
-            // A level needs those before it alone.
+            // A level needs only those before it.
             let level = (start..end).into_par_iter().with_min_len(TOGETHER);
             let found: Vec<Rgb> = level.map(|k| self.read(k, values)).collect();
             let vertices = &self.vertices[start..end];
@@ -435,7 +441,8 @@ impl Waiting {
         }
     }
 
-    /// A value lies between those that it comes from: quadratic functions overshoot where light has a kink.
+    /// The interpolated value, bounded by those that it comes from: quadratic functions overshoot where light has a
+    /// kink.
     fn read(&self, k: usize, values: &[Rgb]) -> Rgb {
         let parents = self.parents(k);
         let Some(&(first, _)) = parents.first() else { return Rgb::BLACK };
@@ -453,7 +460,8 @@ impl Waiting {
         &self.parents[start..self.ends[k]]
     }
 
-    /// Their part of some values, `held` between the own one `before` and those of the carriers that they follow, which are held.
+    /// Bounds the values of vertices that wait by their own values `before` and by the bounded values of their
+    /// carriers.
     pub(crate) fn hold(&self, values: &[Rgb], before: &[Rgb], held: &mut [Rgb]) {
         for (k, &vertex) in self.vertices.iter().enumerate() {
             let mut range = Range::of(before[vertex as usize]);
@@ -462,7 +470,7 @@ impl Waiting {
         }
     }
 
-    /// How they are filled from the values of some light, which are filled, with weights that stay.
+    /// The interpolation with fixed weights, from values of light that are already interpolated.
     pub(crate) fn held(&self, values: &[Rgb]) -> BoundedWaiting<'_> {
         let own: Vec<Rgb> = self.vertices.iter().map(|&v| values[v as usize]).collect();
         let from = |k: usize, from: &mut Stencil| {
@@ -475,14 +483,14 @@ impl Waiting {
     }
 }
 
-/// Vertices that do not carry light, with the values that each lies between.
+/// Vertices that wait, as means with fixed weights.
 pub(crate) struct BoundedWaiting<'a> {
     waiting: &'a Waiting,
     held: Bounded,
 }
 
 impl BoundedWaiting<'_> {
-    /// Puts their values where they belong.
+    /// Interpolates the values of vertices that wait.
     pub(crate) fn fill(&self, values: &mut [Rgb]) {
         let Waiting { vertices, levels, .. } = self.waiting;
         let mut start = 0;

@@ -1,6 +1,6 @@
-//! Which vertices of finely tessellated surfaces are left when they are thinned out, and what the others are interpolated from.
+//! Coarsening of finely tessellated surfaces: levels of vertices, and the interpolation of the others.
 //!
-//! Surfaces have nothing to do with each other, so that each is thinned out for itself.
+//! Surfaces are independent, so each is coarsened by itself.
 
 use super::edge_falloff::{MOST_NEAR, Wall};
 use crate::elements::{FewNumbers, Subdivision, Vertex};
@@ -8,56 +8,60 @@ use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Levels at most: spacings a factor of two apart.
+/// The largest number of levels, whose spacings differ by factors of two.
 const MOST_LEVELS: u8 = 12;
 
-/// Surfaces with fewer vertices are left as they are.
+/// The number of vertices below which a surface is left as it is.
 const FEWEST_VERTICES: usize = 32;
 
-/// Neighbours face ways no farther apart than this, 45 degrees: over more, a tangent plane is none.
+/// The least cosine between the normals of neighbours, 45 degrees. A tangent plane does not fit wider angles.
 const LEAST_COS: f64 = 0.7;
 
-/// Neighbours that a value is interpolated from, and how far from it they are at most, in spacings.
+/// The number of neighbours that a value is interpolated from.
 const NEIGHBOURS: usize = 12;
-/// The same where light falls off towards walls, which takes two functions more.
+/// The number of neighbours where light falls off towards walls, which takes two more functions.
 const NEIGHBOURS_AT_WALLS: usize = 16;
+/// The largest distance of neighbours, in spacings.
 const REACH: f64 = 2.5;
 
-/// Weights whose magnitudes add up to more extrapolate.
+/// The largest sum of the magnitudes of weights; larger ones extrapolate.
 const MOST_WEIGHT: f64 = 1.6;
-/// The same before walls, where functions that fall off without bound reach beyond the nearest row.
+/// The largest sum before walls, where functions that fall off without bound reach beyond the nearest row.
 const MOST_WEIGHT_AT_WALLS: f64 = 2.2;
 
-/// Columns of least squares of which less than this is left by those before depend on them.
+/// The least share of the squared length of a least-squares column that earlier columns leave; with less it depends
+/// on them.
 const LEAST_PIVOT: f64 = 1e-3;
 
-/// How far samples may lie beside a line to be on it, as a share of how far they reach: as coordinates are rounded. And
-/// how many of the nearest are tried to tell one.
+/// The largest distance of samples from a line that they lie on, as a share of their reach: the rounding of
+/// coordinates.
 const OFF_LINE: f64 = 1e-4;
+/// The number of nearest samples that are tried as directions of a line.
 const LINES: usize = 4;
 
-/// Where a border turns by more than some 25 degrees it has a corner.
+/// The cosine at which a border has a corner: it turns by more than some 25 degrees.
 const STRAIGHT_COS: f64 = -0.9;
 
-/// What a vertex that need not carry light is interpolated from.
+/// The interpolation of a vertex that need not carry light.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Link {
+    /// The vertices that it is interpolated from, with weights.
     pub(crate) parents: Vec<(u32, f64)>,
-    /// How far carriers of the level before are from each other, m.
+    /// The spacing of carriers of the level before, m.
     pub(crate) spacing_m: f64,
 }
 
-/// Levels of vertices, and what they are interpolated from.
+/// The levels of vertices, and their interpolation.
 pub(crate) struct Coarsening {
-    /// Zero for the coarsest.
+    /// The level of each vertex, zero for the coarsest.
     pub(crate) levels: Vec<u8>,
-    /// None for those that are not interpolated.
+    /// The link of each vertex; `None` for those that are not interpolated.
     pub(crate) links: Vec<Option<Link>>,
 }
 
 impl Coarsening {
-    /// Vertices of level zero lie no farther apart than `spacing_m`, those of each next half as far. Vertices that are not
-    /// `open` are not interpolated, nor is anything from them.
+    /// The levels and links of vertices. Vertices of level zero lie at most `spacing_m` apart, those of each next
+    /// level half as far. Vertices that are not `open` are not interpolated, nor is anything from them.
     pub(crate) fn of(subdivision: &Subdivision, spacing_m: f64, open: &[bool]) -> Self {
         let vertices = subdivision.vertices();
         let found: Vec<Vec<(u32, u8, Option<Link>)>> = surfaces(subdivision, open)
@@ -74,15 +78,16 @@ impl Coarsening {
     }
 }
 
-/// A smooth surface: vertices that edges connect.
+/// A smooth surface: vertices connected by edges.
 struct Surface {
-    /// Those in the open, corners of borders first, then the rest of borders, as what lies between is interpolated best.
+    /// The open vertices: first corners of borders, then the rest of borders, then those between, which interpolate
+    /// best.
     members: Vec<u32>,
-    /// Whether they may be interpolated.
+    /// Whether each may be interpolated.
     can_wait: Vec<bool>,
 }
 
-/// The surfaces that have vertices enough.
+/// The surfaces that have enough vertices.
 fn surfaces(subdivision: &Subdivision, open: &[bool]) -> Vec<Surface> {
     let of = subdivision.least_connected();
     let rank = ranks(subdivision);
@@ -103,7 +108,7 @@ fn surfaces(subdivision: &Subdivision, open: &[bool]) -> Vec<Surface> {
     alike.filter(|all| all.len() >= FEWEST_VERTICES).map(surface).collect()
 }
 
-/// Of every vertex, whether it lies at a corner of a border (0), on one (1), or within (2).
+/// The rank of each vertex: at a corner of a border (0), on a border (1), or within (2).
 fn ranks(subdivision: &Subdivision) -> Vec<u8> {
     let vertices = subdivision.vertices();
     let mut beside: Vec<[u32; 2]> = vec![[NONE; 2]; vertices.len()];
@@ -112,7 +117,7 @@ fn ranks(subdivision: &Subdivision) -> Vec<u8> {
         for (own, other) in [(a, b), (b, a)] {
             match beside[own as usize].iter_mut().find(|of| **of == NONE) {
                 Some(free) => *free = other,
-                // Borders meet.
+                // Borders meet here.
                 None => ranks[own as usize] = 0,
             }
         }
@@ -133,7 +138,7 @@ fn ranks(subdivision: &Subdivision) -> Vec<u8> {
 const NONE: u32 = u32::MAX;
 
 impl Surface {
-    /// Levels of its vertices and what they are interpolated from.
+    /// The levels and links of its vertices.
     fn thinned_out(&self, vertices: &[Vertex], spacing_m: f64) -> Vec<(u32, u8, Option<Link>)> {
         let own: Vec<Vertex> = self.members.iter().map(|&v| vertices[v as usize]).collect();
         let mut levels = self.levels(&own, spacing_m);
@@ -142,8 +147,8 @@ impl Surface {
         of.map(|((&v, level), link)| (v, level, link)).collect()
     }
 
-    /// The level of every vertex, zero for the coarsest: on every level, no vertex that is added is
-    /// nearer to another one that faces its way than the spacing.
+    /// The level of each vertex, zero for the coarsest. No vertex added on a level is nearer than the spacing to
+    /// another one that faces its way.
     fn levels(&self, own: &[Vertex], coarsest_m: f64) -> Vec<u8> {
         let mut levels: Vec<u8> =
             self.can_wait.iter().map(|&waits| if waits { MOST_LEVELS } else { 0 }).collect();
@@ -172,7 +177,7 @@ impl Surface {
         levels
     }
 
-    /// What vertices are interpolated from. A vertex that comes to have no link is as coarse as any.
+    /// The links of vertices. A vertex that gets no link joins the coarsest level.
     fn links(&self, own: &[Vertex], coarsest_m: f64, levels: &mut [u8]) -> Vec<Option<Link>> {
         let mut links: Vec<Option<Link>> = vec![None; levels.len()];
         let finest = levels.iter().copied().max().unwrap_or(0);
@@ -208,8 +213,8 @@ impl Surface {
     }
 }
 
-/// Neighbours near a place, each with its distance, and the weights of their values that give the value there, where light falls
-/// off towards these walls.
+/// Neighbours and weights that give the value at a place by moving least squares, from neighbours with their
+/// distances, m. Light may fall off towards `walls`.
 pub(crate) fn weights_at(
     at: &Vertex,
     mut near: Vec<(f64, usize)>,
@@ -259,7 +264,7 @@ fn spacing_of(coarsest_m: f64, level: u8) -> f64 {
     coarsest_m / f64::from(1_u32 << level)
 }
 
-/// Vertices by the cells of a grid.
+/// Vertices in the cells of a grid.
 struct Grid {
     reach_m: f64,
     cells: HashMap<[i64; 3], Vec<usize>, FewNumbers>,
@@ -275,7 +280,8 @@ impl Grid {
         grid
     }
 
-    /// Cells are twice as long as the reach: what is within reach of a place lies in two of them each way.
+    /// The cell of a coordinate. Cells are twice as long as the reach, so vertices within reach of a place lie in at
+    /// most two of them along each axis.
     fn cell(&self, c: f64) -> i64 {
         libm::floor(0.5 * c / self.reach_m) as i64
     }
@@ -285,7 +291,7 @@ impl Grid {
         self.cells.entry(cell).or_default().push(vertex);
     }
 
-    /// Visits all within reach of a place and some beyond, until told to stop.
+    /// Visits all vertices within reach of a place and some beyond, until `go_on` returns false.
     fn visit(&self, at: Point, mut go_on: impl FnMut(usize) -> bool) {
         let [x, y, z] =
             [at.x, at.y, at.z].map(|c| self.cell(c - self.reach_m)..=self.cell(c + self.reach_m));
@@ -303,33 +309,34 @@ impl Grid {
     }
 }
 
-/// A place in the tangent plane, and how much it counts.
+/// A place in the tangent plane, and its weight.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sample {
     at: [f64; 2],
     weight: f64,
-    /// How light that falls off towards walls differs from that at the origin.
+    /// The difference to the origin of each function that falls off towards a wall.
     falls: [f64; MOST_NEAR],
 }
 
-/// A number of every sample, zeros after the last.
+/// A number for each sample, with zeros after the last.
 type Column = [f64; NEIGHBOURS_AT_WALLS];
 
 const NO_COLUMN: Column = [0.0; NEIGHBOURS_AT_WALLS];
 
-/// A constant, five of a quadratic function, and what falls off towards walls.
+/// The largest number of terms: a constant, five of a quadratic function, and those that fall off towards walls.
 const MOST_TERMS: usize = 6 + MOST_NEAR;
 
-/// Terms over a plane before so many walls, those to be tried first.
+/// The sets of terms over a plane by number of walls, in the order in which they are tried.
 const OVER_PLANE: [[&[usize]; 2]; 1 + MOST_NEAR] = [
     [&[1, 2, 3, 4, 5], &[1, 2]],
     [&[1, 2, 3, 4, 5, 6], &[1, 2, 6]],
     [&[1, 2, 3, 4, 5, 6, 7], &[1, 2, 6, 7]],
 ];
 
-/// Weights of the values at some places that give the value at the origin of the polynomial of best
-/// fit of a constant and some terms beside it of `1, x, y, x2, xy, y2` and what falls off towards walls; `None` where they do not tell it, or
-/// extrapolate. By orthogonal columns (modified Gram-Schmidt).
+/// The weights of the values at some places that give the value at the origin of the function of best fit. The
+/// function is a constant and the terms `beside` it, of `1, x, y, x2, xy, y2` and functions that fall off towards
+/// walls. `None` where the places do not determine it or extrapolate. Columns are made orthogonal by modified
+/// Gram-Schmidt.
 fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
     if samples.len() <= beside.len() {
         return None;
@@ -347,7 +354,7 @@ fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
         column.iter_mut().zip(of).for_each(|(own, value)| *own = value);
         column
     };
-    // The constant column comes last: what the others leave of it is what tells the value.
+    // The constant column comes last: its part that the others leave determines the value.
     let mut columns = [NO_COLUMN; MOST_TERMS];
     let mut squares = [0.0; MOST_TERMS];
     for (k, &term) in beside.iter().chain(&[0]).enumerate() {
@@ -369,8 +376,8 @@ fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
     (size <= most).then_some(weights)
 }
 
-/// The same of a polynomial along a line through the origin that some of the samples lie on, as others on the same border do;
-/// the line is told by one of the nearest.
+/// The weights for a polynomial along a line through the origin that some of the samples lie on, such as vertices of
+/// one border. One of the nearest samples gives its direction.
 fn weights_along_line(samples: &[Sample]) -> Option<Column> {
     samples.iter().take(LINES).find_map(|towards| {
         let [x, y] = towards.at;
@@ -387,7 +394,7 @@ fn weights_along_line(samples: &[Sample]) -> Option<Column> {
     })
 }
 
-/// Four sums side by side, as processors add.
+/// The scalar product, as four sums side by side for vector instructions.
 fn dot(a: &Column, b: &Column) -> f64 {
     let mut sums = [0.0; 4];
     for (a, b) in a.chunks_exact(4).zip(b.chunks_exact(4)) {

@@ -1,67 +1,66 @@
-//! Where elements are too coarse: detail coefficients of a function on the tree of bisections.
+//! Detail coefficients of a function on the tree of bisections, which show where elements are too coarse.
 //!
-//! A vertex made by bisection has a detail coefficient: its value minus the mean of the ends of its
-//! edge. A quantity that is smooth has a quarter of it at the next level, one with a kink a half, a
-//! shadow border all of it. So details at the finest level tell the error that interpolation still
-//! makes there.
+//! A vertex made by bisection has a detail coefficient (hierarchical surplus): its value minus the mean of the ends
+//! of its edge. From level to level, a smooth quantity keeps a quarter of it, one with a kink a half, a shadow border
+//! all of it. So details at the finest level tell the error of interpolation there.
 
 use super::carriers::{Carriers, ERROR_OF_DETAIL, Told};
 use crate::elements::{Elements, Subdivision};
 use rayon::prelude::*;
 
-/// As [`ERROR_OF_DETAIL`], for an element of the input, which has no detail, as a share of the spread of its
-/// vertices: what a detail of half the spread would give.
+/// The interpolation error of an element of the input, which has no detail, as a share of the range of its vertices:
+/// the value of [`ERROR_OF_DETAIL`] for a detail of half the range.
 const ERROR_OF_SPREAD: f64 = 0.15;
 
-/// The same, as a share of what interpolation errs by in the middle. A quadratic function errs by a
-/// twenty-fourth of its three second differences along the edges in the mean, by an eighteenth in the
-/// middle, and somewhat more in the root mean square; a gap that only the vertices on its rim see
-/// light from, by all of it.
+/// The interpolation error of an element, root mean square, as a share of the error in its middle. A quadratic
+/// function has a mean error of a twenty-fourth of its three second differences along the edges, of an eighteenth in
+/// the middle, and a somewhat larger root mean square. A gap where only the vertices on the rim see light has all of
+/// the error.
 const ERROR_OF_MIDDLE: f64 = 0.9;
 
-/// A detail belongs to an element if the edge it was made on is at most so many times its own.
+/// The longest edge on which a detail of an element was made, in longest edges of the element.
 const RECENT: f64 = 2.9;
 
-/// Elements of one task.
+/// The number of elements of one task.
 const TOGETHER: usize = 1024;
 
-/// The error estimated for an element.
+/// The error expected of an element.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LeafError {
     pub(crate) node: u32,
     pub(crate) area_m2: f64,
-    /// Root mean square over the element, in the unit of the values.
+    /// The root mean square error over the element, in the unit of the values.
     pub(crate) error: f64,
-    /// By how much the values exceed their interpolation in the mean, roughly; zero where that is not told.
+    /// The approximate mean difference of the values to their interpolation; zero where it is not known.
     pub(crate) excess: f64,
-    /// Whether readers gather there anyway, as something stands close.
+    /// Whether something stands close, so that readers gather there anyway.
     pub(crate) is_beset: bool,
-    /// Whether that is so only because its light is carried by vertices farther apart than its own, or at the rim of something
-    /// that stands closer before them.
+    /// Whether that is so for only one of two reasons: vertices farther apart than its own carry its light, or it
+    /// lies at the rim of something that stands closer to them.
     pub(crate) is_beset_afar: bool,
-    /// Whether what stands close is a wall, which light is resolved towards.
+    /// Whether the close object is a wall, and light is resolved towards it.
     pub(crate) is_at_wall: bool,
-    /// By how much more than elsewhere its error counts: dim rooms beside bright ones are to be right, too.
+    /// The weight of its error relative to others: dim rooms beside bright ones are to be right, too.
     pub(crate) weight: f64,
-    /// The same for those who see it from where it is dim; nothing where that is no more.
+    /// The weight of its error for dim places that see it; zero where that is no more.
     pub(crate) seen: f64,
 }
 
 impl LeafError {
-    /// Contribution to the squared error of the scene.
+    /// The contribution to the squared error of the scene.
     pub(crate) fn squared(&self) -> f64 {
         let counted = self.weight * self.error;
         self.area_m2 * counted * counted
     }
 
-    /// The same as it counts for those who see it from where it is dim.
+    /// The error with the weight that it has for dim places that see it.
     pub(crate) fn seen_from_dim(&self) -> Self {
         Self { weight: self.seen, ..*self }
     }
 }
 
-/// What is known of a function on elements: values at the vertices, `None` where they say nothing,
-/// and which of them carry it.
+/// A function on elements: its values at the vertices, `None` where these say nothing, and the vertices that carry
+/// it.
 pub(crate) struct Details<'a> {
     subdivision: &'a Subdivision,
     elements: &'a Elements,
@@ -71,7 +70,7 @@ pub(crate) struct Details<'a> {
 }
 
 impl<'a> Details<'a> {
-    /// Of a function that all vertices carry.
+    /// The details of a function with these values.
     pub(crate) fn of(
         subdivision: &'a Subdivision,
         elements: &'a Elements,
@@ -87,9 +86,9 @@ impl<'a> Details<'a> {
         self.told.get(vertex as usize).copied().flatten()
     }
 
-    /// Errors of all elements, from the details and the values in the middle of those without, where
-    /// known; `is_beset` says where readers gather anyway, `is_hemmed` of a vertex whether something stands so close before it
-    /// that it tells nothing of such a distance.
+    /// The errors of all elements: from details, or from values in the middle where there are none. `is_beset` tells
+    /// whether something stands close to an element, so that readers gather there anyway. `is_hemmed` tells whether
+    /// something stands so close to a vertex that it tells nothing at such a distance.
     pub(crate) fn leaf_errors(
         &self,
         in_the_middle: impl Fn(u32) -> Option<f64> + Sync,
@@ -123,8 +122,8 @@ impl<'a> Details<'a> {
         leaves.into_par_iter().with_min_len(TOGETHER).map(leaf).collect()
     }
 
-    /// The error of an element that details tell, and by how much it is exceeded; `None` if it has none, or vertices
-    /// that say nothing.
+    /// The error of an element from its details, with the mean excess; `None` without details, or if vertices say
+    /// nothing.
     pub(crate) fn told_error(&self, node: u32) -> Option<(f64, f64)> {
         let corners = self.subdivision.node(node).0.vertices;
         if corners.iter().any(|&v| self.values[v as usize].is_none()) {
@@ -154,8 +153,8 @@ impl<'a> Details<'a> {
         Some(self.values[vertex as usize]? - 0.5 * (a? + b?))
     }
 
-    /// The share of the error of all elements that a fit leaves: told by how details shrink from one level
-    /// to the next. Elements that have no two levels of details keep their errors.
+    /// The share of the error of all elements that a fit leaves, from the decrease of details between levels.
+    /// Elements without details on two levels keep their errors.
     pub(crate) fn left_by_fit(&self, errors: &[LeafError]) -> f64 {
         let (mut newer, mut older) = (0.0, 0.0);
         let (mut told, mut untold) = (0.0, 0.0);
@@ -187,12 +186,12 @@ impl<'a> Details<'a> {
     }
 }
 
-/// An error, and by how much it is exceeded.
+/// The error and the excess from a signed excess.
 const fn told(excess: f64) -> (f64, f64) {
     (excess.abs(), excess)
 }
 
-/// The error of an element without details, and by how much it is exceeded.
+/// The error and excess of an element without details.
 fn untold_error(values: [Option<f64>; 3], in_the_middle: Option<f64>) -> (f64, f64) {
     let known: Vec<f64> = values.into_iter().flatten().collect();
     let Some(high) = known.iter().copied().reduce(f64::max) else { return (0.0, 0.0) };
@@ -203,37 +202,39 @@ fn untold_error(values: [Option<f64>; 3], in_the_middle: Option<f64>) -> (f64, f
             told(ERROR_OF_MIDDLE * (middle - read))
         }
         None if known.len() == 3 => (ERROR_OF_SPREAD * (high - low), 0.0),
-        // Extrapolation over a vertex that says nothing: as uncertain as the value is large.
+        // Extrapolation over a vertex that says nothing is as uncertain as the value is large.
         None => (ERROR_OF_SPREAD * high, 0.0),
     }
 }
 
-/// What a fit to the light over elements leaves of the error of interpolation, where details shrink
-/// to a quarter from level to level (smooth: a parabola is 2.4 times as near), and by how much more
-/// for each unit by which they shrink less: all of it at three quarters, between kinks and borders.
+/// The share of the interpolation error that a fit to the light over elements leaves, where light is smooth (a
+/// parabola is 2.4 times as near).
 const LEFT_OF_SMOOTH: f64 = 0.42;
+/// The ratio of details between levels where light is smooth.
 const SMOOTH: f64 = 0.25;
+/// The increase of the share left, per unit of that ratio: all error is left at three quarters, between kinks and
+/// borders.
 const LEFT_FOR_ROUGH: f64 = (1.0 - LEFT_OF_SMOOTH) / (0.75 - SMOOTH);
 
-/// Share of the squared error that one round of refinement removes at most by marking the worst
-/// elements (Dörfler 1996).
+/// The largest share of the squared error that one round of refinement removes by marking the worst elements (Dörfler
+/// 1996).
 const MARKED_SHARE: f64 = 0.75;
 
-/// What bisecting an element twice leaves of its squared error where light is smooth.
+/// The share of the squared error of an element left after two bisections where light is smooth.
 const LEFT: f64 = 1.0 / 16.0;
 
-/// How far refinement goes.
+/// The limits of refinement.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Refinement {
-    /// How far the error of the scene is to fall.
+    /// The ratio to which the error of the scene is to fall.
     pub(crate) wanted: f64,
-    /// Elements with edges below this are left alone, m.
+    /// The edge length below which elements are not bisected, m.
     pub(crate) least_edge_m: f64,
     pub(crate) max_vertices: usize,
 }
 
-/// Refines the worst elements, and returns whether there was anything to refine: carriers nearer to each
-/// other where there are vertices for them, else two bisections each so that both directions are halved.
+/// Refines the worst elements, and returns whether there was anything to refine. Where vertices wait, these become
+/// carriers. Otherwise an element is bisected twice, so that both directions are halved.
 pub(crate) fn refine_worst(
     subdivision: &mut Subdivision,
     carriers: &mut Carriers,
@@ -241,7 +242,7 @@ pub(crate) fn refine_worst(
     how_far: Refinement,
 ) -> bool {
     let Refinement { wanted, least_edge_m, max_vertices } = how_far;
-    // No more than it takes, if all goes well.
+    // No more elements are marked than needed if every error falls as expected.
     let share = ((1.0 - wanted * wanted) / (1.0 - LEFT)).clamp(0.0, MARKED_SHARE);
     let waits = |carriers: &Carriers, corners: [u32; 3]| {
         corners.into_iter().any(|vertex| !carriers.is_active(vertex))
@@ -252,7 +253,7 @@ pub(crate) fn refine_worst(
                 || subdivision.longest_edge_m(e.node) > 2.0 * least_edge_m)
     };
     let mut worst: Vec<&LeafError> = errors.iter().filter(can_be).collect();
-    // Ties in the order of the nodes: the same mesh on every machine.
+    // Ties are broken by node number, so that the mesh is the same on every machine.
     worst
         .par_sort_unstable_by(|a, b| b.squared().total_cmp(&a.squared()).then(a.node.cmp(&b.node)));
     let total: f64 = worst.iter().map(|e| e.squared()).sum();

@@ -1,60 +1,66 @@
-//! Edges at which surfaces end before walls, and how light falls off towards them.
+//! Edges at which surfaces end before walls, and the falloff of light towards them.
 //!
-//! Two walls that meet light each other across their edge. What a place at a distance `d` from the edge gets from the
-//! other wall, whose light is `a + b s` at a distance `s` from it, is a smooth function of `d` and a multiple of `d ln d`,
-//! whose slope has no bound. No polynomial comes near it, nor do any few elements; a polynomial with that function beside it does.
+//! Two walls that meet light each other across their edge. At a distance `d` from the edge, the light from the other
+//! wall, whose own light is `a + b s` at a distance `s` from it, is a smooth function of `d` plus a multiple of `d ln
+//! d`, whose slope has no bound. No polynomial and no few elements come near it; a polynomial with that function
+//! beside it does.
 
 use crate::elements::{Elements, FewNumbers, Subdivision, carries_map, edge_key};
 use crate::scene::Scene;
 use isolux_geometry::{Direction, Point, Ray, Vector};
 use std::collections::{HashMap, HashSet};
 
-/// How far from an edge, in lengths of it, a wall is looked for, along a ray that rises by so much of what it goes.
+/// The distance from an edge of the start of the ray that looks for a wall, in lengths of the edge.
 const ASIDE: f64 = 0.05;
+/// The rise of that ray relative to its advance.
 const RISE: f64 = 0.5;
-/// How far that ray may go, in the same: an upright wall is met at 1.1, one that leans outwards by 45 degrees at 2.2.
+/// The length of that ray, in distances of its start from the edge. It meets an upright wall at 1.1, one that leans
+/// outwards by 45 degrees at 2.2.
 const REACH: f64 = 3.0;
 
-/// How far ends of edges of one line may lie beside it, as a share of their lengths: as coordinates are rounded.
+/// The largest distance of the ends of edges from a line that they lie on, as a share of their lengths: the rounding
+/// of coordinates.
 const BESIDE: f64 = 1e-4;
 
-/// Surfaces with more lines are curved.
+/// The number of lines above which a surface is curved.
 const MOST_LINES: usize = 64;
 
-/// Elements whose middle is no farther from a wall than so many of their edges have it stand close.
+/// The distance of the middle of an element from a wall, in its longest edges, up to which the wall stands close.
 const FROM_WALL: f64 = 1.5;
 
-/// Root mean square of the error of linear interpolation in the elements that touch a wall, as a share of how much light falls off
-/// over them: `d ln d` errs by 0.27 of the width of a strip, and falls by 1.3 to 2 of it.
+/// The root mean square error of linear interpolation in the elements that touch a wall, as a share of the falloff of
+/// light over them: `d ln d` has an error of 0.27 of the width of a strip, and falls by 1.3 to 2 of it.
 const OF_DROP: f64 = 0.18;
-/// What of the accuracy asked for that error may take; halving elements leaves the root of an eighth of it.
+/// The share of the accuracy goal that this error may take. Halving elements leaves the root of an eighth of the
+/// error.
 const SHARE: f64 = 0.2;
-/// Halvings at most; and at least, as the first may take what lies in the second row.
+/// The largest number of halvings.
 const MOST_HALVINGS: u32 = 6;
+/// The least number of halvings, since the first may take the second row.
 const FEWEST_HALVINGS: u32 = 2;
 
-/// Halving elements that touch a wall makes so many vertices for each of them, those included that keep elements together: as found
-/// in CUBE, one to four times.
+/// The number of vertices made by halving an element that touches a wall, with those that keep elements together. In
+/// CUBE one to four were found.
 const MORE_VERTICES: f64 = 2.4;
 
-/// Halving an element makes so many vertices at most, in the mean.
+/// The largest mean number of vertices made by halving an element.
 const MOST_OF_ONE: usize = 4;
 
-/// Rows of vertices beside walls lie at this share of the width of their elements.
+/// The distance of rows of vertices from walls, as a share of the width of their elements.
 const ROW: f64 = 0.25;
 
-/// At a place of a surface at most so many of its walls matter.
+/// The largest number of walls of a surface that count at a place.
 pub(crate) const MOST_NEAR: usize = 2;
 
-/// A straight line that a surface ends at before a wall.
+/// A straight line at which a surface ends before a wall.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wall {
     from: Point,
-    /// Of length one, as is the next.
+    /// The unit vector along the line.
     along: Vector,
-    /// Into the surface.
+    /// The unit vector into the surface.
     inward: Vector,
-    /// Where along it the wall begins and ends, m.
+    /// The begin and end of the wall along the line, m.
     reach_m: [f64; 2],
 }
 
@@ -62,33 +68,39 @@ pub(crate) struct Wall {
 #[derive(Debug, Default)]
 pub(crate) struct EdgeFalloffs {
     lines: Vec<Wall>,
-    /// Of every piece of surface, its lines; of every vertex its piece.
+    /// The lines of each piece of surface.
     of_piece: HashMap<u32, Vec<u32>, FewNumbers>,
+    /// The piece of each vertex.
     pieces: Vec<u32>,
-    /// Of every vertex, the lines that it lies on.
+    /// The lines that each vertex lies on.
     at: Vec<Vec<u32>>,
-    /// The edges of elements on them, by their ends, the lower first.
+    /// The edges of elements on lines, by their ends, the lower first.
     edges: HashSet<[u32; 2], FewNumbers>,
-    /// How often elements are to be halved there, and how many touch them.
+    /// The number of times that elements are to be halved there.
     halvings: u32,
+    /// The number of elements that touch a line.
     touching: usize,
 }
 
-/// How near elements lie to walls that light is resolved towards: as near as the vertices of theirs that are farthest.
+/// The number of strips by distance from walls that light is resolved towards. The strip of an element is that of its
+/// farthest vertex; strip 0 is elsewhere.
 pub(crate) const STRIPS: usize = 3;
-/// Numbers of strips: elsewhere is 0.
+/// The strip of elements close to a wall.
 const CLOSE: u8 = 1;
+/// The strip of elements that touch a wall.
 const TOUCHING: u8 = 2;
 
-/// A vertex that carries light beside a wall, and that on the wall which it stands beside.
+/// A vertex that carries light beside a wall.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beside {
+    /// The vertex beside the wall.
     pub(crate) vertex: u32,
+    /// The vertex on the wall that it stands beside.
     pub(crate) of: u32,
 }
 
 impl Wall {
-    /// How far a place of the surface is from it, m; beside its ends, from these.
+    /// The distance of a place of the surface from the wall, m; beyond the ends of the wall, the distance from these.
     pub(crate) fn distance_m(&self, at: Point) -> f64 {
         let to = at - self.from;
         let [begin_m, end_m] = self.reach_m;
@@ -112,7 +124,7 @@ impl Wall {
 }
 
 impl EdgeFalloffs {
-    /// Of surfaces as far as their vertices are `open`.
+    /// The lines of surfaces where their vertices are `open`.
     pub(crate) fn of(scene: &Scene, subdivision: &Subdivision, open: &[bool]) -> Self {
         let pieces = subdivision.least_connected();
         let mut walls =
@@ -139,7 +151,7 @@ impl EdgeFalloffs {
         walls
     }
 
-    /// Takes down the edge between the first two of an element's corners, if there is a wall.
+    /// Adds the edge between the first two corners of an element if a wall stands there.
     fn look(&mut self, scene: &Scene, (subdivision, leaf): (&Subdivision, u32), corners: [u32; 3]) {
         let vertices = subdivision.vertices();
         let [from, to, far] = corners.map(|v| vertices[v as usize].position);
@@ -180,26 +192,27 @@ impl EdgeFalloffs {
         }
     }
 
-    /// Takes down how often elements are to be halved towards walls, so that light which falls off over those that touch one by so much,
-    /// root mean square over all surface, is interpolated to a share of the accuracy asked for.
+    /// Sets the number of halvings towards walls so that interpolation takes a share of the accuracy goal. `drop_lx`
+    /// is the falloff of light over the elements that touch walls, root mean square over all surface; `touching` is
+    /// their number.
     pub(crate) fn halve_for(&mut self, drop_lx: f64, touching: usize, accuracy_lx: f64) {
         self.touching = touching;
         let excess = OF_DROP * drop_lx / (SHARE * accuracy_lx);
-        // Halved, the strip along the wall has half of the error, and so has its area of the surface.
+        // Halved elements have half of the error on half of the area.
         self.halvings = match (libm::log2(excess) / 1.5).ceil() {
             halvings if halvings > 0.0 => (halvings as u32).clamp(FEWEST_HALVINGS, MOST_HALVINGS),
             _ => 0,
         };
     }
 
-    /// Whether a wall stands close before a place of the surface of a vertex, in an element of such edges.
+    /// Whether a wall stands close to a place of the surface of a vertex, in an element with edges of this length.
     pub(crate) fn stand_close(&self, vertex: u32, place: Point, longest_edge_m: f64) -> bool {
         let lines = self.of_piece.get(&self.pieces[vertex as usize]);
         let mut lines = lines.into_iter().flatten().map(|&line| &self.lines[line as usize]);
         lines.any(|line| line.distance_m(place) < FROM_WALL * longest_edge_m)
     }
 
-    /// By how much light falls off over an element that touches a wall, lx.
+    /// The falloff of light over an element that touches a wall, lx.
     pub(crate) fn drop_lx(&self, corners: [u32; 3], values: &[Option<f64>]) -> f64 {
         let [mut on, mut off] = [(0.0, 0.0); 2];
         for v in corners {
@@ -215,7 +228,7 @@ impl EdgeFalloffs {
         self.halvings > 0
     }
 
-    /// How many vertices that takes, roughly, beside halving all elements once.
+    /// The approximate number of vertices for this, beyond halving all elements once.
     pub(crate) fn more_vertices(&self) -> f64 {
         let doublings = libm::exp2(f64::from(self.halvings)) - 2.0;
         MORE_VERTICES * self.touching as f64 * doublings.max(0.0)
@@ -226,8 +239,9 @@ impl EdgeFalloffs {
         !self.at[vertex as usize].is_empty()
     }
 
-    /// Halves elements towards walls, once they have been halved there, as often as was found to do, unless there are too many
-    /// vertices; returns those vertices that are to carry light, too: one beside each that lies on a wall.
+    /// Halves elements towards walls after their first halving, as often as [`EdgeFalloffs::halve_for`] has set,
+    /// unless vertices become too many. Returns further vertices that are to carry light: one beside each vertex on a
+    /// wall.
     pub(crate) fn refine(
         &mut self,
         subdivision: &mut Subdivision,
@@ -244,7 +258,7 @@ impl EdgeFalloffs {
             let touches =
                 |&node: &u32| subdivision.node(node).0.vertices.iter().any(|&v| self.is_on(v));
             let touching: Vec<u32> = subdivision.leaves().filter(touches).collect();
-            // Each makes as many, with those that keep elements together.
+            // Each halved element makes this many vertices, with those that keep elements together.
             if subdivision.vertex_count() + MOST_OF_ONE * touching.len() > max_vertices {
                 break;
             }
@@ -257,8 +271,8 @@ impl EdgeFalloffs {
         rows
     }
 
-    /// Of every vertex the strip that it lies in: at elements that touch a wall, at those below the nodes that were `close` to one, elsewhere.
-    /// Nothing where light is not resolved.
+    /// The strip of each vertex: at elements that touch a wall, at those below nodes that were `close` to one, or
+    /// elsewhere. It is empty where light is not resolved.
     pub(crate) fn strips(&self, elements: &Elements, close: impl Iterator<Item = u32>) -> Vec<u8> {
         if !self.are_resolved() {
             return Vec::new();
@@ -276,7 +290,7 @@ impl EdgeFalloffs {
         strips
     }
 
-    /// Takes in the vertices that bisection has made since.
+    /// Adds the vertices that bisection has made since.
     fn extend(&mut self, subdivision: &Subdivision) {
         for v in self.at.len() as u32..subdivision.vertex_count() as u32 {
             let [a, b] = subdivision.vertices()[v as usize].parents.expect("made by bisection");
@@ -291,7 +305,7 @@ impl EdgeFalloffs {
         }
     }
 
-    /// Of the neighbours of every vertex on a wall before the `first` new one, that nearest to where its row should be.
+    /// The row beside each vertex on a wall before `first`: its new neighbour nearest to the distance of the row.
     fn rows(&self, subdivision: &Subdivision, first: u32, edges_m: &[f64]) -> Vec<Beside> {
         let vertices = subdivision.vertices();
         let mut nearest: Vec<Option<(f64, u32)>> = vec![None; first as usize];

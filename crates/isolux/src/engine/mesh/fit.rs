@@ -1,18 +1,19 @@
-//! Values of vertices of which the piecewise linear function fits best.
+//! Values of vertices for which the piecewise linear function fits best.
 //!
-//! A function that is interpolated from its values at the vertices lies on one side of its chords:
-//! where indirect light is concave, the map would be dark everywhere between vertices, and what is
-//! reflected again and again with it. The piecewise linear function nearest in the mean square has
-//! values a little off at the vertices and no error in the mean; for a parabola it is 2.4 times as
-//! near. It is found from second differences: over an element with vertices `m`, `n` and edges `e` a
-//! quadratic function of Hessian `H` exceeds its interpolation by `-1/2 sum l_m l_n (e_mn H e_mn)`, l
-//! the barycentric coordinates, and by `-1/24 sum e_mn H e_mn` in the mean. The three products are
-//! those that also give the values at the far vertices of the three neighbours. A vertex is moved by
-//! the mean over its elements (the projection onto piecewise linear functions with a lumped mass
-//! matrix: Zienkiewicz, Taylor, "The Finite Element Method", on projection and mass lumping). Those on
-//! borders and creases keep their values: a place at the edge of a room sees the other wall from nearby,
-//! half of its light comes from the edge itself, and what is off there is off at once in both. Their
-//! part is left to the other vertices of their elements, so that the map is right in the mean.
+//! A function interpolated from its values at the vertices lies on one side of its chords. Where indirect light is
+//! concave, the map would be too dark everywhere between vertices, and so would light that is reflected again and
+//! again. The piecewise linear function nearest in the mean square has values a little off at the vertices and no
+//! error in the mean; for a parabola it is 2.4 times as near.
+//!
+//! It is found from second differences. Over an element with vertices `m`, `n` and edges `e` a quadratic function of
+//! Hessian `H` exceeds its interpolation by `-1/2 sum l_m l_n (e_mn H e_mn)`, with `l` the barycentric coordinates,
+//! and by `-1/24 sum e_mn H e_mn` in the mean. The same three products give the values at the far vertices of the
+//! three neighbours. A vertex is moved by the mean over its elements (the projection onto piecewise linear functions
+//! with a lumped mass matrix: Zienkiewicz, Taylor, "The Finite Element Method", on projection and mass lumping).
+//!
+//! Vertices on borders and creases keep their values. A place at the edge of a room sees the other wall from nearby,
+//! half of its light comes from the edge itself, and an error there is at once in both walls. Their part is left to
+//! the other vertices of their elements, so that the map is right in the mean.
 
 use super::bounded::{Bounded, Range};
 use super::carriers::Carriers;
@@ -22,31 +23,31 @@ use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
 
-/// Sums of weights without their signs beyond this are no second differences, but slivers.
+/// The largest sum of the magnitudes of weights of second differences. Beyond it elements are slivers.
 const MOST_WEIGHT: f64 = 4.0;
 
-/// A value is moved by no more than this share of the range of the values about it: that of a
-/// parabola at its top by a sixth. Across kinks and jumps second differences are no curvature. And it never leaves that range:
-/// see [`Range`].
+/// The largest shift of a value, as a share of the range of the values about it; that of a parabola at its top is a
+/// sixth. Across kinks and jumps second differences are no curvature. The value never leaves that range: see
+/// [`Range`].
 const MOST_SHIFT: f64 = 0.25;
 
-/// Vertices of one task.
+/// The number of vertices of one task.
 const AT_ONCE: usize = 256;
 
 /// A linear combination of values of vertices.
 type Form = Vec<(u32, f64)>;
 
-/// What is added to the values of vertices, as linear combinations of all of them.
+/// The shifts of vertices, as linear combinations of all values.
 #[derive(Debug, Default)]
 pub(crate) struct Fit {
     entries: Form,
-    /// End of the entries of every vertex.
+    /// The end of the entries of each vertex.
     ends: Vec<usize>,
 }
 
 impl Fit {
-    /// For the first `vertices` vertices of elements, of which those with corners that `tells` accepts tell of light. Elements whose vertices all
-    /// are interpolated from others, in the mean square already, are left as they are.
+    /// The fit of the first `vertices` vertices. Elements count whose corners `tells` accepts. Elements with no
+    /// carrier among their vertices stay unchanged, since moving least squares has already fitted them.
     pub(crate) fn new(
         elements: &Elements,
         vertices: usize,
@@ -104,7 +105,7 @@ impl Fit {
         fit
     }
 
-    /// The values that fit best, from those at the vertices: each between the values that it is fitted to.
+    /// The values of best fit from those at the vertices, each within the range of the values that it is fitted to.
     pub(crate) fn apply(&self, values: &[Rgb]) -> Vec<Rgb> {
         let one = |k: usize| {
             let (mut range, mut shift) = (Range::of(values[k]), Rgb::BLACK);
@@ -119,7 +120,7 @@ impl Fit {
         (0..self.ends.len()).into_par_iter().with_min_len(1024).map(one).collect()
     }
 
-    /// The same as means of the values of some light, with weights that stay.
+    /// The fit as means with fixed weights, from the values of some light.
     pub(crate) fn held(&self, values: &[Rgb]) -> Bounded {
         Bounded::of(&self.apply(values), |k, from| {
             from.push((k as u32, values[k]));
@@ -127,7 +128,7 @@ impl Fit {
         })
     }
 
-    /// What is added to the value of a vertex.
+    /// The shift of a vertex as a linear combination.
     fn form(&self, vertex: usize) -> &[(u32, f64)] {
         if without("fit") {
             return &[];
@@ -137,7 +138,8 @@ impl Fit {
     }
 }
 
-/// Of the elements about a vertex, their area, and to `form` by how much the vertex is to be moved over it, each of the others once.
+/// The area of the elements about a vertex, m2. Adds to `form` the shift of the vertex times that area, with each
+/// other vertex once.
 fn shifts<'a>(
     about: impl Iterator<Item = (&'a Element, &'a Form)>,
     vertex: u32,
@@ -150,12 +152,12 @@ fn shifts<'a>(
         let area_m2 = 0.5 * (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
         area += area_m2;
         if within(vertex) {
-            // Those that stay leave their part to the others.
+            // Vertices that stay leave their part to the others.
             let moved = element.vertices.iter().filter(|&&v| within(v)).count();
             let share_m2 = area_m2 * 3.0 / moved as f64;
             for &(v, weight) in mean {
                 let weight = weight * share_m2;
-                // Few are about a vertex.
+                // A linear search is enough, since few vertices are about one.
                 match form.iter_mut().find(|(known, _)| *known == v) {
                     Some((_, sum)) => *sum += weight,
                     None => form.push((v, weight)),
@@ -166,10 +168,10 @@ fn shifts<'a>(
     area
 }
 
-/// Of every vertex, the elements about it, in their order.
+/// The elements about each vertex, in their order.
 struct About {
     elements: Vec<u32>,
-    /// Where those of each vertex start, and where the last ones end.
+    /// The start of the elements of each vertex, and the end of the last.
     starts: Vec<usize>,
 }
 
@@ -195,8 +197,7 @@ fn about(all: &[Element], vertices: usize) -> About {
     About { elements, starts }
 }
 
-/// Of every element, those on its edges: edge `k` is opposite vertex `k`. None where an edge is a
-/// border or a crease.
+/// The neighbours of each element: edge `k` is opposite vertex `k`. `None` where an edge is a border or a crease.
 fn neighbours(all: &[Element], about: &About) -> Vec<[Option<usize>; 3]> {
     let across = |index: usize, k: usize| {
         let [a, b] = [1, 2].map(|next| all[index].vertices[(k + next) % 3]);
@@ -208,7 +209,7 @@ fn neighbours(all: &[Element], about: &About) -> Vec<[Option<usize>; 3]> {
     (0..all.len()).into_par_iter().with_min_len(1024).map(beside).collect()
 }
 
-/// Which vertices lie on borders and creases.
+/// Whether each vertex lies on a border or a crease.
 fn borders(all: &[Element], beside: &[[Option<usize>; 3]], vertices: usize) -> Vec<bool> {
     let mut found = vec![false; vertices];
     for (element, beside) in all.iter().zip(beside) {
@@ -221,10 +222,10 @@ fn borders(all: &[Element], beside: &[[Option<usize>; 3]], vertices: usize) -> V
 }
 
 /// The Hessian in a basis of the plane of an element, as linear combinations of the values at its vertices and at the
-/// far ones of its neighbours.
+/// far vertices of its neighbours.
 struct Hessian {
     vertices: [u32; 6],
-    /// Of the components xx, xy and yy.
+    /// The weights of the components xx, xy and yy.
     weights: [[f64; 6]; 3],
 }
 
@@ -270,7 +271,7 @@ impl Hessian {
     }
 }
 
-/// The products of the components of a vector that those of a Hessian are multiplied by.
+/// The factors of the components of a Hessian for a vector on both sides.
 fn products([x, y]: [f64; 2]) -> [f64; 3] {
     [x * x, 2.0 * x * y, y * y]
 }
@@ -279,8 +280,8 @@ fn add(sum: &mut [f64; 3], products: [f64; 3], factor: f64) {
     sum.iter_mut().zip(products).for_each(|(sum, product)| *sum += factor * product);
 }
 
-/// By how much a function exceeds its interpolation in the mean over an element, as a linear
-/// combination of its values. An element on a border takes the Hessian of its neighbours.
+/// The mean excess of a function over its interpolation on an element, as a linear combination of values. An element
+/// on a border takes the Hessian of its neighbours.
 fn mean_excess(
     all: &[Element],
     inner: &[Option<Hessian>],
@@ -311,7 +312,7 @@ fn mean_excess(
     form
 }
 
-/// Two directions in the plane of an element.
+/// Two orthogonal unit vectors in the plane of an element.
 fn basis([a, b, c]: [Point; 3]) -> Option<[Vector; 2]> {
     let normal = (b - a).cross(c - a).direction()?.to_vector();
     let smallest =
@@ -327,7 +328,7 @@ fn inverse(m: [[f64; 3]; 3]) -> Option<[[f64; 3]; 3]> {
     };
     let determinant = (0..3).map(|c| m[0][c] * minor(0, c)).sum::<f64>();
     let size = m.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
-    // Six points close to a conic section do not tell second derivatives.
+    // Six points close to a conic section do not determine second derivatives.
     (determinant.abs() > 1e-3 * size * size * size)
         .then(|| [0, 1, 2].map(|r| [0, 1, 2].map(|c| minor(c, r) / determinant)))
 }

@@ -1,18 +1,18 @@
-//! Hat functions of the elements: what flux on vertices means, and how it blurs.
+//! Hat functions of the elements: conversion of flux on vertices to values, and its blur.
 
 use crate::elements::Subdivision;
 use crate::map::Standing;
 use crate::units::Rgb;
 use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
-/// Integrals of the hat functions of elements, over those vertices of each that are read.
+/// The integrals of the hat functions of elements, over those vertices of each element that are read.
 pub(crate) struct HatFunctions {
     areas_m2: Vec<f64>,
-    /// Elements all of whose vertices are known and of one standing, and their areas.
+    /// Elements with their areas, m2, whose vertices are all known and of one standing.
     known: Vec<([u32; 3], f64)>,
 }
 
-/// Powers of half of a blur after which nothing is left that integers of sums would hold.
+/// The number of terms of the series in half of the blur; integer sums do not hold what is left after them.
 const HALVINGS: u32 = 32;
 
 /// A quantity on vertices.
@@ -32,7 +32,7 @@ impl Quantity for f64 {}
 impl Quantity for Rgb {}
 
 impl HatFunctions {
-    /// Of the leaves, with what vertices stand for.
+    /// The hat functions of the leaves, for these standings of vertices.
     pub(crate) fn new(subdivision: &Subdivision, standings: &[Option<Standing>]) -> Self {
         let mut hats = Self { areas_m2: vec![0.0; subdivision.vertex_count()], known: Vec::new() };
         for leaf in subdivision.leaves() {
@@ -52,22 +52,23 @@ impl HatFunctions {
         hats
     }
 
-    /// Of every vertex, m2.
+    /// The integral of the hat function of each vertex, m2.
     pub(crate) fn areas_m2(&self) -> &[f64] {
         &self.areas_m2
     }
 
-    /// The mean of a quantity about every vertex, weighted with its hat function, from the integral.
+    /// The mean of a quantity about each vertex, weighted by its hat function, from the integrals.
     pub(crate) fn means<T: Quantity>(&self, integrals: impl Iterator<Item = T>) -> Vec<T> {
         let mean = |(sum, &area): (T, &f64)| if area > 0.0 { sum / area } else { T::default() };
         integrals.zip(&self.areas_m2).map(mean).collect()
     }
 
-    /// What the means would be if the quantity were the given values, interpolated.
+    /// The means about each vertex of a quantity that is interpolated between these values.
     pub(crate) fn blur<T: Quantity>(&self, values: &[T]) -> Vec<T> {
         let mut sums = vec![T::default(); values.len()];
         for (corners, area_m2) in &self.known {
-            // Exact integrals of products of hats: a sixth of the area, a twelfth for two of them.
+            // The exact integrals of products: a sixth of the area for a hat squared, a twelfth for two different
+            // hats.
             let [a, b, c] = corners.map(|v| values[v as usize]);
             let all = a + b + c;
             for &v in corners {
@@ -77,14 +78,14 @@ impl HatFunctions {
         self.means(sums.into_iter())
     }
 
-    /// The quantity at the vertices: the means, corrected (one step of Van Cittert's deconvolution).
+    /// The values at the vertices from the means: one step of Van Cittert's deconvolution.
     pub(crate) fn corrected<T: Quantity>(&self, means: &[T]) -> Vec<T> {
         let blurred = self.blur(means);
         means.iter().zip(&blurred).map(|(&mean, &again)| mean * 2.0 - again).collect()
     }
 
-    /// The means that were corrected to some values: `(2 - B) means = values`, `B` the blur, which is half of all at most, so that
-    /// its powers sum up.
+    /// The means from corrected values: the solution of `(2 - B) means = values`, with the blur `B`. Since `B / 2` is
+    /// at most one half, its powers sum up.
     fn uncorrected(&self, values: &[Rgb]) -> Vec<Rgb> {
         let half = |values: &[Rgb]| -> Vec<Rgb> { values.iter().map(|&v| v * 0.5).collect() };
         let mut term = half(values);
@@ -96,17 +97,17 @@ impl HatFunctions {
         means
     }
 
-    /// Values that means were corrected to, none of them less than half of its mean: along every edge of elements the correction brings
-    /// as much to one end as it takes from the other, and of that only so much that neither loses more (flux-corrected transport:
-    /// Boris, Book 1973; Zalesak 1979). So no light is lost or made, as it would be if what is below zero were cut off.
+    /// The corrected values with none less than half of its mean. Along every edge the correction adds to one end as
+    /// much as it takes from the other, limited so that neither loses more (flux-corrected transport: Boris, Book
+    /// 1973; Zalesak 1979). Light is so conserved; a cut at zero would add light.
     pub(crate) fn held(&self, values: &[Rgb]) -> Vec<Rgb> {
-        // Sums of increments are rounded; means of them are not negative otherwise.
+        // Rounding of the sums of increments may make means negative, which they are not otherwise.
         let means = self.uncorrected(values);
         let means: Vec<Rgb> = means.into_iter().map(|mean| mean.greater(Rgb::BLACK)).collect();
         let edges = |corners: &[u32; 3]| {
             [[0, 1], [1, 2], [2, 0]].map(|edge| edge.map(|k: usize| corners[k] as usize))
         };
-        // To the first of two vertices, from the second.
+        // The light brought to the first vertex from the second.
         let brought = |[a, b]: [usize; 2], area_m2: f64| (means[a] - means[b]) * (area_m2 / 12.0);
         let mut taken = vec![Rgb::BLACK; means.len()];
         for (corners, area_m2) in &self.known {
@@ -123,7 +124,7 @@ impl HatFunctions {
             Rgb([0, 1, 2].map(share))
         };
         let shares: Vec<Rgb> = taken.iter().enumerate().map(share).collect();
-        // What elements of several standings have of the blur is not known, and left as the means have it.
+        // The blur of elements of several standings is not known, and the means stay there.
         let mut known_m2 = vec![0.0; means.len()];
         let mut sums: Vec<Rgb> = vec![Rgb::BLACK; means.len()];
         for (corners, area_m2) in &self.known {

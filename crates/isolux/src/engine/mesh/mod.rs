@@ -1,4 +1,4 @@
-//! Elements as a mesh of functions: details, carriers of indirect light, fits, and what they are expected to err by.
+//! Elements as a mesh of functions: detail coefficients, carriers of indirect light, fits, and expected errors.
 
 mod bounded;
 mod carriers;

@@ -1,16 +1,18 @@
-//! Noise of vertices as those about them have it.
+//! Noise of vertices, bounded below by that of their neighbours.
 //!
-//! Where few rays bring much of the light, as through a small opening or from a patch in the sun, a vertex that they have all missed
-//! shows too little light and too little noise, as its replicates agree. Those about it, by other rays, know better.
+//! Where few rays bring much of the light, as through a small opening or from a patch in the sun, all of them may
+//! miss a vertex. It then shows too little light and too little noise, since its replicates agree. Its neighbours
+//! have other rays and show the noise.
 
 use crate::elements::Elements;
 use crate::map::Illuminance;
 
-/// The least variance of a vertex, as a share of the mean of those of its elements. By eight replicates one vertex in ten shows less of
-/// what it has.
+/// The least variance of a vertex, as a share of the mean of its elements. By eight replicates one vertex in ten
+/// shows less of its true variance.
 pub(crate) const LEAST: f64 = 0.4;
 
-/// Lets no vertex have less noise in its indirect light than a share of what the vertices of its elements have in the mean.
+/// Raises the noise of indirect light at each vertex to at least a share of the mean over the vertices of its
+/// elements.
 pub(crate) fn lend_noise(elements: &Elements, values: &mut [Option<Illuminance>]) {
     let variance =
         |value: &Illuminance| value.indirect_standard_error_lx * value.indirect_standard_error_lx;

@@ -1,8 +1,8 @@
-//! A first mesh that knows the scale of every room.
+//! A first mesh at the scale of every room.
 //!
-//! The size of the first elements comes of the area of the whole scene. A small room beside a large yard would be two elements a wall, and
-//! light that is interpolated between its corners lacks some per cent at every reflection. How far a surface sees tells how fast light
-//! varies over it.
+//! The area of the whole scene gives the size of the first elements. A small room beside a large yard would get two
+//! elements per wall, and light interpolated between its corners lacks some per cent at every reflection. The
+//! distance that a surface sees tells how fast light varies over it.
 
 use crate::elements::{Origin, Subdivision};
 use crate::engine::ray::{ShortRays, SurfacePoint};
@@ -12,33 +12,37 @@ use isolux_geometry::{Normal, Point};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-/// Rays that tell how far an element sees: as far as three quarters of them do.
+/// The number of rays that tell the distance that an element sees.
 const FEELERS: usize = 8;
+/// The number of rays that see no farther than this distance: three quarters of them.
 const COUNTED: usize = 6;
+/// The directions of these rays.
 static DIRECTIONS: LazyLock<ShortRays<FEELERS>> =
     LazyLock::new(|| ShortRays::of(Key::new(0).with(12)));
 
-/// Edges are no longer than this part of that.
+/// The longest edge of an element, as a share of the distance that it sees.
 const OF_REACH: f64 = 0.3;
 
-/// Surfaces with elements so many times as long as they see far lie in a slit, not in a room; nor is what sees less far than this a room
-/// that somebody works in, but the inside of a lamp or a cupboard, m.
+/// The ratio of the edges of elements to the distance seen above which a surface lies in a slit, not in a room.
 const SLIT: f64 = 8.0;
+/// The distance seen, m, below which a surface is no room that somebody works in, but the inside of a lamp or a
+/// cupboard.
 const ROOM_M: f64 = 1.0;
 
-/// So many vertices are added at most: below tables and cupboards one does not see far, either.
+/// The largest number of added vertices: surfaces below tables and cupboards do not see far, either.
 const MOST_ADDED: usize = 700;
 
-/// Bisects elements that are longer than their surface sees far, the largest first.
+/// Bisects elements that are too long for the distance that their surface sees, the largest first.
 pub(crate) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_vertices: usize) {
     let most = (subdivision.vertex_count() + MOST_ADDED).min(max_vertices);
-    // In corners one sees less far than from the middle of a wall, where light varies no less.
+    // Corners see less far than the middle of a wall, but light varies no less there; so the farthest distance
+    // counts.
     let side = |subdivision: &Subdivision, node: u32| {
         let Origin { triangle, back, .. } = subdivision.node(node).1;
         2 * triangle as usize + usize::from(back)
     };
     let mut leaves: Vec<u32> = subdivision.leaves().collect();
-    // However far one sees from those whose edges are all shorter, they are short enough.
+    // Surfaces with short edges need no rays: their elements are short enough for any distance.
     let mut is_long = vec![false; 2 * scene.triangle_count() as usize];
     for &node in &leaves {
         is_long[side(subdivision, node)] |= subdivision.longest_edge_m(node) > OF_REACH * ROOM_M;
@@ -76,13 +80,13 @@ pub(crate) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_
     }
 }
 
-/// Whether a place on a triangle sees as far as one in a room, and walls there.
+/// Whether a place on a triangle sees as far as one in a room, and sees walls there.
 pub(crate) fn is_in_room(scene: &Scene, place: (Point, Normal, u32)) -> bool {
     let reach_m = reach_m(scene, place);
     reach_m > ROOM_M && reach_m.is_finite()
 }
 
-/// How far a place on a triangle sees, m: as far as most rays.
+/// The distance that most rays from a place on a triangle reach, m.
 fn reach_m(scene: &Scene, place: (Point, Normal, u32)) -> f64 {
     let met = DIRECTIONS.met(scene, |k| DIRECTIONS.ray(k, place));
     let mut distances_m = met.map(|hit| hit.map_or(f64::INFINITY, |hit| f64::from(hit.t)));

@@ -1,13 +1,12 @@
-//! Details that may be noise, taken back before refinement looks at them.
+//! Detail coefficients reduced by their noise before refinement uses them.
 
 use crate::elements::Elements;
 
-/// What is taken off a detail, in its standard errors: noise goes beyond in one case of twenty.
+/// The reduction of a detail, in its standard errors: noise exceeds it in one case of twenty.
 const SIGMAS: f64 = 2.0;
 
-/// Values at vertices with all details nearer to zero by as much as noise may have made (soft
-/// thresholds: Donoho 1995), coarse ones first; `variances` are those of the values. What has no noise
-/// stays as it is.
+/// Values at vertices with all details reduced towards zero by their noise (soft thresholds: Donoho 1995), coarse
+/// ones first; `variances` are those of the values. Values without noise stay unchanged.
 pub(crate) fn beyond_noise(
     elements: &Elements,
     values: &[Option<f64>],

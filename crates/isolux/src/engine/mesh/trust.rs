@@ -1,29 +1,29 @@
-//! Where the interpolated light of a map is to be trusted, and where readers gather afresh.
+//! Elements where the interpolated light of a map is trusted; elsewhere readers gather.
 //!
-//! Most of the interpolation error of indirect light lies in little of the area: along edges, at
-//! contacts, on small surfaces between furniture. To resolve it takes elements without end; a reader
-//! with the scene at hand looks there with a few hundred rays of its own. A map therefore keeps the
-//! error expected of every element, and above which of them it is not to be trusted.
+//! Most of the interpolation error of indirect light lies in little of the area: along edges, at contacts, on small
+//! surfaces between furniture. Resolving it takes elements without end. A reader that has the scene gathers there
+//! with a few hundred rays. A map therefore stores the error expected of every element, and the error above which
+//! elements are not trusted.
 
 use super::detail::LeafError;
 use crate::elements::Elements;
 use rayon::prelude::*;
 
-/// What elements may be left to err by, as shares of what was foreseen, where more than that is found: with the least, readers of the
-/// hall gather on four fifths of its surface, with all of it on three fifths.
+/// The errors of trusted elements, as shares of the expected error, to try where more error is found than expected.
+/// With the least, readers of the hall gather on four fifths of its surface, with all of it on three fifths.
 const SHARES: [f64; 3] = [0.7, 0.5, 0.35];
 
-/// Where readers interpolate.
+/// The elements where readers interpolate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Trust {
-    /// In elements of which no more error is expected than so much, lx, and that nothing stands close before.
+    /// Elements whose expected error is at most this, lx, and that nothing stands close to.
     UpTo(f64),
-    /// Everywhere but in gaps.
+    /// All elements, except in gaps.
     AllButGaps,
 }
 
 impl Trust {
-    /// Whether it goes as far as an element of so much error.
+    /// Whether an element with this expected error is trusted.
     pub(crate) fn includes(self, expected_lx: f64, is_beset: bool) -> bool {
         match self {
             Self::UpTo(lx) => !is_beset && expected_lx <= lx,
@@ -31,7 +31,7 @@ impl Trust {
         }
     }
 
-    /// Up to which error elements are trusted, lx.
+    /// The largest error of trusted elements, lx.
     pub(crate) const fn up_to_lx(self) -> f64 {
         match self {
             Self::UpTo(lx) => lx,
@@ -40,36 +40,36 @@ impl Trust {
     }
 }
 
-/// Errors up to which elements are trusted, lx, the greatest first: as foreseen, then so that the others are expected to err by
-/// shares of that.
+/// Limits on the error of trusted elements, lx, the greatest first: the expected one, then those that reduce the
+/// error of trusted elements to shares of that.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TrustLevels([f64; 1 + SHARES.len()]);
 
 impl TrustLevels {
-    /// What readers trust, unless check points tell otherwise.
+    /// The trust of readers unless check points show otherwise.
     pub(crate) const fn foreseen(self) -> Trust {
         Trust::UpTo(self.0[0])
     }
 
-    /// As little as readers may be left with.
+    /// The least trust that readers may have.
     pub(crate) const fn least(self) -> Trust {
         Trust::UpTo(self.0[SHARES.len()])
     }
 
-    /// All others, the most first.
+    /// All levels of trust except the least, the greatest first.
     pub(crate) fn all_but_least(self) -> impl Iterator<Item = Trust> {
         self.0.into_iter().take(SHARES.len()).map(Trust::UpTo)
     }
 }
 
-/// The elements that readers may trust, worst first: those that are not beset.
+/// The elements that readers may trust, worst first: those that nothing stands close to.
 #[derive(Debug)]
 pub(crate) struct WorstElements {
-    /// Error, lx, area, m2, and what that counts for in the sum of squares.
+    /// The error of each element, lx, its area, m2, and its contribution to the sum of squares, lx2 m2.
     of_leaves: Vec<(f64, f64, f64)>,
-    /// Sum of their squared errors, lx2 m2.
+    /// The sum of their squared errors, lx2 m2.
     squared: f64,
-    /// Area of all elements, m2.
+    /// The area of all elements, m2.
     area_m2: f64,
 }
 
@@ -84,9 +84,10 @@ impl WorstElements {
         }
     }
 
-    /// The error above which elements are left out, so that what the others err by in the mean square over the surface is at most
-    /// `goal`, what lies in dim rooms counting as much as it does, or so that they make up no more than `most_share` of the area.
-    /// Infinite if none need be left out. Those that are beset are not counted: no reader trusts them.
+    /// The error, lx, above which elements are left out. The root mean square error of the others over the surface is
+    /// then at most `goal`, with the weights of dim rooms, or the elements left out make up `most_share` of the area.
+    /// Infinite if none need be left out. Elements that something stands close to do not count, since no reader
+    /// trusts them.
     pub(crate) fn limit(&self, goal: f64, most_share: f64) -> f64 {
         let Self { of_leaves, squared, area_m2 } = self;
         let mut left = *squared;
@@ -94,7 +95,7 @@ impl WorstElements {
         for &(error, own_m2, own_squared) in of_leaves {
             let is_enough = left <= goal * goal * area_m2;
             if is_enough || out_m2 + own_m2 > most_share * area_m2 {
-                // Between the two, so that rounding does not take one for the other.
+                // The limit lies between two errors, so that rounding does not confuse them.
                 return worst_left_out.map_or(f64::INFINITY, |out: f64| 0.5 * (out + error));
             }
             out_m2 += own_m2;
@@ -106,7 +107,7 @@ impl WorstElements {
 }
 
 impl TrustLevels {
-    /// Of elements that are trusted up to so much to begin with.
+    /// The levels of trust from the limit expected before any check.
     pub(crate) fn of(worst: &WorstElements, foreseen_lx: f64) -> Self {
         let trusted = worst.of_leaves.iter().filter(|(error, ..)| *error <= foreseen_lx);
         let squared: f64 = trusted.map(|(.., squared)| squared).sum();
@@ -119,16 +120,16 @@ impl TrustLevels {
     }
 }
 
-/// Root mean square over all the surface of the errors of some elements.
+/// The root mean square error over all the surface that selected elements contribute.
 pub(crate) fn error_of(errors: &[LeafError], some: impl Fn(&LeafError) -> bool) -> f64 {
     let area_m2: f64 = errors.iter().map(|e| e.area_m2).sum();
     let squared: f64 = errors.iter().filter(|e| some(e)).map(LeafError::squared).sum();
     if area_m2 > 0.0 { (squared / area_m2).sqrt() } else { 0.0 }
 }
 
-/// Errors at the vertices: of the worst element at each, so that the least over an element's
-/// vertices is its own error or more. Elements have that of the coarser one they are part of; one
-/// that readers cannot see to be beset, more than is to be trusted.
+/// The error at each vertex: that of the worst element there, so that the least over the vertices of an element is at
+/// least its own error. Finer elements have the error of the coarser one that contains them. If readers cannot see
+/// that something stands close to an element, the error is above the limit of trust.
 pub(crate) fn at_vertices(elements: &Elements, errors: &[LeafError], trust: Trust) -> Vec<f64> {
     let mut worst = vec![0.0_f64; elements.vertices().len()];
     for error in errors {
@@ -146,8 +147,7 @@ pub(crate) fn at_vertices(elements: &Elements, errors: &[LeafError], trust: Trus
     worst
 }
 
-/// The error above which no element is, if readers could otherwise not be told of those that are
-/// beset from afar; infinite if there are none.
+/// An error above that of every element, if some are beset in a way that readers cannot see; infinite otherwise.
 pub(crate) fn above_all(errors: &[LeafError]) -> f64 {
     if !errors.iter().any(|e| e.is_beset_afar) {
         return f64::INFINITY;

@@ -1,9 +1,9 @@
-//! Elements that something stands across, like a thin wall between two rooms that share a floor.
+//! Elements that something stands across, such as a thin wall between two rooms that share a floor.
 //!
-//! Vertices on one side tell nothing of the light on the other. Where two edges of an element are blocked, close to the
-//! surface and well above it, and the third is not, one corner is cut off from the others by about a straight line: what lies
-//! before it is read from that corner alone, what lies behind it from the others. Where one edge is blocked and something
-//! stands on the corner opposite, the line leads from there.
+//! Vertices on one side tell nothing of the light on the other. If two edges of an element are blocked, close to the
+//! surface and well above it, and the third is not, an approximately straight line cuts one corner off. Places before
+//! the line are read from that corner alone, those behind it from the others. If one edge is blocked and something
+//! stands on the opposite corner, the line starts there.
 
 use super::footprints::{AT_END, LOW, stands_on};
 use super::nearby::NEAR;
@@ -16,35 +16,36 @@ use isolux_geometry::{Normal, Point, Ray};
 use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
 
-/// Light that differs by more than this share of the greatest at the corners of an element is not alike.
+/// The difference of light between the corners of an element, as a share of the greatest, above which it is uneven.
 const UNEVEN: f64 = 0.2;
 
-/// A vertex with less than this share of the light of another of its element is in the dark beside it.
+/// The share of the light of another vertex of its element below which a vertex is dark.
 const DARK: f64 = 0.01;
 
-/// What stands across an edge within this part of it leaves the element nearly whole.
+/// The distance along an edge, as a share of it, up to which an object across it leaves the element nearly whole.
 const JUST_BEHIND: f64 = 0.25;
 
-/// All of them.
+/// The barriers across elements.
 #[derive(Debug, Default)]
 pub(crate) struct Barriers {
     of_nodes: HashMap<u32, Barrier, FewNumbers>,
-    /// The same elements by their corners.
+    /// The elements by their corners.
     corners: HashSet<[u32; 3], FewNumbers>,
-    /// Of vertices made by bisecting them, the end of their edge that they see, where they see one alone.
+    /// The end of its edge that a vertex made by bisecting these elements sees, where it sees only one.
     ends: HashMap<u32, u32, FewNumbers>,
 }
 
-/// A corner that is cut off.
+/// A line that cuts one corner off an element.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Barrier {
     corner: usize,
-    /// One over the share of the edges from there, to the next corner and the one after, at which the cut is met.
+    /// The inverse of the position of the line on each edge from that corner, as a share of the edge: the edge to the
+    /// next corner, then to the one after.
     over: [f64; 2],
 }
 
 impl Barrier {
-    /// The corners on whose side a place with these weights lies.
+    /// The corners on the side of the line that a place with these weights lies on.
     pub(crate) fn side(&self, weights: [f64; 3]) -> [bool; 3] {
         let along = [1, 2].map(|k| weights[(self.corner + k) % 3] * self.over[k - 1]);
         let is_before = along[0] + along[1] < 1.0;
@@ -53,8 +54,8 @@ impl Barrier {
 }
 
 impl Barriers {
-    /// Among these nodes of elements, whose vertices are among the first so many, where vertices tell of light that is not alike: to
-    /// look at all would take too long.
+    /// The barriers across those of these nodes whose light is uneven; a test of all would take too long. The
+    /// vertices of the nodes are numbered below `first`.
     pub(crate) fn of(
         scene: &Scene,
         elements: &Elements,
@@ -90,31 +91,32 @@ impl Barriers {
         cuts
     }
 
-    /// Among the elements of a map.
+    /// The barriers across the elements of a map.
     pub(crate) fn of_map(scene: &Scene, elements: &Elements, light: &[Rgb]) -> Self {
         Self::of(scene, elements, (elements.leaves().map(Side::from), light), usize::MAX)
     }
 
-    /// How a node is cut, if it is.
+    /// The barrier across a node, if there is one.
     #[inline]
     pub(crate) fn of_node(&self, node: u32) -> Option<&Barrier> {
         if self.of_nodes.is_empty() { None } else { self.of_nodes.get(&node) }
     }
 
-    /// Whether the element with these corners is cut.
+    /// Whether something stands across the element with these corners.
     pub(crate) fn has(&self, corners: [u32; 3]) -> bool {
         self.corners.contains(&corners)
     }
 
-    /// The only end of its edge that a vertex sees, if it does not see both.
+    /// The end of its edge that a vertex sees, if it sees only one.
     pub(crate) fn end_of(&self, vertex: u32) -> Option<u32> {
         self.ends.get(&vertex).copied()
     }
 }
 
-/// Vertices in the dark close behind what stands across their elements, like corners of a box that is sunk into a floor: all that they
-/// share elements with and has light lies beyond it, so far along the edge there that these elements are as good as all on that
-/// side. In the order of their numbers; `light_lx` of a vertex is what is known of it.
+/// Dark vertices close behind an object across their elements, such as corners of a box sunk into a floor, in
+/// ascending order. All lit vertices that share elements with them lie beyond the object. It crosses the edges so
+/// near to the dark vertex that nearly all of these elements is on the lit side. `light_lx` is the light of a vertex,
+/// if known.
 pub(crate) fn shaded(
     scene: &Scene,
     subdivision: &Subdivision,
@@ -122,7 +124,7 @@ pub(crate) fn shaded(
     light_lx: impl Fn(u32) -> Option<f64> + Sync,
 ) -> Vec<u32> {
     let place = |vertex: u32| subdivision.vertices()[vertex as usize].position;
-    // Of every dark vertex beside light, whether all of that lies beyond something.
+    // Each dark vertex beside lit ones, with whether all of those lie beyond something.
     let of_side = |side: &Side| {
         let corners = subdivision.node(side.node).0.vertices;
         let most = corners.iter().filter_map(|&v| light_lx(v)).fold(0.0, f64::max);
@@ -144,8 +146,8 @@ pub(crate) fn shaded(
     found.chunk_by(|a, b| a.0 == b.0).filter(|of| all_behind(of)).map(|of| of[0].0).collect()
 }
 
-/// Keeps those of some vertices that one sees along their surface, where they do not all have about the same light. Of each its place and
-/// what is known of its light, lx.
+/// Keeps those of some vertices that are seen along the surface, where their light is uneven; `of` gives the position
+/// of a vertex and its light, lx, if known.
 pub(crate) fn keep_seen(
     scene: &Scene,
     (from, above): (Point, &SurfacePoint),
@@ -159,7 +161,7 @@ pub(crate) fn keep_seen(
     }
 }
 
-/// A node, and the side of a triangle that it lies on.
+/// A node, and the side of the triangle that it lies on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side {
     pub(crate) node: u32,
@@ -174,19 +176,19 @@ impl From<(u32, u32, bool)> for Side {
 }
 
 impl Side {
-    /// Of a node.
+    /// The side of a node.
     pub(crate) fn of(subdivision: &Subdivision, node: u32) -> Self {
         let Origin { triangle, back, .. } = subdivision.node(node).1;
         Self { node, triangle, back }
     }
 
-    /// A place of the same triangle.
+    /// A place on the same triangle.
     fn above(&self, scene: &Scene) -> SurfacePoint {
         SurfacePoint::new(scene, self.triangle, self.back, 1.0 / 3.0, 1.0 / 3.0)
     }
 }
 
-/// What elements are looked at in.
+/// The scene and elements that are tested.
 struct Look<'a> {
     scene: &'a Scene,
     elements: &'a Elements,
@@ -203,11 +205,11 @@ impl Look<'_> {
         if let [Some(at), None, None] | [None, Some(at), None] | [None, None, Some(at)] = edges {
             let corner = edges.iter().position(Option::is_some)?;
             let opposite = [0, 1, 2].map(|k| corners[(corner + 2 + k) % 3]);
-            // From the corner on which it stands to where the edge is met.
+            // The line runs from the corner with the object to the crossing of the opposite edge.
             let is_torn = stands_on(self.scene, opposite, &above);
             return is_torn.then_some(Barrier { corner, over: [1.0 / at, 1.0] });
         }
-        // Opposite the edge that is free.
+        // The corner opposite to the free edge is cut off.
         let free = edges.iter().position(Option::is_none)?;
         let corner = (free + 2) % 3;
         if edges.iter().flatten().count() != 2 {
@@ -234,15 +236,15 @@ impl Look<'_> {
     }
 }
 
-/// Where on the way between two places of a surface something stands, as a share of it.
+/// The position of an object between two places of a surface, as a share of the way.
 fn blocked_at(scene: &Scene, from: Point, to: Point, above: &SurfacePoint) -> Option<f64> {
     let way = |height_m: f64| {
         let raised = |p: Point| p + Normal::to_vector(above.geometric) * height_m;
         Ray::between(raised(from), raised(to)).skipping(above.triangle)
     };
-    // Panes part light, too.
+    // Panes separate light, too, so the closest hit counts.
     scene.bvh().closest_hit(&way(NEAR * (to - from).length()))?;
     let at = f64::from(scene.bvh().closest_hit(&way(LOW * above.away_m))?.t);
-    // What stands at an end may as well stand on the other side of it.
+    // An object at an end may stand on either side of it.
     (at > AT_END && at < 1.0 - AT_END).then_some(at)
 }

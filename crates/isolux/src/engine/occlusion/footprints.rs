@@ -1,6 +1,8 @@
-//! Vertices that something stands on, like a thin wall between two rooms whose floor has a row of vertices just below it.
+//! Vertices that something stands on, such as a thin wall between two rooms whose floor has a row of vertices below
+//! it.
 //!
-//! Such a vertex gets some light of either room, and tells neither: the elements about it are read from their other corners.
+//! Such a vertex gets some light of either room and tells the light of neither. The elements around it are read from
+//! their other corners.
 
 use super::nearby::NEAR;
 use crate::elements::{FewNumbers, Subdivision};
@@ -10,36 +12,39 @@ use isolux_geometry::{Normal, Point, Ray};
 use rayon::prelude::*;
 use std::collections::HashSet;
 
-/// How far above the surface it is looked for, in distances that rays start at; and, not to take for it what lies on the
-/// floor, as a share of the edge, at [`NEAR`].
+/// The height of the lower test rays above the surface, in offsets of ray origins. Rays at the height of [`NEAR`], as
+/// a share of the edge, must meet something, too, so that flat objects on the floor do not count.
 pub(crate) const LOW: f64 = 4.0;
 
-/// What stands closer to a vertex, as a share of the edge, stands on it.
+/// The distance from a vertex, as a share of the edge, below which an object stands on it.
 pub(crate) const AT_END: f64 = 1e-3;
 
-/// Looked for between places so far from the vertex, as a share of edges; beside an edge by such a part of its element.
+/// The distance from the vertex of the places between which objects are looked for, as a share of edges.
 const AROUND: f64 = 4.0 * AT_END;
+/// The distance of these places from an edge, as a share of the element.
 const BESIDE: f64 = 0.1;
 
-/// The cosine between normals of triangles in one plane, but for rounding in single precision.
+/// The least cosine between normals of triangles in one plane; the difference to one is for rounding in single
+/// precision.
 const FLAT: f64 = 1.0 - 1e-6;
 
-/// Whether something stands on the vertices looked at so far.
+/// Whether something stands on each vertex tested so far.
 #[derive(Debug, Default)]
 pub(crate) struct Footprints(Vec<bool>);
 
-/// A place close to a vertex, beside an edge from there.
+/// A place close to a vertex, beside an edge from it.
 struct Place {
     vertex: u32,
-    /// The other end of the edge; the side of a triangle that it lies on.
+    /// The other end of the edge.
     end: u32,
+    /// The side of a triangle that the place lies on.
     side: (u32, bool),
-    /// Close to the vertex, and farther along.
+    /// The points close to the vertex and farther along.
     at: [Point; 2],
 }
 
 impl Footprints {
-    /// Looks at the vertices that are new, in elements that something stands close before.
+    /// Tests the new vertices in elements that something stands close to.
     pub(crate) fn look(
         &mut self,
         scene: &Scene,
@@ -80,13 +85,14 @@ impl Footprints {
         }
     }
 
-    /// Takes vertices that are new not to be torn: where nothing stands close.
+    /// Adds new vertices as free of objects, where nothing stands close.
     pub(crate) fn skip(&mut self, subdivision: &Subdivision) {
         self.0.resize(subdivision.vertex_count(), false);
     }
 
-    /// Those of them that share an element with a vertex which is of some kind: where that is hidden, nothing else of the element may be
-    /// left to be read beyond what stands there, and the light of this side would be.
+    /// The vertices with objects that share an element with a vertex selected by `is_other`. Where that one is
+    /// hidden, the element may have no other vertex beyond the object, and the light of this side would be read
+    /// there.
     pub(crate) fn beside(
         &self,
         subdivision: &Subdivision,
@@ -110,12 +116,12 @@ impl Footprints {
     }
 }
 
-/// Whether something stands on the first corner of an element of a surface, and within it.
+/// Whether something stands on the first corner of an element of a surface, and within the element.
 pub(crate) fn stands_on(scene: &Scene, [at, a, b]: [Point; 3], above: &SurfacePoint) -> bool {
     is_parted(scene, [beside(at, a, b), beside(at, b, a)], above)
 }
 
-/// Close to a corner of an element, beside either of its edges.
+/// The places close to a corner of an element, beside either of its edges.
 fn places(subdivision: &Subdivision, node: u32, corner: usize) -> [Place; 2] {
     let (own, origin) = subdivision.node(node);
     let [vertex, a, b] = [0, 1, 2].map(|k| own.vertices[(corner + k) % 3]);
@@ -128,7 +134,8 @@ fn places(subdivision: &Subdivision, node: u32, corner: usize) -> [Place; 2] {
     })
 }
 
-/// Beside the edge of an element from its first corner to its second: close to that, and farther along.
+/// Two points beside the edge of an element from its first corner to its second: close to the first, and farther
+/// along.
 fn beside(at: Point, end: Point, other: Point) -> [Point; 2] {
     let to = end.lerp(other, BESIDE) - at;
     [AROUND, NEAR].map(|share| at + to * share)
@@ -146,7 +153,7 @@ fn lie_in_a_plane(scene: &Scene, a: &Place, b: &Place) -> bool {
 /// Whether something stands between two places, close to the surface and well above it.
 fn is_parted(scene: &Scene, [a, b]: [[Point; 2]; 2], above: &SurfacePoint) -> bool {
     let up = Normal::to_vector(above.geometric);
-    // Between those farther along as high as they are apart, about.
+    // The rays between the farther points run about as high as these are apart.
     let heights_m = [LOW * above.away_m, (b[1] - a[1]).length()];
     (0..2).all(|k| {
         let way = Ray::between(a[k] + up * heights_m[k], b[k] + up * heights_m[k]);

@@ -1,4 +1,4 @@
-//! What stands near a place, and across elements.
+//! Objects near a place, across elements, and on vertices.
 
 pub(crate) mod barriers;
 mod footprints;

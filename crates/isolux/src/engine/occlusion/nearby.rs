@@ -1,4 +1,4 @@
-//! What stands near a place, as short rays find it.
+//! Objects near a place, found by short rays.
 
 use crate::elements::{Elements, Subdivision};
 use crate::engine::ray::{ShortRays, SurfacePoint};
@@ -9,27 +9,28 @@ use isolux_geometry::{Hit, Point};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-/// Rays that look for something before a place.
+/// The number of rays that look for objects near a place.
 const FEELERS: usize = 16;
+/// The directions of these rays.
 static DIRECTIONS: LazyLock<ShortRays<FEELERS>> =
     LazyLock::new(|| ShortRays::of(Key::new(0).with(6)));
 
-/// So many of them, the first, meet something that hides half of what there is.
+/// The number of rays, the first ones, of which at least one meets an object that hides half of the hemisphere.
 const FEWEST_FEELERS: usize = 4;
 
-/// How many of them must meet it in a gap: at an edge of a room half of them do, behind a cupboard all.
+/// The number of rays that meet something in a gap: at an edge of a room half of them do, behind a cupboard all.
 const CLOSED: usize = 13;
 
-/// How far they look, as a share of the longest edge of the element: what is nearer than that
-/// changes light from place to place in ways that its vertices do not tell.
+/// The length of the rays, as a share of the longest edge of the element. Closer objects change light from place to
+/// place in ways that its vertices do not tell.
 pub(crate) const NEAR: f64 = 0.25;
 
-/// How many must meet something as near as the element is long for its vertices not to tell what light
-/// comes between them.
+/// The number of rays that must meet something within the length of the element for its vertices not to tell the
+/// light between them.
 const BESET: usize = 3;
 
-/// Whether something stands so close before a place that an element of such edges cannot tell what
-/// light comes there: in the gap between a cupboard and its wall, on the ceiling above a column.
+/// Whether something is so close to a place that an element with edges of this length cannot tell the light there, as
+/// in the gap between a cupboard and its wall or on the ceiling above a column.
 pub(crate) fn is_closed_in(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> bool {
     let (mut met, mut missed) = (0, 0);
     for index in 0..FEELERS {
@@ -45,14 +46,13 @@ pub(crate) fn is_closed_in(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64
     met >= CLOSED
 }
 
-/// Whether there is something before a place that is as near as an element of such edges is long, transparent or not: panes part
-/// light, too.
+/// Whether something is nearer to a place than an element with edges of this length is long. Transparent objects
+/// count, since panes separate light, too.
 pub(crate) fn is_beset(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> bool {
     met_within(scene, at, longest_edge_m).iter().flatten().count() >= BESET
 }
 
-/// How long an element may at most be for a place not to be beset, m; infinite if nothing is within
-/// `reach_m`.
+/// The largest length of an element for which a place is not beset, m; infinite if nothing is within `reach_m`.
 pub(crate) fn beset_from_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f64 {
     let met = met_within(scene, at, reach_m);
     let mut near: Vec<f32> = met.iter().flatten().map(|hit| hit.t).collect();
@@ -60,35 +60,35 @@ pub(crate) fn beset_from_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f6
     near.get(BESET - 1).map_or(f64::INFINITY, |&t| f64::from(t))
 }
 
-/// How close something stands before a place that hides much of what there is, m; infinite if nothing does within `reach_m`. A few rays
-/// find out that nothing does.
+/// The distance of an object that hides much of the hemisphere of a place, m; infinite if none does within `reach_m`.
+/// A few rays are enough to find that none does.
 pub(crate) fn hemmed_in_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f64 {
     let meets = |k: usize| scene.bvh().closest_hit(&DIRECTIONS.ray_of(k, at, reach_m)).is_some();
     if (0..FEWEST_FEELERS).any(meets) { beset_from_m(scene, at, reach_m) } else { f64::INFINITY }
 }
 
-/// What rays find that feel about before a place.
+/// The hits of short rays from a place.
 fn met_within(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> [Option<Hit>; FEELERS] {
     DIRECTIONS.met(scene, |k| DIRECTIONS.ray_of(k, at, reach_m))
 }
 
-/// Longest edge of the element at a place, m; zero where there is none.
+/// The longest edge of the element at a place, m; zero where there is none.
 pub(crate) fn edge_at_m(elements: &Elements, at: &SurfacePoint) -> f64 {
     let corners = elements.locate(at.triangle, at.back, at.u, at.v);
     corners.map_or(0.0, |corners| longest_edge_m(elements, corners.map(|(vertex, _)| vertex)))
 }
 
-/// Longest edge of an element, m.
+/// The longest edge of an element, m.
 pub(crate) fn longest_edge_m(elements: &Elements, corners: [u32; 3]) -> f64 {
     let [a, b, c] = corners.map(|v| elements.vertices()[v as usize].position);
     (b - a).length().max((c - b).length()).max((a - c).length())
 }
 
-/// Whether vertices are closed in, as it was felt last.
+/// Whether vertices are closed in, with results kept from earlier tests.
 #[derive(Debug, Default)]
 pub(crate) struct ClosedIn(Vec<Option<Feeling>>);
 
-/// Where it was felt, and what.
+/// The result of a test, with the place and edge length tested.
 #[derive(Debug)]
 struct Feeling {
     place: (u32, Point),
@@ -97,8 +97,8 @@ struct Feeling {
 }
 
 impl ClosedIn {
-    /// What vertices stand for on elements as they are now, those that were in the open among longer ones
-    /// still are. Rays feel about only where that was not felt before.
+    /// The standings of vertices on the current elements. Vertices that were open among longer elements stay open.
+    /// Rays test only places and edge lengths that were not tested before.
     pub(crate) fn standings(
         &mut self,
         scene: &Scene,
