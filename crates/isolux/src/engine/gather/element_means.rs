@@ -38,8 +38,8 @@ pub(crate) struct MeanPlaces {
 }
 
 impl ElementMeans {
-    /// The means of elements that something stands close to and that have an open vertex which no trusted element
-    /// reads.
+    /// The means of elements that something stands close to, not counting walls that light is resolved towards. All
+    /// vertices of these elements are open, and at least one is a vertex that no trusted element reads.
     pub(crate) fn new(
         (scene, subdivision): (&Scene, &Subdivision),
         errors: &[LeafError],

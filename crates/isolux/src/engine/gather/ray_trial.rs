@@ -26,7 +26,8 @@ const MOST_NOISE_SHARE: f64 = 0.8;
 /// too. Between these ends the noise follows an ellipse. On the hall, CUBE and SPHERE, runs were measured to reach
 /// the accuracy in as many increments as are believed, or a few more.
 const ALONE: f64 = 0.6;
-/// The same share where the means of elements are measured.
+/// The share of the accuracy goal at which interpolation leaves nothing for noise where the means of elements are
+/// measured.
 const ALONE_WITH_MEANS: f64 = 0.75;
 
 /// The ratio of the variance interpolated between three vertices, in the mean over an element, to that of the

@@ -35,7 +35,7 @@ pub(crate) struct LeafError {
     pub(crate) excess: f64,
     /// Whether something stands close, so that readers gather there anyway.
     pub(crate) is_beset: bool,
-    /// Whether that is so for only one of two reasons: vertices farther apart than its own carry its light, or it
+    /// Whether readers gather there only because vertices farther apart than its own carry its light, or because it
     /// lies at the rim of something that stands closer to them.
     pub(crate) is_beset_afar: bool,
     /// Whether the close object is a wall, and light is resolved towards it.

@@ -86,7 +86,7 @@ pub(crate) fn is_in_room(scene: &Scene, place: (Point, Normal, u32)) -> bool {
     reach_m > ROOM_M && reach_m.is_finite()
 }
 
-/// The distance that most rays from a place on a triangle reach, m.
+/// The distance that three quarters of the rays from a place on a triangle do not exceed, m.
 fn reach_m(scene: &Scene, place: (Point, Normal, u32)) -> f64 {
     let met = DIRECTIONS.met(scene, |k| DIRECTIONS.ray(k, place));
     let mut distances_m = met.map(|hit| hit.map_or(f64::INFINITY, |hit| f64::from(hit.t)));

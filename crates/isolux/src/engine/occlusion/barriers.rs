@@ -115,8 +115,8 @@ impl Barriers {
 
 /// Dark vertices close behind an object across their elements, such as corners of a box sunk into a floor, in
 /// ascending order. All lit vertices that share elements with them lie beyond the object. It crosses the edges so
-/// near to the dark vertex that nearly all of these elements is on the lit side. `light_lx` is the light of a vertex,
-/// if known.
+/// near to the dark vertex that these elements lie almost wholly on the lit side. `light_lx` is the light of a
+/// vertex, if known.
 pub(crate) fn shaded(
     scene: &Scene,
     subdivision: &Subdivision,
