@@ -1,70 +1,83 @@
-//! What a run will still take, as the pilot sees it coming.
+//! The prediction of the remaining time of a run, from a cost model.
 //!
-//! Of its work it knows how long a ray and a measurement of direct light take here, how many vertices
-//! carry light, and by how much their error exceeds what it should be. Errors of piecewise linear
-//! functions fall with the first power of the number of vertices; from round to round they are seen
-//! to. None of this enters a map.
+//! The model knows the time of a ray and of a measurement of direct light, the number of vertices that carry
+//! light, and the ratio of their error to the goal. The error of piecewise linear functions falls with the first
+//! power of the number of vertices; the order is then measured from round to round. None of this enters a map.
 
 use crate::engine::judge::BELIEVED_INCREMENTS;
 use crate::engine::method::READERS;
 use std::time::Duration;
 
-/// Error of the elements against the number of vertices: a power between these is believed.
+/// The lowest believed order of convergence of the elements' error in the number of vertices.
 const LEAST_ORDER: f64 = 0.7;
+/// The highest believed order: that of piecewise linear functions.
 const MOST_ORDER: f64 = 1.0;
 
-/// Before anything is seen, vertices grow so with the accuracy asked for, beyond this one.
+/// The accuracy goal above which no growth of the mesh is predicted before the first survey.
 const USUAL_TARGET: f64 = 0.01;
+/// The order of convergence that predicts the growth for finer goals: the error falls like this power of the
+/// number of vertices.
 const USUAL_ORDER: f64 = 2.0;
 
-/// What an increment does beside its rays: the fixed point over what they have found, as a share of what they take, and all that is
-/// done for every vertex, in rays. Measured in the hall, CUBE, SPHERE and offices, as is what follows.
+// The next seven were measured in the hall, CUBE, SPHERE and offices.
+
+/// The time of the fixed point of an increment, as a share of the time of its rays.
 const SOLVED: f64 = 0.4;
+/// The time of all other work of an increment per vertex, in rays.
 const EVERY: f64 = 1.0;
-/// What is done once before the first increment, in looks at the vertices; and direct light of a check point, in vertices.
+/// The time of the work before the first increment, in surveys of the vertices.
 const ONCE: f64 = 2.0;
+/// The time of direct light at a check point, in vertices.
 const CHECKED: f64 = 6.5;
-/// Direct light of a vertex that is made for it alone, where shadows end, in others.
+/// The time of direct light at a vertex made for it alone, at a shadow border, in other vertices.
 const IN_SHADOWS: f64 = 2.3;
-/// How much longer the first look takes than those after it.
+/// The time of the first survey, in later ones.
 pub(crate) const LONGER: f64 = 1.4;
-/// A look at vertices that are known, in first looks, as long as there was none.
+/// The time of a survey of known vertices, in first surveys, until it is measured.
 const LATER: f64 = 0.1;
 
-/// Where light is smooth: what it takes to make the vertices that it has functions between, before it is known, as a multiple of
-/// first looks at as many; and what they take once more before the first increment, of that. Measured in CUBE and an empty room.
+/// The time of the vertices of quadratic functions on smooth light until it is measured, in first surveys of as
+/// many vertices. Measured in CUBE and an empty room.
 const SMOOTHING: f64 = 1.5;
+/// The further time of these vertices before the first increment, in multiples of the time above. Measured there,
+/// too.
 const FITTING: f64 = 1.3;
 
-/// Increments: most runs end as soon as their error is believed, some after twice as many.
+/// The predicted number of increments. Most runs end as soon as their error is believed, some after twice as many.
 const INCREMENTS: f64 = BELIEVED_INCREMENTS as f64 + 0.5;
 
-/// Rounds in which elements are mostly refined for indirect light once they are to be, and those for direct light
-/// after them: each looks at all vertices.
+/// The usual number of rounds of refinement for indirect light, if any. Each looks at all vertices.
 const ROUNDS: f64 = 5.0;
+/// The usual number of later rounds for direct light, if any. Each looks at all vertices.
 const ROUNDS_FOR_DIRECT: f64 = 3.0;
 
-/// Among many things, before the first look: the accuracy that the usual first mesh is good enough for; vertices that direct light
-/// adds to it, as a share of what it has more than the first (one that is fine already needs no more); and what it takes in all, as a
-/// multiple of what is known then. Measured in the hall.
+// The next three hold before the first survey of scenes with many objects and were measured in the hall.
+
+/// The accuracy goal for which the usual first mesh is good enough.
 const GOOD_ENOUGH: f64 = 0.02;
+/// The vertices added for direct light, as a share of the growth from the first mesh to the usual one. A mesh that
+/// is fine already needs no more.
 const MORE_FOR_DIRECT: f64 = 0.75;
+/// The time of the whole run, in multiples of the time of the known work.
 const MANY_IN_ALL: f64 = 1.2;
-/// Among few, before the first look: what it takes in all, as a multiple of what it would if elements stayed as they are, in the
-/// middle of rooms, offices and places outside; an empty room takes a fourth of that.
+/// The time of the whole run in scenes with few objects before the first survey, in multiples of the time on
+/// unchanged elements. Middle value of rooms, offices and outdoor scenes; an empty room takes a fourth of it.
 const FEW_IN_ALL: f64 = 3.0;
-/// And before that: what a gathering ray and a vertex cost, as multiples of a ray that is only traced.
+/// The time of a gathering ray until it is measured, in rays that are only traced.
 const GATHERING: f64 = 1.9;
+/// The time of a first survey per vertex until it is measured, in rays that are only traced.
 const FIRST: f64 = 19.0;
 
-/// Factors between what is said and what comes, in nine of ten runs: before the first look among few things and among many, while
-/// elements are refined, and when they are fixed.
+/// The factor either way that holds the true time in nine of ten runs, for few objects before the first survey.
 const BLIND_AMONG_FEW: f64 = 6.0;
+/// The same factor for many objects before the first survey.
 const BLIND: f64 = 2.5;
+/// The same factor while elements are refined.
 const REFINING: f64 = 1.7;
+/// The same factor once elements are fixed.
 const FIXED: f64 = 1.25;
 
-/// Time spent on a number of things.
+/// The time spent on a number of equal pieces of work.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Cost {
     time_s: f64,
@@ -86,110 +99,118 @@ impl Cost {
     }
 }
 
-/// What the pilot's work costs here.
+/// The measured costs of the pilot's work on this machine and scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Costs {
-    /// Rays that gather, sweeps included.
+    /// Gathering rays, sweeps of the fixed point included.
     pub(crate) rays: Cost,
-    /// The same in trials, without.
+    /// Gathering rays of trials, without sweeps.
     pub(crate) tried: Cost,
-    /// Places where direct light is measured, and those of them that are made for it alone.
+    /// Vertices where direct light is measured.
     pub(crate) direct: Cost,
+    /// Vertices made for direct light alone.
     pub(crate) in_shadows: Cost,
-    /// The same as increments do it that measure it again.
+    /// Vertices where increments measure direct light again.
     pub(crate) again: Cost,
-    /// All else, by vertices that are looked at.
+    /// All other work of a survey, by its vertices.
     pub(crate) looks: Cost,
-    /// The same of the first mesh, where all of them are new.
+    /// All other work of the first survey, by its vertices, all of which are new.
     pub(crate) first: Cost,
     /// Rays that are only traced.
     pub(crate) traced: Cost,
-    /// Making vertices where light is smooth, by all that there are then.
+    /// Making the vertices of quadratic functions, by the number of all vertices afterwards.
     pub(crate) smoothing: Cost,
 }
 
 impl Costs {
-    /// What some rays that gather take.
+    /// The time of gathering rays in the pilot, s.
     fn of_rays(&self, rays: f64) -> f64 {
         let known = if self.rays.things > 0.0 { self.rays } else { self.traced.times(GATHERING) };
         known.of(rays)
     }
 
-    /// The same in an increment.
+    /// The time of gathering rays in an increment, s.
     fn of_rays_then(&self, rays: f64) -> f64 {
         if self.tried.things > 0.0 { self.tried.of(rays) } else { self.of_rays(rays) }
     }
 
-    /// Direct light of vertices that are made for it alone.
+    /// The time of direct light at vertices made for it alone, s.
     pub(crate) fn in_shadows(&self, vertices: f64) -> f64 {
         let is_known = self.in_shadows.things > 0.0;
         if is_known { self.in_shadows.of(vertices) } else { IN_SHADOWS * self.direct.of(vertices) }
     }
 
-    /// Direct light of an increment that measures it.
+    /// The time of direct light in an increment that measures it, s.
     fn again(&self, vertices: f64) -> f64 {
         if self.again.things > 0.0 { self.again.of(vertices) } else { self.direct.of(vertices) }
     }
 
-    /// What vertices take once.
+    /// The time of the first survey of vertices, s.
     fn of_first(&self, vertices: f64) -> f64 {
         let known = if self.first.things > 0.0 { self.first } else { self.traced.times(FIRST) };
         known.of(vertices)
     }
 
-    /// What it takes to look at vertices once more.
+    /// The time of a later survey of vertices, s.
     fn of_looks(&self, vertices: f64) -> f64 {
         let is_known = self.looks.things > 0.0;
         if is_known { self.looks.of(vertices) } else { LATER * self.of_first(vertices) }
     }
 
-    /// What it takes to make vertices where light is smooth.
+    /// The time of making the vertices of quadratic functions, s.
     fn of_smoothing(&self, vertices: f64) -> f64 {
         let is_known = self.smoothing.things > 0.0;
         if is_known { self.smoothing.of(vertices) } else { SMOOTHING * self.of_first(vertices) }
     }
 }
 
-/// What is known of the work to come.
+/// The inputs of the prediction: quantities of the work to come.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outlook {
-    /// Vertices that carry light, those of them that have gathered already, and all vertices.
+    /// The number of vertices that carry light.
     pub(crate) carriers: f64,
+    /// The number of carriers that have gathered already.
     pub(crate) gathered: f64,
+    /// The number of all vertices.
     pub(crate) vertices: f64,
-    /// All that there may be for indirect light.
+    /// The largest number of vertices for indirect light.
     pub(crate) most: f64,
-    /// Those whose direct light is measured.
+    /// The number of vertices whose direct light is measured.
     pub(crate) measured: f64,
-    /// Rays of each in the pilot, and in an increment.
+    /// Rays per carrier in the pilot.
     pub(crate) pilot_rays: f64,
+    /// Rays per carrier in an increment.
     pub(crate) rays: f64,
-    /// Check points, and their rays and those of places where means are measured, together; and particles of an increment.
+    /// The number of check points.
     pub(crate) checks: f64,
+    /// All rays of an increment from check points, places of element means and vertices for the stored map.
     pub(crate) check_rays: f64,
+    /// Particles of an increment.
     pub(crate) particles: f64,
     /// Rays of trials before the first increment.
     pub(crate) trials: f64,
-    /// Accuracy asked for.
+    /// The relative accuracy goal.
     pub(crate) target: f64,
-    /// By how much errors exceed what they should be, and what that was with how many carriers a
-    /// round ago; unknown before the first look.
+    /// The ratio of the error to its goal; `None` before the first survey.
     pub(crate) excess: Option<f64>,
+    /// That ratio one round ago, with the number of carriers then; `None` where unknown.
     pub(crate) before: Option<(f64, f64)>,
-    /// Among many things, before the first look: the usual first mesh as a multiple of that there is.
+    /// The size of the usual first mesh, in multiples of the present one; `None` after the first survey and in
+    /// scenes of few objects.
     pub(crate) usual: Option<f64>,
-    /// Into how many vertices each is made, where light is smooth.
+    /// The growth factor of vertices by quadratic functions still to be made.
     pub(crate) smoothed: f64,
-    /// Whether it is, made already or not.
+    /// Whether light is smooth, with quadratic functions made or still to be made.
     pub(crate) is_smooth: bool,
-    /// Vertices more than there are now that direct light alone will take, the part of all where it will be measured again, and
-    /// whether it is in each increment.
+    /// The number of vertices still to be added for direct light alone.
     pub(crate) more_for_direct: f64,
+    /// The share of all vertices whose direct light will be measured again.
     pub(crate) measured_again: f64,
+    /// Whether each increment measures direct light.
     pub(crate) measured_each: bool,
 }
 
-/// Time left, s, and the factor either way that holds in nine of ten runs.
+/// The predicted remaining time, s, and the factor either way that holds the true time in nine of ten runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Left {
     pub(crate) time_s: f64,
@@ -197,7 +218,7 @@ pub(crate) struct Left {
 }
 
 impl Outlook {
-    /// Vertices that will carry light, as a multiple of those that do.
+    /// The final number of carriers, in multiples of the present one.
     fn growth(&self) -> f64 {
         let Some(excess) = self.excess else {
             let (usual, target) =
@@ -215,12 +236,12 @@ impl Outlook {
         libm::pow(excess, 1.0 / order).min(allowed)
     }
 
-    /// All that there will be as long as there are details to look at.
+    /// The number of vertices after refinement for indirect light.
     fn looked_at(&self) -> f64 {
         self.vertices + self.carriers * (self.growth() - 1.0)
     }
 
-    /// Rounds of refinement to come.
+    /// The number of rounds of refinement to come.
     fn rounds(&self) -> f64 {
         if let Some(usual) = self.usual {
             return (ROUNDS + ROUNDS_FOR_DIRECT) * (2.0 * (usual - 1.0)).min(1.0);
@@ -229,7 +250,7 @@ impl Outlook {
         indirect + if self.more_for_direct > 0.0 { ROUNDS_FOR_DIRECT } else { 0.0 }
     }
 
-    /// Those of them that direct light alone will take.
+    /// The number of vertices still to be added for direct light alone.
     fn more_for_direct(&self) -> f64 {
         match self.usual {
             Some(usual) => MORE_FOR_DIRECT * (usual - 1.0) * self.vertices,
@@ -237,20 +258,20 @@ impl Outlook {
         }
     }
 
-    /// All vertices that there will be.
+    /// The final number of vertices.
     pub(crate) fn vertices_then(&self) -> f64 {
         self.looked_at() * self.smoothed + self.more_for_direct()
     }
 
-    /// What all of it takes.
+    /// The predicted time of all remaining work.
     pub(crate) fn left(&self, costs: &Costs) -> Left {
         let growth = self.growth();
         let carriers = self.carriers * growth;
         let vertices = self.vertices_then();
         let for_direct = self.more_for_direct();
-        // Before anything was looked at.
+        // Nothing was surveyed yet.
         let is_blind = self.usual.is_some();
-        // Where light is smooth, vertices between those that carry it are not looked at.
+        // Where light is smooth, vertices between carriers are not surveyed.
         let looked_at = if self.is_smooth { carriers } else { self.looked_at() };
         let look_s = if is_blind { costs.of_first(looked_at) } else { costs.of_looks(looked_at) };
         let smoothing_s = if self.is_smooth { costs.of_smoothing(vertices) } else { 0.0 };
@@ -280,27 +301,27 @@ impl Outlook {
     }
 }
 
-/// By how much errors exceed what they should be, and what that was with how many carriers a round ago, as
-/// far as that is known.
+/// The ratio of the error to its goal; then that ratio one round ago with the number of carriers. `None` where
+/// unknown.
 pub(crate) type Excess = (Option<f64>, Option<(f64, f64)>);
 
-/// Elements are as fine as they will be.
+/// The ratio of one, for elements that are fine enough.
 pub(crate) const FINE: Excess = (Some(1.0), None);
 
-/// Is told of every round, and says whether there is time for another.
+/// A callback that gets the report of every round and returns whether there is time for another.
 pub(crate) type GoOn<'g> = dyn FnMut(&Round) -> bool + 'g;
 
-/// What a pilot has done, and what will come.
+/// The report of a round: the pilot's work so far and the work to come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Round {
-    /// Vertices.
+    /// The number of vertices.
     pub(crate) receivers: usize,
-    /// Rays traced.
+    /// The number of rays traced.
     pub(crate) rays: u64,
-    /// Vertices that there will be.
+    /// The predicted final number of vertices.
     pub(crate) receivers_then: f64,
-    /// Time of the next step, which is made whole, s, as far as it measures direct light.
+    /// The time of direct light in the next step, s; that step is not interrupted.
     pub(crate) step_s: f64,
-    /// Time to the accuracy asked for.
+    /// The predicted time to the accuracy goal.
     pub(crate) left: Left,
 }

@@ -1,4 +1,4 @@
-//! What the pilot tells of itself.
+//! The report of a round: work done, and the prediction of the remaining time.
 
 use super::forecast::{Excess, FINE, GoOn, Outlook, Round};
 use super::look::{PilotRequest, Survey};
@@ -16,22 +16,22 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::time::Instant;
 
-/// Rays of each of the vertices that tell how long one takes.
+/// Rays per vertex in the measurement of the time of a traced ray.
 const TRACED: u32 = 16;
 
-/// Vertices that direct light alone takes grow like this power of what it errs by too much, and where indirect light is gathered for
-/// the bare map, too. Measured in the hall.
+/// The growth of vertices for direct light, as a power of the ratio of its error to the goal. Measured in the hall.
 const ORDER_FOR_DIRECT: f64 = 0.5;
+/// The same power where vertices also gather indirect light for the stored map. Measured in the hall.
 const ORDER_FOR_BARE: f64 = 1.3;
 
-/// Vertices that a round for direct light adds, in those that the last one did.
+/// The vertices that a round for direct light adds, in multiples of those of the last round.
 const NEXT: f64 = 1.5;
 
-/// The part of the vertices that bisection moves, as a guess.
+/// The share of the vertices that bisection moves: a guess.
 const MOVED: f64 = 0.1;
 
 impl Pilot<'_> {
-    /// Tells what is done and asks whether there is time for more, which there is to do.
+    /// Reports a round and returns whether there is time for the next step. Without time the pilot is not whole.
     pub(super) fn has_time(
         &mut self,
         look: &Survey,
@@ -44,7 +44,8 @@ impl Pilot<'_> {
         has_time
     }
 
-    /// Among many things, what direct light takes tells how long all will, as do rays: they are tried before all else.
+    /// Measures the costs of direct light and of rays before the first look, and reports the first prediction, in
+    /// scenes of many objects. In others it only fixes the noise of direct light.
     pub(super) fn begin(
         &mut self,
         elements: &Elements,
@@ -72,7 +73,7 @@ impl Pilot<'_> {
         go_on(&self.round(request, None, (None, None)));
     }
 
-    /// What is done and what will come, from the last look, if there was one.
+    /// The work done and the work to come, from the last survey, if there was one.
     pub(super) fn round(
         &self,
         request: &PilotRequest,
@@ -85,7 +86,7 @@ impl Pilot<'_> {
         let reference_lx = look.map_or(trial.reference_lx, |look| look.reference_lx);
         let fixed = self.mesh.for_indirect_light.as_ref().map(|(count, _)| *count);
         let carriers = self.mesh.carriers.count(fixed.unwrap_or(vertices));
-        // Rounds that are not the last add more and more.
+        // Each round adds more than the one before, except the last.
         let another = NEXT * self.direct.added as f64;
         let unmeasured = look.filter(|_| !self.direct.is_measured);
         let more = unmeasured.map_or(0.0, |look| self.more_for_direct(look, request, another));
@@ -136,7 +137,8 @@ impl Pilot<'_> {
         }
     }
 
-    /// Vertices that direct light alone will take, of which the next round will add so many, if there is one.
+    /// The number of vertices still to be added for direct light alone. `another` is the number that the next round
+    /// will add, if there is one.
     fn more_for_direct(&self, look: &Survey, request: &PilotRequest, another: f64) -> f64 {
         let vertices = self.mesh.subdivision.vertex_count() as f64;
         let excess = self.direct_excess_now(look, request);
@@ -148,7 +150,8 @@ impl Pilot<'_> {
         (then.max(least).min(most) - vertices).max(0.0)
     }
 
-    /// Rays of a vertex in the mean, if each had so many, and more where they are not judged by walls.
+    /// The mean number of rays of a vertex, allotted by area from a mean of `rays`. Vertices without a control
+    /// variate get at least [`FEWEST_UNJUDGED`].
     fn mean_allotted(&self, rays: f64) -> f64 {
         let areas_m2 = match &self.mesh.for_indirect_light {
             Some((_, areas_m2)) => Cow::Borrowed(areas_m2),
@@ -163,7 +166,7 @@ impl Pilot<'_> {
         mean_of(&allotted)
     }
 
-    /// Particles of an increment, beside rays of so many carriers.
+    /// The number of particles of an increment, shared out with the rays of the carriers.
     fn particles(
         &self,
         target: f64,
@@ -180,7 +183,7 @@ impl Pilot<'_> {
         f64::from(self.tried.caustic_noise.particles(vertices, goal, increments, share))
     }
 
-    /// What direct light as interpolated errs by, in what is asked for, as found already or by a look.
+    /// The ratio of the interpolation error of direct light to its goal, from the last round or computed anew.
     fn direct_excess_now(&self, look: &Survey, request: &PilotRequest) -> f64 {
         let known =
             self.direct.excess.filter(|(of, _)| *of == self.mesh.subdivision.vertex_count());
@@ -188,7 +191,8 @@ impl Pilot<'_> {
         known.map_or_else(look_now, |(_, excess)| excess)
     }
 
-    /// Among many things light is not smooth: the usual first mesh, as a multiple of that there is.
+    /// The size of the usual first mesh, in multiples of the present one; `None` where there are few objects. Among
+    /// many objects light is not smooth.
     fn usual(&self) -> Option<f64> {
         let edge_m = self.mesh.usual_edge_m.filter(|_| self.mesh.has_many_things)?;
         let leaves = || self.mesh.subdivision.leaves();
