@@ -1,9 +1,9 @@
-//! Indirect light of the bare map, where there are as many elements for it as there may be.
+//! Indirect light of the stored (interpolated) map on elements for direct light.
 //!
-//! Close to what stands on a surface indirect light changes over less than the elements that it lives on. Readers and rays gather
-//! there afresh; a viewer of the bare map shows what the vertices say. Where that is worse than asked for, vertices that are made
-//! for direct light gather, too, over the light that is known already. No ray of an increment reads them: they cost rays of their
-//! own, and no more.
+//! Close to objects on a surface, indirect light changes within its elements. Readers and rays gather there afresh,
+//! but a viewer of the stored map shows the vertex values. If these err more than the accuracy goal of the mesh,
+//! vertices made for direct light gather, too, over the known light. No ray of an increment reads these vertices;
+//! they cost only their own rays.
 
 use super::look::{PilotRequest, Survey};
 use super::state::{Bare, Pilot};
@@ -15,21 +15,21 @@ use crate::map::Standing;
 use crate::units::Rgb;
 use std::time::Instant;
 
-/// For an accuracy of the mesh that is finer than this, more by as much.
+/// The usual accuracy goal of the mesh. Finer goals allow more vertices, in the same ratio.
 pub(super) const USUAL_MESH: f64 = 0.05;
 
-/// It is worth it where indirect light takes this part of what the bare map may err by.
+/// The error of indirect light from which vertices gather for the stored map, as a share of the goal of that map.
 const MUCH: f64 = 0.5;
 
-/// By how much light at a vertex must differ from what is interpolated there for increments to gather at it, in accuracies of the
-/// mesh: half as much takes twice the vertices in the hall, for a fiftieth of the error.
+/// The difference between gathered and interpolated light from which increments gather at a vertex, in accuracy
+/// goals of the mesh. Measured in the hall: half of it takes twice the vertices, for a fiftieth of the error.
 const WORTH: f64 = 1.0;
 
-/// The part of the vertices for direct light for which that is so, roughly.
+/// The share of the vertices for direct light at which increments gather, roughly.
 const OF_MADE: f64 = 0.3;
 
 impl Bare {
-    /// What lies between the ends of an edge; `coarse` is the light of the vertices before the first.
+    /// The mean light of the ends of an edge; `coarse` is the light of the vertices before the first.
     fn between(&self, coarse: &[Rgb], ends: [u32; 2]) -> Rgb {
         let light = |end: usize| {
             end.checked_sub(self.first).map_or_else(|| coarse[end], |k| self.indirect[k])
@@ -39,8 +39,8 @@ impl Bare {
 }
 
 impl Pilot<'_> {
-    /// Whether vertices gather for it, or will: if a finer bare map than usual is asked for, and indirect light has much of what it may
-    /// err by.
+    /// Whether vertices gather for the stored map, now or later. They do if its goal is finer than usual, and the
+    /// error of indirect light is a large share of that goal.
     pub(super) fn gathers_for_bare(&self, look: &Survey, request: &PilotRequest) -> bool {
         if self.indirect.bare.is_some() {
             return true;
@@ -57,7 +57,7 @@ impl Pilot<'_> {
         squared > much_lx * much_lx * area_m2
     }
 
-    /// Begins with that, if they do.
+    /// Prepares the gathering for the stored map, if there is any.
     pub(super) fn look_at_bare(&mut self, look: &Survey, request: &PilotRequest) {
         if self.gathers_for_bare(look, request) {
             let (first, indirect) = (self.mesh.subdivision.vertex_count(), Vec::new());
@@ -66,7 +66,7 @@ impl Pilot<'_> {
         }
     }
 
-    /// Gathers at the vertices that have not, as far as they lie in the open and something stands close.
+    /// Gathers at the new vertices that lie in the open with an object close before them; interpolates at others.
     pub(super) fn complete_bare(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let Some(mut bare) = self.indirect.bare.take() else { return };
         let started = Instant::now();
@@ -95,7 +95,8 @@ impl Pilot<'_> {
         self.indirect.bare = Some(bare);
     }
 
-    /// What the bare map errs by in every element, if vertices gather for it; `direct` is what luminaires give.
+    /// The error of the stored map by element, lx; `None` if no vertices gather for it. `direct` is the direct light
+    /// at the vertices, lx.
     pub(super) fn bare_errors(
         &self,
         elements: &Elements,
@@ -111,14 +112,16 @@ impl Pilot<'_> {
         Some(details.leaf_errors(|_| None, |_| false, |_, _| false))
     }
 
-    /// How many vertices increments will gather at for the bare map, if so many more are made for direct light.
+    /// The number of vertices at which increments will gather for the stored map, with `more` new vertices for
+    /// direct light.
     pub(super) fn rows_for_bare(&self, look: &Survey, request: &PilotRequest, more: f64) -> f64 {
         let made = self.indirect.bare.as_ref().map_or(0, |bare| bare.indirect.len());
         let gathers = self.gathers_for_bare(look, request);
         if gathers { OF_MADE * (made as f64 + more) } else { 0.0 }
     }
 
-    /// The vertices that increments are to gather at for the bare map: where light is not what is interpolated there.
+    /// The vertices at which increments are to gather for the stored map: those whose light differs from the
+    /// interpolated light.
     pub(super) fn gathering_for_bare(
         &self,
         look: &Survey,

@@ -1,4 +1,4 @@
-//! Particles sent ahead for caustics, in batches that share nothing random, and what they bring to elements.
+//! Trial particles for caustics, in independent batches, and the flux that they bring to elements.
 
 use super::state::Pilot;
 use crate::elements::Elements;
@@ -10,13 +10,13 @@ use crate::sampling::Key;
 use rayon::prelude::*;
 use std::cell::RefCell;
 
-/// How many batches there are.
+/// The number of batches.
 pub(super) const BATCHES: usize = 8;
 
-/// No element.
+/// The number that stands for no element.
 const NONE: u32 = u32::MAX;
 
-/// Flux that a particle has left somewhere, if it carried all there is.
+/// The flux that a particle has left at a place, as if it carried all light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Deposit {
     triangle: u32,
@@ -25,33 +25,34 @@ pub(super) struct Deposit {
     flux_lm: f64,
 }
 
-/// Batches of particles, each of which shares all light.
+/// Batches of particles; the particles of each share all light.
 #[derive(Debug)]
 pub(super) struct Batches {
-    /// What is kept of them, and of how many particles of each.
+    /// The deposits that are kept, by batch.
     deposits: [Vec<Deposit>; BATCHES],
+    /// The number of particles of each batch whose deposits are kept.
     kept: u32,
-    /// Particles of each so far, kept or not.
+    /// The number of particles of each batch so far, kept or not.
     flown: u64,
 }
 
-/// What a batch brings to elements.
+/// The flux of a batch, by element and vertex.
 pub(super) struct Brought {
     pub(super) particles: f64,
-    /// At the vertices, as the map has it, lx.
+    /// The light at the vertices in a map of this batch, lx.
     pub(super) light: Vec<f64>,
-    /// By node, which of those that get any it is.
+    /// By node, its number among the elements with deposits, or [`NONE`].
     of_node: Vec<u32>,
     elements: Vec<ToElement>,
-    /// What comes to the vertices, if each particle carried all there is, lm.
+    /// The flux of the vertices, as if each particle carried all light, lm.
     fluxes_lm: Vec<f64>,
 }
 
-/// What comes to an element.
+/// The flux that comes to an element.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ToElement {
     pub(super) deposits: usize,
-    /// To each of its parts, if each particle carried all there is, lm.
+    /// The flux of each part of the element, as if each particle carried all light, lm.
     pub(super) fluxes_lm: [f64; PARTS],
 }
 
@@ -60,7 +61,7 @@ impl Batches {
         Self { deposits: Default::default(), kept: 0, flown: 0 }
     }
 
-    /// Particles of each of which all is kept.
+    /// The number of particles of each batch whose deposits are kept.
     pub(super) const fn kept(&self) -> u32 {
         self.kept
     }
@@ -77,7 +78,7 @@ impl Brought {
         }
     }
 
-    /// Adds what so many particles have left.
+    /// Adds the deposits of a number of particles.
     fn add(
         &mut self,
         deposits: &[Deposit],
@@ -103,21 +104,21 @@ impl Brought {
         }
     }
 
-    /// With the map that an increment would make of it.
+    /// Adds the map that an increment would make of these fluxes.
     fn into_map(mut self, hats: &HatFunctions) -> Self {
         let each = 1.0 / self.particles;
         self.light = hats.corrected(&hats.means(self.fluxes_lm.drain(..).map(|lm| lm * each)));
         self
     }
 
-    /// What came to an element.
+    /// The flux that came to an element.
     pub(super) fn to(&self, node: u32) -> ToElement {
         self.elements.get(self.of_node[node as usize] as usize).copied().unwrap_or_default()
     }
 }
 
 impl Pilot<'_> {
-    /// Adds so many particles to every batch, and keeps where they came; returns whether any of all came to a place that counts.
+    /// Adds `count` particles to every batch and keeps their deposits. Returns whether there are any deposits at all.
     pub(super) fn fly_and_keep(&mut self, batches: &mut Batches, count: u32) -> bool {
         for (all, new) in batches.deposits.iter_mut().zip(self.fly(batches.flown, count)) {
             all.extend(new);
@@ -127,7 +128,7 @@ impl Pilot<'_> {
         batches.deposits.iter().any(|deposits| !deposits.is_empty())
     }
 
-    /// What is kept, brought to elements.
+    /// The kept deposits of every batch, summed over these elements.
     pub(super) fn kept(
         &self,
         of: &Batches,
@@ -142,8 +143,8 @@ impl Pilot<'_> {
         of.deposits.par_iter().map(brought).collect()
     }
 
-    /// What so many particles of every batch bring, none of which is kept, so many of them at once; of fewer if there is no time
-    /// for all of them.
+    /// The sums of `count` new particles of every batch, `at_once` at a time, whose deposits are not kept. There
+    /// are fewer particles if time is short.
     pub(super) fn brought(
         &mut self,
         batches: &mut Batches,
@@ -166,7 +167,7 @@ impl Pilot<'_> {
         brought.into_par_iter().map(|brought| brought.into_map(hats)).collect()
     }
 
-    /// Where so many new particles of every batch come, of which so many have flown.
+    /// The deposits of `count` new particles of every batch; `flown` is the number of earlier ones.
     fn fly(&mut self, flown: u64, count: u32) -> Vec<Vec<Deposit>> {
         let of = (self.scene, self.lighting);
         let mut traced = 0;
@@ -201,7 +202,7 @@ mod tests {
     use crate::engine::tests::{inward_box, painted, scene};
     use crate::units::Rgb;
 
-    /// The same number of deposits everywhere: a lattice over every triangle of a box.
+    /// Deposits of uniform density: a lattice over every triangle of a box.
     fn deposits(elements: &Elements) -> Vec<Deposit> {
         let lattice = |triangle: u32| {
             let places = (0..30).flat_map(|i| (0..30 - i).map(move |k| (i, k)));
@@ -240,7 +241,7 @@ mod tests {
         assert_eq!(count, all.len());
         let sent_lm: f64 = all.iter().map(|deposit| deposit.flux_lm).sum();
         assert!((whole_lm - sent_lm).abs() < 1e-9 * sent_lm);
-        // Of twice as many particles every one carries half.
+        // With twice as many particles each carries half.
         for (once, twice) in once.light.iter().zip(&twice.light) {
             assert!((once - 2.0 * twice).abs() <= 1e-9 * once.abs());
         }

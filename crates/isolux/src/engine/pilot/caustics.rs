@@ -1,11 +1,13 @@
-//! Elements for caustics: as fine as light is that specular surfaces throw together.
+//! Adaptive refinement for caustics, from trial particles.
 //!
-//! No receiver sees a caustic coming: only particles find it. Some are sent ahead, in batches that share nothing random. On the
-//! elements as they are, each batch makes the map that an increment would make of it, and counts what came to each of the parts of
-//! every element. The product of what two batches lack is the squared error of interpolation there without any noise, in the mean;
-//! what that varies by over batches tells what is noise. Elements are bisected where the error is no noise, particles are added where noise
-//! hides it: first to those there are, which are kept and placed on every new mesh. Where increments will need far more of them, so many
-//! are sent that they are looked at once and not kept, anew for every mesh.
+//! Receivers cannot find caustics; only particles do. Independent batches of trial particles are sent before the
+//! first increment. On the present elements each batch makes the map of an increment, and counts the flux that
+//! comes to each part of every element. The product of the differences of two batches is an unbiased estimate of
+//! the squared interpolation error; its spread over batches is the noise.
+//!
+//! Elements are bisected where the error stands out from the noise. Elsewhere particles are added. Particles are
+//! first kept and placed on every new mesh. If increments will need far more of them, new ones are sent for every
+//! mesh and are not kept.
 
 use super::batches::{BATCHES, Batches, Brought};
 use super::direct::MOST_REFLECTANCE;
@@ -22,69 +24,74 @@ use crate::engine::ray::{Noise, reflectance};
 use crate::map::Standing;
 use rayon::prelude::*;
 
-/// Caustics are counted where all light is so many times as much with them, root mean square.
+/// The ratio of all light with caustics to that without, root mean square, above which caustics count as light.
 const MUCH: f64 = 1.25;
 
-/// Particles of a batch to start with, and of those that are kept at most.
+/// The first number of particles of a batch.
 const FIRST_PARTICLES: u32 = 1 << 11;
+/// The largest number of particles of a batch whose deposits are kept.
 const MOST_KEPT: u32 = 1 << 18;
-/// Particles of a batch at most, kept or not, and how many are looked at together.
+/// The largest number of particles of a batch for one mesh.
 const MOST_PARTICLES: u32 = 1 << 22;
+/// The number of particles of a batch that are processed together if they are not kept.
 const AT_ONCE: u32 = 1 << 15;
-/// The part of the particles that increments will need that may be sent ahead for one mesh.
+/// The largest number of trial particles for one mesh, as a share of those that increments will need.
 const AHEAD: f64 = 0.5;
-/// Rounds at most.
+/// The largest number of rounds.
 const ROUNDS: usize = 96;
 
-/// The part of the accuracy asked for that interpolating caustics may take, and what it may if to find out where more is lacking takes
-/// more particles than it takes to tell how much.
+/// The allowed interpolation error of caustics, as a share of the accuracy goal.
 const SHARE: f64 = 0.3;
+/// The same share where it takes more particles to find the places of the error than its size.
 const MOST_SHARE: f64 = 0.5;
 
-/// Elements with fewer deposits tell nothing.
+/// The least number of deposits in an element that is bisected.
 const FEWEST_DEPOSITS: usize = 16;
 
-/// The shortest edges for caustics, as a share of those for other light.
+/// The shortest edge for caustics, as a share of that for other light.
 const LEAST_EDGE: f64 = 1.0 / 64.0;
 
-/// Nothing is bisected for less than this share of the error allowed, in the square.
+/// The least squared error of all candidates for bisection, as a share of the allowed squared error.
 const MATTERS: f64 = 0.25;
-/// The share of what can be bisected that a round does (Dörfler 1996).
+/// The share of the squared error of all candidates that a round bisects (bulk criterion, Dörfler 1996).
 const MARKED_SHARE: f64 = 0.75;
 
-/// Elements that increments check at most, and the share of the error allowed that others may have, in the square.
+/// The largest number of elements that increments check.
 const MOST_CHECKED: usize = 8192;
+/// The allowed squared error of all other elements, as a share of the allowed squared error.
 const UNCHECKED: f64 = 0.02;
 
-/// An error is believed that is so many times the standard error of its square.
+/// The least ratio of a squared error to its standard error at which the error is believed.
 const BELIEVED: f64 = 2.5;
-/// The same where every mesh takes new particles, so that there are few.
+/// The same ratio where every mesh takes new particles. Few meshes are made then.
 const LIKELY: f64 = 2.0;
 
-/// What is seen of an element.
+/// The measured error of an element.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     node: u32,
-    /// Of all batches.
+    /// The number of deposits of all batches.
     deposits: usize,
     squared: Squared,
 }
 
-/// What caustics lack on the elements.
+/// The interpolation errors of caustics on the elements.
 #[derive(Debug, Default)]
 pub(super) struct CausticErrors {
-    /// Root mean square over the surface, lx.
+    /// The root mean square error over the surface, lx.
     pub(super) lx: f64,
-    /// All of them.
+    /// The sum of the squared errors, lx2 m2.
     all: Squared,
-    /// By element, the worst first; so many of them are to be checked.
+    /// The errors by element, the worst first.
     seen: Vec<Seen>,
+    /// The number of the worst elements that increments are to check.
     checked: usize,
-    /// What the others err by, in the mean square over the surface, lx2.
+    /// The mean squared error of all others over the surface, lx2.
     pub(super) beside_lx2: f64,
 }
 
-/// What is asked of elements, lx2 m2: the square of all the error that is asked for, over the surface, and what caustics may take of it.
+/// The goals of the refinement: the area, m2, the squared accuracy goal over that area, lx2 m2, and the squared
+/// error allowed for caustics, lx2 m2.
 #[derive(Clone, Copy)]
 struct Asked {
     area_m2: f64,
@@ -93,17 +100,17 @@ struct Asked {
 }
 
 impl CausticErrors {
-    /// Their share of light of this root mean square.
+    /// The error as a share of the reference light.
     pub(super) fn share(&self, reference_lx: f64) -> f64 {
         self.lx / reference_lx.max(f64::MIN_POSITIVE)
     }
 
-    /// Whether no more is in doubt of them than increments will leave, or twice that.
+    /// Whether the standard error of the squared error is at most twice the doubt that increments will leave.
     fn are_told(&self, asked: Asked) -> bool {
         self.all.variance.sqrt() <= 2.0 * DOUBT * asked.goal
     }
 
-    /// Whether they leave enough of what is asked for to all else.
+    /// Whether the errors leave enough of the accuracy goal to all others.
     fn are_small(&self, asked: Asked) -> bool {
         self.all.sum <= MOST_SHARE * MOST_SHARE * asked.goal
     }
@@ -116,7 +123,7 @@ impl CausticErrors {
 }
 
 impl Pilot<'_> {
-    /// Bisects elements until caustics are interpolated well enough, as far as a number of particles can tell.
+    /// Bisects elements until the interpolation error of caustics is small enough, as far as trial particles show it.
     pub(super) fn refine_for_caustics(
         &mut self,
         look: &mut Survey,
@@ -167,7 +174,7 @@ impl Pilot<'_> {
         errors
     }
 
-    /// The same by particles of which none is kept, where increments will need more than there were: twice as many for every new mesh.
+    /// Continues the refinement with particles that are not kept, twice as many for every new mesh.
     fn refine_further(
         &mut self,
         look: &mut Survey,
@@ -184,7 +191,7 @@ impl Pilot<'_> {
             let of = (&elements, &hats);
             let on = self.brought(&mut batches, (count, AT_ONCE), of, has_time);
             let is_whole = on[0].particles >= f64::from(count);
-            // Where time was short there may be more of those that are kept.
+            // If time was short, the kept particles may be more.
             let is_less = on[0].particles < f64::from(batches.kept());
             let on = if is_less { self.kept(&batches, &elements, &hats) } else { on };
             let errors = self.judged(&on, &hats, asked);
@@ -202,13 +209,13 @@ impl Pilot<'_> {
         }
     }
 
-    /// Particles of every batch that may be sent for one mesh.
+    /// The largest number of particles of a batch for one mesh.
     fn most_ahead(&self, look: &Survey, request: &PilotRequest) -> f64 {
         let needed = self.tried.caustic_noise.needed((request.goal, look.reference_lx));
         (AHEAD * needed / BATCHES as f64).min(f64::from(MOST_PARTICLES))
     }
 
-    /// What batches tell of the elements they were brought to; also how noisy they are.
+    /// The errors of the elements that these batches show. Their noise is stored, too.
     fn judged(&mut self, on: &[Brought], hats: &HatFunctions, asked: Asked) -> CausticErrors {
         let seen = self.seen(on);
         let mut all = Squared::default();
@@ -217,7 +224,8 @@ impl Pilot<'_> {
         errors_of(seen, all, asked)
     }
 
-    /// Counts caustics as light, and what is reflected of them, where they are much of it: all that is small is small against that.
+    /// Adds caustics and their reflected light to the reference light, if they are a large part of it. Accuracies are
+    /// relative to that light.
     fn count_caustics(&mut self, look: &mut Survey, batches: &Batches) {
         let hats = HatFunctions::new(&self.mesh.subdivision, &self.near.standings);
         let on = self.kept(batches, &look.elements, &hats);
@@ -227,7 +235,7 @@ impl Pilot<'_> {
             let values = || on.iter().map(|batch| batch.light[vertex]);
             let (sum, own) = (values().sum::<f64>(), values().map(|lx| lx * lx).sum::<f64>());
             let other_lx = (self.direct.lx[vertex] + self.indirect.lx[vertex]).luminance();
-            // Of batches that share nothing random, products are free of bias.
+            // Products of independent batches are unbiased.
             let squared = (sum * sum - own) / (n * (n - 1.0));
             area_m2 += m2;
             squares += m2 * (other_lx * other_lx + 2.0 * other_lx * sum / n + squared);
@@ -242,12 +250,12 @@ impl Pilot<'_> {
         let reference_lx = Light::of(area_m2, flux_lm, squares.max(0.0)).reference_lx();
         if reference_lx > MUCH * look.reference_lx {
             look.reference_lx = reference_lx;
-            // What was tried without them tells nothing.
+            // The trial of rays without caustics does not apply.
             self.tried.trial = None;
         }
     }
 
-    /// The elements on which there is something to see.
+    /// The errors of the elements that get any caustic light.
     fn seen(&self, on: &[Brought]) -> Vec<Seen> {
         let lit = |vertex: u32| on.iter().any(|batch| batch.light[vertex as usize] != 0.0);
         let leaves: Vec<u32> = self.mesh.subdivision.leaves().collect();
@@ -265,7 +273,7 @@ impl Pilot<'_> {
         let mut sums = [(0.0, 0.0); PARTS];
         for batch in on {
             let values = corners.map(|v| batch.light[v as usize]);
-            // What the batch has more in each part than it says, lx.
+            // The light of the batch in each part beyond its own map, lx.
             let mut lacking =
                 read_in_parts(corners, values, &self.near.standings).map(|read| -read);
             let came = batch.to(node);
@@ -284,8 +292,9 @@ impl Pilot<'_> {
         Seen { node, deposits, squared: squared_error(&means, area_m2) }
     }
 
-    /// Bisects the worst elements whose error is no noise, until those are such a share of it, unless that matters little or errors are
-    /// small enough; returns whether there were any.
+    /// Bisects the worst elements whose error is believed, until their squared errors are `share` of those of all
+    /// such elements. Does nothing where errors are small enough or the gain is small. Returns whether any element
+    /// was bisected.
     fn bisect_for_caustics(
         &mut self,
         errors: &CausticErrors,
@@ -319,7 +328,7 @@ impl Pilot<'_> {
         any
     }
 
-    /// What new vertices stand for, as long as nobody feels about.
+    /// Gives new vertices a preliminary standing, from the ends of their edges, without short rays.
     fn extend_between(&mut self) {
         for vertex in &self.mesh.subdivision.vertices()[self.near.standings.len()..] {
             let ends = vertex.parents.expect("made by bisection");
@@ -333,7 +342,7 @@ impl Pilot<'_> {
         }
     }
 
-    /// Direct light at new vertices, and indirect light from the ends of their edges.
+    /// Computes direct light at new vertices and interpolates indirect light from the ends of their edges.
     fn settle_between(&mut self, look: &Survey, waits: bool) {
         let first = self.direct.lx.len();
         if first == self.mesh.subdivision.vertex_count() {
@@ -348,7 +357,7 @@ impl Pilot<'_> {
     }
 }
 
-/// How noisy caustics are on elements, and how much is in doubt of their error.
+/// The noise of caustics on the elements, with the doubt of their error.
 fn noise_of(on: &[Brought], hats: &HatFunctions, area_m2: f64, doubt: f64) -> CausticNoise {
     let variance = |vertex: usize| {
         let n = on.len() as f64;
@@ -363,7 +372,7 @@ fn noise_of(on: &[Brought], hats: &HatFunctions, area_m2: f64, doubt: f64) -> Ca
     CausticNoise::seen(sum / area_m2 * each, hats.areas_m2().len(), doubt / area_m2 * all)
 }
 
-/// What is seen, all of it, and what of it increments are to check.
+/// The errors over the surface, with the elements that increments are to check.
 fn errors_of(mut seen: Vec<Seen>, all: Squared, asked: Asked) -> CausticErrors {
     let weight = |s: &Seen| s.squared.sum.max(0.0) + s.squared.variance.sqrt();
     seen.sort_by(|a, b| weight(b).total_cmp(&weight(a)).then(a.node.cmp(&b.node)));

@@ -1,4 +1,4 @@
-//! Direct light, and elements for it.
+//! Direct light at the vertices, and its interpolation errors.
 
 use super::bare::USUAL_MESH;
 use super::look::PilotRequest;
@@ -15,39 +15,42 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// Vertices for direct light as interpolated, in multiples of those for indirect light, unless so
-/// many are cheap anyway.
+/// The largest number of vertices for direct light, in multiples of those for indirect light.
 const MOST_FOR_DIRECT_LIGHT: f64 = 4.0;
+/// The number of vertices for direct light that is always allowed, because it is cheap.
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
-/// What direct light as interpolated may err by where it is smooth, of the accuracy asked for: details tell three times what it is in CUBE.
+/// The allowed interpolation error of smooth direct light, in accuracy goals. In CUBE the estimate from details is
+/// three times the true error.
 const OF_ACCURACY: f64 = 1.0;
-/// What direct light that rays read may err by in the mean, once all surfaces have reflected that, of the accuracy asked for.
+/// The allowed mean error of direct light that rays read, after all reflections, in accuracy goals.
 const OF_MEAN: f64 = 0.25;
-/// The same in the mean over every triangle in dim rooms, as it counts by the light there; no coarser accuracies than this are looked at:
-/// first looks find a fraction of what is lacking.
+/// The allowed mean error of direct light per triangle in dim rooms, weighted by the light there, in accuracy goals.
 const OF_ROOMS: f64 = 0.5;
+/// The coarsest accuracy goal for dim rooms. Surveys of coarse meshes find a fraction of the error.
 const COARSEST_IN_ROOMS: f64 = 0.01;
-/// Vertices that tell how much light there is, and the mean reflectance that is believed at most.
+/// The number of vertices that the level of direct light is measured from.
 const LOOKED_AT: usize = 512;
+/// The largest mean reflectance in estimates of reflected light.
 pub(super) const MOST_REFLECTANCE: f64 = 0.9;
-/// Vertices of one task: some take a hundred times as long as others.
+/// The number of vertices per task; some take a hundred times as long as others.
 const AT_ONCE: usize = 32;
-/// How much noisier light may be at vertices that are made where shadows end. Where interpolation errs like n^-0.5 of n vertices, and
-/// rays as told below, a given number of rays does most if noise has two fifths of the squared error; more than so many times the
-/// noise of others is seen as blotches, for all that.
+/// The allowed noise at vertices made at shadow borders, in multiples of that at others. The interpolation error
+/// falls like n^-0.5 with n vertices, that of combs as below. A given number of rays then gives the least error if
+/// noise has two fifths of its square.
 const NOISIER_IN_SHADOWS: f64 = 2.5;
+/// The largest factor on the allowed noise for borders and small areas together. More shows as blotches.
 const MOST_IN_SHADOWS: f64 = 6.0;
-/// The most of the noise of others that light may have at vertices of little area.
+/// The largest factor on the allowed noise for vertices of small area.
 const MOST_RELIEF: f64 = 4.0;
 
-/// How much noisier light may be at a vertex that stands for such a part of the mean area: combs of n teeth err like n^-0.7, so
-/// that what allots them best grows like the area to the power 1 / 2.4 (see [`super::super::allot`]).
+/// The factor on the allowed noise at a vertex, by its area as a share of the mean area. Combs of n teeth err like
+/// n^-0.7, so the best number of teeth grows like the area to the power 1 / 2.4 (see [`crate::engine::gather::allot`]).
 fn relief(area: f64) -> f64 {
     libm::pow(area.max(f64::MIN_POSITIVE), -0.7 / 2.4).clamp(1.0, MOST_RELIEF)
 }
 
 impl Pilot<'_> {
-    /// Direct light at the vertices that have none yet, as the increments will read it.
+    /// Measures direct light at the vertices without any, as the increments will read it.
     pub(super) fn complete_direct(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let started = Instant::now();
         let new = self.direct.lx.len()..gatherers.len();
@@ -63,7 +66,7 @@ impl Pilot<'_> {
             .extend(gatherers[self.direct.measured_at.len()..].iter().map(|g| g.origin));
     }
 
-    /// The same once more where receivers have moved, as those on borders do when elements are bisected.
+    /// Measures direct light again where receivers have moved. Those on borders move when elements are bisected.
     pub(super) fn measure_moved(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let has_moved = |&k: &usize| gatherers[k].origin != self.direct.measured_at[k];
         let moved: Vec<usize> = (0..gatherers.len()).filter(has_moved).collect();
@@ -74,8 +77,7 @@ impl Pilot<'_> {
         }
     }
 
-    /// Light at some vertices, where it has noise with noise of their own: as much as is allowed, more where they stand for
-    /// little area.
+    /// Direct light at some vertices. If it has noise, that of each vertex is independent and as large as allowed.
     fn measured(
         &self,
         elements: &Elements,
@@ -101,8 +103,8 @@ impl Pilot<'_> {
         some.into_par_iter().with_max_len(AT_ONCE).map(measured).collect()
     }
 
-    /// How noisy direct light may be, from a look at a few vertices: all light is what luminaires give and, in the mean, what the
-    /// balance of light in a closed room adds to it. Where rooms are open that is more than there is.
+    /// Fixes the allowed noise of direct light, lx, from a few vertices. It is a share of all light: direct light, and
+    /// the mean reflected light of a closed room. For open rooms that light is overestimated.
     pub(super) fn look_at_direct_light(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let Some(share) = self.direct.noise else { return };
         let every = (gatherers.len() / LOOKED_AT).max(1);
@@ -133,16 +135,16 @@ impl Pilot<'_> {
         beyond_noise(elements, &luminances, &self.direct.variance)
     }
 
-    /// Vertices for direct light. Best effort: sharp shadow borders would take elements without end, and of
-    /// emitting surfaces refinement cannot tell noise from borders.
+    /// The largest number of vertices for direct light. Best effort: sharp shadow borders would take unlimited elements,
+    /// and with emitting surfaces refinement cannot distinguish noise from borders.
     pub(super) fn most_for_direct_light(&self, request: &PilotRequest) -> usize {
         let finer = (USUAL_MESH / request.mesh_target).max(1.0);
         let most = (MOST_FOR_DIRECT_LIGHT * finer * self.indirect.gathered.len() as f64) as usize;
         most.max(ALWAYS_FOR_DIRECT_LIGHT).min(request.max_vertices)
     }
 
-    /// What interpolation of direct light errs by in every element, that of all light where it is gathered for the bare map, and by
-    /// how much that exceeds what is asked for.
+    /// The interpolation error of direct light by element, lx, and the ratio of the total to its goal. If vertices gather
+    /// for the stored map, the error is that of all light.
     pub(super) fn direct_excess(
         &self,
         elements: &Elements,
@@ -154,7 +156,7 @@ impl Pilot<'_> {
         let (carriers, no) = (Carriers::all(), |_, _| false);
         let details = Details::of(&self.mesh.subdivision, elements, &signal, &carriers, no);
         let errors = details.leaf_errors(|_| None, |_| false, |_, _| false);
-        // Where light is smooth and exact, it costs little not to stay behind what is gathered.
+        // Smooth and exact direct light can have the accuracy of indirect light at little cost.
         let is_cheap = self.indirect.is_smoothed && self.direct.noise.is_none();
         let own = if is_cheap { OF_ACCURACY * request.target } else { f64::INFINITY };
         let target = request.mesh_target.min(own);
@@ -171,8 +173,8 @@ impl Pilot<'_> {
         if of_rooms > excess { (in_rooms, of_rooms) } else { (whole, excess) }
     }
 
-    /// The same in dim rooms beside bright places, as errors count there: of every triangle of the scene in the mean, as what lacks on
-    /// a ceiling is not made up for by a floor.
+    /// The weighted mean error of direct light in dim rooms beside bright places after all reflections, lx. Means are
+    /// taken per triangle of the scene: errors on a ceiling and on a floor do not cancel.
     fn mean_excess_in_rooms(&self, errors: &[LeafError]) -> f64 {
         let (mut dim_m2, mut all_m2) = (0.0, 0.0);
         let mut lacking: BTreeMap<(u32, bool), f64> = BTreeMap::new();
@@ -190,15 +192,15 @@ impl Pilot<'_> {
         lacking / dim_m2.max(LEAST_DIM * all_m2) * self.reflected_again()
     }
 
-    /// What all surfaces make of light that they reflect again and again.
+    /// The ratio of reflected to direct light in a closed room.
     fn reflected_again(&self) -> f64 {
         let reflectance =
             reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_REFLECTANCE);
         reflectance / (1.0 - reflectance)
     }
 
-    /// What rays lack in the mean where they read direct light of elements with such errors, and what that lacks once it is
-    /// reflected, again and again, lx.
+    /// The mean error of reflected light from these errors of direct light after all reflections, lx; zero where rays
+    /// do not read direct light from the map.
     fn mean_excess(&self, errors: &[LeafError]) -> f64 {
         if !self.lighting.are_read_at_ends() {
             return 0.0;
