@@ -1,7 +1,7 @@
 //! Engines: from a scene to an illumination map.
 //!
-//! Rooms, each of which knows only those before it: [`ray`], [`mesh`], [`light`], [`occlusion`], [`gather`], [`particle`],
-//! [`plan`], [`judge`], [`read`], [`method`], [`combine`], [`audit`], [`pilot`], [`run`].
+//! Rooms, each of which knows only those before it: `ray`, `mesh`, `light`, `occlusion`, `gather`, `particle`,
+//! `plan`, `judge`, `read`, `method`, `combine`, `audit`, `pilot`, `run`.
 
 mod audit;
 mod combine;

@@ -1,4 +1,4 @@
-//! Elements for direct light.
+//! Adaptive refinement for direct light.
 
 use super::forecast::{FINE, GoOn};
 use super::look::{PilotRequest, Survey};
@@ -6,11 +6,11 @@ use super::state::{MAX_ROUNDS, MOST_STALLS, Pilot};
 use crate::ablation::without;
 use crate::engine::mesh::{Carriers, Refinement, refine_worst};
 
-/// A round of refinement after which more than this share of the error is left was in vain.
+/// The share of the error left after a round above which the round counts as without progress.
 const STALLED: f64 = 0.98;
 
 impl Pilot<'_> {
-    /// Refines where direct light as interpolated errs, until it is as good as asked.
+    /// Refines elements until the interpolation error of direct light meets its goal, or as far as time and limits allow.
     pub(super) fn refine_for_direct_light(
         &mut self,
         look: &mut Survey,
@@ -30,7 +30,7 @@ impl Pilot<'_> {
         for _ in 0..MAX_ROUNDS {
             let (errors, excess) = self.direct_excess(&look.elements, request, look.reference_lx);
             self.direct.excess = Some((self.mesh.subdivision.vertex_count(), excess));
-            // What errs most may lie in elements that are as small as they may be.
+            // The largest errors may lie in elements that are already as small as allowed.
             stalls = if excess > STALLED * before { stalls + 1 } else { 0 };
             if excess <= 1.0 || stalls > MOST_STALLS || !self.has_time(look, request, FINE, go_on) {
                 break;

@@ -1,4 +1,4 @@
-//! The end of the pilot: what increments share is put together.
+//! The end of the pilot: assembly of the plan that all increments share.
 
 use super::forecast::{FINE, GoOn};
 use super::look::{PilotRequest, Survey};
@@ -12,7 +12,7 @@ use crate::engine::ray::reflectance;
 use crate::map::Standing;
 
 impl<'s> Pilot<'s> {
-    /// Refines further for direct light as interpolated, and puts the plan together.
+    /// Refines further for smooth light, caustics and direct light, and assembles the plan.
     pub(super) fn finish(
         mut self,
         mut look: Survey,
@@ -64,7 +64,7 @@ impl<'s> Pilot<'s> {
         self.plan(mesh, errors, look.reference_lx)
     }
 
-    /// The plan over a mesh, with the light and the noise that are known.
+    /// The plan over a mesh, with the known light and noise.
     fn plan(self, mesh: PlannedMesh, errors: PlannedErrors, reference_lx: f64) -> Plan<'s> {
         let light = PlannedLight {
             direct: self.direct.lx,
@@ -93,21 +93,22 @@ impl<'s> Pilot<'s> {
         }
     }
 
-    /// The elements for indirect light, which are what they will be.
+    /// Fixes the elements for indirect light and returns them.
     fn fix_for_indirect_light(&mut self) -> Subdivision {
         let areas_m2 = areas_m2(&self.mesh.subdivision, &self.mesh.carriers);
         self.mesh.for_indirect_light = Some((self.mesh.subdivision.vertex_count(), areas_m2));
         self.mesh.subdivision.clone()
     }
 
-    /// What vertices stand for; of those for direct light alone nothing is known where both ends of their edge are hidden.
+    /// The final standings of the vertices. Those from number `first` on, for direct light alone, have none if both
+    /// ends of their edge are hidden.
     fn final_standings(&mut self, elements: &Elements, first: usize) -> Vec<Option<Standing>> {
         let mut standings = std::mem::take(&mut self.near.standings);
         forget_orphans(elements, first, &mut standings);
         standings
     }
 
-    /// Elements whose means increments measure, if they do.
+    /// The elements whose means increments measure; empty if none are needed.
     fn means(
         &self,
         coarse: &Subdivision,
@@ -122,8 +123,8 @@ impl<'s> Pilot<'s> {
         ElementMeans::new((self.scene, coarse), &look.errors, up_to_lx, open, carrying)
     }
 
-    /// Elements as fine as direct light takes, that light on them, and the receivers there; without time for it, light from where
-    /// receivers were before has to do.
+    /// Refines elements for direct light, measures that light and returns the receivers. If time is short, receivers
+    /// that have moved keep the light of their earlier places.
     fn measure_direct_light(
         &mut self,
         look: &mut Survey,
@@ -131,7 +132,7 @@ impl<'s> Pilot<'s> {
         go_on: &mut GoOn<'_>,
     ) -> Vec<Gatherer> {
         self.refine_for_direct_light(look, request, go_on);
-        // Readers see elements for direct light alone.
+        // Readers use the finer elements for direct light.
         for error in look.errors.iter_mut().filter(|e| e.is_beset) {
             error.is_beset_afar |= self.mesh.subdivision.node(error.node).0.split.is_some();
         }
@@ -148,7 +149,7 @@ impl<'s> Pilot<'s> {
         gatherers
     }
 
-    /// Elements that something stands across.
+    /// The elements with an object across them.
     fn cuts(&self, coarse: &Subdivision, elements: &Elements) -> Barriers {
         let nodes = coarse.leaves().map(|node| Side::of(coarse, node));
         Barriers::of(self.scene, elements, (nodes, &self.indirect.lx), coarse.vertex_count())
@@ -156,7 +157,7 @@ impl<'s> Pilot<'s> {
 
     fn fit(&self, coarse: &Subdivision, open: &[bool], cuts: &Barriers) -> Fit {
         let all = Carriers::all();
-        // Quadratic functions tell the values at vertices; elements between them alone are to be fitted, too.
+        // Quadratic functions give values at all vertices, so elements between carriers are fitted, too.
         let carriers = if self.indirect.is_smoothed { &all } else { &self.mesh.carriers };
         let tells =
             |corners: [u32; 3]| corners.iter().all(|&v| open[v as usize]) && !cuts.has(corners);
@@ -164,8 +165,8 @@ impl<'s> Pilot<'s> {
     }
 }
 
-/// Of vertices added for direct light nothing is known where both ends of their edge are hidden:
-/// their indirect light is interpolated from there.
+/// Removes the standing of vertices for direct light if both ends of their edge are hidden. Their indirect light
+/// would be interpolated from these ends.
 fn forget_orphans(elements: &Elements, first: usize, standings: &mut [Option<Standing>]) {
     for (k, vertex) in elements.vertices().iter().enumerate().skip(first) {
         let ends = vertex.parents.unwrap_or([k as u32; 2]);

@@ -1,4 +1,4 @@
-//! Indirect light on the elements of the pilot.
+//! Indirect light at the vertices of the pilot, by final gathering.
 
 use super::forecast::GoOn;
 use super::look::PilotRequest;
@@ -15,11 +15,12 @@ use rayon::prelude::*;
 use std::cell::RefCell;
 use std::time::Instant;
 
-/// Particles that tell where light comes to at all.
+/// The number of particles that find the places reached by way of specular surfaces.
 const LET_GO: u32 = 1 << 13;
 
 impl Pilot<'_> {
-    /// Gathers at the vertices that carry light and have not gathered; all of the first mesh, where light is solved for.
+    /// Gathers at the carriers that have not gathered yet. On the first mesh all carriers gather, and the fixed point
+    /// of light is solved.
     pub(super) fn complete_indirect(
         &mut self,
         elements: &Elements,
@@ -28,7 +29,7 @@ impl Pilot<'_> {
         go_on: &mut GoOn<'_>,
     ) {
         let is_first = self.indirect.lx.is_empty();
-        // On the first mesh nobody knows yet what stands close.
+        // On the first mesh the geometry close to vertices is not known yet.
         if is_first {
             self.set_out(elements, gatherers);
             self.find_walls(elements, gatherers);
@@ -43,7 +44,7 @@ impl Pilot<'_> {
         let head = if is_first { rows.len() / FIRST_PART } else { 0 };
         let mut operator = gathering.operator(&rows[..head], |_| key);
         if is_first {
-            // How long it takes is told as soon as it is known how long a part takes; before walls rays take little of it.
+            // The time of a portion gives an early prediction. With a control variate, rays take little of the time.
             self.costs.rays.add(started.elapsed(), operator.rays as f64);
             if self.walls.backdrop.is_none() {
                 go_on(&self.round(request, None, (None, None)));
@@ -61,7 +62,7 @@ impl Pilot<'_> {
             self.indirect.lx =
                 operator.solve(&black, &black, &self.mesh.carriers.waiting(), PILOT_TOLERANCE);
             if !self.near.known.contains(&true) {
-                // No light at all: what is not closed in is dark.
+                // There is no light at all: places that are not closed in are dark.
                 self.near.known = operator.open();
             }
         } else {
@@ -81,7 +82,7 @@ impl Pilot<'_> {
         self.indirect.solved_nodes = self.mesh.subdivision.node_count() as u32;
     }
 
-    /// Finds out what stands close before the vertices of the first mesh, and which of them carry light.
+    /// Finds the geometry close to the vertices of the first mesh, and selects the carriers.
     fn set_out(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let started = Instant::now();
         self.near.reached = self.reached_by_caustics();
@@ -96,7 +97,7 @@ impl Pilot<'_> {
         }
     }
 
-    /// The vertices that are to gather; all of the first mesh, as far as they carry light.
+    /// The vertices that are to gather: carriers that have not yet. On the first mesh it lists all vertices.
     fn new_carriers(&mut self, vertices: usize) -> Vec<u32> {
         let is_first = self.indirect.gathered.is_empty();
         self.indirect.gathered.resize(vertices, false);
@@ -106,7 +107,7 @@ impl Pilot<'_> {
         (0..vertices as u32).filter(is_new).collect()
     }
 
-    /// Places that some particles come to over specular surfaces.
+    /// The places that trial particles reach by way of specular surfaces.
     fn reached_by_caustics(&self) -> Vec<SurfacePoint> {
         let of = (self.scene, self.lighting);
         let flights = Flights::new(of, None, LET_GO, self.key.with(10));

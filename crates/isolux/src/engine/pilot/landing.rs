@@ -1,8 +1,8 @@
-//! Where the light of luminaires lands, and whether vertices know of it.
+//! Refinement where the light of luminaires lands, from particles.
 //!
-//! A lamp that hangs a centimetre below a ceiling, or a beam that is a hand wide, throws much of its light between the vertices of
-//! the first mesh, or all of it on one. Nobody would send rays there then, and what few of them meet by chance is too rare to be
-//! noise. Particles come where the light does: elements to which clearly more or less of it comes than vertices tell are bisected.
+//! A lamp a centimetre below a ceiling, or a beam a hand wide, lights small places between the vertices of the first
+//! mesh, or a single vertex. No rays would be sent to such places, and rare hits by chance do not show as noise.
+//! Particles follow the light. Elements that get clearly more or less flux than their vertices show are bisected.
 
 use super::look::PilotRequest;
 use super::state::Pilot;
@@ -12,16 +12,17 @@ use crate::engine::gather::Gatherer;
 use crate::engine::light::{BELIEVED, Emission, FIRST, Landing, MORE, Sum, landings};
 use crate::sampling::Sequence;
 
-/// Of all light that lands, the part that is left where it is.
+/// The largest flux in wrong elements that is accepted, as a share of all flux that lands.
 const MATTERS: f64 = 0.01;
 
-/// Rounds at most, of two bisections each.
+/// The largest number of rounds, of two bisections each.
 const ROUNDS: usize = 24;
-/// The shortest edges, as a share of those for other light.
+/// The shortest edge, as a share of that for other light.
 const LEAST_EDGE: f64 = 1.0 / 64.0;
 
 impl Pilot<'_> {
-    /// Bisects elements until their vertices tell about what light comes to them; returns whether there was anything to do.
+    /// Bisects elements until their vertices show about the flux that they get. Returns whether any element was
+    /// bisected.
     pub(super) fn resolve_what_lands(
         &mut self,
         (elements, gatherers): (&mut Elements, &mut Vec<Gatherer>),
@@ -66,8 +67,8 @@ impl Pilot<'_> {
         landings::landed((self.scene, self.lighting), emission, count, sequence)
     }
 
-    /// Elements to which clearly more or less comes than their vertices tell, if that is much: by where particles came, each of which was
-    /// sent with so much flux, though most may have come to nothing that carries a map.
+    /// The elements that get clearly more or less flux than their vertices show; empty if the differences are small
+    /// in all. `each_lm` is the flux of a particle when sent. Most particles may land on surfaces without a map.
     fn wrongly_told(&self, elements: &Elements, (landed, each_lm): (&[Landing], f64)) -> Vec<u32> {
         let mut sums = vec![Sum::default(); elements.node_count()];
         let mut all_lm = 0.0;
@@ -85,7 +86,7 @@ impl Pilot<'_> {
             let told_lm = self.mesh.subdivision.triangle(node).area() * lx / 3.0;
             let Sum { flux_lm, squares_lm2 } = sums[node as usize];
             let differs_lm = (flux_lm - told_lm).abs();
-            // Of what is told, too, as few particles tell little of their own variance; no less than one.
+            // The expected flux gives a variance, too, since few particles give a poor one. One particle is the least.
             let variance_lm2 = squares_lm2.max(told_lm * each_lm).max(each_lm * each_lm);
             if differs_lm > BELIEVED * variance_lm2.sqrt()
                 && self.mesh.subdivision.longest_edge_m(node) > 2.0 * least_edge_m

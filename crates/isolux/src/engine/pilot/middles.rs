@@ -1,4 +1,4 @@
-//! Light in the middle of elements that no details tell of.
+//! Light in the middle of elements without details.
 
 use super::state::Pilot;
 use crate::elements::{Elements, Subdivision};
@@ -9,13 +9,13 @@ use crate::map::Standing;
 use crate::sampling::Sequence;
 use rayon::prelude::*;
 
-/// Shadow rays to every emitting surface that tell whether luminaires shine into a gap.
+/// Shadow rays per emitting surface in the test whether luminaires shine into a gap.
 const SAMPLES_IN_GAPS: usize = 4;
 
 impl Pilot<'_> {
-    /// Gathers in the middle of the elements that no details tell of, that have something close before
-    /// them and that were not looked at yet; in gaps, where readers gather anyway, only if luminaires shine there,
-    /// as over a lamp that hangs close below the ceiling: what they lack is missing elsewhere, too.
+    /// Gathers in the middle of new elements that have no details and an object close before them. Readers gather in
+    /// gaps anyway, so middles there gather only if luminaires shine in, as above a lamp close below the ceiling.
+    /// Light missing in such a gap is missing elsewhere, too.
     pub(super) fn complete_middles(&mut self, elements: &Elements, values: &[Option<f64>]) {
         let details = self.details(elements, values);
         let is_new = |&node: &u32| {
@@ -43,7 +43,7 @@ impl Pilot<'_> {
         let light = operator.apply(&self.indirect.lx);
         self.traced += operator.rays;
         let middles = light.iter().map(|e| e.luminance()).zip(&rows);
-        // What is too bright in gaps nobody reads.
+        // Nothing reads gaps that are too bright.
         let told = |(node, (lx, row)): (u32, (f64, &Gatherer))| {
             let darker =
                 || values_read(&self.mesh.subdivision, node, values).all(|read| lx <= read);
@@ -55,7 +55,7 @@ impl Pilot<'_> {
         self.indirect.middles.extend(told);
     }
 
-    /// Whether more light comes to a place straight from luminaires than to the vertices of its element that are read.
+    /// Whether a place gets more direct light than each open vertex of its element.
     fn is_lit_up(&self, node: u32, place: &SurfacePoint) -> bool {
         let corners = self.mesh.subdivision.node(node).0.vertices;
         let is_read = |v: &u32| self.near.standings[*v as usize] == Some(Standing::Open);
@@ -65,7 +65,7 @@ impl Pilot<'_> {
         }
         let mut dice = Dice::new(Sequence::new(self.key.with(11).with(u64::from(node))), 0);
         let direct = match self.lighting.are_countless() {
-            // One look at what would give most.
+            // One sample of the sources that would give most.
             true => self.lighting.estimate(place, &mut dice),
             false => self.lighting.sampled(place, SAMPLES_IN_GAPS, &mut dice),
         };
@@ -73,7 +73,7 @@ impl Pilot<'_> {
     }
 }
 
-/// The values at the vertices of an element that say something.
+/// The known values at the vertices of an element.
 fn values_read<'a>(
     subdivision: &Subdivision,
     node: u32,

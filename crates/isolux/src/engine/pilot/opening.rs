@@ -1,4 +1,4 @@
-//! Elements that no vertex tells of, though light comes to them.
+//! Refinement of elements with hidden vertices that light reaches.
 
 use super::state::Pilot;
 use crate::elements::Elements;
@@ -9,12 +9,13 @@ use crate::sampling::Sequence;
 use isolux_geometry::Point;
 use rayon::prelude::*;
 
-/// The places in an element with hidden vertices that are asked whether light comes there: a bit of [`Unlit`](crate::engine::hidden::Unlit) each.
+/// The number of places tested for light in an element with hidden vertices: one per bit of
+/// [`Unlit`](crate::engine::gather::Unlit).
 const PLACES: u32 = 16;
 
 impl Pilot<'_> {
-    /// Bisects elements with hidden vertices where light comes to places that see none of the
-    /// others; returns whether there are any.
+    /// Bisects elements with hidden vertices if light reaches a place that sees none of the open ones, and elements
+    /// with all vertices at the rim of a gap. Returns whether there are any.
     pub(super) fn open_up(&mut self, elements: &Elements, max_vertices: usize) -> bool {
         let gatherers = self.gatherers();
         let sight = self.sight(elements, &gatherers);
@@ -43,8 +44,8 @@ impl Pilot<'_> {
         any
     }
 
-    /// The places of an element from which nothing is seen that luminaires shine on; nothing if light comes to one that sees no
-    /// vertex that is open.
+    /// The places of an element, as bits, that see no lit surface; `None` if light reaches a place that sees no open
+    /// vertex.
     fn unlit_places(&self, sight: &Sight<'_>, node: u32) -> Option<u16> {
         let sequence = Sequence::new(self.key.with(4).with(u64::from(node)));
         let mut unlit = self.near.unlit.0.get(&self.element(node)).copied().unwrap_or(0);
@@ -66,8 +67,8 @@ impl Pilot<'_> {
         (node, self.mesh.subdivision.triangle(node).corners.map(bits))
     }
 
-    /// Whether an element can be bisected and lies in a gap without a vertex inside: what comes in at the
-    /// rim does not reach far.
+    /// Whether an element can be bisected and has all vertices at the rim of a gap. Light from the rim does not reach
+    /// far into it.
     fn has_only_rim(&self, node: u32) -> bool {
         let corners = self.mesh.subdivision.node(node).0.vertices;
         self.mesh.subdivision.longest_edge_m(node) > 2.0 * self.mesh.least_edge_m

@@ -1,4 +1,4 @@
-//! How many rays the pilot spends where, and what it tries to tell how many increments will take.
+//! Trial rays and particles: the noise and costs from which increments are predicted.
 
 use super::look::Survey;
 use super::state::Pilot;
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::time::{Duration, Instant};
 
 impl Pilot<'_> {
-    /// Tries how noisy gathered light is.
+    /// Measures the noise of gathered light and of caustics with trial rays and particles.
     pub(super) fn try_some(&mut self, look: &Survey, target: f64) {
         let vertices = look.elements.vertices();
         let carries =
@@ -44,7 +44,7 @@ impl Pilot<'_> {
         self.traced += rays;
     }
 
-    /// How long it takes to measure direct light of some vertices once more.
+    /// The time to measure direct light at some vertices again.
     fn measures_again(&self, some: &[(Gatherer, f64)]) -> Duration {
         let (started, sequence) = (Instant::now(), Sequence::new(self.key.with(1)));
         some.par_iter().for_each(|(of, _)| {
