@@ -2,7 +2,7 @@
 
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{
-    BrightSurfaces, ControlVariate, DirectAtEnds, ElementMeans, Gatherer, Gathering, MeanPlaces,
+    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering,
     Over, RayTrial, areas_m2, known_at,
 };
 use crate::engine::light::Lighting;
@@ -11,7 +11,6 @@ use crate::engine::occlusion::Barriers;
 use crate::engine::particle::{Aim, CausticNoise, ElementParts, LEAST_SHARE, flights};
 use crate::engine::ray::SurfacePoint;
 use crate::map::Standing;
-use crate::sampling::Key;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use std::sync::Arc;
@@ -53,12 +52,6 @@ pub(super) struct PlannedMesh {
     pub(super) cuts: Barriers,
     /// From indirect light at the vertices to the function that fits best.
     pub(super) fit: Fit,
-    /// Elements whose means increments measure.
-    pub(super) means: ElementMeans,
-    /// Whether light is resolved towards walls.
-    pub(super) resolves_walls: bool,
-    /// By vertex, the strip before a wall that it lies in, where light is.
-    pub(super) strips: Vec<u8>,
 }
 
 /// Light as the pilot knows it.
@@ -132,12 +125,6 @@ impl Plan<'_> {
         self.errors.of_elements.iter().map(|e| e.area_m2).sum()
     }
 
-    /// In which strip before a wall an element with these corners lies.
-    pub(super) fn strip(&self, corners: impl Iterator<Item = u32>) -> usize {
-        let strips = corners.map(|v| self.mesh.strips.get(v as usize).copied().unwrap_or(0));
-        usize::from(strips.min().unwrap_or(0))
-    }
-
     /// What readers trust, unless check points tell otherwise.
     pub(super) const fn trust(&self) -> Trust {
         self.errors.trusts.foreseen()
@@ -166,14 +153,6 @@ impl Plan<'_> {
             direct,
             bright: self.light.bright.as_deref(),
         }
-    }
-
-    /// Where an increment measures means of elements, with so many rays each.
-    pub(super) fn places_of_means(&self, rays: u32, key: Key) -> MeanPlaces {
-        let known = |at: &SurfacePoint| {
-            known_at(&self.mesh.elements, self.mesh.level, &self.mesh.standings, at)
-        };
-        self.mesh.means.places((self.scene, &self.mesh.subdivision), known, rays, key)
     }
 
     /// Whether a vertex lies in the open.

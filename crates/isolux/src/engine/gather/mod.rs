@@ -4,7 +4,6 @@ mod allotment;
 mod bright_surfaces;
 pub(crate) mod control_variate;
 mod direct_residual;
-mod element_means;
 mod gatherer;
 mod hidden_places;
 mod operator;
@@ -19,14 +18,13 @@ pub(crate) use control_variate::ControlVariate;
 #[cfg(test)]
 pub(crate) use control_variate::lacking;
 pub(crate) use direct_residual::{DirectResidual, Over};
-pub(crate) use element_means::{ElementMeans, MeanPlaces};
 pub(crate) use gatherer::{
     DirectAtEnds, Gatherer, Gathering, known_at, known_on_side, known_weights,
 };
 pub(crate) use hidden_places::{CutOff, Element, Sight, Unlit, sees};
 #[cfg(test)]
 pub(crate) use operator::GivenRow;
-pub(crate) use operator::{Fitting, Operator, Reading};
+pub(crate) use operator::Operator;
 pub(crate) use ray_trial::{
     FEWEST_UNJUDGED, NET_ORDER, NOISE_SHARE, OF_INTERPOLATED, RayTrial, noise_for,
 };

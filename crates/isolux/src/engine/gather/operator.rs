@@ -1,36 +1,10 @@
 //! The operator of gathering: a sparse matrix, the light that needs no further reflection, and the fixed point of
 //! both.
 
-use crate::engine::mesh::{Waiting, corrected};
+use crate::engine::mesh::{Fit, Waiting, corrected};
 use crate::engine::ray::Anderson;
 use crate::units::Rgb;
 use rayon::prelude::*;
-
-/// A map from the light at receivers to the light that rays read there. Each value read is a weighted mean, with
-/// weights that are not negative and sum to one.
-pub(crate) trait Fitting {
-    /// The light that rays read.
-    fn read(&self, light: &[Rgb]) -> Vec<Rgb>;
-
-    /// The map with weights fixed as for `light`, to be applied to any other light.
-    fn held<'a>(&'a self, light: &[Rgb]) -> Reading<'a>;
-}
-
-/// A [`Fitting`] with fixed weights.
-pub(crate) type Reading<'a> = Box<dyn Fn(&[Rgb]) -> Vec<Rgb> + 'a>;
-
-/// A [`Fitting`] that returns the first receivers unchanged, as many as given.
-struct AsItIs(usize);
-
-impl Fitting for AsItIs {
-    fn read(&self, light: &[Rgb]) -> Vec<Rgb> {
-        light[..self.0].to_vec()
-    }
-
-    fn held<'a>(&'a self, _: &[Rgb]) -> Reading<'a> {
-        Box::new(|light| self.read(light))
-    }
-}
 
 /// The light of three vertices that a ray reads from the map.
 #[derive(Clone, Copy, Debug)]
@@ -158,12 +132,11 @@ impl Operator {
         waiting: &Waiting,
         tolerance: f64,
     ) -> Vec<Rgb> {
-        let fit = AsItIs(given.len());
-        self.solve_or_give_up(guess, given, (waiting, &fit), tolerance).0
+        self.solve_or_give_up(guess, given, (waiting, None), tolerance).0
     }
 
     /// The fixed point as from [`Operator::solve`], and the root mean square change of the last sweep, lx. Vertices
-    /// that do not carry light are interpolated. The operator is applied to the light of best fit.
+    /// that do not carry light are interpolated. The operator is applied to the light of best fit, if a fit is given.
     ///
     /// Changes shrink from sweep to sweep, in the end all by one factor, the greatest eigenvalue of the operator.
     /// [`Anderson`] acceleration uses this. Rows, interpolation and fit have weights that are not negative, and rows
@@ -174,14 +147,17 @@ impl Operator {
         &self,
         guess: &[Rgb],
         given: &[Rgb],
-        (waiting, fit): (&Waiting, &dyn Fitting),
+        (waiting, fit): (&Waiting, Option<&Fit>),
         tolerance: f64,
     ) -> (Vec<Rgb>, f64) {
         let with_given = |mut light: Vec<Rgb>| -> Vec<Rgb> {
             light.iter_mut().zip(given).for_each(|(e, &g)| *e += g);
             light
         };
-        let read = |light: &[Rgb]| with_given(fit.read(light));
+        let read = |light: &[Rgb]| {
+            let light = &light[..given.len()];
+            with_given(fit.map_or_else(|| light.to_vec(), |fit| fit.apply(light)))
+        };
         let fill = |light: &mut [Rgb]| waiting.fill(light);
         let mut light = guess.to_vec();
         let lit = self.lit(given);
@@ -196,8 +172,11 @@ impl Operator {
             Ok(settled) => return settled,
             Err(nearer) => nearer,
         };
-        let (fit, waiting) = (fit.held(&light), waiting.held(&light));
-        let read = |light: &[Rgb]| with_given(fit(light));
+        let (fit, waiting) = (fit.map(|fit| fit.held(&light)), waiting.held(&light));
+        let read = |light: &[Rgb]| {
+            let light = &light[..given.len()];
+            with_given(fit.as_ref().map_or_else(|| light.to_vec(), |fit| fit.apply(light)))
+        };
         let fill = |light: &mut [Rgb]| waiting.fill(light);
         match self.settle(light, (&read, &fill), (MAX_SWEEPS, tolerance)) {
             Ok(settled) => settled,

@@ -26,9 +26,6 @@ const MOST_NOISE_SHARE: f64 = 0.8;
 /// too. Between these ends the noise follows an ellipse. On the hall, CUBE and SPHERE, runs were measured to reach
 /// the accuracy in as many increments as are believed, or a few more.
 const ALONE: f64 = 0.6;
-/// The share of the accuracy goal at which interpolation leaves nothing for noise where the means of elements are
-/// measured.
-const ALONE_WITH_MEANS: f64 = 0.75;
 
 /// The ratio of the variance interpolated between three vertices, in the mean over an element, to that of the
 /// vertices: the integral of the summed squares of the hat functions over the area.
@@ -47,9 +44,9 @@ pub(crate) const FEWEST_UNJUDGED: u32 = 8;
 const MOST_WANTED: f64 = 1024.0;
 
 /// The relative noise allowed in a map for a relative accuracy `target`, given the relative error expected of
-/// interpolation. More noise is allowed where the means of elements are measured.
-pub(crate) fn noise_for(target: f64, interpolation: f64, has_means: bool) -> f64 {
-    let others = interpolation / target / if has_means { ALONE_WITH_MEANS } else { ALONE };
+/// interpolation.
+pub(crate) fn noise_for(target: f64, interpolation: f64) -> f64 {
+    let others = interpolation / target / ALONE;
     let share = MOST_NOISE_SHARE * (1.0 - others * others).max(0.0).sqrt();
     target * share.max(NOISE_SHARE)
 }

@@ -81,18 +81,13 @@ fn in_all(
     let is_read = plan.lighting.are_read_at_ends();
     let direct_lx = if is_read { interpolation.direct_mean_lx } else { 0.0 };
     let mean_lx = interpolation.indirect_mean_lx + plan.light.mean_reflectance * direct_lx;
-    // The mean error of lookups is reflected again and again. It has one sign, so it may correlate with the
-    // mean error at the place that is read, which is counted already. Rays of vertices read all of it, rays
-    // of readers only the part seen from afar; the larger counts. Deviations from place to place have either
-    // sign and are hardly reflected.
+    // The mean error of what rays read is reflected again and again. It has one sign, so it may correlate with the
+    // mean error at the place that is read, which is counted already.
     let rho = plan.light.mean_reflectance.min(0.99);
-    let of_each = [rho * mean_lx, interpolation.seen_mean_lx];
-    let larger = if of_each[0].abs() > of_each[1].abs() { of_each[0] } else { of_each[1] };
-    let reflected = larger / (1.0 - rho) / reference_lx / lit;
-    let spread = interpolation.seen_spread_lx / reference_lx;
+    let reflected = rho * mean_lx / (1.0 - rho) / reference_lx / lit;
     let bias_beside = |read_lx: f64| {
         let alike = (2.0 * reflected / lit * read_lx / reference_lx).max(0.0);
-        (reflected * reflected + alike + spread * spread).sqrt() + given_up
+        (reflected * reflected + alike).sqrt() + given_up
     };
     let bias = bias_beside(interpolation.trusted_mean_lx);
     let bias_of_bare_map = bias_beside(mean_lx);

@@ -10,11 +10,9 @@
 //! * squared details among elements that readers trust,
 //! * details, for the mean error.
 
-use super::seen_errors;
-use super::seen_errors::{ReadPlace, View, views};
 use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, known_at, known_on_side};
 use crate::engine::light::{Goal, Measured};
-use crate::engine::mesh::{LeafError, STRIPS, Trust};
+use crate::engine::mesh::{LeafError, Trust};
 use crate::engine::occlusion::nearby;
 use crate::engine::plan::Plan;
 use crate::engine::ray::{Accumulator, Dice, Noise, Sample, Sums, SurfacePoint};
@@ -59,20 +57,10 @@ pub(crate) struct Check {
     may_be_trusted: bool,
     /// Whether something stands close before the place.
     is_beset: bool,
-    /// Whether light is resolved there: if the mesh resolves it towards walls, and nothing else stands close.
-    is_resolved: bool,
-    /// The number of the strip before a wall that the place lies in.
-    strip: usize,
     /// The share of a unit of light that readers who gather there still read close by.
     close: f64,
-    /// The longest edge of the element, m.
-    edge_m: f64,
-    /// Whether rays read direct light from the map, too.
-    reads_direct: bool,
     /// Whether parts of its element are checked for caustics; these parts also give the noise of caustics.
     has_parts: bool,
-    /// The exchange of light with other check points.
-    view: View,
 }
 
 /// All check points of a map, with the sums of increments there.
@@ -119,10 +107,6 @@ pub(crate) struct InterpolationErrors {
     pub(crate) indirect_mean_lx: f64,
     /// The part of that mean where readers interpolate.
     pub(crate) trusted_mean_lx: f64,
-    /// The light that arrives from errors that rays read from afar: its mean over the surface, with its sign.
-    pub(crate) seen_mean_lx: f64,
-    /// The variation of that light from place to place, root mean square.
-    pub(crate) seen_spread_lx: f64,
     /// The mean interpolation error of direct light, with its sign.
     pub(crate) direct_mean_lx: f64,
     /// The mean light that paths given up would bring, before reflection.
@@ -132,8 +116,6 @@ pub(crate) struct InterpolationErrors {
     pub(crate) noise_lx: Option<f64>,
     /// The factor by which elements err more than expected; `None` where it was not measured.
     pub(crate) over_expected: Option<f64>,
-    /// The factor by which elements of each strip before walls err more than expected.
-    pub(crate) over_in_strips: [Option<f64>; STRIPS],
 }
 
 impl Checks {
@@ -217,8 +199,6 @@ pub(crate) fn draw(plan: &Plan, rays: u32, key: Key) -> Vec<Check> {
     let operator = gathering.operator(&rows, |k| key.with(1).with(k as u64));
     let gathered = checks.iter_mut().filter(|check| is_gathered(check));
     gathered.zip(operator.close()).for_each(|(check, close)| check.close = close);
-    let places: Vec<ReadPlace> = checks.iter().map(Check::as_read).collect();
-    checks.iter_mut().zip(views(plan.scene, &places)).for_each(|(check, view)| check.view = view);
     checks
 }
 
@@ -243,7 +223,6 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let mut gatherer = gatherer.in_gap(in_gap);
     gatherer.behind =
         plan.light.backdrop.as_ref().and_then(|b| b.behind(plan.scene, &gatherer.stand()));
-    let reads_direct = plan.lighting.are_read_at_ends();
     let SurfacePoint { triangle, back, u, v, .. } = gatherer.surface;
     let node =
         plan.mesh.elements.place(plan.mesh.level, triangle, back, [u, v]).map(|place| place.node());
@@ -259,7 +238,6 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
     let is_alike = plan.mesh.gathering_for_bare.is_empty();
     let (by_rays, read) =
         if is_alike { (on_side, coarse) } else { (on_side.or(Some(coarse)), fine) };
-    let (close, view) = (0.0, View::default());
     let place = Check {
         gatherer,
         read,
@@ -269,13 +247,8 @@ fn check(plan: &Plan, gatherer: Gatherer, area_m2: f64, of: &LeafError) -> Optio
         expected_lx,
         may_be_trusted,
         is_beset,
-        is_resolved: plan.mesh.resolves_walls && (of.is_at_wall || !is_beset),
-        strip: plan.strip(fine.iter().map(|&(vertex, _)| vertex)),
-        close,
-        edge_m,
-        reads_direct,
+        close: 0.0,
         has_parts,
-        view,
     };
     Some(place)
 }
@@ -284,12 +257,6 @@ impl Check {
     /// Whether readers with this trust interpolate there.
     fn is_trusted(&self, trust: Trust) -> bool {
         self.may_be_trusted && trust.includes(self.expected_lx, self.is_beset)
-    }
-
-    /// The place as rays read it.
-    const fn as_read(&self) -> ReadPlace {
-        let Self { gatherer, edge_m, area_m2, .. } = *self;
-        ReadPlace { surface: gatherer.surface, edge_m, area_m2 }
     }
 }
 
@@ -398,20 +365,16 @@ pub(crate) fn errors(
     if sums.sums.len() > 2 * checks.len() {
         mean = mean_by_rays(sums, checks, area);
     }
-    let [seen_mean_lx, seen_spread_lx] = seen(sums, checks, noise_is);
     InterpolationErrors {
         indirect_lx: root(0),
         total_lx: root(1),
         indirect_mean_lx: believed(mean[0]),
         trusted_mean_lx: believed(trusted_mean),
-        seen_mean_lx,
-        seen_spread_lx,
         direct_mean_lx: mean[1] - mean[0],
         untrusted_lx: (untrusted.max(0.0) / share_untrusted.max(f64::MIN_POSITIVE)).sqrt(),
         close: close.sqrt(),
         noise_lx: (!checks.is_empty()).then(|| (noise_of_readings(sums, checks) / area).sqrt()),
         over_expected: (expected > 0.0).then(|| root(0) / expected.sqrt()),
-        over_in_strips: over_in_strips(sums, checks, (trust, noise_is)),
         ..InterpolationErrors::default()
     }
 }
@@ -427,28 +390,6 @@ fn mean_by_rays(sums: &Accumulator, checks: &[Check], area_m2: f64) -> [f64; 2] 
         mean[1] += check.area_m2 / area_m2 * (indirect + read.direct.luminance());
     }
     mean
-}
-
-/// The factor by which elements of each strip before walls err more than expected, where readers with this
-/// trust interpolate.
-fn over_in_strips(
-    sums: &Accumulator,
-    checks: &[Check],
-    (trust, noise_is): (Trust, Noise),
-) -> [Option<f64>; STRIPS] {
-    let mut strips = [[0.0; 3]; STRIPS];
-    for (k, check) in checks.iter().enumerate().filter(|(_, check)| check.is_trusted(trust)) {
-        let (own_m2, estimate) = (check.area_m2, sums.estimate(k));
-        let (error, variance) = (estimate.mean.indirect.luminance(), estimate.indirect_variance);
-        let [expected, squared, spread] = &mut strips[check.strip];
-        *expected += own_m2 * check.expected_lx * check.expected_lx;
-        *squared += own_m2 * (error * error - variance);
-        *spread += own_m2 * own_m2 * 2.0 * variance * variance;
-    }
-    strips.map(|[expected, squared, spread]| {
-        let seen = noise_is.of_squared(squared, spread.sqrt());
-        (expected > 0.0).then(|| (seen / expected).sqrt())
-    })
 }
 
 /// The area that all points stand for, m2.
@@ -468,27 +409,17 @@ fn noise_of_reading(sums: &Accumulator, checks: &[Check], k: usize) -> f64 {
 }
 
 /// Whether gathering pays anywhere but in gaps. It pays if places where readers with this trust gather would
-/// have a squared error, noise and interpolation together, of more than [`NOT_WORTH`] times that of `goal_lx`
-/// where light is resolved towards walls, or that of `error_lx`, the error of the map, elsewhere.
+/// have a squared error, noise and interpolation together, of more than [`NOT_WORTH`] times that of `error_lx`,
+/// the error of the map.
 pub(crate) fn is_gathering_worth_while(
     sums: &Accumulator,
     checks: &[Check],
     trust: Trust,
-    [goal_lx, error_lx]: [f64; 2],
-) -> bool {
-    let errs = |resolved: bool, lx: f64| errs_where_gathered(sums, checks, (trust, resolved), lx);
-    errs(true, goal_lx) || errs(false, error_lx)
-}
-
-fn errs_where_gathered(
-    sums: &Accumulator,
-    checks: &[Check],
-    (trust, resolved): (Trust, bool),
     error_lx: f64,
 ) -> bool {
     let is_asked = |k: &usize| {
         let check = &checks[*k];
-        check.is_resolved == resolved && check.may_be_trusted && !check.is_trusted(trust)
+        check.may_be_trusted && !check.is_trusted(trust)
     };
     let (mut area_m2, mut squared, mut spread) = (0.0, 0.0, 0.0);
     for k in (0..checks.len()).filter(is_asked) {
@@ -499,38 +430,4 @@ fn errs_where_gathered(
         spread += own_m2 * own_m2 * 2.0 * variance * variance;
     }
     Noise::Counted.of_squared(squared, spread.sqrt()) > NOT_WORTH * error_lx * error_lx * area_m2
-}
-
-/// The light that arrives from errors that rays read from afar: its mean, and its variation from place to
-/// place, lx.
-fn seen(sums: &Accumulator, checks: &[Check], noise_is: Noise) -> [f64; 2] {
-    let area = area_m2(checks);
-    let reads_other_light = sums.sums.len() > 2 * checks.len();
-    let (mut errors, mut shares) = (Vec::new(), Vec::new());
-    let (mut mean, mut of_mean) = (0.0, 0.0);
-    for (k, check) in checks.iter().enumerate() {
-        let place = if reads_other_light { 2 * checks.len() + k } else { k };
-        let estimate = sums.estimate(place);
-        let (indirect, direct) = (estimate.mean.indirect, estimate.mean.direct);
-        // Neither rays nor views reach closed-in places.
-        let is_closed_in = check.gatherer.in_gap && !reads_other_light;
-        let (error, variance) = match check.reads_direct {
-            _ if is_closed_in => (0.0, 0.0),
-            true => ((indirect + direct).luminance(), estimate.variance),
-            false => (indirect.luminance(), estimate.indirect_variance),
-        };
-        let share = check.area_m2 / area;
-        mean += share * check.view.shown * error;
-        of_mean += (share * check.view.shown).powi(2) * variance;
-        shares.push(share);
-        errors.push(error);
-    }
-    let spread = match noise_is {
-        // A few hundred points give the order of this variation and no more.
-        Noise::RuledOut => 0.0,
-        Noise::Counted | Noise::TakenOff => {
-            seen_errors::spread(shares.into_iter().zip(checks.iter().map(|c| &c.view)), &errors)
-        }
-    };
-    [noise_is.of_mean(mean, of_mean.sqrt()), spread]
 }

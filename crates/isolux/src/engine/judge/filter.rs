@@ -12,7 +12,6 @@
 //! * The control variate (`behind`) has no noise; only the difference from it is filtered.
 //! * Standard errors stay those of the unfiltered values.
 
-use crate::engine::gather::areas_m2;
 use crate::engine::mesh::Range;
 use crate::engine::plan::Plan;
 use crate::map::FilterReport;
@@ -70,17 +69,11 @@ pub(crate) fn filter(
     }
     for (filtered, part) in values.iter_mut().zip(&parts) {
         give_back(&areas_m2, (&pieces, &first), filtered, part);
-        if plan.mesh.resolves_walls {
-            let changed = filtered.iter().zip(part).map(|(&after, &before)| after - before);
-            let mut changes: Vec<Rgb> = changed.collect();
-            plan.mesh.carriers.spread(&mut changes);
-            *filtered = part.iter().zip(changes).map(|(&before, by)| before + by).collect();
-        }
     }
     values[0].iter_mut().zip(&behind).for_each(|(value, &behind)| *value += behind);
     parts[0].iter_mut().zip(&behind).for_each(|(value, &behind)| *value += behind);
     for (filtered, part) in values.iter_mut().zip(&parts) {
-        means.hold(plan, filtered, part);
+        means.hold(filtered, part);
         // The light that `hold` took is given back in proportion to the light, so none becomes negative.
         let light = first.iter().zip(&*filtered).map(|(share, value)| share * value.luminance());
         give_back(&areas_m2, (&pieces, &light.collect::<Vec<f64>>()), filtered, part);
@@ -92,10 +85,6 @@ pub(crate) fn filter(
 /// The elements that the filter acts on, and the area of every vertex, m2. Where light is resolved towards
 /// walls, these are the elements that carry light; the others have no noise of their own.
 fn acts_on(plan: &Plan) -> (Vec<u32>, Vec<f64>) {
-    if plan.mesh.resolves_walls {
-        let elements = plan.errors.of_elements.iter().map(|e| e.node).collect();
-        return (elements, areas_m2(&plan.mesh.subdivision, &plan.mesh.carriers));
-    }
     let vertices = &plan.mesh.elements.vertices()[..plan.mesh.indirect_vertices];
     (plan.mesh.subdivision.leaves().collect(), vertices.iter().map(|v| v.area_m2).collect())
 }
@@ -169,16 +158,13 @@ impl Means {
 
     /// Clamps filtered values to the range of the unfiltered values about them, so that the light given back
     /// to pieces makes no new extremes. Vertices that do not carry light have a larger neighbourhood.
-    fn hold(&self, plan: &Plan, filtered: &mut [Rgb], before: &[Rgb]) {
+    fn hold(&self, filtered: &mut [Rgb], before: &[Rgb]) {
         let held = |(k, &value): (usize, &Rgb)| {
             let mut range = Range::of(before[k]);
             self.rows[k].iter().for_each(|&(v, _)| range.include(before[v as usize]));
             range.hold(value)
         };
-        let mut held: Vec<Rgb> = filtered.iter().enumerate().map(held).collect();
-        if plan.mesh.resolves_walls {
-            plan.mesh.waiting.hold(filtered, before, &mut held);
-        }
+        let held: Vec<Rgb> = filtered.iter().enumerate().map(held).collect();
         filtered.copy_from_slice(&held);
     }
 

@@ -4,7 +4,6 @@ mod accuracy;
 pub(crate) mod check_points;
 pub(crate) mod energy_bound;
 mod filter;
-mod seen_errors;
 mod verdict;
 
 pub(crate) use accuracy::{

@@ -61,13 +61,6 @@ impl Verdict {
         bounded(self.errors.over_expected)
     }
 
-    /// The factor by which elements of a strip before walls err more than expected. Unless readers gather in
-    /// gaps alone, it is that of all elements.
-    pub(crate) fn over_expected_in(&self, strip: usize) -> f64 {
-        let own = self.errors.over_in_strips[strip].filter(|_| self.trust == Trust::AllButGaps);
-        bounded(own.or(self.errors.over_expected))
-    }
-
     fn reaches(&self, goal: f64) -> bool {
         self.accuracy.is_some_and(|accuracy| accuracy.reached <= goal)
     }

@@ -9,9 +9,8 @@
 //! rims, and all that bisection makes.
 
 use super::bounded::{Bounded, Range, Stencil};
-use super::coarsening::{Coarsening, Link, weights_at};
-use super::edge_falloff::{Beside, EdgeFalloffs};
-use crate::elements::{Subdivision, Vertex};
+use super::coarsening::{Coarsening, Link};
+use crate::elements::{Subdivision};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
@@ -81,68 +80,6 @@ impl Carriers {
         });
         let ends = ends.collect();
         Self { links, active, order, ends }
-    }
-
-    /// Lets vertices from `first` on, made by bisecting `elements`, wait. Each is interpolated from the carriers at
-    /// corners of the elements around it, or between the ends of its edge where those do not determine it. Beside
-    /// walls, `rows` carry light, too. `keep_seen` keeps those vertices whose light applies at another; a vertex left
-    /// with none carries light itself.
-    pub(crate) fn smooth(
-        &mut self,
-        subdivision: &Subdivision,
-        first: usize,
-        elements: &[[u32; 3]],
-        open: &[bool],
-        (walls, rows): (&EdgeFalloffs, &[Beside]),
-        keep_seen: impl Fn(u32, &mut Vec<u32>) + Sync,
-    ) {
-        let vertices = subdivision.vertices();
-        let rings = Rings::of(elements, first, rows, |v| open[v as usize] && self.is_active(v));
-        let found = || Found::among(vertices.len());
-        let wider = rings.wider(found);
-        let link = |found: &mut Found, vertex: usize| {
-            let ends = vertices[vertex].parents.expect("made by bisection");
-            let mut between = first_ends(vertices, first, ends);
-            let ends_of = || between.iter().map(|&(end, _)| end);
-            let at = &vertices[vertex];
-            let near_walls = walls.near(rings.about(ends_of(), found), at.position);
-            if !near_walls.is_empty() {
-                wider.about(ends_of(), found);
-            }
-            let distance_m = |v: u32| (vertices[v as usize].position - at.position).length();
-            let seen = |mut some: Vec<u32>| {
-                keep_seen(vertex as u32, &mut some);
-                some
-            };
-            let near = seen(found.all.clone());
-            let near = near.into_iter().map(|v| (distance_m(v), v as usize)).collect();
-            let told = weights_at(at, near, |v| vertices[v].position, &near_walls);
-            let told = told.filter(|_| open[vertex]);
-            let told =
-                told.map(|of| of.into_iter().map(|(v, weight)| (v as u32, weight)).collect());
-            let ends_seen = seen(ends_of().collect());
-            between.retain(|(end, _)| ends_seen.contains(end));
-            // Hidden ends have no light to interpolate.
-            if between.iter().any(|&(end, _)| open[end as usize]) {
-                between.retain(|&(end, _)| open[end as usize]);
-            }
-            let whole: f64 = between.iter().map(|(_, weight)| weight).sum();
-            between.iter_mut().for_each(|(_, weight)| *weight /= whole);
-            let parents = told.unwrap_or(between);
-            let spacing_m = distance_m(ends[0]) + distance_m(ends[1]);
-            (!parents.is_empty()).then_some(Link { parents, spacing_m })
-        };
-        self.links.resize(first, None);
-        self.links.par_extend((first..vertices.len()).into_par_iter().map_init(found, link));
-        for row in rows {
-            self.links[row.vertex as usize] = None;
-        }
-        self.active.resize(first, true);
-        self.active.extend(self.links[first..].iter().map(Option::is_none));
-        // Vertices that lie between others come after these.
-        let all = first as u32..vertices.len() as u32;
-        self.order.extend(all.filter(|&v| self.links[v as usize].is_some()));
-        self.ends.push(self.order.len());
     }
 
     /// Lets vertices from `first` on, made by bisection, wait. Each lies between those ends of its edge that are
@@ -247,15 +184,6 @@ impl Carriers {
         self.waiting().fill(values);
     }
 
-    /// Interpolates the changes of vertices that wait, without bounds.
-    pub(crate) fn spread(&self, changes: &mut [Rgb]) {
-        for &vertex in self.order.iter().filter(|&&v| !self.active[v as usize]) {
-            let Some(link) = &self.links[vertex as usize] else { continue };
-            let parts = link.parents.iter().map(|&(parent, w)| changes[parent as usize] * w);
-            changes[vertex as usize] = parts.sum();
-        }
-    }
-
     /// The detail of a carrier, that is, its value minus its interpolation, and the spacing of that; `None` where it
     /// is not interpolated, or from vertices that say nothing.
     pub(crate) fn detail(&self, values: &[Option<f64>], vertex: u32) -> Option<(f64, f64)> {
@@ -322,92 +250,6 @@ impl Carriers {
     }
 }
 
-/// The vertices before `first` that a vertex made on an edge lies between, with weights.
-fn first_ends(vertices: &[Vertex], first: usize, ends: [u32; 2]) -> Vec<(u32, f64)> {
-    let mut between = ends.map(|end| (end, 0.5)).to_vec();
-    while let Some(k) = between.iter().position(|&(end, _)| end as usize >= first) {
-        let (made, weight) = between.swap_remove(k);
-        let ends = vertices[made as usize].parents.expect("made by bisection");
-        between.extend(ends.map(|end| (end, 0.5 * weight)));
-    }
-    between
-}
-
-/// The carriers around each vertex.
-struct Rings(Vec<Vec<u32>>);
-
-impl Rings {
-    /// The carriers around each of the `first` vertices: corners of its elements that carry light, and rows beside
-    /// walls.
-    fn of(
-        elements: &[[u32; 3]],
-        first: usize,
-        rows: &[Beside],
-        tells: impl Fn(u32) -> bool,
-    ) -> Self {
-        let mut rings: Vec<Vec<u32>> = vec![Vec::new(); first];
-        for corners in elements {
-            let telling = || corners.iter().copied().filter(|&v| tells(v));
-            corners.iter().for_each(|&v| rings[v as usize].extend(telling()));
-        }
-        rings.iter_mut().for_each(sort_once);
-        for row in rows {
-            // A place that sees the vertex on the wall sees the row, too.
-            let about = rings[row.of as usize].clone();
-            let before = about.into_iter().filter(|&v| (v as usize) < first);
-            before.for_each(|v| rings[v as usize].push(row.vertex));
-        }
-        Self(rings)
-    }
-
-    /// The carriers around the carriers of each ring.
-    fn wider(&self, found: impl Fn() -> Found + Sync + Send) -> Self {
-        let about =
-            |found: &mut Found, ring: &Vec<u32>| self.about(ring.iter().copied(), found).to_vec();
-        Self(self.0.par_iter().map_init(found, about).collect())
-    }
-
-    /// The carriers around any of some vertices, each once.
-    fn about<'f>(&self, some: impl Iterator<Item = u32>, found: &'f mut Found) -> &'f [u32] {
-        found.begin();
-        for ring in some.filter_map(|v| self.0.get(v as usize)) {
-            ring.iter().for_each(|&v| found.add(v));
-        }
-        &found.all
-    }
-}
-
-/// Vertices found in a search, each once.
-struct Found {
-    all: Vec<u32>,
-    /// The number of the last search that found each vertex.
-    last: Vec<u32>,
-    /// The number of the current search.
-    search: u32,
-}
-
-impl Found {
-    fn among(vertices: usize) -> Self {
-        Self { all: Vec::new(), last: vec![0; vertices], search: 0 }
-    }
-
-    fn begin(&mut self) {
-        self.all.clear();
-        self.search += 1;
-    }
-
-    fn add(&mut self, vertex: u32) {
-        if std::mem::replace(&mut self.last[vertex as usize], self.search) != self.search {
-            self.all.push(vertex);
-        }
-    }
-}
-
-fn sort_once(some: &mut Vec<u32>) {
-    some.sort_unstable();
-    some.dedup();
-}
-
 impl Waiting {
     /// The number of vertices that wait.
     pub(crate) fn count(&self) -> usize {
@@ -458,16 +300,6 @@ impl Waiting {
     fn parents(&self, k: usize) -> &[(u32, f64)] {
         let start = k.checked_sub(1).map_or(0, |before| self.ends[before]);
         &self.parents[start..self.ends[k]]
-    }
-
-    /// Bounds the values of vertices that wait by their own values `before` and by the bounded values of their
-    /// carriers.
-    pub(crate) fn hold(&self, values: &[Rgb], before: &[Rgb], held: &mut [Rgb]) {
-        for (k, &vertex) in self.vertices.iter().enumerate() {
-            let mut range = Range::of(before[vertex as usize]);
-            self.parents(k).iter().for_each(|&(parent, _)| range.include(held[parent as usize]));
-            held[vertex as usize] = range.hold(values[vertex as usize]);
-        }
     }
 
     /// The interpolation with fixed weights, from values of light that are already interpolated.

@@ -2,7 +2,6 @@
 //!
 //! Surfaces are independent, so each is coarsened by itself.
 
-use super::edge_falloff::{MOST_NEAR, Wall};
 use crate::elements::{FewNumbers, Subdivision, Vertex};
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
@@ -19,15 +18,11 @@ const LEAST_COS: f64 = 0.7;
 
 /// The number of neighbours that a value is interpolated from.
 const NEIGHBOURS: usize = 12;
-/// The number of neighbours where light falls off towards walls, which takes two more functions.
-const NEIGHBOURS_AT_WALLS: usize = 16;
 /// The largest distance of neighbours, in spacings.
 const REACH: f64 = 2.5;
 
 /// The largest sum of the magnitudes of weights; larger ones extrapolate.
 const MOST_WEIGHT: f64 = 1.6;
-/// The largest sum before walls, where functions that fall off without bound reach beyond the nearest row.
-const MOST_WEIGHT_AT_WALLS: f64 = 2.2;
 
 /// The least share of the squared length of a least-squares column that earlier columns leave; with less it depends
 /// on them.
@@ -207,52 +202,39 @@ impl Surface {
             }
             true
         });
-        let of = weights_at(&own[vertex], near, |other| own[other].position, &[])?;
+        let of = weights_at(&own[vertex], near, |other| own[other].position)?;
         let parents = of.into_iter().map(|(other, weight)| (self.members[other], weight)).collect();
         Some(Link { parents, spacing_m })
     }
 }
 
 /// Neighbours and weights that give the value at a place by moving least squares, from neighbours with their
-/// distances, m. Light may fall off towards `walls`.
-pub(crate) fn weights_at(
+/// distances, m.
+fn weights_at(
     at: &Vertex,
     mut near: Vec<(f64, usize)>,
     position: impl Fn(usize) -> Point,
-    walls: &[Wall],
 ) -> Option<Vec<(usize, f64)>> {
     let order = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-    let most = if walls.is_empty() { NEIGHBOURS } else { NEIGHBOURS_AT_WALLS };
-    if near.len() > most {
-        near.select_nth_unstable_by(most, order);
-        near.truncate(most);
+    if near.len() > NEIGHBOURS {
+        near.select_nth_unstable_by(NEIGHBOURS, order);
+        near.truncate(NEIGHBOURS);
     }
     near.sort_unstable_by(order);
     let axis = at.normal.to_direction();
     let [x, y] =
         [[1.0, 0.0], [0.0, 1.0]].map(|[x, y]| axis.from_local(Vector::new(x, y, 0.0)).to_vector());
     let width_m = (1.0 + 1e-3) * near.last()?.0;
-    let fall = |wall: &Wall, place: Point| {
-        let d = wall.distance_m(place) / width_m;
-        if d > 0.0 { d * libm::log(d) } else { 0.0 }
-    };
-    let mut falls_here = [0.0; MOST_NEAR];
-    falls_here.iter_mut().zip(walls).for_each(|(own, wall)| *own = fall(wall, at.position));
     let sample = |&(distance_m, other): &(f64, usize)| {
         let to = position(other) - at.position;
         let share = distance_m / width_m;
         let bump = 1.0 - share * share;
-        let mut falls = [0.0; MOST_NEAR];
-        for ((own, wall), here) in falls.iter_mut().zip(walls).zip(falls_here) {
-            *own = fall(wall, position(other)) - here;
-        }
-        Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump, falls }
+        Sample { at: [to.dot(x) / width_m, to.dot(y) / width_m], weight: bump * bump }
     };
-    let mut samples = [Sample::default(); NEIGHBOURS_AT_WALLS];
+    let mut samples = [Sample::default(); NEIGHBOURS];
     samples.iter_mut().zip(&near).for_each(|(own, near)| *own = sample(near));
     let samples = &samples[..near.len()];
-    let over_plane = (0..=walls.len()).rev().flat_map(|walls| &OVER_PLANE[walls]);
-    let over_plane = over_plane.into_iter().find_map(|beside| weights(samples, beside));
+    let over_plane = OVER_PLANE.into_iter().find_map(|beside| weights(samples, beside));
     let weights = over_plane.or_else(|| weights_along_line(samples))?;
     let of = near.iter().zip(weights).filter(|(_, weight)| *weight != 0.0);
     let mut told = Vec::with_capacity(near.len());
@@ -314,28 +296,21 @@ impl Grid {
 struct Sample {
     at: [f64; 2],
     weight: f64,
-    /// The difference to the origin of each function that falls off towards a wall.
-    falls: [f64; MOST_NEAR],
 }
 
 /// A number for each sample, with zeros after the last.
-type Column = [f64; NEIGHBOURS_AT_WALLS];
+type Column = [f64; NEIGHBOURS];
 
-const NO_COLUMN: Column = [0.0; NEIGHBOURS_AT_WALLS];
+const NO_COLUMN: Column = [0.0; NEIGHBOURS];
 
-/// The largest number of terms: a constant, five of a quadratic function, and those that fall off towards walls.
-const MOST_TERMS: usize = 6 + MOST_NEAR;
+/// The largest number of terms: those of a quadratic function.
+const MOST_TERMS: usize = 6;
 
-/// The sets of terms over a plane by number of walls, in the order in which they are tried.
-const OVER_PLANE: [[&[usize]; 2]; 1 + MOST_NEAR] = [
-    [&[1, 2, 3, 4, 5], &[1, 2]],
-    [&[1, 2, 3, 4, 5, 6], &[1, 2, 6]],
-    [&[1, 2, 3, 4, 5, 6, 7], &[1, 2, 6, 7]],
-];
+/// The sets of terms over a plane beside the constant, in the order in which they are tried.
+const OVER_PLANE: [&[usize]; 2] = [&[1, 2, 3, 4, 5], &[1, 2]];
 
 /// The weights of the values at some places that give the value at the origin of the function of best fit. The
-/// function is a constant and the terms `beside` it, of `1, x, y, x2, xy, y2` and functions that fall off towards
-/// walls. `None` where the places do not determine it or extrapolate. Columns are made orthogonal by modified
+/// function is a constant and the terms `beside` it, of `1, x, y, x2, xy, y2`. `None` where the places do not determine it or extrapolate. Columns are made orthogonal by modified
 /// Gram-Schmidt.
 fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
     if samples.len() <= beside.len() {
@@ -346,8 +321,7 @@ fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
     let column = |term: usize| -> Column {
         let value = |s: &Sample| {
             let [x, y] = s.at;
-            let [first, second] = s.falls;
-            [1.0, x, y, x * x, x * y, y * y, first, second][term]
+            [1.0, x, y, x * x, x * y, y * y][term]
         };
         let mut column = NO_COLUMN;
         let of = samples.iter().zip(&roots).map(|(s, root)| value(s) * root);
@@ -372,8 +346,7 @@ fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
     let (mut weights, length) = (columns[beside.len()], squares[beside.len()]);
     weights.iter_mut().zip(roots).for_each(|(weight, root)| *weight *= root / length);
     let size: f64 = weights.iter().map(|w| w.abs()).sum();
-    let most = if beside.iter().any(|&term| term > 5) { MOST_WEIGHT_AT_WALLS } else { MOST_WEIGHT };
-    (size <= most).then_some(weights)
+    (size <= MOST_WEIGHT).then_some(weights)
 }
 
 /// The weights for a polynomial along a line through the origin that some of the samples lie on, such as vertices of

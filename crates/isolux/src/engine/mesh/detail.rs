@@ -38,8 +38,6 @@ pub(crate) struct LeafError {
     /// Whether readers gather there only because vertices farther apart than its own carry its light, or because it
     /// lies at the rim of something that stands closer to them.
     pub(crate) is_beset_afar: bool,
-    /// Whether the close object is a wall, and light is resolved towards it.
-    pub(crate) is_at_wall: bool,
     /// The weight of its error relative to others: dim rooms beside bright ones are to be right, too.
     pub(crate) weight: f64,
     /// The weight of its error for dim places that see it; zero where that is no more.
@@ -113,7 +111,6 @@ impl<'a> Details<'a> {
                 excess,
                 is_beset: beset || is_beset_afar,
                 is_beset_afar,
-                is_at_wall: false,
                 weight: 1.0,
                 seen: 0.0,
             }

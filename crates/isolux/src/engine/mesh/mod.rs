@@ -4,23 +4,17 @@ mod bounded;
 mod carriers;
 mod coarsening;
 mod detail;
-mod edge_falloff;
 mod fit;
 mod hat_functions;
 mod neighbour_noise;
 mod room_scale;
-mod shrinkage;
 pub(crate) mod trust;
 
-pub(crate) use bounded::{Bounded, Range, Stencil, corrected};
+pub(crate) use bounded::{Range, corrected};
 pub(crate) use carriers::{Carriers, Waiting};
 pub(crate) use detail::{Details, LeafError, Refinement, refine_worst};
-#[cfg(test)]
-pub(crate) use edge_falloff::Beside;
-pub(crate) use edge_falloff::{EdgeFalloffs, STRIPS};
 pub(crate) use fit::Fit;
 pub(crate) use hat_functions::HatFunctions;
 pub(crate) use neighbour_noise::{LEAST, lend_noise};
 pub(crate) use room_scale::{bisect_to_scale, is_in_room};
-pub(crate) use shrinkage::beyond_noise;
 pub(crate) use trust::{Trust, TrustLevels, WorstElements};

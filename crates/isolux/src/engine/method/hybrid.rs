@@ -8,8 +8,8 @@
 use super::caustics::{self, Caustics};
 use crate::ablation::without;
 use crate::engine::gather::{
-    DirectAtEnds, DirectResidual, FEWEST_UNJUDGED, Fitting, Gatherer, Gathering, MeanPlaces,
-    NET_ORDER, Operator, Reading, allot, allot_by_noise, mean_of, ray_trial,
+    DirectAtEnds, DirectResidual, FEWEST_UNJUDGED, Gatherer, Gathering,
+    NET_ORDER, Operator, allot, allot_by_noise, mean_of, ray_trial,
 };
 use crate::engine::judge::{BELIEVED_INCREMENTS, Check, DirectThere, FEWEST_TO_MISS, check_points};
 use crate::engine::mesh::LeafError;
@@ -66,9 +66,8 @@ pub(crate) struct Hybrid<'p, 's> {
     plan: &'p Plan<'s>,
     check_direct: DirectThere,
     rows: Vec<Gatherer>,
-    /// The number of rays at each place where the mean of an element is measured. It is that of vertices, so
-    /// these places are no noisier.
-    rays_of_means: u32,
+    /// The number of rays of each vertex that gathers for the stored map.
+    rays_for_bare: u32,
     /// The check points, then the vertices that gather for the bare map.
     fresh_rows: Vec<Gatherer>,
     /// A few rays of every vertex, the same in all increments.
@@ -126,9 +125,9 @@ impl<'p, 's> Hybrid<'p, 's> {
             rows
         };
         let check_direct = check_points::direct(plan, checks, goal, key.with(0));
-        let rays_of_means = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
+        let rays_for_bare = (libm::exp2(libm::round(libm::log2(rays))) as u32).max(fewest);
         let for_bare = plan.mesh.gathering_for_bare.iter();
-        let for_bare = for_bare.map(|&v| plan.mesh.gatherers[v as usize].with_rays(rays_of_means));
+        let for_bare = for_bare.map(|&v| plan.mesh.gatherers[v as usize].with_rays(rays_for_bare));
         let fresh_rows = checks.iter().map(|check| check.gatherer).chain(for_bare).collect();
         let over = plan.over(&plan.light.direct);
         let kept =
@@ -141,7 +140,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         Self {
             plan,
             check_direct,
-            rays_of_means,
+            rays_for_bare,
             rows,
             fresh_rows,
             reader,
@@ -181,7 +180,7 @@ impl<'p, 's> Hybrid<'p, 's> {
     pub(crate) fn rays_of(&self, vertex: usize) -> u32 {
         let is_for_bare =
             || self.plan.mesh.gathering_for_bare.binary_search(&(vertex as u32)).is_ok();
-        let beyond = || if is_for_bare() { self.rays_of_means } else { 0 };
+        let beyond = || if is_for_bare() { self.rays_for_bare } else { 0 };
         self.rows.get(vertex).map_or_else(beyond, |row| row.rays)
     }
 
@@ -225,24 +224,17 @@ impl<'p, 's> Hybrid<'p, 's> {
         let kept = kept.map(|kept| kept.read(&plan.over(&direct), (1, key.with(6))));
         let at_ends = kept.as_deref().unwrap_or(&direct);
         let gathering = Gathering::of(plan, at_ends);
-        let mut operator =
+        let operator =
             gathering.operator_until(deadline, &self.rows, |row| key.with(2).with(row as u64))?;
-        let as_read = Gathering { regathers: true, ..Gathering::of(plan, at_ends) };
-        let places = plan.places_of_means(self.rays_of_means, key.with(4));
-        let mut guess = plan.light.guess.clone();
-        let measured = |row: usize| key.with(5).with(row as u64);
-        operator.append(as_read.operator_until(deadline, &places.gatherers, measured)?);
-        guess.extend(places.interpolated(&plan.light.guess));
-        let fit = Fitted { plan, places: &places };
         let (gathered, unsettled_lx) = operator.solve_or_give_up(
-            &guess,
+            &plan.light.guess,
             &reflected_on,
-            (&plan.mesh.waiting, &fit),
+            (&plan.mesh.waiting, Some(&plan.mesh.fit)),
             UNSETTLED
                 * self.goal.min(COARSEST)
                 * (1.0 - plan.light.mean_reflectance).max(LEAST_ABSORBED),
         );
-        let gathered = fit.read(&gathered);
+        let gathered = plan.mesh.fit.apply(&gathered);
         let light: Vec<Rgb> = gathered.iter().zip(&reflected_on).map(|(&e, &c)| e + c).collect();
         let passed_on = self.passed_on(&light);
         // Check points gather as readers do.
@@ -294,35 +286,6 @@ impl<'p, 's> Hybrid<'p, 's> {
         }
         let passed_on: Vec<Rgb> = passed_on.into_iter().map(Rgb::grey).collect();
         plan.prolongate(&passed_on).iter().map(|light| light.luminance()).collect()
-    }
-}
-
-/// The light of an increment as rays read it: vertex values of best fit, shifted to the measured means of the
-/// elements.
-struct Fitted<'a> {
-    plan: &'a Plan<'a>,
-    places: &'a MeanPlaces,
-}
-
-impl Fitting for Fitted<'_> {
-    fn read(&self, light: &[Rgb]) -> Vec<Rgb> {
-        let (at_vertices, at_places) = light.split_at(self.plan.light.guess.len());
-        let mut fitted = self.plan.mesh.fit.apply(at_vertices);
-        self.plan.mesh.means.apply(&mut fitted, self.places, at_places);
-        fitted
-    }
-
-    fn held<'a>(&'a self, light: &[Rgb]) -> Reading<'a> {
-        let vertices = self.plan.light.guess.len();
-        let (at_vertices, at_places) = light.split_at(vertices);
-        let fit = self.plan.mesh.fit.held(at_vertices);
-        let means = self.plan.mesh.means.held(&fit.apply(at_vertices), self.places, at_places);
-        Box::new(move |light| {
-            let (at_vertices, at_places) = light.split_at(vertices);
-            let mut fitted = fit.apply(at_vertices);
-            means.apply(&mut fitted, at_places);
-            fitted
-        })
     }
 }
 

@@ -146,21 +146,6 @@ pub(crate) fn shaded(
     found.chunk_by(|a, b| a.0 == b.0).filter(|of| all_behind(of)).map(|of| of[0].0).collect()
 }
 
-/// Keeps those of some vertices that are seen along the surface, where their light is uneven; `of` gives the position
-/// of a vertex and its light, lx, if known.
-pub(crate) fn keep_seen(
-    scene: &Scene,
-    (from, above): (Point, &SurfacePoint),
-    of: impl Fn(u32) -> (Point, Option<f64>),
-    some: &mut Vec<u32>,
-) {
-    let known = some.iter().filter_map(|&v| of(v).1);
-    let (least, most) = known.fold((f64::INFINITY, 0.0_f64), |(a, b), lx| (a.min(lx), b.max(lx)));
-    if most - least > UNEVEN * most {
-        some.retain(|&to| blocked_at(scene, from, of(to).0, above).is_none());
-    }
-}
-
 /// A node, and the side of the triangle that it lies on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Side {

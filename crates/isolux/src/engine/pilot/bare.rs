@@ -46,8 +46,8 @@ impl Pilot<'_> {
             return true;
         }
         let is_asked_for =
-            request.has_means && request.mesh_target < USUAL_MESH && !without("bare-map-vertices");
-        if !is_asked_for || self.indirect.is_smoothed {
+            request.is_hybrid && request.mesh_target < USUAL_MESH && !without("bare-map-vertices");
+        if !is_asked_for {
             return false;
         }
         let beset = look.errors.iter().filter(|e| e.is_beset);

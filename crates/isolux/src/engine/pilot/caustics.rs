@@ -22,6 +22,7 @@ use crate::engine::particle::{
 };
 use crate::engine::ray::{Noise, reflectance};
 use crate::map::Standing;
+use crate::units::Rgb;
 use rayon::prelude::*;
 
 /// The ratio of all light with caustics to that without, root mean square, above which caustics count as light.
@@ -353,7 +354,14 @@ impl Pilot<'_> {
         if waits {
             self.mesh.carriers.between(&self.mesh.subdivision, first, &open);
         }
-        self.settle(&look.elements);
+        self.indirect.gathered.resize(self.mesh.subdivision.vertex_count(), false);
+        self.complete_rays();
+        let gatherers = self.gatherers();
+        self.complete_direct(&look.elements, &gatherers);
+        self.look_for_torn();
+        self.complete_standings(&gatherers);
+        self.indirect.lx.resize(gatherers.len(), Rgb::BLACK);
+        self.mesh.carriers.fill(&mut self.indirect.lx);
     }
 }
 

@@ -4,11 +4,10 @@ use super::bare::USUAL_MESH;
 use super::look::PilotRequest;
 use super::state::Pilot;
 use super::surroundings::LEAST_DIM;
-use crate::ablation::without;
 use crate::elements::{Elements, Origin};
 use crate::engine::gather::Gatherer;
 use crate::engine::light::{Goal, Measured};
-use crate::engine::mesh::{Carriers, Details, LeafError, beyond_noise, trust};
+use crate::engine::mesh::{Carriers, Details, LeafError, trust};
 use crate::engine::ray::reflectance;
 use crate::sampling::Sequence;
 use rayon::prelude::*;
@@ -19,9 +18,6 @@ use std::time::Instant;
 const MOST_FOR_DIRECT_LIGHT: f64 = 4.0;
 /// The number of vertices for direct light that is always allowed, because it is cheap.
 const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
-/// The allowed interpolation error of smooth direct light, in accuracy goals. In CUBE the estimate from details is
-/// three times the true error.
-const OF_ACCURACY: f64 = 1.0;
 /// The allowed mean error of direct light that rays read, after all reflections, in accuracy goals.
 const OF_MEAN: f64 = 0.25;
 /// The allowed mean error of direct light per triangle in dim rooms, weighted by the light there, in accuracy goals.
@@ -126,15 +122,6 @@ impl Pilot<'_> {
         self.direct.noise_lx = Some(share * (varies + whole_lx * whole_lx).sqrt());
     }
 
-    /// Photometric direct light at the known vertices, without details that may be noise.
-    fn direct_signal(&self, elements: &Elements) -> Vec<Option<f64>> {
-        let luminances = self.in_the_open(&self.direct.lx);
-        if without("shrinkage") {
-            return luminances;
-        }
-        beyond_noise(elements, &luminances, &self.direct.variance)
-    }
-
     /// The largest number of vertices for direct light. Best effort: sharp shadow borders would take unlimited elements,
     /// and with emitting surfaces refinement cannot distinguish noise from borders.
     pub(super) fn most_for_direct_light(&self, request: &PilotRequest) -> usize {
@@ -151,15 +138,12 @@ impl Pilot<'_> {
         request: &PilotRequest,
         reference_lx: f64,
     ) -> (Vec<LeafError>, f64) {
-        let signal = self.direct_signal(elements);
+        let signal = self.in_the_open(&self.direct.lx);
         // All vertices have direct light of their own.
         let (carriers, no) = (Carriers::all(), |_, _| false);
         let details = Details::of(&self.mesh.subdivision, elements, &signal, &carriers, no);
         let errors = details.leaf_errors(|_| None, |_| false, |_, _| false);
-        // Smooth and exact direct light can have the accuracy of indirect light at little cost.
-        let is_cheap = self.indirect.is_smoothed && self.direct.noise.is_none();
-        let own = if is_cheap { OF_ACCURACY * request.target } else { f64::INFINITY };
-        let target = request.mesh_target.min(own);
+        let target = request.mesh_target;
         let bare = self.bare_errors(elements, &signal);
         let seen = bare.as_ref().unwrap_or(&errors);
         let excess = trust::error_of(seen, |_| true) / (target * reference_lx);

@@ -4,25 +4,21 @@ use super::forecast::{FINE, GoOn};
 use super::look::{PilotRequest, Survey};
 use super::state::Pilot;
 use crate::elements::{Elements, Subdivision};
-use crate::engine::gather::{ElementMeans, Gatherer, RayTrial, areas_m2};
-use crate::engine::mesh::{Carriers, Fit};
+use crate::engine::gather::{Gatherer, RayTrial, areas_m2};
+use crate::engine::mesh::Fit;
 use crate::engine::occlusion::{Barriers, Side};
 use crate::engine::plan::{Plan, PlannedErrors, PlannedLight, PlannedMesh, PlannedNoise};
 use crate::engine::ray::reflectance;
 use crate::map::Standing;
 
 impl<'s> Pilot<'s> {
-    /// Refines further for smooth light, caustics and direct light, and assembles the plan.
+    /// Refines further for caustics and direct light, and assembles the plan.
     pub(super) fn finish(
         mut self,
         mut look: Survey,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) -> Plan<'s> {
-        let carrying = self.mesh.subdivision.vertex_count();
-        if look.is_smooth(request) && self.has_time(&look, request, FINE, go_on) {
-            self.smooth(&mut look, request.max_vertices);
-        }
         let caustics = self.refine_for_caustics(&mut look, request, go_on);
         let indirect_vertices = self.mesh.subdivision.vertex_count();
         let coarse = self.fix_for_indirect_light();
@@ -31,7 +27,6 @@ impl<'s> Pilot<'s> {
         self.stand_before_walls(&mut gatherers[..indirect_vertices]);
         let standings = self.final_standings(&look.elements, indirect_vertices);
         let open: Vec<bool> = standings.iter().map(|of| *of == Some(Standing::Open)).collect();
-        let means = self.means(&coarse, &look, request, (&open[..indirect_vertices], carrying));
         let cuts = self.cuts(&coarse, &look.elements);
         let gathering_for_bare = self.gathering_for_bare(&look, request, &standings);
         let caustics_share = caustics.share(look.reference_lx);
@@ -54,9 +49,6 @@ impl<'s> Pilot<'s> {
             fit,
             standings,
             cuts,
-            means,
-            resolves_walls: look.walls.are_resolved(),
-            strips: look.strips(),
             elements: look.elements,
             subdivision: coarse,
         };
@@ -108,21 +100,6 @@ impl<'s> Pilot<'s> {
         standings
     }
 
-    /// The elements whose means increments measure; empty if none are needed.
-    fn means(
-        &self,
-        coarse: &Subdivision,
-        look: &Survey,
-        request: &PilotRequest,
-        (open, carrying): (&[bool], usize),
-    ) -> ElementMeans {
-        if !look.asks_for_means(request) {
-            return ElementMeans::default();
-        }
-        let up_to_lx = look.trusted_up_to_lx(request);
-        ElementMeans::new((self.scene, coarse), &look.errors, up_to_lx, open, carrying)
-    }
-
     /// Refines elements for direct light, measures that light and returns the receivers. If time is short, receivers
     /// that have moved keep the light of their earlier places.
     fn measure_direct_light(
@@ -156,12 +133,9 @@ impl<'s> Pilot<'s> {
     }
 
     fn fit(&self, coarse: &Subdivision, open: &[bool], cuts: &Barriers) -> Fit {
-        let all = Carriers::all();
-        // Quadratic functions give values at all vertices, so elements between carriers are fitted, too.
-        let carriers = if self.indirect.is_smoothed { &all } else { &self.mesh.carriers };
         let tells =
             |corners: [u32; 3]| corners.iter().all(|&v| open[v as usize]) && !cuts.has(corners);
-        Fit::new(&coarse.elements(), coarse.vertex_count(), tells, carriers)
+        Fit::new(&coarse.elements(), coarse.vertex_count(), tells, &self.mesh.carriers)
     }
 }
 

@@ -36,13 +36,6 @@ pub(crate) const LONGER: f64 = 1.4;
 /// The time of a survey of known vertices, in first surveys, until it is measured.
 const LATER: f64 = 0.1;
 
-/// The time of the vertices of quadratic functions on smooth light until it is measured, in first surveys of as
-/// many vertices. Measured in CUBE and an empty room.
-const SMOOTHING: f64 = 1.5;
-/// The further time of these vertices before the first increment, in multiples of the time above. Measured there,
-/// too.
-const FITTING: f64 = 1.3;
-
 /// The predicted number of increments. Most runs end as soon as their error is believed, some after twice as many.
 const INCREMENTS: f64 = BELIEVED_INCREMENTS as f64 + 0.5;
 
@@ -118,8 +111,6 @@ pub(crate) struct Costs {
     pub(crate) first: Cost,
     /// Rays that are only traced.
     pub(crate) traced: Cost,
-    /// Making the vertices of quadratic functions, by the number of all vertices afterwards.
-    pub(crate) smoothing: Cost,
 }
 
 impl Costs {
@@ -156,12 +147,6 @@ impl Costs {
         let is_known = self.looks.things > 0.0;
         if is_known { self.looks.of(vertices) } else { LATER * self.of_first(vertices) }
     }
-
-    /// The time of making the vertices of quadratic functions, s.
-    fn of_smoothing(&self, vertices: f64) -> f64 {
-        let is_known = self.smoothing.things > 0.0;
-        if is_known { self.smoothing.of(vertices) } else { SMOOTHING * self.of_first(vertices) }
-    }
 }
 
 /// The inputs of the prediction: quantities of the work to come.
@@ -183,7 +168,7 @@ pub(crate) struct Outlook {
     pub(crate) rays: f64,
     /// The number of check points.
     pub(crate) checks: f64,
-    /// All rays of an increment from check points, places of element means and vertices for the stored map.
+    /// All rays of an increment from check points and vertices for the stored map.
     pub(crate) check_rays: f64,
     /// Particles of an increment.
     pub(crate) particles: f64,
@@ -198,10 +183,6 @@ pub(crate) struct Outlook {
     /// The size of the usual first mesh, in multiples of the present one; `None` after the first survey and in
     /// scenes of few objects.
     pub(crate) usual: Option<f64>,
-    /// The growth factor of vertices by quadratic functions still to be made.
-    pub(crate) smoothed: f64,
-    /// Whether light is smooth, with quadratic functions made or still to be made.
-    pub(crate) is_smooth: bool,
     /// The number of vertices still to be added for direct light alone.
     pub(crate) more_for_direct: f64,
     /// The share of all vertices whose direct light will be measured again.
@@ -260,7 +241,7 @@ impl Outlook {
 
     /// The final number of vertices.
     pub(crate) fn vertices_then(&self) -> f64 {
-        self.looked_at() * self.smoothed + self.more_for_direct()
+        self.looked_at() + self.more_for_direct()
     }
 
     /// The predicted time of all remaining work.
@@ -271,13 +252,9 @@ impl Outlook {
         let for_direct = self.more_for_direct();
         // Nothing was surveyed yet.
         let is_blind = self.usual.is_some();
-        // Where light is smooth, vertices between carriers are not surveyed.
-        let looked_at = if self.is_smooth { carriers } else { self.looked_at() };
+        let looked_at = self.looked_at();
         let look_s = if is_blind { costs.of_first(looked_at) } else { costs.of_looks(looked_at) };
-        let smoothing_s = if self.is_smooth { costs.of_smoothing(vertices) } else { 0.0 };
-        let smooth_now_s = if self.smoothed > 1.0 { smoothing_s } else { 0.0 };
-        let pilot_s = smooth_now_s
-            + costs.of_rays((carriers - self.gathered) * self.pilot_rays)
+        let pilot_s = costs.of_rays((carriers - self.gathered) * self.pilot_rays)
             + costs.direct.of(vertices - for_direct - self.measured)
             + costs.in_shadows(for_direct)
             + self.rounds() * look_s;
@@ -285,9 +262,7 @@ impl Outlook {
         let (own, others) = (carriers * self.rays, self.check_rays + self.particles * growth);
         let each_s = costs.of_rays_then(own * (1.0 + SOLVED) + others + vertices * EVERY)
             + if self.measured_each { costs.again(vertices) } else { 0.0 };
-        let looks = if self.is_smooth { carriers } else { vertices };
-        let once_s = ONCE * costs.of_looks(looks)
-            + FITTING * smoothing_s
+        let once_s = ONCE * costs.of_looks(vertices)
             + costs.of_rays_then(carriers * self.rays.min(READERS.into()) + self.trials)
             + CHECKED * costs.direct.of(self.checks);
         let (in_all, factor) = match self.excess {

@@ -19,7 +19,6 @@ mod opening;
 mod refine;
 mod round;
 mod sharing;
-mod smoothing;
 mod standings;
 mod state;
 mod surrounded;
@@ -34,8 +33,6 @@ use crate::scene::Scene;
 pub(super) use forecast::{Costs, Outlook};
 pub(super) use forecast::{GoOn, Left, Round};
 pub(super) use look::PilotRequest;
-#[cfg(test)]
-pub(super) use look::Survey;
 use state::Pilot;
 use std::mem;
 

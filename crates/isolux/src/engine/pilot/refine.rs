@@ -6,7 +6,7 @@ use super::look::{PilotRequest, ReadFor, Survey};
 use super::state::{HEM, LEAST_ORDER, MAX_ROUNDS, MOST_STALLS, Pilot};
 use crate::ablation::without;
 use crate::engine::judge::Light;
-use crate::engine::mesh::{EdgeFalloffs, Refinement, WorstElements, refine_worst};
+use crate::engine::mesh::{Refinement, WorstElements, refine_worst};
 use std::time::Instant;
 
 /// The largest number of rounds in which the error may rise.
@@ -27,7 +27,7 @@ impl Pilot<'_> {
         go_on: &mut GoOn<'_>,
     ) -> Survey {
         let mut look = self.look(request, go_on);
-        if let Some(edge_m) = self.mesh.usual_edge_m.filter(|_| !look.is_smooth(request)) {
+        if let Some(edge_m) = self.mesh.usual_edge_m.filter(|_| !look.is_smooth()) {
             self.mesh.subdivision.bisect_to(edge_m, request.max_vertices);
             look = self.look(request, go_on);
         }
@@ -99,34 +99,15 @@ impl Pilot<'_> {
             self.costs.first.add(started.elapsed(), 0.0);
         }
         let worst = WorstElements::of(&errors);
-        let walls = EdgeFalloffs::default();
-        let mut look = Survey {
+        Survey {
             carriers,
             elements,
             errors,
-            walls,
             worst,
             left_by_fit,
             reference_lx,
             dim_m2: self.indirect.surroundings.dim_m2,
-            is_noisy: self.direct.noise.is_some(),
-        };
-        if look.is_smooth(request) && !without("edge-falloff") {
-            self.look_for_walls(&mut look, request, &luminances);
         }
-        look
-    }
-
-    /// Finds the walls at which surfaces end, and the errors of elements with light resolved towards these walls.
-    pub(super) fn look_for_walls(
-        &self,
-        look: &mut Survey,
-        request: &PilotRequest,
-        luminances: &[Option<f64>],
-    ) {
-        let open: Vec<bool> = luminances.iter().map(Option::is_some).collect();
-        let walls = EdgeFalloffs::of(self.scene, &self.mesh.subdivision, &open);
-        look.resolve(walls, &self.mesh.subdivision, luminances, request.target * look.reference_lx);
     }
 
     /// Bisects elements until they are good enough for these readers, or bisection makes no progress.

@@ -1,6 +1,6 @@
 //! The report of a round: work done, and the prediction of the remaining time.
 
-use super::forecast::{Excess, FINE, GoOn, Outlook, Round};
+use super::forecast::{Excess, GoOn, Outlook, Round};
 use super::look::{PilotRequest, Survey};
 use super::state::{FIRST_PART, Pilot};
 use crate::elements::Elements;
@@ -92,16 +92,11 @@ impl Pilot<'_> {
         let more = unmeasured.map_or(0.0, |look| self.more_for_direct(look, request, another));
         let for_bare = look.map_or(0.0, |look| self.rows_for_bare(look, request, more));
         let interpolation = look.map_or(request.target, |look| look.interpolation(request));
-        let measured = look.filter(|look| look.asks_for_means(request)).map_or(0.0, Survey::beset);
-        let is_right = measured > 0.0 || look.is_some_and(|look| look.walls.are_resolved());
-        let noise = noise_for(request.target, interpolation, is_right);
+        let noise = noise_for(request.target, interpolation);
         let wanted = trial.wanted(noise, reference_lx, BELIEVED_INCREMENTS);
         let rays = look.map_or(wanted, |_| self.mean_allotted(wanted));
         let of_one = f64::from(trial.rays_anywhere(noise, reference_lx, BELIEVED_INCREMENTS));
         let checks = check_points::count(carriers) as f64;
-        let smoothed = look
-            .filter(|look| !self.indirect.is_smoothed && look.is_smooth(request))
-            .map_or(1.0, Survey::smoothed);
         let outlook = Outlook {
             carriers: carriers as f64,
             gathered: self.indirect.gathered.iter().filter(|&&gathered| gathered).count() as f64,
@@ -111,28 +106,22 @@ impl Pilot<'_> {
             pilot_rays: mean_of(&self.mesh.rays),
             rays,
             checks,
-            check_rays: (checks + measured + for_bare) * of_one,
+            check_rays: (checks + for_bare) * of_one,
             trials: hybrid::rays_tried(carriers, rays),
             particles: self.particles(request.target, (vertices, reference_lx), carriers, rays),
             target: request.target,
             excess,
             before,
             usual: if look.is_none() && !self.direct.is_measured { self.usual() } else { None },
-            smoothed,
-            is_smooth: self.indirect.is_smoothed
-                || look.is_some_and(|look| look.is_smooth(request)),
             more_for_direct: more,
             measured_again: if self.direct.is_measured { 0.0 } else { MOVED },
             measured_each: !self.lighting.is_measured_once(),
         };
-        // Elements are made smooth once they are fine enough.
-        let made_smooth = if (excess, before) == FINE { smoothed - 1.0 } else { 0.0 };
         Round {
             receivers: vertices,
             rays: self.traced,
             receivers_then: outlook.vertices_then(),
-            step_s: self.costs.in_shadows(another.min(more))
-                + self.costs.direct.of(made_smooth * vertices as f64),
+            step_s: self.costs.in_shadows(another.min(more)),
             left: outlook.left(&self.costs),
         }
     }

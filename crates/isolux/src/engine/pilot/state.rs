@@ -156,8 +156,6 @@ pub(super) struct IndirectLight {
     pub(super) middles: HashMap<u32, Option<f64>>,
     /// Whether some of the latest middles lay in gaps that luminaires shine into.
     pub(super) sees_lit_gaps: bool,
-    /// Whether indirect light already has quadratic functions between carriers.
-    pub(super) is_smoothed: bool,
     pub(super) surroundings: Surroundings,
     /// Indirect light of the stored map where the elements for indirect light do not resolve it.
     pub(super) bare: Option<Bare>,
@@ -198,7 +196,7 @@ fn first_mesh(scene: &Scene, request: &PilotRequest) -> (Subdivision, f64, bool)
     let more = MORE_A_VERTEX * subdivision.vertex_count() as f64;
     let edge_m = (2.0 * area_m2 / (first + more)).sqrt();
     let start_m =
-        if request.has_means && !without("coarse-start") { edge_m / COARSE.sqrt() } else { edge_m };
+        if request.is_hybrid && !without("coarse-start") { edge_m / COARSE.sqrt() } else { edge_m };
     subdivision.bisect_to(start_m, request.max_vertices);
     if request.is_fitted && !without("room-scale") {
         bisect_to_scale(scene, &mut subdivision, request.max_vertices);
@@ -225,7 +223,7 @@ impl<'s> Pilot<'s> {
             spacing_m: if request.is_fitted { COARSEST * edge_m } else { 0.0 },
             rays,
             least_edge_m: request.least_edge_m.unwrap_or(LEAST_EDGE_SHARE * extent_m),
-            usual_edge_m: (request.has_means && !without("coarse-start")).then_some(edge_m),
+            usual_edge_m: (request.is_hybrid && !without("coarse-start")).then_some(edge_m),
             has_many_things,
             most_for_indirect_light: f64::INFINITY,
             is_full: false,

@@ -4,7 +4,7 @@ use super::*;
 use crate::engine::gather::{ControlVariate, Gatherer, Gathering, Unlit, lacking};
 use crate::engine::light::Lighting;
 use crate::engine::pilot::pilot;
-use crate::engine::{ExactSettings, MapReader, ProbePoint, SolveRequest, Watch, solve};
+use crate::engine::{MapReader, ProbePoint, SolveRequest, Watch, solve};
 use crate::map::Fresh;
 use crate::sampling::CosineHemisphere;
 use isolux_geometry::Normal;
@@ -115,7 +115,7 @@ fn light_settles_among_carriers_as_it_does_among_all() {
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let vertices = plan.light.guess.len();
-    assert!(2 * plan.mesh.waiting.count() >= vertices, "few carry light");
+    assert!(plan.mesh.waiting.count() > 0, "some carry none");
     let gathering = Gathering::of(&plan, &plan.light.direct);
     let rows: Vec<Gatherer> = (0..vertices)
         .map(|v| {
@@ -128,10 +128,10 @@ fn light_settles_among_carriers_as_it_does_among_all() {
         .collect();
     let operator = gathering.operator(&rows, |row| Key::new(4).with(row as u64));
     let black = vec![Rgb::BLACK; vertices];
-    let fit = FitAlone(&plan.mesh.fit);
+    let fit = &plan.mesh.fit;
     let (settled, left) =
-        operator.solve_or_give_up(&black, &black, (&plan.mesh.waiting, &fit), 1e-10);
-    let mut image = operator.apply(&fit.read(&settled));
+        operator.solve_or_give_up(&black, &black, (&plan.mesh.waiting, Some(fit)), 1e-10);
+    let mut image = operator.apply(&fit.apply(&settled));
     plan.mesh.waiting.fill(&mut image);
     let rms = |of: &dyn Fn(usize) -> f64| {
         ((0..vertices).map(|k| of(k) * of(k)).sum::<f64>() / vertices as f64).sqrt()
@@ -175,27 +175,4 @@ fn readers_gather_with_fewer_rays_before_walls_and_read_the_same() {
         assert!(apart.abs() < 4.5 * error, "{position:?}: {apart} +- {error}");
     }
     assert!(4 * rays < rays_of_raw, "{rays} {rays_of_raw}");
-}
-
-#[test]
-fn errors_told_beside_walls_are_those_of_the_strip_there() {
-    let scene = lit_room();
-    let request = SolveRequest { accuracy: Some(0.02), ..SolveRequest::default() };
-    let map = solve(&scene, &request, None, &mut |_| Watch::Continue).expect("it has light").map;
-    assert!(map.provenance.fresh.is_some_and(|fresh| fresh.in_gaps_alone), "readers interpolate");
-    let reader = MapReader::new(&scene, &map);
-    let (mut squared, mut told) = (0.0, 0.0);
-    for k in 0..24 {
-        // On the floor, a hundredth of its length from a wall.
-        let [along, _] = Sequence::new(Key::new(6)).pair(k, 0);
-        let position = Point::new(0.06, ROOM_M[1] * along, 0.0);
-        let at = ProbePoint { position, normal: Normal::Z };
-        let read = reader.probe(at).expect("a floor");
-        let exact = reader.estimate(at, &ExactSettings::default());
-        squared += (read.indirect_lx - exact.indirect_lx).luminance().powi(2);
-        told += read.interpolation_error_lx.powi(2);
-    }
-    // Of 24 places that are not independent.
-    let ratio = (squared / told).sqrt();
-    assert!((0.3..1.3).contains(&ratio), "{ratio}");
 }

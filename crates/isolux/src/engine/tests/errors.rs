@@ -24,7 +24,7 @@ pub(super) fn small_plan<'s>(scene: &'s Scene, lighting: &'s Lighting<'s>) -> Pl
         mesh_target: 1.0,
         seed: 1,
         is_fitted: true,
-        has_means: true,
+        is_hybrid: true,
         refines_caustics: true,
         max_vertices: 150,
         most_for_indirect_light: None,
@@ -102,33 +102,6 @@ fn check_points_stand_for_the_whole_surface() {
     );
     assert!((squared(&found, trusted) - share).abs() < 0.08, "{found:?} {share}");
     assert!((found.indirect_mean_lx - share).abs() < 0.08);
-}
-
-#[test]
-fn what_is_seen_of_errors_is_what_comes_from_afar() {
-    let scene = room();
-    let lighting = Lighting::new(&scene);
-    let plan = small_plan(&scene, &lighting);
-    let checks = check_points::draw(&plan, 0, Key::new(2));
-    let found = |error: &dyn Fn(&Check) -> f64| {
-        check_points::errors(
-            &check_sums(&checks, &plan, error, 0.0),
-            &checks,
-            (plan.trust(), Noise::Counted),
-        )
-    };
-    // One half is reflected, most of it seen from farther away than elements are long.
-    let even = found(&|_| 1.0);
-    assert!(even.seen_mean_lx > 0.2 && even.seen_mean_lx < 0.5, "{even:?}");
-    // The floor does not see itself, and all others do.
-    let on_floor = |c: &Check| if c.gatherer.surface.point.z < 1e-3 { 1.0 } else { 0.0 };
-    let floor = found(&on_floor);
-    assert!(floor.seen_mean_lx > 0.02 && floor.seen_mean_lx < 0.15, "{floor:?}");
-    assert!(floor.seen_spread_lx > 0.03 && floor.seen_spread_lx < 0.15, "{floor:?}");
-    // Errors that all differ are hardly seen.
-    let sign = |c: &Check| (c.gatherer.surface.point.x * 997.0).floor().rem_euclid(2.0) - 0.5;
-    let uneven = found(&sign);
-    assert!(uneven.seen_spread_lx < 0.03 && uneven.seen_mean_lx.abs() < 0.05, "{uneven:?}");
 }
 
 #[test]
@@ -237,15 +210,12 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
         total_lx: 4.0,
         indirect_mean_lx: -2.0,
         trusted_mean_lx: -2.0,
-        seen_mean_lx: -0.8,
-        seen_spread_lx: 0.0,
         direct_mean_lx: -100.0,
         untrusted_lx: 8.0,
         close: 0.25,
         given_up_lx: 0.0,
         noise_lx: None,
         over_expected: None,
-        over_in_strips: [None; 3],
     };
     let found = of_map(&plan, &sums(&plan, 25, 0.1), &errors).unwrap();
     // Some 150 vertices of 25 increments: the variance is known to sqrt(2 / 3600) = 2.4 %.
@@ -265,14 +235,6 @@ fn accuracy_is_relative_and_its_parts_add_in_squares() {
     let gathered = of_map(&plan, &sums(&plan, 25, 0.1), &untrusted).unwrap();
     assert!((gathered.bias - 0.02).abs() < 2e-4, "{gathered:?}");
     assert!((gathered.interpolated - found.interpolated).abs() < 1e-12);
-    // What is seen from afar may be more than the mean.
-    let seen = InterpolationErrors { seen_mean_lx: 1.5, ..untrusted };
-    let seen = of_map(&plan, &sums(&plan, 25, 0.1), &seen).unwrap();
-    assert!((seen.bias - 0.03).abs() < 2e-4, "{seen:?}");
-    // What differs from place to place has either sign.
-    let uneven = InterpolationErrors { seen_spread_lx: 1.5, ..untrusted };
-    let uneven = of_map(&plan, &sums(&plan, 25, 0.1), &uneven).unwrap();
-    assert!((uneven.bias - 0.02_f64.hypot(0.015)).abs() < 2e-4, "{uneven:?}");
 }
 
 #[test]

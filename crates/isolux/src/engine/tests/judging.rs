@@ -56,7 +56,7 @@ fn gathering_is_worth_while_where_interpolation_errs_by_more_than_the_map() {
     let points = check_points::draw(&plan, 0, Key::new(2));
     let is_worth_while = |error: f64, trust: Trust| {
         let sums = check_sums(&points, &plan, |_| error, 0.0);
-        check_points::is_gathering_worth_while(&sums, &points, trust, [1.0; 2])
+        check_points::is_gathering_worth_while(&sums, &points, trust, 1.0)
     };
     // Half as much again as the squared error of the map is allowed.
     assert!(!is_worth_while(1.22, plan.trust()));

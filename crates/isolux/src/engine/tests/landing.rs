@@ -29,8 +29,9 @@ fn vertices_tell_of_light_that_lands_on_a_hand_s_breadth() {
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let vertices = plan.mesh.elements.vertices().iter().zip(&plan.light.direct);
     let told_lm: f64 = vertices.map(|(vertex, lx)| vertex.area_m2 * lx.luminance()).sum();
-    // All of it lands; what particles leave undecided is a hundredth, and linear elements tell too much of a peak.
-    assert!((told_lm / FLUX_LM - 1.0).abs() < 0.02, "{told_lm}");
+    // All of it lands. Linear elements tell too much of a peak, by no more than the stored map may err.
+    let may_err = usual_request().mesh_target;
+    assert!((told_lm / FLUX_LM - 1.0).abs() < may_err, "{told_lm}");
     // Half of it on what no walls would tell.
     assert!(plan.light.backdrop.is_none());
 }

@@ -30,7 +30,6 @@ mod judging;
 mod kept;
 mod landing;
 pub(super) mod many;
-mod means;
 mod middles;
 mod mirrors;
 mod mixing;
@@ -47,9 +46,7 @@ mod sums;
 mod sunk;
 mod ties;
 mod trusting;
-mod walls;
 
-use crate::engine::gather::{Fitting, Reading};
 use crate::engine::mesh::Fit;
 use crate::engine::pilot::PilotRequest;
 use crate::engine::ray::{Dice, SurfacePoint};
@@ -116,20 +113,6 @@ pub(super) fn scene(
     Scene::assemble(parts).unwrap()
 }
 
-/// Rays read values of best fit.
-struct FitAlone<'f>(&'f Fit);
-
-impl Fitting for FitAlone<'_> {
-    fn read(&self, light: &[Rgb]) -> Vec<Rgb> {
-        self.0.apply(light)
-    }
-
-    fn held<'a>(&'a self, light: &[Rgb]) -> Reading<'a> {
-        let held = self.0.held(light);
-        Box::new(move |light| held.apply(light))
-    }
-}
-
 /// What a pilot is asked for a map of 2 %.
 fn usual_request() -> PilotRequest {
     PilotRequest {
@@ -138,7 +121,7 @@ fn usual_request() -> PilotRequest {
         mesh_target: 0.05,
         seed: 1,
         is_fitted: true,
-        has_means: true,
+        is_hybrid: true,
         refines_caustics: true,
         max_vertices: 1 << 20,
         most_for_indirect_light: None,

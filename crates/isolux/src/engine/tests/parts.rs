@@ -138,7 +138,7 @@ fn request(target: f64) -> PilotRequest {
         mesh_target: 1.0,
         seed: 1,
         is_fitted: true,
-        has_means: true,
+        is_hybrid: true,
         refines_caustics: true,
         max_vertices: 100_000,
         most_for_indirect_light: None,

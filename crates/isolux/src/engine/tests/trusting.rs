@@ -17,7 +17,6 @@ pub(super) fn errors(of: &[(f64, f64)]) -> Vec<LeafError> {
         excess: 0.0,
         is_beset: false,
         is_beset_afar: false,
-        is_at_wall: false,
         weight: 1.0,
         seen: 0.0,
     };
@@ -96,7 +95,6 @@ fn errors_at_vertices_bound_those_of_elements() {
         excess: 0.0,
         is_beset: false,
         is_beset_afar: false,
-        is_at_wall: false,
         weight: 1.0,
         seen: 0.0,
     };
@@ -136,7 +134,7 @@ fn elements_for_direct_light_do_not_pass_for_those_of_indirect_light() {
         mesh_target: 0.02,
         seed: 1,
         is_fitted: true,
-        has_means: true,
+        is_hybrid: true,
         refines_caustics: true,
         max_vertices: 20_000,
         most_for_indirect_light: Some(200),

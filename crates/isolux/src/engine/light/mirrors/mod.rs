@@ -6,4 +6,3 @@ pub(super) mod met;
 pub(super) mod planar;
 mod seams;
 pub(super) mod twins;
-pub(super) mod windows;

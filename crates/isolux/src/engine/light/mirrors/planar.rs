@@ -11,17 +11,6 @@ const MAX_PLANES: usize = 16;
 /// of the scene's extent: the rounding of `f32` coordinates.
 const PLANE_TOLERANCE: f64 = 1e-5;
 
-/// Widening of the ball around a mirror, in roundings of heights: twice the margin of
-/// [`Plane::crossing`] at right angles.
-const ROUNDINGS: f64 = 8.0;
-
-/// A ball.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Ball {
-    pub(crate) centre: Point,
-    pub(crate) radius_m: f64,
-}
-
 /// A plane with mirror triangles in it, seen from the reflecting side.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
@@ -72,12 +61,6 @@ impl Plane {
         within(self.low.x, at.x, self.high.x)
             && within(self.low.y, at.y, self.high.y)
             && within(self.low.z, at.z, self.high.z)
-    }
-
-    /// A ball around the mirror's triangles, widened by the rounding of heights.
-    pub(crate) fn ball(&self, tolerance_m: f64) -> Ball {
-        let radius_m = 0.5 * (self.high - self.low).length() + ROUNDINGS * tolerance_m;
-        Ball { centre: self.low.lerp(self.high, 0.5), radius_m }
     }
 
     fn include(&mut self, corners: &Triangle) {

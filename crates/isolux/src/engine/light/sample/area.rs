@@ -150,9 +150,6 @@ impl Lighting<'_> {
         samples: usize,
         [own, of_looks]: [Sequence; 2],
     ) -> Measured {
-        if !source.may_be_seen(emitter, at) {
-            return Measured { lx: Rgb::BLACK, variance: 0.0 };
-        }
         let of_each: [Rgb; REPLICATES as usize] = std::array::from_fn(|replicate| {
             let mut dice = Dice::new(own, replicate as u32);
             self.lit_by_area(source, emitter, triangles, at, samples, &mut dice)
@@ -186,9 +183,6 @@ impl Lighting<'_> {
         samples: usize,
         dice: &mut Dice,
     ) -> Rgb {
-        if !source.may_be_seen(emitter, at) {
-            return Rgb::BLACK;
-        }
         if let Some(view) = self.openings.view(source, at) {
             let seen = |direction| self.seen_along(&view, direction);
             return source.colour * view.steradians(samples, dice, seen);
@@ -259,7 +253,6 @@ mod tests {
             indices: (0..triangles.len() as u32).collect(),
             area_m2: 1.0,
             centre: Point::ORIGIN,
-            radius_m: 0.0,
             facets: Facets::of(triangles),
             clusters: Clusters::of(triangles),
         }

@@ -4,8 +4,7 @@ pub(super) mod facets;
 pub(super) mod triangle_lamps;
 pub(super) mod triangle_tree;
 
-use super::mirrors::planar::{Ball, Mirrors};
-use super::mirrors::windows::Windows;
+use super::mirrors::planar::Mirrors;
 use crate::engine::ray::SurfacePoint;
 use crate::photometry::IntensityDistribution;
 use crate::scene::{LuminaireKind, Scene};
@@ -37,8 +36,6 @@ pub(crate) struct Source {
     /// Colour of the luminaire times the reflectance of the chain.
     pub(crate) colour: Rgb,
     pub(crate) kind: SourceKind,
-    /// Windows through which an image is seen.
-    pub(crate) windows: Windows,
 }
 
 /// Shape of a source as seen from a receiver.
@@ -58,8 +55,6 @@ pub(crate) struct Emitter {
     pub(crate) indices: Vec<u32>,
     pub(crate) area_m2: f64,
     pub(crate) centre: Point,
-    /// Radius of a sphere about the centre that contains all of it, m.
-    pub(crate) radius_m: f64,
     /// Weights of the triangles for one sample.
     pub(crate) facets: Facets,
     /// Tree of the triangles for many samples, where there are many triangles.
@@ -147,12 +142,6 @@ impl Source {
     pub(crate) const fn is_area(&self) -> bool {
         matches!(self.kind, SourceKind::Area { .. })
     }
-
-    /// Whether some of an emitting surface may be seen through the mirrors; `false` is certain.
-    pub(crate) fn may_be_seen(&self, emitter: &Emitter, at: &SurfacePoint) -> bool {
-        let Emitter { centre, radius_m, .. } = *emitter;
-        self.windows.may_show(at.point, Ball { centre, radius_m })
-    }
 }
 
 /// Corners of a side of a triangle, counter-clockwise as seen from that side.
@@ -179,7 +168,6 @@ fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
             chain: Vec::new(),
             colour: luminaire.colour,
             kind,
-            windows: Windows::default(),
         }
     });
     let areas = scene.area_luminaires().iter().enumerate().map(|(index, area)| {
@@ -189,7 +177,6 @@ fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
             chain: Vec::new(),
             colour: area.luminance_cd_m2,
             kind: area_kind(area.triangles.clone(), triangles.collect()),
-            windows: Windows::default(),
         }
     });
     points.chain(areas)
@@ -209,9 +196,7 @@ fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
     let is_large = triangles.len() > TRIANGLES_A_SAMPLE;
     let clusters = if is_large { Clusters::of(&triangles) } else { Clusters::default() };
     let facets = Facets::of(&triangles);
-    let away_m = |corner: &Point| (*corner - centre).length();
-    let radius_m = triangles.iter().flatten().map(away_m).fold(0.0, f64::max);
-    let emitter = Emitter { indices, area_m2: sum_m2, centre, radius_m, facets, clusters };
+    let emitter = Emitter { indices, area_m2: sum_m2, centre, facets, clusters };
     SourceKind::Area { emitter, triangles }
 }
 
@@ -256,8 +241,7 @@ fn image(source: &Source, plane: u32, mirrors: &Mirrors) -> Option<Source> {
         }
     }?;
     let chain = source.chain.iter().copied().chain([plane]).collect();
-    let windows = source.windows.and(mirror, mirrors.tolerance_m);
-    Some(Source { luminaire: source.luminaire, chain, colour, kind, windows })
+    Some(Source { luminaire: source.luminaire, chain, colour, kind })
 }
 
 fn chain_reflectance(source: &Source, mirrors: &Mirrors) -> f64 {
@@ -327,7 +311,6 @@ pub(crate) fn importance(
     is_in_view: impl Fn(Target) -> bool,
 ) -> f64 {
     match &source.kind {
-        SourceKind::Area { emitter, .. } if !source.may_be_seen(emitter, at) => 0.0,
         SourceKind::Area { emitter, .. } => {
             let area_m2 = emitter.area_m2;
             let distance_squared = (emitter.centre - at.point).length_squared();

@@ -333,8 +333,7 @@ impl<'p, 's> Work<'p, 's> {
         }
         let is_enough = |accuracy: &Accuracy| {
             let error = libm::hypot(accuracy.statistical, accuracy.discretization);
-            let lx =
-                [goal, error.max(OF_GOAL * goal)].map(|share| share * self.plan.light.reference_lx);
+            let lx = error.max(OF_GOAL * goal) * self.plan.light.reference_lx;
             let Checks { sums, points, .. } = &self.checks;
             !check_points::is_gathering_worth_while(sums, points, judged.trust, lx)
         };
@@ -375,12 +374,10 @@ impl<'p, 's> Work<'p, 's> {
         let judged = self.is_believed().then(|| self.judged(Noise::Counted));
         let trust = judged.map_or(self.plan.trust(), |judged| judged.trust);
         let expected = self.plan.expected_lx(trust);
-        let strip = |k: usize| self.plan.strip(std::iter::once(k as u32));
-        let over =
-            |k: usize| judged.as_ref().map_or(1.0, |judged| judged.over_expected_in(strip(k)));
+        let over = judged.as_ref().map_or(1.0, Verdict::over_expected);
         let of_caustics = self.caustic_variances();
         let value = |(k, expected_lx): (usize, f64)| {
-            self.value(k, over(k) * expected_lx, of_caustics.get(k).map_or(0.0, |lx2| lx2.0[0]))
+            self.value(k, over * expected_lx, of_caustics.get(k).map_or(0.0, |lx2| lx2.0[0]))
         };
         let mut values: Vec<Option<Illuminance>> =
             expected.into_iter().enumerate().map(value).collect();
@@ -519,8 +516,7 @@ fn rays_and_particles(plan: &Plan, noise: f64, goal: f64, most: u32) -> (f64, u3
 /// The noise that a map may have that is to reach a goal. Elements made for a finer target, as those for the goal were seen to err by
 /// more than expected, will do so, too.
 fn noise(plan: &Plan, goal: f64, target: f64) -> f64 {
-    let right_in_the_mean = !plan.mesh.means.is_empty() || plan.mesh.resolves_walls;
-    noise_for(goal, plan.errors.interpolation * goal / target, right_in_the_mean)
+    noise_for(goal, plan.errors.interpolation * goal / target)
 }
 
 /// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,

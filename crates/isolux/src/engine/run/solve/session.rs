@@ -134,7 +134,7 @@ impl<'s, 'r> Run<'s, 'r> {
             mesh_target: self.request.mesh_accuracy,
             seed: self.request.seed,
             is_fitted: self.request.method != Method::Forward,
-            has_means: self.request.method == Method::Hybrid,
+            is_hybrid: self.request.method == Method::Hybrid,
             refines_caustics: self.request.method != Method::Radiosity
                 && !without("caustic-refinement"),
             max_vertices: self.request.most_receivers(),
