@@ -86,7 +86,7 @@ impl FluxLost {
                 Note::Warning,
                 format!(
                     "next to nothing of the light of {named} comes to a surface that carries the map{share}: \
-                     `isolux check` tells of luminaires that light nothing"
+                     `isolux check` names luminaires that light nothing"
                 ),
             );
         }

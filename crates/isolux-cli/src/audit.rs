@@ -25,7 +25,7 @@ pub(crate) fn run(flags: &AuditFlags, json: bool) -> Result<Outcome, Failure> {
     let audit = engine::audit(&scene, &map, &settings).ok_or_else(|| {
         let path = flags.map.display();
         Failure::bad_input(format!(
-            "{path}: there is nothing to audit: the map tells no error, knows next to none of its surfaces, or has no light; solve it with more time"
+            "{path}: there is nothing to audit: the map has no reported error, knows next to none of its surfaces, or has no light; solve it with more time"
         ))
     })?;
     let outcome = if audit.contradicts { Outcome::CheckFailed } else { Outcome::Done };
@@ -48,9 +48,9 @@ struct Report<'a> {
 /// An audit for people: the verdict, the table of checks, where readings and paths differ most.
 pub(crate) fn text(audit: &Audit) -> String {
     let mut all = vec![
-        ("error told", show_share(audit.told)),
-        ("error found", interval(&audit.error)),
-        ("  of the bare map", interval(&audit.interpolated)),
+        ("reported error", show_share(audit.told)),
+        ("audited error", interval(&audit.error)),
+        ("  of the interpolated map", interval(&audit.interpolated)),
         (
             "  in the mean",
             format!(
@@ -87,7 +87,9 @@ pub(crate) fn line(audit: &Audit) -> String {
             "{found}, by {places} places; {} would have been found",
             show_share(audit.would_find)
         ),
-        true => format!("{found}, by {places} places, where {} was told", show_share(audit.told)),
+        true => {
+            format!("{found}, by {places} places, where {} was reported", show_share(audit.told))
+        }
     }
 }
 
@@ -113,7 +115,7 @@ fn places(audit: &Audit) -> String {
 
 const fn verdict(audit: &Audit) -> &'static str {
     match audit.contradicts {
-        true => "contradicted: the error is larger than told",
+        true => "contradicted: the error is larger than reported",
         false => "not contradicted",
     }
 }
@@ -134,7 +136,7 @@ pub(crate) fn checks(audit: &Audit) -> String {
             !audit.contradicts,
         ),
         row(
-            "readings: true over told error",
+            "readings: true over reported error",
             ratio(&audit.readings),
             "not beyond 1.5 without doubt".to_owned(),
             audit.readings.at_least <= Audit::MOST_UNTOLD,

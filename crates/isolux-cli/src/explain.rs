@@ -76,9 +76,9 @@ fn method(method: Method) -> String {
         }
         Method::Radiosity => {
             "Direct light is evaluated at every receiver. Then the patch with most light still to send \
-             shoots it to all receivers, over form factors in closed form whose visibility is told \
+             shoots it to all receivers, over form factors in closed form whose visibility is tested \
              by rays, until little is left; light by planar mirrors comes from their images, by gloss \
-             and glass along rays. Light gathered afresh at check points tells the error."
+             and glass along rays. Light gathered afresh at test points gives the error."
         }
     }
     .to_owned()
@@ -127,7 +127,7 @@ fn limits(request: &SolveRequest) -> Vec<String> {
             by("--unshot", set.unshot.is_some())
         ),
         format!(
-            "Check points gather {} rays each, eight times, over the finished map: what they find \
+            "Test points gather {} rays each, eight times, over the finished map: what they find \
              different is the error that the run stops at.",
             limits.check_rays
         ),

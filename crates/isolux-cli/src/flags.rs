@@ -67,6 +67,30 @@ pub(crate) enum Command {
     Scene(SceneFlags),
     /// Solve a real interior and draw it, from nothing
     Demo(DemoFlags),
+    /// Print the completions of a shell, to be sourced by it
+    Completions(CompletionsFlags),
+    /// Write manual pages
+    Man(ManFlags),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux completions bash > ~/.local/share/bash-completion/completions/isolux
+  isolux completions zsh > ~/.zfunc/_isolux
+  isolux completions fish > ~/.config/fish/completions/isolux.fish")]
+pub(crate) struct CompletionsFlags {
+    /// The shell
+    pub shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux man -o ~/.local/share/man/man1
+  man isolux-solve")]
+pub(crate) struct ManFlags {
+    /// Folder for the pages
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -105,7 +129,7 @@ pub(crate) struct ProbeFlags {
     /// Estimate each point afresh instead of interpolating the indirect light of the map
     #[arg(long, conflicts_with = "interpolated")]
     pub exact: bool,
-    /// Interpolate direct light, too: what a viewer of the bare map shows
+    /// Interpolate direct light, too: the interpolated map, as a viewer shows it
     #[arg(long)]
     pub interpolated: bool,
     /// Paths to trace at every point of a scene, at least 32 [default: 16384]; four times as many
@@ -124,8 +148,8 @@ pub(crate) struct ProbeFlags {
 
 Places are drawn on the surfaces, a quarter of them where trouble is likely (small surfaces, edges, beside things, near \
 luminaires, dim places). The map is read there as `probe` reads it, and the illuminance is estimated afresh by complete paths, which know no \
-map. Squared differences, less the noise of the paths, tell the true error with an interval of 95 %. Exit code 1 where the error \
-that the map tells is contradicted, which happens to a true one once in a thousand times at most.")]
+map. Squared differences, less the noise of the paths, give the true error with an interval of 95 %. Exit code 1 where the \
+reported error is contradicted, which happens to a right one once in a thousand times at most.")]
 pub(crate) struct AuditFlags {
     /// The map (.glb)
     #[arg(value_name = "MAP")]

@@ -264,7 +264,7 @@ impl Baked {
         let map = output.path().display();
         let text = format!(
             "{map}: {coarse} of {known} texels are read coarsely, as the time was up: indirect light as the map interpolates it, or \
-             no more than a few shadow rays, which their standard errors tell; the same command with --resume and more time, or \
+             no more than a few shadow rays, which their standard errors show; the same command with --resume and more time, or \
              `isolux export {map} --layout texels -o FILE.glb`, reads them all in full"
         );
         note(Note::Warning, text);

@@ -48,6 +48,7 @@ mod request;
 mod saved_run;
 mod scene;
 mod serving;
+mod shell;
 mod shown;
 mod solve;
 mod solving;
@@ -102,5 +103,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Demo(flags) => demo::run(flags, json),
         Command::Mix(flags) => mix::run(flags, json),
         Command::Info(flags) => info::run(flags, json),
+        Command::Completions(flags) => shell::completions(flags),
+        Command::Man(flags) => shell::man(flags, json),
     })
 }

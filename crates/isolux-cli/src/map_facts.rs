@@ -19,7 +19,10 @@ pub(crate) fn of(
         ("error", share(from.accuracy.map(|accuracy| accuracy.reached))),
         ("error asked for", format!("{target}, {reached}")),
         ("error audited", from.audit.as_ref().map_or("not audited".to_owned(), audit::line)),
-        ("error of the bare map", share(from.accuracy.map(|accuracy| accuracy.interpolated))),
+        (
+            "error of the interpolated map",
+            share(from.accuracy.map(|accuracy| accuracy.interpolated)),
+        ),
         ("increments", from.increments.to_string()),
         ("rays", show_count(from.rays as f64)),
         ("receivers", format!("{receivers}, {unknown} of them unknown")),

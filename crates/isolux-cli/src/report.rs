@@ -116,7 +116,7 @@ impl Report {
             ("  from interpolation", share(self.accuracy_discretization)),
             ("  from lookups and light given up", share(self.accuracy_bias)),
             ("  audited", self.audit.as_ref().map_or("no".to_owned(), audit::line)),
-            ("error of the bare map", share(self.accuracy_interpolated)),
+            ("error of the interpolated map", share(self.accuracy_interpolated)),
             ("time", show_seconds(self.time_s)),
             ("receivers", self.receivers.to_string()),
             ("increments", self.increments.to_string()),

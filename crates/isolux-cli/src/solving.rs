@@ -84,7 +84,7 @@ fn tell_of_end(solved: &Solved, request: &SolveRequest) {
             return note(Note::Warning, what);
         }
         (None, _) if ends_itself => {
-            "how good the map is cannot be told: light on paths that were given up, among mirrors or surfaces that \
+            "the error of the map is not known: light on paths that were given up, among mirrors or surfaces that \
              absorb next to nothing, may be more than all that came to a surface; `isolux check` names luminaires that \
              light nothing, and materials whose reflectance is to be lowered"
                 .to_owned()
@@ -126,8 +126,8 @@ fn tell_of_audit(map: &IlluminationMap) {
     note(
         Note::Warning,
         format!(
-            "the map is not as good as it was told: complete paths that know nothing of it find {found} where {told} was \
-             told{where_}; `isolux audit` tells more"
+            "the map is not as good as reported: complete paths that know nothing of it find {found} where {told} was \
+             reported{where_}; `isolux audit` shows more"
         ),
     );
 }
@@ -155,7 +155,7 @@ fn tell_of_bare_map(map: &IlluminationMap, hoped: f64) {
     note(
         Note::Info,
         format!(
-            "the bare map, as viewers of the file see it, errs by {found}, more than the {hoped} of --mesh-accuracy: \
+            "the interpolated map, as viewers of the file see it, errs by {found}, more than the {hoped} of --mesh-accuracy: \
              shadows are finer than its elements; probe, grid and render evaluate direct light afresh"
         ),
     );
@@ -171,7 +171,7 @@ fn tell_of_hot_spots(map: &IlluminationMap) {
         format!(
             "{} of all light lies on a hundredth of the surface, up to {} lx at ({:.3}, {:.3}, {:.3}): the error of the \
              scene is relative to that, too, and elsewhere, where there are {} lx in the mean, errors are larger beside \
-             the light; readings tell their own: ask for a finer accuracy if those are too large",
+             the light; readings have errors of their own: ask for a finer accuracy if those are too large",
             show_share(share),
             significant(lx, 3),
             at.x,

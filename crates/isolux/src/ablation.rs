@@ -1,17 +1,17 @@
-//! What every mechanism of the engines is worth: runs without one of them.
+//! Ablation: runs without one mechanism of the engines, to measure its effect.
 //!
-//! Built with the feature `ablation`, and with that alone, a run leaves out the mechanisms that the environment variable
-//! `ISOLUX_WITHOUT` names, with commas between. `cargo xtask bench ablation` builds so and compares. Built without the feature,
-//! [`without`] is `false` and costs nothing.
+//! The feature `ablation` is for this purpose alone. With it, a run leaves out the mechanisms named in the environment
+//! variable `ISOLUX_WITHOUT`, separated by commas. `cargo xtask bench ablation` builds the feature and compares the
+//! runs. Without the feature, [`without`] is `false` and costs nothing.
 
-/// Whether a mechanism is left out.
+/// Whether a mechanism is left out: never without the feature `ablation`.
 #[cfg(not(feature = "ablation"))]
 #[inline(always)]
 pub(crate) const fn without(_mechanism: &str) -> bool {
     false
 }
 
-/// Whether a mechanism is left out.
+/// Whether a mechanism is left out: whether `ISOLUX_WITHOUT` names it.
 #[cfg(feature = "ablation")]
 pub(crate) fn without(mechanism: &str) -> bool {
     use std::sync::LazyLock;

@@ -35,7 +35,7 @@ pub(crate) fn run(root: &Path, arguments: &[&str]) -> Result<String, String> {
     let mut rows: Map<String, Value> = serde_json::from_slice(&text).unwrap_or_default();
     for scene in &scenes {
         eprintln!("{}: {}", scene.name, scene.kind);
-        let input = exported::files(root, &folder, scene, flags.isolux.is_some())?;
+        let input = exported::files(&folder, &isolux, scene)?;
         let truth = paths::truth(&folder, &isolux, scene, &input, &flags)?;
         for mechanism in std::iter::once(None).chain(mechanisms.iter().map(|m| Some(m.as_str()))) {
             for method in &flags.methods {

@@ -1,12 +1,17 @@
 //! The scenes, their places and their files.
 
-use crate::peers::{cargo, wait};
+use super::bounded::Isolux;
+use crate::peers::cargo;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
+use std::time::Duration;
 
 /// Places by area, and in every other stratum.
 const PLACES: [&str; 2] = ["400", "40"];
+
+/// The time to write the files of a scene; most take a tenth of a second.
+const MOST_TO_WRITE: Duration = Duration::from_secs(60);
 
 /// A scene to be judged.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,19 +77,15 @@ fn scene(value: &Value) -> Option<TruthScene> {
 }
 
 /// Writes a scene as files; its `scene.toml`.
-pub(super) fn files(
-    root: &Path,
-    folder: &Path,
-    scene: &TruthScene,
-    is_given: bool,
-) -> Result<PathBuf, String> {
+pub(super) fn files(folder: &Path, isolux: &Isolux, scene: &TruthScene) -> Result<PathBuf, String> {
     let folder = folder.join("scenes").join(format!("{}-{}", scene.name, &scene.hash[..12]));
     let file = folder.join("scene.toml");
     if !file.exists() {
-        let mut command = cargo();
-        command.args(["run", "--quiet", "-p", "isolux-cli"]).args(profile(is_given));
-        command.args(["--", "scene", &format!("builtin:{}", scene.name), "-o"]).arg(&folder);
-        wait(command.current_dir(root).stdout(Stdio::null()), "isolux scene")?;
+        let words = ["scene", &format!("builtin:{}", scene.name), "-o", &folder.to_string_lossy()];
+        let ended = isolux.run(&words.map(str::to_owned), MOST_TO_WRITE)?;
+        if ended.code != Some(0) {
+            return Err(format!("isolux scene: {}", ended.last_words));
+        }
     }
     Ok(file)
 }

@@ -67,7 +67,7 @@ fn of_scene(
     flags: &Flags,
 ) -> Vec<Value> {
     eprintln!("{}: {}", scene.name, scene.kind);
-    let truth = exported::files(root, folder, scene, flags.isolux.is_some())
+    let truth = exported::files(folder, isolux, scene)
         .and_then(|file| Ok((paths::truth(folder, isolux, scene, &file, flags)?, file)));
     let mut rows = Vec::new();
     for method in &flags.methods {

@@ -67,7 +67,7 @@ impl Light {
                 format!("about {lx} lx on {lit} m2 that light comes to{beside}")
             }
             (None, true) => {
-                "not told: if light comes, then by glass, gloss or curved mirrors".to_owned()
+                "not known: if light comes, then by glass, gloss or curved mirrors".to_owned()
             }
             (None, false) => "no place is lit".to_owned(),
         }

@@ -31,7 +31,7 @@ pub(crate) struct RenderFlags {
     /// Pixels across and down, without the legend of false colours
     #[arg(long, value_name = "WxH", value_parser = quantity::pixels, default_value = "1280x720")]
     pub size: (u32, u32),
-    /// Read the bare map, all light interpolated: fast, and what a viewer of it shows
+    /// Read the interpolated map: fast, and what a viewer shows
     #[arg(long)]
     pub interpolated: bool,
     /// With --interpolated: time to look for finer shadows first, as `view` and `export` of .html do
@@ -155,7 +155,7 @@ pub(crate) struct ServerFlags {
   isolux export map.glb -o lightmap.exr
 
 The extension tells the kind: .html is the walk-through of `view` in one file, which opens without a server and without a network; .wrl (VRML97) and .x3d to walk through, colours unlit; .vtu for ParaView; .ply; .csv with a row \
-a vertex. Values are those of the bare map at its vertices. The map itself is a .glb that viewers of glTF open.
+a vertex. Values are those of the interpolated map at its vertices. The map itself is a .glb that viewers of glTF open.
 
 A .glb has colours of vertices under unlit materials, without the map: luminance in proportion, as an engine shows it, with the \
 luminance of white printed and noted in the file (--target viewer: tone mapped).

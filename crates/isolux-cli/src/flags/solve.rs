@@ -28,7 +28,7 @@ pub(crate) struct SolveFlags {
     #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "1%",
           conflicts_with = "quality")]
     pub accuracy: f64,
-    /// Subdivide until the bare interpolated map is this good (best effort)
+    /// Subdivide until the interpolated map is this good (best effort)
     #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "5%")]
     pub mesh_accuracy: f64,
     /// A name for an accuracy

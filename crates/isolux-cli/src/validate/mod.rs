@@ -40,7 +40,7 @@ pub(crate) fn run(flags: &ValidateFlags, json: bool) -> Result<Outcome, Failure>
     if done < all {
         note(
             Note::Warning,
-            format!("interrupted: {done} of {all} runs are done, and only they are told"),
+            format!("interrupted: {done} of {all} runs are done, and only they are reported"),
         );
     }
     if json {

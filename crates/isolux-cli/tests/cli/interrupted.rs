@@ -204,5 +204,5 @@ fn an_interrupted_validation_tells_what_is_done() {
     assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
     let said: String = lines.collect();
     assert_eq!(child.wait().unwrap().code(), Some(130), "{said}");
-    assert!(said.contains("of 200 runs are done, and only they are told"), "{said}");
+    assert!(said.contains("of 200 runs are done, and only they are reported"), "{said}");
 }

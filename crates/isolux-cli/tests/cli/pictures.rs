@@ -9,7 +9,7 @@ fn solved() -> Home {
     home
 }
 
-/// Draws a small picture of the bare map.
+/// Draws a small picture of the interpolated map.
 fn draw(home: &Home, flags: &[&str]) -> Ran {
     let mut all = vec!["render", "m.glb", "-o", "v.png", "--size", "16x12", "--interpolated"];
     all.extend(flags);

@@ -143,7 +143,7 @@ fn probe_of_the_bare_map_interpolates_direct_light_too() {
     let exact_lx = 50_000.0 * 5.0 / (1.1_f64.powi(2) + 2.3_f64.powi(2) + 25.0).powf(1.5);
     let (fresh_lx, bare_lx) = (direct_lx(&[]), direct_lx(&["--interpolated"]));
     assert!((fresh_lx / exact_lx - 1.0).abs() < 1e-4, "{fresh_lx} for {exact_lx}");
-    // A draft promises 5 % of the bare map, too.
+    // A draft promises 5 % of the interpolated map, too.
     assert!(bare_lx != fresh_lx && (bare_lx / exact_lx - 1.0).abs() < 0.2, "{bare_lx}");
     let refused = home.run(&["probe", "cube.glb", "--points", "-", "--paths", "64"]);
     assert_eq!(refused.code, 2, "{refused:?}");

@@ -1,9 +1,9 @@
-//! What the pilot has fixed: the elements, and all that increments over them share.
+//! The plan: the elements that the pilot has fixed, and all data that increments over them share.
 
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{
-    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering,
-    Over, RayTrial, areas_m2, known_at,
+    BrightSurfaces, ControlVariate, DirectAtEnds, Gatherer, Gathering, Over, RayTrial, areas_m2,
+    known_at,
 };
 use crate::engine::light::Lighting;
 use crate::engine::mesh::{Carriers, Fit, LeafError, Trust, TrustLevels, Waiting, trust};
@@ -15,7 +15,7 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use std::sync::Arc;
 
-/// What the pilot has fixed.
+/// The result of the pilot.
 pub(super) struct Plan<'s> {
     pub(super) scene: &'s Scene,
     pub(super) lighting: &'s Lighting<'s>,
@@ -23,89 +23,93 @@ pub(super) struct Plan<'s> {
     pub(super) light: PlannedLight,
     pub(super) errors: PlannedErrors,
     pub(super) tried: PlannedNoise,
-    /// Whether there was time for all of it.
+    /// Whether there was time for all steps of the pilot.
     pub(super) is_whole: bool,
-    /// Whether elements for a higher accuracy would be about the same: there are as many as there may be.
+    /// Whether elements for a higher accuracy would be about the same, since their number is at its limits.
     pub(super) is_finest: bool,
-    /// Rays that the pilot has traced.
+    /// The number of rays that the pilot has traced.
     pub(super) rays: u64,
 }
 
-/// The elements, and how light is interpolated over them.
+/// The elements, and the interpolation of light over them.
 pub(super) struct PlannedMesh {
     pub(super) elements: Elements,
-    /// The elements that indirect light lives on, by node, as triangles of the scene.
+    /// The elements of indirect light, by node, as triangles of the scene.
     pub(super) subdivision: Subdivision,
-    /// Indirect light lives on the first so many vertices and the nodes below `level`.
+    /// The number of vertices of indirect light, which are the first ones.
     pub(super) indirect_vertices: usize,
+    /// The number of nodes of indirect light, which are the first ones.
     pub(super) level: u32,
-    /// The vertices that carry it; the others are interpolated.
+    /// The vertices that carry indirect light; the others are interpolated from them.
     pub(super) carriers: Carriers,
+    /// The vertices that do not carry it, with the carriers that they are interpolated from.
     pub(super) waiting: Waiting,
     /// The receivers, by vertex.
     pub(super) gatherers: Vec<Gatherer>,
-    /// Vertices beyond those for indirect light that gather all the same, in order, for the stored map alone.
+    /// Vertices beyond those of indirect light that also gather, in ascending order, for the stored map alone.
     pub(super) gathering_for_bare: Vec<u32>,
-    /// By vertex, what it stands for; none where it is hidden in other geometry.
+    /// The standing of each vertex; `None` where it is hidden in other geometry.
     pub(super) standings: Vec<Option<Standing>>,
-    /// Elements that something stands across.
+    /// The barriers across elements.
     pub(super) cuts: Barriers,
-    /// From indirect light at the vertices to the function that fits best.
+    /// The fit of piecewise linear functions to indirect light.
     pub(super) fit: Fit,
 }
 
-/// Light as the pilot knows it.
+/// The light known to the pilot.
 pub(super) struct PlannedLight {
-    /// Direct light at the vertices; exact if the lighting is.
+    /// Direct light at the vertices, lx; exact if the lighting is.
     pub(super) direct: Vec<Rgb>,
-    /// The variance of its noise, where it is measured once for all increments, lx2; else zero.
+    /// The variance of direct light at the vertices, lx2, if it is measured once for all increments; zero otherwise.
     pub(super) direct_variance: Vec<f64>,
-    /// First guess of the indirect light.
+    /// Indirect light at the vertices as estimated by the pilot, lx: the first guess of each fixed point.
     pub(super) guess: Vec<Rgb>,
-    /// Surfaces that are far brighter than all others.
+    /// Surfaces that direct light makes far brighter than all others.
     pub(super) bright: Option<Arc<BrightSurfaces>>,
-    /// Large plane walls: the control variate of gathering.
+    /// The control variate of walls for gathering.
     pub(super) backdrop: Option<ControlVariate>,
-    /// Root mean square of the photometric illuminance over all known surfaces, lx.
+    /// The reference of relative errors, lx: the root mean square of the photometric illuminance over all known
+    /// surfaces, or twice its mean over the lit ones if that is less.
     pub(super) reference_lx: f64,
-    /// Mean reflectance of the diffuse surfaces.
+    /// The mean reflectance of the diffuse surfaces.
     pub(super) mean_reflectance: f64,
 }
 
-/// What interpolation is expected to err by.
+/// The expected interpolation errors.
 pub(super) struct PlannedErrors {
-    /// Errors of the elements that indirect light lives on.
+    /// The errors of the elements of indirect light.
     pub(super) of_elements: Vec<LeafError>,
-    /// Errors up to which elements may be trusted.
+    /// The levels of trust: the errors of elements up to which readers interpolate.
     pub(super) trusts: TrustLevels,
-    /// What interpolating indirect light errs by where readers trust it, of all light.
+    /// The interpolation error where readers trust the map, caustics included, as a share of all light.
     pub(super) interpolation: f64,
-    /// What interpolating caustics errs by, root mean square over the surface, lx.
+    /// The interpolation error of caustics, root mean square over the surface, lx.
     pub(super) caustics_lx: f64,
-    /// Elements that increments check for that, and the rest of the squared error, lx2.
+    /// The elements in which increments measure the error of caustics.
     pub(super) parts: ElementParts,
+    /// The mean squared error of caustics in all other elements over the surface, lx2.
     pub(super) caustics_beside_lx2: f64,
 }
 
-/// What trials with few rays and particles have told of noise.
+/// The noise measured by trials with few rays and particles.
 pub(super) struct PlannedNoise {
-    /// How noisy gathered light is.
+    /// The noise of gathered light.
     pub(super) trial: RayTrial,
-    /// How noisy caustics are.
+    /// The noise of caustics.
     pub(super) caustic_noise: CausticNoise,
-    /// Where particles for them are sent, if not anywhere.
+    /// The distribution of particles for caustics, if they are aimed.
     pub(super) aim: Option<Aim>,
 }
 
 impl Plan<'_> {
-    /// How many vertices there are, for indirect light and in all, and how many carry light: plans of one scene that
-    /// agree in these are the same, as elements are only ever bisected further.
+    /// The numbers of vertices for indirect light, of all vertices, and of carriers. Plans of one scene that agree in
+    /// these numbers are the same, since elements are only ever bisected further.
     pub(super) fn size(&self) -> [usize; 3] {
         let all = self.mesh.elements.vertices().len();
         [self.mesh.indirect_vertices, all, self.mesh.carriers.count(all)]
     }
 
-    /// Surface that the light of every vertex for indirect light stands for, m2; none where it is hidden.
+    /// The area that the light of each vertex for indirect light stands for, m2; zero for hidden vertices.
     pub(super) fn areas_m2(&self) -> Vec<f64> {
         let mut areas_m2 = areas_m2(&self.mesh.subdivision, &self.mesh.carriers);
         let hidden = areas_m2.iter_mut().zip(&self.mesh.standings).filter(|(_, of)| of.is_none());
@@ -113,29 +117,31 @@ impl Plan<'_> {
         areas_m2
     }
 
-    /// Particles of each of so many increments for a target, where they are not weighed against rays.
+    /// The number of particles in each of `increments` increments for a target, if they do not share the noise with
+    /// rays.
     pub(super) fn particles(&self, target: f64, increments: u64) -> u32 {
         let (vertices, goal) = (self.mesh.indirect_vertices, (target, self.light.reference_lx));
         let wanted = self.tried.caustic_noise.particles(vertices, goal, increments, LEAST_SHARE);
         wanted.max(flights::particles(vertices))
     }
 
-    /// Area of all elements, m2.
+    /// The area of all elements, m2.
     pub(super) fn area_m2(&self) -> f64 {
         self.errors.of_elements.iter().map(|e| e.area_m2).sum()
     }
 
-    /// What readers trust, unless check points tell otherwise.
+    /// The trust of readers unless check points show otherwise.
     pub(super) const fn trust(&self) -> Trust {
         self.errors.trusts.foreseen()
     }
 
-    /// What interpolation errs by in the elements at the vertices, lx, told to readers who trust them so far.
+    /// The expected interpolation error at each vertex, lx, for readers with this trust.
     pub(super) fn expected_lx(&self, trust: Trust) -> Vec<f64> {
         trust::at_vertices(&self.mesh.elements, &self.errors.of_elements, trust)
     }
 
-    /// What a place reads of values at vertices, nodes from number `level` on left out.
+    /// The values at vertices, interpolated at a place; black where they are not known. Nodes from number `level` on
+    /// are left out.
     pub(super) fn read(&self, level: u32, values: &[Rgb], at: &SurfacePoint) -> Rgb {
         let corners = known_at(&self.mesh.elements, level, &self.mesh.standings, at);
         corners.map_or(Rgb::BLACK, |corners| {
@@ -143,7 +149,7 @@ impl Plan<'_> {
         })
     }
 
-    /// Direct light, for what is lacking between vertices.
+    /// A map of direct light with these values at the vertices, lx, for its residual between them.
     pub(super) fn over<'a>(&'a self, direct: &'a [Rgb]) -> Over<'a> {
         Over {
             scene: self.scene,
@@ -155,12 +161,12 @@ impl Plan<'_> {
         }
     }
 
-    /// Whether a vertex lies in the open.
+    /// Whether a vertex is open.
     pub(super) fn is_open(&self, vertex: u32) -> bool {
         self.mesh.standings[vertex as usize] == Some(Standing::Open)
     }
 
-    /// The light that is expected at the vertices.
+    /// The expected light at the vertices, lx.
     pub(super) fn expected(&self) -> Vec<Rgb> {
         let indirect = self.prolongate(&self.light.guess);
         self.light
@@ -171,12 +177,14 @@ impl Plan<'_> {
             .collect()
     }
 
-    /// Values for the vertices that only direct light needs: interpolated from their parents.
+    /// The values at all vertices, from those for indirect light. Vertices made for direct light alone are interpolated
+    /// from the ends of their edges.
     pub(super) fn prolongate(&self, coarse: &[Rgb]) -> Vec<Rgb> {
         self.prolongate_beside(coarse, &[])
     }
 
-    /// The same beside what those have that gather for the bare map, if that is given.
+    /// The values at all vertices as from [`Plan::prolongate`]. Vertices that gather for the stored map have the values
+    /// `own`, unless these are empty.
     pub(super) fn prolongate_beside(&self, coarse: &[Rgb], own: &[Rgb]) -> Vec<Rgb> {
         let mut own = self.mesh.gathering_for_bare.iter().zip(own).peekable();
         let mut values = coarse.to_vec();
@@ -187,11 +195,11 @@ impl Plan<'_> {
             }
             let ends = vertex.parents.expect("vertices beyond the input are made by bisection");
             let of = ends.map(|end| self.mesh.standings[end as usize]);
-            // From what stands as it does, if it can be, else as elements do.
+            // Ends of the vertex's own standing are read; without any, those of the highest standing, as in elements.
             let own = self.mesh.standings[k].filter(|own| of.contains(&Some(*own)));
             let read = own.or(Standing::highest(of));
             let reads = |e: usize| read.is_some() && of[e] == read;
-            // What stands between keeps light of the other end away.
+            // Beside a barrier, only the end that the vertex sees is read, if it has the standing to be read.
             let seen = self
                 .mesh
                 .cuts
@@ -206,7 +214,7 @@ impl Plan<'_> {
 }
 
 impl<'a> Gathering<'a> {
-    /// Over what a plan has fixed; rays that read direct light from the map read these values.
+    /// The gathering over a plan. If rays read direct light from the map, they read these values, lx.
     pub(super) fn of(plan: &'a Plan<'_>, direct: &'a [Rgb]) -> Self {
         Self {
             scene: plan.scene,

@@ -1,41 +1,41 @@
-//! One value of a map.
+//! The values of a map.
 
 use super::standing::Standing;
 use crate::units::Rgb;
 
-/// The illuminance at a place, in lux, with its uncertainty.
+/// The illuminance at a place, lx, with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Illuminance {
-    /// What arrives from luminaires without a diffuse reflection (mirror images included), lx.
+    /// Light from luminaires without diffuse reflection, mirror images included, lx.
     pub direct_lx: Rgb,
-    /// The share of `direct_lx` that only particles can find (through curved mirrors, glass, gloss)
-    /// and that no reader can evaluate afresh, lx.
+    /// The part of `direct_lx` that only particles find, through curved mirrors, glass and gloss, lx. Readers cannot
+    /// evaluate it afresh.
     pub caustic_lx: Rgb,
-    /// What arrives after at least one diffuse reflection, lx.
+    /// Light after at least one diffuse reflection, lx.
     pub indirect_lx: Rgb,
-    /// Standard error of the photometric total, lx.
+    /// The standard error of the photometric total, lx.
     pub standard_error_lx: f64,
-    /// Standard error of the photometric indirect part and the caustics, without the rest of the
-    /// direct light, lx.
+    /// The standard error of the photometric sum of indirect light and caustics, lx. Other direct light does not count.
     pub indirect_standard_error_lx: f64,
-    /// What of that is noise of the surfaces that light comes from, lx: readings nearby have it in common, however many rays they
-    /// take. Zero where it is not known.
+    /// The part of `indirect_standard_error_lx` due to noise of the surfaces that the light comes from, lx. Nearby
+    /// readings share it, whatever their number of rays. Zero where it is not known.
     pub common_error_lx: f64,
-    /// In a map: what interpolating the indirect part about a vertex is expected to err by, root mean
-    /// square over the worst element at it, lx. In a reading: what this one is expected to err by for
-    /// being interpolated, or for what rays gathered afresh have read close by.
+    /// The expected interpolation error of indirect light, root mean square, lx. In a map it is the error of the worst
+    /// element at the vertex. In a reading it is the error of that reading, from interpolation or from light that
+    /// gathering rays have read close by.
     pub interpolation_error_lx: f64,
-    /// In a reading: what it is expected to err by in common with its surroundings, for what rays got wrong that read the map, and
-    /// for light given up. Zero in a map, which tells that for the scene.
+    /// The expected error that a reading shares with its surroundings, lx. Its sources are errors of the map at the
+    /// ends of rays, and light of paths given up. Zero in a map, where `Accuracy::bias` states this error for the
+    /// scene.
     pub bias_lx: f64,
-    /// What the vertex, or the vertices read, stand for.
+    /// The standing of the vertex, or of the vertices read.
     pub standing: Standing,
-    /// Samples behind the value (rays gathered or particles received).
+    /// The number of samples behind the value: gathering rays, or one for each increment of particles.
     pub samples: u64,
 }
 
 impl Illuminance {
-    /// No light, known exactly.
+    /// The illuminance without any light, known exactly.
     pub const NOTHING: Self = Self {
         direct_lx: Rgb::BLACK,
         caustic_lx: Rgb::BLACK,
@@ -49,7 +49,7 @@ impl Illuminance {
         samples: 0,
     };
 
-    /// All of it times a factor, as of dimmed luminaires.
+    /// The illuminance scaled by a factor, as of dimmed luminaires.
     pub fn dimmed(self, factor: f64) -> Self {
         Self {
             direct_lx: self.direct_lx * factor,
@@ -64,7 +64,7 @@ impl Illuminance {
         }
     }
 
-    /// Direct plus indirect, lx.
+    /// The sum of direct and indirect light, lx.
     pub fn total_lx(&self) -> Rgb {
         self.direct_lx + self.indirect_lx
     }
@@ -74,9 +74,9 @@ impl Illuminance {
         self.total_lx().luminance()
     }
 
-    /// The weighted mean over the known values of the highest standing; `None` where none is known. Standard errors are
-    /// combined as of independent values, which the vertices of an element are, and what readings have in common as of one; the
-    /// interpolation error of an element is the least of its vertices, which count all elements about them.
+    /// The weighted mean of the known values of the highest standing; `None` if no value is known. Standard errors of
+    /// vertices are independent and add up in squares; shared errors add up linearly. The interpolation error of an
+    /// element is the least of its vertices, since each has the error of the worst element around it.
     pub fn mix<const N: usize>(parts: [(Option<Self>, f64); N]) -> Option<Self> {
         let standing = Standing::highest(parts.map(|(value, _)| value.map(|v| v.standing)))?;
         let known = || {
@@ -91,7 +91,7 @@ impl Illuminance {
             (1.0 / known().count().max(1) as f64, true)
         };
         let weighted = || known().map(|(v, w)| (v, if even { scale } else { w * scale }));
-        // What has no weight may have an error that nobody knows.
+        // A value without weight may have an unknown, infinite error.
         let root_sum = |f: &dyn Fn(&Self) -> f64| {
             let parts = weighted().filter(|&(_, w)| w != 0.0).map(|(v, w)| w * f(v));
             parts.map(|part| part * part).sum::<f64>().sqrt()

@@ -35,8 +35,8 @@ pub(super) fn section(study: &Study) -> Option<Section> {
 const HOW: &str = "The standard tests lighting programs by scenes whose illuminance can be derived. These cases follow its sections 5.2 to 5.14 [7]; rooms are \
                    its room of 4 m × 4 m × 3 m where that is known, and every right value is derived anew, in closed form or by quadrature. Each system is asked \
                    for 0.5 % and has a few seconds; other renderers make one good effort. An accuracy is that of a whole scene: dim places, as those that a bright ground \
-                   outside lights, may err by more, as their standard errors tell (every reading, below). Light that comes straight from lamps and skies is \
-                   read alike by all systems of isolux. “isolux validate --case NAME” judges every reading by what it tells.";
+                   outside lights, may err by more, as their standard errors show (every reading, below). Light that comes straight from lamps and skies is \
+                   read alike by all systems of isolux. “isolux validate --case NAME” judges every reading by its standard error.";
 
 /// The greatest relative difference of each.
 fn worst(all: &[Analytic], asked: &[System]) -> Table {
@@ -72,7 +72,7 @@ fn readings(all: &[Analytic], asked: &[System]) -> Table {
     };
     let systems = asked.iter().map(|system| numbers(system.title()));
     Table {
-        caption: "Illuminance, lx, with standard errors as told".to_owned(),
+        caption: "Illuminance, lx, with standard errors as reported".to_owned(),
         columns: [numbers("Place"), numbers("Right value")].into_iter().chain(systems).collect(),
         groups: all.iter().map(group).collect(),
     }

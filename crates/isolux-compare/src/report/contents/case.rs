@@ -42,8 +42,8 @@ fn about(case: &CaseStudy) -> String {
     };
     let reference = case.reference.as_ref().map(|of| {
         let told = of.told.map_or_else(
-            || "tells no error".to_owned(),
-            |told| format!("tells an error of {}", percent_sign(told)),
+            || "has no reported error".to_owned(),
+            |told| format!("has a reported error of {}", percent_sign(told)),
         );
         format!(
             " The map of the reference, hybrid with the same seed, took {} and {told}: pictures that differ from it by less may be as good or better.",

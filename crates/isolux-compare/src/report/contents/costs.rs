@@ -74,7 +74,7 @@ fn table(costs: &[Cost]) -> Table {
             number(cost.time_s),
         ]
     };
-    let columns = ["Triangles", "Luminaires", "Asked for, %", "Told error, %", "Took, s"];
+    let columns = ["Triangles", "Luminaires", "Asked for, %", "Reported error, %", "Took, s"];
     Table::plain(
         "Maps of variants of HALL",
         columns.map(numbers).to_vec(),

@@ -31,9 +31,10 @@ const EFFORT: Field<Point> =
 const TOOK: Field<Point> = field("Took, s", |p| number(p.time_s));
 const RAYS: Field<Point> = field("Rays", |p| known(p.rays, count));
 const RECEIVERS: Field<Point> = field("Receivers", |p| known(p.receivers, count));
-const TOLD: Field<Point> = field("Told error, %", |p| known(p.reported.error, percent));
+const TOLD: Field<Point> = field("Reported error, %", |p| known(p.reported.error, percent));
 const NOISE: Field<Point> = field("of it noise, %", |p| known(p.reported.noise, percent));
-const BARE: Field<Point> = field("Told of the bare map, %", |p| known(p.reported.bare, percent));
+const BARE: Field<Point> =
+    field("Reported error of the interpolated map, %", |p| known(p.reported.bare, percent));
 const LANDING: Field<Point> =
     field("Light landing over emitted", |p| known(p.landing, |of| fixed(of, OF_LANDING)));
 const UNSHOT: Field<Point> = field("Not yet shot, %", |p| known(p.reported.unshot, percent));
@@ -56,12 +57,12 @@ const GRID: Field<Point> = field("over a grid, %", |p| known(measured(p), |of| p
 const COVERED: Field<Point> =
     field("Intervals that hold, %", |p| known(measured(p).and_then(|of| of.covered), percent));
 const SHARPNESS: Field<Point> =
-    field("Told over true", |p| known(measured(p).and_then(|of| of.told_over_true), number));
+    field("Reported over true", |p| known(measured(p).and_then(|of| of.told_over_true), number));
 const MERIT: Field<Point> = field("Merit by measured error, 1/s", |p| {
     known(merit(p, measured(p).map(|of| of.error)), number)
 });
 const MERIT_TOLD: Field<Point> =
-    field("Merit by told error, 1/s", |p| known(merit(p, p.reported.error), number));
+    field("Merit by reported error, 1/s", |p| known(merit(p, p.reported.error), number));
 
 /// What every map took and tells of itself.
 const SAID: [Field<Point>; 12] =
@@ -181,7 +182,7 @@ pub(super) fn places(case: &CaseStudy) -> Vec<Block> {
     let right = row(("right value", first.as_slice()), |point| fixed(point.expected_lx, OF_LUX));
     let rows = read.iter().map(|(title, points)| row((title.as_str(), points.as_slice()), read_lx));
     vec![Block::Table(Table::plain(
-        "Illuminance at the points of the study, lx, with standard errors as told",
+        "Illuminance at the points of the study, lx, with standard errors as reported",
         std::iter::once(words("Point")).chain(columns).collect(),
         std::iter::once(right).chain(rows).collect(),
     ))]
@@ -199,7 +200,7 @@ pub(super) fn every_map(case: &CaseStudy) -> Vec<Block> {
         let row = |point: &Point| fields.iter().map(|field| (field.text)(point)).collect();
         shown(by_system(caption, columns, case, row))
     };
-    let mut blocks = of_fields("Every map: what it took and what it tells", &SAID);
+    let mut blocks = of_fields("Every map: what it took and what it reports", &SAID);
     blocks.extend(of_fields("Every map: by how much it errs", &FOUND));
     let has_pictures = |point: &Point| point.from_last.is_some() || point.from_reference.is_some();
     if case.series.iter().flat_map(|series| &series.points).any(has_pictures) {

@@ -50,7 +50,7 @@ pub(super) enum On {
 const COVERED: f64 = 95.0;
 
 const TIME: (&str, Scale) = ("time, s", Scale::Doubling);
-const TOLD: (&str, Scale) = ("told error, %", Scale::Decades);
+const TOLD: (&str, Scale) = ("reported error, %", Scale::Decades);
 const L2: (&str, Scale) = ("relative L2 distance, %", Scale::Decades);
 const LAB: (&str, Scale) = ("mean difference ΔE*ab (1976)", Scale::Decades);
 const CIE94: (&str, Scale) = ("mean difference ΔE*94", Scale::Decades);
@@ -69,8 +69,8 @@ pub(super) const KINDS: [Kind; 15] = [
     },
     Kind {
         id: "reported-measured",
-        title: "Measured error against told error",
-        says: "Each point is a map, in the order of time along each line. On the dashed line a map errs by what it tells; above it, by more. The study has both over time in its graph 2.",
+        title: "Measured error against reported error",
+        says: "Each point is a map, in the order of time along each line. On the dashed line the measured error is the reported one; above it, it is larger. The study has both over time in its graph 2.",
         x: TOLD,
         y: ("measured error, %", Scale::Decades),
         of: Of::Map(OfMap::Pair(told, measured)),
@@ -80,9 +80,9 @@ pub(super) const KINDS: [Kind; 15] = [
     Kind {
         id: "progress",
         title: "Reported progress over time",
-        says: "What a user sees while a system runs: of radiosity the share of light that is not yet shot, of others the told error; graph 4 of the study.",
+        says: "What a user sees while a system runs: of radiosity the share of light that is not yet shot, of others the reported error; graph 4 of the study.",
         x: TIME,
-        y: ("told error, or light not yet shot, %", Scale::Linear),
+        y: ("reported error, or light not yet shot, %", Scale::Linear),
         of: Of::Map(OfMap::Time(progress)),
         rules: none,
         on: On::Practical,
@@ -92,7 +92,7 @@ pub(super) const KINDS: [Kind; 15] = [
         title: "Reported progress over time, both logarithmic",
         says: "The same, as in graph 5 of the study: errors that fall as one over the root of time lie on a straight line.",
         x: TIME,
-        y: ("told error, or light not yet shot, %", Scale::Decades),
+        y: ("reported error, or light not yet shot, %", Scale::Decades),
         of: Of::Map(OfMap::Time(progress)),
         rules: none,
         on: On::Practical,
@@ -153,7 +153,7 @@ pub(super) const KINDS: [Kind; 15] = [
     Kind {
         id: "covered",
         title: "Intervals that hold over time",
-        says: "Share of places whose told intervals of 95 % hold the right value. It should be at the dashed line.",
+        says: "Share of places whose reported intervals of 95 % hold the right value. It should be at the dashed line.",
         x: TIME,
         y: ("intervals that hold, %", Scale::Linear),
         of: Of::Map(OfMap::Time(|p| Some(100.0 * p.measured.as_ref()?.covered?))),
@@ -162,18 +162,18 @@ pub(super) const KINDS: [Kind; 15] = [
     },
     Kind {
         id: "sharpness",
-        title: "Told over true error over time",
-        says: "Root mean square of the standard errors told at places, over that of their true errors. Above one a map is too careful, below one too sure.",
+        title: "Reported over true error over time",
+        says: "Root mean square of the standard errors reported at places, over that of their true errors. Above one a map is too careful, below one too sure.",
         x: TIME,
-        y: ("told over true error", Scale::Decades),
+        y: ("reported over true error", Scale::Decades),
         of: Of::Map(OfMap::Time(|p| p.measured.as_ref()?.told_over_true)),
-        rules: |_| vec![Rule::Level(1.0, "as told".to_owned())],
+        rules: |_| vec![Rule::Level(1.0, "as reported".to_owned())],
         on: On::Exact,
     },
     Kind {
         id: "audited",
-        title: "Audited error against told error",
-        says: "Each point is a map: what independent paths find that it errs by, with an interval of 95 %, over what it tells.",
+        title: "Audited error against reported error",
+        says: "Each point is a map: what independent paths find that it errs by, with an interval of 95 %, over its reported error.",
         x: TOLD,
         y: ("audited error, %", Scale::Decades),
         of: Of::Map(OfMap::Interval(told, audited)),
@@ -239,7 +239,7 @@ fn none(_: &CaseStudy) -> Vec<Rule> {
 }
 
 fn equal(_: &CaseStudy) -> Vec<Rule> {
-    vec![Rule::Equal("as told".to_owned())]
+    vec![Rule::Equal("as reported".to_owned())]
 }
 
 fn of_the_paper(case: &CaseStudy) -> Vec<Rule> {

@@ -20,14 +20,14 @@ const MEASURES: [Measure; 16] = [
         "[1], 3.3, for illuminance",
     ],
     [
-        "Told error",
-        "What a map tells of itself: root mean square error over all surfaces, from the spread of independent increments and from check points, over \
+        "Reported error",
+        "What a run reports of its own map: root mean square error over all surfaces, from the spread of independent increments and from test points, over \
          the root mean square illuminance, or twice its mean if that is less",
         "%",
         "isolux",
     ],
     [
-        "Told of the bare map",
+        "Reported error of the interpolated map",
         "The same if all light is interpolated, direct light, too",
         "%",
         "isolux",
@@ -35,18 +35,18 @@ const MEASURES: [Measure; 16] = [
     ["Not yet shot", "Share of all light that radiosity has not distributed", "%", "[1], 2.1"],
     [
         "Audited error",
-        "√(mean of (m − p)(m − q)) over places drawn by area, relative as the told error: p and q are independent means of complete paths, which know \
+        "√(mean of (m − p)(m − q)) over places drawn by area, relative as the reported error: p and q are independent means of complete paths, which know \
          neither elements nor map; with an interval of 95 %",
         "%",
         "isolux",
     ],
     [
         "Intervals that hold",
-        "Share of the places of the grid where |m − e| ≤ 1.96 s, s the standard error told there; of an honest map 95 %",
+        "Share of the places of the grid where |m − e| ≤ 1.96 s, s the standard error reported there; of an honest map 95 %",
         "%",
         "isolux",
     ],
-    ["Told over true", "√(Σ s² / Σ (m − e)²) over the same places", "–", "isolux"],
+    ["Reported over true", "√(Σ s² / Σ (m − e)²) over the same places", "–", "isolux"],
     [
         "Light landing over emitted",
         "Luminous flux that lands on surfaces, each time it is reflected anew, over that of all luminaires. A map that loses or makes light shows it here",
@@ -140,6 +140,6 @@ pub(super) fn sources() -> Section {
 fn how() -> &'static str {
     "Every map is a run of its own from the start; all have the same seed and number of threads, one is made at a time, and systems take turns. For every \
      time a run is asked for an accuracy that fits it: the shortest for 10 %, others for what so much time makes of the least error that their \
-     system has told so far: with light between all pairs of elements (radiosity) it falls as time to the power −¼, else −½. A run that takes twice its time is stopped as soon as its system can be. Times are as measured, without reading the \
+     system has reported so far: with light between all pairs of elements (radiosity) it falls as time to the power −¼, else −½. A run that takes twice its time is stopped as soon as its system can be. Times are as measured, without reading the \
      scene. What was not measured, or is not known to the system, is a dash, never zero."
 }

@@ -49,7 +49,7 @@ fn of_case(scene: &CaseStudy) -> Vec<Block> {
 /// The picture that others are compared with.
 fn reference(scene: &CaseStudy) -> Option<Picture> {
     let of = scene.reference.as_ref()?;
-    let told = of.told.map(|told| format!(", told error {}", percent_sign(told)));
+    let told = of.told.map(|told| format!(", reported error {}", percent_sign(told)));
     Some(Picture {
         file: of.picture.clone(),
         shows: format!("{}. The reference picture", names::name(scene)),
@@ -72,7 +72,7 @@ fn cell(scene: &CaseStudy, series: &Series, asked_s: f64) -> Option<Picture> {
 }
 
 fn figures(point: &Point) -> Vec<String> {
-    let told = point.reported.error.map(|error| format!("told error {}", percent_sign(error)));
+    let told = point.reported.error.map(|error| format!("reported error {}", percent_sign(error)));
     let unshot = point.reported.unshot.map(|share| format!("not yet shot {}", percent_sign(share)));
     let rays = point.rays.map(|rays| format!(", {} rays", count(rays)));
     let mut figures = vec![format!("{}{}", seconds(point.time_s), rays.unwrap_or_default())];

@@ -27,6 +27,16 @@ pub(super) struct Compared {
     pub(super) brightest: Vec<f64>,
 }
 
+/// The outcome of comparing a map with paths at a place.
+pub(super) struct Comparison {
+    /// `None` where the map knows nothing.
+    pub(super) compared: Option<Compared>,
+    /// Whether the place was drawn by area.
+    pub(super) by_area: bool,
+    /// The number of rays of the paths and of direct light in the reading.
+    pub(super) rays: u64,
+}
+
 impl Compared {
     /// The reading less the mean of the paths, lx.
     pub(super) const fn apart_lx(&self) -> f64 {
@@ -46,18 +56,19 @@ impl Compared {
     }
 }
 
-/// Compares a map with paths at a place, in `replicates` replicates of `paths / replicates` paths. The first
-/// value is `None` where the map knows nothing. The others are whether the place was drawn by area, and the
-/// number of rays of the paths and of direct light in the reading.
+/// Compares a map with paths at a place, in `replicates` replicates of `paths / replicates` paths.
 pub(super) fn compare(
-    (map, reader, tracer): (&IlluminationMap, &MapReader, &PathTracer),
+    map: &IlluminationMap,
+    (reader, tracer): (&MapReader, &PathTracer),
     place: &Drawn,
     (replicates, paths): (u32, u32),
     key: Key,
-) -> (Option<Compared>, bool, u64) {
+) -> Comparison {
     let by_area = place.drawn == Where::ByArea;
     let SurfacePoint { triangle, back, u, v, .. } = place.at;
-    let Some(read) = reader.at(triangle, back, u, v) else { return (None, by_area, 0) };
+    let Some(read) = reader.at(triangle, back, u, v) else {
+        return Comparison { compared: None, by_area, rays: 0 };
+    };
     let traced = tracer.traced(&place.at, (replicates, paths.div_ceil(replicates)), key.with(3));
     // Readings evaluate luminaires, in several replicates where luminaires are sampled.
     let rays = traced.rays + tracer.rays_of_reading();
@@ -69,7 +80,8 @@ pub(super) fn compare(
     let read_lx = read.illuminance_lx() - left_out(&read);
     let bare = map.interpolate(triangle, back, u, v);
     let bare_lx = bare.map_or(read_lx, |bare| bare.illuminance_lx() - left_out(&bare));
-    (Some(compared(place, (read_lx, read.standard_error_lx), bare_lx, &traced)), by_area, rays)
+    let compared = compared(place, (read_lx, read.standard_error_lx), bare_lx, &traced);
+    Comparison { compared: Some(compared), by_area, rays }
 }
 
 fn compared(

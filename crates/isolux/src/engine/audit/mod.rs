@@ -27,7 +27,7 @@ use crate::engine::read::{MapReader, reference_lx};
 use crate::map::{Audit, AuditTrust, AuditedPlace, AuditedSurface, IlluminationMap};
 use crate::sampling::Key;
 use crate::scene::Scene;
-use compared::{Compared, compare};
+use compared::{Compared, Comparison, compare};
 use figures::{Figures, readings, share, tail_index};
 pub(super) use figures::{MOST_AUDITS, trend};
 use places::{Places, Where};
@@ -96,13 +96,13 @@ pub(super) fn audit_with<'a>(
         let batch = next..settings.places.min(next + BATCH);
         next = batch.end;
         let one = |number: u64| {
-            compare((map, &reader, &tracer), &places.draw(number), paths_of_place, key.with(number))
+            compare(map, (&reader, &tracer), &places.draw(number), paths_of_place, key.with(number))
         };
         let compared: Vec<_> = batch.into_par_iter().map(one).collect();
-        for (known, by_area, traced_rays) in compared {
+        for Comparison { compared, by_area, rays: traced_rays } in compared {
             rays += traced_rays;
-            unknown += u64::from(known.is_none() && by_area);
-            all.extend(known);
+            unknown += u64::from(compared.is_none() && by_area);
+            all.extend(compared);
         }
     }
     let rays = rays + reader.rays();

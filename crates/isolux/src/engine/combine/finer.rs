@@ -5,7 +5,7 @@
 //! edge differs visibly from the mean of its ends. Indirect light stays that of the map. The longest edges
 //! come first, so the process may stop at any time.
 
-use super::trees::{SidePlace, bisected_like, own_vertices};
+use super::trees::{bisected_like, own_vertices};
 use crate::elements::{PlaceOnSide, Subdivision, edge_key};
 use crate::engine::read::{MapReader, reference_lx};
 use crate::map::{Illuminance, IlluminationMap};
@@ -141,7 +141,7 @@ impl<'a> Finer<'a> {
 
     /// Reads the midpoints of the edges of elements.
     fn look(&mut self, nodes: &[u32]) {
-        let mut asked: HashMap<[u32; 2], SidePlace> = HashMap::new();
+        let mut asked: HashMap<[u32; 2], PlaceOnSide> = HashMap::new();
         for &node in nodes {
             let (of, origin) = self.subdivision.node(node);
             for k in 0..3 {
@@ -152,26 +152,25 @@ impl<'a> Finer<'a> {
             }
         }
         // Edges are sorted, whatever the order of the table.
-        let mut asked: Vec<([u32; 2], SidePlace)> = asked.into_iter().collect();
+        let mut asked: Vec<([u32; 2], PlaceOnSide)> = asked.into_iter().collect();
         asked.sort_unstable_by_key(|(edge, _)| *edge);
-        let read = |(edge, place): &([u32; 2], SidePlace)| (*edge, self.read(*edge, *place));
+        let read = |(edge, place): &([u32; 2], PlaceOnSide)| (*edge, self.read(*edge, *place));
         let found: Vec<([u32; 2], Option<Illuminance>)> = asked.par_iter().map(read).collect();
         self.middles.extend(found);
     }
 
     /// The place of the midpoint of an edge on a side of a triangle.
-    fn middle_on(&self, (triangle, back): (u32, bool), edge: [u32; 2]) -> SidePlace {
+    fn middle_on(&self, (triangle, back): (u32, bool), edge: [u32; 2]) -> PlaceOnSide {
         let [p, q] = edge.map(|v| self.subdivision.vertices()[v as usize].position);
         let [u, v] = self.scene.triangle(triangle).barycentric(p.lerp(q, 0.5));
         let (u, v) = (u.clamp(0.0, 1.0), v.clamp(0.0, 1.0));
-        (triangle, back, u, v.min(1.0 - u))
+        PlaceOnSide { triangle, back, uv: [u, v.min(1.0 - u)] }
     }
 
     /// The value at the midpoint of an edge. Direct light is evaluated, by several readings where it may
     /// differ from the ends of the edge.
-    fn read(&self, edge: [u32; 2], (triangle, back, u, v): SidePlace) -> Option<Illuminance> {
-        let reading =
-            |number| self.reader.glance(PlaceOnSide { triangle, back, uv: [u, v] }, number, None);
+    fn read(&self, edge: [u32; 2], place: PlaceOnSide) -> Option<Illuminance> {
+        let reading = |number| self.reader.glance(place, number, None);
         let first = reading(0)?;
         let expected_lx = self.expected_lx(edge);
         if expected_lx.is_some_and(|lx| (first.illuminance_lx() - lx).abs() < self.visible_lx(lx)) {

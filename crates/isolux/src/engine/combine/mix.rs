@@ -6,8 +6,8 @@
 //! Interpolation errors and bias may agree in sign and are added as they are: by the triangle inequality the
 //! error of the sum is no larger.
 
-use super::trees::{SidePlace, bisected_like, own_vertices, places_of_vertices};
-use crate::elements::Elements;
+use super::trees::{bisected_like, own_vertices, places_of_vertices};
+use crate::elements::{Elements, PlaceOnSide};
 use crate::engine::read::{MapReader, reference_lx};
 use crate::map::{
     Accuracy, FilterReport, Fresh, Illuminance, IlluminationMap, Method, MixedPart, Provenance,
@@ -139,10 +139,11 @@ impl<'a> Part<'a> {
 
     /// The value of the part at a vertex of the sum: its own, or a reading where it has no vertex, with the
     /// errors that its own vertices would have.
-    fn value(&self, own: Option<u32>, (triangle, back, u, v): SidePlace) -> Option<Illuminance> {
+    fn value(&self, own: Option<u32>, place: PlaceOnSide) -> Option<Illuminance> {
         if let Some(vertex) = own {
             return self.map.values[vertex as usize];
         }
+        let PlaceOnSide { triangle, back, uv: [u, v] } = place;
         let between = self.map.interpolate(triangle, back, u, v)?;
         let read = self.reader.by_replicates(self.reader.at(triangle, back, u, v)?);
         Some(Illuminance {

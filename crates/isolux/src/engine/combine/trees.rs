@@ -1,10 +1,7 @@
 //! Bisection trees over the same triangles: their shared nodes, and the places of their vertices.
 
-use crate::elements::{Elements, Split, Subdivision};
+use crate::elements::{Elements, PlaceOnSide, Split, Subdivision};
 use crate::scene::Scene;
-
-/// A side of a triangle of the scene, and the barycentric weights of its second and third corner.
-pub(crate) type SidePlace = (u32, bool, f64, f64);
 
 /// Visits the nodes that two trees share. If a node is split at different edges (two of them are equally
 /// long), no nodes below it are shared.
@@ -34,16 +31,17 @@ pub(crate) fn own_vertices(united: &Elements, part: &Elements) -> Vec<Option<u32
 }
 
 /// A place on a side of a triangle for every vertex.
-pub(crate) fn places_of_vertices(elements: &Elements) -> Vec<SidePlace> {
-    let mut places = vec![(0, false, 0.0, 0.0); elements.vertices().len()];
+pub(crate) fn places_of_vertices(elements: &Elements) -> Vec<PlaceOnSide> {
+    let none = PlaceOnSide { triangle: 0, back: false, uv: [0.0; 2] };
+    let mut places = vec![none; elements.vertices().len()];
     for (triangle, sides) in elements.roots().iter().enumerate() {
         for (root, back) in sides.iter().zip([false, true]) {
             let Some(root) = *root else { continue };
             let mut open = vec![(root, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])];
             while let Some((node, corners)) = open.pop() {
                 let node = elements.node(node);
-                for (vertex, [u, v]) in node.vertices.into_iter().zip(corners) {
-                    places[vertex as usize] = (triangle as u32, back, u, v);
+                for (vertex, uv) in node.vertices.into_iter().zip(corners) {
+                    places[vertex as usize] = PlaceOnSide { triangle: triangle as u32, back, uv };
                 }
                 let Some(Split { edge, first_child }) = node.split else { continue };
                 let (a, b) = (usize::from(edge), (usize::from(edge) + 1) % 3);

@@ -6,11 +6,11 @@
 //! tracing rays again.
 
 use super::bright_surfaces::BrightSurfaces;
-use super::control_variate::{ControlVariate, Stand};
+use super::control_variate::ControlVariate;
 use crate::elements::{Elements, Receiver};
 use crate::engine::light::Lighting;
 use crate::engine::occlusion::{Barrier, Barriers};
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{Stand, SurfacePoint};
 use crate::map::Standing;
 use crate::scene::Scene;
 use crate::units::Rgb;

@@ -1,8 +1,7 @@
 //! Trials on a few receivers that tell the number of rays of an increment.
 
-use super::control_variate::Stand;
 use super::gatherer::{Gatherer, Gathering};
-use crate::engine::ray::{Accumulator, Sample};
+use crate::engine::ray::{Accumulator, Sample, Stand};
 use crate::sampling::Key;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -85,6 +84,27 @@ pub(crate) struct RayTrial {
     pub(crate) reference_lx: f64,
 }
 
+/// The goal of a run whose number of rays a trial tells.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RunGoal {
+    /// The relative accuracy.
+    pub(crate) target: f64,
+    /// The reference illuminance of relative errors, lx.
+    pub(crate) reference_lx: f64,
+    /// The number of increments in which it is to be reached.
+    pub(crate) increments: u64,
+}
+
+/// The result of a trial with rays corrected by the control variate of walls.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WallTrial {
+    pub(crate) trial: RayTrial,
+    /// The ratio of the noise to that without walls; `None` if there is no noise without walls.
+    pub(crate) left: Option<f64>,
+    /// The number of rays traced.
+    pub(crate) rays: u64,
+}
+
 impl RayTrial {
     /// The result assumed before any trial: 2 % of the reference. Measured: 1.5 to 3.2 % of the light in CUBE, SPHERE
     /// and the hall.
@@ -92,16 +112,16 @@ impl RayTrial {
         Self { noise_lx: 0.02 * reference_lx, rays: RAYS, reference_lx }
     }
 
-    /// A trial on some receivers, each with the surface it stands for, m2, for a run of `increments` increments that
-    /// is to reach a target. Also returns the number of rays traced. A result of [`RayTrial::of_walls`] replaces the
-    /// first trial.
+    /// A trial on some receivers, each with the surface it stands for, m2, for a run with a goal. Also returns the
+    /// number of rays traced. A result of [`RayTrial::of_walls`] replaces the first trial.
     pub(crate) fn of(
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
         light: &[Rgb],
-        (target, reference_lx, increments, key): (f64, f64, u64, Key),
+        (goal, key): (RunGoal, Key),
         known: Option<Self>,
     ) -> (Self, u64) {
+        let RunGoal { target, reference_lx, increments } = goal;
         let with = |rays: u32| Self::with(rays, gathering, some, light, (reference_lx, key));
         let (first, traced) = known.map_or_else(|| with(RAYS), |known| (known, 0));
         let nearer = first.rays_for(NOISE_SHARE * target, reference_lx, increments) / NEARER;
@@ -112,21 +132,20 @@ impl RayTrial {
         (trial, traced + more)
     }
 
-    /// A trial with few rays corrected by the control variate of walls. Also returns the ratio of their noise to that
-    /// without walls, `None` if that is zero, and the number of rays traced.
+    /// A trial with few rays corrected by the control variate of walls.
     pub(crate) fn of_walls(
         gathering: &Gathering,
         some: &[(Gatherer, f64)],
         light: &[Rgb],
         of: (f64, Key),
-    ) -> (Self, Option<f64>, u64) {
+    ) -> WallTrial {
         let behind = |of: &Gatherer| gathering.backdrop?.behind(gathering.scene, &of.stand());
         let judged = |&(of, m2): &(Gatherer, f64)| (Gatherer { behind: behind(&of), ..of }, m2);
         let judged: Vec<(Gatherer, f64)> = some.par_iter().map(judged).collect();
         let (trial, rays) = Self::with(RAYS, gathering, &judged, light, of);
         let (other, others) = Self::with(RAYS, gathering, some, light, of);
         let left = (other.noise_lx > 0.0).then(|| trial.noise_lx / other.noise_lx);
-        (trial, left, rays + others)
+        WallTrial { trial, left, rays: rays + others }
     }
 
     fn with(

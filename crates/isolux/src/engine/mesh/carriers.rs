@@ -10,7 +10,7 @@
 
 use super::bounded::{Bounded, Range, Stencil};
 use super::coarsening::{Coarsening, Link};
-use crate::elements::{Subdivision};
+use crate::elements::Subdivision;
 use crate::units::Rgb;
 use rayon::prelude::*;
 

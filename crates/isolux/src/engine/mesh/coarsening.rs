@@ -46,6 +46,13 @@ pub(crate) struct Link {
     pub(crate) spacing_m: f64,
 }
 
+/// A vertex with its level and its link.
+struct Placed {
+    vertex: u32,
+    level: u8,
+    link: Option<Link>,
+}
+
 /// The levels of vertices, and their interpolation.
 pub(crate) struct Coarsening {
     /// The level of each vertex, zero for the coarsest.
@@ -59,13 +66,13 @@ impl Coarsening {
     /// level half as far. Vertices that are not `open` are not interpolated, nor is anything from them.
     pub(crate) fn of(subdivision: &Subdivision, spacing_m: f64, open: &[bool]) -> Self {
         let vertices = subdivision.vertices();
-        let found: Vec<Vec<(u32, u8, Option<Link>)>> = surfaces(subdivision, open)
+        let found: Vec<Vec<Placed>> = surfaces(subdivision, open)
             .into_par_iter()
             .map(|surface| surface.thinned_out(vertices, spacing_m))
             .collect();
         let mut levels = vec![0; vertices.len()];
         let mut links = vec![None; vertices.len()];
-        for (vertex, level, link) in found.into_iter().flatten() {
+        for Placed { vertex, level, link } in found.into_iter().flatten() {
             levels[vertex as usize] = level;
             links[vertex as usize] = link;
         }
@@ -134,12 +141,12 @@ const NONE: u32 = u32::MAX;
 
 impl Surface {
     /// The levels and links of its vertices.
-    fn thinned_out(&self, vertices: &[Vertex], spacing_m: f64) -> Vec<(u32, u8, Option<Link>)> {
+    fn thinned_out(&self, vertices: &[Vertex], spacing_m: f64) -> Vec<Placed> {
         let own: Vec<Vertex> = self.members.iter().map(|&v| vertices[v as usize]).collect();
         let mut levels = self.levels(&own, spacing_m);
         let links = self.links(&own, spacing_m, &mut levels);
         let of = self.members.iter().zip(levels).zip(links);
-        of.map(|((&v, level), link)| (v, level, link)).collect()
+        of.map(|((&vertex, level), link)| Placed { vertex, level, link }).collect()
     }
 
     /// The level of each vertex, zero for the coarsest. No vertex added on a level is nearer than the spacing to

@@ -5,10 +5,9 @@
 //! distance that a surface sees tells how fast light varies over it.
 
 use crate::elements::{Origin, Subdivision};
-use crate::engine::ray::{ShortRays, SurfacePoint};
+use crate::engine::ray::{ShortRays, Stand, SurfacePoint};
 use crate::sampling::Key;
 use crate::scene::Scene;
-use isolux_geometry::{Normal, Point};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
@@ -48,10 +47,8 @@ pub(crate) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_
         is_long[side(subdivision, node)] |= subdivision.longest_edge_m(node) > OF_REACH * ROOM_M;
     }
     leaves.retain(|&node| is_long[side(subdivision, node)]);
-    let reach = |&node: &u32| {
-        let at = SurfacePoint::amid_node(scene, subdivision, node);
-        reach_m(scene, (at.start(), at.shading, at.triangle))
-    };
+    let reach =
+        |&node: &u32| reach_m(scene, SurfacePoint::amid_node(scene, subdivision, node).stand());
     let reaches_m: Vec<f64> = leaves.par_iter().map(reach).collect();
     let farthest = |&is_long: &bool| if is_long { 0.0_f64 } else { f64::INFINITY };
     let mut farthest_m: Vec<f64> = is_long.iter().map(farthest).collect();
@@ -81,13 +78,13 @@ pub(crate) fn bisect_to_scale(scene: &Scene, subdivision: &mut Subdivision, max_
 }
 
 /// Whether a place on a triangle sees as far as one in a room, and sees walls there.
-pub(crate) fn is_in_room(scene: &Scene, place: (Point, Normal, u32)) -> bool {
+pub(crate) fn is_in_room(scene: &Scene, place: Stand) -> bool {
     let reach_m = reach_m(scene, place);
     reach_m > ROOM_M && reach_m.is_finite()
 }
 
 /// The distance that three quarters of the rays from a place on a triangle do not exceed, m.
-fn reach_m(scene: &Scene, place: (Point, Normal, u32)) -> f64 {
+fn reach_m(scene: &Scene, place: Stand) -> f64 {
     let met = DIRECTIONS.met(scene, |k| DIRECTIONS.ray(k, place));
     let mut distances_m = met.map(|hit| hit.map_or(f64::INFINITY, |hit| f64::from(hit.t)));
     distances_m.sort_by(f64::total_cmp);

@@ -8,8 +8,8 @@
 use super::caustics::{self, Caustics};
 use crate::ablation::without;
 use crate::engine::gather::{
-    DirectAtEnds, DirectResidual, FEWEST_UNJUDGED, Gatherer, Gathering,
-    NET_ORDER, Operator, allot, allot_by_noise, mean_of, ray_trial,
+    DirectAtEnds, DirectResidual, FEWEST_UNJUDGED, Gatherer, Gathering, NET_ORDER, Operator, allot,
+    allot_by_noise, mean_of, ray_trial,
 };
 use crate::engine::judge::{BELIEVED_INCREMENTS, Check, DirectThere, FEWEST_TO_MISS, check_points};
 use crate::engine::mesh::LeafError;
@@ -85,6 +85,19 @@ pub(crate) struct Hybrid<'p, 's> {
     ahead: VecDeque<Increment>,
 }
 
+/// The size of an increment, and the accuracy goal that it serves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct IncrementSize {
+    /// The mean number of gathering rays of a visible vertex, before halving.
+    pub(crate) rays: f64,
+    /// The number of times that the rays are halved.
+    pub(crate) halvings: u32,
+    /// The number of particles for caustics.
+    pub(crate) particles: u32,
+    /// The relative accuracy goal.
+    pub(crate) goal: f64,
+}
+
 /// The result of an increment.
 pub(crate) struct Increment {
     /// The light at the vertices.
@@ -97,16 +110,15 @@ pub(crate) struct Increment {
 }
 
 impl<'p, 's> Hybrid<'p, 's> {
-    /// The method with about `rays` gathering rays per increment and visible vertex and `particles`
-    /// particles, for an accuracy goal. The rays are halved `halvings` times. Memory allows `most` rays per
-    /// vertex.
+    /// The method with increments of a size. Memory allows `most` rays per vertex.
     pub(crate) fn new(
         plan: &'p Plan<'s>,
         checks: &[Check],
-        (rays, particles, goal, halvings): (f64, u32, f64, u32),
+        size: IncrementSize,
         most: u32,
         seed: u64,
     ) -> Self {
+        let IncrementSize { rays, halvings, particles, goal } = size;
         let key = Key::new(seed).with(1);
         let rays = rays / f64::from(1_u32 << halvings);
         let areas_m2 = plan.areas_m2();
@@ -120,7 +132,7 @@ impl<'p, 's> Hybrid<'p, 's> {
         };
         let rows: Vec<Gatherer> = (0..plan.mesh.indirect_vertices).map(row).collect();
         let rows = if is_worth_trying(rows.len(), rays) && !without("noise-sharing") {
-            shared_by_noise(plan, rows, (&areas_m2, rays, most), key.with(u64::MAX - 1))
+            shared_by_noise(plan, rows, &areas_m2, (rays, most), key.with(u64::MAX - 1))
         } else {
             rows
         };
@@ -302,11 +314,13 @@ pub(crate) fn rays_tried(rows: usize, rays: f64) -> f64 {
 
 /// The receivers, with rays shared anew where some are far noisier than others, as inside housings of lamps.
 /// They change only if there is more noise than the pilot expected and sharing leaves much less. If the
-/// remaining noise is still more than expected, the total number of rays grows.
+/// remaining noise is still more than expected, the total number of rays grows. A receiver has `rays` rays in
+/// the mean; memory allows `most`.
 fn shared_by_noise(
     plan: &Plan,
     rows: Vec<Gatherer>,
-    (areas_m2, rays, most): (&[f64], f64, u32),
+    areas_m2: &[f64],
+    (rays, most): (f64, u32),
     key: Key,
 ) -> Vec<Gatherer> {
     let gathering = Gathering::of(plan, &plan.light.direct);

@@ -17,7 +17,7 @@ pub use cache::{
 #[cfg(test)]
 pub(crate) use caustics::deposit;
 pub(crate) use forward::Forward;
-pub(crate) use hybrid::{Hybrid, READERS};
+pub(crate) use hybrid::{Hybrid, IncrementSize, READERS};
 pub(crate) use radiosity::{Left, Radiosity};
 pub use radiosity::{RadiosityLimits, RadiositySettings};
 pub use reference::PathTracer;

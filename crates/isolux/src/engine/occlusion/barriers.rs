@@ -93,7 +93,7 @@ impl Barriers {
 
     /// The barriers across the elements of a map.
     pub(crate) fn of_map(scene: &Scene, elements: &Elements, light: &[Rgb]) -> Self {
-        Self::of(scene, elements, (elements.leaves().map(Side::from), light), usize::MAX)
+        Self::of(scene, elements, (Side::of_all(elements), light), usize::MAX)
     }
 
     /// The barrier across a node, if there is one.
@@ -154,17 +154,16 @@ pub(crate) struct Side {
     pub(crate) back: bool,
 }
 
-impl From<(u32, u32, bool)> for Side {
-    fn from((node, triangle, back): (u32, u32, bool)) -> Self {
-        Self { node, triangle, back }
-    }
-}
-
 impl Side {
     /// The side of a node.
     pub(crate) fn of(subdivision: &Subdivision, node: u32) -> Self {
         let Origin { triangle, back, .. } = subdivision.node(node).1;
         Self { node, triangle, back }
+    }
+
+    /// The sides of all elements.
+    pub(crate) fn of_all(elements: &Elements) -> impl Iterator<Item = Self> + '_ {
+        elements.leaves().map(|(node, triangle, back)| Self { node, triangle, back })
     }
 
     /// A place on the same triangle.

@@ -56,16 +56,25 @@ pub(crate) struct CausticNoise {
     doubt_lx2: f64,
 }
 
+/// The result of a trial with particles.
+#[derive(Default)]
+pub(crate) struct ParticleTrial {
+    pub(crate) noise: CausticNoise,
+    /// The aim of the particles, if aiming pays.
+    pub(crate) aim: Option<Aim>,
+    /// The number of rays traced.
+    pub(crate) rays: u64,
+}
+
 impl CausticNoise {
-    /// Measures the noise with some particles. Also returns their aim, if aiming pays, and the number of
-    /// rays. `read` gives the vertices and weights at a place; `areas_m2` are the areas that vertices stand
-    /// for.
+    /// Measures the noise with some particles. `read` gives the vertices and weights at a place; `areas_m2`
+    /// are the areas that vertices stand for.
     pub(crate) fn tried(
         of: (&Scene, &Lighting),
         areas_m2: &[f64],
         read: impl Fn(&SurfacePoint) -> Option<[(u32, f64); 3]> + Sync,
         key: Key,
-    ) -> (Self, Option<Aim>, u64) {
+    ) -> ParticleTrial {
         // A deposit of flux f adds the illuminance f w / area at a vertex with weight w.
         let square = |at: &SurfacePoint, flux_lm: f64| -> f64 {
             let corners = read(at).into_iter().flatten();
@@ -75,7 +84,7 @@ impl CausticNoise {
         let vertices = areas_m2.len();
         let most = particles(vertices);
         let Some(emission) = Emission::new(of.0).filter(|_| of.1.leaves_caustics()) else {
-            return Default::default();
+            return ParticleTrial::default();
         };
         let is_seldom = specular_is_seldom_met(of.0, &emission, key);
         let aim =
@@ -83,7 +92,7 @@ impl CausticNoise {
         let (aim, first_rays) = match aim {
             Some(aim) => {
                 let flights = Flights::new(of, Some(&aim), most.min(TRIED_AIMED), key.with(1));
-                let Some(flights) = flights else { return Default::default() };
+                let Some(flights) = flights else { return ParticleTrial::default() };
                 let (brought, rays) = flights.brought(&aim, square);
                 (Some(aim.learned(&brought)), rays + u64::from(LET_GO))
             }
@@ -91,7 +100,7 @@ impl CausticNoise {
         };
         let count = most.min(if aim.is_some() { TRIED_AIMED } else { TRIED });
         let Some(flights) = Flights::new(of, aim.as_ref(), count, key) else {
-            return Default::default();
+            return ParticleTrial::default();
         };
         // The squares are in the order of the particles, whichever threads trace them.
         let all = flights.squares(square);
@@ -100,7 +109,7 @@ impl CausticNoise {
         // Each particle carries one part in `count` of the light.
         let lx2 = if area_m2 > 0.0 { sum * f64::from(count) / area_m2 } else { 0.0 };
         let rays = first_rays + all.iter().map(|(_, rays)| rays).sum::<u64>();
-        (Self { lx2, vertices, doubt_lx2: 0.0 }, aim, rays)
+        ParticleTrial { noise: Self { lx2, vertices, doubt_lx2: 0.0 }, aim, rays }
     }
 
     /// The noise as measured with particles that share all light: the mean square over the surface for one

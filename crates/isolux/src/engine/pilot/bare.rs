@@ -1,8 +1,8 @@
 //! Indirect light of the stored (interpolated) map on elements for direct light.
 //!
 //! Close to objects on a surface, indirect light changes within its elements. Readers and rays gather there afresh,
-//! but a viewer of the stored map shows the vertex values. If these err more than the accuracy goal of the mesh,
-//! vertices made for direct light gather, too, over the known light. No ray of an increment reads these vertices;
+//! but a viewer of the stored map shows the vertex values. If their error exceeds the accuracy goal of the
+//! mesh, vertices made for direct light gather, too, over the known light. No ray of an increment reads these vertices;
 //! they cost only their own rays.
 
 use super::look::{PilotRequest, Survey};
@@ -25,7 +25,7 @@ const MUCH: f64 = 0.5;
 /// goals of the mesh. Measured in the hall: half of it takes twice the vertices, for a fiftieth of the error.
 const WORTH: f64 = 1.0;
 
-/// The share of the vertices for direct light at which increments gather, roughly.
+/// The approximate share of the vertices for direct light at which increments gather.
 const OF_MADE: f64 = 0.3;
 
 impl Bare {
@@ -57,7 +57,7 @@ impl Pilot<'_> {
         squared > much_lx * much_lx * area_m2
     }
 
-    /// Prepares the gathering for the stored map, if there is any.
+    /// Prepares the gathering for the stored map, if vertices gather for it.
     pub(super) fn look_at_bare(&mut self, look: &Survey, request: &PilotRequest) {
         if self.gathers_for_bare(look, request) {
             let (first, indirect) = (self.mesh.subdivision.vertex_count(), Vec::new());
@@ -66,7 +66,7 @@ impl Pilot<'_> {
         }
     }
 
-    /// Gathers at the new vertices that lie in the open with an object close before them; interpolates at others.
+    /// Gathers at new open vertices of elements with an object close before them, and interpolates at the others.
     pub(super) fn complete_bare(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let Some(mut bare) = self.indirect.bare.take() else { return };
         let started = Instant::now();

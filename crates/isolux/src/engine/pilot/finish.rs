@@ -1,8 +1,10 @@
 //! The end of the pilot: assembly of the plan that all increments share.
 
+use super::criteria::{CausticErrors, Caustics, DirectError};
 use super::forecast::{FINE, GoOn};
 use super::look::{PilotRequest, Survey};
 use super::state::Pilot;
+use crate::ablation::without;
 use crate::elements::{Elements, Subdivision};
 use crate::engine::gather::{Gatherer, RayTrial, areas_m2};
 use crate::engine::mesh::Fit;
@@ -54,6 +56,20 @@ impl<'s> Pilot<'s> {
         };
         let errors = PlannedErrors { of_elements: look.errors, ..errors };
         self.plan(mesh, errors, look.reference_lx)
+    }
+
+    /// Refines elements for caustics, if there are any, and returns the errors that are left.
+    fn refine_for_caustics(
+        &mut self,
+        look: &mut Survey,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) -> CausticErrors {
+        let Some(mut caustics) = Caustics::new(self, look, request) else {
+            return CausticErrors::default();
+        };
+        self.refine(&mut caustics, look, request, go_on);
+        caustics.into_errors()
     }
 
     /// The plan over a mesh, with the known light and noise.
@@ -108,7 +124,11 @@ impl<'s> Pilot<'s> {
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) -> Vec<Gatherer> {
-        self.refine_for_direct_light(look, request, go_on);
+        if !without("direct-refinement") {
+            self.look_at_bare(look, request);
+            let max_vertices = self.most_for_direct_light(request);
+            self.refine(&mut DirectError::new(max_vertices), look, request, go_on);
+        }
         // Readers use the finer elements for direct light.
         for error in look.errors.iter_mut().filter(|e| e.is_beset) {
             error.is_beset_afar |= self.mesh.subdivision.node(error.node).0.split.is_some();

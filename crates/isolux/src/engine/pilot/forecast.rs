@@ -149,6 +149,19 @@ impl Costs {
     }
 }
 
+/// The work of an increment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EachIncrement {
+    /// Rays per carrier.
+    pub(crate) rays: f64,
+    /// All rays from check points and vertices for the stored map.
+    pub(crate) check_rays: f64,
+    /// Particles for caustics.
+    pub(crate) particles: f64,
+    /// Whether direct light is measured anew.
+    pub(crate) measures_direct: bool,
+}
+
 /// The inputs of the prediction: quantities of the work to come.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outlook {
@@ -164,14 +177,10 @@ pub(crate) struct Outlook {
     pub(crate) measured: f64,
     /// Rays per carrier in the pilot.
     pub(crate) pilot_rays: f64,
-    /// Rays per carrier in an increment.
-    pub(crate) rays: f64,
+    /// The work of an increment.
+    pub(crate) each: EachIncrement,
     /// The number of check points.
     pub(crate) checks: f64,
-    /// All rays of an increment from check points and vertices for the stored map.
-    pub(crate) check_rays: f64,
-    /// Particles of an increment.
-    pub(crate) particles: f64,
     /// Rays of trials before the first increment.
     pub(crate) trials: f64,
     /// The relative accuracy goal.
@@ -187,8 +196,6 @@ pub(crate) struct Outlook {
     pub(crate) more_for_direct: f64,
     /// The share of all vertices whose direct light will be measured again.
     pub(crate) measured_again: f64,
-    /// Whether each increment measures direct light.
-    pub(crate) measured_each: bool,
 }
 
 /// The predicted remaining time, s, and the factor either way that holds the true time in nine of ten runs.
@@ -259,11 +266,12 @@ impl Outlook {
             + costs.in_shadows(for_direct)
             + self.rounds() * look_s;
         let direct_s = costs.direct.of(self.measured_again * vertices);
-        let (own, others) = (carriers * self.rays, self.check_rays + self.particles * growth);
+        let EachIncrement { rays, check_rays, particles, measures_direct } = self.each;
+        let (own, others) = (carriers * rays, check_rays + particles * growth);
         let each_s = costs.of_rays_then(own * (1.0 + SOLVED) + others + vertices * EVERY)
-            + if self.measured_each { costs.again(vertices) } else { 0.0 };
+            + if measures_direct { costs.again(vertices) } else { 0.0 };
         let once_s = ONCE * costs.of_looks(vertices)
-            + costs.of_rays_then(carriers * self.rays.min(READERS.into()) + self.trials)
+            + costs.of_rays_then(carriers * rays.min(READERS.into()) + self.trials)
             + CHECKED * costs.direct.of(self.checks);
         let (in_all, factor) = match self.excess {
             None if is_blind => (MANY_IN_ALL, BLIND),

@@ -62,7 +62,7 @@ impl Pilot<'_> {
             self.indirect.lx =
                 operator.solve(&black, &black, &self.mesh.carriers.waiting(), PILOT_TOLERANCE);
             if !self.near.known.contains(&true) {
-                // There is no light at all: places that are not closed in are dark.
+                // No vertex has light: places that are not closed in count as dark, not as hidden.
                 self.near.known = operator.open();
             }
         } else {
@@ -97,7 +97,7 @@ impl Pilot<'_> {
         }
     }
 
-    /// The vertices that are to gather: carriers that have not yet. On the first mesh it lists all vertices.
+    /// The vertices that are to gather: carriers that have not gathered yet, and on the first mesh all vertices.
     fn new_carriers(&mut self, vertices: usize) -> Vec<u32> {
         let is_first = self.indirect.gathered.is_empty();
         self.indirect.gathered.resize(vertices, false);

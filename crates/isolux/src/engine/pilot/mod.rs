@@ -5,17 +5,14 @@
 //! here: noise is then smooth over surfaces and is not mistaken for detail.
 
 mod bare;
-mod batches;
-mod caustics;
+mod criteria;
 mod direct;
-mod direct_refinement;
 mod finish;
 mod forecast;
 mod indirect;
 mod landing;
 mod look;
 mod middles;
-mod opening;
 mod refine;
 mod round;
 mod sharing;
@@ -30,7 +27,7 @@ use crate::engine::light::Lighting;
 use crate::engine::plan::Plan;
 use crate::scene::Scene;
 #[cfg(test)]
-pub(super) use forecast::{Costs, Outlook};
+pub(super) use forecast::{Costs, EachIncrement, Outlook};
 pub(super) use forecast::{GoOn, Left, Round};
 pub(super) use look::PilotRequest;
 use state::Pilot;

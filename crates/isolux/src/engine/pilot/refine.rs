@@ -1,23 +1,20 @@
-//! The loop of adaptive refinement: light on the present elements, their interpolation errors, bisection of the
-//! worst.
+//! The loop of adaptive refinement: survey of the light on the present elements, and bisection of those that a
+//! criterion marks.
 
+use super::criteria::{Criterion, Hidden, IndirectError, Marked, Which};
 use super::forecast::{GoOn, LONGER};
 use super::look::{PilotRequest, ReadFor, Survey};
-use super::state::{HEM, LEAST_ORDER, MAX_ROUNDS, MOST_STALLS, Pilot};
+use super::state::{HEM, Mesh, Pilot};
 use crate::ablation::without;
 use crate::engine::judge::Light;
-use crate::engine::mesh::{Refinement, WorstElements, refine_worst};
+use crate::engine::mesh::{Carriers, Refinement, WorstElements, refine_worst};
 use std::time::Instant;
 
-/// The largest number of rounds in which the error may rise.
-const MOST_RISEN: usize = 3;
 /// The largest number of vertices for indirect light, unless the first mesh has nearly as many.
 const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
 /// The share of the largest number of vertices above which the mesh counts as full. The worst elements are
 /// bisected in groups.
 const FULL: f64 = 0.95;
-/// The largest number of rounds that bisect elements with hidden vertices.
-const ROUNDS_FOR_HIDDEN: usize = 4;
 
 impl Pilot<'_> {
     /// Refines the elements until they are fine enough for indirect light, or as fine as time allows.
@@ -36,19 +33,14 @@ impl Pilot<'_> {
         let most = request.max_vertices.min(most);
         self.mesh.most_for_indirect_light = most as f64;
         self.try_some(&look, request.target);
-        let excess = |look: &Survey| (Some(look.greatest_excess(request)), None);
-        let mut has_time = self.has_time(&look, request, excess(&look), go_on);
-        for _ in 0..ROUNDS_FOR_HIDDEN {
-            if !(has_time && self.open_up(&look.elements, most)) {
-                break;
-            }
-            look = self.look(request, go_on);
-            has_time = self.has_time(&look, request, excess(&look), go_on);
+        let excess = (Some(look.greatest_excess(request)), None);
+        if self.has_time(&look, request, excess, go_on) {
+            self.refine(&mut Hidden { max_vertices: most }, &mut look, request, go_on);
         }
         // Readers gather over gathered maps alone: maps of particles are blurred nearby.
         let reads = if request.is_fitted { &ReadFor::EVERY[..] } else { &[ReadFor::All] };
         for &what in reads {
-            look = self.refine(look, request, (what, most), go_on);
+            self.refine(&mut IndirectError::of(what, most), &mut look, request, go_on);
         }
         self.mesh.is_full = look.elements.vertices().len() as f64 > FULL * most as f64;
         look
@@ -110,41 +102,52 @@ impl Pilot<'_> {
         }
     }
 
-    /// Bisects elements until they are good enough for these readers, or bisection makes no progress.
+    /// The loop of refinement: bisects the elements that a criterion marks until it marks none, or as far as time
+    /// allows.
     pub(super) fn refine(
         &mut self,
-        mut look: Survey,
+        criterion: &mut dyn Criterion,
+        look: &mut Survey,
         request: &PilotRequest,
-        (what, max_vertices): (ReadFor, usize),
         go_on: &mut GoOn<'_>,
-    ) -> Survey {
-        let mut before = (f64::INFINITY, look.carriers as f64);
-        let (mut risen, mut stalls) = (0, 0);
-        for _ in 0..MAX_ROUNDS {
-            let Some((errors, excess)) = look.excess(what, request) else { break };
-            // Where bisection no longer helps, the rest is noise, which check points measure. While it finds light in
-            // gaps, errors may rise.
-            let carriers = look.carriers as f64;
-            let has_risen = self.indirect.sees_lit_gaps && excess > before.0;
-            risen += usize::from(has_risen);
-            let is_excused = has_risen && risen <= MOST_RISEN;
-            let fallen = libm::pow(before.1 / carriers, LEAST_ORDER);
-            let stalled = !is_excused && excess > before.0 * fallen;
-            let known = Some(before).filter(|(excess, _)| excess.is_finite());
-            let excesses = (Some(look.greatest_excess(request)), known);
-            stalls = if stalled { stalls + 1 } else { 0 };
-            if stalls > MOST_STALLS || !self.has_time(&look, request, excesses, go_on) {
+    ) {
+        for _ in 0..criterion.most_rounds() {
+            let Some(marked) = criterion.marked(self, look, request, go_on) else { break };
+            let has_time =
+                marked.excess.is_none_or(|excess| self.has_time(look, request, excess, go_on));
+            if !has_time || !self.bisect(marked) {
                 break;
             }
-            before = (excess, carriers);
-            let least_edge_m = self.mesh.least_edge_m;
-            let how_far = Refinement { wanted: 1.0 / excess, least_edge_m, max_vertices };
-            if !refine_worst(&mut self.mesh.subdivision, &mut self.mesh.carriers, &errors, how_far)
-            {
-                break;
-            }
-            look = self.look(request, go_on);
+            criterion.follow(self, look, request, go_on);
         }
-        look
+        criterion.end(self, look, request);
+    }
+
+    /// Bisects marked elements. Returns whether there was anything to bisect.
+    fn bisect(&mut self, marked: Marked) -> bool {
+        let Marked { which, max_vertices, .. } = marked;
+        let Mesh { subdivision, carriers, least_edge_m, .. } = &mut self.mesh;
+        match which {
+            Which::Worst { errors, wanted, activates } => {
+                let how_far = Refinement { wanted, least_edge_m: *least_edge_m, max_vertices };
+                let mut all = Carriers::all();
+                let carriers = if activates { carriers } else { &mut all };
+                refine_worst(subdivision, carriers, &errors, how_far)
+            }
+            Which::Nodes { once, twice } => {
+                let before = subdivision.vertex_count();
+                let halvings = twice.into_iter().map(|node| (node, 2));
+                for (node, halvings) in halvings.chain(once.into_iter().map(|node| (node, 1))) {
+                    if subdivision.vertex_count() >= max_vertices {
+                        break;
+                    }
+                    match halvings {
+                        1 => subdivision.bisect(node),
+                        _ => subdivision.bisect_twice(node),
+                    }
+                }
+                subdivision.vertex_count() > before
+            }
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The report of a round: work done, and the prediction of the remaining time.
 
-use super::forecast::{Excess, GoOn, Outlook, Round};
+use super::forecast::{EachIncrement, Excess, GoOn, Outlook, Round};
 use super::look::{PilotRequest, Survey};
 use super::state::{FIRST_PART, Pilot};
 use crate::elements::Elements;
@@ -16,12 +16,12 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::time::Instant;
 
-/// Rays per vertex in the measurement of the time of a traced ray.
+/// The number of rays per vertex in the measurement of the time of a traced ray.
 const TRACED: u32 = 16;
 
 /// The growth of vertices for direct light, as a power of the ratio of its error to the goal. Measured in the hall.
 const ORDER_FOR_DIRECT: f64 = 0.5;
-/// The same power where vertices also gather indirect light for the stored map. Measured in the hall.
+/// The power of that growth where vertices also gather indirect light for the stored map. Measured in the hall.
 const ORDER_FOR_BARE: f64 = 1.3;
 
 /// The vertices that a round for direct light adds, in multiples of those of the last round.
@@ -31,7 +31,8 @@ const NEXT: f64 = 1.5;
 const MOVED: f64 = 0.1;
 
 impl Pilot<'_> {
-    /// Reports a round and returns whether there is time for the next step. Without time the pilot is not whole.
+    /// Reports a round and returns whether there is time for the next step. Without time the pilot counts as
+    /// incomplete.
     pub(super) fn has_time(
         &mut self,
         look: &Survey,
@@ -44,8 +45,8 @@ impl Pilot<'_> {
         has_time
     }
 
-    /// Measures the costs of direct light and of rays before the first look, and reports the first prediction, in
-    /// scenes of many objects. In others it only fixes the noise of direct light.
+    /// Measures the costs of direct light and of rays before the first survey, and reports the first prediction, in
+    /// scenes of many objects. In other scenes it only fixes the noise of direct light.
     pub(super) fn begin(
         &mut self,
         elements: &Elements,
@@ -73,7 +74,7 @@ impl Pilot<'_> {
         go_on(&self.round(request, None, (None, None)));
     }
 
-    /// The work done and the work to come, from the last survey, if there was one.
+    /// The work done and the work to come, from the last survey if there was one.
     pub(super) fn round(
         &self,
         request: &PilotRequest,
@@ -104,18 +105,20 @@ impl Pilot<'_> {
             most: self.mesh.most_for_indirect_light,
             measured: self.direct.lx.len() as f64,
             pilot_rays: mean_of(&self.mesh.rays),
-            rays,
+            each: EachIncrement {
+                rays,
+                check_rays: (checks + for_bare) * of_one,
+                particles: self.particles(request.target, (vertices, reference_lx), carriers, rays),
+                measures_direct: !self.lighting.is_measured_once(),
+            },
             checks,
-            check_rays: (checks + for_bare) * of_one,
             trials: hybrid::rays_tried(carriers, rays),
-            particles: self.particles(request.target, (vertices, reference_lx), carriers, rays),
             target: request.target,
             excess,
             before,
             usual: if look.is_none() && !self.direct.is_measured { self.usual() } else { None },
             more_for_direct: more,
             measured_again: if self.direct.is_measured { 0.0 } else { MOVED },
-            measured_each: !self.lighting.is_measured_once(),
         };
         Round {
             receivers: vertices,

@@ -4,7 +4,7 @@ use super::look::Survey;
 use super::state::Pilot;
 use crate::engine::gather::{Gatherer, RayTrial, known_at, ray_trial};
 use crate::engine::judge::BELIEVED_INCREMENTS;
-use crate::engine::particle::CausticNoise;
+use crate::engine::particle::{CausticNoise, ParticleTrial};
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::Sequence;
 use rayon::prelude::*;
@@ -25,7 +25,8 @@ impl Pilot<'_> {
             .map(|v| (self.before_walls(v as u32, gatherers[v]), vertices[v].area_m2))
             .collect();
         let gathering = self.gathering(&look.elements, u32::MAX, &self.near.standings);
-        let wanted = (target, look.reference_lx, BELIEVED_INCREMENTS, self.key.with(6));
+        let (reference_lx, increments) = (look.reference_lx, BELIEVED_INCREMENTS);
+        let wanted = (ray_trial::RunGoal { target, reference_lx, increments }, self.key.with(6));
         let started = Instant::now();
         let (trial, rays) =
             RayTrial::of(&gathering, &some, &self.indirect.lx, wanted, self.tried.trial);
@@ -38,7 +39,8 @@ impl Pilot<'_> {
         let areas_m2: Vec<f64> = vertices.iter().map(|v| v.area_m2).collect();
         let read = |at: &SurfacePoint| known_at(&look.elements, u32::MAX, &self.near.standings, at);
         let of = (self.scene, self.lighting);
-        let (noise, aim, rays) = CausticNoise::tried(of, &areas_m2, read, self.key.with(7));
+        let ParticleTrial { noise, aim, rays } =
+            CausticNoise::tried(of, &areas_m2, read, self.key.with(7));
         self.tried.caustic_noise = noise;
         self.tried.aim = aim;
         self.traced += rays;

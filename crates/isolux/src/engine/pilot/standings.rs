@@ -1,4 +1,4 @@
-//! What vertices stand for: the open, gaps, nothing.
+//! The standings of vertices: open, in a gap, at a rim, or hidden.
 
 use super::state::Pilot;
 use crate::ablation::without;
@@ -8,18 +8,20 @@ use crate::engine::occlusion::{Side, barriers};
 use crate::map::Standing;
 use crate::units::Rgb;
 
-/// Error of an element that is read as it is inside, as a share of what light falls by to its rim: root mean square of what falls evenly.
+/// The interpolation error of an element in a lit gap, as a share of the fall of light from the gap to its rim. The
+/// value is the root mean square for a linear fall.
 const ERROR_OF_FALL: f64 = 0.4;
 
 impl Pilot<'_> {
-    /// Photometric values of the vertices in the open.
+    /// The photometric values of open vertices; `None` for all others.
     pub(super) fn in_the_open(&self, values: &[Rgb]) -> Vec<Option<f64>> {
         let is_open = |k: usize| self.near.standings[k] == Some(Standing::Open);
         (0..self.near.standings.len()).map(|k| is_open(k).then(|| values[k].luminance())).collect()
     }
 
-    /// What an element errs by in a gap that is brighter inside than at the rim, as over a lamp that hangs close below a ceiling, and than
-    /// most of the scene, lx: all of it is read as it is inside. Nothing elsewhere: light that comes in at a rim does not reach far.
+    /// The interpolation error of an element in a lit gap, lx. A lit gap is brighter than its rim and than the
+    /// reference illuminance, as above a lamp close below a ceiling. All of the element is read with the value inside.
+    /// The error is zero elsewhere, since light that enters at a rim does not reach far.
     pub(super) fn error_in_lit_gap_lx(&self, node: u32, reference_lx: f64) -> f64 {
         let corners = self.mesh.subdivision.node(node).0.vertices;
         let of_standing = |standing: Standing| {
@@ -35,7 +37,8 @@ impl Pilot<'_> {
         ERROR_OF_FALL * darker_lx.max(0.0)
     }
 
-    /// Finds out what vertices stand for that are new, or whose elements are.
+    /// Determines the standings of new vertices and of vertices whose elements have changed. A vertex that an object
+    /// stands on counts as a rim, or as hidden if an element joins it to a hidden vertex.
     pub(super) fn complete_standings(&mut self, gatherers: &[Gatherer]) {
         let mut before = std::mem::take(&mut self.near.standings);
         before.resize(gatherers.len(), None);
@@ -53,7 +56,8 @@ impl Pilot<'_> {
         self.set_shaded_apart();
     }
 
-    /// Whether something stands on vertices that were not looked at yet; where nobody looked at elements, it may stand close to them.
+    /// Tests new vertices for objects that stand on them. Elements that were not tested for close objects count as
+    /// having some.
     pub(super) fn look_for_torn(&mut self) {
         if without("footprints") {
             self.near.footprints.skip(&self.mesh.subdivision);
@@ -64,7 +68,8 @@ impl Pilot<'_> {
         self.near.footprints.look(self.scene, &self.mesh.subdivision, is_beset);
     }
 
-    /// Elements that reach into the dark behind what stands across them are read from the corners before it.
+    /// Sets dark vertices close behind an object across their elements to the standing of a rim. Their elements are
+    /// then read from the lit corners before the object.
     fn set_shaded_apart(&mut self) {
         if self.indirect.lx.is_empty() {
             return;
@@ -82,6 +87,7 @@ impl Pilot<'_> {
         }
     }
 
+    /// Determines whether light can reach the new vertices.
     pub(super) fn extend_known(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         self.look_for_torn();
         let mut known = std::mem::take(&mut self.near.known);

@@ -45,10 +45,6 @@ pub(super) const MAX_ROUNDS: usize = 16;
 const LEAST_EDGE_SHARE: f64 = 1e-3;
 /// The displacement of receivers on borders, as a share of the way to the middle of their element.
 const PULL_IN: f64 = 2e-3;
-/// The least order of convergence, in the number of vertices, at which a round of refinement counts as
-/// progress. For smooth functions the order is one. It is lower for some rounds where light enters through
-/// narrow places.
-pub(super) const LEAST_ORDER: f64 = 0.25;
 /// The largest number of successive rounds without progress. At borders of gaps each round finds as much error
 /// as it removes, until elements are as narrow as the gap.
 pub(super) const MOST_STALLS: usize = 1;
@@ -187,8 +183,17 @@ pub(super) struct Bare {
     pub(super) beset: Vec<u32>,
 }
 
-/// The first mesh, the edge length of the usual first mesh, m, and whether most vertices belong to objects.
-fn first_mesh(scene: &Scene, request: &PilotRequest) -> (Subdivision, f64, bool) {
+/// The mesh that the pilot starts with.
+struct FirstMesh {
+    subdivision: Subdivision,
+    /// The edge length of the usual first mesh, m.
+    edge_m: f64,
+    /// Whether most vertices belong to objects, not to walls.
+    has_many_things: bool,
+}
+
+/// The first mesh of a scene.
+fn first_mesh(scene: &Scene, request: &PilotRequest) -> FirstMesh {
     let mut subdivision = Subdivision::new(scene);
     let area_m2: f64 = subdivision.leaves().map(|n| subdivision.triangle(n).area()).sum();
     // Half squares of hypotenuse h have area h^2 / 4, and there are two per vertex.
@@ -201,7 +206,7 @@ fn first_mesh(scene: &Scene, request: &PilotRequest) -> (Subdivision, f64, bool)
     if request.is_fitted && !without("room-scale") {
         bisect_to_scale(scene, &mut subdivision, request.max_vertices);
     }
-    (subdivision, edge_m, more > first)
+    FirstMesh { subdivision, edge_m, has_many_things: more > first }
 }
 
 impl<'s> Pilot<'s> {
@@ -210,7 +215,7 @@ impl<'s> Pilot<'s> {
         lighting: &'s Lighting<'s>,
         request: &PilotRequest,
     ) -> Self {
-        let (subdivision, edge_m, has_many_things) = first_mesh(scene, request);
+        let FirstMesh { subdivision, edge_m, has_many_things } = first_mesh(scene, request);
         let rays = Self::shared_rays(&subdivision, request.target);
         let has_noise = request.is_fitted && lighting.has_many() && lighting.is_measured_once();
         let bounds = scene.bvh().mesh().bounds();

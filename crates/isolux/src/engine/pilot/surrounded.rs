@@ -1,4 +1,4 @@
-//! What stands close before elements and vertices.
+//! Objects close before elements and vertices.
 
 use super::state::{HEM, Pilot};
 use crate::engine::gather::Gatherer;
@@ -7,7 +7,7 @@ use crate::engine::ray::SurfacePoint;
 use rayon::prelude::*;
 
 impl Pilot<'_> {
-    /// Whether something stands close before the nodes that were not looked at yet.
+    /// Finds the new nodes with an object close before their middle.
     pub(super) fn complete_beset(&mut self) {
         let new = self.near.beset.len() as u32..self.mesh.subdivision.node_count() as u32;
         let is_beset = |node: u32| {
@@ -18,7 +18,8 @@ impl Pilot<'_> {
         self.near.beset.extend(new);
     }
 
-    /// How close something stands before the vertices that were not looked at yet, but before those on borders: there walls do.
+    /// Finds the distance to the nearest object before each new vertex. Vertices on borders are left out, since walls
+    /// stand before them.
     pub(super) fn complete_hemmed(&mut self, gatherers: &[Gatherer]) {
         let on_border = self.mesh.subdivision.border_vertices();
         let edges_m = self.mesh.subdivision.longest_edges_m();
@@ -35,7 +36,7 @@ impl Pilot<'_> {
         self.near.hemmed_in_m.extend(new);
     }
 
-    /// The same for carriers that others are interpolated from.
+    /// Finds that distance for the new carriers that other vertices are interpolated from.
     pub(super) fn complete_beset_carriers(&mut self, gatherers: &[Gatherer]) {
         let is_new = |vertex: &u32| !self.near.beset_from_m.contains_key(vertex);
         let new: Vec<u32> = self.mesh.carriers.parents().into_iter().filter(is_new).collect();

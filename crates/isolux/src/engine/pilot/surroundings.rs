@@ -1,5 +1,7 @@
-//! The light of the surroundings: errors in dim rooms beside bright ones count by what they are there, and so do errors of what is
-//! seen from there.
+//! Weights of interpolation errors by the light of their surroundings.
+//!
+//! Errors in dim rooms beside bright ones count relative to the light there. So do errors of surfaces that dim rooms
+//! see.
 
 use super::state::Pilot;
 use crate::ablation::without;
@@ -10,16 +12,18 @@ use crate::engine::mesh::{LeafError, is_in_room};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// Surroundings count once they have less than this part of the light of the whole scene, by the square of what they lack, until they
-/// count by their own light; and no more than so many times.
+/// The illuminance of surroundings below which errors gain weight, as a share of the reference illuminance. The weight
+/// grows with the inverse square of that illuminance, until errors count relative to it.
 const DIM: f64 = 0.25;
+/// The largest weight of an error.
 const MOST_WEIGHT: f64 = 1e3;
-/// Dim places matter as if they were this part of all surfaces at least.
+/// The least area of dim surfaces that is assumed, as a share of all surfaces.
 pub(super) const LEAST_DIM: f64 = 1.0 / 64.0;
-/// Reflections over which light is taken to be that of the surroundings, and over which an error is followed to where it is dim.
+/// The number of reflections over which light counts as that of the surroundings, and over which errors are followed to
+/// dim places.
 const REFLECTIONS: usize = 3;
 
-/// How much errors count where there is so much light about, of so much in the whole scene.
+/// The weight of an error, from the illuminance of its surroundings and the reference illuminance, lx.
 fn weight(about_lx: f64, reference_lx: f64) -> f64 {
     let times = reference_lx / about_lx;
     let dim = (DIM * times).max(1.0);
@@ -27,7 +31,7 @@ fn weight(about_lx: f64, reference_lx: f64) -> f64 {
 }
 
 impl Pilot<'_> {
-    /// Finds how much errors count at every vertex.
+    /// Determines the weights of errors at all vertices.
     pub(super) fn look_about(
         &mut self,
         elements: &Elements,
@@ -37,12 +41,12 @@ impl Pilot<'_> {
         let lx = |k: usize| (self.direct.lx[k] + self.indirect.lx[k]).luminance();
         let reference_lx = Light::of_vertices(elements, &self.near.standings, lx).reference_lx();
         let about_lx = self.surroundings_lx(operator);
-        // Where no light is about, others tell.
+        // Vertices whose surroundings are dark leave the weight to the other vertices of their elements.
         let own = |&lx: &f64| if lx > 0.0 { weight(lx, reference_lx) } else { f64::INFINITY };
         let own: Vec<f64> = about_lx.iter().map(own).collect();
         let in_rooms = own.par_iter().zip(gatherers).map(|(&own, gatherer)| {
             let is_dim = own > 1.0 && own.is_finite();
-            let place = (gatherer.origin, gatherer.normal, gatherer.surface.triangle);
+            let place = gatherer.stand();
             if is_dim && is_in_room(self.scene, place) { own } else { 1.0 }
         });
         let in_rooms: Vec<f64> = in_rooms.collect();
@@ -52,7 +56,8 @@ impl Pilot<'_> {
             all.map(|((own, seen), in_room)| [own, seen, in_room]).collect();
     }
 
-    /// How much errors of vertices count for who sees them from dim rooms, where they count so much.
+    /// The weights of errors of vertices for dim places that see them, from the weights at these places. Also sets the
+    /// area of dim surfaces.
     fn seen_from_dim(
         &mut self,
         elements: &Elements,
@@ -78,8 +83,8 @@ impl Pilot<'_> {
         seen
     }
 
-    /// The light of the surroundings of every vertex, lx: of what it sees, and what is seen from there. In one room it is about
-    /// the same everywhere.
+    /// The illuminance of the surroundings of each vertex, lx: of the surfaces it sees, and of those seen from them. It
+    /// is about the same everywhere in one room.
     fn surroundings_lx(&self, operator: &Operator) -> Vec<f64> {
         let waiting = self.mesh.carriers.waiting();
         let whole = operator.reflected(&vec![Rgb::grey(1.0); self.indirect.lx.len()]);
@@ -97,7 +102,7 @@ impl Pilot<'_> {
         seen.iter().map(|seen| seen.luminance()).collect()
     }
 
-    /// Errors of direct light, which rays read, as they count in dim rooms by the light there; `None` where there are none.
+    /// The errors of direct light, which rays read, with the weights of dim rooms; `None` if there are no dim rooms.
     pub(super) fn weighed_in_rooms(&self, errors: &[LeafError]) -> Option<Vec<LeafError>> {
         let known = &self.indirect.surroundings.weights;
         if known.iter().all(|weights| weights[2] <= 1.0) {
@@ -112,7 +117,8 @@ impl Pilot<'_> {
         Some(errors.iter().map(weigh).collect())
     }
 
-    /// Vertices made since have the weights of the edges that they lie on.
+    /// The weights at all vertices. A new vertex has those of the ends of its edge: the smaller one, or the mean for
+    /// dim places that see it.
     fn completed_weights(&self) -> Vec<[f64; 3]> {
         let mut weights = self.indirect.surroundings.weights.clone();
         for vertex in &self.mesh.subdivision.vertices()[weights.len()..] {
@@ -124,7 +130,7 @@ impl Pilot<'_> {
         weights
     }
 
-    /// Has errors in dim surroundings, and of what is seen from there, count by what they are there.
+    /// Sets the weights of errors by the light of their surroundings, and for dim places that see them.
     pub(super) fn weigh(&mut self, errors: &mut [LeafError]) {
         self.indirect.surroundings.weights = self.completed_weights();
         if without("surroundings") {
@@ -141,8 +147,8 @@ impl Pilot<'_> {
     }
 }
 
-/// How much errors of vertices count that are read from where errors count so much: in the mean over those that read them, and as far as
-/// they do.
+/// The weight of an error at each vertex, from the weights of the receivers that read it. It is their mean over the
+/// area that reads the vertex, or over its own area if that is larger.
 fn read_from_there(
     operator: &Operator,
     elements: &Elements,

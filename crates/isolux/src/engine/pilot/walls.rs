@@ -1,4 +1,4 @@
-//! Walls that rays are judged by: whether there are any, and how much noise that takes off.
+//! The control variate of walls in the pilot: its construction, its light, and the noise that it leaves.
 
 use super::state::{PILOT_TOLERANCE, Pilot};
 use crate::ablation::without;
@@ -13,16 +13,19 @@ use crate::sampling::Sequence;
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// A first look at the light, with so many rays; vertices have as many later at least.
+/// The largest number of rays of a vertex in the first estimate of indirect light. It is also the least number to which
+/// the control variate reduces the rays of the pilot.
 const FIRST_RAYS: u32 = 16;
-/// Noise that is left of what it is without walls, for which the pilot has fewer rays.
+/// The share of noise left by the control variate below which the pilot traces fewer rays.
 const MUCH: f64 = 0.35;
 
-/// Accuracies for which the first look is too coarse.
+/// The relative accuracy goal below which the walls are fitted to the light again. The first estimate of indirect light
+/// is too coarse there.
 const FINE: f64 = 2e-3;
 
 impl Pilot<'_> {
-    /// Looks whether rays are to be judged by walls, and how many of them do then.
+    /// Builds the control variate of walls if enough places see them, polynomials fit their light, and enough noise is
+    /// removed. Where little noise is left, vertices of the pilot get fewer rays.
     pub(super) fn find_walls(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         if without("control-variate") {
             return;
@@ -39,13 +42,14 @@ impl Pilot<'_> {
         };
         self.indirect.lx = vec![Rgb::BLACK; gatherers.len()];
         let left_out = self.look_at_walls(&mut backdrop, elements);
-        // What is bright may lie between the places that were looked at, but not between vertices.
+        // Bright spots may lie between the places of the fit, but not between vertices.
         let reflected = lit.iter().map(|&v| {
-            let (stand, m2) = (gatherers[v].stand(), elements.vertices()[v].area_m2);
+            let (stand, area_m2) = (gatherers[v].stand(), elements.vertices()[v].area_m2);
             let SurfacePoint { triangle, back, point, .. } = gatherers[v].surface;
             let [a, b] = self.scene.triangle(triangle).barycentric(point);
             let at = SurfacePoint::new(self.scene, triangle, back, a, b);
-            (stand, m2, (self.direct.lx[v] * at.reflectance(self.scene)).luminance())
+            let reflected_lx = (self.direct.lx[v] * at.reflectance(self.scene)).luminance();
+            control_variate::LitStand { stand, area_m2, reflected_lx }
         });
         if left_out.max(backdrop.leaves_out(reflected)) > control_variate::LEFT_OUT {
             self.indirect.lx.clear();
@@ -68,7 +72,7 @@ impl Pilot<'_> {
         }
     }
 
-    /// Indirect light by few rays.
+    /// Estimates indirect light at the vertices by few rays.
     fn glance(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let vertices: Vec<u32> = (0..gatherers.len() as u32).collect();
         let mut rows = self.rows(&vertices, gatherers);
@@ -82,7 +86,8 @@ impl Pilot<'_> {
             operator.solve(&black, &black, &self.mesh.carriers.waiting(), PILOT_TOLERANCE);
     }
 
-    /// Noise of some places if rays are judged by walls, as a share of what it is otherwise.
+    /// The noise at some places with the control variate, as a share of the noise without it; `None` if there is no
+    /// noise without it. The result of this trial is kept.
     fn noise_left_by_walls(
         &mut self,
         elements: &Elements,
@@ -94,13 +99,15 @@ impl Pilot<'_> {
             self.key.with(9),
         );
         let gathering = self.gathering(elements, u32::MAX, &self.near.standings);
-        let (trial, left, rays) = RayTrial::of_walls(&gathering, places, &self.indirect.lx, of);
+        let ray_trial::WallTrial { trial, left, rays } =
+            RayTrial::of_walls(&gathering, places, &self.indirect.lx, of);
         self.traced += rays;
         self.tried.trial = Some(trial);
         left
     }
 
-    /// Takes down the light of the walls once more, where what the first look made of it may add to the noise.
+    /// Fits the walls to the light again for fine accuracy goals, where errors of the first estimate may add to the
+    /// noise.
     pub(super) fn look_at_walls_again(&mut self, elements: &Elements, target: f64) {
         let Some(mut backdrop) = self.walls.backdrop.take() else { return };
         if target < FINE {
@@ -110,7 +117,7 @@ impl Pilot<'_> {
         self.walls.backdrop = Some(backdrop);
     }
 
-    /// Takes down the light of the walls that rays are judged by.
+    /// Fits the walls to the present light. Returns the share of the variation of light that the fit leaves out.
     fn look_at_walls(&self, backdrop: &mut ControlVariate, elements: &Elements) -> f64 {
         let light_at = |at: &SurfacePoint| {
             let known = known_at(elements, u32::MAX, &self.near.standings, at)?;
@@ -127,17 +134,17 @@ impl Pilot<'_> {
         backdrop.see(self.scene, light_at)
     }
 
-    /// A vertex that gathers, with what it gets from the walls.
+    /// The gatherer of a vertex with the illuminance of the unoccluded walls, if there is a control variate.
     pub(super) fn before_walls(&self, vertex: u32, of: Gatherer) -> Gatherer {
         let Some(backdrop) = &self.walls.backdrop else { return of };
-        // Those on borders move as elements become smaller.
+        // Receivers on borders move as their elements become smaller.
         let known = self.walls.behind.get(&vertex).filter(|(origin, _)| *origin == of.origin);
         let behind =
             known.map_or_else(|| backdrop.behind(self.scene, &of.stand()), |&(_, light)| light);
         Gatherer { behind, ..of }
     }
 
-    /// The same for all that carry light.
+    /// Sets the illuminance of the unoccluded walls at all vertices that carry light.
     pub(super) fn stand_before_walls(&self, gatherers: &mut [Gatherer]) {
         gatherers.par_iter_mut().enumerate().for_each(|(v, gatherer)| {
             if self.mesh.carriers.is_active(v as u32) {
@@ -146,7 +153,7 @@ impl Pilot<'_> {
         });
     }
 
-    /// Keeps that for later.
+    /// Keeps the illuminance of the unoccluded walls at vertices with rays, for later use.
     pub(super) fn keep_behind(&mut self, vertices: &[u32], rows: &[Gatherer]) {
         if self.walls.backdrop.is_some() {
             let of = vertices.iter().zip(rows).filter(|(_, row)| row.rays > 0);
@@ -154,6 +161,8 @@ impl Pilot<'_> {
         }
     }
 
+    /// The gatherers of some vertices, with their rays, gaps and control variate. Vertices that do not carry light have
+    /// no rays.
     pub(super) fn rows(&self, vertices: &[u32], gatherers: &[Gatherer]) -> Vec<Gatherer> {
         let edges_m = self.mesh.subdivision.longest_edges_m();
         let row = |&vertex: &u32| {

@@ -25,4 +25,4 @@ pub(crate) use scatter::{Scattered, luminance_ratio, pane};
 #[cfg(test)]
 pub(crate) use scatter::{reflect, refract, specular_share};
 pub(crate) use short_rays::ShortRays;
-pub(crate) use surface::SurfacePoint;
+pub(crate) use surface::{Stand, SurfacePoint};

@@ -1,10 +1,10 @@
 //! Short rays that probe the surroundings of a place. Their directions are the same everywhere, so they are
 //! drawn once.
 
-use super::surface::SurfacePoint;
+use super::surface::{Stand, SurfacePoint};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
-use isolux_geometry::{Direction, Hit, Normal, Point, Ray, Vector};
+use isolux_geometry::{Direction, Hit, Normal, Ray, Vector};
 
 /// `N` cosine-distributed directions about an axis, of which the first `2^k` are a digital net.
 #[derive(Debug)]
@@ -23,14 +23,14 @@ impl<const N: usize> ShortRays<N> {
         axis.to_direction().from_local(self.0[k])
     }
 
-    /// Ray number `k` from a place; it skips the triangle of the place.
-    pub(crate) fn ray(&self, k: usize, (origin, axis, triangle): (Point, Normal, u32)) -> Ray {
-        Ray::new(origin, self.direction(k, axis)).skipping(triangle)
+    /// Ray number `k` from a stand.
+    pub(crate) fn ray(&self, k: usize, from: Stand) -> Ray {
+        Ray::new(from.origin, self.direction(k, from.normal)).skipping(from.triangle)
     }
 
     /// Ray number `k` from a surface, at most `reach_m` long.
     pub(crate) fn ray_of(&self, k: usize, at: &SurfacePoint, reach_m: f64) -> Ray {
-        self.ray(k, (at.start(), at.shading, at.triangle)).up_to(reach_m as f32)
+        self.ray(k, at.stand()).up_to(reach_m as f32)
     }
 
     /// The closest hits of all rays, on transparent surfaces too.

@@ -1,4 +1,4 @@
-//! A place on one side of a surface.
+//! A place on one side of a surface, and the start of rays there.
 
 use crate::elements::{PlaceOnSide, Subdivision};
 use crate::scene::Scene;
@@ -18,6 +18,14 @@ pub(crate) struct SurfacePoint {
     pub(crate) shading: Normal,
     /// Distance from the surface at which rays start, m.
     pub(crate) away_m: f64,
+}
+
+/// The start of rays: their origin, the axis of their distribution, and the triangle that they leave and skip.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stand {
+    pub(crate) origin: Point,
+    pub(crate) normal: Normal,
+    pub(crate) triangle: u32,
 }
 
 impl SurfacePoint {
@@ -78,6 +86,11 @@ impl SurfacePoint {
     /// The origin of rays that leave this side.
     pub(crate) fn start(&self) -> Point {
         self.point + self.geometric * self.away_m
+    }
+
+    /// The start of rays that are distributed about the shading normal.
+    pub(crate) fn stand(&self) -> Stand {
+        Stand { origin: self.start(), normal: self.shading, triangle: self.triangle }
     }
 
     /// The ray that leaves this side.

@@ -1,48 +1,48 @@
-//! What is asked of an engine and what it says while it works.
+//! The request to an engine, and the progress that the engine reports.
 
 use crate::engine::method::{IrradianceCache, RadiositySettings};
 use crate::map::{Accuracy, Method};
 use std::time::Duration;
 
-/// What to compute, and when to stop.
+/// The request for a map: method, goals and limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolveRequest {
-    /// Which engine.
+    /// The method of computation.
     pub method: Method,
-    /// Stop when the whole error of the scene is this fraction; `None` runs until the time limit or
-    /// until stopped.
+    /// The relative error of the scene at which the run ends. With `None` the run goes on until the time limit or until
+    /// it is stopped.
     pub accuracy: Option<f64>,
-    /// Subdivide until the bare interpolated map is this good (a fraction); best effort.
+    /// The relative error of the stored (interpolated) map for which elements are bisected; best effort.
     pub mesh_accuracy: f64,
-    /// Stop after this time with a valid map.
+    /// The time after which the run stops, with a valid map.
     pub time_limit: Option<Duration>,
-    /// Seed: the same seed gives the same bits.
+    /// The seed of the random numbers. The same seed gives the same bits.
     pub seed: u64,
-    /// Whether to take noise off where the map shows nothing else.
+    /// Whether a filter reduces the noise of the map where it shows no other detail.
     pub filter: bool,
-    /// Whether an independent test of the map decides, too, whether its accuracy is reached.
+    /// Whether an independent audit of the map also decides if the accuracy is reached.
     pub audit: bool,
-    /// Refuse to need more memory than this, bytes.
+    /// The largest memory, bytes. Scenes that need more are refused.
     pub max_memory_bytes: u64,
-    /// Samples that the `cache` method starts from.
+    /// The samples that the `cache` method starts from.
     pub cache: IrradianceCache,
-    /// How finely radiosity works.
+    /// The settings of radiosity.
     pub radiosity: RadiositySettings,
 }
 
-/// Memory of a vertex, bytes: the subdivision with its edges, the operator's entries at the fewest
-/// rays, sums and values. Measured on rooms; rounded up.
+/// The memory of a vertex, bytes: the subdivision with its edges, the operator's entries at the fewest rays, sums and
+/// values. Measured on rooms and rounded up.
 pub(crate) const BYTES_A_VERTEX: u64 = 2400;
 
 impl SolveRequest {
-    /// Receivers that fit into the memory allowed, about.
+    /// The approximate number of receivers that fit into the allowed memory.
     pub const fn most_receivers(&self) -> usize {
         (self.max_memory_bytes / BYTES_A_VERTEX) as usize
     }
 }
 
 impl Default for SolveRequest {
-    /// One per cent, within what a small machine has.
+    /// An accuracy of one per cent, within the memory of a small machine.
     fn default() -> Self {
         Self {
             method: Method::Hybrid,
@@ -59,83 +59,83 @@ impl Default for SolveRequest {
     }
 }
 
-/// What an engine is doing.
+/// The stage of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
-    /// Finding out where elements are needed.
+    /// The pilot refines the elements.
     Pilot,
-    /// Accumulating increments.
+    /// Increments are summed over fixed elements.
     Increments,
 }
 
-/// The state of a run.
+/// The progress of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Progress {
-    /// What is being done.
+    /// The present stage.
     pub stage: Stage,
-    /// Increments accumulated.
+    /// The number of increments so far.
     pub increments: u64,
-    /// Error of the scene; `None` until it can be believed.
+    /// The error of the scene; `None` until increments are enough to know it.
     pub accuracy: Option<Accuracy>,
-    /// The share of all light that is unshot, of radiosity.
+    /// The share of unshot light in all light; only for radiosity.
     pub unshot: Option<f64>,
-    /// Accuracy asked for.
+    /// The accuracy goal, relative.
     pub target: Option<f64>,
-    /// Vertices of the elements.
+    /// The number of vertices of the elements.
     pub receivers: u64,
-    /// Rays traced.
+    /// The number of rays traced.
     pub rays: u64,
-    /// Those of them that an earlier run has traced, which this one goes on from.
+    /// The part of `rays` that an earlier run has traced, which this one continues.
     pub earlier_rays: u64,
-    /// Time since the start, s.
+    /// The time since the start, s, without the pauses of a watcher.
     pub elapsed_s: f64,
-    /// When it will be done; `None` until it can be said.
+    /// The predicted finishing time; `None` until it can be predicted.
     pub prediction: Option<Prediction>,
-    /// Whether the run ends here of itself.
+    /// Whether the run ends here without being stopped.
     pub ends: bool,
 }
 
 impl Progress {
-    /// Rays traced per second.
+    /// The number of rays that this run traces per second.
     pub fn rays_per_s(&self) -> f64 {
         (self.rays - self.earlier_rays) as f64 / self.elapsed_s.max(1e-9)
     }
 }
 
-/// A predicted finishing time, s since the start, with an interval of 90 %.
+/// A predicted finishing time, with an interval of 90 %. Times count from the start, s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prediction {
-    /// Most likely.
+    /// The most likely time, s.
     pub finish_s: f64,
-    /// Not before.
+    /// The lower end of the interval, s.
     pub earliest_s: f64,
-    /// Not after.
+    /// The upper end of the interval, s.
     pub latest_s: f64,
 }
 
-/// What a run would need.
+/// The predicted size and time of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Foreseen {
-    /// Vertices of the elements that it would come to.
+    /// The number of vertices that the elements would have.
     pub receivers: u64,
-    /// When it would be done; `None` where the method does not tell, or no accuracy is asked for.
+    /// The finishing time; `None` if the method gives no prediction, or without an accuracy goal.
     pub finish: Option<Prediction>,
 }
 
 /// The answer to a progress report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Watch {
-    /// Go on.
+    /// The run continues.
     Continue,
-    /// Go on; so long it was held up by whoever watches, which is no time of the run.
+    /// The run continues. The watcher has held it up for this time, which does not count as time of the run.
     After(Duration),
-    /// Go on even where the run would end of itself, on the same elements.
+    /// The run continues on the same elements, even if it would end here without being stopped.
     Insist,
-    /// Stop after this increment, with a valid map.
+    /// The run stops after this increment, with a valid map.
     Stop,
 }
 
-/// Why there is no map.
+/// The reason why there is no map.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {
@@ -147,25 +147,25 @@ pub enum SolveError {
         "no surface of the scene can carry a map: all of them are mirrors, glass or lamps that reflect nothing"
     )]
     NoReceiver,
-    /// It would take more memory than allowed.
+    /// The map would take more memory than allowed.
     #[error("the map needs about {needed} bytes, more than the {allowed} allowed")]
     Memory {
-        /// Bytes needed.
+        /// The needed memory, bytes.
         needed: u64,
-        /// Bytes allowed.
+        /// The allowed memory, bytes.
         allowed: u64,
     },
-    /// There is more light in the map than luminaires can have brought.
+    /// The map has more light than luminaires can cause.
     #[error(
         "the map has {mean_lx:.3e} lx of reflected light in the mean, where the light of all luminaires comes to {allowed_lx:.3e} lx at most: it is wrong and is not written"
     )]
     MoreThanEnergy {
-        /// Mean of indirect light, lx.
+        /// The mean of indirect light, lx.
         mean_lx: f64,
-        /// The most that it can be, lx.
+        /// The energy bound on this mean, lx.
         allowed_lx: f64,
     },
-    /// The saved state is that of another run.
+    /// The saved state belongs to another run.
     #[error("the saved run differs in {0}; solve without resuming, or ask for the same again")]
     OtherRun(&'static str),
 }

@@ -1,4 +1,4 @@
-//! A run between two increments: integers and counters, enough to go on bit for bit.
+//! The state of a run between two increments: integers and counters, from which it continues bit for bit.
 
 use super::request::{SolveError, SolveRequest};
 use crate::engine::method::RadiositySettings;
@@ -7,72 +7,72 @@ use crate::map::Method;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
-/// What a run has summed so far. The elements are not part of it: the pilot makes the same again.
+/// The sums of a run so far. Elements are not part of it, since the pilot makes the same ones again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunState {
-    /// Of which run it is.
+    /// The identity of the run.
     pub identity: RunIdentity,
-    /// Which mesh, counted from one: later stages have finer ones.
+    /// The number of the mesh, counted from one. Later stages have finer meshes.
     pub stage: u32,
-    /// Rays traced, pilots included.
+    /// The number of rays traced, pilots included.
     pub rays: u64,
-    /// Increments summed; none if the run was stopped before its mesh was complete.
+    /// The number of increments summed; zero if the run was stopped before its mesh was complete.
     pub increments: u64,
-    /// What audits have found on the way.
+    /// The results of the audits so far.
     pub audited: Audited,
-    /// Sums of the receivers.
+    /// The sums of the receivers.
     pub receivers: Vec<Sums>,
-    /// Sums of the check points.
+    /// The sums of the check points, then those of the checked parts of elements.
     pub checks: Vec<Sums>,
-    /// Sum of the light on paths that were given up: one, or none where there are no increments.
+    /// The sum of the light on paths given up: one entry, or none where there are no increments.
     pub given_up: Vec<Sums>,
 }
 
-/// What the audits of a run have come to.
+/// The results of the audits of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Audited {
-    /// How many there were.
+    /// The number of audits.
     pub audits: u32,
-    /// How many times the error told the true one is; one until an audit has contradicted a claim.
+    /// The ratio of the true error to the reported one; one until an audit has contradicted a claim.
     pub true_over_told: f64,
-    /// The noise that was told after so many increments, powers of two, relative.
+    /// The relative noise reported after each number of increments that is a power of two.
     pub noise: Vec<(u64, f64)>,
 }
 
 impl Default for Audited {
-    /// No audit yet.
+    /// The results before the first audit.
     fn default() -> Self {
         Self { audits: 0, true_over_told: 1.0, noise: Vec::new() }
     }
 }
 
-/// Everything that decides what an increment of a run is.
+/// The inputs that determine each increment of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunIdentity {
-    /// [`Scene::hash`].
+    /// The hash of the scene: [`Scene::hash`].
     pub scene_hash: String,
-    /// Version of isolux.
+    /// The version of isolux.
     pub version: String,
-    /// Engine.
+    /// The method of computation.
     pub method: Method,
-    /// Seed.
+    /// The seed of the random numbers.
     pub seed: u64,
-    /// Accuracy asked for: elements and rays are made for it.
+    /// The relative accuracy goal; elements and rays are made for it.
     pub accuracy: Option<f64>,
-    /// Accuracy asked of the bare map.
+    /// The relative accuracy goal of the stored (interpolated) map.
     pub mesh_accuracy: f64,
-    /// Memory allowed, which bounds elements and rays, bytes.
+    /// The allowed memory, bytes. It bounds elements and rays.
     pub max_memory_bytes: u64,
-    /// How finely radiosity works.
+    /// The settings of radiosity.
     #[serde(default)]
     pub radiosity: RadiositySettings,
-    /// Whether audits decide when it is done.
+    /// Whether audits also decide when the run ends.
     #[serde(default)]
     pub audit: bool,
 }
 
 impl RunState {
-    /// Whether it is of the run that a request asks for.
+    /// Whether the state belongs to the run that a request describes.
     pub fn is_of(&self, scene: &Scene, request: &SolveRequest) -> bool {
         self.identity == RunIdentity::of(scene, request)
     }
@@ -93,7 +93,7 @@ impl RunIdentity {
         }
     }
 
-    /// Whether a saved run is this one; else what differs.
+    /// Compares the identity with that of a saved run. The error names the first difference.
     pub(crate) fn check(&self, saved: &Self) -> Result<(), SolveError> {
         let differs = [
             ("the scene", self.scene_hash == saved.scene_hash),
@@ -113,7 +113,7 @@ impl RunIdentity {
     }
 }
 
-/// Puts saved sums back; refused where their number is another.
+/// Puts saved sums back into an accumulator. The error reports a different number of receivers.
 pub(crate) fn restore(
     accumulator: &mut Accumulator,
     saved: &[Sums],

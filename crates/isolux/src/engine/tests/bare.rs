@@ -4,7 +4,7 @@ use super::*;
 use crate::engine::gather::Unlit;
 use crate::engine::judge::check_points;
 use crate::engine::light::Lighting;
-use crate::engine::method::{Hybrid, PathTracer};
+use crate::engine::method::{Hybrid, IncrementSize, PathTracer};
 use crate::engine::pilot::{PilotRequest, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::ray::{Deadline, ProbePoint};
@@ -39,7 +39,8 @@ fn vertices_gather_for_the_bare_map_where_it_is_coarse() {
     assert!(own.len() > 50, "{}", own.len());
     assert!(own.is_sorted() && own[0] as usize >= plan.mesh.indirect_vertices);
     let checks = check_points::draw(&plan, 64, Key::new(5));
-    let mut hybrid = Hybrid::new(&plan, &checks, (64.0, 0, 0.02, 0), 1 << 10, 1);
+    let size = IncrementSize { rays: 64.0, halvings: 0, particles: 0, goal: 0.02 };
+    let mut hybrid = Hybrid::new(&plan, &checks, size, 1 << 10, 1);
     let increments: Vec<_> = (0..8)
         .map(|index| hybrid.increment(index, &checks, [Deadline::NEVER; 2]).unwrap().receivers)
         .collect();
@@ -73,7 +74,8 @@ fn what_gathers_for_the_bare_map_is_read_by_no_ray() {
     let mut without = plan(&scene, &lighting, 0.02);
     without.mesh.gathering_for_bare.clear();
     let made = |plan: &Plan| {
-        let mut hybrid = Hybrid::new(plan, &[], (32.0, 0, 0.02, 0), 1 << 10, 1);
+        let size = IncrementSize { rays: 32.0, halvings: 0, particles: 0, goal: 0.02 };
+        let mut hybrid = Hybrid::new(plan, &[], size, 1 << 10, 1);
         hybrid.increment(0, &[], [Deadline::NEVER; 2]).unwrap()
     };
     let (with, without, plan) = (made(&with), made(&without), with);

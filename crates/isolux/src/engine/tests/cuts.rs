@@ -142,7 +142,7 @@ fn a_corner_is_told_from_the_others_by_the_line_between() {
     let mut subdivision = crate::elements::Subdivision::new(&scene);
     subdivision.bisect_to(0.5, usize::MAX);
     let elements = subdivision.elements();
-    let sides: Vec<Side> = elements.leaves().map(Side::from).collect();
+    let sides: Vec<Side> = Side::of_all(&elements).collect();
     // Bright on one side.
     let is_there = |v: &crate::elements::Vertex| v.position.x < SHEET_X;
     let light: Vec<Rgb> =

@@ -4,7 +4,7 @@ use super::errors::room;
 use super::{Rgb, Scene, inward_box, isotropic, painted, scene, usual_request};
 use crate::engine::gather::Unlit;
 use crate::engine::light::Lighting;
-use crate::engine::pilot::{Costs, GoOn, Outlook, Round, pilot};
+use crate::engine::pilot::{Costs, EachIncrement, GoOn, Outlook, Round, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::{SolveRequest, Stage, Watch, foresee, solve};
 use std::time::Duration;
@@ -22,10 +22,8 @@ fn known() -> (Outlook, Costs) {
         most: f64::INFINITY,
         measured: 2000.0,
         pilot_rays: 64.0,
-        rays: 16.0,
+        each: EachIncrement { rays: 16.0, check_rays: 0.0, particles: 0.0, measures_direct: false },
         checks: 0.0,
-        check_rays: 0.0,
-        particles: 0.0,
         trials: 0.0,
         target: 0.01,
         excess: Some(1.0),
@@ -33,7 +31,6 @@ fn known() -> (Outlook, Costs) {
         usual: None,
         more_for_direct: 0.0,
         measured_again: 0.0,
-        measured_each: false,
     };
     (outlook, costs)
 }
@@ -48,7 +45,10 @@ fn when_elements_are_fixed_increments_are_left() {
     let left_s = outlook.left(&costs).time_s;
     let expected_s = ONCE_S + 8.5 * (0.016 * 1.4 + 0.002);
     assert!((left_s - expected_s).abs() < 1e-9, "{left_s} {expected_s}");
-    let beside = Outlook { check_rays: 8000.0, particles: 8000.0, ..outlook }.left(&costs).time_s;
+    let beside = {
+        let each = EachIncrement { check_rays: 8000.0, particles: 8000.0, ..outlook.each };
+        Outlook { each, ..outlook }.left(&costs).time_s
+    };
     assert!(
         (beside - left_s - 8.5 * 0.016).abs() < 1e-9,
         "half as many to check, and for caustics"
@@ -56,7 +56,8 @@ fn when_elements_are_fixed_increments_are_left() {
     // Direct light of check points is read exactly, a microsecond at vertices; others tell where it is noisy.
     let once = Outlook { checks: 500.0, trials: 8000.0, ..outlook }.left(&costs).time_s - left_s;
     assert!((once - 6.5 * 0.0005 - 0.008).abs() < 1e-9, "{once}");
-    let measured = Outlook { measured_each: true, ..outlook };
+    let measured =
+        Outlook { each: EachIncrement { measures_direct: true, ..outlook.each }, ..outlook };
     let direct_s = measured.left(&costs).time_s - left_s;
     assert!((direct_s - 8.5 * 0.002).abs() < 1e-9, "direct light in each: {direct_s}");
     // As increments do it is known sooner or later, as is what rays take without sweeps.

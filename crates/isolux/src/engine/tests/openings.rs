@@ -4,7 +4,7 @@ use super::*;
 use crate::engine::gather::{Gatherer, Gathering, Unlit};
 use crate::engine::light::{Goal, Lighting};
 use crate::engine::mesh::{LEAST, lend_noise};
-use crate::engine::method::{Hybrid, PathTracer};
+use crate::engine::method::{Hybrid, IncrementSize, PathTracer};
 use crate::engine::pilot::pilot;
 use crate::engine::ray::{Deadline, ProbePoint};
 use crate::engine::read::{ExactSettings, MapReader};
@@ -193,7 +193,8 @@ fn noise_that_readings_have_in_common_is_told_at_vertices() {
     let scene = room_behind_slats(0.6);
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
-    let mut hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1 << 10, 1);
+    let size = IncrementSize { rays: 64.0, halvings: 0, particles: 0, goal: 0.02 };
+    let mut hybrid = Hybrid::new(&plan, &[], size, 1 << 10, 1);
     // Floor, a side and the back of the room, by so many rays that theirs is no noise beside that of what they read.
     let places = [[1.9, 2.1, 0.0], [4.0, 1.7, 1.3], [1.1, 4.0, 1.6]];
     let places = places.map(|at| front_at(&scene, Point::from(at)));

@@ -4,7 +4,7 @@ use super::errors::{noise as normal, small_plan};
 use super::*;
 use crate::engine::gather::{RayTrial, Shared, allot, allot_by_noise, known_weights, mean_of};
 use crate::engine::light::Lighting;
-use crate::engine::method::{Hybrid, deposit};
+use crate::engine::method::{Hybrid, IncrementSize, deposit};
 use crate::engine::particle::{CausticNoise, particles};
 use crate::engine::ray::SurfacePoint;
 use crate::scene::Gloss;
@@ -97,7 +97,8 @@ fn housings_of_lamps_get_more_rays_than_their_area_is_worth() {
         if !has_met_it {
             plan.tried.trial = RayTrial::usual(plan.light.reference_lx);
         }
-        let hybrid = Hybrid::new(&plan, &[], (64.0, 0, 0.02, 0), 1 << 10, 1);
+        let size = IncrementSize { rays: 64.0, halvings: 0, particles: 0, goal: 0.02 };
+        let hybrid = Hybrid::new(&plan, &[], size, 1 << 10, 1);
         let by_area = allot(&plan.areas_m2(), 64.0);
         let places: Vec<Point> = plan.mesh.elements.vertices().iter().map(|v| v.position).collect();
         let rays =
@@ -147,7 +148,8 @@ fn caustics_are_as_noisy_as_a_trial_tells() {
         Some([0, 1, 2].map(|k| (corners[k].0, weights[k])))
     };
     let of = (&scene, &lighting);
-    let (told, _, rays) = CausticNoise::tried(of, &areas_m2, read, Key::new(3));
+    let trial = CausticNoise::tried(of, &areas_m2, read, Key::new(3));
+    let (told, rays) = (trial.noise, trial.rays);
     assert!(rays > 0);
     // On few vertices a few, a million at most, whatever is asked; without light to compare with, a few.
     assert_eq!(told.particles(20, (1e9, plan.light.reference_lx), 1, 0.1), particles(20));

@@ -9,12 +9,12 @@ mod lanes;
 mod planes;
 mod polynomial;
 
-use crate::engine::ray::{ShortRays, SurfacePoint};
+use crate::engine::ray::{ShortRays, Stand, SurfacePoint};
 use crate::quadrature::GaussRule;
 use crate::sampling::Key;
 use crate::scene::Scene;
 use crate::units::Rgb;
-use isolux_geometry::{Direction, Normal, Point};
+use isolux_geometry::Direction;
 use planes::Rectangle;
 use polynomial::{COUNT, Polynomial, View, powers};
 use rayon::prelude::*;
@@ -50,12 +50,14 @@ const BESIDE: f64 = 1e-3;
 /// its digits there.
 const FAR: f64 = 24.0;
 
-/// The origin of rays, the axis of their distribution, and the triangle that they leave.
+/// A stand, and the light that the surface around it reflects.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stand {
-    pub(crate) origin: Point,
-    pub(crate) normal: Normal,
-    pub(crate) triangle: u32,
+pub(crate) struct LitStand {
+    pub(crate) stand: Stand,
+    /// The area of the surface that it stands for, m2.
+    pub(crate) area_m2: f64,
+    /// The reflected light, lx, photometric.
+    pub(crate) reflected_lx: f64,
 }
 
 /// The walls of a scene and their light.
@@ -146,13 +148,13 @@ impl ControlVariate {
         all.left_out()
     }
 
-    /// The share of the variation between some places that the fit leaves out, root mean square. Each place has its
-    /// surface, m2, and the light reflected there, lx. Places off the walls do not count.
-    pub(crate) fn leaves_out(&self, places: impl Iterator<Item = (Stand, f64, f64)>) -> f64 {
+    /// The share of the variation between some places that the fit leaves out, root mean square. Places off the walls
+    /// do not count.
+    pub(crate) fn leaves_out(&self, places: impl Iterator<Item = LitStand>) -> f64 {
         let mut all = Moments::default();
-        for (of, m2, light) in places {
-            if let Some(told) = self.walls.iter().find_map(|wall| wall.tells(&of)) {
-                all.add(m2, light, light - told);
+        for LitStand { stand, area_m2, reflected_lx } in places {
+            if let Some(told) = self.walls.iter().find_map(|wall| wall.tells(&stand)) {
+                all.add(area_m2, reflected_lx, reflected_lx - told);
             }
         }
         all.left_out()
@@ -186,7 +188,7 @@ impl ControlVariate {
     /// light there. A bright part that is hidden, or that only the polynomial has, would add more noise than all
     /// others remove. The bound on noisy light then adds light.
     fn is_clear(scene: &Scene, of: &Stand, seen: &[Seen<'_>]) -> bool {
-        let ray = |k: usize| DIRECTIONS.ray(k, (of.origin, of.normal, of.triangle));
+        let ray = |k: usize| DIRECTIONS.ray(k, *of);
         let met = DIRECTIONS.met(scene, ray);
         let (mut count, mut light, mut all_light) = (0, 0.0, 0.0);
         let (mut squared, mut left) = (0.0, 0.0);

@@ -42,6 +42,13 @@ struct Plane {
     triangles: Vec<Triangle>,
 }
 
+/// A side of a triangle, with the plane that it lies in.
+struct OnPlane {
+    key: Key,
+    normal: Vector,
+    triangle: Triangle,
+}
+
 /// The largest plane surfaces that carry a map, as bounding rectangles that they fill well enough.
 pub(super) fn largest(scene: &Scene) -> Vec<Rectangle> {
     let Some((low, high)) = scene.bvh().mesh().bounds() else { return Vec::new() };
@@ -53,7 +60,7 @@ pub(super) fn largest(scene: &Scene) -> Vec<Rectangle> {
     };
     let mut areas_m2: HashMap<Key, f64, FewNumbers> = HashMap::default();
     let mut all_m2 = 0.0;
-    for (key, _, triangle) in sides() {
+    for OnPlane { key, triangle, .. } in sides() {
         let own_m2 = triangle.area();
         all_m2 += own_m2;
         if areas_m2.len() < MOST_PLANES || areas_m2.contains_key(&key) {
@@ -65,7 +72,7 @@ pub(super) fn largest(scene: &Scene) -> Vec<Rectangle> {
     large.sort_by(|(a, own_m2), (b, m2)| m2.total_cmp(own_m2).then(a.cmp(b)));
     large.truncate(MOST);
     let mut planes: Vec<Option<Plane>> = large.iter().map(|_| None).collect();
-    for (key, normal, triangle) in sides().filter(|_| !large.is_empty()) {
+    for OnPlane { key, normal, triangle } in sides().filter(|_| !large.is_empty()) {
         if let Some(k) = large.iter().position(|(own, _)| *own == key) {
             let plane = planes[k].get_or_insert(Plane { normal, triangles: Vec::new() });
             plane.triangles.push(triangle);
@@ -75,18 +82,15 @@ pub(super) fn largest(scene: &Scene) -> Vec<Rectangle> {
     planes.iter().flatten().zip(areas_m2).filter_map(|(plane, m2)| plane.rectangle(m2)).collect()
 }
 
-/// The key of the plane of a side of a triangle, the normal, and the triangle.
-fn plane_of(
-    triangle: Triangle,
-    back: bool,
-    (from, size_m): (Point, f64),
-) -> Option<(Key, Vector, Triangle)> {
+/// A side of a triangle with its plane; `None` if the triangle has no area. The distance of the plane is measured
+/// from a point of the scene and relative to the size of the scene, m.
+fn plane_of(triangle: Triangle, back: bool, (from, size_m): (Point, f64)) -> Option<OnPlane> {
     let [a, b, c] = triangle.corners;
     let normal = (b - a).cross(c - a).direction()?.to_vector();
     let normal = if back { -normal } else { normal };
     let far = (a - from).dot(normal) / size_m;
     let key = [normal.x, normal.y, normal.z, far].map(|x| libm::round(x / ALIKE) as i32);
-    Some((key, normal, triangle))
+    Some(OnPlane { key, normal, triangle })
 }
 
 impl Plane {

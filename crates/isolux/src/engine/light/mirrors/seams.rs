@@ -31,8 +31,15 @@ const ROUNDINGS: f64 = 4.0;
 /// surface with this inclination, the strip that is ignored is some hundred roundings wide at most.
 const ALONG: f64 = 1.0 - 1e-4;
 
-/// A place of reflection, the normal of the mirror there, and the chain of mirrors of the path.
-type Reflection<'c> = (Point, Normal, &'c [u32]);
+/// A reflection of a path.
+#[derive(Clone, Copy)]
+struct Reflection<'c> {
+    point: Point,
+    /// The normal of the mirror.
+    normal: Normal,
+    /// The chain of mirrors of the path.
+    chain: &'c [u32],
+}
 
 impl Lighting<'_> {
     /// The twins among the chains that form images.
@@ -60,8 +67,8 @@ impl Lighting<'_> {
         let start = if reflected { from.point } else { from.start() };
         let crossing = mirror.crossing(start, target.towards(start), self.mirrors.tolerance_m)?;
         let ends = [
-            Some((crossing, mirror.normal, chain)),
-            reflected.then_some((from.point, from.geometric, chain)),
+            Some(Reflection { point: crossing, normal: mirror.normal, chain }),
+            reflected.then_some(Reflection { point: from.point, normal: from.geometric, chain }),
         ];
         let share = self.passed(from, (Target::Point(crossing), None), ends)?;
         Some((share, self.mirror_near(mirror, plane, crossing)?))
@@ -76,7 +83,8 @@ impl Lighting<'_> {
         towards: (Target, Option<u32>),
         chain: &[u32],
     ) -> Option<Rgb> {
-        self.passed(from, towards, [Some((from.point, from.geometric, chain)), None])
+        let end = Reflection { point: from.point, normal: from.geometric, chain };
+        self.passed(from, towards, [Some(end), None])
     }
 
     /// The transmittance of the panes on a path. The path may cross mirrors of its chain that one of its
@@ -97,12 +105,12 @@ impl Lighting<'_> {
             };
             let surface = SurfacePoint::from_hit(self.scene, &hit);
             let plane_of = |back: bool| self.mirrors.of(surface.triangle, back);
-            let lies_on = |(end, mirror, chain): Reflection<'_>| {
-                let is_across = surface.geometric.dot(mirror).abs() < ALONG;
-                let off_m = (end - surface.point).dot(surface.geometric.to_vector()).abs();
+            let lies_on = |end: Reflection<'_>| {
+                let is_across = surface.geometric.dot(end.normal).abs() < ALONG;
+                let off_m = (end.point - surface.point).dot(surface.geometric.to_vector()).abs();
                 let is_of_chain =
-                    [false, true].into_iter().filter_map(plane_of).any(|p| chain.contains(&p));
-                is_of_chain && is_across && off_m <= ROUNDINGS * bvh.offset_m(end)
+                    [false, true].into_iter().filter_map(plane_of).any(|p| end.chain.contains(&p));
+                is_of_chain && is_across && off_m <= ROUNDINGS * bvh.offset_m(end.point)
             };
             match self.pane_share(&surface, &ray) {
                 Some(passed) => share = share * passed,

@@ -26,6 +26,24 @@ pub(crate) struct Shape<'a> {
     whole: f64,
 }
 
+/// A source that is an emitting surface or an image of one.
+#[derive(Clone, Copy)]
+pub(crate) struct AreaSource<'a> {
+    source: &'a Source,
+    emitter: &'a Emitter,
+    triangles: &'a [[Point; 3]],
+}
+
+impl<'a> AreaSource<'a> {
+    /// The source as an emitting surface; `None` if it is not one.
+    pub(crate) fn of(source: &'a Source) -> Option<Self> {
+        match &source.kind {
+            SourceKind::Area { emitter, triangles } => Some(Self { source, emitter, triangles }),
+            _ => None,
+        }
+    }
+}
+
 enum Seen<'a> {
     Pieces(Vec<Piece>),
     Parted(Parted<'a>),
@@ -107,17 +125,9 @@ impl Lighting<'_> {
         [fewest, most]: [usize; 2],
         sequence: Sequence,
     ) -> Measured {
-        let surface = |k: u32| {
-            let source = &self.sources[k as usize];
-            match &source.kind {
-                SourceKind::Area { emitter, triangles } => {
-                    Some((k, (source, emitter, triangles.as_slice())))
-                }
-                _ => None,
-            }
-        };
+        let surface = |k: u32| Some((k, AreaSource::of(&self.sources[k as usize])?));
         let surfaces: Vec<_> = which.filter_map(surface).collect();
-        let measured = |&(k, surface): &(u32, _), samples: usize| {
+        let measured = |&(k, surface): &(u32, AreaSource<'_>), samples: usize| {
             let numbers = [sequence.fork(k, samples as u32), sequence];
             self.of_surface(surface, at, samples, numbers)
         };
@@ -145,25 +155,23 @@ impl Lighting<'_> {
     /// meets light, the variance assumes that the next one would.
     fn of_surface(
         &self,
-        (source, emitter, triangles): (&Source, &Emitter, &[[Point; 3]]),
+        surface: AreaSource<'_>,
         at: &SurfacePoint,
         samples: usize,
         [own, of_looks]: [Sequence; 2],
     ) -> Measured {
         let of_each: [Rgb; REPLICATES as usize] = std::array::from_fn(|replicate| {
             let mut dice = Dice::new(own, replicate as u32);
-            self.lit_by_area(source, emitter, triangles, at, samples, &mut dice)
+            self.lit_by_area(surface, at, samples, &mut dice)
         });
         let (lx, variance) = mean_and_variance(&of_each);
         if !lx.is_black() {
             return Measured { lx, variance };
         }
         let samples = samples as f64 * f64::from(REPLICATES);
-        let unseen_lx = match self.openings.view(source, at) {
-            Some(view) => source.colour.luminance() * view.unseen(samples),
-            None => {
-                unhidden_lx(source, (emitter, triangles), at, &mut Dice::new(of_looks, 0)) / samples
-            }
+        let unseen_lx = match self.openings.view(surface.source, at) {
+            Some(view) => surface.source.colour.luminance() * view.unseen(samples),
+            None => unhidden_lx(surface, at, &mut Dice::new(of_looks, 0)) / samples,
         };
         Measured { lx, variance: unseen_lx * unseen_lx }
     }
@@ -176,13 +184,12 @@ impl Lighting<'_> {
     /// and each sample counts with the inverse of its probability.
     pub(crate) fn lit_by_area(
         &self,
-        source: &Source,
-        emitter: &Emitter,
-        triangles: &[[Point; 3]],
+        surface: AreaSource<'_>,
         at: &SurfacePoint,
         samples: usize,
         dice: &mut Dice,
     ) -> Rgb {
+        let AreaSource { source, emitter, triangles } = surface;
         if let Some(view) = self.openings.view(source, at) {
             let seen = |direction| self.seen_along(&view, direction);
             return source.colour * view.steradians(samples, dice, seen);
@@ -208,13 +215,9 @@ impl Lighting<'_> {
 }
 
 /// Unoccluded illuminance from an emitting surface, lx; a rough value if the surface is partitioned.
-fn unhidden_lx(
-    source: &Source,
-    of: (&Emitter, &[[Point; 3]]),
-    at: &SurfacePoint,
-    dice: &mut Dice,
-) -> f64 {
-    let Some(shape) = Shape::new(at, of, 1) else { return 0.0 };
+fn unhidden_lx(surface: AreaSource<'_>, at: &SurfacePoint, dice: &mut Dice) -> f64 {
+    let AreaSource { source, emitter, triangles } = surface;
+    let Some(shape) = Shape::new(at, (emitter, triangles), 1) else { return 0.0 };
     let one = |dice: &mut Dice| Rgb::grey(shape.place(dice).map_or(0.0, |place| place.share));
     let samples = if let Seen::Pieces(_) = shape.seen { 1 } else { LOOKED_AT };
     source.colour.luminance() * mean(samples, dice, one).luminance() * shape.whole

@@ -116,6 +116,6 @@ impl Lighting<'_> {
     /// The light of all rays in `shadows` that arrives.
     pub(crate) fn answer(&self, shadows: &mut Shadows) -> Rgb {
         let free = shadows.free(self.scene.bvh());
-        free.map(|(ray, target, light)| light * self.through_glass(ray, target)).sum()
+        free.map(|free| free.light * self.through_glass(free.ray, free.target)).sum()
     }
 }

@@ -39,6 +39,15 @@ struct Extent {
     peak_cd: f64,
 }
 
+/// A luminaire that may be drawn, by a chain of mirrors.
+#[derive(Clone, Copy)]
+struct Candidate {
+    chain: usize,
+    lamp: u32,
+    /// Its probability in the distribution.
+    chance: f64,
+}
+
 impl Lighting<'_> {
     /// The distribution for places within `reach_m` of a place; `None` where the light tree is empty.
     pub(crate) fn about(&self, place: Point, reach_m: f64) -> Option<NearbyLuminaires> {
@@ -116,9 +125,9 @@ impl Lighting<'_> {
             return self.estimate(at, dice);
         }
         let [shift, pick] = dice.pair();
-        let candidates: [(usize, u32, f64); CANDIDATES] =
+        let candidates: [Candidate; CANDIDATES] =
             std::array::from_fn(|k| self.candidate(about, (k as f64 + shift) / CANDIDATES as f64));
-        let ratio = |&(chain, lamp, chance): &(usize, u32, f64)| {
+        let ratio = |&Candidate { chain, lamp, chance }: &Candidate| {
             let is_there = self.chains[chain].is_empty() || self.images.has(lamp, chain);
             let view = self.view(chain, at, 0.0).filter(|_| is_there);
             view.map_or(0.0, |v| v.lamp_weight(&self.tree.lamps[lamp as usize])) / chance
@@ -126,7 +135,7 @@ impl Lighting<'_> {
         let ratios = candidates.each_ref().map(ratio);
         let total: f64 = ratios.iter().sum();
         let lit = drawn(&ratios, pick * total).and_then(|k| {
-            let (chain, lamp, chance) = candidates[k];
+            let Candidate { chain, lamp, chance } = candidates[k];
             let view = self.view(chain, at, 0.0)?;
             let share = CANDIDATES as f64 * chance * ratios[k] / total;
             Some(self.lit_by_lamp(&view, lamp, at, dice) / share)
@@ -134,21 +143,21 @@ impl Lighting<'_> {
         lit.unwrap_or(Rgb::BLACK) + self.estimate_of_others(at, dice)
     }
 
-    /// The chain and luminaire at a place from 0 to 1 on a distribution, and their probability.
-    fn candidate(&self, about: &NearbyLuminaires, place: f64) -> (usize, u32, f64) {
+    /// The candidate at a place from 0 to 1 on a distribution.
+    fn candidate(&self, about: &NearbyLuminaires, place: f64) -> Candidate {
         let sum = place * about.total();
         let k = about.sums.partition_point(|&s| s <= sum).clamp(1, about.parts.len()) - 1;
         let (from, weight) = (about.sums[k], about.sums[k + 1] - about.sums[k]);
         let (chain, part) = about.parts[k];
         let chance = weight / about.total();
         match part {
-            Part::Lamp(lamp) => (chain, lamp, chance),
+            Part::Lamp(lamp) => Candidate { chain, lamp, chance },
             Part::Node(number) => {
                 let node = &self.tree.nodes[number as usize];
                 let inside = ((sum - from) / weight).clamp(0.0, 1.0);
                 let lamp = self.tree.member(node, inside);
                 let of_node = self.tree.lamps[lamp as usize].peak_cd / node.peak_cd;
-                (chain, lamp, chance * of_node)
+                Candidate { chain, lamp, chance: chance * of_node }
             }
         }
     }

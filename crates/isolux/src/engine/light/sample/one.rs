@@ -2,7 +2,8 @@
 
 use super::super::lighting::Lighting;
 use super::super::sources;
-use super::super::sources::{Source, SourceKind, Target};
+use super::super::sources::{Source, Target};
+use super::area::AreaSource;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::units::Rgb;
 use isolux_geometry::Direction;
@@ -15,11 +16,9 @@ impl Lighting<'_> {
         samples: usize,
         dice: &mut Dice,
     ) -> Rgb {
-        match &source.kind {
-            SourceKind::Area { emitter, triangles } => {
-                self.lit_by_area(source, emitter, triangles, at, samples, dice)
-            }
-            _ => self.lit_by_point(source, at),
+        match AreaSource::of(source) {
+            Some(surface) => self.lit_by_area(surface, at, samples, dice),
+            None => self.lit_by_point(source, at),
         }
     }
 

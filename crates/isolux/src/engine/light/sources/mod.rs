@@ -163,12 +163,7 @@ fn real_sources(scene: &Scene) -> impl Iterator<Item = Source> + '_ {
             }
         };
         let luminaire_id = LuminaireId::Luminaire(index as u32);
-        Source {
-            luminaire: luminaire_id,
-            chain: Vec::new(),
-            colour: luminaire.colour,
-            kind,
-        }
+        Source { luminaire: luminaire_id, chain: Vec::new(), colour: luminaire.colour, kind }
     });
     let areas = scene.area_luminaires().iter().enumerate().map(|(index, area)| {
         let triangles = area.triangles.iter().map(|&t| corners_seen(scene, t, area.back));

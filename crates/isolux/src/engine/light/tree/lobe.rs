@@ -60,6 +60,14 @@ impl Lobe {
     }
 }
 
+/// A table as part of a mixture.
+pub(crate) struct PartOfMixture<'a> {
+    pub(crate) lobe: Lobe,
+    /// Axes of the frame of the table; `None` if these are the axes of the world.
+    pub(crate) frame: Option<&'a [Vector; 3]>,
+    pub(crate) weight: f64,
+}
+
 /// Mean and highest value of every texel.
 struct Texels {
     size: usize,
@@ -94,13 +102,10 @@ impl Lobes {
         lobe
     }
 
-    /// Adds the table of a mixture, in the axes of the world. Each part has a weight and a frame.
-    pub(crate) fn mix<'a>(
-        &mut self,
-        parts: impl Iterator<Item = (Lobe, Option<&'a [Vector; 3]>, f64)>,
-    ) -> Lobe {
+    /// Adds the table of a mixture, in the axes of the world.
+    pub(crate) fn mix<'a>(&mut self, parts: impl Iterator<Item = PartOfMixture<'a>>) -> Lobe {
         let mut texels = Texels::dark(MIXED_SIZE);
-        for (lobe, frame, weight) in parts {
+        for PartOfMixture { lobe, frame, weight } in parts {
             for j in 0..MIXED_SIZE {
                 for i in 0..MIXED_SIZE {
                     let place = |k: usize| (k as f64 + 0.5) / MIXED_SIZE as f64;

@@ -11,7 +11,7 @@ use crate::scene::{LuminaireKind, Scene};
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Normal, Point, Vector};
 use kind::{Kind, Kinds};
-use lobe::{Lobe, Lobes};
+use lobe::{Lobe, Lobes, PartOfMixture};
 
 /// The most lamps in a leaf.
 const GROUP: usize = 16;
@@ -52,6 +52,14 @@ pub(crate) struct Node {
     pub(crate) members: [u32; MEMBERS],
     /// Number of its second half, `None` for a leaf. The first half follows the node itself.
     pub(crate) second: Option<u32>,
+}
+
+/// A bounding sphere of lamps.
+struct Sphere {
+    centre: Point,
+    radius_m: f64,
+    /// Axis of the largest extent of the positions of the lamps.
+    widest: usize,
 }
 
 /// The light tree, with lamps and nodes in its order.
@@ -162,7 +170,7 @@ impl Tree {
     /// Appends the cluster of a range of lamps and its descendants.
     fn build(&mut self, first: usize, end: usize) -> u32 {
         let index = self.nodes.len();
-        let (centre, radius_m, widest) = self.sphere(&self.lamps[first..end]);
+        let Sphere { centre, radius_m, widest } = self.sphere(&self.lamps[first..end]);
         self.nodes.push(Node {
             centre,
             radius_m,
@@ -187,8 +195,8 @@ impl Tree {
         index as u32
     }
 
-    /// A bounding sphere of lamps, and the axis of their largest extent.
-    fn sphere(&self, lamps: &[Lamp]) -> (Point, f64, usize) {
+    /// A bounding sphere of lamps.
+    fn sphere(&self, lamps: &[Lamp]) -> Sphere {
         let first = lamps[0].position;
         let (low, high) = lamps.iter().fold((first, first), |(low, high), l| {
             (low.lesser(l.position), high.greater(l.position))
@@ -205,7 +213,7 @@ impl Tree {
             2
         };
         // Allowance for the rounding of a length and of the steps after it.
-        (centre, radius_m * (1.0 + 1e-12), widest)
+        Sphere { centre, radius_m: radius_m * (1.0 + 1e-12), widest }
     }
 
     /// Sets the table of a cluster whose parts have theirs: the common one if all kinds are equal, else a mixture.
@@ -221,13 +229,15 @@ impl Tree {
             let mixed = match node.second {
                 None => self.lobes.mix(lamps.iter().map(|l| {
                     let kind = kind_of(l.kind);
-                    (kind.lobe, Some(&kind.frame), l.peak_cd / peak_cd)
+                    let weight = l.peak_cd / peak_cd;
+                    PartOfMixture { lobe: kind.lobe, frame: Some(&kind.frame), weight }
                 })),
                 Some(second) => {
                     let halves = [&self.nodes[index + 1], &self.nodes[second as usize]];
                     self.lobes.mix(halves.into_iter().map(|half| {
                         let frame = half.kind.map(|kind| &kind_of(kind).frame);
-                        (half.lobe, frame, half.peak_cd / peak_cd)
+                        let weight = half.peak_cd / peak_cd;
+                        PartOfMixture { lobe: half.lobe, frame, weight }
                     }))
                 }
             };

@@ -4,6 +4,15 @@ use super::super::sources::Target;
 use crate::units::Rgb;
 use isolux_geometry::{Bvh, Ray};
 
+/// A shadow ray that no opaque surface blocks.
+pub(crate) struct FreeRay {
+    pub(crate) ray: Ray,
+    /// The source that it reaches.
+    pub(crate) target: Target,
+    /// The light that comes along it if it passes no pane.
+    pub(crate) light: Rgb,
+}
+
 /// A batch of shadow rays, each with the light that arrives if nothing blocks it.
 #[derive(Default)]
 pub(crate) struct Shadows {
@@ -20,12 +29,13 @@ impl Shadows {
     }
 
     /// The rays that no opaque surface blocks; the batch is then empty.
-    pub(crate) fn free(&mut self, bvh: &Bvh) -> impl Iterator<Item = (Ray, Target, Rgb)> + '_ {
+    pub(crate) fn free(&mut self, bvh: &Bvh) -> impl Iterator<Item = FreeRay> + '_ {
         let Self { rays, are_hit, asked } = self;
         are_hit.clear();
         are_hit.resize(rays.len(), false);
         bvh.any_hits(rays, are_hit);
         let all = rays.drain(..).zip(asked.drain(..)).zip(&*are_hit);
-        all.filter(|(_, is_hit)| !**is_hit).map(|((ray, (from, light)), _)| (ray, from, light))
+        let free = all.filter(|(_, is_hit)| !**is_hit);
+        free.map(|((ray, (target, light)), _)| FreeRay { ray, target, light })
     }
 }

@@ -115,9 +115,9 @@ impl Layer {
         ties: &mut Vec<Tie>,
     ) {
         let first = ties.len();
-        self.collect(&self.near, self.allowed, (scene, at, normal), ties);
+        self.collect(&self.near, self.allowed, scene, (at, normal), ties);
         if ties.len() == first {
-            self.collect(&self.wide, RELAXED * self.allowed, (scene, at, normal), ties);
+            self.collect(&self.wide, RELAXED * self.allowed, scene, (at, normal), ties);
         }
         // The samples with the largest weights are kept.
         if ties.len() > first + most {
@@ -134,7 +134,8 @@ impl Layer {
         &self,
         tree: &Octree,
         allowed: f64,
-        (scene, at, normal): (&Scene, Point, Normal),
+        scene: &Scene,
+        (at, normal): (Point, Normal),
         ties: &mut Vec<Tie>,
     ) {
         tree.visit(at, |number| {

@@ -24,6 +24,15 @@ struct Node {
     samples: Vec<u32>,
 }
 
+/// A sample with its reach.
+#[derive(Clone, Copy, Debug)]
+struct Reach {
+    sample: u32,
+    at: Point,
+    /// The distance up to which it serves places, m.
+    reach_m: f64,
+}
+
 /// An octree of samples.
 #[derive(Clone, Debug)]
 pub(super) struct Octree {
@@ -42,23 +51,17 @@ impl Octree {
 
     /// Adds a sample with its reach.
     pub(super) fn insert(&mut self, sample: u32, at: Point, reach_m: f64) {
-        self.insert_below(0, self.root, (sample, at, reach_m), 0);
+        self.insert_below(0, self.root, Reach { sample, at, reach_m }, 0);
     }
 
-    fn insert_below(
-        &mut self,
-        node: u32,
-        cell: Cell,
-        (sample, at, reach_m): (u32, Point, f64),
-        depth: u32,
-    ) {
-        if reach_m >= 0.5 * cell.half_m || depth >= MAX_DEPTH {
-            self.nodes[node as usize].samples.push(sample);
+    fn insert_below(&mut self, node: u32, cell: Cell, added: Reach, depth: u32) {
+        if added.reach_m >= 0.5 * cell.half_m || depth >= MAX_DEPTH {
+            self.nodes[node as usize].samples.push(added.sample);
             return;
         }
         for octant in 0..8 {
             let part = cell.octant(octant);
-            if !part.is_touched(at, reach_m) {
+            if !part.is_touched(added.at, added.reach_m) {
                 continue;
             }
             let mut child = self.nodes[node as usize].children[octant];
@@ -67,7 +70,7 @@ impl Octree {
                 self.nodes.push(Node::default());
                 self.nodes[node as usize].children[octant] = child;
             }
-            self.insert_below(child, part, (sample, at, reach_m), depth + 1);
+            self.insert_below(child, part, added, depth + 1);
         }
     }
 

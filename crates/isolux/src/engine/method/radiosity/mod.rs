@@ -73,16 +73,22 @@ pub(crate) struct Radiosity<'p, 's> {
     stop_unshot: f64,
     ambient: bool,
     light: KnownLight,
+    whole: Whole,
+    checks: Checks,
+    /// The effort before the first shot.
+    before: Effort,
+    key: Key,
+}
+
+/// Properties of the scene as a whole.
+struct Whole {
     /// The flux to be shot in all, lm.
-    whole_lm: f64,
+    flux_lm: f64,
     area_m2: f64,
     /// The root mean square of the light, as far as it is known before the first shot, lx.
     reference_lx: f64,
+    /// The mean diffuse reflectance.
     reflectance: Rgb,
-    checks: Checks,
-    rays_before: u64,
-    given_up_lx: f64,
-    key: Key,
 }
 
 /// Light that is known before the first shot.
@@ -131,7 +137,8 @@ impl<'p, 's> Radiosity<'p, 's> {
         let rays = (rays.clamp(16.0, 512.0) as u32).next_power_of_two();
         let specular = is_specular.then(|| Specular::new(plan, level, &chains, rays, key.with(1)));
         let (direct, direct_variance) = direct(plan, key.with(2));
-        let (caustic, caustic_variance, effort) = caustic(plan, accuracy, key.with(3));
+        let ReplicatedCaustics { lx: caustic, variance: caustic_variance, effort } =
+            caustic(plan, accuracy, key.with(3));
         let checks = Checks::new(plan, points, (asked.check_rays, accuracy), &direct, key.with(4));
         let reference_lx = plan.light.reference_lx.max(root_mean_square(plan, &direct, &caustic));
         let given_up = checks.operators.iter().map(Operator::given_up).sum::<f64>()
@@ -153,14 +160,18 @@ impl<'p, 's> Radiosity<'p, 's> {
                 expected: plan.prolongate(&plan.mesh.fit.apply(&plan.light.guess)),
                 corrections: Vec::new(),
             },
-            whole_lm: 0.0,
-            area_m2: plan.area_m2(),
-            reference_lx,
-            reflectance: Rgb::BLACK,
-            rays_before: effort.rays
-                + checks.operators.iter().map(|o| o.rays).sum::<u64>()
-                + specular.as_ref().map_or(0, |s| s.rays),
-            given_up_lx: effort.given_up_lx + given_up * reference_lx,
+            whole: Whole {
+                flux_lm: 0.0,
+                area_m2: plan.area_m2(),
+                reference_lx,
+                reflectance: Rgb::BLACK,
+            },
+            before: Effort {
+                rays: effort.rays
+                    + checks.operators.iter().map(|o| o.rays).sum::<u64>()
+                    + specular.as_ref().map_or(0, |s| s.rays),
+                given_up_lx: effort.given_up_lx + given_up * reference_lx,
+            },
             plan,
             sources,
             chains,
@@ -169,10 +180,10 @@ impl<'p, 's> Radiosity<'p, 's> {
             key,
         };
         engine.light.corrections = engine.corrections();
-        engine.reflectance = engine.mean_reflectance();
+        engine.whole.reflectance = engine.mean_reflectance();
         let nothing = Accumulator::new(engine.light.direct.len(), reference_lx);
         let none_shot = Accumulator::new(engine.sources.patches.len(), reference_lx);
-        engine.whole_lm = engine.fluxes(&nothing, &none_shot).iter().map(|f| f.size_lm).sum();
+        engine.whole.flux_lm = engine.fluxes(&nothing, &none_shot).iter().map(|f| f.size_lm).sum();
         engine
     }
 
@@ -183,12 +194,12 @@ impl<'p, 's> Radiosity<'p, 's> {
 
     /// The illuminance that sums are relative to, lx.
     pub(crate) fn reference_lx(&self) -> f64 {
-        self.reference_lx
+        self.whole.reference_lx
     }
 
     /// The mean light of rays and particles that were given up, lx.
     pub(crate) fn given_up_lx(&self) -> f64 {
-        self.given_up_lx
+        self.before.given_up_lx
     }
 
     /// By source, the mean exitance from direct light over the element less that of its vertices, where
@@ -229,7 +240,7 @@ impl<'p, 's> Radiosity<'p, 's> {
             Kind::Face(face) => face.reflectance * source.area_m2,
             Kind::Cluster => Rgb::BLACK,
         });
-        reflected.sum::<Rgb>() / self.area_m2
+        reflected.sum::<Rgb>() / self.whole.area_m2
     }
 
     /// The light that a vertex has not shot; before its first shot, the light it is expected to have in the
@@ -282,16 +293,17 @@ impl<'p, 's> Radiosity<'p, 's> {
         let fluxes = self.fluxes(sums, patches);
         let unsent_lm = self.specular.as_ref().map_or(0.0, |s| self.unsent_lm(s, sums));
         let unshot_lm = unsent_lm + fluxes.iter().map(|f| f.size_lm).sum::<f64>();
-        let share = if self.whole_lm > 0.0 { (unshot_lm / self.whole_lm).min(1.0) } else { 0.0 };
+        let whole = &self.whole;
+        let share = if whole.flux_lm > 0.0 { (unshot_lm / whole.flux_lm).min(1.0) } else { 0.0 };
         let (ambient_lx, doubt_lx) = self.ambient(&fluxes);
         let all_have_shot = fluxes.iter().all(|f| !f.is_first || f.size_lm == 0.0);
         let is_shot = all_have_shot && share <= self.stop_unshot;
-        let absorbed = 1.0 - self.reflectance.luminance();
+        let absorbed = 1.0 - whole.reflectance.luminance();
         // Expected light contains all further reflections; for other light they are a geometric series.
         let series = if all_have_shot { 1.0 / absorbed } else { 1.0 };
-        let most_lm = self.reference_lx * self.area_m2;
+        let most_lm = whole.reference_lx * whole.area_m2;
         let is_bounded =
-            absorbed > LEAST_ABSORBED && unshot_lm * series <= most_lm.max(self.whole_lm);
+            absorbed > LEAST_ABSORBED && unshot_lm * series <= most_lm.max(whole.flux_lm);
         Left { is_bounded, fluxes, unsent_lm, share, ambient_lx, doubt_lx, all_have_shot, is_shot }
     }
 
@@ -309,15 +321,15 @@ impl<'p, 's> Radiosity<'p, 's> {
     /// Where too much was shot the term would be negative: it is zero, and the negative part is added to the
     /// error.
     fn ambient(&self, fluxes: &[Flux]) -> (Rgb, f64) {
-        if !self.ambient || self.area_m2 <= 0.0 {
+        if !self.ambient || self.whole.area_m2 <= 0.0 {
             return (Rgb::BLACK, 0.0);
         }
         // Expected light contains all further reflections.
         let once: Rgb = fluxes.iter().filter(|f| f.is_first).map(|f| f.sum_lm).sum();
         let again: Rgb = fluxes.iter().filter(|f| !f.is_first).map(|f| f.sum_lm).sum();
-        let series = self.reflectance.map(|rho| 1.0 / (1.0 - rho.min(0.99)));
+        let series = self.whole.reflectance.map(|rho| 1.0 / (1.0 - rho.min(0.99)));
         let again = if once.is_black() { again * series } else { Rgb::BLACK };
-        let mean_lx = (once + again) / self.area_m2;
+        let mean_lx = (once + again) / self.whole.area_m2;
         let ambient_lx = mean_lx.greater(Rgb::BLACK);
         let left_out_lx = (ambient_lx - mean_lx).luminance();
         (ambient_lx, libm::hypot(DOUBT_OF_AMBIENT * ambient_lx.luminance(), left_out_lx))
@@ -346,8 +358,8 @@ impl<'p, 's> Radiosity<'p, 's> {
         };
         sums.increments += 1;
         patches.increments += 1;
-        let rays = rays + if index == 0 { self.rays_before } else { 0 };
-        Some(Effort { rays, given_up_lx: self.given_up_lx })
+        let rays = rays + if index == 0 { self.before.rays } else { 0 };
+        Some(Effort { rays, given_up_lx: self.before.given_up_lx })
     }
 
     fn shoot_patch(
@@ -479,7 +491,8 @@ impl<'p, 's> Radiosity<'p, 's> {
         let indirect: Vec<Rgb> = vertices.map(|k| sums.part(k, RECEIVED) + ambient).collect();
         let light: Vec<Rgb> =
             indirect.iter().zip(&self.light.caustic).map(|(&e, &c)| e + c).collect();
-        let mut found = Accumulator::new(check_points::places(points, true), self.reference_lx);
+        let mut found =
+            Accumulator::new(check_points::places(points, true), self.whole.reference_lx);
         for operator in &self.checks.operators {
             let fresh = operator.apply(&light);
             let map = [self.light.direct.as_slice(), &self.light.caustic, &indirect];
@@ -568,8 +581,18 @@ fn direct(plan: &Plan, key: Key) -> (Vec<Rgb>, Vec<f64>) {
     plan.mesh.gatherers.par_iter().enumerate().map(vertex).unzip()
 }
 
-/// Caustics at the vertices from particles, their variance, and the effort.
-fn caustic(plan: &Plan, accuracy: f64, key: Key) -> (Vec<Rgb>, Vec<f64>, Effort) {
+/// The mean of caustics over replicates.
+struct ReplicatedCaustics {
+    /// The caustics at the vertices, lx.
+    lx: Vec<Rgb>,
+    /// The variance of the mean at the vertices that indirect light lives on, lx2.
+    variance: Vec<f64>,
+    /// The effort of all replicates.
+    effort: Effort,
+}
+
+/// Caustics at the vertices from particles.
+fn caustic(plan: &Plan, accuracy: f64, key: Key) -> ReplicatedCaustics {
     let particles = plan.particles(accuracy, REPLICATES);
     let mut sum = Effort::default();
     let mut replicates = Vec::new();
@@ -585,5 +608,5 @@ fn caustic(plan: &Plan, accuracy: f64, key: Key) -> (Vec<Rgb>, Vec<f64>, Effort)
         mean_and_variance(&values)
     };
     let (light, variance): (Vec<Rgb>, Vec<f64>) = (0..plan.mesh.indirect_vertices).map(at).unzip();
-    (plan.prolongate(&light), variance, sum)
+    ReplicatedCaustics { lx: plan.prolongate(&light), variance, effort: sum }
 }

@@ -67,6 +67,14 @@ struct End {
     density: Option<f64>,
 }
 
+/// An opaque surface that a ray met.
+struct Met<'a> {
+    surface: SurfacePoint,
+    finish: &'a Finish,
+    /// The density of random hits there, 1/m2; `None` if it is met by way of specular surfaces.
+    density: Option<f64>,
+}
+
 /// The result of following a ray.
 #[derive(Default)]
 struct Found {
@@ -211,7 +219,7 @@ impl PathTracer<'_> {
                 let finish = if surface.back { back } else { front };
                 let throughput = throughput * luminance_of_start;
                 let density = (number == 0).then(|| density(from, &surface));
-                found.meet(self, (&surface, finish, density), &chain, throughput);
+                found.meet(self, Met { surface, finish, density }, &chain, throughput);
             }
             let next = specular_step(body, &surface, direction, throughput, dice);
             let Some(next) = next else { break };
@@ -227,14 +235,9 @@ impl PathTracer<'_> {
 
 impl Found {
     /// Adds an opaque surface that was met, with the throughput of luminance from there.
-    fn meet(
-        &mut self,
-        tracer: &PathTracer,
-        (surface, finish, density): (&SurfacePoint, &Finish, Option<f64>),
-        chain: &MirrorChain,
-        throughput: Rgb,
-    ) {
-        let SurfacePoint { triangle, back, u, v, .. } = *surface;
+    fn meet(&mut self, tracer: &PathTracer, met: Met<'_>, chain: &MirrorChain, throughput: Rgb) {
+        let Met { surface, finish, density } = met;
+        let SurfacePoint { triangle, back, u, v, .. } = surface;
         let luminaire = tracer.emitters.get(&(triangle, back));
         if let Some(&luminaire) = luminaire
             && !chain.is_covered_backwards(&tracer.lighting, luminaire)
@@ -245,7 +248,7 @@ impl Found {
         let reflectance = tracer.scene.diffuse_reflectance(finish, triangle, u, v);
         if !reflectance.is_black() {
             let share = throughput * reflectance;
-            self.ends.push(End { surface: *surface, share, density });
+            self.ends.push(End { surface, share, density });
         }
     }
 }

@@ -25,8 +25,12 @@ const MOST_RAYS: u32 = 2;
 /// The total number of rays of all elements, unless there are more elements.
 const RAYS: usize = 1 << 16;
 
-/// An element, its gatherer, and its area, m2.
-type Looking<'e> = (&'e Element, Gatherer, f64);
+/// An element that gathers from its centroid.
+struct Looking<'e> {
+    element: &'e Element,
+    gatherer: Gatherer,
+    area_m2: f64,
+}
 
 impl MapReader<'_> {
     /// The factors of all vertices, relative to their root mean square, and the root mean square of the
@@ -40,11 +44,11 @@ impl MapReader<'_> {
         let of_each = RAYS.checked_div(all.len()).map_or(0, |rays| rays as u32).clamp(1, MOST_RAYS);
         let looking = |element| {
             let (gatherer, area_m2) = self.amid(element);
-            (element, gatherer.with_rays(of_each), area_m2)
+            Looking { element, gatherer: gatherer.with_rays(of_each), area_m2 }
         };
         let known = all.iter().filter(|element| element.vertices.into_iter().any(is_known));
         let elements: Vec<Looking<'_>> = known.map(looking).collect();
-        let rows: Vec<Gatherer> = elements.iter().map(|(_, gatherer, _)| *gatherer).collect();
+        let rows: Vec<Gatherer> = elements.iter().map(|looking| looking.gatherer).collect();
         let dark = self.dark();
         let key = Key::new(self.map.provenance.seed).with(18);
         let operator = self.reading_alone(&dark).operator(&rows, |row| key.with(row as u64));
@@ -64,8 +68,7 @@ impl MapReader<'_> {
         let of_vertices: Vec<Rgb> =
             by_light.into_iter().zip(by_elements).map(|(a, b)| Rgb::grey(a.max(b))).collect();
         let seen = operator.reflected(&of_vertices);
-        let seen =
-            elements.iter().zip(seen).map(|((.., area_m2), seen)| (*area_m2, seen.luminance()));
+        let seen = elements.iter().zip(seen).map(|(of, seen)| (of.area_m2, seen.luminance()));
         (of_vertices, root_mean_square(seen))
     }
 
@@ -79,7 +82,8 @@ impl MapReader<'_> {
             let read: Vec<Rgb> = about.iter().copied().map(Rgb::grey).collect();
             let mut sums = vec![[0.0; 2]; about.len()];
             let seen = operator.reflected(&read);
-            for (((element, _, area_m2), seen), whole) in elements.iter().zip(seen).zip(&whole) {
+            for ((looking, seen), whole) in elements.iter().zip(seen).zip(&whole) {
+                let Looking { element, area_m2, .. } = looking;
                 for vertex in element.vertices {
                     let [sum, share] = &mut sums[vertex as usize];
                     *sum += area_m2 * seen.luminance();

@@ -201,7 +201,7 @@ impl<'a> MapReader<'a> {
         let trial = Gatherer { behind, ..trial };
         // Other random numbers than those of the trial: stopping at a small variance would report too small
         // variances.
-        let gatherer = trial.with_rays(self.rays_needed((trial, noise, part), key).rays);
+        let gatherer = trial.with_rays(self.rays_needed(trial, noise, part, key).rays);
         let Gathered { lx, variance, close, common_lx } =
             self.gather(gatherer, self.direct_at_ends(), (FRESH_REPLICATES, key.with(1)));
         let samples = u64::from(FRESH_REPLICATES) * u64::from(gatherer.rays);

@@ -159,7 +159,7 @@ impl MapReader<'_> {
         let Some(first) = trials.first() else { return (Vec::new(), 0.0) };
         let key = self.gathering_key(first);
         let Needed { rays, variance } =
-            self.rays_needed((*first, Allowance::ANY.noise, self.part_at(&first.surface)), key);
+            self.rays_needed(*first, Allowance::ANY.noise, self.part_at(&first.surface), key);
         let rows: Vec<Gatherer> = trials.iter().map(|trial| trial.with_rays(rays)).collect();
         let operator =
             self.gathering(self.direct_at_ends()).operator(&rows, |k| key.with(1).with(k as u64));

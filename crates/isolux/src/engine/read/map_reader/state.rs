@@ -154,12 +154,9 @@ impl<'a> MapReader<'a> {
         }
     }
 
-    /// The number of rays per replicate that reaches the noise goal, from a trial that is then discarded.
-    pub(super) fn rays_needed(
-        &self,
-        (trial, noise, part): (Gatherer, f64, f64),
-        key: Key,
-    ) -> Needed {
+    /// The number of rays per replicate that reaches the noise goal, from a trial that is then discarded. The goal is
+    /// a share of the error of the map times the local factor `part`, but at most the share `noise` of the light.
+    pub(super) fn rays_needed(&self, trial: Gatherer, noise: f64, part: f64, key: Key) -> Needed {
         let of_trial = (FRESH_REPLICATES, key.with(0));
         let Gathered { lx, variance, .. } = self.gather(trial, self.direct_at_ends(), of_trial);
         let goal = (FRESH_NOISE * part * self.unseen.reached_lx).min(noise * lx.luminance());

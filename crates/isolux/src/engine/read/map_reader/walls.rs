@@ -23,7 +23,7 @@ impl MapReader<'_> {
         let gathering =
             Gathering { backdrop: Some(&backdrop), ..self.gathering(self.direct_at_ends()) };
         let of = (self.unseen.reference_lx, Key::new(self.map.provenance.seed).with(13));
-        let (_, left, _) = RayTrial::of_walls(&gathering, &places, &self.light, of);
+        let left = RayTrial::of_walls(&gathering, &places, &self.light, of).left;
         left.is_some_and(|left| left <= control_variate::WORTH).then_some(backdrop)
     }
 

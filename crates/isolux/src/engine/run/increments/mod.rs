@@ -1,4 +1,4 @@
-//! The increments on one mesh: an engine, what it has summed, and the map that makes.
+//! The increments on one mesh: an engine, its sums, and the map made from them.
 
 mod outlook;
 
@@ -12,7 +12,9 @@ use crate::engine::judge::{
 };
 use crate::engine::light::Emission;
 use crate::engine::mesh::{HatFunctions, Trust, lend_noise};
-use crate::engine::method::{CacheSample, Cached, Forward, Hybrid, Left, Radiosity, tally};
+use crate::engine::method::{
+    CacheSample, Cached, Forward, Hybrid, IncrementSize, Left, Radiosity, tally,
+};
 use crate::engine::particle::{Squared, element_parts, flights};
 use crate::engine::plan::Plan;
 use crate::engine::ray::{Accumulator, Deadline, Estimate, Noise, Sample};
@@ -20,8 +22,8 @@ use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method, Unshot};
 use crate::sampling::Key;
 use crate::units::Rgb;
 
-/// Increments before a run may stop at its accuracy: as soon as it is believed. (Readings mix three
-/// vertices, whose spreads make one good enough: decision 12.)
+/// The number of increments before a run may end at its accuracy: its error is known by then. The spreads of the three
+/// vertices of a reading are together good enough (decision 12).
 const FEWEST_INCREMENTS: u64 = BELIEVED_INCREMENTS;
 
 /// The increments on one mesh.
@@ -29,17 +31,17 @@ pub(crate) struct Work<'p, 's> {
     pub(crate) plan: &'p Plan<'s>,
     engine: Engine<'p, 's>,
     pub(crate) sums: Accumulator,
-    /// Radiosity, which has no replicates, keeps the shots of its patches in their sums.
+    /// The check points and their sums. Radiosity has no replicates; its sums hold the shots of patches instead.
     pub(crate) checks: Checks,
-    /// What paths given up would bring in the mean.
+    /// The mean light of paths given up, lx.
     pub(crate) given_up: Accumulator,
-    /// Samples of a receiver in an increment: its gathering rays, or one for all particles.
+    /// The number of samples of a receiver in an increment: its gathering rays, or one for all particles.
     samples: u32,
-    /// What radiosity has left to shoot.
+    /// The light that radiosity has left to shoot.
     left: Option<Left>,
-    /// Whether it ends there, however good the map is.
+    /// Whether radiosity ends at its limit of unshot light, however accurate the map is.
     stops_at_unshot: bool,
-    /// The accuracy asked for.
+    /// The relative accuracy goal of the run.
     goal: Option<f64>,
 }
 
@@ -51,7 +53,7 @@ enum Engine<'p, 's> {
 }
 
 impl<'p, 's> Work<'p, 's> {
-    /// Seconds that an increment takes; `None` where nobody knows before the first.
+    /// The duration of an increment, s; `None` if it is unknown before the first one.
     pub(crate) fn pace_s(&mut self) -> Option<f64> {
         match &mut self.engine {
             Engine::Hybrid(hybrid) => Some(hybrid.pace_s()),
@@ -60,8 +62,8 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// On elements made for a target, with the rays of an increment halved so many times. Rays of `hybrid` are for
-    /// the accuracy asked for, however much finer its elements had to become.
+    /// The increments on elements made for a target, with the rays of an increment halved `halvings` times. The rays of
+    /// `hybrid` suit the accuracy goal of the request, even if elements are made for a finer target.
     pub(crate) fn new(
         plan: &'p Plan<'s>,
         request: &SolveRequest,
@@ -89,7 +91,7 @@ impl<'p, 's> Work<'p, 's> {
         let engine = match request.method {
             Method::Hybrid => {
                 let (mean, particles) = rays_and_particles(plan, noise, goal, most);
-                let of = (mean, particles, goal, halvings);
+                let of = IncrementSize { rays: mean, halvings, particles, goal };
                 Engine::Hybrid(Hybrid::new(plan, &points, of, most, request.seed))
             }
             Method::Cache => {
@@ -114,7 +116,8 @@ impl<'p, 's> Work<'p, 's> {
             .looked_at()
     }
 
-    /// With sums in units of the light that is expected. Single particles, and shots, may bring far more than that.
+    /// The increments with sums in units of the expected light. Engines of particles and shots keep one unit, since
+    /// single ones may bring far more light than expected.
     fn in_units_of_light(mut self) -> Self {
         if self.has_nets() {
             let (expected, points) = (self.plan.expected(), &self.checks.points);
@@ -149,7 +152,8 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// Adds one increment; returns the rays traced, or nothing if the end passes before. The first is made whole in any case.
+    /// Adds one increment and returns the number of rays traced; `None` if its deadline passes before. The first
+    /// increment is always completed.
     pub(crate) fn increment(&mut self, end: Deadline) -> Option<u64> {
         let index = self.sums.increments;
         let deadline = if index > 0 { end } else { Deadline::NEVER };
@@ -178,7 +182,7 @@ impl<'p, 's> Work<'p, 's> {
         Some(effort.rays)
     }
 
-    /// If there is more indirect light than energy allows in the mean, that mean and what is allowed, lx.
+    /// The mean of indirect light and its bound, lx, if the mean exceeds the energy bound.
     pub(crate) fn beyond_energy(&self, allowed: &energy_bound::Allowed) -> Option<[f64; 2]> {
         allowed.excess_lx(|vertex| match &self.engine {
             Engine::Radiosity(_) => self.estimate(vertex).mean.indirect.luminance(),
@@ -186,7 +190,7 @@ impl<'p, 's> Work<'p, 's> {
         })
     }
 
-    /// How many increments are made already that were not added.
+    /// The number of increments made ahead that are not added yet.
     pub(crate) fn ahead(&self) -> u64 {
         match &self.engine {
             Engine::Hybrid(hybrid) => hybrid.ahead(),
@@ -194,7 +198,7 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// The samples of a cache that were made.
+    /// The samples that the `cache` method has made.
     pub(crate) fn made(&mut self) -> Vec<CacheSample> {
         match &mut self.engine {
             Engine::Cache(cached) => cached.made(),
@@ -224,7 +228,7 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// Variance of direct light as it is read, lx2, that all increments have in common.
+    /// The variance of direct light in readings that all increments share, lx2.
     const fn noise_of_direct_lx2(&self) -> f64 {
         match &self.engine {
             Engine::Hybrid(hybrid) => hybrid.noise_of_direct_lx2(),
@@ -233,7 +237,7 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// The same with what parts of elements tell of caustics, that check points do not see.
+    /// The interpolation errors together with those of caustics, which parts of elements measure. Check points do not.
     fn with_caustics(&self, errors: InterpolationErrors, noise_is: Noise) -> InterpolationErrors {
         let (parts, area_m2) = (&self.plan.errors.parts, self.plan.area_m2());
         if parts.count() == 0 {
@@ -246,12 +250,12 @@ impl<'p, 's> Work<'p, 's> {
         let variance = |vertex: u32| self.sums.estimate(vertex as usize).variance;
         let noise = parts.noise(variance, OF_INTERPOLATED) / area_m2;
         let noise_lx = errors.noise_lx.map(|lx| (lx * lx + noise).sqrt());
-        // Vertices tell it as soon as it is believed.
+        // The standard errors of vertices contain it once the error is known.
         let caustics_lx = if self.is_believed() { told.sqrt() } else { 0.0 };
         InterpolationErrors { indirect_lx, total_lx, caustics_lx, noise_lx, ..errors }
     }
 
-    /// What interpolating caustics errs by in the mean square, as increments tell, where they look; zero where they do not.
+    /// The mean squared interpolation error of caustics in the checked elements, lx2; zero if none are checked.
     fn caustics_told_lx2(&self, noise_is: Noise) -> f64 {
         if self.checks.lacking.sums.is_empty() {
             return 0.0;
@@ -260,7 +264,7 @@ impl<'p, 's> Work<'p, 's> {
         seen.with(noise_is) / self.plan.area_m2()
     }
 
-    /// What radiosity has not shot.
+    /// The light that radiosity has not shot.
     pub(crate) fn unshot(&self) -> Option<Unshot> {
         self.left.as_ref().map(|left| {
             let Left { share, ambient_lx, doubt_lx, .. } = *left;
@@ -272,7 +276,7 @@ impl<'p, 's> Work<'p, 's> {
         self.unshot().map_or(Rgb::BLACK, |unshot| unshot.ambient_lx)
     }
 
-    /// The light at a vertex.
+    /// The light at a vertex, with its variances.
     fn estimate(&self, vertex: usize) -> Estimate {
         match &self.engine {
             Engine::Radiosity(radiosity) => radiosity.estimate(&self.sums, vertex),
@@ -280,7 +284,7 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// Whether increments are few, each with many rays of every receiver.
+    /// Whether the engine makes few increments, each with many rays of every receiver.
     const fn has_nets(&self) -> bool {
         matches!(self.engine, Engine::Hybrid(_) | Engine::Cache(_))
     }
@@ -293,7 +297,7 @@ impl<'p, 's> Work<'p, 's> {
         self.sums.increments >= fewest
     }
 
-    /// Where readers gather afresh.
+    /// The limits beyond which readers gather afresh; `None` if readers only interpolate.
     pub(crate) fn fresh(&self) -> Option<Fresh> {
         if !self.is_believed() || matches!(self.engine, Engine::Forward(_)) {
             return None;
@@ -316,7 +320,7 @@ impl<'p, 's> Work<'p, 's> {
         self.judged(noise_is).accuracy
     }
 
-    /// What check points say of the map, read with the trust that they leave.
+    /// The verdict on the map by check points, for the trust of readers that they allow.
     fn judged(&self, noise_is: Noise) -> Verdict {
         let pooled = self.left.is_none().then(|| Pooled::of(self.plan, |k| self.sums.estimate(k)));
         let by = |trust: Trust| {
@@ -327,7 +331,7 @@ impl<'p, 's> Work<'p, 's> {
             return by(self.plan.trust());
         };
         let judged = Verdict::for_goal(goal, self.plan.errors.trusts, by);
-        // Until it is believed nobody reads it.
+        // Trust in all but gaps is decided only once the error is known.
         if noise_is != Noise::Counted || !self.is_believed() {
             return judged;
         }
@@ -366,7 +370,7 @@ impl<'p, 's> Work<'p, 's> {
         accuracy(self.plan, pooled, &errors)
     }
 
-    /// The values of the map, and what the filter did to them.
+    /// The values of the map, and the report of the filter.
     pub(crate) fn values(
         &self,
         filtered: bool,
@@ -390,7 +394,7 @@ impl<'p, 's> Work<'p, 's> {
         (values, report)
     }
 
-    /// Holds what particles brought where deposits overshoot: caustics, or all light.
+    /// Bounds the light of particles where deposits overshoot: caustics, or all light.
     fn hold_deposits(&self, values: &mut [Option<Illuminance>], all: bool) {
         if !all && !self.plan.lighting.leaves_caustics() {
             return;
@@ -414,7 +418,7 @@ impl<'p, 's> Work<'p, 's> {
         }
     }
 
-    /// Filters indirect light and caustics, and direct light where particles brought it.
+    /// Filters indirect light and caustics, and direct light if particles have brought it.
     fn filter(&self, values: &mut [Option<Illuminance>], direct: bool) -> FilterReport {
         let coarse = self.plan.mesh.indirect_vertices;
         let part = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
@@ -446,7 +450,7 @@ impl<'p, 's> Work<'p, 's> {
         filtered.report
     }
 
-    /// Samples of a receiver in an increment; of one that is interpolated, those of a usual one.
+    /// The number of samples of a receiver in an increment. An interpolated receiver has that of a usual one.
     fn samples_of(&self, vertex: usize) -> u32 {
         let own = match &self.engine {
             Engine::Hybrid(hybrid) => hybrid.rays_of(vertex),
@@ -455,7 +459,8 @@ impl<'p, 's> Work<'p, 's> {
         if own > 0 { own } else { self.samples }
     }
 
-    /// What interpolating caustics errs by at every vertex, squared, lx2: counted as if it were noise; none where there are none.
+    /// The squared interpolation error of caustics at every vertex, lx2, which counts as noise; empty if it is not
+    /// known.
     fn caustic_variances(&self) -> Vec<Rgb> {
         if self.checks.lacking.sums.is_empty() || !self.is_believed() {
             return Vec::new();
@@ -477,7 +482,7 @@ impl<'p, 's> Work<'p, 's> {
         let standing = self.plan.mesh.standings[vertex]?;
         let estimate = self.estimate(vertex);
         let mean = estimate.mean;
-        // Radiosity has counted it.
+        // The estimate of radiosity contains this variance.
         let direct_variance = match self.engine {
             Engine::Radiosity(_) => 0.0,
             _ => self.plan.light.direct_variance[vertex],
@@ -497,7 +502,8 @@ impl<'p, 's> Work<'p, 's> {
     }
 }
 
-/// Gathering rays of receivers in the mean, as they share them best, and particles of an increment.
+/// The mean number of gathering rays of a receiver, and the number of particles of an increment. The allowed noise is
+/// shared between them optimally.
 fn rays_and_particles(plan: &Plan, noise: f64, goal: f64, most: u32) -> (f64, u32) {
     let rays = |noise: f64| {
         plan.tried
@@ -513,21 +519,21 @@ fn rays_and_particles(plan: &Plan, noise: f64, goal: f64, most: u32) -> (f64, u3
     (rays(noise * left.sqrt()), particles)
 }
 
-/// The noise that a map may have that is to reach a goal. Elements made for a finer target, as those for the goal were seen to err by
-/// more than expected, will do so, too.
+/// The relative noise that a map may have to reach a goal. Elements are made for a finer target if those for the goal
+/// had larger errors than expected. Their errors are taken to exceed the expected ones by the same factor.
 fn noise(plan: &Plan, goal: f64, target: f64) -> f64 {
     noise_for(goal, plan.errors.interpolation * goal / target)
 }
 
-/// Gathering rays of a receiver and increment that memory allows: half of it may go to the operator,
-/// 40 bytes an entry, a fifth more for gloss.
+/// The largest number of gathering rays of a receiver and increment for the allowed memory, a power of two. Half of the
+/// memory may go to the operator, at 40 bytes an entry and a fifth more for gloss.
 fn most_rays(plan: &Plan, max_memory_bytes: u64) -> u32 {
     let vertices = plan.mesh.indirect_vertices + plan.mesh.gathering_for_bare.len();
     let most = (max_memory_bytes / 2 / 48 / vertices.max(1) as u64).clamp(8, 1 << 20) as u32;
     if most.is_power_of_two() { most } else { most.next_power_of_two() / 2 }
 }
 
-/// What light is expected to be about, lx.
+/// The reference illuminance for the units of sums, lx.
 fn reference_of(plan: &Plan, engine: &Engine) -> f64 {
     match engine {
         Engine::Radiosity(radiosity) => radiosity.reference_lx(),
@@ -535,7 +541,7 @@ fn reference_of(plan: &Plan, engine: &Engine) -> f64 {
     }
 }
 
-/// Sums of receivers and of check points before the first increment.
+/// The sums of receivers and of check points before the first increment.
 fn no_sums(plan: &Plan, engine: &Engine, points: Vec<Check>) -> (Accumulator, Checks) {
     let parts = plan.errors.parts.count();
     let (places, parts) = match engine {

@@ -1,4 +1,4 @@
-//! Whether a run is done, or will be, and when.
+//! The outlook of a run: whether its increments may end, whether they suffice, and when.
 
 use super::super::prediction;
 use super::{Engine, FEWEST_INCREMENTS, Work};
@@ -6,34 +6,36 @@ use crate::engine::judge::{BELIEVED_INCREMENTS, FEWEST_TO_MISS, early_statistica
 use crate::engine::ray::{Noise, Sums};
 use crate::map::Accuracy;
 
-/// Increments that tell how many it will take; those of fewer were off by a factor of two.
+/// The number of increments from which the measured error predicts their number in all. Predictions from fewer were
+/// wrong by a factor of two.
 const FEWEST_TO_TELL: u64 = 6;
 
-/// Increments beyond which finer elements are faster, which take their pilot, as long as some ten increments of theirs, and as many
-/// increments as are believed, all on half as many vertices again or more.
+/// The number of increments beyond which finer elements are faster. These cost a pilot, which takes as long as about
+/// ten of their increments. They also cost [`BELIEVED_INCREMENTS`] increments, all on at least half as many vertices
+/// again.
 const MOST_INCREMENTS: f64 = 5.0 * BELIEVED_INCREMENTS as f64;
 
-/// Increments that a run makes at most only to be less in doubt.
+/// The largest number of increments that a run makes only to reduce the doubt about its error.
 const MOST_HOPED_FOR: f64 = 32.0 * BELIEVED_INCREMENTS as f64;
 
 impl Work<'_, '_> {
-    /// An accuracy and a target without that noise.
+    /// An accuracy and a target without the noise of direct light that all increments share.
     fn beside_direct(&self, accuracy: Accuracy, target: f64) -> (Accuracy, f64) {
         let share = self.noise_of_direct_lx2().sqrt() / self.plan.light.reference_lx;
         prediction::beside(if share.is_finite() { share } else { 0.0 }, accuracy, target)
     }
 
-    /// Whether a run may stop at its accuracy.
+    /// Whether a run may end at its accuracy: its error is known, or all patches of radiosity have shot.
     pub(crate) fn may_end(&self) -> bool {
         self.left.as_ref().map_or_else(|| self.is_believed(), |left| left.all_have_shot)
     }
 
-    /// Whether finer elements will reach a target, but these will not, or much later.
+    /// Whether finer elements will reach a target that the present ones will not reach, or only much later.
     pub(crate) fn is_too_coarse(&self, accuracy: Option<Accuracy>, target: f64) -> bool {
         if self.left.is_some() {
             return self.is_hopeless(accuracy, Some(target));
         }
-        // Elements are as fine as particles tell them to be for caustics, whatever they are made for.
+        // Elements for caustics are as fine as particles can resolve, whatever accuracy they are made for.
         let of_caustics =
             self.caustics_told_lx2(Noise::TakenOff) + self.plan.errors.caustics_beside_lx2;
         let of_caustics = of_caustics.sqrt() / self.plan.light.reference_lx.max(f64::MIN_POSITIVE);
@@ -44,7 +46,7 @@ impl Work<'_, '_> {
         let Some(counted) = accuracy.filter(|_| self.may_end()) else {
             return self.misses_early(target);
         };
-        // More increments may show that what noise could hide is none.
+        // More increments may show that the allowance for noise was not needed.
         let seen = self.accuracy_if(Noise::TakenOff).unwrap_or(counted);
         let most = if self.has_nets() { MOST_INCREMENTS } else { f64::INFINITY };
         [counted, seen].into_iter().all(|a| {
@@ -52,13 +54,13 @@ impl Work<'_, '_> {
             let are_few = |a: &Accuracy| {
                 prediction::increments_needed(a, count, target).is_some_and(|needed| needed <= most)
             };
-            // The best that finer elements make of it.
+            // Finer elements leave at least the error of caustics.
             let without_others = Accuracy { discretization: of_caustics, bias: 0.0, ..a };
             !are_few(&a) && (of_caustics == 0.0 || are_few(&without_others))
         })
     }
 
-    /// Whether the elements alone err by more than a target: seen before all of the error is believed.
+    /// Whether the error of the elements alone exceeds a target beyond noise, before the whole error is known.
     fn misses_early(&self, target: f64) -> bool {
         let ruled_out = || self.accuracy_if(Noise::RuledOut);
         self.has_nets()
@@ -66,12 +68,12 @@ impl Work<'_, '_> {
             && ruled_out().is_some_and(|a| a.of_elements() > target)
     }
 
-    /// What the elements err by, as far as it is seen.
+    /// The error of the elements, relative, with noise subtracted.
     pub(crate) fn error_of_elements(&self) -> Option<f64> {
         self.accuracy_if(Noise::TakenOff).map(|a| a.of_elements())
     }
 
-    /// Whether no number of increments will reach a target on these elements.
+    /// Whether a target cannot be reached on these elements with an acceptable number of increments.
     pub(crate) fn is_hopeless(&self, accuracy: Option<Accuracy>, target: Option<f64>) -> bool {
         if let Some(left) = &self.left {
             let misses = |a: Accuracy| target.is_none_or(|target| a.reached > target);
@@ -91,9 +93,9 @@ impl Work<'_, '_> {
         prediction::increments_needed_beyond_doubt(&accuracy, &seen, count, target)
     }
 
-    /// The increments that a target will take in all; `None` if it cannot be reached. Until the error is
-    /// believed, by what is seen of it, as soon as that tells something; before, by noise alone; from one increment,
-    /// what elements and rays are made for.
+    /// The number of increments in all for a target; `None` if it cannot be reached. Before the error is known, it
+    /// follows from the measured error, from [`FEWEST_TO_TELL`] increments on, or else from noise alone. After one
+    /// increment it is the number that elements and rays are made for.
     pub(crate) fn increments_needed(&self, accuracy: Option<Accuracy>, target: f64) -> Option<f64> {
         let count = self.sums.increments;
         if let (Engine::Radiosity(radiosity), Some(left)) = (&self.engine, &self.left) {
@@ -118,9 +120,8 @@ impl Work<'_, '_> {
         needed.map(|needed| needed.max(FEWEST_INCREMENTS as f64))
     }
 
-    /// Whether no number of increments will tell how good the map is: there is no light on it, or
-    /// the light that was given up may be more than what is there; or whether radiosity was told to
-    /// shoot no more.
+    /// Whether no number of increments will give the accuracy of the map. Either the map has no light, or the light of
+    /// paths given up may exceed all light. Radiosity also ends here at a limit of unshot light that the request sets.
     pub(crate) fn is_vain(&self, accuracy: Option<Accuracy>) -> bool {
         let dark = self.plan.light.reference_lx == 0.0;
         let lost = self.given_up.sums != [Sums::default()];
@@ -131,8 +132,8 @@ impl Work<'_, '_> {
         self.may_end() && accuracy.is_none() && (dark || given_up)
     }
 
-    /// Whether more increments, of those that are hopeless, would change little: noise is a small part
-    /// of the error.
+    /// Whether further increments would change little if the target cannot be reached: noise is a small part of the
+    /// error.
     pub(crate) fn is_settled(&self, accuracy: Option<Accuracy>) -> bool {
         let is_shot = matches!(self.engine, Engine::Radiosity(_));
         is_shot || accuracy.is_some_and(|a| a.statistical <= 0.25 * a.of_elements())

@@ -1,4 +1,4 @@
-//! Runs end only where an independent test of the map lets them.
+//! Audits in a run: an independent test of the map before its increments end.
 
 use super::super::increments::Work;
 use super::session::{End, Run};
@@ -7,17 +7,18 @@ use crate::engine::audit::{AuditSettings, MOST_AUDITS, audit_with, trend};
 use crate::map::{Accuracy, Audit};
 use std::sync::Arc;
 
-/// What an audit takes, as a share of the rays of the run, and rays that it may take at least: some hundredths of a second.
+/// The rays of an audit, as a share of the rays of the run.
 const AUDIT_SHARE: f64 = 0.1;
+/// The number of rays that an audit may always take: some hundredths of a second.
 const FEWEST_AUDIT_RAYS: u64 = 1 << 14;
-/// Paths of a place in the audit of a run.
+/// The number of paths at a place in the audit of a run.
 const PATHS_OF_AUDIT: u32 = 32;
-/// A claim that is wrong by more than this is not mended by going on: as errors fall like the root of the work, that would take more than four
-/// times what was done.
+/// The largest ratio of the true error to the reported one for which a run continues. Errors fall like the root of the
+/// work, so a larger ratio would take more than four times the work done.
 const MOST_MENDED: f64 = 2.0;
 
 impl Run<'_, '_> {
-    /// Whether and why these increments should end here, once the map has been audited if it is to be the last.
+    /// Whether and why the increments end here. The map is audited first if they are about to end.
     pub(super) fn audited_end(&mut self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
         self.audit = None;
         let count = work.sums.increments;
@@ -46,7 +47,7 @@ impl Run<'_, '_> {
         self.end(work, accuracy)
     }
 
-    /// An independent test of the map as it is now.
+    /// An audit of the present map.
     fn audit(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<Audit> {
         let lighting = self.lighting.as_ref()?;
         let map = self.map(work, accuracy, true);
@@ -63,7 +64,7 @@ impl Run<'_, '_> {
         Some(audit)
     }
 
-    /// The rays of the run, those of direct light at its receivers counted, too, about.
+    /// The approximate number of rays of the run, shadow rays of direct light at its receivers included.
     fn all_rays(&self, work: &Work) -> f64 {
         let lighting = work.plan.lighting;
         let is_once = lighting.samples_exactly() || lighting.is_measured_once();

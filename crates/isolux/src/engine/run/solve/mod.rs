@@ -1,4 +1,4 @@
-//! A run: pilot, increments, stop, map.
+//! A run: pilot, increments, end, map.
 
 mod audited;
 mod session;
@@ -19,12 +19,11 @@ pub use so_far::{SoFar, Solution, Watcher};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Computes the illumination map of a scene, or goes on from a saved state.
+/// Computes the illumination map of a scene, or continues from a saved state.
 ///
-/// `watch` is called after every round of the pilot and every increment and may stop the run; the
-/// map is valid then, too. Everything but the moment of stopping depends only on the scene and the
-/// request: a run that stops at its accuracy gives the same bits on any number of threads, stopped
-/// and resumed or not.
+/// `watch` is called after every round of the pilot and every increment. It may stop the run; the map is valid then,
+/// too. Everything but the moment of stopping depends only on the scene and the request. A run that ends at its
+/// accuracy gives the same bits on any number of threads, stopped and resumed or not.
 pub fn solve(
     scene: &Scene,
     request: &SolveRequest,
@@ -34,7 +33,7 @@ pub fn solve(
     solve_looked_at(scene, request, resume, &mut |progress, _| watch(progress))
 }
 
-/// What a run would need, from as much of its pilot as there is patience for; one look at least.
+/// Predicts the size and time of a run from its pilot, which ends after `patience`, but not before its first survey.
 pub fn foresee(
     scene: &Scene,
     request: &SolveRequest,
@@ -52,7 +51,7 @@ pub fn foresee(
     Ok(seen)
 }
 
-/// As [`solve`], for a watcher that looks at maps on the way, or keeps states.
+/// Computes a map as [`solve`] does. The watcher may also ask for the map and the state so far.
 pub fn solve_looked_at(
     scene: &Scene,
     request: &SolveRequest,
@@ -72,12 +71,12 @@ pub fn solve_looked_at(
         run.saved_stage = run.stage;
     }
     let mut tried = None;
-    // Who stops a run while finer elements are made has what was known before.
+    // A run that is stopped while it makes finer elements returns its earlier map.
     let mut best: Option<Solution> = None;
     loop {
         let plan = run.pilot(&lighting, watch);
         let saved = resume.filter(|state| state.stage == run.stage);
-        // Elements that were too coarse still are, if these are the same; samples of a cache lie closer at every stage.
+        // The same elements would be too coarse again. Samples of a cache, however, lie closer at every stage.
         if tried.replace(plan.size()) == Some(plan.size())
             && request.method != Method::Cache
             && run.stage < MOST_STAGES
@@ -96,10 +95,11 @@ pub fn solve_looked_at(
     }
 }
 
-/// What came of the increments on one mesh.
+/// The outcome of the increments on one mesh.
 enum Outcome {
+    /// The increments have ended with this solution.
     Done(Box<Solution>),
-    /// The elements are too coarse for the accuracy asked for: so many stages on they will do. What they have come to.
+    /// The elements are too coarse for the accuracy goal: the number of stages to advance, and the solution so far.
     TooCoarse(u32, Box<Solution>),
 }
 
@@ -122,7 +122,7 @@ fn check(scene: &Scene, request: &SolveRequest) -> Result<(), SolveError> {
 }
 
 impl<'s> Run<'s, '_> {
-    /// Increments until the accuracy is reached, the time is up, or the watcher stops.
+    /// Adds increments until the accuracy is reached, more would not help, the time is over, or the watcher stops.
     fn increments(
         &mut self,
         plan: &Plan<'s>,

@@ -1,4 +1,4 @@
-//! A run on its way: its stages, its clock, and when increments end.
+//! A run in progress: its stages, its clock, and the end of its increments.
 
 use super::super::increments::Work;
 use super::super::prediction;
@@ -19,51 +19,53 @@ use std::mem;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Share of the time limit after which elements are refined no further.
+/// The share of the time limit after which elements are not refined further.
 const PILOT_SHARE: f64 = 0.4;
-/// Halvings of the rays of an increment at most, where time is short.
+/// The largest number of halvings of the rays of an increment, where time is short.
 const MOST_HALVINGS: u32 = 8;
-/// Stages to a factor of two in what their elements are made to err by.
+/// The number of stages that halve the error which elements are made for.
 const STAGES_TO_HALF: u32 = 4;
-/// Stages at most, then a run settles for what it has: elements for an eighth of the error asked for.
+/// The largest number of stages, after which a run keeps what it has. The last one has elements for an eighth of the
+/// accuracy goal.
 pub(super) const MOST_STAGES: u32 = 3 * STAGES_TO_HALF + 1;
-/// Stages that elements are made finer by at least: what they err by is known with some noise.
+/// The least number of stages to advance, since the error of the elements is known with some noise.
 pub(super) const FEWEST_STAGES: u32 = 2;
-/// What elements too coarse at first are to err by, as a share of the error asked for: noise needs the rest.
+/// The error that finer elements are to have after too coarse ones, as a share of the accuracy goal. Noise needs the
+/// rest.
 const LEFT_TO_ELEMENTS: f64 = 0.8;
-/// Accuracy that elements are made for where none is asked.
+/// The relative accuracy that elements are made for if there is no goal.
 const DEFAULT_ACCURACY: f64 = 0.01;
 
-/// What elements so many stages on err by, as a share.
+/// The error of elements after a number of further stages, as a share of the present error.
 fn finer(stages: u32) -> f64 {
     libm::exp2(-f64::from(stages) / f64::from(STAGES_TO_HALF))
 }
 
-/// A run on its way.
+/// A run in progress.
 pub(super) struct Run<'s, 'r> {
     pub(super) scene: &'s Scene,
     pub(super) request: &'r SolveRequest,
     pub(super) identity: RunIdentity,
     pub(super) started: Instant,
     pub(super) rays: u64,
-    /// Those of them that an earlier run has traced.
+    /// The part of `rays` that an earlier run has traced.
     pub(super) earlier_rays: u64,
-    /// Stopped by the watcher or the clock before the mesh was complete.
+    /// Whether the watcher or the time limit has stopped the run.
     pub(super) stopped: bool,
-    /// Refinement ended before its goal, for lack of time.
+    /// Whether elements, or the rays of an increment, were cut short for lack of time.
     pub(super) cut: bool,
     pub(super) stage: u32,
-    /// What the last pilot has taken, s.
+    /// The duration of the last pilot, s.
     pub(super) pilot_s: f64,
-    /// What pilots have found unlit.
+    /// The places that pilots have found unlit.
     pub(super) unlit: Unlit,
-    /// The stage that a saved run had come to; none is 0.
+    /// The stage of the saved run that this one continues; zero if there is none.
     pub(super) saved_stage: u32,
-    /// For audits; none where there is no map to be made.
+    /// The luminaires, for audits; `None` if no map is made.
     pub(super) lighting: Option<Arc<Lighting<'s>>>,
-    /// What audits have come to.
+    /// The results of the audits so far.
     pub(super) audited: Audited,
-    /// The audit of the map as it is now.
+    /// The audit of the present map.
     pub(super) audit: Option<Audit>,
 }
 
@@ -92,7 +94,7 @@ impl<'s, 'r> Run<'s, 'r> {
         self.started.elapsed().as_secs_f64()
     }
 
-    /// Takes off what a watcher has held it up.
+    /// Subtracts the time for which the watcher has held up the run. Returns the watcher's answer.
     pub(super) fn heed(&mut self, answer: Watch) -> Watch {
         if let Watch::After(pause) = answer {
             self.started += pause;
@@ -104,15 +106,16 @@ impl<'s, 'r> Run<'s, 'r> {
         self.request.time_limit.is_some_and(|limit| self.started.elapsed() >= limit)
     }
 
-    /// Whether what is left of the time is better spent on increments than on finer elements, the next of which take so long.
+    /// Whether the time left is better spent on increments than on finer elements, the next of which take `step_s`.
     fn refined_long_enough(&self, step_s: f64) -> bool {
         let is_over =
             |limit: Duration| self.elapsed_s() + step_s >= PILOT_SHARE * limit.as_secs_f64();
         self.request.time_limit.is_some_and(is_over)
     }
 
-    /// Whether finer elements would be made before that: what the pilot had taken grows as the number of elements does, which fall in
-    /// error like one over it. Elements that are cut short are worse than those there are.
+    /// Whether finer elements would be complete within [`PILOT_SHARE`] of the time limit. The pilot's time grows with
+    /// the number of elements, and their error falls with its inverse. Elements that are cut short are worse than the
+    /// present ones.
     pub(super) fn has_time_for_finer(&self, work: &Work) -> bool {
         let Some(limit) = self.request.time_limit else { return true };
         let stages = self.stages_missing(work.error_of_elements());
@@ -120,7 +123,7 @@ impl<'s, 'r> Run<'s, 'r> {
         self.elapsed_s() + pilot_s < PILOT_SHARE * limit.as_secs_f64()
     }
 
-    /// The accuracy that the elements of this stage are made for.
+    /// The relative accuracy that the elements of this stage are made for.
     pub(super) fn mesh_for(&self) -> f64 {
         let target = self.request.accuracy.unwrap_or(DEFAULT_ACCURACY);
         target * finer(self.stage - 1)
@@ -156,11 +159,11 @@ impl<'s, 'r> Run<'s, 'r> {
             self.rays = before + round.rays;
             let progress = self.progress(Stage::Pilot, 0, round.receivers as u64, None);
             let progress = Progress { prediction: self.foreseen(round), ..progress };
-            // Who has said stop is not asked again.
+            // A watcher that has stopped the run is not called again.
             self.stopped = self.stopped
                 || self.heed(watch(&progress, &SoFar::NOTHING)) == Watch::Stop
                 || self.out_of_time();
-            // The elements of a saved run are made again, whole, or what it has would be lost.
+            // The elements of a saved run are always completed; otherwise its sums would be lost.
             self.stage == self.saved_stage
                 || !(self.stopped || self.refined_long_enough(round.step_s))
         });
@@ -171,7 +174,7 @@ impl<'s, 'r> Run<'s, 'r> {
         plan
     }
 
-    /// When the run will be done, seen from the pilot, if it has a goal.
+    /// The finishing time predicted by the pilot, for a gathered map with an accuracy goal.
     pub(super) fn foreseen(&self, round: &Round) -> Option<Prediction> {
         let by_gathering = self.request.method == Method::Hybrid;
         self.request.accuracy.filter(|_| by_gathering)?;
@@ -200,12 +203,14 @@ impl<'s, 'r> Run<'s, 'r> {
         }
     }
 
-    /// The error told that is enough: what is asked for, or less once an audit has found told errors too small.
+    /// The reported error that is small enough: the accuracy goal, or less once an audit has found reported errors too
+    /// small.
     pub(super) fn goal(&self) -> Option<f64> {
         self.request.accuracy.map(|goal| goal / self.audited.true_over_told)
     }
 
-    /// Errors as told, or as audits have found them where these contradict: what is found beyond is common to all of the map.
+    /// The reported accuracy, with the error that audits have found where they contradict it. The excess counts as an
+    /// error common to the whole map.
     pub(super) fn without_false_claims(&self, told: Accuracy) -> Accuracy {
         let found = match &self.audit {
             Some(audit) if audit.contradicts => audit.error.value,
@@ -220,7 +225,7 @@ impl<'s, 'r> Run<'s, 'r> {
         }
     }
 
-    /// Whether and why these increments should end here.
+    /// Whether and why the increments end here.
     pub(super) fn end(&self, work: &Work, accuracy: Option<Accuracy>) -> Option<End> {
         let goal = self.goal();
         if work.may_end() && accuracy.zip(goal).is_some_and(|(a, goal)| a.reached <= goal) {
@@ -232,27 +237,27 @@ impl<'s, 'r> Run<'s, 'r> {
         if self.too_coarse(work, accuracy) && self.has_time_for_finer(work) {
             return Some(End::TooCoarse);
         }
-        // No number of increments helps where interpolation alone takes the whole error.
+        // More increments do not help where interpolation alone takes up the whole error.
         let vain = work.is_hopeless(accuracy, goal) && work.is_settled(accuracy);
         vain.then_some(End::InVain)
     }
 
-    /// Whether finer elements will reach the goal, but these will not.
+    /// Whether finer elements will reach the goal, and the present ones will not.
     fn too_coarse(&self, work: &Work, accuracy: Option<Accuracy>) -> bool {
         let is_finest = self.stage == MOST_STAGES || work.plan.is_finest || without("finer-stages");
         let goal = self.goal().filter(|_| !is_finest);
         goal.is_some_and(|goal| work.is_too_coarse(accuracy, goal))
     }
 
-    /// How many stages on elements are fine enough, if they keep what they err by in proportion.
+    /// The number of further stages after which elements are fine enough, if their error falls in proportion.
     pub(super) fn stages_missing(&self, errs: Option<f64>) -> u32 {
         let missed = errs.zip(self.goal()).map_or(1.0, |(errs, goal)| errs / goal);
         let halvings = libm::log2(missed.max(LEFT_TO_ELEMENTS) / LEFT_TO_ELEMENTS);
         ((f64::from(STAGES_TO_HALF) * halvings).ceil() as u32).max(FEWEST_STAGES)
     }
 
-    /// The same with fewer rays an increment, if the time left is too short to know how good the map
-    /// is: the mesh, too, is what the time allowed then.
+    /// The increments with fewer rays each, if the time left is too short to know the error of the map. The run then
+    /// counts as cut short, like one whose mesh is.
     pub(super) fn affordable<'p>(&mut self, mut work: Work<'p, 's>) -> Work<'p, 's> {
         let Some(limit) = self.request.time_limit else { return work };
         let Some(pace_s) = work.pace_s() else { return work };
@@ -266,7 +271,8 @@ impl<'s, 'r> Run<'s, 'r> {
         Work::new(work.plan, self.request, self.mesh_for(), halvings as u32)
     }
 
-    /// One more increment; false if the time is over before it is whole, and there is one already.
+    /// Adds one increment. Returns `false` if the run is stopped or its time is over before; the first increment is
+    /// always completed.
     pub(super) fn advance(&mut self, work: &mut Work) -> bool {
         if self.stopped && work.sums.increments > 0 {
             return false;
@@ -290,7 +296,7 @@ impl<'s, 'r> Run<'s, 'r> {
         let goal = self.goal();
         let needed = goal.and_then(|goal| work.increments_needed(accuracy, goal));
         let made = count + work.ahead();
-        // Who has made none here does not know what one takes.
+        // A run that has made no increment itself has not measured how long one takes.
         let prediction = needed.filter(|_| made > pace.before).map(|needed| {
             let each_s = (progress.elapsed_s - pace.started_s) / (made - pace.before) as f64;
             prediction::finish(needed, made, each_s, progress.elapsed_s)
@@ -314,7 +320,7 @@ impl<'s, 'r> Run<'s, 'r> {
         Solution { map: self.map(work, accuracy, reached), state, cache, time_s, lacked_time }
     }
 
-    /// With sums, or none: those of elements that were cut short are of no use to another run.
+    /// The state with these sums, or without any. Sums over elements that were cut short are of no use to another run.
     pub(super) fn state(&self, sums: Option<&Work>) -> RunState {
         let some = |of: &dyn Fn(&Work) -> Vec<Sums>| sums.map_or(Vec::new(), of);
         RunState {
@@ -362,20 +368,20 @@ impl<'s, 'r> Run<'s, 'r> {
     }
 }
 
-/// Why increments end.
+/// The reason why increments end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
-    /// The accuracy asked for is reached.
+    /// The accuracy goal is reached.
     Reached,
-    /// More of them would not help, and neither would finer elements.
+    /// Neither more increments nor finer elements would help.
     InVain,
-    /// The elements are too coarse for the accuracy asked for.
+    /// The elements are too coarse for the accuracy goal.
     TooCoarse,
-    /// An audit has found the error larger than it was told, and more of the same would not mend it.
+    /// An audit has found the error larger than reported, and more increments would not correct this.
     Contradicted,
 }
 
-/// Since when, and since which increment, the pace of a run is taken.
+/// The start of the measurement of a run's pace: its time, and the number of increments before it.
 #[derive(Clone, Copy)]
 pub(super) struct Pace {
     pub(super) started_s: f64,

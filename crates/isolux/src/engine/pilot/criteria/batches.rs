@@ -1,10 +1,10 @@
 //! Trial particles for caustics, in independent batches, and the flux that they bring to elements.
 
-use super::state::Pilot;
 use crate::elements::Elements;
 use crate::engine::gather::known_weights;
 use crate::engine::mesh::HatFunctions;
 use crate::engine::particle::{Flights, PARTS, part_of};
+use crate::engine::pilot::state::Pilot;
 use crate::map::Standing;
 use crate::sampling::Key;
 use rayon::prelude::*;

@@ -10,16 +10,17 @@
 //! mesh and are not kept.
 
 use super::batches::{BATCHES, Batches, Brought};
-use super::direct::MOST_REFLECTANCE;
-use super::forecast::{FINE, GoOn};
-use super::look::{PilotRequest, Survey};
-use super::state::Pilot;
+use super::{Criterion, Marked, Which};
 use crate::elements::Subdivision;
 use crate::engine::judge::Light;
 use crate::engine::mesh::HatFunctions;
 use crate::engine::particle::{
     CausticNoise, DOUBT, ElementParts, PARTS, Squared, read_in_parts, squared_error,
 };
+use crate::engine::pilot::direct::MOST_REFLECTANCE;
+use crate::engine::pilot::forecast::{FINE, GoOn};
+use crate::engine::pilot::look::{PilotRequest, Survey};
+use crate::engine::pilot::state::Pilot;
 use crate::engine::ray::{Noise, reflectance};
 use crate::map::Standing;
 use crate::units::Rgb;
@@ -78,9 +79,9 @@ struct Seen {
 
 /// The interpolation errors of caustics on the elements.
 #[derive(Debug, Default)]
-pub(super) struct CausticErrors {
+pub(crate) struct CausticErrors {
     /// The root mean square error over the surface, lx.
-    pub(super) lx: f64,
+    pub(crate) lx: f64,
     /// The sum of the squared errors, lx2 m2.
     all: Squared,
     /// The errors by element, the worst first.
@@ -88,7 +89,7 @@ pub(super) struct CausticErrors {
     /// The number of the worst elements that increments are to check.
     checked: usize,
     /// The mean squared error of all others over the surface, lx2.
-    pub(super) beside_lx2: f64,
+    pub(crate) beside_lx2: f64,
 }
 
 /// The goals of the refinement: the area, m2, the squared accuracy goal over that area, lx2 m2, and the squared
@@ -102,7 +103,7 @@ struct Asked {
 
 impl CausticErrors {
     /// The error as a share of the reference light.
-    pub(super) fn share(&self, reference_lx: f64) -> f64 {
+    pub(crate) fn share(&self, reference_lx: f64) -> f64 {
         self.lx / reference_lx.max(f64::MIN_POSITIVE)
     }
 
@@ -117,99 +118,160 @@ impl CausticErrors {
     }
 
     /// The elements that increments are to check.
-    pub(super) fn parts(&self, subdivision: &Subdivision) -> ElementParts {
+    pub(crate) fn parts(&self, subdivision: &Subdivision) -> ElementParts {
         let nodes: Vec<u32> = self.seen[..self.checked].iter().map(|s| s.node).collect();
         ElementParts::new(subdivision, &nodes)
     }
 }
 
-impl Pilot<'_> {
-    /// Bisects elements until the interpolation error of caustics is small enough, as far as trial particles show it.
-    pub(super) fn refine_for_caustics(
-        &mut self,
+/// The criterion for caustics.
+pub(crate) struct Caustics {
+    batches: Batches,
+    asked: Asked,
+    errors: CausticErrors,
+    rounds: usize,
+    /// The particles of each batch for the next mesh, where they are not kept.
+    fresh: Option<u32>,
+}
+
+impl Caustics {
+    /// The criterion with the first particles sent; `None` where no particle meets a surface by way of specular ones.
+    pub(crate) fn new(
+        pilot: &mut Pilot<'_>,
         look: &mut Survey,
         request: &PilotRequest,
-        go_on: &mut GoOn<'_>,
-    ) -> CausticErrors {
+    ) -> Option<Self> {
         let mut batches = Batches::new();
-        if !(self.lighting.leaves_caustics() && self.fly_and_keep(&mut batches, FIRST_PARTICLES)) {
-            return CausticErrors::default();
+        if !(pilot.lighting.leaves_caustics() && pilot.fly_and_keep(&mut batches, FIRST_PARTICLES))
+        {
+            return None;
         }
-        self.count_caustics(look, &batches);
-        if look.reference_lx <= 0.0 {
-            return CausticErrors::default();
-        }
+        pilot.count_caustics(look, &batches);
         let area_m2: f64 = look.errors.iter().map(|e| e.area_m2).sum();
         let goal = (request.goal * look.reference_lx).powi(2) * area_m2;
         let asked = Asked { area_m2, goal, allowed: SHARE * SHARE * goal };
-        let mut errors = CausticErrors::default();
-        for round in 0..ROUNDS {
-            let hats = HatFunctions::new(&self.mesh.subdivision, &self.near.standings);
-            let on = self.kept(&batches, &look.elements, &hats);
-            errors = self.judged(&on, &hats, asked);
-            let may_refine = round + 1 < ROUNDS && request.refines_caustics;
-            if may_refine
-                && self.bisect_for_caustics(
-                    &errors,
-                    asked,
-                    (BELIEVED, MARKED_SHARE, request.max_vertices),
-                )
-            {
-                look.elements = self.mesh.subdivision.elements();
-                self.extend_between();
-                continue;
-            }
-            self.settle_between(look, request.is_fitted);
-            let count = batches.kept();
-            let may_find_more = count < MOST_KEPT && request.refines_caustics;
-            let is_enough = errors.are_told(asked) && (errors.are_small(asked) || !may_find_more)
-                || count >= MOST_KEPT && f64::from(2 * count) > self.most_ahead(look, request);
-            if is_enough || !self.has_time(look, request, FINE, go_on) {
-                break;
-            }
-            if count >= MOST_KEPT {
-                return self.refine_further(look, request, go_on, (batches, asked));
-            }
-            self.fly_and_keep(&mut batches, count);
-        }
-        errors
+        let errors = CausticErrors::default();
+        (look.reference_lx > 0.0).then_some(Self { batches, asked, errors, rounds: 0, fresh: None })
     }
 
-    /// Continues the refinement with particles that are not kept, twice as many for every new mesh.
-    fn refine_further(
+    /// The errors on the final elements.
+    pub(crate) fn into_errors(self) -> CausticErrors {
+        self.errors
+    }
+
+    /// The elements to bisect by kept particles. If there are none, more particles are sent until errors are known
+    /// well enough.
+    fn by_kept(
         &mut self,
+        pilot: &mut Pilot<'_>,
         look: &mut Survey,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
-        (mut batches, asked): (Batches, Asked),
-    ) -> CausticErrors {
-        let most = self.most_ahead(look, request);
-        let mut count = 2 * MOST_KEPT;
+    ) -> Option<Vec<u32>> {
         loop {
-            let hats = HatFunctions::new(&self.mesh.subdivision, &self.near.standings);
-            let elements = look.elements.clone();
-            let has_time = |pilot: &mut Self| pilot.has_time(look, request, FINE, go_on);
-            let of = (&elements, &hats);
-            let on = self.brought(&mut batches, (count, AT_ONCE), of, has_time);
-            let is_whole = on[0].particles >= f64::from(count);
-            // If time was short, the kept particles may be more.
-            let is_less = on[0].particles < f64::from(batches.kept());
-            let on = if is_less { self.kept(&batches, &elements, &hats) } else { on };
-            let errors = self.judged(&on, &hats, asked);
-            let is_last = !is_whole || f64::from(2 * count) > most || !request.refines_caustics;
-            let refined = !is_last
-                && self.bisect_for_caustics(&errors, asked, (LIKELY, 1.0, request.max_vertices));
-            if refined {
-                look.elements = self.mesh.subdivision.elements();
-                self.extend_between();
-                self.settle_between(look, request.is_fitted);
-            } else if is_last || errors.are_told(asked) {
-                return errors;
+            self.rounds += 1;
+            let hats = HatFunctions::new(&pilot.mesh.subdivision, &pilot.near.standings);
+            let on = pilot.kept(&self.batches, &look.elements, &hats);
+            self.errors = pilot.judged(&on, &hats, self.asked);
+            if self.rounds < ROUNDS && request.refines_caustics {
+                let worst =
+                    pilot.worst_for_caustics(&self.errors, self.asked, BELIEVED, MARKED_SHARE);
+                if !worst.is_empty() {
+                    return Some(worst);
+                }
             }
-            count *= 2;
+            pilot.settle_between(look, request.is_fitted);
+            let count = self.batches.kept();
+            let may_find_more = count < MOST_KEPT && request.refines_caustics;
+            let (errors, asked) = (&self.errors, self.asked);
+            let is_enough = errors.are_told(asked) && (errors.are_small(asked) || !may_find_more)
+                || count >= MOST_KEPT && f64::from(2 * count) > pilot.most_ahead(look, request);
+            let is_last = is_enough || self.rounds >= ROUNDS;
+            if is_last || !pilot.has_time(look, request, FINE, go_on) {
+                return None;
+            }
+            if count >= MOST_KEPT {
+                self.fresh = Some(2 * MOST_KEPT);
+                return self.by_fresh(pilot, look, request, go_on);
+            }
+            pilot.fly_and_keep(&mut self.batches, count);
         }
     }
 
+    /// The elements to bisect by particles that are not kept, twice as many for every new mesh.
+    fn by_fresh(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) -> Option<Vec<u32>> {
+        pilot.settle_between(look, request.is_fitted);
+        let most = pilot.most_ahead(look, request);
+        while let Some(count) = self.fresh {
+            let hats = HatFunctions::new(&pilot.mesh.subdivision, &pilot.near.standings);
+            let has_time = |pilot: &mut Pilot<'_>| pilot.has_time(look, request, FINE, go_on);
+            let of = (&look.elements, &hats);
+            let on = pilot.brought(&mut self.batches, (count, AT_ONCE), of, has_time);
+            let is_whole = on[0].particles >= f64::from(count);
+            // If time was short, the kept particles may be more.
+            let is_less = on[0].particles < f64::from(self.batches.kept());
+            let on = if is_less { pilot.kept(&self.batches, &look.elements, &hats) } else { on };
+            self.errors = pilot.judged(&on, &hats, self.asked);
+            if !is_whole || f64::from(2 * count) > most || !request.refines_caustics {
+                return None;
+            }
+            self.fresh = Some(2 * count);
+            let worst = pilot.worst_for_caustics(&self.errors, self.asked, LIKELY, 1.0);
+            if !worst.is_empty() {
+                return Some(worst);
+            }
+            if self.errors.are_told(self.asked) {
+                return None;
+            }
+        }
+        None
+    }
+}
+
+impl Criterion for Caustics {
+    /// The criterion counts its rounds itself: the last one measures errors alone.
+    fn most_rounds(&self) -> usize {
+        usize::MAX
+    }
+
+    fn marked(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) -> Option<Marked> {
+        let twice = match self.fresh {
+            None => self.by_kept(pilot, look, request, go_on),
+            Some(_) => self.by_fresh(pilot, look, request, go_on),
+        }?;
+        let which = Which::Nodes { once: Vec::new(), twice };
+        Some(Marked { which, excess: None, max_vertices: request.max_vertices })
+    }
+
+    fn follow(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        _request: &PilotRequest,
+        _go_on: &mut GoOn<'_>,
+    ) {
+        look.elements = pilot.mesh.subdivision.elements();
+        pilot.extend_between();
+    }
+
+    fn end(&mut self, pilot: &mut Pilot<'_>, look: &Survey, request: &PilotRequest) {
+        pilot.settle_between(look, request.is_fitted);
+    }
+}
+
+impl Pilot<'_> {
     /// The largest number of particles of a batch for one mesh.
     fn most_ahead(&self, look: &Survey, request: &PilotRequest) -> f64 {
         let needed = self.tried.caustic_noise.needed((request.goal, look.reference_lx));
@@ -293,17 +355,17 @@ impl Pilot<'_> {
         Seen { node, deposits, squared: squared_error(&means, area_m2) }
     }
 
-    /// Bisects the worst elements whose error is believed, until their squared errors are `share` of those of all
-    /// such elements. Does nothing where errors are small enough or the gain is small. Returns whether any element
-    /// was bisected.
-    fn bisect_for_caustics(
-        &mut self,
+    /// The worst elements whose error is believed, until their squared errors are `share` of those of all such
+    /// elements. None where errors are small enough or the gain is small.
+    fn worst_for_caustics(
+        &self,
         errors: &CausticErrors,
         asked: Asked,
-        (believed, share, max_vertices): (f64, f64, usize),
-    ) -> bool {
+        believed: f64,
+        share: f64,
+    ) -> Vec<u32> {
         if errors.all.sum <= asked.allowed {
-            return false;
+            return Vec::new();
         }
         let least_edge_m = self.mesh.least_edge_m * LEAST_EDGE;
         let is_seen = |s: &&Seen| {
@@ -315,18 +377,15 @@ impl Pilot<'_> {
         worst.sort_by(|a, b| b.squared.sum.total_cmp(&a.squared.sum).then(a.node.cmp(&b.node)));
         let all: f64 = worst.iter().map(|s| s.squared.sum).sum();
         if all < MATTERS * asked.allowed {
-            return false;
+            return Vec::new();
         }
-        let (mut marked, mut any) = (0.0, false);
-        for seen in worst {
-            if marked >= share * all || self.mesh.subdivision.vertex_count() >= max_vertices {
-                break;
-            }
-            self.mesh.subdivision.bisect_twice(seen.node);
-            marked += seen.squared.sum;
-            any = true;
-        }
-        any
+        let mut marked = 0.0;
+        let is_marked = |s: &&Seen| {
+            let is_marked = marked < share * all;
+            marked += s.squared.sum;
+            is_marked
+        };
+        worst.into_iter().take_while(is_marked).map(|s| s.node).collect()
     }
 
     /// Gives new vertices a preliminary standing, from the ends of their edges, without short rays.

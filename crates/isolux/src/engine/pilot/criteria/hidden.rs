@@ -1,8 +1,10 @@
-//! Refinement of elements with hidden vertices that light reaches.
+//! Elements with hidden vertices that light reaches.
 
-use super::state::Pilot;
-use crate::elements::Elements;
+use super::{Criterion, Marked, Which};
 use crate::engine::gather::{CutOff, Element, Sight};
+use crate::engine::pilot::forecast::GoOn;
+use crate::engine::pilot::look::{PilotRequest, Survey};
+use crate::engine::pilot::state::Pilot;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::map::Standing;
 use crate::sampling::Sequence;
@@ -13,37 +15,60 @@ use rayon::prelude::*;
 /// [`Unlit`](crate::engine::gather::Unlit).
 const PLACES: u32 = 16;
 
-impl Pilot<'_> {
-    /// Bisects elements with hidden vertices if light reaches a place that sees none of the open ones, and elements
-    /// with all vertices at the rim of a gap. Returns whether there are any.
-    pub(super) fn open_up(&mut self, elements: &Elements, max_vertices: usize) -> bool {
-        let gatherers = self.gatherers();
-        let sight = self.sight(elements, &gatherers);
-        let hidden: Vec<u32> =
-            self.mesh.subdivision.leaves().filter(|&n| self.has_hidden(n)).collect();
-        let asked: Vec<(u32, Option<u16>)> =
-            hidden.into_par_iter().map(|node| (node, self.unlit_places(&sight, node))).collect();
-        let rims: Vec<u32> =
-            self.mesh.subdivision.leaves().filter(|&n| self.has_only_rim(n)).collect();
-        let mut any = !rims.is_empty();
-        for (node, unlit) in asked {
-            if let Some(unlit) = unlit {
-                self.near.unlit.0.insert(self.element(node), unlit);
-                continue;
-            }
-            any = true;
-            if self.mesh.subdivision.vertex_count() < max_vertices {
-                self.mesh.subdivision.bisect_twice(node);
-            }
-        }
-        for node in rims {
-            if self.mesh.subdivision.vertex_count() < max_vertices {
-                self.mesh.subdivision.bisect(node);
-            }
-        }
-        any
+/// The largest number of rounds.
+const ROUNDS: usize = 4;
+
+/// The criterion for elements with hidden vertices.
+pub(crate) struct Hidden {
+    pub(crate) max_vertices: usize,
+}
+
+impl Criterion for Hidden {
+    fn most_rounds(&self) -> usize {
+        ROUNDS
     }
 
+    /// Marks elements with hidden vertices if light reaches a place that sees none of the open ones, and elements with
+    /// all vertices at the rim of a gap.
+    fn marked(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        request: &PilotRequest,
+        _go_on: &mut GoOn<'_>,
+    ) -> Option<Marked> {
+        let gatherers = pilot.gatherers();
+        let sight = pilot.sight(&look.elements, &gatherers);
+        let leaves = || pilot.mesh.subdivision.leaves();
+        let hidden: Vec<u32> = leaves().filter(|&n| pilot.has_hidden(n)).collect();
+        let asked: Vec<(u32, Option<u16>)> =
+            hidden.into_par_iter().map(|node| (node, pilot.unlit_places(&sight, node))).collect();
+        let once: Vec<u32> = leaves().filter(|&n| pilot.has_only_rim(n)).collect();
+        let mut twice = Vec::new();
+        for (node, unlit) in asked {
+            match unlit {
+                Some(unlit) => _ = pilot.near.unlit.0.insert(pilot.element(node), unlit),
+                None => twice.push(node),
+            }
+        }
+        let excess = (Some(look.greatest_excess(request)), None);
+        let any = !once.is_empty() || !twice.is_empty();
+        let which = Which::Nodes { once, twice };
+        any.then_some(Marked { which, excess: Some(excess), max_vertices: self.max_vertices })
+    }
+
+    fn follow(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) {
+        *look = pilot.look(request, go_on);
+    }
+}
+
+impl Pilot<'_> {
     /// The places of an element, as bits, that see no lit surface; `None` if light reaches a place that sees no open
     /// vertex.
     fn unlit_places(&self, sight: &Sight<'_>, node: u32) -> Option<u16> {

@@ -1,0 +1,65 @@
+//! The interpolation error of direct light.
+
+use super::{Criterion, Marked, Which};
+use crate::engine::pilot::forecast::{FINE, GoOn};
+use crate::engine::pilot::look::{PilotRequest, Survey};
+use crate::engine::pilot::state::{MAX_ROUNDS, MOST_STALLS, Pilot};
+
+/// The share of the error left after a round above which the round counts as without progress.
+const STALLED: f64 = 0.98;
+
+/// The criterion for direct light.
+pub(crate) struct DirectError {
+    max_vertices: usize,
+    /// The excess one round ago.
+    before: f64,
+    stalls: usize,
+}
+
+impl DirectError {
+    pub(crate) const fn new(max_vertices: usize) -> Self {
+        Self { max_vertices, before: f64::INFINITY, stalls: 0 }
+    }
+}
+
+impl Criterion for DirectError {
+    fn most_rounds(&self) -> usize {
+        MAX_ROUNDS
+    }
+
+    fn marked(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        request: &PilotRequest,
+        _go_on: &mut GoOn<'_>,
+    ) -> Option<Marked> {
+        let (errors, excess) = pilot.direct_excess(&look.elements, request, look.reference_lx);
+        pilot.direct.excess = Some((pilot.mesh.subdivision.vertex_count(), excess));
+        // The largest errors may lie in elements that are already as small as allowed.
+        self.stalls = if excess > STALLED * self.before { self.stalls + 1 } else { 0 };
+        if excess <= 1.0 || self.stalls > MOST_STALLS {
+            return None;
+        }
+        self.before = excess;
+        let which = Which::Worst { errors, wanted: 0.0, activates: false };
+        Some(Marked { which, excess: Some(FINE), max_vertices: self.max_vertices })
+    }
+
+    fn follow(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        _request: &PilotRequest,
+        _go_on: &mut GoOn<'_>,
+    ) {
+        look.elements = pilot.mesh.subdivision.elements();
+        pilot.direct.added = look.elements.vertices().len() - pilot.direct.lx.len();
+        pilot.complete_rays();
+        let gatherers = pilot.gatherers();
+        pilot.complete_direct(&look.elements, &gatherers);
+        pilot.extend_known(&look.elements, &gatherers);
+        pilot.complete_standings(&gatherers);
+        pilot.complete_bare(&look.elements, &gatherers);
+    }
+}

@@ -1,0 +1,75 @@
+//! The interpolation error of indirect light for one kind of reading.
+
+use super::{Criterion, Marked, Which};
+use crate::engine::pilot::forecast::GoOn;
+use crate::engine::pilot::look::{PilotRequest, ReadFor, Survey};
+use crate::engine::pilot::state::{MAX_ROUNDS, MOST_STALLS, Pilot};
+
+/// The least order of convergence, in the number of vertices, at which a round counts as progress. For smooth
+/// functions the order is one. It is lower for some rounds where light enters through narrow places.
+const LEAST_ORDER: f64 = 0.25;
+/// The largest number of rounds in which errors may rise because light was found in gaps.
+const MOST_RISEN: usize = 3;
+
+/// The criterion for one kind of reading.
+pub(crate) struct IndirectError {
+    what: ReadFor,
+    max_vertices: usize,
+    /// The excess and the number of carriers one round ago.
+    before: Option<(f64, f64)>,
+    risen: usize,
+    stalls: usize,
+}
+
+impl IndirectError {
+    pub(crate) const fn of(what: ReadFor, max_vertices: usize) -> Self {
+        Self { what, max_vertices, before: None, risen: 0, stalls: 0 }
+    }
+
+    /// Whether the last rounds made no progress. While they find light in gaps, errors may rise.
+    fn has_stalled(&mut self, excess: f64, carriers: f64, sees_lit_gaps: bool) -> bool {
+        let Some((excess_before, carriers_before)) = self.before else { return false };
+        let has_risen = sees_lit_gaps && excess > excess_before;
+        self.risen += usize::from(has_risen);
+        let is_excused = has_risen && self.risen <= MOST_RISEN;
+        let fallen = libm::pow(carriers_before / carriers, LEAST_ORDER);
+        let stalled = !is_excused && excess > excess_before * fallen;
+        self.stalls = if stalled { self.stalls + 1 } else { 0 };
+        self.stalls > MOST_STALLS
+    }
+}
+
+impl Criterion for IndirectError {
+    fn most_rounds(&self) -> usize {
+        MAX_ROUNDS
+    }
+
+    fn marked(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        request: &PilotRequest,
+        _go_on: &mut GoOn<'_>,
+    ) -> Option<Marked> {
+        let (errors, excess) = look.excess(self.what, request)?;
+        let carriers = look.carriers as f64;
+        // Where bisection no longer helps, the rest is noise, which check points measure.
+        if self.has_stalled(excess, carriers, pilot.indirect.sees_lit_gaps) {
+            return None;
+        }
+        let excesses = (Some(look.greatest_excess(request)), self.before);
+        self.before = Some((excess, carriers));
+        let which = Which::Worst { errors, wanted: 1.0 / excess, activates: true };
+        Some(Marked { which, excess: Some(excesses), max_vertices: self.max_vertices })
+    }
+
+    fn follow(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) {
+        *look = pilot.look(request, go_on);
+    }
+}

@@ -1,0 +1,66 @@
+//! The kinds of error that elements are bisected for.
+//!
+//! A criterion tells the elements to bisect from the mesh and its light, and brings the light to the bisected mesh. It
+//! knows neither the loop that calls it nor the other criteria.
+
+mod batches;
+mod caustics;
+mod direct;
+mod hidden;
+mod indirect;
+
+pub(super) use caustics::{CausticErrors, Caustics};
+pub(super) use direct::DirectError;
+pub(super) use hidden::Hidden;
+pub(super) use indirect::IndirectError;
+
+use super::forecast::{Excess, GoOn};
+use super::look::{PilotRequest, Survey};
+use super::state::Pilot;
+use crate::engine::mesh::LeafError;
+
+/// A kind of error that elements are bisected for.
+pub(super) trait Criterion {
+    /// The largest number of rounds.
+    fn most_rounds(&self) -> usize;
+
+    /// The elements to bisect; `None` where the error meets its goal or bisection makes no progress.
+    fn marked(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    ) -> Option<Marked>;
+
+    /// Brings the survey and the light of the pilot to the elements just bisected.
+    fn follow(
+        &mut self,
+        pilot: &mut Pilot<'_>,
+        look: &mut Survey,
+        request: &PilotRequest,
+        go_on: &mut GoOn<'_>,
+    );
+
+    /// Completes the light after the last round.
+    fn end(&mut self, _pilot: &mut Pilot<'_>, _look: &Survey, _request: &PilotRequest) {}
+}
+
+/// The elements to bisect in a round.
+pub(super) struct Marked {
+    pub(super) which: Which,
+    /// The ratio of the error to its goal, for the prediction of the remaining time; `None` where the criterion has
+    /// asked for time itself.
+    pub(super) excess: Option<Excess>,
+    /// The number of vertices above which no element is bisected.
+    pub(super) max_vertices: usize,
+}
+
+/// The choice of elements to bisect.
+pub(super) enum Which {
+    /// The worst of these errors, as many as bring the error down to `wanted` of its present size. If vertices among
+    /// carriers wait in an element, they become carriers instead.
+    Worst { errors: Vec<LeafError>, wanted: f64, activates: bool },
+    /// All of these nodes: the first once, the others twice.
+    Nodes { once: Vec<u32>, twice: Vec<u32> },
+}
