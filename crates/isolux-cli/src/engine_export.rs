@@ -1,5 +1,7 @@
 //! `isolux export` of light for engines: which kind of file, and for whom.
 
+use crate::console::{print, print_json};
+use crate::exported::Exported;
 use crate::failure::{Failure, Outcome};
 use crate::flags::{ExportFlags, LayoutName, TargetName};
 use crate::lightmap_export::{self, LightmapFile};
@@ -53,12 +55,23 @@ impl Wanted {
         }
     }
 
-    /// Writes it.
+    /// Writes it and prints what was written.
     pub(crate) fn write(self, flags: &ExportFlags, json: bool) -> Result<Outcome, Failure> {
+        let Some(exported) = self.exported(flags)? else { return Ok(Outcome::Interrupted) };
+        if json {
+            print_json(&exported.facts)?
+        } else {
+            print(&exported.text)?
+        }
+        Ok(Outcome::Done)
+    }
+
+    /// Writes it; `None` if the user stopped that.
+    pub(crate) fn exported(self, flags: &ExportFlags) -> Result<Option<Exported>, Failure> {
         let target = target(flags.target);
         match self {
-            Self::Vertices => vertex_export::run(flags, target, json),
-            Self::Lightmap(file) => lightmap_export::run(flags, (file, target), json),
+            Self::Vertices => vertex_export::run(flags, target).map(Some),
+            Self::Lightmap(file) => lightmap_export::run(flags, (file, target)),
         }
     }
 }

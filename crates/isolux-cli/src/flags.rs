@@ -4,16 +4,16 @@ mod shown;
 mod solve;
 
 pub(crate) use shown::{
-    ExportFlags, LayoutFlags, LayoutName, LookFlags, RenderFlags, ServerFlags, TargetName,
-    ToneName, ViewFlags,
+    ExportFlags, EyeFlags, LayoutFlags, LayoutName, LookFlags, RenderFlags, ServerFlags,
+    TargetName, ToneName, ViewFlags,
 };
-pub(crate) use solve::{MethodName, ProgressStyle, Quality, RadiosityFlags, SolveFlags};
+pub(crate) use solve::{BakeFlags, MethodName, ProgressStyle, Quality, RadiosityFlags, SolveFlags};
 
 use solve::SCENE_HELP;
 
 use crate::dimming::{DimmedMap, dimmed_group};
 use crate::quantity;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -45,6 +45,8 @@ pub(crate) enum Command {
     Probe(ProbeFlags),
     /// Illuminance on calculation grids: mean, least, greatest, uniformity
     Grid(GridFlags),
+    /// Compute the light of a scene and write it for an engine: solve and export in one
+    Bake(BakeFlags),
     /// Draw a view from a map
     Render(RenderFlags),
     /// Walk through a map in a browser
@@ -63,6 +65,8 @@ pub(crate) enum Command {
     Validate(ValidateFlags),
     /// Compare the methods by error against time, as the study of 1998 did, in one report
     Compare(CompareFlags),
+    /// Write a room with lamps as a scene.toml, to begin with
+    New(NewFlags),
     /// Write a scene as files to open and edit
     Scene(SceneFlags),
     /// Solve a real interior and draw it, from nothing
@@ -71,6 +75,34 @@ pub(crate) enum Command {
     Completions(CompletionsFlags),
     /// Write manual pages
     Man(ManFlags),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux new office --size 6x5x2.8 -o room.toml
+  isolux new empty -o room.toml")]
+pub(crate) struct NewFlags {
+    /// What stands in the room
+    #[arg(value_enum)]
+    pub kind: RoomKind,
+    /// Width, depth and height in metres
+    #[arg(long, value_name = "WxDxH", value_parser = quantity::room_m, default_value = "6x5x2.8")]
+    pub size: [f64; 3],
+    /// Where to write the scene
+    #[arg(short, long, value_name = "ROOM.toml")]
+    pub output: PathBuf,
+    /// Replace a file that is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// Rooms to begin with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum RoomKind {
+    /// Desks, a cupboard and luminous panels for about 500 lx
+    Office,
+    /// Luminous panels alone
+    Empty,
 }
 
 #[derive(Debug, Args)]

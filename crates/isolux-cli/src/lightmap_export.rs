@@ -1,8 +1,8 @@
 //! `isolux export` of lightmaps.
 
 use crate::clock::Clock;
-use crate::console::{print, print_json};
-use crate::failure::{Failure, Outcome};
+use crate::exported::Exported;
+use crate::failure::Failure;
 use crate::flags::{ExportFlags, LayoutFlags};
 use crate::lightmap::{Baked, Planned};
 use crate::lightmap_files::{self, Kind, Made};
@@ -40,8 +40,7 @@ impl LightmapFile {
 pub(crate) fn run(
     flags: &ExportFlags,
     (file, target): (LightmapFile, Target),
-    json: bool,
-) -> Result<Outcome, Failure> {
+) -> Result<Option<Exported>, Failure> {
     let output = OutputPath::check(&flags.output, file.extension())?;
     output.differs_from(&flags.map)?;
     output.replaces_exports_alone()?;
@@ -64,7 +63,7 @@ pub(crate) fn run(
             let planned = Planned::new(&layout, &scene, flags.max_memory, &dark)?;
             let Some(baked) = planned.bake((&scene, &map), (Clock::ENDLESS, None))? else {
                 note(Note::Warning, format!("{}: not written", output.path().display()));
-                return Ok(Outcome::Interrupted);
+                return Ok(None);
             };
             baked
         }
@@ -77,12 +76,7 @@ pub(crate) fn run(
             baked.report(target, files)
         }
     };
-    if json {
-        print_json(&report)?
-    } else {
-        print(&report.text())?
-    }
-    Ok(Outcome::Done)
+    Exported::new(&report, report.text()).map(Some)
 }
 
 /// The scene that is to be written again, found to be that of the map.

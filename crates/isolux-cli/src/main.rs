@@ -3,6 +3,7 @@
 mod appearance;
 mod arriving;
 mod audit;
+mod bake;
 mod cache_samples;
 mod cached_view;
 mod check;
@@ -15,6 +16,7 @@ mod engine_export;
 mod estimate;
 mod explain;
 mod export;
+mod exported;
 mod exposed;
 mod failure;
 mod flags;
@@ -34,6 +36,7 @@ mod map_facts;
 mod map_file;
 mod meter;
 mod mix;
+mod new;
 mod notes;
 mod origin;
 mod output;
@@ -66,7 +69,9 @@ use flags::{Command, Flags};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let flags = Flags::parse();
+    // Radiance writes the flag with one dash.
+    let words = std::env::args_os().map(|word| if word == "-vf" { "--vf".into() } else { word });
+    let flags = Flags::parse_from(words);
     let end = run(&flags);
     if let Err(failure) = &end {
         failure.lines().iter().for_each(|(kind, line)| notes::note(*kind, line));
@@ -79,6 +84,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
     let threads = match &flags.command {
         Command::Solve(flags) => flags.threads,
         Command::Export(flags) => flags.threads,
+        Command::Bake(flags) => flags.threads,
         Command::Compare(flags) => flags.threads,
         _ => None,
     };
@@ -91,6 +97,7 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Solve(flags) => solve::run(flags, json),
         Command::Probe(flags) => probe::run(flags, json),
         Command::Grid(flags) => grid::run(flags, json),
+        Command::Bake(flags) => bake::run(flags, json),
         Command::Export(flags) => export::run(flags, json),
         Command::View(flags) => serving::view(flags, json),
         Command::Audit(flags) => audit::run(flags, json),
@@ -100,10 +107,11 @@ fn run(flags: &Flags) -> Result<Outcome, Failure> {
         Command::Validate(flags) => validate::run(flags, json),
         Command::Compare(flags) => compare::run(flags, json),
         Command::Scene(flags) => scene::run(flags, json),
+        Command::New(flags) => new::run(flags, json),
         Command::Demo(flags) => demo::run(flags, json),
         Command::Mix(flags) => mix::run(flags, json),
         Command::Info(flags) => info::run(flags, json),
-        Command::Completions(flags) => shell::completions(flags),
+        Command::Completions(flags) => shell::completions(flags, json),
         Command::Man(flags) => shell::man(flags, json),
     })
 }

@@ -150,6 +150,23 @@ pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
     numbers.ok_or_else(|| "is not three numbers; write x,y,z, as 1,2.5,0.75".to_owned())
 }
 
+/// Width, depth and height of a room, m.
+pub(crate) fn room_m(text: &str) -> Result<[f64; 3], String> {
+    let side = |side: &str| side.trim().parse::<f64>().ok().filter(|m| (1.0..=200.0).contains(m));
+    let sides: Option<Vec<f64>> = text.split('x').map(side).collect();
+    let sides = sides.and_then(|sides| <[f64; 3]>::try_from(sides).ok());
+    sides.ok_or_else(|| {
+        "is no room; write WIDTHxDEPTHxHEIGHT in metres as 6x5x2.8, each from 1 to 200".to_owned()
+    })
+}
+
+/// An opening angle in degrees.
+pub(crate) fn angle_deg(text: &str) -> Result<f64, String> {
+    let number = text.trim().trim_end_matches("deg").trim().parse::<f64>();
+    let number = number.ok().filter(|deg| *deg > 0.0 && *deg < 180.0);
+    number.ok_or_else(|| "is no angle between 0 and 180 degrees; write 60".to_owned())
+}
+
 /// The size of a picture as `1280x720`.
 pub(crate) fn pixels(text: &str) -> Result<(u32, u32), String> {
     let side = |side: &str| {

@@ -10,7 +10,9 @@ use crate::meter::Meter;
 use crate::output::OutputPath;
 use crate::quantity::show_share;
 use crate::shown::name;
+use crate::viewpoint::IsLit;
 use crate::{exposed, map_file, source, viewpoint, walk};
+use isolux::elements::carries_map;
 use isolux::map::IlluminationMap;
 use isolux::scene::{Camera, Scene};
 use isolux_view::{
@@ -60,8 +62,8 @@ struct Seen {
 
 /// Looks at a map, or at a scene by its cache; nothing if the user stops that.
 fn see(flags: &RenderFlags, look: Look) -> Result<Option<Seen>, Failure> {
-    let camera = |scene: &Scene| {
-        viewpoint::camera(scene, flags.camera.as_deref())
+    let camera = |scene: &Scene, is_lit: &IsLit<'_>| {
+        viewpoint::chosen(scene, flags.camera.as_deref(), &flags.eye, is_lit)
             .map_err(|what| Failure::bad_input(format!("{}: {what}", flags.map.display())))
     };
     if let Some(path) = &flags.cache {
@@ -73,7 +75,7 @@ fn see(flags: &RenderFlags, look: Look) -> Result<Option<Seen>, Failure> {
         if scene.luminous_flux_lm() == 0.0 {
             return Err(source::no_light(&flags.map, &scene));
         }
-        let camera = camera(&scene)?;
+        let camera = camera(&scene, &|triangle, back, _| carries_map(&scene, triangle, back))?;
         let looked = cached_view::look(&scene, &camera, flags.size, (path, flags.accuracy))?;
         return Ok(looked.map(|(view, used)| Seen {
             view,
@@ -84,7 +86,10 @@ fn see(flags: &RenderFlags, look: Look) -> Result<Option<Seen>, Failure> {
         }));
     }
     let (scene, map) = map_file::read(&flags.map)?;
-    let camera = camera(&scene)?;
+    let camera = camera(&scene, &|triangle, back, [u, v]| {
+        let read = map.interpolate(triangle, back, u, v);
+        read.is_some_and(|read| read.illuminance_lx() > 0.0)
+    })?;
     let (view, gathered) = if flags.interpolated {
         let finer = flags.finer.map(|limit| walk::finer(&scene, &map, limit));
         (bare(&scene, finer.as_ref().unwrap_or(&map), &camera, flags.size)?, None)

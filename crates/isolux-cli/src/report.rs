@@ -39,6 +39,7 @@ pub(crate) struct Report {
     rays: u64,
     receivers: usize,
     seed: u64,
+    #[serde(skip_serializing_if = "String::is_empty")]
     pub(crate) map: String,
     /// Light that does not come to the scene, where that was looked at.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -100,6 +101,11 @@ impl Report {
         Self { flux_lost: Some(lost), ..self }
     }
 
+    /// The same of a map that is not kept.
+    pub(crate) fn without_map(self) -> Self {
+        Self { map: String::new(), ..self }
+    }
+
     /// For people.
     pub(crate) fn text(&self) -> String {
         let share = |s: Option<f64>| s.map_or("not known".to_owned(), show_share);
@@ -109,8 +115,11 @@ impl Report {
             }
             _ => share(self.accuracy_reached),
         };
-        let mut all = vec![
-            ("map", self.map.clone()),
+        let mut all = Vec::new();
+        if !self.map.is_empty() {
+            all.push(("map", self.map.clone()));
+        }
+        all.extend([
             ("error", reached),
             ("  from noise", share(self.accuracy_statistical)),
             ("  from interpolation", share(self.accuracy_discretization)),
@@ -121,7 +130,7 @@ impl Report {
             ("receivers", self.receivers.to_string()),
             ("increments", self.increments.to_string()),
             ("rays", show_count(self.rays as f64)),
-        ];
+        ]);
         if let Some(unshot) = self.unshot {
             all.push(("light unshot", show_share(unshot)));
         }

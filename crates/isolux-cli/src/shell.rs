@@ -10,10 +10,15 @@ use isolux_formats::atomic;
 use serde::Serialize;
 
 /// Prints the completions of a shell.
-pub(crate) fn completions(flags: &CompletionsFlags) -> Result<Outcome, Failure> {
+pub(crate) fn completions(flags: &CompletionsFlags, json: bool) -> Result<Outcome, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(flags.shell, &mut Flags::command(), "isolux", &mut script);
-    print(&String::from_utf8_lossy(&script))?;
+    let script = String::from_utf8_lossy(&script);
+    if json {
+        print_json(&serde_json::json!({ "shell": flags.shell.to_string(), "script": script }))?;
+    } else {
+        print(&script)?;
+    }
     Ok(Outcome::Done)
 }
 

@@ -5,7 +5,7 @@ use crate::quantity::significant;
 use crate::shown::name;
 use isolux::elements::Element;
 use isolux::geometry::Triangle;
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{IlluminationMap, VertexLight};
 use isolux::scene::Scene;
 use serde::Serialize;
 
@@ -105,7 +105,7 @@ impl Sum {
         self.area_m2 += 3.0 * third_m2;
         for vertex in element.vertices {
             let Some(value) = &map.read_at_vertex(vertex) else { continue };
-            let lx = Illuminance::illuminance_lx(value);
+            let lx = VertexLight::illuminance_lx(value);
             self.known_m2 += third_m2;
             self.flux_lm += third_m2 * lx;
             self.range_lx = Some(range(self.range_lx, (lx, lx)));

@@ -1,7 +1,8 @@
 //! `isolux export` of maps whose light is in the colours of vertices.
 
-use crate::console::{facts, print, print_json};
-use crate::failure::{Failure, Outcome};
+use crate::console::facts;
+use crate::exported::Exported;
+use crate::failure::Failure;
 use crate::flags::ExportFlags;
 use crate::map_file;
 use crate::output::OutputPath;
@@ -12,7 +13,7 @@ use isolux_formats::map_glb::{Preview, VertexColours, VertexFile, write_vertices
 use serde::Serialize;
 
 /// Writes a `.glb` for a consumer.
-pub(crate) fn run(flags: &ExportFlags, target: Target, json: bool) -> Result<Outcome, Failure> {
+pub(crate) fn run(flags: &ExportFlags, target: Target) -> Result<Exported, Failure> {
     if flags.white.is_some() && target == Target::Viewer {
         return Err(Failure::bad_input(
             "--white is for colours in proportion to luminance, and those of --target viewer are tone mapped; \
@@ -30,12 +31,7 @@ pub(crate) fn run(flags: &ExportFlags, target: Target, json: bool) -> Result<Out
         .map_err(|e| Failure::Refused(format!("{}: {e}", output.path().display())))?;
     output.write(&made.bytes)?;
     let report = Report::of(&made, target, output.path().display().to_string());
-    if json {
-        print_json(&report)?
-    } else {
-        print(&report.text())?
-    }
-    Ok(Outcome::Done)
+    Exported::new(&report, report.text())
 }
 
 /// What `--json` says.

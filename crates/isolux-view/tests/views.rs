@@ -2,7 +2,7 @@
 
 use isolux::elements::{ElementArrays, Elements};
 use isolux::geometry::{Direction, Point, Transform, Vector};
-use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
+use isolux::map::{Illuminance, IlluminationMap, Method, Provenance, VertexLight};
 use isolux::photometry::IntensityDistribution;
 use isolux::scene::{
     Body, Camera, Coat, Dielectric, Finish, Gloss, Luminaire, LuminaireKind, Material, Scene,
@@ -15,19 +15,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 /// A luminance is stored in `f32` after a few dozen roundings in `f64`.
 const STORED: f64 = 2.0 * f32::EPSILON as f64;
 
+fn stored(total: f64) -> VertexLight {
+    VertexLight { direct_lx: Rgb::grey(total), samples: 1, ..VertexLight::NOTHING }
+}
+
 fn lux(total: f64) -> Option<Illuminance> {
-    Some(Illuminance {
-        direct_lx: Rgb::grey(total),
-        caustic_lx: Rgb::BLACK,
-        indirect_lx: Rgb::BLACK,
-        standard_error_lx: 0.0,
-        indirect_standard_error_lx: 0.0,
-        common_error_lx: 0.0,
-        interpolation_error_lx: 0.0,
-        bias_lx: 0.0,
-        standing: Standing::Open,
-        samples: 1,
-    })
+    Some(stored(total).into())
 }
 
 /// A rectangle from a corner along two edges; its front is towards their vector product.
@@ -216,7 +209,7 @@ fn rising_map(scene: &Scene) -> IlluminationMap {
             arrays.areas_m2.push(1.0);
         }
     }
-    let values = arrays.positions.iter().map(|p| lux(200.0 * (p[2] + 1.0))).collect();
+    let values = arrays.positions.iter().map(|p| Some(stored(200.0 * (p[2] + 1.0)))).collect();
     IlluminationMap {
         elements: Elements::from_arrays(&arrays).expect("elements"),
         values,

@@ -10,11 +10,15 @@ use std::time::Duration;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   isolux render map.glb --camera door -o door.png
+  isolux render map.glb --eye 1,2,1.6 --target 4,2,1 --fov 60 -o desk.png
+  isolux render map.glb --vf nave.vf -o nave.png
   isolux render map.glb --camera door -o lux.png --false-colour --limits 0:500 --contours
   isolux render map.glb --camera door -o door.png --exposure ev9 --tone linear --brightness 0.1 --contrast 1.2
   isolux render map.glb --camera door -o door.png --tone ward --display-white 250cd/m2 --profile monitor.icc
   isolux render map.glb --camera door -o door.png --exposure map --white 2700K --profile display-p3
   isolux render builtin:hall --cache hall.cache --camera entrance -o entrance.png
+
+Without a camera, and if the scene has none, the view is from eye height inside, where most lit space is seen.
 
 With --cache no map is read: indirect light comes from the samples in the file, and what the view still \
 needs is computed and added to it. A later view of the same scene computes only what is new.")]
@@ -25,6 +29,8 @@ pub(crate) struct RenderFlags {
     /// Name of a camera of the scene
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
+    #[command(flatten)]
+    pub eye: EyeFlags,
     /// Where to write the picture (.png)
     #[arg(short, long, value_name = "V.png")]
     pub output: PathBuf,
@@ -46,6 +52,26 @@ pub(crate) struct RenderFlags {
     pub accuracy: f64,
     #[command(flatten)]
     pub look: LookFlags,
+}
+
+/// The eye of a view that is no camera of the scene.
+#[derive(Debug, Args)]
+pub(crate) struct EyeFlags {
+    /// Where the eye is, in the axes of the scene: 1,2,1.6
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, conflicts_with = "camera")]
+    pub eye: Option<[f64; 3]>,
+    /// What it looks at [default: the middle of the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "eye")]
+    pub target: Option<[f64; 3]>,
+    /// What is up in the picture [default: up of the scene]
+    #[arg(long, value_name = "X,Y,Z", value_parser = quantity::triple, allow_hyphen_values = true, requires = "eye")]
+    pub up: Option<[f64; 3]>,
+    /// Angle from the lower to the upper edge, in degrees [default: 66]
+    #[arg(long, value_name = "DEGREES", value_parser = quantity::angle_deg, allow_hyphen_values = true, requires = "eye")]
+    pub fov: Option<f64>,
+    /// A view file of Radiance (-vf); of its angles the vertical one counts, --size says how wide the picture is
+    #[arg(long, visible_alias = "vf", value_name = "FILE", conflicts_with_all = ["eye", "camera"])]
+    pub radiance_view: Option<PathBuf>,
 }
 
 /// How luminance becomes a picture.

@@ -1,6 +1,6 @@
 //! Arguments of `solve`.
 
-use super::shown::{LayoutFlags, ServerFlags};
+use super::shown::{LayoutFlags, LayoutName, ServerFlags, TargetName};
 use crate::quantity;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -84,6 +84,49 @@ pub(crate) struct SolveFlags {
     // The last: its heading stands above all that follow.
     #[command(flatten)]
     pub radiosity: RadiosityFlags,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  isolux bake scene.glb -o baked.glb --target bevy
+  isolux bake scene.glb -o baked.glb --target three --texels-per-meter 20
+  isolux bake scene.toml -o baked.glb --layout vertices --target godot
+  isolux bake scene.glb -o lightmap.exr
+
+This is `solve` and `export` in one, and no map is kept: for long runs that may be resumed, for other methods and for groups, use these. If the scene is glTF and the target is three or bevy, the scene is written again with its lightmap, and all else as it is.")]
+pub(crate) struct BakeFlags {
+    #[arg(help = SCENE_HELP)]
+    pub scene: PathBuf,
+    /// Where to write: .glb, or the lightmap alone as .exr, .ktx2
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Who will show the light
+    #[arg(long, value_enum, default_value = "viewer")]
+    pub target: TargetName,
+    /// Light in a lightmap, or at vertices
+    #[arg(long, value_enum, default_value = "texels")]
+    pub layout: LayoutName,
+    /// Density of the lightmap [default: some 130 000 texels over all surfaces]
+    #[arg(long, value_name = "N", value_parser = quantity::density, allow_hyphen_values = true)]
+    pub texels_per_meter: Option<f64>,
+    /// Stop when the whole error of the scene is this small: 1% or 0.01
+    #[arg(long, value_name = "SHARE", value_parser = quantity::share, allow_hyphen_values = true, default_value = "1%")]
+    pub accuracy: f64,
+    /// Leave out the luminaires of a glTF scene, as their light is in the lightmap
+    #[arg(long)]
+    pub without_lights: bool,
+    /// Stop computing light after this time: 60s, 5min; baking comes on top
+    #[arg(long, value_name = "TIME", value_parser = quantity::duration, allow_hyphen_values = true)]
+    pub time_limit: Option<Duration>,
+    /// Seed of the random numbers: the same seed gives the same bits
+    #[arg(long, value_name = "N", value_parser = quantity::seed, default_value = "1", allow_hyphen_values = true)]
+    pub seed: u64,
+    /// Memory for the run and the lightmap; refuses where it does not do: 8GiB, 500MB
+    #[arg(long, value_name = "SIZE", value_parser = quantity::memory_bytes, allow_hyphen_values = true, default_value = "8GiB")]
+    pub max_memory: u64,
+    /// Threads to use, at most 1024 [default: all there are]; the result does not depend on it
+    #[arg(long, value_name = "N", value_parser = quantity::threads, allow_hyphen_values = true)]
+    pub threads: Option<u16>,
 }
 
 /// What a quality or accuracy sets for radiosity, by hand.

@@ -5,7 +5,7 @@ use super::told::{ALL_LIGHT, told};
 use crate::failure::Failure;
 use crate::{mix, viewpoint};
 use isolux::engine::{MixPart, Mixed, mix_apart};
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{IlluminationMap, VertexLight};
 use isolux::scene::Scene;
 use isolux_formats::walk::{self, Light, Mesh};
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ pub(crate) struct Opened {
     /// Names of the layers of its light.
     layers: Vec<String>,
     /// Of each layer the values at the vertices; none where there is one layer alone.
-    values: Vec<Vec<Option<Illuminance>>>,
+    values: Vec<Vec<Option<VertexLight>>>,
     /// The maps of the layers; none where there is one layer alone.
     parts: Vec<mix::Part>,
 }
@@ -44,7 +44,7 @@ impl Opened {
     fn of_groups(path: &Path, mut parts: Vec<mix::Part>) -> Result<Self, Failure> {
         parts.retain(|part| part.dimming > 0.0);
         let mixed = mixed(&parts)?;
-        let dimmed = |(part, values): (&mix::Part, Vec<Option<Illuminance>>)| {
+        let dimmed = |(part, values): (&mix::Part, Vec<Option<VertexLight>>)| {
             values.into_iter().map(|value| value.map(|value| value.dimmed(part.dimming))).collect()
         };
         Ok(Self {

@@ -15,5 +15,6 @@ mod lint;
 mod pictures;
 mod ran;
 mod results;
+mod rooms;
 #[cfg(unix)]
 mod walking;

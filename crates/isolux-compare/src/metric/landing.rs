@@ -1,7 +1,7 @@
 //! The balance of energy.
 
 use isolux::geometry::Triangle;
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{IlluminationMap, VertexLight};
 use isolux::scene::Scene;
 
 /// The luminous flux that lands on the surfaces of a map, each time it is reflected anew, over that which luminaires emit; where no value is known the
@@ -15,7 +15,7 @@ pub fn landed_over_emitted(scene: &Scene, map: &IlluminationMap) -> Option<f64> 
         area_m2 += 3.0 * third_m2;
         for value in element.vertices.iter().filter_map(|&vertex| map.read_at_vertex(vertex)) {
             known_m2 += third_m2;
-            flux_lm += third_m2 * Illuminance::illuminance_lx(&value);
+            flux_lm += third_m2 * VertexLight::illuminance_lx(&value);
         }
     }
     let emitted_lm = scene.luminous_flux_lm();

@@ -1,6 +1,6 @@
 //! A row a vertex.
 
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{IlluminationMap, VertexLight};
 use std::fmt::Write;
 
 const HEADER: &str = "x,y,z,nx,ny,nz,area_m2,illuminance_lx,standard_error_lx,direct_lx,indirect_lx,red_lx,\
@@ -31,7 +31,7 @@ pub(super) fn write(map: &IlluminationMap) -> String {
     text
 }
 
-fn fields(value: &Illuminance) -> [f64; 7] {
+fn fields(value: &VertexLight) -> [f64; 7] {
     let [red, green, blue] = value.total_lx().0;
     [
         value.illuminance_lx(),

@@ -1,7 +1,7 @@
 //! Stanford PLY, binary, with colours and lux (G. Turk, "The PLY polygon file format", 1994).
 
 use crate::map_glb::{Preview, displayed};
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{IlluminationMap, VertexLight};
 use isolux::scene::Scene;
 
 /// The file. Vertices are those of the surfaces that carry the map, surface by surface; unknown values are NaN.
@@ -47,7 +47,7 @@ pub(super) fn header(vertices: usize, faces: usize) -> String {
     )
 }
 
-fn lux(value: Option<&Illuminance>) -> [f32; 4] {
+fn lux(value: Option<&VertexLight>) -> [f32; 4] {
     value.map_or([f32::NAN; 4], |v| {
         [
             v.illuminance_lx(),

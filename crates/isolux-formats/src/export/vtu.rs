@@ -3,7 +3,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{IlluminationMap, VertexLight};
 use isolux::scene::Scene;
 use std::fmt::Write;
 
@@ -25,10 +25,10 @@ pub(super) fn write(scene: &Scene, map: &IlluminationMap) -> Vec<u8> {
     );
     let normals = vertices.iter().map(|v| <[f64; 3]>::from(v.normal.to_vector()));
     doubles("Normals", 3, normals.flatten(), &mut text);
-    let of = |read: fn(&Illuminance) -> f64| {
+    let of = |read: fn(&VertexLight) -> f64| {
         map.values.iter().map(move |v| v.as_ref().map_or(f64::NAN, read))
     };
-    doubles("illuminance_lx", 1, of(Illuminance::illuminance_lx), &mut text);
+    doubles("illuminance_lx", 1, of(VertexLight::illuminance_lx), &mut text);
     doubles("standard_error_lx", 1, of(|v| v.standard_error_lx), &mut text);
     doubles("direct_lx", 1, of(|v| v.direct_lx.luminance()), &mut text);
     doubles("indirect_lx", 1, of(|v| v.indirect_lx.luminance()), &mut text);

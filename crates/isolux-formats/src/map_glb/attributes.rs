@@ -5,7 +5,7 @@ use super::display::Surface;
 use super::document::{Accessor, Attributes, INDICES, LightAttributes, VERTICES};
 use super::preview::{Preview, luminance_cd_m2};
 use super::value_arrays::storable;
-use isolux::map::Illuminance;
+use isolux::map::VertexLight;
 use isolux::scene::Finish;
 use isolux::units::Rgb;
 
@@ -48,11 +48,11 @@ impl Sink<'_> {
     /// Writes what a map says about the vertices of a surface: their colour and the rest.
     pub(super) fn light(
         &mut self,
-        values: &[Option<Illuminance>],
+        values: &[Option<VertexLight>],
         (finish, preview): (&Finish, &Preview),
     ) -> (u32, LightAttributes) {
         let values = shown(values);
-        let of = |f: fn(&Illuminance) -> Rgb| -> Vec<[f32; 3]> {
+        let of = |f: fn(&VertexLight) -> Rgb| -> Vec<[f32; 3]> {
             values
                 .iter()
                 .map(|v| v.as_ref().map_or([0.0; 3], |v| f(v).0.map(|c| c as f32)))
@@ -63,7 +63,7 @@ impl Sink<'_> {
             values.iter().map(|v| preview.colour(luminance_cd_m2(finish, seen_lx(v.as_ref()))));
         let colour = self.colours(&colours.collect::<Vec<_>>());
         let light = LightAttributes {
-            illuminance_lx: self.floats(&of(Illuminance::total_lx), "VEC3"),
+            illuminance_lx: self.floats(&of(VertexLight::total_lx), "VEC3"),
             direct_lx: self.floats(&of(|v| v.direct_lx), "VEC3"),
             standard_error_lx: self.floats(&errors, "SCALAR"),
         };
@@ -122,22 +122,22 @@ struct Layout {
 }
 
 /// The values of which a viewer can be told.
-pub(super) fn shown(values: &[Option<Illuminance>]) -> Vec<Option<Illuminance>> {
+pub(super) fn shown(values: &[Option<VertexLight>]) -> Vec<Option<VertexLight>> {
     values.iter().map(|value| value.and_then(storable).filter(is_shown)).collect()
 }
 
 /// The light that a surface is shown in: none where nothing is known, as what no light is known to reach must not glow.
-pub(super) fn seen_lx(value: Option<&Illuminance>) -> Rgb {
-    value.map_or(Rgb::BLACK, Illuminance::total_lx)
+pub(super) fn seen_lx(value: Option<&VertexLight>) -> Rgb {
+    value.map_or(Rgb::BLACK, VertexLight::total_lx)
 }
 
 /// Whether a viewer can be given a value: attributes must be finite in 32 bits.
-fn is_shown(value: &Illuminance) -> bool {
+fn is_shown(value: &VertexLight) -> bool {
     let fits = |c: &f64| (*c as f32).is_finite();
     value.total_lx().0.iter().chain(&value.direct_lx.0).all(fits)
 }
 
-fn shown_error(value: Option<&Illuminance>) -> f32 {
+fn shown_error(value: Option<&VertexLight>) -> f32 {
     match value {
         None => UNKNOWN,
         Some(value) => {

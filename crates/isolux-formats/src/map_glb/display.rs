@@ -2,7 +2,7 @@
 
 use isolux::elements::{Element, FewNumbers};
 use isolux::geometry::{Point, Vector};
-use isolux::map::{Illuminance, IlluminationMap, Standing};
+use isolux::map::{IlluminationMap, Standing, VertexLight};
 use isolux::scene::{Body, Finish, Scene};
 use std::collections::{BTreeMap, HashMap};
 
@@ -25,7 +25,7 @@ pub(super) struct Surface {
     /// Places in a lightmap; none without one.
     pub(super) lightmap_uvs: Vec<[f32; 2]>,
     /// What the map says at each vertex; nothing unless the layer has a map.
-    pub(super) values: Vec<Option<Illuminance>>,
+    pub(super) values: Vec<Option<VertexLight>>,
     pub(super) indices: Vec<u32>,
     known: HashMap<Key, u32, FewNumbers>,
 }
@@ -97,7 +97,7 @@ impl Surface {
         let known = element.vertices.map(|vertex| map.read_at_vertex(vertex));
         let highest = Standing::highest(known.map(|value| value.map(|v| v.standing)));
         // Where others are in the open, the light of a gap is not shown between them.
-        let read = Illuminance::mix(known.map(|value| (value, 1.0)));
+        let read = VertexLight::mix(known.map(|value| (value, 1.0)));
         let corners = turned(element.vertices, element.back).map(|vertex| {
             let own = map.read_at_vertex(vertex);
             let is_read = own.map(|v| v.standing) == highest;

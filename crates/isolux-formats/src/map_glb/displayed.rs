@@ -5,7 +5,7 @@ use super::display::{self, Layer, Surface};
 use super::looks;
 use super::preview::{Preview, luminance_cd_m2};
 use super::value_arrays::storable;
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{IlluminationMap, VertexLight};
 use isolux::scene::{Scene, Texture};
 use isolux::units::Rgb;
 
@@ -19,7 +19,7 @@ pub(crate) struct Displayed {
     /// One a vertex; none where there is no map.
     pub(crate) colours: Vec<[f64; 3]>,
     /// What the map says at each; none where there is no map.
-    pub(crate) values: Vec<Option<Illuminance>>,
+    pub(crate) values: Vec<Option<VertexLight>>,
     /// Corners of triangles, counter-clockwise.
     pub(crate) indices: Vec<u32>,
     /// Of all, where there is no map.
@@ -44,7 +44,7 @@ fn one(
     let finish = material.finish(layer.back).filter(|_| layer.mapped);
     let texture = finish.and_then(|f| f.diffuse.texture).filter(|_| !surface.uvs.is_empty());
     let texture = texture.map_or(Rgb::WHITE, |t| textures[t as usize]);
-    let colour = |value: &Option<Illuminance>| {
+    let colour = |value: &Option<VertexLight>| {
         let lx = seen_lx(value.and_then(storable).as_ref());
         let luminance = finish.map_or(Rgb::BLACK, |f| luminance_cd_m2(f, lx));
         preview.colour(luminance * texture).map(srgb)

@@ -4,7 +4,7 @@ use super::Fault;
 use super::arrays::{Arrays, Table, write_floats, write_integers};
 use super::bytes::Bytes;
 use isolux::elements::{ElementArrays, Elements};
-use isolux::map::{Illuminance, IlluminationMap, Standing};
+use isolux::map::{IlluminationMap, Standing, VertexLight};
 use isolux::units::Rgb;
 
 const POSITIONS: &str = "vertex_positions";
@@ -32,15 +32,15 @@ pub(super) fn write(map: &IlluminationMap, bytes: &mut Bytes, table: &mut Table)
     floats(POSITIONS, 3, elements.positions.as_flattened());
     floats(NORMALS, 3, elements.normals.as_flattened());
     floats(AREAS, 1, &elements.areas_m2);
-    let values: Vec<Option<Illuminance>> =
+    let values: Vec<Option<VertexLight>> =
         map.values.iter().map(|v| v.and_then(storable)).collect();
-    let colours = |f: fn(&Illuminance) -> Rgb| -> Vec<f64> {
+    let colours = |f: fn(&VertexLight) -> Rgb| -> Vec<f64> {
         values.iter().flat_map(|v| v.as_ref().map_or([0.0; 3], |v| f(v).0)).collect()
     };
     floats(DIRECT, 3, &colours(|v| v.direct_lx));
     floats(CAUSTIC, 3, &colours(|v| v.caustic_lx));
     floats(INDIRECT, 3, &colours(|v| v.indirect_lx));
-    let errors = |v: &Illuminance| [v.standard_error_lx, v.indirect_standard_error_lx];
+    let errors = |v: &VertexLight| [v.standard_error_lx, v.indirect_standard_error_lx];
     let errors = values.iter().flat_map(|v| v.as_ref().map_or([0.0; 2], errors));
     floats(ERRORS, 2, &errors.collect::<Vec<_>>());
     let common = values.iter().map(|v| v.map_or(0.0, |v| v.common_error_lx));
@@ -70,11 +70,11 @@ fn standing(rank: u64) -> Option<Standing> {
 }
 
 /// A value as files hold it: finite or unknown; an error that is not a number is boundless.
-pub(super) fn storable(value: Illuminance) -> Option<Illuminance> {
+pub(super) fn storable(value: VertexLight) -> Option<VertexLight> {
     let finite =
         [value.direct_lx, value.caustic_lx, value.indirect_lx].iter().all(|c| c.is_finite());
     let bounded = |error: f64| if error.is_nan() { f64::INFINITY } else { error };
-    finite.then(|| Illuminance {
+    finite.then(|| VertexLight {
         standard_error_lx: bounded(value.standard_error_lx),
         indirect_standard_error_lx: bounded(value.indirect_standard_error_lx),
         common_error_lx: bounded(value.common_error_lx),
@@ -106,7 +106,7 @@ pub(super) fn read_elements(arrays: &Arrays<'_>, triangles: usize) -> Result<Ele
 pub(super) fn read_values(
     arrays: &Arrays<'_>,
     count: usize,
-) -> Result<Vec<Option<Illuminance>>, Fault> {
+) -> Result<Vec<Option<VertexLight>>, Fault> {
     let [direct, caustic, indirect] = [DIRECT, CAUSTIC, INDIRECT].map(|n| arrays.float_rows(n));
     let (direct, caustic, indirect) = (direct?, caustic?, indirect?);
     let errors = arrays.floats(ERRORS, 2)?;
@@ -138,7 +138,7 @@ pub(super) fn read_values(
     if known.iter().any(|&rank| rank > Standing::ALL.len() as u64) {
         return Err(Fault::new(format!("extras.isolux.arrays.{KNOWN}"), "holds no standing"));
     }
-    let value = |k: usize, standing: Standing| Illuminance {
+    let value = |k: usize, standing: Standing| VertexLight {
         direct_lx: Rgb(direct[k]),
         caustic_lx: Rgb(caustic[k]),
         indirect_lx: Rgb(indirect[k]),
@@ -146,7 +146,6 @@ pub(super) fn read_values(
         indirect_standard_error_lx: errors[k][1],
         common_error_lx: common[k],
         interpolation_error_lx: interpolation[k],
-        bias_lx: 0.0,
         standing,
         samples: samples[k],
     };

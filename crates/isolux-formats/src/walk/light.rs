@@ -6,7 +6,7 @@ use super::record::{LayerRecord, LightHeader};
 use crate::lightmap::shared_exponent;
 use half::f16;
 use isolux::elements::Elements;
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{Illuminance, IlluminationMap, VertexLight};
 use isolux::scene::Scene;
 use isolux::units::Rgb;
 use rayon::prelude::*;
@@ -57,7 +57,7 @@ impl Light {
     }
 
     /// The same with a layer for each of several parts of the light, whose values at the vertices of the elements are given.
-    pub fn with_layers(self, mesh: &Mesh, parts: &[Vec<Option<Illuminance>>]) -> Self {
+    pub fn with_layers(self, mesh: &Mesh, parts: &[Vec<Option<VertexLight>>]) -> Self {
         let layers = parts.iter().map(|values| {
             read(mesh, &|source| value_of(source, &|vertex| values[vertex as usize])).0
         });
@@ -168,13 +168,15 @@ fn own(map: &IlluminationMap, source: &Source) -> Option<Illuminance> {
 /// The value of a vertex, or the mean of those of its element.
 fn value_of(
     source: &Source,
-    at_vertex: &dyn Fn(u32) -> Option<Illuminance>,
+    at_vertex: &dyn Fn(u32) -> Option<VertexLight>,
 ) -> Option<Illuminance> {
     let vertices = source.element.vertices;
-    if source.is_own {
-        return at_vertex(vertices[usize::from(source.corner)]);
-    }
-    Illuminance::mix(vertices.map(|vertex| (at_vertex(vertex), 1.0)))
+    let light = if source.is_own {
+        at_vertex(vertices[usize::from(source.corner)])
+    } else {
+        VertexLight::mix(vertices.map(|vertex| (at_vertex(vertex), 1.0)))
+    };
+    light.map(Illuminance::from)
 }
 
 /// Where vertices lie on the triangles of the scene.

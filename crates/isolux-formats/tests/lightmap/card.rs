@@ -2,7 +2,7 @@
 
 use isolux::geometry::Direction;
 use isolux::lightmap::{Lightmap, LightmapSettings, Pace, UvUnwrap, bake, plan};
-use isolux::map::{Illuminance, IlluminationMap, Standing};
+use isolux::map::{IlluminationMap, Standing, VertexLight};
 use isolux::scene::{Finish, Luminaire, LuminaireKind, Material, Scene, SceneParts, Shape};
 use isolux::units::Rgb;
 
@@ -42,12 +42,12 @@ pub(crate) fn scene() -> Scene {
 
 /// The same illuminance everywhere on the card.
 pub(crate) fn map(scene: &Scene) -> IlluminationMap {
-    let lit = Illuminance {
+    let lit = VertexLight {
         indirect_lx: Rgb(ILLUMINANCE_LX),
         standard_error_lx: 5.0,
         indirect_standard_error_lx: 5.0,
         standing: Standing::Open,
-        ..Illuminance::NOTHING
+        ..VertexLight::NOTHING
     };
     crate::lit::map(scene, |at, _| (at.z > -0.5).then_some(lit))
 }

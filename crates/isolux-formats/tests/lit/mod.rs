@@ -2,13 +2,13 @@
 
 use isolux::elements::Subdivision;
 use isolux::geometry::{Normal, Point};
-use isolux::map::{Illuminance, IlluminationMap, Method, Provenance};
+use isolux::map::{IlluminationMap, Method, Provenance, VertexLight};
 use isolux::scene::Scene;
 
 /// The map of a scene whose light is told at every vertex.
 pub(crate) fn map(
     scene: &Scene,
-    lit: impl Fn(Point, Normal) -> Option<Illuminance>,
+    lit: impl Fn(Point, Normal) -> Option<VertexLight>,
 ) -> IlluminationMap {
     let elements = Subdivision::new(scene).elements();
     let values = elements.vertices().iter().map(|v| lit(v.position, v.normal)).collect();

@@ -2,7 +2,7 @@
 
 use isolux::elements::{ElementArrays, Elements};
 use isolux::geometry::{Direction, Point, Transform, Vector};
-use isolux::map::{Accuracy, Fresh, Illuminance, IlluminationMap, Method, Provenance, Standing};
+use isolux::map::{Accuracy, Fresh, IlluminationMap, Method, Provenance, Standing, VertexLight};
 use isolux::photometry::{IntensityDistribution, PhotometricWeb};
 use isolux::scene::{
     Body, CalculationGrid, Camera, Dielectric, Finish, Gloss, Luminaire, LuminaireKind, Material,
@@ -145,8 +145,8 @@ pub(crate) fn map(scene: &Scene) -> IlluminationMap {
     IlluminationMap { elements, values, provenance: provenance() }
 }
 
-fn value(k: f64) -> Illuminance {
-    Illuminance {
+fn value(k: f64) -> VertexLight {
+    VertexLight {
         direct_lx: Rgb::new(100.0 + k, 90.0 + k / 3.0, 70.0),
         caustic_lx: Rgb::grey(0.1 * k),
         indirect_lx: Rgb::new(5.0, 6.0, 7.0) * (1.0 + k / 7.0),
@@ -154,7 +154,6 @@ fn value(k: f64) -> Illuminance {
         indirect_standard_error_lx: 0.1,
         common_error_lx: 0.05 * k,
         interpolation_error_lx: 0.2 * k,
-        bias_lx: 0.0,
         standing: Standing::ALL[k as usize % 3],
         samples: 1 << (k as u32 % 40),
     }

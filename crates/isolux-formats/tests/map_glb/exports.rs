@@ -3,7 +3,7 @@
 use super::{map, parts, scene};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use isolux::map::Illuminance;
+use isolux::map::VertexLight;
 use isolux::scene::{Scene, SceneParts};
 use isolux_formats::export::{ExportKind, export};
 use isolux_formats::map_glb::Preview;
@@ -41,7 +41,7 @@ fn vtk_keeps_every_bit() {
         vtk_array(&document, name).into_iter().map(f64::from_le_bytes).collect()
     };
     for (name, value) in [
-        ("illuminance_lx", Illuminance::illuminance_lx as fn(&Illuminance) -> f64),
+        ("illuminance_lx", VertexLight::illuminance_lx as fn(&VertexLight) -> f64),
         ("standard_error_lx", |v| v.standard_error_lx),
         ("indirect_lx", |v| v.indirect_lx.luminance()),
     ] {

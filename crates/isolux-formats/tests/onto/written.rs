@@ -2,7 +2,7 @@
 
 use isolux::geometry::{Normal, Point};
 use isolux::lightmap::{Lightmap, LightmapSettings, Pace, UvUnwrap, bake, plan};
-use isolux::map::{Illuminance, IlluminationMap, Standing};
+use isolux::map::{IlluminationMap, Standing, VertexLight};
 use isolux::scene::Scene;
 use isolux::units::Rgb;
 use isolux_formats::lightmap::Target;
@@ -68,12 +68,12 @@ impl Lit {
 }
 
 fn map(scene: &Scene) -> IlluminationMap {
-    let lit = |place: Point, normal: Normal| Illuminance {
+    let lit = |place: Point, normal: Normal| VertexLight {
         indirect_lx: Rgb::grey(illuminance_lx(place, normal)),
         standard_error_lx: 1e-3,
         indirect_standard_error_lx: 1e-3,
         standing: Standing::Open,
-        ..Illuminance::NOTHING
+        ..VertexLight::NOTHING
     };
     crate::lit::map(scene, |place, normal| Some(lit(place, normal)))
 }

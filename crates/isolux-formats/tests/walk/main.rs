@@ -7,7 +7,7 @@ mod lit;
 
 use container::Container;
 use isolux::geometry::{Normal, Point};
-use isolux::map::{Illuminance, IlluminationMap};
+use isolux::map::{IlluminationMap, VertexLight};
 use isolux::scene::{Finish, Material, Scene, SceneParts, Shape};
 use isolux::units::Rgb;
 use isolux_formats::walk::{self, Embedded, Light, Mesh, Page, Told};
@@ -38,13 +38,13 @@ fn sheet(squares: u32) -> Scene {
 }
 
 /// Light that grows along x, unknown in a corner.
-fn along_x(place: Point, _: Normal) -> Option<Illuminance> {
+fn along_x(place: Point, _: Normal) -> Option<VertexLight> {
     let x = place.x - 5e5;
-    (x > 0.05 || place.y > -3e5 + 0.05).then(|| Illuminance {
+    (x > 0.05 || place.y > -3e5 + 0.05).then(|| VertexLight {
         direct_lx: Rgb::new(100.0, 80.0, 60.0) * (1.0 + x),
         indirect_lx: Rgb::grey(7.0),
         standard_error_lx: 0.25,
-        ..Illuminance::NOTHING
+        ..VertexLight::NOTHING
     })
 }
 
@@ -154,7 +154,7 @@ fn only_blocks_that_change_are_sent_again() {
 fn layers_and_the_other_map_lie_beside() {
     let scene = sheet(8);
     let map = lit::map(&scene, along_x);
-    let brighter = |by: f64| -> Vec<Option<Illuminance>> {
+    let brighter = |by: f64| -> Vec<Option<VertexLight>> {
         map.values.iter().map(|value| value.map(|value| value.dimmed(by))).collect()
     };
     let other = IlluminationMap { values: brighter(3.0), ..map.clone() };

@@ -1,15 +1,16 @@
-//! The values of a map.
+//! Readings of the illuminance.
 
 use super::standing::Standing;
+use super::vertex_light::VertexLight;
 use crate::units::Rgb;
 
-/// The illuminance at a place, lx, with its uncertainty.
+/// A reading: the illuminance at a place, lx, with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Illuminance {
     /// Light from luminaires without diffuse reflection, mirror images included, lx.
     pub direct_lx: Rgb,
-    /// The part of `direct_lx` that only particles find, through curved mirrors, glass and gloss, lx. Readers cannot
-    /// evaluate it afresh.
+    /// The part of `direct_lx` that comes through curved mirrors, glass and gloss, lx. In readings of a map it is
+    /// interpolated, not evaluated afresh.
     pub caustic_lx: Rgb,
     /// Light after at least one diffuse reflection, lx.
     pub indirect_lx: Rgb,
@@ -20,48 +21,56 @@ pub struct Illuminance {
     /// The part of `indirect_standard_error_lx` due to noise of the surfaces that the light comes from, lx. Nearby
     /// readings share it, whatever their number of rays. Zero where it is not known.
     pub common_error_lx: f64,
-    /// The expected interpolation error of indirect light, root mean square, lx. In a map it is the error of the worst
-    /// element at the vertex. In a reading it is the error of that reading, from interpolation or from light that
-    /// gathering rays have read close by.
+    /// The expected interpolation error of indirect light, root mean square, lx. It is from interpolation between
+    /// vertices, or from light that gathering rays have read close by.
     pub interpolation_error_lx: f64,
-    /// The expected error that a reading shares with its surroundings, lx. Its sources are errors of the map at the
-    /// ends of rays, and light of paths given up. Zero in a map, where `Accuracy::bias` states this error for the
-    /// scene.
+    /// The expected error that the reading shares with its surroundings, lx. Its sources are errors of the map at the
+    /// ends of rays, and light of paths given up. Zero where it is not known.
     pub bias_lx: f64,
-    /// The standing of the vertex, or of the vertices read.
+    /// The standing of the vertices read.
     pub standing: Standing,
-    /// The number of samples behind the value: gathering rays, or one for each increment of particles.
+    /// The number of samples behind the reading: its own rays, or the samples of the vertices read.
     pub samples: u64,
 }
 
 impl Illuminance {
-    /// The illuminance without any light, known exactly.
-    pub const NOTHING: Self = Self {
-        direct_lx: Rgb::BLACK,
-        caustic_lx: Rgb::BLACK,
-        indirect_lx: Rgb::BLACK,
-        standard_error_lx: 0.0,
-        indirect_standard_error_lx: 0.0,
-        common_error_lx: 0.0,
-        interpolation_error_lx: 0.0,
-        bias_lx: 0.0,
-        standing: Standing::Open,
-        samples: 0,
-    };
+    /// A reading without any light, known exactly.
+    pub const NOTHING: Self = Self::without_bias(VertexLight::NOTHING);
+
+    const fn without_bias(light: VertexLight) -> Self {
+        Self {
+            direct_lx: light.direct_lx,
+            caustic_lx: light.caustic_lx,
+            indirect_lx: light.indirect_lx,
+            standard_error_lx: light.standard_error_lx,
+            indirect_standard_error_lx: light.indirect_standard_error_lx,
+            common_error_lx: light.common_error_lx,
+            interpolation_error_lx: light.interpolation_error_lx,
+            bias_lx: 0.0,
+            standing: light.standing,
+            samples: light.samples,
+        }
+    }
+
+    /// The reading as a vertex holds it. Its bias is left out, since `Accuracy::bias` states that of a map for the
+    /// scene.
+    pub(crate) const fn at_vertex(self) -> VertexLight {
+        VertexLight {
+            direct_lx: self.direct_lx,
+            caustic_lx: self.caustic_lx,
+            indirect_lx: self.indirect_lx,
+            standard_error_lx: self.standard_error_lx,
+            indirect_standard_error_lx: self.indirect_standard_error_lx,
+            common_error_lx: self.common_error_lx,
+            interpolation_error_lx: self.interpolation_error_lx,
+            standing: self.standing,
+            samples: self.samples,
+        }
+    }
 
     /// The illuminance scaled by a factor, as of dimmed luminaires.
     pub fn dimmed(self, factor: f64) -> Self {
-        Self {
-            direct_lx: self.direct_lx * factor,
-            caustic_lx: self.caustic_lx * factor,
-            indirect_lx: self.indirect_lx * factor,
-            standard_error_lx: self.standard_error_lx * factor,
-            indirect_standard_error_lx: self.indirect_standard_error_lx * factor,
-            common_error_lx: self.common_error_lx * factor,
-            interpolation_error_lx: self.interpolation_error_lx * factor,
-            bias_lx: self.bias_lx * factor,
-            ..self
-        }
+        Self { bias_lx: self.bias_lx * factor, ..self.at_vertex().dimmed(factor).into() }
     }
 
     /// The sum of direct and indirect light, lx.
@@ -73,58 +82,11 @@ impl Illuminance {
     pub fn illuminance_lx(&self) -> f64 {
         self.total_lx().luminance()
     }
-
-    /// The weighted mean of the known values of the highest standing; `None` if no value is known. Standard errors of
-    /// vertices are independent and add up in squares; shared errors add up linearly. The interpolation error of an
-    /// element is the least of its vertices, since each has the error of the worst element around it.
-    pub fn mix<const N: usize>(parts: [(Option<Self>, f64); N]) -> Option<Self> {
-        let standing = Standing::highest(parts.map(|(value, _)| value.map(|v| v.standing)))?;
-        let known = || {
-            let of_standing = |v: &&Self| v.standing == standing;
-            parts.iter().filter_map(move |(v, w)| Some((v.as_ref().filter(of_standing)?, *w)))
-        };
-        let sum: f64 = known().map(|(_, weight)| weight).sum();
-        // A place on the far edge of an element has weight only on its unknown vertices.
-        let (scale, even) = if sum > 1e-9 {
-            (1.0 / sum, false)
-        } else {
-            (1.0 / known().count().max(1) as f64, true)
-        };
-        let weighted = || known().map(|(v, w)| (v, if even { scale } else { w * scale }));
-        // A value without weight may have an unknown, infinite error.
-        let root_sum = |f: &dyn Fn(&Self) -> f64| {
-            let parts = weighted().filter(|&(_, w)| w != 0.0).map(|(v, w)| w * f(v));
-            parts.map(|part| part * part).sum::<f64>().sqrt()
-        };
-        let least = known().map(|(v, _)| v.interpolation_error_lx).fold(f64::INFINITY, f64::min);
-        Some(Self {
-            direct_lx: weighted().map(|(v, w)| v.direct_lx * w).sum(),
-            caustic_lx: weighted().map(|(v, w)| v.caustic_lx * w).sum(),
-            indirect_lx: weighted().map(|(v, w)| v.indirect_lx * w).sum(),
-            standard_error_lx: root_sum(&|v| v.standard_error_lx),
-            indirect_standard_error_lx: root_sum(&|v| v.indirect_standard_error_lx),
-            common_error_lx: weighted()
-                .filter(|&(_, w)| w != 0.0)
-                .map(|(v, w)| v.common_error_lx * w)
-                .sum(),
-            interpolation_error_lx: least,
-            bias_lx: weighted().map(|(v, w)| v.bias_lx * w).sum(),
-            standing,
-            samples: weighted().map(|(v, _)| v.samples).sum(),
-        })
-    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_has_no_weight_adds_no_unknown_error() {
-        let sure = Illuminance { standard_error_lx: 2.0, ..Illuminance::NOTHING };
-        let unknown = Illuminance { standard_error_lx: f64::INFINITY, ..Illuminance::NOTHING };
-        let error = |parts| Illuminance::mix(parts).unwrap().standard_error_lx;
-        assert_eq!(error([(Some(sure), 1.0), (Some(unknown), 0.0)]), 2.0);
-        assert_eq!(error([(Some(sure), 0.5), (Some(unknown), 0.5)]), f64::INFINITY);
+/// The reading of a vertex, or of a mean of vertices. Its bias is zero.
+impl From<VertexLight> for Illuminance {
+    fn from(light: VertexLight) -> Self {
+        Self::without_bias(light)
     }
 }

@@ -6,6 +6,7 @@ mod hot_spots;
 mod illuminance;
 mod provenance;
 mod standing;
+mod vertex_light;
 
 pub use audit::{Audit, AuditTrust, AuditedError, AuditedPlace, AuditedReadings, AuditedSurface};
 pub use grid::{Figure, GridFigures};
@@ -13,6 +14,7 @@ pub use hot_spots::HotSpots;
 pub use illuminance::Illuminance;
 pub use provenance::{Accuracy, FilterReport, Fresh, Method, MixedPart, Provenance, Unshot};
 pub use standing::Standing;
+pub use vertex_light::VertexLight;
 
 use crate::elements::Elements;
 use crate::units::Rgb;
@@ -25,7 +27,7 @@ pub struct IlluminationMap {
     pub elements: Elements,
     /// One a vertex of `elements`; `None` where it is not known (hidden inside other geometry, or
     /// too few samples).
-    pub values: Vec<Option<Illuminance>>,
+    pub values: Vec<Option<VertexLight>>,
     /// Where it came from and how good it is.
     pub provenance: Provenance,
 }
@@ -38,18 +40,18 @@ impl IlluminationMap {
     pub fn interpolate(&self, triangle: u32, back: bool, u: f64, v: f64) -> Option<Illuminance> {
         let corners = self.elements.locate(triangle, back, u, v)?;
         let values = corners.map(|(vertex, weight)| (self.values[vertex as usize], weight));
-        Illuminance::mix(values).map(|found| self.with_ambient(found))
+        VertexLight::mix(values).map(|found| self.with_ambient(found).into())
     }
 
-    /// The value of a vertex as readers have it: with the ambient term.
-    pub fn read_at_vertex(&self, vertex: u32) -> Option<Illuminance> {
+    /// The light of a vertex as readers have it: with the ambient term.
+    pub fn read_at_vertex(&self, vertex: u32) -> Option<VertexLight> {
         self.values[vertex as usize].map(|stored| self.with_ambient(stored))
     }
 
-    fn with_ambient(&self, stored: Illuminance) -> Illuminance {
+    fn with_ambient(&self, stored: VertexLight) -> VertexLight {
         let doubt_lx = self.ambient_doubt_lx();
         let with = |error_lx: f64| libm::hypot(error_lx, doubt_lx);
-        Illuminance {
+        VertexLight {
             indirect_lx: stored.indirect_lx + self.ambient_lx(),
             standard_error_lx: with(stored.standard_error_lx),
             indirect_standard_error_lx: with(stored.indirect_standard_error_lx),

@@ -2,7 +2,7 @@
 
 use isolux::elements::Subdivision;
 use isolux::lightmap::lit_area_m2;
-use isolux::map::{Illuminance, IlluminationMap, Method, Provenance};
+use isolux::map::{IlluminationMap, Method, Provenance, VertexLight};
 use isolux::scene::Scene;
 use isolux::units::Rgb;
 
@@ -12,11 +12,11 @@ pub(crate) fn even_light(scene: &Scene) -> IlluminationMap {
     let elements = Subdivision::new(scene).elements();
     let even_lx = scene.luminous_flux_lm() / lit_area_m2(scene).max(f64::MIN_POSITIVE);
     let even_lx = if even_lx.is_finite() { even_lx } else { 0.0 };
-    let value = Illuminance {
+    let value = VertexLight {
         indirect_lx: Rgb::grey(even_lx),
         standard_error_lx: f64::INFINITY,
         indirect_standard_error_lx: f64::INFINITY,
-        ..Illuminance::NOTHING
+        ..VertexLight::NOTHING
     };
     let values = vec![Some(value); elements.vertices().len()];
     let provenance = Provenance {

@@ -8,7 +8,7 @@
 use super::trees::{bisected_like, own_vertices};
 use crate::elements::{PlaceOnSide, Subdivision, edge_key};
 use crate::engine::read::{MapReader, reference_lx};
-use crate::map::{Illuminance, IlluminationMap};
+use crate::map::{Illuminance, IlluminationMap, VertexLight};
 use crate::scene::Scene;
 use crate::units::Rgb;
 use rayon::prelude::*;
@@ -44,9 +44,9 @@ pub struct Finer<'a> {
     map: &'a IlluminationMap,
     reader: MapReader<'a>,
     subdivision: Subdivision,
-    values: Vec<Option<Illuminance>>,
+    values: Vec<Option<VertexLight>>,
     /// The values at the midpoints of edges that are not bisected.
-    middles: HashMap<[u32; 2], Option<Illuminance>>,
+    middles: HashMap<[u32; 2], Option<VertexLight>>,
     waiting: BinaryHeap<Waiting>,
     /// The constant illuminance in the visible difference, lx.
     dim_lx: f64,
@@ -155,7 +155,7 @@ impl<'a> Finer<'a> {
         let mut asked: Vec<([u32; 2], PlaceOnSide)> = asked.into_iter().collect();
         asked.sort_unstable_by_key(|(edge, _)| *edge);
         let read = |(edge, place): &([u32; 2], PlaceOnSide)| (*edge, self.read(*edge, *place));
-        let found: Vec<([u32; 2], Option<Illuminance>)> = asked.par_iter().map(read).collect();
+        let found: Vec<([u32; 2], Option<VertexLight>)> = asked.par_iter().map(read).collect();
         self.middles.extend(found);
     }
 
@@ -169,14 +169,14 @@ impl<'a> Finer<'a> {
 
     /// The value at the midpoint of an edge. Direct light is evaluated, by several readings where it may
     /// differ from the ends of the edge.
-    fn read(&self, edge: [u32; 2], place: PlaceOnSide) -> Option<Illuminance> {
-        let reading = |number| self.reader.glance(place, number, None);
+    fn read(&self, edge: [u32; 2], place: PlaceOnSide) -> Option<VertexLight> {
+        let reading = |number| self.reader.glance(place, number, None).map(Illuminance::at_vertex);
         let first = reading(0)?;
         let expected_lx = self.expected_lx(edge);
         if expected_lx.is_some_and(|lx| (first.illuminance_lx() - lx).abs() < self.visible_lx(lx)) {
             return Some(first);
         }
-        let others: Vec<Illuminance> = (1..READINGS).filter_map(reading).collect();
+        let others: Vec<VertexLight> = (1..READINGS).filter_map(reading).collect();
         let all = || std::iter::once(&first).chain(&others);
         let count = all().count() as f64;
         let direct_lx = all().map(|value| value.direct_lx).sum::<Rgb>() / count;
@@ -185,13 +185,13 @@ impl<'a> Finer<'a> {
         let variance = squares.sum::<f64>() / (count * (count - 1.0).max(1.0));
         // The uncertainty of the mean of few readings is part of the standard error.
         let standard_error_lx = (first.standard_error_lx.powi(2) + variance).sqrt();
-        Some(Illuminance { direct_lx, standard_error_lx, ..first })
+        Some(VertexLight { direct_lx, standard_error_lx, ..first })
     }
 
     /// The mean illuminance of the ends of an edge, lx.
     fn expected_lx(&self, edge: [u32; 2]) -> Option<f64> {
         let ends = edge.map(|v| (self.values[v as usize], 0.5));
-        Illuminance::mix(ends).map(|value| value.illuminance_lx())
+        VertexLight::mix(ends).map(|value| value.illuminance_lx())
     }
 
     /// The least visible difference at a given illuminance, lx.

@@ -10,8 +10,8 @@ use super::trees::{bisected_like, own_vertices, places_of_vertices};
 use crate::elements::{Elements, PlaceOnSide};
 use crate::engine::read::{MapReader, reference_lx};
 use crate::map::{
-    Accuracy, FilterReport, Fresh, Illuminance, IlluminationMap, Method, MixedPart, Provenance,
-    Standing, Unshot,
+    Accuracy, FilterReport, Fresh, IlluminationMap, Method, MixedPart, Provenance, Standing,
+    Unshot, VertexLight,
 };
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -64,7 +64,7 @@ pub struct Mixed {
     pub map: IlluminationMap,
     /// The light of each part that is not dimmed to zero, at every vertex before dimming; `None` where it is
     /// unknown.
-    pub parts: Vec<Vec<Option<Illuminance>>>,
+    pub parts: Vec<Vec<Option<VertexLight>>>,
 }
 
 /// The sum of [`mix`] with the light of each part.
@@ -74,7 +74,7 @@ pub fn mix_apart(parts: &[MixPart<'_>]) -> Result<Mixed, MixError> {
     let dimmings: Vec<(&Scene, f64)> = lit.iter().map(|p| (p.scene, p.dimming)).collect();
     let scene = Scene::mixed(&dimmings);
     let (elements, own) = unite(&scene, &lit);
-    let columns: Vec<Vec<Option<Illuminance>>> = {
+    let columns: Vec<Vec<Option<VertexLight>>> = {
         let places = places_of_vertices(&elements);
         let column = |(part, own): (&Part<'_>, &Vec<Option<u32>>)| {
             let rows = places.par_iter().zip(own);
@@ -85,7 +85,7 @@ pub fn mix_apart(parts: &[MixPart<'_>]) -> Result<Mixed, MixError> {
     let is_independent = have_seeds_of_their_own(&lit);
     let values = (0..elements.vertices().len())
         .map(|vertex| {
-            let row: Vec<Option<Illuminance>> =
+            let row: Vec<Option<VertexLight>> =
                 columns.iter().map(|column| column[vertex]).collect();
             known(&lit, &row).map(|row| sum(&lit, &row, is_independent))
         })
@@ -139,19 +139,18 @@ impl<'a> Part<'a> {
 
     /// The value of the part at a vertex of the sum: its own, or a reading where it has no vertex, with the
     /// errors that its own vertices would have.
-    fn value(&self, own: Option<u32>, place: PlaceOnSide) -> Option<Illuminance> {
+    fn value(&self, own: Option<u32>, place: PlaceOnSide) -> Option<VertexLight> {
         if let Some(vertex) = own {
             return self.map.values[vertex as usize];
         }
         let PlaceOnSide { triangle, back, uv: [u, v] } = place;
         let between = self.map.interpolate(triangle, back, u, v)?;
         let read = self.reader.by_replicates(self.reader.at(triangle, back, u, v)?);
-        Some(Illuminance {
+        Some(VertexLight {
             // Readers of the sum add the ambient term for unshot light.
             indirect_lx: read.indirect_lx - self.map.ambient_lx(),
             interpolation_error_lx: between.interpolation_error_lx,
-            bias_lx: 0.0,
-            ..read
+            ..read.at_vertex()
         })
     }
 
@@ -203,21 +202,21 @@ fn add_noise(parts: impl Iterator<Item = f64>, is_independent: bool) -> f64 {
 /// The values of all parts at a vertex; `None` where the sum is unknown. A place that one part knows is not
 /// inside something, so parts that do not know it have no light there. The exception is `forward`, whose
 /// particles may have missed it.
-fn known(parts: &[Part<'_>], row: &[Option<Illuminance>]) -> Option<Vec<Illuminance>> {
+fn known(parts: &[Part<'_>], row: &[Option<VertexLight>]) -> Option<Vec<VertexLight>> {
     let is_known = row.iter().any(Option::is_some);
-    let of_part = |(part, own): (&Part<'_>, &Option<Illuminance>)| {
+    let of_part = |(part, own): (&Part<'_>, &Option<VertexLight>)| {
         let is_dark = is_known && part.map.provenance.method != Method::Forward;
-        own.or(is_dark.then_some(Illuminance::NOTHING))
+        own.or(is_dark.then_some(VertexLight::NOTHING))
     };
     parts.iter().zip(row).map(of_part).collect()
 }
 
-fn sum(parts: &[Part<'_>], row: &[Illuminance], is_independent: bool) -> Illuminance {
+fn sum(parts: &[Part<'_>], row: &[VertexLight], is_independent: bool) -> VertexLight {
     let dimmed = || row.iter().zip(parts.iter().map(|part| part.dimming));
-    let rgb = |of: fn(&Illuminance) -> Rgb| dimmed().map(|(v, by)| of(v) * by).sum::<Rgb>();
+    let rgb = |of: fn(&VertexLight) -> Rgb| dimmed().map(|(v, by)| of(v) * by).sum::<Rgb>();
     let noise =
-        |of: fn(&Illuminance) -> f64| add_noise(dimmed().map(|(v, by)| of(v) * by), is_independent);
-    Illuminance {
+        |of: fn(&VertexLight) -> f64| add_noise(dimmed().map(|(v, by)| of(v) * by), is_independent);
+    VertexLight {
         direct_lx: rgb(|v| v.direct_lx),
         caustic_lx: rgb(|v| v.caustic_lx),
         indirect_lx: rgb(|v| v.indirect_lx),
@@ -225,7 +224,6 @@ fn sum(parts: &[Part<'_>], row: &[Illuminance], is_independent: bool) -> Illumin
         indirect_standard_error_lx: noise(|v| v.indirect_standard_error_lx),
         common_error_lx: noise(|v| v.common_error_lx),
         interpolation_error_lx: dimmed().map(|(v, by)| v.interpolation_error_lx * by).sum(),
-        bias_lx: 0.0,
         // A place in a gap for the elements of one part is in a gap in the sum.
         standing: row.iter().map(|v| v.standing).min().unwrap_or(Standing::Open),
         samples: row.iter().map(|v| v.samples).sum(),
@@ -317,7 +315,7 @@ fn fresh(parts: &[Part<'_>]) -> Option<Fresh> {
 fn accuracy(
     parts: &[Part<'_>],
     map: &IlluminationMap,
-    columns: &[Vec<Option<Illuminance>>],
+    columns: &[Vec<Option<VertexLight>>],
     is_independent: bool,
 ) -> Option<Accuracy> {
     let of: Vec<Accuracy> =
@@ -332,12 +330,12 @@ fn accuracy(
     let squares = |terms: &[f64]| terms.iter().map(|t| t * t).sum::<f64>();
     let statistical = add_noise(lx(|a| a.statistical), is_independent) / reference_lx;
     let beside_caustics = {
-        let shape = |v: &Illuminance| v.interpolation_error_lx;
+        let shape = |v: &VertexLight| v.interpolation_error_lx;
         spread(map, columns, lx(Accuracy::discretization_beside_caustics), shape) / reference_lx
     };
     let caustics = add_noise(lx(|a| a.caustics), true) / reference_lx;
     let discretization = squares(&[beside_caustics, caustics]).sqrt();
-    let bias = spread(map, columns, lx(|a| a.bias), Illuminance::illuminance_lx) / reference_lx;
+    let bias = spread(map, columns, lx(|a| a.bias), VertexLight::illuminance_lx) / reference_lx;
     let reached = squares(&[statistical, discretization, bias]).sqrt();
     let beyond =
         |a: &Accuracy| (squares(&[a.interpolated]) - squares(&[a.reached])).max(0.0).sqrt();
@@ -350,9 +348,9 @@ fn accuracy(
 /// its known root mean square in its part.
 fn spread(
     map: &IlluminationMap,
-    columns: &[Vec<Option<Illuminance>>],
+    columns: &[Vec<Option<VertexLight>>],
     errors_lx: impl Iterator<Item = f64>,
-    shape: impl Fn(&Illuminance) -> f64,
+    shape: impl Fn(&VertexLight) -> f64,
 ) -> f64 {
     let known = || map.elements.vertices().iter().zip(&map.values).enumerate();
     let areas =

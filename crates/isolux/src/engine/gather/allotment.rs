@@ -4,24 +4,21 @@
 //! rays then needs numbers that grow like the area of receivers to the power 1 / (1 + 2 o): the allocation of Neyman
 //! (1934), for nets. Where objects are small and many, as in furnished rooms, this halves the number of rays.
 
-use super::ray_trial::NET_ORDER;
+use super::ray_trial::{FEWEST_UNJUDGED, NET_ORDER};
 use crate::ablation::without;
 use crate::elements::Subdivision;
 use crate::engine::mesh::Carriers;
 
 /// The largest number of halvings from the mean to the fewest rays of a receiver. The noise of small receivers is
 /// then no more than six times the mean.
-const FEWER: i32 = 3;
+const MOST_HALVINGS: i32 = 3;
 /// The largest number of doublings from the mean to the most rays of a receiver.
-const MORE: i32 = 2;
-
-/// The fewest rays of a receiver, as a power of two, unless the mean is lower.
-const FEWEST: i32 = 3;
+const MOST_DOUBLINGS: i32 = 2;
 
 /// Steps per factor of two in the search for the numbers.
-const STEPS: i32 = 8;
+const STEPS_A_DOUBLING: i32 = 8;
 /// The largest number of those steps in either direction.
-const MOST_STEPS: i32 = 8 * STEPS;
+const MOST_STEPS: i32 = 8 * STEPS_A_DOUBLING;
 
 /// The surface that the light of each vertex stands for, m2: a third of its elements, and a share of the areas of the
 /// vertices interpolated from it. Vertices that do not carry light have zero.
@@ -47,10 +44,11 @@ pub(crate) fn allot(areas_m2: &[f64], mean: f64) -> Vec<u32> {
     let log = |m2: f64| (m2 > 0.0).then(|| power * libm::log2(m2 / mean_m2));
     let logs: Vec<Option<f64>> = areas_m2.iter().map(|&m2| log(m2)).collect();
     let of_mean = libm::log2(mean.max(1.0));
-    let low = ((of_mean.floor() as i32) - FEWER).max(FEWEST.min(of_mean.floor() as i32));
-    let high = of_mean.ceil() as i32 + MORE;
+    let (fewest, floor) = (FEWEST_UNJUDGED.ilog2() as i32, of_mean.floor() as i32);
+    let low = (floor - MOST_HALVINGS).max(fewest.min(floor));
+    let high = of_mean.ceil() as i32 + MOST_DOUBLINGS;
     let exponent = |log: f64, step: i32| {
-        let wanted = of_mean + log + f64::from(step) / f64::from(STEPS);
+        let wanted = of_mean + log + f64::from(step) / f64::from(STEPS_A_DOUBLING);
         (libm::round(wanted) as i32).clamp(low, high)
     };
     let noise = |exponent: f64| libm::exp2(-2.0 * NET_ORDER * exponent);
@@ -74,10 +72,10 @@ pub(crate) fn allot(areas_m2: &[f64], mean: f64) -> Vec<u32> {
 }
 
 /// The largest number of rays where noise differs, in multiples of the mean.
-const MOST_TIMES: f64 = 16.0;
+const MOST_RAYS_FACTOR: f64 = 16.0;
 /// The largest ratio of noise after to noise before for which new shares are worth it. Variances from four samples
 /// each that differ by chance alone seem to leave nine tenths.
-const WORTH_IT: f64 = 0.7;
+const WORTHWHILE_NOISE_RATIO: f64 = 0.7;
 
 /// Rays shared out anew, with the noise before and after. Each variance counts as that of one ray and falls with more
 /// rays like the noise of a net.
@@ -103,7 +101,7 @@ pub(crate) fn allot_by_noise(
     let shares: Vec<f64> = shares.collect();
     let all: f64 = shares.iter().sum();
     let in_all: f64 = allotted.iter().map(|&rays| f64::from(rays)).sum();
-    let most = MOST_TIMES * mean_of(allotted);
+    let most = MOST_RAYS_FACTOR * mean_of(allotted);
     let one = |(&rays_then, share): (&u32, &f64)| {
         let wanted = 0.5 * (f64::from(rays_then) + (in_all * share / all).min(most));
         if rays_then == 0 { 0 } else { libm::exp2(libm::round(libm::log2(wanted))) as u32 }
@@ -116,7 +114,7 @@ pub(crate) fn allot_by_noise(
         (squared.sum::<f64>() / area_m2).sqrt()
     };
     let (left_lx, before_lx) = (noise_lx(&rays), noise_lx(allotted));
-    (left_lx < WORTH_IT * before_lx).then_some(Shared { rays, left_lx, before_lx })
+    (left_lx < WORTHWHILE_NOISE_RATIO * before_lx).then_some(Shared { rays, left_lx, before_lx })
 }
 
 /// The mean number of rays over receivers that have any.

@@ -24,7 +24,7 @@ use std::collections::HashMap;
 
 /// The number of places where the residual of interpolated direct light is measured: enough to find that of one
 /// surface in a hundred.
-const PLACES: usize = 1024;
+const RESIDUAL_PLACES: usize = 1024;
 
 /// A map of direct light with its scene.
 #[derive(Clone, Copy)]
@@ -102,7 +102,7 @@ impl DirectResidual {
 
     /// The approximate number of rays to find these elements and to take `samples` samples of each.
     pub(crate) const fn rays(&self, samples: u64) -> u64 {
-        PLACES as u64 + samples * self.leaves.len() as u64
+        RESIDUAL_PLACES as u64 + samples * self.leaves.len() as u64
     }
 
     /// Direct light at vertices as rays are to read it, lx, from `samples` samples of each element.
@@ -182,7 +182,7 @@ impl Over<'_> {
         let Some(&all_m2) = sums.last() else { return };
         let shift = key.with(u64::MAX).uniform();
         let one = |k: usize| {
-            let within = (k as f64 + shift) / PLACES as f64 * all_m2;
+            let within = (k as f64 + shift) / RESIDUAL_PLACES as f64 * all_m2;
             let number = sums.partition_point(|&sum| sum <= within).min(leaves.len() - 1);
             let leaf = &leaves[number];
             let sequence = Sequence::new(key.with(k as u64));
@@ -194,7 +194,7 @@ impl Over<'_> {
             let square_lx2 = share * share * (lacking_lx * lacking_lx - measured.variance);
             Some(((leaf.triangle, leaf.back), square_lx2))
         };
-        let looks: Vec<_> = (0..PLACES).into_par_iter().map(one).collect();
+        let looks: Vec<_> = (0..RESIDUAL_PLACES).into_par_iter().map(one).collect();
         let mut sides: HashMap<(u32, bool), (f64, f64)> = HashMap::new();
         for (side, square_lx2) in looks.into_iter().flatten() {
             let (sum, count) = sides.entry(side).or_default();

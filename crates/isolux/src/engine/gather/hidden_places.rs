@@ -20,11 +20,11 @@ use std::collections::HashMap;
 
 /// The most rays that look for light. A place that sees it in less than a tenth of its hemisphere is still found with
 /// a chance of 19 in 20.
-const RAYS: u32 = 32;
+const MOST_RAYS: u32 = 32;
 
 /// The distance beyond a vertex to which rays look at it, as a share of their length. A vertex that lies in a wall is
 /// then not seen from behind that wall.
-const BEYOND: f64 = 1e-3;
+const BEYOND_VERTEX_SHARE: f64 = 1e-3;
 
 /// The inputs of a search for open vertices of a mesh.
 pub(crate) struct Sight<'a> {
@@ -124,7 +124,7 @@ impl Sight<'_> {
         if self.sees_open(place, known) {
             return CutOff::No;
         }
-        let from = Gatherer::on_surface(*place, RAYS);
+        let from = Gatherer::on_surface(*place, MOST_RAYS);
         match self.look_for_open(&from, number, known) {
             Seen::Light => CutOff::Yes,
             Seen::Places(places) if !is_unlit && self.any_lit(&from, number, &places) => {
@@ -147,7 +147,7 @@ impl Sight<'_> {
         let sequence = Sequence::new(self.key.with(number));
         let axis = from.normal.to_direction();
         let mut places = Vec::new();
-        for index in 0..RAYS {
+        for index in 0..MOST_RAYS {
             let mut dice = Dice::new(sequence, index);
             let direction = axis.from_local(CosineHemisphere::sample(dice.pair()));
             let ray = Ray::new(from.origin, direction);
@@ -203,6 +203,6 @@ impl Sight<'_> {
 /// Whether nothing stands between a place and a point just above a vertex of its element.
 pub(crate) fn sees(scene: &Scene, place: &SurfacePoint, vertex: Point) -> bool {
     let from = place.start();
-    let to = vertex + (vertex - from) * BEYOND;
+    let to = vertex + (vertex - from) * BEYOND_VERTEX_SHARE;
     !scene.bvh().any_hit(&Ray::between(from, to).skipping(place.triangle))
 }

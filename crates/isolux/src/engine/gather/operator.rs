@@ -2,7 +2,7 @@
 //! both.
 
 use crate::engine::mesh::{Fit, Waiting, corrected};
-use crate::engine::ray::Anderson;
+use crate::engine::ray::{Anderson, UNITS_OF_REFERENCE};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
@@ -254,7 +254,7 @@ impl Operator {
                 waiting.fill(&mut next);
                 return Ok((next, settling.rms()));
             }
-            if settling.relative > before * ROUGHLY * ROUGHLY {
+            if settling.relative > before * ROUGH_CHANGE_RATIO * ROUGH_CHANGE_RATIO {
                 break;
             }
             before = settling.relative;
@@ -273,18 +273,15 @@ impl Operator {
 }
 
 /// The largest ratio of changes of successive sweeps, root mean square, for which the rough operator still helps.
-const ROUGHLY: f64 = 0.5;
+const ROUGH_CHANGE_RATIO: f64 = 0.5;
 /// The relative change at which the iteration over the rough operator ends.
-const FOLLOWED: f64 = 0.01;
+const ROUGH_TOLERANCE: f64 = 0.01;
 /// The most iterations over the rough operator.
-const MOST_FOLLOWED: usize = 100;
+const MOST_ROUGH_ITERATIONS: usize = 100;
 
 /// The most sweeps before giving up: at mean reflectance 0.99 the light left is e^-20.
 const MAX_SWEEPS: usize = 2000;
 
-/// The least light in relative changes, as a share of the root mean square: a unit of the integer sums. Dim rooms so
-/// settle by their own light.
-const FAINT: f64 = 1.0 / (1 << 24) as f64;
 /// The number of sweeps after which the weights of interpolation and fit stay fixed. At reflectance 0.9 without any
 /// mixing, the light left is e^-10, less than any tolerance.
 const FREE_SWEEPS: usize = 100;
@@ -293,8 +290,8 @@ const FREE_SWEEPS: usize = 100;
 type Rules<'a> = (&'a dyn Fn(&[Rgb]) -> Vec<Rgb>, &'a dyn Fn(&mut [Rgb]));
 
 /// The largest relative change of a value, in root mean squares of all, so that a small room beside a bright yard
-/// settles, too.
-const MOST_UNSETTLED: f64 = 10.0;
+/// settles, too. Three take half a second more in the hall, of five (decision 42).
+const MOST_CHANGE_RATIO: f64 = 10.0;
 
 /// The changes by a sweep.
 struct Settling {
@@ -324,7 +321,7 @@ impl Settling {
 
     fn is_within(&self, tolerance: f64) -> bool {
         let square = tolerance * tolerance;
-        self.relative <= square && self.greatest <= MOST_UNSETTLED * MOST_UNSETTLED * square
+        self.relative <= square && self.greatest <= MOST_CHANGE_RATIO * MOST_CHANGE_RATIO * square
     }
 
     fn rms(&self) -> f64 {
@@ -333,15 +330,16 @@ impl Settling {
 }
 
 /// One over the light at each place, 1/lx. The light is the greater of before and after a sweep, and at least
-/// [`FAINT`] of the root mean square.
+/// a unit of the integer sums as a share of the root mean square, so that dim rooms settle by their own light.
 fn weights(next: &[Rgb], light: &[Rgb]) -> Vec<f64> {
     let size: f64 = next.iter().map(|a| a.luminance() * a.luminance()).sum();
-    let faint = ((size / next.len().max(1) as f64).sqrt() * FAINT).max(f64::MIN_POSITIVE);
+    let faint =
+        ((size / next.len().max(1) as f64).sqrt() / UNITS_OF_REFERENCE).max(f64::MIN_POSITIVE);
     let one = |(a, b): (&Rgb, &Rgb)| 1.0 / a.luminance().abs().max(b.luminance().abs()).max(faint);
     next.iter().zip(light).map(one).collect()
 }
 
-/// Whether an iteration over the rough operator has changed light by no more than [`FOLLOWED`], relative.
+/// Whether an iteration over the rough operator has changed light by no more than [`ROUGH_TOLERANCE`], relative.
 fn is_followed(next: &[Rgb], whole: &[Rgb], weights: &[f64]) -> bool {
     let (mut change, mut size) = (0.0, 0.0);
     for ((a, b), weight) in next.iter().zip(whole).zip(weights) {
@@ -349,7 +347,7 @@ fn is_followed(next: &[Rgb], whole: &[Rgb], weights: &[f64]) -> bool {
         change += difference * difference;
         size += value * value;
     }
-    change <= FOLLOWED * FOLLOWED * size
+    change <= ROUGH_TOLERANCE * ROUGH_TOLERANCE * size
 }
 
 /// An operator among carriers alone.
@@ -402,7 +400,7 @@ impl Rough {
     fn followed(&self, change: Vec<Rgb>, weights: &[f64]) -> Vec<Rgb> {
         let mut whole = change.clone();
         let mut mixing = Anderson::new();
-        for _ in 0..MOST_FOLLOWED {
+        for _ in 0..MOST_ROUGH_ITERATIONS {
             let mut next = change.clone();
             let parts = parts(&self.chunks, &mut next);
             parts.into_par_iter().for_each(|(rows, part)| rows.add(&whole, part));
@@ -427,7 +425,7 @@ fn parts<'a>(chunks: &'a [Rows], mut values: &'a mut [Rgb]) -> Vec<(&'a Rows, &'
 
 /// The tolerance on sums of shares and weights, which are stored in `f32`: each is rounded by a relative 2^-24 at
 /// most.
-const STORED: f64 = 1e-6;
+const ROW_SUM_TOLERANCE: f64 = 1e-6;
 
 impl Rows {
     /// Adds an entry to the row under construction.
@@ -464,7 +462,7 @@ impl Rows {
             entry = *end;
         }
         let most = Rgb(sum).max_channel();
-        if most > 1.0 + STORED {
+        if most > 1.0 + ROW_SUM_TOLERANCE {
             self.given_up += most - 1.0;
             for Run { share, .. } in &mut self.runs[first_of_row..] {
                 *share = share.map(|c| (f64::from(c) / most) as f32);

@@ -10,10 +10,6 @@ use crate::engine::plan::Plan;
 use crate::scene::{Finish, Scene, Texture};
 use crate::units::Rgb;
 
-/// The error that a map may have, as a share of the bound. Where it knows nothing yet, the error is all of
-/// the light, so a map may hold twice the bound.
-const ERRS_BY: f64 = 1.0;
-
 /// The bound on the mean illuminance after diffuse reflections, lx; infinite where a surface reflects all
 /// light.
 pub(crate) fn allowed_lx(scene: &Scene, area_m2: f64) -> f64 {
@@ -53,8 +49,9 @@ impl Allowed {
             (flux_lm + m2 * indirect_lx(v), known_m2 + m2)
         });
         let mean_lx = if known_m2 > 0.0 { flux_lm / self.area_m2.max(known_m2) } else { 0.0 };
-        // The comparison is such that NaN is an excess, too.
-        let is_allowed = mean_lx <= (1.0 + ERRS_BY) * self.lx;
+        // Where a map knows nothing yet, its error is all of the light, so it may hold twice the bound. The
+        // comparison is such that NaN is an excess, too.
+        let is_allowed = mean_lx <= 2.0 * self.lx;
         (!is_allowed).then_some([mean_lx, self.lx])
     }
 }

@@ -25,10 +25,6 @@ struct Means {
     rows: Vec<Vec<(u32, f64)>>,
 }
 
-/// The excess that noise alone may cause, in variances of the detail. It is the standard deviation of the
-/// mean of about eight squared normal numbers, as two rings have: `sqrt(2 / 8)`.
-const CHANCE: f64 = 0.5;
-
 /// Filtered values, and a report of the filter.
 pub(crate) struct Filtered {
     /// Colour quantities, in the order given, filtered.
@@ -187,9 +183,10 @@ impl Means {
             (0..values.len()).map(|i| detail(i) * detail(i) - noise[i]).collect();
         let once: Vec<f64> = (0..values.len()).map(|i| self.mean(i, |j| excess[j])).collect();
         let kept = |i: usize| {
-            // The excess is pooled over two rings, and its expected chance part is no signal.
+            // The excess is pooled over two rings, and what noise alone may cause of it is no signal: half of the
+            // variance, sqrt(2 / 8), the standard deviation of the mean of about eight squared normal numbers.
             let pooled = self.mean(i, |j| once[j]);
-            let signal = (pooled - CHANCE * noise[i]).max(0.0);
+            let signal = (pooled - 0.5 * noise[i]).max(0.0);
             let both = signal + noise[i];
             Kept { share: if both > 0.0 { signal / both } else { 1.0 }, signal }
         };

@@ -16,7 +16,7 @@ pub(crate) const OF_GOAL: f64 = 0.25;
 
 /// The largest factor between measured and expected interpolation error that is believed, either way. Details
 /// give at least the order of magnitude.
-const MOST_OVER: f64 = 10.0;
+const MOST_ERROR_FACTOR: f64 = 10.0;
 
 /// A map's errors, and the trust that readers have in it.
 #[derive(Clone, Copy)]
@@ -56,7 +56,7 @@ impl Verdict {
         all
     }
 
-    /// The factor by which elements err more than the pilot expected, within [`MOST_OVER`].
+    /// The factor by which elements err more than the pilot expected, within [`MOST_ERROR_FACTOR`].
     pub(crate) fn over_expected(&self) -> f64 {
         bounded(self.errors.over_expected)
     }
@@ -67,5 +67,5 @@ impl Verdict {
 }
 
 fn bounded(over: Option<f64>) -> f64 {
-    over.map_or(1.0, |over| over.clamp(1.0 / MOST_OVER, MOST_OVER))
+    over.map_or(1.0, |over| over.clamp(1.0 / MOST_ERROR_FACTOR, MOST_ERROR_FACTOR))
 }

@@ -13,15 +13,16 @@ use rayon::prelude::*;
 
 /// Particles of all luminaires together. The share of many luminaires together is known to a
 /// hundredth, that of a single one less well.
-const PARTICLES: usize = 1 << 14;
+const TOTAL_PARTICLES: usize = 1 << 14;
 /// The fewest particles of one luminaire.
-const FEWEST: usize = 16;
+const FEWEST_PARTICLES: usize = 16;
 /// The most particles of one luminaire.
-const MOST: usize = 1 << 12;
+const MOST_PARTICLES: usize = 1 << 12;
 
-/// Share of arriving light below which [`MOST`] particles look again. Of a luminaire that sends a tenth
-/// of its light into the scene, [`FEWEST`] particles miss all once in five times, and [`MOST`] never.
-const LITTLE: f64 = 0.05;
+/// Share of arriving light below which [`MOST_PARTICLES`] particles look again. Of a luminaire that sends a tenth
+/// of its light into the scene, [`FEWEST_PARTICLES`] particles miss all once in five times, and [`MOST_PARTICLES`]
+/// never.
+const LITTLE_ARRIVING_SHARE: f64 = 0.05;
 
 /// The fate of the light of a luminaire.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +52,7 @@ struct Counts {
 /// The arrival of every luminaire that has flux, emitting surfaces last. It is the same for the same scene.
 pub fn arrivals(scene: &Scene) -> Vec<Arrival> {
     let Some(emission) = Emission::new(scene) else { return Vec::new() };
-    let count = (PARTICLES / emission.count()).clamp(FEWEST, MOST);
+    let count = (TOTAL_PARTICLES / emission.count()).clamp(FEWEST_PARTICLES, MOST_PARTICLES);
     let with_flux = (0..emission.count()).into_par_iter().filter(|&k| emission.part(k) > 0.0);
     with_flux.map(|number| arrival(scene, &emission, number, count)).collect()
 }
@@ -69,7 +70,8 @@ fn arrival(scene: &Scene, emission: &Emission, number: usize, count: usize) -> A
         if all > 0.0 { [counts.arrived as f64 / all, lost as f64 / all] } else { [0.0, 1.0] }
     };
     let first = shares(0, count);
-    let [arrives, lost] = if first[0] < LITTLE { shares(1, MOST) } else { first };
+    let [arrives, lost] =
+        if first[0] < LITTLE_ARRIVING_SHARE { shares(1, MOST_PARTICLES) } else { first };
     let area = || &scene.area_luminaires()[number - scene.luminaires().len()];
     Arrival {
         name: match point {

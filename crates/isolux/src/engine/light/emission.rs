@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// The smallest intensity of a luminaire towards an extended target, as a share of its mean
 /// intensity. The target also extends into other directions.
-const LEAST_INTENSITY: f64 = 0.1;
+const LEAST_INTENSITY_SHARE: f64 = 0.1;
 
 /// All luminaires of a scene as emitters of particles.
 pub(crate) struct Emission<'s> {
@@ -206,7 +206,7 @@ impl<'s> Emission<'s> {
                 let start = self.start(number, area, 0.5, [4.0 / 9.0, 0.5]);
                 let (direction, distance2) = from(start.origin);
                 let cos = direction.map_or(1.0, |direction| direction.cos(start.normal));
-                evenly(distance2) * (4.0 * cos).max(LEAST_INTENSITY)
+                evenly(distance2) * (4.0 * cos).max(LEAST_INTENSITY_SHARE)
             }
             Emitter::Other(luminaire) => {
                 let origin = match &luminaire.kind {
@@ -215,7 +215,7 @@ impl<'s> Emission<'s> {
                 };
                 let (direction, distance2) = from(origin);
                 let told = direction.map(|d| self.on_one_m2(number, luminaire, d, distance2));
-                told.unwrap_or(0.0).max(LEAST_INTENSITY * evenly(distance2))
+                told.unwrap_or(0.0).max(LEAST_INTENSITY_SHARE * evenly(distance2))
             }
         };
         0.5 * one_m2

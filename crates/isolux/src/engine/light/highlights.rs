@@ -15,7 +15,7 @@ use isolux_geometry::{Direction, Hit};
 use std::collections::HashMap;
 
 /// Samples at a place for all emitting surfaces together, with at least one for each.
-const LOOKS: usize = 16;
+const EMITTER_SAMPLES: usize = 16;
 
 /// The luminaires of a scene as they show on glossy surfaces.
 pub struct Highlights<'s> {
@@ -74,7 +74,7 @@ impl<'s> Highlights<'s> {
         let at = SurfacePoint::from_hit(self.scene, hit);
         let count = self.scene.area_luminaires().len();
         let shapes = (0..count).map(|number| self.lighting.shape(number, &at)).collect();
-        let samples = (LOOKS / count.max(1)).clamp(1, looks.max(1) as usize);
+        let samples = (EMITTER_SAMPLES / count.max(1)).clamp(1, looks.max(1) as usize);
         Highlighted { highlights: self, at, shapes, samples }
     }
 }

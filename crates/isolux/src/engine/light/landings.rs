@@ -8,20 +8,21 @@ use crate::sampling::Sequence;
 use crate::scene::Scene;
 use rayon::prelude::*;
 
-/// Number of particles that tell whether there is any light.
-pub(crate) const FIRST: u32 = 1 << 11;
+/// Number of particles that tell whether there is any light (decision 51).
+pub(crate) const FIRST_PARTICLES: u32 = 1 << 11;
 /// Number of further particles that tell where it is.
-pub(crate) const MORE: u32 = 1 << 14;
-/// Number of luminaires for which [`FIRST`] and [`MORE`] suffice; the counts grow in proportion to larger numbers.
-const OF_FEW: u32 = 8;
+pub(crate) const FURTHER_PARTICLES: u32 = 1 << 14;
+/// Number of luminaires for which [`FIRST_PARTICLES`] and [`FURTHER_PARTICLES`] suffice; the counts grow in
+/// proportion to larger numbers.
+const FEW_LUMINAIRES: u32 = 8;
 /// The largest factor on these counts.
-const MOST_TIMES: u32 = 16;
+const MOST_PARTICLES_FACTOR: u32 = 16;
 /// The most mirrors that a particle follows.
-const SCATTERINGS: u32 = 16;
+const MOST_MIRRORS: u32 = 16;
 
 /// Standard errors by which the light at a place must differ from the expected value to count as
 /// different. By chance one of fifteen thousand places does.
-pub(crate) const BELIEVED: f64 = 4.0;
+pub(crate) const BELIEVED_DEVIATIONS: f64 = 4.0;
 
 /// The flux that one particle brings to a place.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +49,7 @@ impl Sum {
 
 /// Factor on the number of particles that the number of luminaires requires.
 pub(crate) fn times(emission: &Emission<'_>) -> u32 {
-    (emission.count() as u32 / OF_FEW).clamp(1, MOST_TIMES)
+    (emission.count() as u32 / FEW_LUMINAIRES).clamp(1, MOST_PARTICLES_FACTOR)
 }
 
 /// The landings of `count` particles, straight or over planar mirrors, on surfaces that carry a map.
@@ -60,7 +61,7 @@ pub(crate) fn landed(
 ) -> Vec<Landing> {
     let one = |index: u32| {
         let mut landed = Vec::new();
-        let particle = Particle::emit(emission, sequence, index, count, SCATTERINGS);
+        let particle = Particle::emit(emission, sequence, index, count, MOST_MIRRORS);
         let Some(mut particle) = particle else { return landed };
         while !particle.is_given_up() && particle.is_covered(lighting) {
             let Some(at) = particle.advance(scene) else { break };

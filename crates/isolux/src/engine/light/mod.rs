@@ -20,7 +20,7 @@ mod visibility;
 pub use arrivals::{Arrival, arrivals};
 pub(crate) use emission::{Emission, Emitted};
 pub use highlights::{Highlighted, Highlights, Shining};
-pub(crate) use landings::{BELIEVED, FIRST, Landing, MORE, Sum};
+pub(crate) use landings::{BELIEVED_DEVIATIONS, FIRST_PARTICLES, FURTHER_PARTICLES, Landing, Sum};
 pub(crate) use lighting::Lighting;
 pub(crate) use mirrors::chains::Chain;
 pub(crate) use mirrors::met::MirrorChain;

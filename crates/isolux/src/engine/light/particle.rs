@@ -11,7 +11,7 @@ use crate::units::Rgb;
 use isolux_geometry::{Direction, Ray};
 
 /// Share of the light left after the last scattering of a path, even if all surfaces were the brightest one.
-const NEGLIGIBLE: f64 = 1e-6;
+const NEGLIGIBLE_LIGHT_SHARE: f64 = 1e-6;
 /// Lower bound of the number of scatterings of a path.
 const FEWEST_SCATTERINGS: f64 = 128.0;
 /// Upper bound of the number of scatterings of a path.
@@ -30,7 +30,7 @@ pub(crate) fn scatterings(scene: &Scene) -> u32 {
     if largest >= 1.0 {
         return SCATTERINGS_WITHOUT_LOSS as u32;
     }
-    let enough = libm::log(NEGLIGIBLE) / libm::log(largest);
+    let enough = libm::log(NEGLIGIBLE_LIGHT_SHARE) / libm::log(largest);
     enough.clamp(FEWEST_SCATTERINGS, MOST_SCATTERINGS) as u32
 }
 

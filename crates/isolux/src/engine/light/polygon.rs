@@ -7,10 +7,10 @@ use std::cell::OnceCell;
 
 /// The most directions drawn until one is accepted; the last is always taken. Over a triangle above the
 /// horizon the mean cosine is above a quarter of the highest, so this happens once in a hundred million cases.
-const TRIES: usize = 64;
+const MOST_TRIES: usize = 64;
 
 /// Rounding of the height of a point above a triangle, as a share of its distance and of its coordinates.
-const ROUNDING: f64 = 1e-14;
+const HEIGHT_ROUNDING: f64 = 1e-14;
 
 /// A part of an emitter's triangle above the horizon of a receiver.
 #[derive(Clone)]
@@ -79,7 +79,7 @@ pub(crate) fn target(
     let middle = || at.point + (piece.corners[0] + piece.corners[1] + piece.corners[2]) / 3.0;
     let Some((spherical, highest)) = piece.directions(at) else { return middle() };
     let mut direction = None;
-    for _ in 0..TRIES {
+    for _ in 0..MOST_TRIES {
         direction = spherical.sample(dice.pair());
         if direction.is_none_or(|d| accept * highest < d.cos(at.shading)) {
             break;
@@ -168,7 +168,8 @@ fn is_before(point: Point, [a, b, c]: [Point; 3]) -> bool {
     let normal = (b - a).cross(c - a);
     let height = normal.dot(point - a);
     let lengths = (point - a).length_squared() + point.to_vector().length_squared();
-    height > 0.0 && height * height > ROUNDING * ROUNDING * normal.length_squared() * lengths
+    height > 0.0
+        && height * height > HEIGHT_ROUNDING * HEIGHT_ROUNDING * normal.length_squared() * lengths
 }
 
 /// Projected solid angle of a triangle above the horizon that turns clockwise as seen from the

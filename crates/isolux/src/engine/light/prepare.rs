@@ -1,6 +1,6 @@
 //! Preparation of the sources of a scene: images, twins of chains, openings, and the light tree.
 
-use super::lighting::{DRAWN_AT_ENDS, Lighting, image};
+use super::lighting::{Lighting, MOST_POINTS_AT_ENDS, image};
 use super::mirrors::planar::Mirrors;
 use super::mirrors::twins::Twins;
 use super::openings::Openings;
@@ -45,7 +45,7 @@ impl<'s> Lighting<'s> {
 
     /// Builds the light tree, and finds the sources that are not in it.
     fn plant(&mut self) {
-        let has_points = self.points > DRAWN_AT_ENDS;
+        let has_points = self.points > MOST_POINTS_AT_ENDS;
         let tree = Tree::of(self.scene, has_points, faces(self.scene, &self.openings));
         let (sources, starts) = (&self.sources, &self.starts);
         let surfaces: HashSet<u32> = tree.faces.iter().map(|face| face.surface).collect();

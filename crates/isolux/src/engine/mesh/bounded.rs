@@ -10,6 +10,7 @@
 //! The two values depend on the light, so that sweeps may go on and on from one pair to another. [`Bounded`] keeps
 //! the pairs reached: over these exactly one fixed point exists, and every sweep comes nearer to it.
 
+use super::MIN_TASK_LENGTH;
 use crate::units::Rgb;
 use rayon::prelude::*;
 
@@ -47,17 +48,20 @@ impl Range {
 }
 
 /// The least share of light that a correction leaves before it is bounded.
-const LEFT: f64 = 1.0 / 16.0;
+const LEAST_LEFT_SHARE: f64 = 1.0 / 16.0;
 
 /// Light with a correction that removes no more than there is: the control variate of walls, or the slope about a
-/// mean. Where less than [`LEFT`] would be left, the result falls like one over the removed light, without a kink,
-/// and stays positive. It grows no faster than the light. The bound never leaves less than the plain sum, so it adds
-/// light in the mean: the less, the less often it acts.
+/// mean. Where less than [`LEAST_LEFT_SHARE`] would be left, the result falls like one over the removed light, without
+/// a kink, and stays positive. It grows no faster than the light. The bound never leaves less than the plain sum, so
+/// it adds light in the mean: the less, the less often it acts.
 pub(crate) fn corrected(light: Rgb, by: Rgb) -> Rgb {
     Rgb([0, 1, 2].map(|c| {
         let (light, by) = (light.0[c], by.0[c]);
-        let is_plain = light < 0.0 || by >= -(1.0 - LEFT) * light;
-        let left = || LEFT * LEFT * light * light / (-by - (1.0 - 2.0 * LEFT) * light);
+        let is_plain = light < 0.0 || by >= -(1.0 - LEAST_LEFT_SHARE) * light;
+        let left = || {
+            LEAST_LEFT_SHARE * LEAST_LEFT_SHARE * light * light
+                / (-by - (1.0 - 2.0 * LEAST_LEFT_SHARE) * light)
+        };
         if is_plain { light + by } else { left() }
     }))
 }
@@ -105,7 +109,7 @@ impl Bounded {
                 (1.0 - share) * a + share * b
             }))
         };
-        self.means[some].par_iter().with_min_len(1024).map(one).collect()
+        self.means[some].par_iter().with_min_len(MIN_TASK_LENGTH).map(one).collect()
     }
 }
 

@@ -8,6 +8,7 @@
 //! determine a quadratic one. A vertex with neither carries light itself. So do vertices that stand for gaps and
 //! rims, and all that bisection makes.
 
+use super::MIN_TASK_LENGTH;
 use super::bounded::{Bounded, Range, Stencil};
 use super::coarsening::{Coarsening, Link};
 use crate::elements::Subdivision;
@@ -19,9 +20,6 @@ use rayon::prelude::*;
 /// the root mean square over the edge is 0.73 of that. Kinks and shadow borders, which dominate once the rest is
 /// resolved, make it up to twice as much.
 pub(crate) const ERROR_OF_DETAIL: f64 = 0.3;
-
-/// The number of vertices of one task.
-const TOGETHER: usize = 1024;
 
 /// The vertices that carry light.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -207,7 +205,7 @@ impl Carriers {
         for &end in &self.ends {
             // A level needs only those before it.
             let level = &self.order[start..end];
-            let waiting = level.par_iter().with_min_len(TOGETHER);
+            let waiting = level.par_iter().with_min_len(MIN_TASK_LENGTH);
             let waiting = waiting.filter(|&&v| !self.active[v as usize]);
             let found: Vec<(u32, Told)> = waiting
                 .filter_map(|&v| Some((v, self.told_at(v, values, &told, &is_beset)?)))
@@ -275,7 +273,7 @@ impl Waiting {
         let mut start = 0;
         for &end in &self.levels {
             // A level needs only those before it.
-            let level = (start..end).into_par_iter().with_min_len(TOGETHER);
+            let level = (start..end).into_par_iter().with_min_len(MIN_TASK_LENGTH);
             let found: Vec<Rgb> = level.map(|k| self.read(k, values)).collect();
             let vertices = &self.vertices[start..end];
             vertices.iter().zip(found).for_each(|(&v, value)| values[v as usize] = value);

@@ -2,6 +2,7 @@
 //!
 //! Surfaces are independent, so each is coarsened by itself.
 
+use super::NO_INDEX;
 use crate::elements::{FewNumbers, Subdivision, Vertex};
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
@@ -14,28 +15,28 @@ const MOST_LEVELS: u8 = 12;
 const FEWEST_VERTICES: usize = 32;
 
 /// The least cosine between the normals of neighbours, 45 degrees. A tangent plane does not fit wider angles.
-const LEAST_COS: f64 = 0.7;
+const LEAST_NORMALS_COS: f64 = 0.7;
 
 /// The number of neighbours that a value is interpolated from.
 const NEIGHBOURS: usize = 12;
 /// The largest distance of neighbours, in spacings.
-const REACH: f64 = 2.5;
+const REACH_SPACINGS: f64 = 2.5;
 
 /// The largest sum of the magnitudes of weights; larger ones extrapolate.
-const MOST_WEIGHT: f64 = 1.6;
+const MOST_WEIGHTS_SUM: f64 = 1.6;
 
 /// The least share of the squared length of a least-squares column that earlier columns leave; with less it depends
 /// on them.
-const LEAST_PIVOT: f64 = 1e-3;
+const LEAST_PIVOT_SHARE: f64 = 1e-3;
 
 /// The largest distance of samples from a line that they lie on, as a share of their reach: the rounding of
 /// coordinates.
-const OFF_LINE: f64 = 1e-4;
+const OFF_LINE_SHARE: f64 = 1e-4;
 /// The number of nearest samples that are tried as directions of a line.
-const LINES: usize = 4;
+const TRIED_LINES: usize = 4;
 
 /// The cosine at which a border has a corner: it turns by more than some 25 degrees.
-const STRAIGHT_COS: f64 = -0.9;
+const CORNER_COS: f64 = -0.9;
 
 /// The interpolation of a vertex that need not carry light.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,11 +114,11 @@ fn surfaces(subdivision: &Subdivision, open: &[bool]) -> Vec<Surface> {
 /// The rank of each vertex: at a corner of a border (0), on a border (1), or within (2).
 fn ranks(subdivision: &Subdivision) -> Vec<u8> {
     let vertices = subdivision.vertices();
-    let mut beside: Vec<[u32; 2]> = vec![[NONE; 2]; vertices.len()];
+    let mut beside: Vec<[u32; 2]> = vec![[NO_INDEX; 2]; vertices.len()];
     let mut ranks = vec![2; vertices.len()];
     for [a, b] in subdivision.border_edges() {
         for (own, other) in [(a, b), (b, a)] {
-            match beside[own as usize].iter_mut().find(|of| **of == NONE) {
+            match beside[own as usize].iter_mut().find(|of| **of == NO_INDEX) {
                 Some(free) => *free = other,
                 // Borders meet here.
                 None => ranks[own as usize] = 0,
@@ -125,19 +126,17 @@ fn ranks(subdivision: &Subdivision) -> Vec<u8> {
         }
     }
     for (v, &[a, b]) in beside.iter().enumerate() {
-        if a == NONE || ranks[v] == 0 {
+        if a == NO_INDEX || ranks[v] == 0 {
             continue;
         }
         let to = |other: u32| {
             let to = vertices[other as usize].position - vertices[v].position;
             to * (1.0 / to.length())
         };
-        ranks[v] = u8::from(b != NONE && to(a).dot(to(b)) < STRAIGHT_COS);
+        ranks[v] = u8::from(b != NO_INDEX && to(a).dot(to(b)) < CORNER_COS);
     }
     ranks
 }
-
-const NONE: u32 = u32::MAX;
 
 impl Surface {
     /// The levels and links of its vertices.
@@ -163,7 +162,7 @@ impl Surface {
                 let mut is_free = true;
                 grid.visit(position, |other| {
                     let near = (own[other].position - position).length() < spacing_m;
-                    is_free = !(near && own[other].normal.dot(normal) >= LEAST_COS);
+                    is_free = !(near && own[other].normal.dot(normal) >= LEAST_NORMALS_COS);
                     is_free
                 });
                 if is_free {
@@ -185,7 +184,7 @@ impl Surface {
         let finest = levels.iter().copied().max().unwrap_or(0);
         for level in 1..=finest {
             let spacing_m = spacing_of(coarsest_m, level - 1);
-            let grid = Grid::of(own, REACH * spacing_m, |v| levels[v] < level);
+            let grid = Grid::of(own, REACH_SPACINGS * spacing_m, |v| levels[v] < level);
             let added: Vec<usize> = (0..levels.len()).filter(|&v| levels[v] == level).collect();
             let link = |&v: &usize| self.link(own, v, &grid, spacing_m);
             let found: Vec<Option<Link>> = added.par_iter().map(link).collect();
@@ -204,7 +203,7 @@ impl Surface {
         let mut near: Vec<(f64, usize)> = Vec::new();
         grid.visit(position, |other| {
             let distance_m = (own[other].position - position).length();
-            if distance_m < grid.reach_m && own[other].normal.dot(normal) >= LEAST_COS {
+            if distance_m < grid.reach_m && own[other].normal.dot(normal) >= LEAST_NORMALS_COS {
                 near.push((distance_m, other));
             }
             true
@@ -241,7 +240,7 @@ fn weights_at(
     let mut samples = [Sample::default(); NEIGHBOURS];
     samples.iter_mut().zip(&near).for_each(|(own, near)| *own = sample(near));
     let samples = &samples[..near.len()];
-    let over_plane = OVER_PLANE.into_iter().find_map(|beside| weights(samples, beside));
+    let over_plane = PLANE_TERMS.into_iter().find_map(|beside| weights(samples, beside));
     let weights = over_plane.or_else(|| weights_along_line(samples))?;
     let of = near.iter().zip(weights).filter(|(_, weight)| *weight != 0.0);
     let mut told = Vec::with_capacity(near.len());
@@ -308,35 +307,33 @@ struct Sample {
 /// A number for each sample, with zeros after the last.
 type Column = [f64; NEIGHBOURS];
 
-const NO_COLUMN: Column = [0.0; NEIGHBOURS];
-
 /// The largest number of terms: those of a quadratic function.
-const MOST_TERMS: usize = 6;
+const MOST_TERMS: usize = 1 + PLANE_TERMS[0].len();
 
 /// The sets of terms over a plane beside the constant, in the order in which they are tried.
-const OVER_PLANE: [&[usize]; 2] = [&[1, 2, 3, 4, 5], &[1, 2]];
+const PLANE_TERMS: [&[usize]; 2] = [&[1, 2, 3, 4, 5], &[1, 2]];
 
 /// The weights of the values at some places that give the value at the origin of the function of best fit. The
-/// function is a constant and the terms `beside` it, of `1, x, y, x2, xy, y2`. `None` where the places do not determine it or extrapolate. Columns are made orthogonal by modified
-/// Gram-Schmidt.
+/// function is a constant and the terms `beside` it, of `1, x, y, x2, xy, y2`. `None` where the places do not determine
+/// it or extrapolate. Columns are made orthogonal by modified Gram-Schmidt.
 fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
     if samples.len() <= beside.len() {
         return None;
     }
-    let mut roots = NO_COLUMN;
+    let mut roots: Column = [0.0; NEIGHBOURS];
     roots.iter_mut().zip(samples).for_each(|(root, s)| *root = s.weight.sqrt());
     let column = |term: usize| -> Column {
         let value = |s: &Sample| {
             let [x, y] = s.at;
             [1.0, x, y, x * x, x * y, y * y][term]
         };
-        let mut column = NO_COLUMN;
+        let mut column = [0.0; NEIGHBOURS];
         let of = samples.iter().zip(&roots).map(|(s, root)| value(s) * root);
         column.iter_mut().zip(of).for_each(|(own, value)| *own = value);
         column
     };
     // The constant column comes last: its part that the others leave determines the value.
-    let mut columns = [NO_COLUMN; MOST_TERMS];
+    let mut columns = [[0.0; NEIGHBOURS]; MOST_TERMS];
     let mut squares = [0.0; MOST_TERMS];
     for (k, &term) in beside.iter().chain(&[0]).enumerate() {
         let mut own = column(term);
@@ -346,29 +343,29 @@ fn weights(samples: &[Sample], beside: &[usize]) -> Option<Column> {
             own.iter_mut().zip(other).for_each(|(a, b)| *a -= share * b);
         }
         (columns[k], squares[k]) = (own, dot(&own, &own));
-        if squares[k] <= LEAST_PIVOT * before {
+        if squares[k] <= LEAST_PIVOT_SHARE * before {
             return None;
         }
     }
     let (mut weights, length) = (columns[beside.len()], squares[beside.len()]);
     weights.iter_mut().zip(roots).for_each(|(weight, root)| *weight *= root / length);
     let size: f64 = weights.iter().map(|w| w.abs()).sum();
-    (size <= MOST_WEIGHT).then_some(weights)
+    (size <= MOST_WEIGHTS_SUM).then_some(weights)
 }
 
 /// The weights for a polynomial along a line through the origin that some of the samples lie on, such as vertices of
 /// one border. One of the nearest samples gives its direction.
 fn weights_along_line(samples: &[Sample]) -> Option<Column> {
-    samples.iter().take(LINES).find_map(|towards| {
+    samples.iter().take(TRIED_LINES).find_map(|towards| {
         let [x, y] = towards.at;
         let length = libm::hypot(x, y);
         let (cos, sin) = (x / length, y / length);
         let along = |s: &Sample| Sample { at: [s.at[0] * cos + s.at[1] * sin, 0.0], ..*s };
-        let is_on = |s: &Sample| (s.at[1] * cos - s.at[0] * sin).abs() < OFF_LINE;
+        let is_on = |s: &Sample| (s.at[1] * cos - s.at[0] * sin).abs() < OFF_LINE_SHARE;
         let on: Vec<usize> = (0..samples.len()).filter(|&k| is_on(&samples[k])).collect();
         let line: Vec<Sample> = on.iter().map(|&k| along(&samples[k])).collect();
         let found = [&[1, 3][..], &[1]].into_iter().find_map(|beside| weights(&line, beside))?;
-        let mut all = NO_COLUMN;
+        let mut all = [0.0; NEIGHBOURS];
         on.into_iter().zip(found).for_each(|(k, weight)| all[k] = weight);
         Some(all)
     })

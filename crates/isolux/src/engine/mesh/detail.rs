@@ -4,13 +4,10 @@
 //! of its edge. From level to level, a smooth quantity keeps a quarter of it, one with a kink a half, a shadow border
 //! all of it. So details at the finest level tell the error of interpolation there.
 
+use super::MIN_TASK_LENGTH;
 use super::carriers::{Carriers, ERROR_OF_DETAIL, Told};
 use crate::elements::{Elements, Subdivision};
 use rayon::prelude::*;
-
-/// The interpolation error of an element of the input, which has no detail, as a share of the range of its vertices:
-/// the value of [`ERROR_OF_DETAIL`] for a detail of half the range.
-const ERROR_OF_SPREAD: f64 = 0.15;
 
 /// The interpolation error of an element, root mean square, as a share of the error in its middle. A quadratic
 /// function has a mean error of a twenty-fourth of its three second differences along the edges, of an eighteenth in
@@ -19,10 +16,7 @@ const ERROR_OF_SPREAD: f64 = 0.15;
 const ERROR_OF_MIDDLE: f64 = 0.9;
 
 /// The longest edge on which a detail of an element was made, in longest edges of the element.
-const RECENT: f64 = 2.9;
-
-/// The number of elements of one task.
-const TOGETHER: usize = 1024;
+const RECENT_EDGE_RATIO: f64 = 2.9;
 
 /// The error expected of an element.
 #[derive(Clone, Copy, Debug)]
@@ -116,7 +110,7 @@ impl<'a> Details<'a> {
             }
         };
         let leaves: Vec<u32> = self.subdivision.leaves().collect();
-        leaves.into_par_iter().with_min_len(TOGETHER).map(leaf).collect()
+        leaves.into_par_iter().with_min_len(MIN_TASK_LENGTH).map(leaf).collect()
     }
 
     /// The error of an element from its details, with the mean excess; `None` without details, or if vertices say
@@ -126,7 +120,7 @@ impl<'a> Details<'a> {
         if corners.iter().any(|&v| self.values[v as usize].is_none()) {
             return None;
         }
-        let reach = RECENT * self.subdivision.longest_edge_m(node);
+        let reach = RECENT_EDGE_RATIO * self.subdivision.longest_edge_m(node);
         let of_corner = |v: u32| match self.told_at(v) {
             Some(told) => Some((told.error, 0.0)),
             None => self.detail(v, reach).map(|detail| told(ERROR_OF_DETAIL * detail)),
@@ -156,7 +150,7 @@ impl<'a> Details<'a> {
         let (mut newer, mut older) = (0.0, 0.0);
         let (mut told, mut untold) = (0.0, 0.0);
         for leaf in errors {
-            let reach = RECENT * self.subdivision.longest_edge_m(leaf.node);
+            let reach = RECENT_EDGE_RATIO * self.subdivision.longest_edge_m(leaf.node);
             let corners = self.subdivision.node(leaf.node).0.vertices;
             let levels = corners.iter().filter_map(|&vertex| {
                 let ends = self.elements.vertices()[vertex as usize].parents?;
@@ -177,8 +171,10 @@ impl<'a> Details<'a> {
             return 1.0;
         }
         let shrinking = (newer / older).sqrt();
-        let left = LEFT_OF_SMOOTH + (shrinking - SMOOTH) * LEFT_FOR_ROUGH;
-        let left = left.clamp(LEFT_OF_SMOOTH, 1.0);
+        // All error is left at a ratio of three quarters, between kinks and borders.
+        let slope = (1.0 - SMOOTH_LEFT_SHARE) / (0.75 - SMOOTH_DETAIL_RATIO);
+        let left = SMOOTH_LEFT_SHARE + (shrinking - SMOOTH_DETAIL_RATIO) * slope;
+        let left = left.clamp(SMOOTH_LEFT_SHARE, 1.0);
         ((told * left * left + untold) / (told + untold)).sqrt()
     }
 }
@@ -193,32 +189,29 @@ fn untold_error(values: [Option<f64>; 3], in_the_middle: Option<f64>) -> (f64, f
     let known: Vec<f64> = values.into_iter().flatten().collect();
     let Some(high) = known.iter().copied().reduce(f64::max) else { return (0.0, 0.0) };
     let low = known.iter().copied().fold(high, f64::min);
+    // An element of the input has no detail: half of the range of its vertices stands for it.
+    let of_range = 0.5 * ERROR_OF_DETAIL;
     match in_the_middle {
         Some(middle) => {
             let read = known.iter().sum::<f64>() / known.len() as f64;
             told(ERROR_OF_MIDDLE * (middle - read))
         }
-        None if known.len() == 3 => (ERROR_OF_SPREAD * (high - low), 0.0),
+        None if known.len() == 3 => (of_range * (high - low), 0.0),
         // Extrapolation over a vertex that says nothing is as uncertain as the value is large.
-        None => (ERROR_OF_SPREAD * high, 0.0),
+        None => (of_range * high, 0.0),
     }
 }
 
 /// The share of the interpolation error that a fit to the light over elements leaves, where light is smooth (a
 /// parabola is 2.4 times as near).
-const LEFT_OF_SMOOTH: f64 = 0.42;
-/// The ratio of details between levels where light is smooth.
-const SMOOTH: f64 = 0.25;
-/// The increase of the share left, per unit of that ratio: all error is left at three quarters, between kinks and
-/// borders.
-const LEFT_FOR_ROUGH: f64 = (1.0 - LEFT_OF_SMOOTH) / (0.75 - SMOOTH);
+const SMOOTH_LEFT_SHARE: f64 = 0.42;
+/// The ratio of details between levels where light is smooth: on edges of half the length, second differences are a
+/// quarter.
+const SMOOTH_DETAIL_RATIO: f64 = 0.25;
 
 /// The largest share of the squared error that one round of refinement removes by marking the worst elements (Dörfler
 /// 1996).
-const MARKED_SHARE: f64 = 0.75;
-
-/// The share of the squared error of an element left after two bisections where light is smooth.
-const LEFT: f64 = 1.0 / 16.0;
+pub(crate) const MARKED_SHARE: f64 = 0.75;
 
 /// The limits of refinement.
 #[derive(Clone, Copy, Debug)]
@@ -239,8 +232,9 @@ pub(crate) fn refine_worst(
     how_far: Refinement,
 ) -> bool {
     let Refinement { wanted, least_edge_m, max_vertices } = how_far;
-    // No more elements are marked than needed if every error falls as expected.
-    let share = ((1.0 - wanted * wanted) / (1.0 - LEFT)).clamp(0.0, MARKED_SHARE);
+    // No more elements are marked than needed if every error falls as expected: two bisections halve both directions.
+    let left = SMOOTH_DETAIL_RATIO * SMOOTH_DETAIL_RATIO;
+    let share = ((1.0 - wanted * wanted) / (1.0 - left)).clamp(0.0, MARKED_SHARE);
     let waits = |carriers: &Carriers, corners: [u32; 3]| {
         corners.into_iter().any(|vertex| !carriers.is_active(vertex))
     };

@@ -15,6 +15,7 @@
 //! half of its light comes from the edge itself, and an error there is at once in both walls. Their part is left to
 //! the other vertices of their elements, so that the map is right in the mean.
 
+use super::MIN_TASK_LENGTH;
 use super::bounded::{Bounded, Range};
 use super::carriers::Carriers;
 use crate::ablation::without;
@@ -24,15 +25,15 @@ use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
 
 /// The largest sum of the magnitudes of weights of second differences. Beyond it elements are slivers.
-const MOST_WEIGHT: f64 = 4.0;
+const MOST_WEIGHTS_SUM: f64 = 4.0;
 
 /// The largest shift of a value, as a share of the range of the values about it; that of a parabola at its top is a
 /// sixth. Across kinks and jumps second differences are no curvature. The value never leaves that range: see
 /// [`Range`].
-const MOST_SHIFT: f64 = 0.25;
+const MOST_SHIFT_SHARE: f64 = 0.25;
 
 /// The number of vertices of one task.
-const AT_ONCE: usize = 256;
+const TASK_VERTICES: usize = 256;
 
 /// A linear combination of values of vertices.
 type Form = Vec<(u32, f64)>;
@@ -85,17 +86,18 @@ impl Fit {
             form.sort_unstable_by_key(|&(v, _)| v);
             form.iter_mut().for_each(|(_, weight)| *weight /= area_m2);
             let size: f64 = form.iter().map(|(_, weight)| weight.abs()).sum();
-            if size <= MOST_WEIGHT {
+            if size <= MOST_WEIGHTS_SUM {
                 fit.entries.extend(&*form);
             }
             fit.ends.push(fit.entries.len());
         };
         let some = |first: usize| {
             let (mut fit, mut form) = (Self::default(), Form::new());
-            (first..vertices.min(first + AT_ONCE)).for_each(|v| one(&mut fit, &mut form, v));
+            (first..vertices.min(first + TASK_VERTICES)).for_each(|v| one(&mut fit, &mut form, v));
             fit
         };
-        let parts: Vec<Self> = (0..vertices).into_par_iter().step_by(AT_ONCE).map(some).collect();
+        let parts: Vec<Self> =
+            (0..vertices).into_par_iter().step_by(TASK_VERTICES).map(some).collect();
         let mut fit = Self::default();
         for part in parts {
             let before = fit.entries.len();
@@ -114,10 +116,10 @@ impl Fit {
                 shift += value * weight;
                 range.include(value);
             }
-            let most = range.width() * MOST_SHIFT;
+            let most = range.width() * MOST_SHIFT_SHARE;
             range.hold(values[k] + shift.lesser(most).greater(most * -1.0))
         };
-        (0..self.ends.len()).into_par_iter().with_min_len(1024).map(one).collect()
+        (0..self.ends.len()).into_par_iter().with_min_len(MIN_TASK_LENGTH).map(one).collect()
     }
 
     /// The fit as means with fixed weights, from the values of some light.
@@ -206,7 +208,7 @@ fn neighbours(all: &[Element], about: &About) -> Vec<[Option<usize>; 3]> {
         across.next().filter(|_| across.next().is_none())
     };
     let beside = |index: usize| [0, 1, 2].map(|k| across(index, k));
-    (0..all.len()).into_par_iter().with_min_len(1024).map(beside).collect()
+    (0..all.len()).into_par_iter().with_min_len(MIN_TASK_LENGTH).map(beside).collect()
 }
 
 /// Whether each vertex lies on a border or a crease.

@@ -13,7 +13,7 @@ pub(crate) struct HatFunctions {
 }
 
 /// The number of terms of the series in half of the blur; integer sums do not hold what is left after them.
-const HALVINGS: u32 = 32;
+const SERIES_TERMS: u32 = 32;
 
 /// A quantity on vertices.
 pub(crate) trait Quantity:
@@ -90,7 +90,7 @@ impl HatFunctions {
         let half = |values: &[Rgb]| -> Vec<Rgb> { values.iter().map(|&v| v * 0.5).collect() };
         let mut term = half(values);
         let mut means = term.clone();
-        for _ in 0..HALVINGS {
+        for _ in 0..SERIES_TERMS {
             term = half(&self.blur(&term));
             means.iter_mut().zip(&term).for_each(|(mean, &more)| *mean += more);
         }

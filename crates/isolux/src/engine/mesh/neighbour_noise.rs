@@ -5,7 +5,7 @@
 //! have other rays and show the noise.
 
 use crate::elements::Elements;
-use crate::map::Illuminance;
+use crate::map::VertexLight;
 
 /// The least variance of a vertex, as a share of the mean of its elements. By eight replicates one vertex in ten
 /// shows less of its true variance.
@@ -13,9 +13,9 @@ pub(crate) const LEAST: f64 = 0.4;
 
 /// Raises the noise of indirect light at each vertex to at least a share of the mean over the vertices of its
 /// elements.
-pub(crate) fn lend_noise(elements: &Elements, values: &mut [Option<Illuminance>]) {
+pub(crate) fn lend_noise(elements: &Elements, values: &mut [Option<VertexLight>]) {
     let variance =
-        |value: &Illuminance| value.indirect_standard_error_lx * value.indirect_standard_error_lx;
+        |value: &VertexLight| value.indirect_standard_error_lx * value.indirect_standard_error_lx;
     let own: Vec<Option<f64>> = values.iter().map(|v| v.as_ref().map(variance)).collect();
     let mut about = vec![(0.0, 0.0); values.len()];
     for element in elements.elements() {

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 /// The errors of trusted elements, as shares of the expected error, to try where more error is found than expected.
 /// With the least, readers of the hall gather on four fifths of its surface, with all of it on three fifths.
-const SHARES: [f64; 3] = [0.7, 0.5, 0.35];
+const ERROR_SHARES: [f64; 3] = [0.7, 0.5, 0.35];
 
 /// The elements where readers interpolate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +43,7 @@ impl Trust {
 /// Limits on the error of trusted elements, lx, the greatest first: the expected one, then those that reduce the
 /// error of trusted elements to shares of that.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct TrustLevels([f64; 1 + SHARES.len()]);
+pub(crate) struct TrustLevels([f64; 1 + ERROR_SHARES.len()]);
 
 impl TrustLevels {
     /// The trust of readers unless check points show otherwise.
@@ -53,12 +53,12 @@ impl TrustLevels {
 
     /// The least trust that readers may have.
     pub(crate) const fn least(self) -> Trust {
-        Trust::UpTo(self.0[SHARES.len()])
+        Trust::UpTo(self.0[ERROR_SHARES.len()])
     }
 
     /// All levels of trust except the least, the greatest first.
     pub(crate) fn all_but_least(self) -> impl Iterator<Item = Trust> {
-        self.0.into_iter().take(SHARES.len()).map(Trust::UpTo)
+        self.0.into_iter().take(ERROR_SHARES.len()).map(Trust::UpTo)
     }
 }
 
@@ -112,8 +112,8 @@ impl TrustLevels {
         let trusted = worst.of_leaves.iter().filter(|(error, ..)| *error <= foreseen_lx);
         let squared: f64 = trusted.map(|(.., squared)| squared).sum();
         let error_lx = (squared / worst.area_m2.max(f64::MIN_POSITIVE)).sqrt();
-        let mut all = [foreseen_lx; 1 + SHARES.len()];
-        for (limit, share) in all[1..].iter_mut().zip(SHARES) {
+        let mut all = [foreseen_lx; 1 + ERROR_SHARES.len()];
+        for (limit, share) in all[1..].iter_mut().zip(ERROR_SHARES) {
             *limit = worst.limit(share * error_lx, 1.0).min(foreseen_lx);
         }
         Self(all)

@@ -5,7 +5,7 @@
 //! the line are read from that corner alone, those behind it from the others. If one edge is blocked and something
 //! stands on the opposite corner, the line starts there.
 
-use super::footprints::{AT_END, LOW, stands_on};
+use super::footprints::{END_EDGE_SHARE, LOW, stands_on};
 use super::nearby::NEAR;
 use crate::ablation::without;
 use crate::elements::{Elements, FewNumbers, Origin, Subdivision};
@@ -17,13 +17,13 @@ use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
 
 /// The difference of light between the corners of an element, as a share of the greatest, above which it is uneven.
-const UNEVEN: f64 = 0.2;
+const UNEVEN_LIGHT_SHARE: f64 = 0.2;
 
 /// The share of the light of another vertex of its element below which a vertex is dark.
-const DARK: f64 = 0.01;
+const DARK_LIGHT_SHARE: f64 = 0.01;
 
 /// The distance along an edge, as a share of it, up to which an object across it leaves the element nearly whole.
-const JUST_BEHIND: f64 = 0.25;
+const JUST_BEHIND_EDGE_SHARE: f64 = 0.25;
 
 /// The barriers across elements.
 #[derive(Debug, Default)]
@@ -69,7 +69,7 @@ impl Barriers {
             let corners = elements.node(side.node).vertices;
             let [a, b, c] = corners.map(|vertex| light[vertex as usize].luminance());
             let (least, most) = (a.min(b).min(c), a.max(b).max(c));
-            most - least > UNEVEN * most
+            most - least > UNEVEN_LIGHT_SHARE * most
         };
         let nodes: Vec<Side> = nodes.filter(is_uneven).collect();
         let look = Look { scene, elements };
@@ -129,14 +129,15 @@ pub(crate) fn shaded(
         let corners = subdivision.node(side.node).0.vertices;
         let most = corners.iter().filter_map(|&v| light_lx(v)).fold(0.0, f64::max);
         let known = corners.into_iter().filter(|&v| light_lx(v).is_some());
-        let is_dark = |&v: &u32| light_lx(v).is_some_and(|lx| lx <= DARK * most);
+        let is_dark = |&v: &u32| light_lx(v).is_some_and(|lx| lx <= DARK_LIGHT_SHARE * most);
         let (dark, lit): (Vec<u32>, Vec<u32>) = known.partition(is_dark);
         if most == 0.0 || dark.is_empty() {
             return Vec::new();
         }
         let above = side.above(scene);
         let is_behind = |from: u32, to: u32| {
-            blocked_at(scene, place(from), place(to), &above).is_some_and(|at| at <= JUST_BEHIND)
+            blocked_at(scene, place(from), place(to), &above)
+                .is_some_and(|at| at <= JUST_BEHIND_EDGE_SHARE)
         };
         dark.into_iter().map(|from| (from, lit.iter().all(|&to| is_behind(from, to)))).collect()
     };
@@ -230,5 +231,5 @@ fn blocked_at(scene: &Scene, from: Point, to: Point, above: &SurfacePoint) -> Op
     scene.bvh().closest_hit(&way(NEAR * (to - from).length()))?;
     let at = f64::from(scene.bvh().closest_hit(&way(LOW * above.away_m))?.t);
     // An object at an end may stand on either side of it.
-    (at > AT_END && at < 1.0 - AT_END).then_some(at)
+    (at > END_EDGE_SHARE && at < 1.0 - END_EDGE_SHARE).then_some(at)
 }

@@ -6,7 +6,7 @@
 
 use super::nearby::NEAR;
 use crate::elements::{FewNumbers, Subdivision};
-use crate::engine::ray::SurfacePoint;
+use crate::engine::ray::{COPLANAR_COS, SurfacePoint};
 use crate::scene::Scene;
 use isolux_geometry::{Normal, Point, Ray};
 use rayon::prelude::*;
@@ -17,16 +17,10 @@ use std::collections::HashSet;
 pub(crate) const LOW: f64 = 4.0;
 
 /// The distance from a vertex, as a share of the edge, below which an object stands on it.
-pub(crate) const AT_END: f64 = 1e-3;
+pub(crate) const END_EDGE_SHARE: f64 = 1e-3;
 
-/// The distance from the vertex of the places between which objects are looked for, as a share of edges.
-const AROUND: f64 = 4.0 * AT_END;
-/// The distance of these places from an edge, as a share of the element.
-const BESIDE: f64 = 0.1;
-
-/// The least cosine between normals of triangles in one plane; the difference to one is for rounding in single
-/// precision.
-const FLAT: f64 = 1.0 - 1e-6;
+/// The distance from an edge of the places between which objects are looked for, as a share of the element.
+const BESIDE_EDGE_SHARE: f64 = 0.1;
 
 /// Whether something stands on each vertex tested so far.
 #[derive(Debug, Default)]
@@ -137,8 +131,9 @@ fn places(subdivision: &Subdivision, node: u32, corner: usize) -> [Place; 2] {
 /// Two points beside the edge of an element from its first corner to its second: close to the first, and farther
 /// along.
 fn beside(at: Point, end: Point, other: Point) -> [Point; 2] {
-    let to = end.lerp(other, BESIDE) - at;
-    [AROUND, NEAR].map(|share| at + to * share)
+    let to = end.lerp(other, BESIDE_EDGE_SHARE) - at;
+    // Objects are looked for between places at these shares of edges.
+    [4.0 * END_EDGE_SHARE, NEAR].map(|share| at + to * share)
 }
 
 /// Whether the triangles of two places beside one edge lie in a plane: walls stand on edges of floors, too.
@@ -147,7 +142,7 @@ fn lie_in_a_plane(scene: &Scene, a: &Place, b: &Place) -> bool {
         let (triangle, back) = place.side;
         SurfacePoint::new(scene, triangle, back, 1.0 / 3.0, 1.0 / 3.0).geometric
     };
-    normal(a).dot(normal(b)) > FLAT
+    normal(a).dot(normal(b)) > COPLANAR_COS
 }
 
 /// Whether something stands between two places, close to the surface and well above it.

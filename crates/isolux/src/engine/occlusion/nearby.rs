@@ -16,10 +16,10 @@ static DIRECTIONS: LazyLock<ShortRays<FEELERS>> =
     LazyLock::new(|| ShortRays::of(Key::new(0).with(6)));
 
 /// The number of rays, the first ones, of which at least one meets an object that hides half of the hemisphere.
-const FEWEST_FEELERS: usize = 4;
+const FIRST_FEELERS: usize = 4;
 
 /// The number of rays that meet something in a gap: at an edge of a room half of them do, behind a cupboard all.
-const CLOSED: usize = 13;
+const CLOSED_FEELERS: usize = 13;
 
 /// The length of the rays, as a share of the longest edge of the element. Closer objects change light from place to
 /// place in ways that its vertices do not tell.
@@ -27,7 +27,7 @@ pub(crate) const NEAR: f64 = 0.25;
 
 /// The number of rays that must meet something within the length of the element for its vertices not to tell the
 /// light between them.
-const BESET: usize = 3;
+const BESET_FEELERS: usize = 3;
 
 /// Whether something is so close to a place that an element with edges of this length cannot tell the light there, as
 /// in the gap between a cupboard and its wall or on the ceiling above a column.
@@ -39,17 +39,17 @@ pub(crate) fn is_closed_in(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64
         } else {
             missed += 1;
         }
-        if met >= CLOSED || missed > FEELERS - CLOSED {
+        if met >= CLOSED_FEELERS || missed > FEELERS - CLOSED_FEELERS {
             break;
         }
     }
-    met >= CLOSED
+    met >= CLOSED_FEELERS
 }
 
 /// Whether something is nearer to a place than an element with edges of this length is long. Transparent objects
 /// count, since panes separate light, too.
 pub(crate) fn is_beset(scene: &Scene, at: &SurfacePoint, longest_edge_m: f64) -> bool {
-    met_within(scene, at, longest_edge_m).iter().flatten().count() >= BESET
+    met_within(scene, at, longest_edge_m).iter().flatten().count() >= BESET_FEELERS
 }
 
 /// The largest length of an element for which a place is not beset, m; infinite if nothing is within `reach_m`.
@@ -57,14 +57,14 @@ pub(crate) fn beset_from_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f6
     let met = met_within(scene, at, reach_m);
     let mut near: Vec<f32> = met.iter().flatten().map(|hit| hit.t).collect();
     near.sort_by(f32::total_cmp);
-    near.get(BESET - 1).map_or(f64::INFINITY, |&t| f64::from(t))
+    near.get(BESET_FEELERS - 1).map_or(f64::INFINITY, |&t| f64::from(t))
 }
 
 /// The distance of an object that hides much of the hemisphere of a place, m; infinite if none does within `reach_m`.
 /// A few rays are enough to find that none does.
 pub(crate) fn hemmed_in_m(scene: &Scene, at: &SurfacePoint, reach_m: f64) -> f64 {
     let meets = |k: usize| scene.bvh().closest_hit(&DIRECTIONS.ray_of(k, at, reach_m)).is_some();
-    if (0..FEWEST_FEELERS).any(meets) { beset_from_m(scene, at, reach_m) } else { f64::INFINITY }
+    if (0..FIRST_FEELERS).any(meets) { beset_from_m(scene, at, reach_m) } else { f64::INFINITY }
 }
 
 /// The hits of short rays from a place.

@@ -13,8 +13,9 @@ use crate::scene::{Body, Finish, Scene};
 use isolux_geometry::{Point, Vector};
 use rayon::prelude::*;
 
-/// One particle in this many is not aimed.
-const UNAIMED: u32 = 8;
+/// One particle in this many is not aimed. No aimed particle so carries more than eight times its share,
+/// whatever was expected wrongly (decision 27).
+const UNAIMED_DIVISOR: u32 = 8;
 
 /// The largest number of groups of specular triangles.
 const MOST_GROUPS: usize = 64;
@@ -23,11 +24,11 @@ const MOST_PAIRS: usize = 1 << 20;
 
 /// The share of aimed particles that is distributed as before learning, so that groups without a caustic so
 /// far get some.
-const UNLEARNED: f64 = 0.1;
+const UNLEARNED_SHARE: f64 = 0.1;
 
 /// The largest distance from its target at which an aimed particle may arrive, as a share of its path. The
 /// reason is single precision.
-const OFF: f64 = 1e-4;
+const OFF_TARGET_SHARE: f64 = 1e-4;
 
 /// The distribution of aimed particles.
 pub(crate) struct Aim {
@@ -100,7 +101,7 @@ impl Aim {
         }
         let chance = |pair: usize| {
             let learned = brought[pair / self.luminaires] / all;
-            of_pair(pair) * (UNLEARNED + (1.0 - UNLEARNED) * learned)
+            of_pair(pair) * (UNLEARNED_SHARE + (1.0 - UNLEARNED_SHARE) * learned)
         };
         let chances: Vec<f64> = (0..self.sums.len()).map(chance).collect();
         Self { sums: running_sums(&chances), ..self }
@@ -108,7 +109,7 @@ impl Aim {
 
     /// The number of `count` particles that are not aimed, at least one.
     pub(crate) fn unaimed(count: u32) -> u32 {
-        count.div_ceil(UNAIMED)
+        count.div_ceil(UNAIMED_DIVISOR)
     }
 
     /// The group that a particle is aimed at.
@@ -148,7 +149,7 @@ impl Aim {
     ) -> Option<f64> {
         let group = self.group_of[at.triangle as usize]? as usize;
         let way_m = (at.point - aimed.emitted.ray.origin).length();
-        if aimed.target.is_some_and(|to| (to - at.point).length() > OFF * way_m) {
+        if aimed.target.is_some_and(|to| (to - at.point).length() > OFF_TARGET_SHARE * way_m) {
             return None;
         }
         let pair = group * self.luminaires + emission.number(aimed.emitted.luminaire);

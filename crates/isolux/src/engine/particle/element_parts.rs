@@ -7,6 +7,7 @@
 
 use crate::elements::Subdivision;
 use crate::engine::gather::known_weights;
+use crate::engine::mesh::NO_INDEX;
 use crate::engine::ray::{Accumulator, Noise, Sample};
 use crate::map::Standing;
 use crate::units::Rgb;
@@ -19,10 +20,7 @@ pub(crate) const PARTS: usize = QUARTERS * QUARTERS;
 /// The factor from the squared error of the means of parts to the whole squared error. Below a ball of glass,
 /// parts showed four thirds of the error of quarters. At a border, parts of half the size leave out half as
 /// much.
-const WITHIN: f64 = 1.25;
-
-/// The value for no element.
-const NONE: u32 = u32::MAX;
+const WITHIN_PARTS_FACTOR: f64 = 1.25;
 
 /// The checked elements.
 #[derive(Debug, Default)]
@@ -48,7 +46,8 @@ pub(crate) struct Squared {
 impl ElementParts {
     /// The checked elements, from nodes that are not bisected.
     pub(crate) fn new(subdivision: &Subdivision, nodes: &[u32]) -> Self {
-        let mut of_node = vec![NONE; if nodes.is_empty() { 0 } else { subdivision.node_count() }];
+        let mut of_node =
+            vec![NO_INDEX; if nodes.is_empty() { 0 } else { subdivision.node_count() }];
         let checked = |(k, &node): (usize, &u32)| {
             of_node[node as usize] = k as u32;
             let corners = subdivision.node(node).0.vertices;
@@ -64,7 +63,7 @@ impl ElementParts {
 
     /// Whether an element is checked.
     pub(crate) fn has(&self, node: u32) -> bool {
-        self.of_node.get(node as usize).is_some_and(|&k| k != NONE)
+        self.of_node.get(node as usize).is_some_and(|&k| k != NO_INDEX)
     }
 
     /// Whether each of `count` vertices is a corner of a checked element.
@@ -77,7 +76,7 @@ impl ElementParts {
     /// The part at some barycentric weights; `None` if the element is not checked.
     pub(crate) fn at(&self, node: u32, weights: [f64; 3]) -> Option<usize> {
         let element = *self.of_node.get(node as usize)?;
-        (element != NONE).then(|| element as usize * PARTS + part_of(weights))
+        (element != NO_INDEX).then(|| element as usize * PARTS + part_of(weights))
     }
 
     /// The mean light that the map lacks in every part, lx, given the flux on each part, lm.
@@ -174,7 +173,7 @@ pub(crate) fn samples(lacking: &[f64]) -> impl Iterator<Item = Sample> {
 
 /// The squared error of an element, given the mean lack of light in each part and its variance.
 pub(crate) fn squared_error(parts: &[(f64, f64); PARTS], area_m2: f64) -> Squared {
-    let each_m2 = WITHIN * area_m2 / PARTS as f64;
+    let each_m2 = WITHIN_PARTS_FACTOR * area_m2 / PARTS as f64;
     parts.iter().fold(Squared::default(), |sum, (mean, variance)| Squared {
         sum: sum.sum + each_m2 * (mean * mean - variance),
         // This is the variance of `mean^2 - variance` for a normal mean of zero.

@@ -12,35 +12,35 @@ use rayon::prelude::*;
 use std::cell::Cell;
 
 /// The largest number of particles per vertex and increment.
-const PARTICLES_A_VERTEX: usize = 4;
+const MOST_PARTICLES_A_VERTEX: usize = 4;
 
 /// The least number of particles in an increment.
-const FEWEST: f64 = 1024.0;
+const FEWEST_PARTICLES: f64 = 1024.0;
 /// The largest number of unaimed particles in a trial.
-const TRIED: u32 = 1 << 15;
+const MOST_TRIAL_PARTICLES: u32 = 1 << 15;
 /// The largest number of aimed particles in a trial.
-const TRIED_AIMED: u32 = 1 << 13;
+const MOST_AIMED_TRIAL_PARTICLES: u32 = 1 << 13;
 
 /// The largest number of particles in an increment.
-const MOST: u32 = 1 << 20;
+const MOST_PARTICLES: u32 = 1 << 20;
 
 /// The largest share of unaimed particles that meet a specular surface first for which particles are aimed.
-const SELDOM: f64 = 0.25;
+const SELDOM_MET_SHARE: f64 = 0.25;
 /// The number of unaimed particles that measure this share.
-const LET_GO: u32 = 1024;
+const UNAIMED_PARTICLES: u32 = 1024;
 
 /// The least share of the allowed noise variance that caustics may have.
 pub(crate) const LEAST_SHARE: f64 = 0.1;
 /// The largest share of the allowed noise variance that caustics may have.
-const MOST_SHARE: f64 = 0.75;
+const MOST_VARIANCE_SHARE: f64 = 0.75;
 /// The cost of a particle, in gathering rays.
-const RAYS_OF_ONE: f64 = 4.0;
+const RAYS_A_PARTICLE: f64 = 4.0;
 /// The largest uncertainty of the squared interpolation error, as a share of the squared accuracy goal.
-pub(crate) const DOUBT: f64 = 0.15;
+pub(crate) const DOUBT_SHARE: f64 = 0.15;
 
 /// The most particles of an increment for a number of vertices.
 pub(crate) fn particles(vertices: usize) -> u32 {
-    (PARTICLES_A_VERTEX * vertices).next_power_of_two() as u32
+    (MOST_PARTICLES_A_VERTEX * vertices).next_power_of_two() as u32
 }
 
 /// The noise of caustics.
@@ -91,14 +91,16 @@ impl CausticNoise {
             if is_seldom && !without("aimed-particles") { Aim::new(of.0, &emission) } else { None };
         let (aim, first_rays) = match aim {
             Some(aim) => {
-                let flights = Flights::new(of, Some(&aim), most.min(TRIED_AIMED), key.with(1));
+                let flights =
+                    Flights::new(of, Some(&aim), most.min(MOST_AIMED_TRIAL_PARTICLES), key.with(1));
                 let Some(flights) = flights else { return ParticleTrial::default() };
                 let (brought, rays) = flights.brought(&aim, square);
-                (Some(aim.learned(&brought)), rays + u64::from(LET_GO))
+                (Some(aim.learned(&brought)), rays + u64::from(UNAIMED_PARTICLES))
             }
             None => (None, 0),
         };
-        let count = most.min(if aim.is_some() { TRIED_AIMED } else { TRIED });
+        let count =
+            most.min(if aim.is_some() { MOST_AIMED_TRIAL_PARTICLES } else { MOST_TRIAL_PARTICLES });
         let Some(flights) = Flights::new(of, aim.as_ref(), count, key) else {
             return ParticleTrial::default();
         };
@@ -130,9 +132,9 @@ impl CausticNoise {
         let least = particles(vertices);
         // Without light to compare with, the number is the least.
         let Some(wanted) = self.wanted(vertices, goal, increments, share) else { return least };
-        // On few vertices the most may be less than [`FEWEST`].
-        let fewest = FEWEST.min(f64::from(least));
-        let wanted = wanted.clamp(fewest, f64::from(least.max(MOST)));
+        // On few vertices the most may be less than [`FEWEST_PARTICLES`].
+        let fewest = FEWEST_PARTICLES.min(f64::from(least));
+        let wanted = wanted.clamp(fewest, f64::from(least.max(MOST_PARTICLES)));
         libm::exp2(libm::ceil(libm::log2(wanted))) as u32
     }
 
@@ -151,7 +153,7 @@ impl CausticNoise {
         let goal_lx2 = target * target * reference_lx * reference_lx * increments as f64;
         let growth = vertices as f64 / self.vertices.max(1) as f64;
         let by_noise = self.lx2 * growth / (share * NOISE_SHARE * NOISE_SHARE * goal_lx2);
-        (goal_lx2 > 0.0).then(|| by_noise.max(self.doubt_lx2 / (DOUBT * goal_lx2)))
+        (goal_lx2 > 0.0).then(|| by_noise.max(self.doubt_lx2 / (DOUBT_SHARE * goal_lx2)))
     }
 
     /// The optimal share of caustics in the noise variance, given the number of gathering rays of an
@@ -163,9 +165,9 @@ impl CausticNoise {
         increments: u64,
         rays: f64,
     ) -> f64 {
-        let alone = RAYS_OF_ONE * self.wanted(vertices, goal, increments, 1.0).unwrap_or(0.0);
+        let alone = RAYS_A_PARTICLE * self.wanted(vertices, goal, increments, 1.0).unwrap_or(0.0);
         let share = alone.sqrt() / (alone.sqrt() + rays.sqrt()).max(f64::MIN_POSITIVE);
-        share.clamp(LEAST_SHARE, MOST_SHARE)
+        share.clamp(LEAST_SHARE, MOST_VARIANCE_SHARE)
     }
 }
 
@@ -299,6 +301,6 @@ fn specular_is_seldom_met(scene: &Scene, emission: &Emission, key: Key) -> bool 
         let hit = aimed.and_then(|aimed| scene.bvh().closest_hit(&aimed.emitted.ray));
         hit.is_some_and(|hit| is_specular[scene.material_index(hit.triangle) as usize])
     };
-    let met = (0..LET_GO).into_par_iter().filter(meets).count();
-    met as f64 <= SELDOM * f64::from(LET_GO)
+    let met = (0..UNAIMED_PARTICLES).into_par_iter().filter(meets).count();
+    met as f64 <= SELDOM_MET_SHARE * f64::from(UNAIMED_PARTICLES)
 }

@@ -12,4 +12,4 @@ pub(crate) use element_parts::{
 };
 #[cfg(test)]
 pub(crate) use flights::particles;
-pub(crate) use flights::{CausticNoise, DOUBT, Flights, LEAST_SHARE, ParticleTrial};
+pub(crate) use flights::{CausticNoise, DOUBT_SHARE, Flights, LEAST_SHARE, ParticleTrial};

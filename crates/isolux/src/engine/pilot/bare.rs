@@ -16,17 +16,13 @@ use crate::units::Rgb;
 use std::time::Instant;
 
 /// The usual accuracy goal of the mesh. Finer goals allow more vertices, in the same ratio.
-pub(super) const USUAL_MESH: f64 = 0.05;
+pub(super) const USUAL_MESH_GOAL: f64 = 0.05;
 
 /// The error of indirect light from which vertices gather for the stored map, as a share of the goal of that map.
-const MUCH: f64 = 0.5;
-
-/// The difference between gathered and interpolated light from which increments gather at a vertex, in accuracy
-/// goals of the mesh. Measured in the hall: half of it takes twice the vertices, for a fiftieth of the error.
-const WORTH: f64 = 1.0;
+const MUCH_ERROR_SHARE: f64 = 0.5;
 
 /// The approximate share of the vertices for direct light at which increments gather.
-const OF_MADE: f64 = 0.3;
+const GATHERING_VERTEX_SHARE: f64 = 0.3;
 
 impl Bare {
     /// The mean light of the ends of an edge; `coarse` is the light of the vertices before the first.
@@ -45,15 +41,16 @@ impl Pilot<'_> {
         if self.indirect.bare.is_some() {
             return true;
         }
-        let is_asked_for =
-            request.is_hybrid && request.mesh_target < USUAL_MESH && !without("bare-map-vertices");
+        let is_asked_for = request.is_hybrid
+            && request.mesh_target < USUAL_MESH_GOAL
+            && !without("bare-map-vertices");
         if !is_asked_for {
             return false;
         }
         let beset = look.errors.iter().filter(|e| e.is_beset);
         let area_m2: f64 = look.errors.iter().map(|e| e.area_m2).sum();
         let squared: f64 = beset.map(|e| e.area_m2 * e.error * e.error).sum();
-        let much_lx = MUCH * request.mesh_target * look.reference_lx;
+        let much_lx = MUCH_ERROR_SHARE * request.mesh_target * look.reference_lx;
         squared > much_lx * much_lx * area_m2
     }
 
@@ -117,7 +114,7 @@ impl Pilot<'_> {
     pub(super) fn rows_for_bare(&self, look: &Survey, request: &PilotRequest, more: f64) -> f64 {
         let made = self.indirect.bare.as_ref().map_or(0, |bare| bare.indirect.len());
         let gathers = self.gathers_for_bare(look, request);
-        if gathers { OF_MADE * (made as f64 + more) } else { 0.0 }
+        if gathers { GATHERING_VERTEX_SHARE * (made as f64 + more) } else { 0.0 }
     }
 
     /// The vertices at which increments are to gather for the stored map: those whose light differs from the
@@ -138,7 +135,8 @@ impl Pilot<'_> {
             let vertex = bare.first + k;
             let ends = vertices[vertex].parents.expect("made by bisection");
             let between_lx = 0.5 * ends.map(|end| light_lx[end as usize]).iter().sum::<f64>();
-            let differs = (light.luminance() - between_lx).abs() > WORTH * may_be_lx;
+            // With half of this difference, the hall takes twice the vertices for a fiftieth of the error.
+            let differs = (light.luminance() - between_lx).abs() > may_be_lx;
             let gathers = differs && standings[vertex] == Some(Standing::Open);
             light_lx.push(if gathers { light.luminance() } else { between_lx });
             if gathers {

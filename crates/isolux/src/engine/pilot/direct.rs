@@ -1,9 +1,9 @@
 //! Direct light at the vertices, and its interpolation errors.
 
-use super::bare::USUAL_MESH;
+use super::bare::USUAL_MESH_GOAL;
 use super::look::PilotRequest;
 use super::state::Pilot;
-use super::surroundings::LEAST_DIM;
+use super::surroundings::LEAST_DIM_AREA_SHARE;
 use crate::elements::{Elements, Origin};
 use crate::engine::gather::Gatherer;
 use crate::engine::light::{Goal, Measured};
@@ -15,34 +15,35 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// The largest number of vertices for direct light, in multiples of those for indirect light.
-const MOST_FOR_DIRECT_LIGHT: f64 = 4.0;
+const MOST_DIRECT_VERTICES_RATIO: f64 = 4.0;
 /// The number of vertices for direct light that is always allowed, because it is cheap.
-const ALWAYS_FOR_DIRECT_LIGHT: usize = 50_000;
+const FREE_DIRECT_VERTICES: usize = 50_000;
 /// The allowed mean error of direct light that rays read, after all reflections, in accuracy goals.
-const OF_MEAN: f64 = 0.25;
+const MEAN_ERROR_SHARE: f64 = 0.25;
 /// The allowed mean error of direct light per triangle in dim rooms, weighted by the light there, in accuracy goals.
-const OF_ROOMS: f64 = 0.5;
+const ROOM_ERROR_SHARE: f64 = 0.5;
 /// The coarsest accuracy goal for dim rooms. Surveys of coarse meshes find a fraction of the error.
-const COARSEST_IN_ROOMS: f64 = 0.01;
+const COARSEST_ROOM_GOAL: f64 = 0.01;
 /// The number of vertices that the level of direct light is measured from.
-const LOOKED_AT: usize = 512;
+const LEVEL_VERTICES: usize = 512;
 /// The largest mean reflectance in estimates of reflected light.
-pub(super) const MOST_REFLECTANCE: f64 = 0.9;
+pub(super) const MOST_MEAN_REFLECTANCE: f64 = 0.9;
 /// The number of vertices per task; some take a hundred times as long as others.
-const AT_ONCE: usize = 32;
+const TASK_VERTICES: usize = 32;
 /// The allowed noise at vertices made at shadow borders, in multiples of that at others. The interpolation error
 /// falls like n^-0.5 with n vertices, that of combs as below. A given number of rays then gives the least error if
 /// noise has two fifths of its square.
-const NOISIER_IN_SHADOWS: f64 = 2.5;
-/// The largest factor on the allowed noise for borders and small areas together. More shows as blotches.
-const MOST_IN_SHADOWS: f64 = 6.0;
+const SHADOW_NOISE_FACTOR: f64 = 2.5;
+/// The largest factor on the allowed noise for borders and small areas together. With ten, there are blotches
+/// below the desks of the hall (decision 55).
+const MOST_NOISE_FACTOR: f64 = 6.0;
 /// The largest factor on the allowed noise for vertices of small area.
-const MOST_RELIEF: f64 = 4.0;
+const MOST_RELIEF_FACTOR: f64 = 4.0;
 
 /// The factor on the allowed noise at a vertex, by its area as a share of the mean area. Combs of n teeth err like
 /// n^-0.7, so the best number of teeth grows like the area to the power 1 / 2.4 (see [`crate::engine::gather::allot`]).
 fn relief(area: f64) -> f64 {
-    libm::pow(area.max(f64::MIN_POSITIVE), -0.7 / 2.4).clamp(1.0, MOST_RELIEF)
+    libm::pow(area.max(f64::MIN_POSITIVE), -0.7 / 2.4).clamp(1.0, MOST_RELIEF_FACTOR)
 }
 
 impl Pilot<'_> {
@@ -88,22 +89,22 @@ impl Pilot<'_> {
             let (goal, sequence) = match self.direct.noise_lx {
                 Some(lx) => {
                     let relief = relief(vertices[k].area_m2 / mean_m2);
-                    let more = if k >= first { NOISIER_IN_SHADOWS } else { 1.0 };
-                    let goal = Goal::lux(lx).relaxed((relief * more).min(MOST_IN_SHADOWS));
+                    let more = if k >= first { SHADOW_NOISE_FACTOR } else { 1.0 };
+                    let goal = Goal::lux(lx).relaxed((relief * more).min(MOST_NOISE_FACTOR));
                     (goal, Sequence::new(self.key.with(5).with(k as u64)))
                 }
                 None => (Goal::ANY, alike),
             };
             self.lighting.measured(&gatherers[k].surface, goal, sequence)
         };
-        some.into_par_iter().with_max_len(AT_ONCE).map(measured).collect()
+        some.into_par_iter().with_max_len(TASK_VERTICES).map(measured).collect()
     }
 
     /// Fixes the allowed noise of direct light, lx, from a few vertices. It is a share of all light: direct light, and
     /// the mean reflected light of a closed room. For open rooms that light is overestimated.
     pub(super) fn look_at_direct_light(&mut self, elements: &Elements, gatherers: &[Gatherer]) {
         let Some(share) = self.direct.noise else { return };
-        let every = (gatherers.len() / LOOKED_AT).max(1);
+        let every = (gatherers.len() / LEVEL_VERTICES).max(1);
         let sequence = Sequence::new(self.key.with(8));
         let look = |k: usize| {
             let light = self.lighting.measured(&gatherers[k].surface, Goal::ANY, sequence);
@@ -116,7 +117,7 @@ impl Pilot<'_> {
             |power: i32| some.iter().map(|&(m2, lx)| m2 * lx.powi(power)).sum::<f64>() / area_m2;
         let (mean_lx, square) = (mean(1), mean(2));
         let reflectance =
-            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_REFLECTANCE);
+            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_MEAN_REFLECTANCE);
         let whole_lx = mean_lx / (1.0 - reflectance);
         let varies = (square - mean_lx * mean_lx).max(0.0);
         self.direct.noise_lx = Some(share * (varies + whole_lx * whole_lx).sqrt());
@@ -125,9 +126,10 @@ impl Pilot<'_> {
     /// The largest number of vertices for direct light. Best effort: sharp shadow borders would take unlimited elements,
     /// and with emitting surfaces refinement cannot distinguish noise from borders.
     pub(super) fn most_for_direct_light(&self, request: &PilotRequest) -> usize {
-        let finer = (USUAL_MESH / request.mesh_target).max(1.0);
-        let most = (MOST_FOR_DIRECT_LIGHT * finer * self.indirect.gathered.len() as f64) as usize;
-        most.max(ALWAYS_FOR_DIRECT_LIGHT).min(request.max_vertices)
+        let finer = (USUAL_MESH_GOAL / request.mesh_target).max(1.0);
+        let most =
+            (MOST_DIRECT_VERTICES_RATIO * finer * self.indirect.gathered.len() as f64) as usize;
+        most.max(FREE_DIRECT_VERTICES).min(request.max_vertices)
     }
 
     /// The interpolation error of direct light by element, lx, and the ratio of the total to its goal. If vertices gather
@@ -147,12 +149,14 @@ impl Pilot<'_> {
         let bare = self.bare_errors(elements, &signal);
         let seen = bare.as_ref().unwrap_or(&errors);
         let excess = trust::error_of(seen, |_| true) / (target * reference_lx);
-        let of_mean = self.mean_excess(&errors) / (OF_MEAN * request.target * reference_lx);
+        let of_mean =
+            self.mean_excess(&errors) / (MEAN_ERROR_SHARE * request.target * reference_lx);
         let excess = excess.max(of_mean);
         let in_rooms = self.lighting.are_read_at_ends().then(|| self.weighed_in_rooms(&errors));
         let Some(in_rooms) = in_rooms.flatten() else { return (bare.unwrap_or(errors), excess) };
-        let target = request.target.min(COARSEST_IN_ROOMS);
-        let of_rooms = self.mean_excess_in_rooms(&in_rooms) / (OF_ROOMS * target * reference_lx);
+        let target = request.target.min(COARSEST_ROOM_GOAL);
+        let of_rooms =
+            self.mean_excess_in_rooms(&in_rooms) / (ROOM_ERROR_SHARE * target * reference_lx);
         let whole = bare.unwrap_or(errors);
         if of_rooms > excess { (in_rooms, of_rooms) } else { (whole, excess) }
     }
@@ -173,13 +177,13 @@ impl Pilot<'_> {
             }
         }
         let lacking: f64 = lacking.values().map(|lx_m2| lx_m2.abs()).sum();
-        lacking / dim_m2.max(LEAST_DIM * all_m2) * self.reflected_again()
+        lacking / dim_m2.max(LEAST_DIM_AREA_SHARE * all_m2) * self.reflected_again()
     }
 
     /// The ratio of reflected to direct light in a closed room.
     fn reflected_again(&self) -> f64 {
         let reflectance =
-            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_REFLECTANCE);
+            reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_MEAN_REFLECTANCE);
         reflectance / (1.0 - reflectance)
     }
 

@@ -1,7 +1,7 @@
 //! The end of the pilot: assembly of the plan that all increments share.
 
 use super::criteria::{CausticErrors, Caustics, DirectError};
-use super::forecast::{FINE, GoOn};
+use super::forecast::{FINE_EXCESS, GoOn};
 use super::look::{PilotRequest, Survey};
 use super::state::Pilot;
 use crate::ablation::without;
@@ -134,14 +134,14 @@ impl<'s> Pilot<'s> {
             error.is_beset_afar |= self.mesh.subdivision.node(error.node).0.split.is_some();
         }
         let gatherers = self.gatherers();
-        if self.has_time(look, request, FINE, go_on) {
+        if self.has_time(look, request, FINE_EXCESS, go_on) {
             self.measure_moved(&look.elements, &gatherers);
         }
         if self.direct.noise_lx.is_none() {
             self.direct.variance.fill(0.0);
         }
         self.direct.is_measured = true;
-        go_on(&self.round(request, Some(look), FINE));
+        go_on(&self.round(request, Some(look), FINE_EXCESS));
         self.complete_standings(&gatherers);
         gatherers
     }

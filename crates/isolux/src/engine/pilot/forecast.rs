@@ -17,58 +17,57 @@ const MOST_ORDER: f64 = 1.0;
 const USUAL_TARGET: f64 = 0.01;
 /// The order of convergence that predicts the growth for finer goals: the error falls like this power of the
 /// number of vertices.
-const USUAL_ORDER: f64 = 2.0;
+const GROWTH_ORDER: f64 = 2.0;
 
 // The next seven were measured in the hall, CUBE, SPHERE and offices.
 
-/// The time of the fixed point of an increment, as a share of the time of its rays.
-const SOLVED: f64 = 0.4;
-/// The time of all other work of an increment per vertex, in rays.
-const EVERY: f64 = 1.0;
+/// The time of the fixed point of an increment, as a share of the time of its rays (decision 53).
+const FIXED_POINT_SHARE: f64 = 0.4;
 /// The time of the work before the first increment, in surveys of the vertices.
-const ONCE: f64 = 2.0;
-/// The time of direct light at a check point, in vertices.
-const CHECKED: f64 = 6.5;
-/// The time of direct light at a vertex made for it alone, at a shadow border, in other vertices.
-const IN_SHADOWS: f64 = 2.3;
+const FIRST_WORK_SURVEYS: f64 = 2.0;
+/// The time of direct light at a check point, in vertices (decision 53).
+const CHECK_POINT_COST: f64 = 6.5;
+/// The time of direct light at a vertex made for it alone, at a shadow border, in other vertices (decision 53).
+const SHADOW_VERTEX_COST: f64 = 2.3;
 /// The time of the first survey, in later ones.
-pub(crate) const LONGER: f64 = 1.4;
+pub(crate) const FIRST_SURVEY_COST: f64 = 1.4;
 /// The time of a survey of known vertices, in first surveys, until it is measured.
-const LATER: f64 = 0.1;
+const LATER_SURVEY_COST: f64 = 0.1;
 
 /// The predicted number of increments. Most runs end as soon as their error is believed, some after twice as many.
-const INCREMENTS: f64 = BELIEVED_INCREMENTS as f64 + 0.5;
+const EXPECTED_INCREMENTS: f64 = BELIEVED_INCREMENTS as f64 + 0.5;
 
-/// The usual number of rounds of refinement for indirect light, if any. Each looks at all vertices.
-const ROUNDS: f64 = 5.0;
-/// The usual number of later rounds for direct light, if any. Each looks at all vertices.
-const ROUNDS_FOR_DIRECT: f64 = 3.0;
+/// The usual number of rounds of refinement for indirect light, if any (decision 24). Each looks at all vertices.
+const INDIRECT_ROUNDS: f64 = 5.0;
+/// The usual number of later rounds for direct light, if any (decision 24). Each looks at all vertices.
+const DIRECT_ROUNDS: f64 = 3.0;
 
 // The next three hold before the first survey of scenes with many objects and were measured in the hall.
 
 /// The accuracy goal for which the usual first mesh is good enough.
-const GOOD_ENOUGH: f64 = 0.02;
+const FIRST_MESH_GOAL: f64 = 0.02;
 /// The vertices added for direct light, as a share of the growth from the first mesh to the usual one. A mesh that
 /// is fine already needs no more.
-const MORE_FOR_DIRECT: f64 = 0.75;
+const DIRECT_VERTICES_SHARE: f64 = 0.75;
 /// The time of the whole run, in multiples of the time of the known work.
-const MANY_IN_ALL: f64 = 1.2;
+const MANY_OBJECTS_TIME_RATIO: f64 = 1.2;
 /// The time of the whole run in scenes with few objects before the first survey, in multiples of the time on
 /// unchanged elements. Middle value of rooms, offices and outdoor scenes; an empty room takes a fourth of it.
-const FEW_IN_ALL: f64 = 3.0;
+const FEW_OBJECTS_TIME_RATIO: f64 = 3.0;
 /// The time of a gathering ray until it is measured, in rays that are only traced.
-const GATHERING: f64 = 1.9;
-/// The time of a first survey per vertex until it is measured, in rays that are only traced.
-const FIRST: f64 = 19.0;
+const GATHERING_RAY_COST: f64 = 1.9;
+/// The time of a first survey per vertex until it is measured, in rays that are only traced. With 10, the
+/// first forecast of the hall was a quarter too short (decision 43).
+const SURVEY_COST_A_VERTEX: f64 = 19.0;
 
 /// The factor either way that holds the true time in nine of ten runs, for few objects before the first survey.
-const BLIND_AMONG_FEW: f64 = 6.0;
+const FEW_OBJECTS_DOUBT_FACTOR: f64 = 6.0;
 /// The same factor for many objects before the first survey.
-const BLIND: f64 = 2.5;
+const MANY_OBJECTS_DOUBT_FACTOR: f64 = 2.5;
 /// The same factor while elements are refined.
-const REFINING: f64 = 1.7;
+const REFINING_DOUBT_FACTOR: f64 = 1.7;
 /// The same factor once elements are fixed.
-const FIXED: f64 = 1.25;
+const FIXED_MESH_DOUBT_FACTOR: f64 = 1.25;
 
 /// The time spent on a number of equal pieces of work.
 #[derive(Clone, Copy, Debug, Default)]
@@ -116,7 +115,8 @@ pub(crate) struct Costs {
 impl Costs {
     /// The time of gathering rays in the pilot, s.
     fn of_rays(&self, rays: f64) -> f64 {
-        let known = if self.rays.things > 0.0 { self.rays } else { self.traced.times(GATHERING) };
+        let known =
+            if self.rays.things > 0.0 { self.rays } else { self.traced.times(GATHERING_RAY_COST) };
         known.of(rays)
     }
 
@@ -128,7 +128,11 @@ impl Costs {
     /// The time of direct light at vertices made for it alone, s.
     pub(crate) fn in_shadows(&self, vertices: f64) -> f64 {
         let is_known = self.in_shadows.things > 0.0;
-        if is_known { self.in_shadows.of(vertices) } else { IN_SHADOWS * self.direct.of(vertices) }
+        if is_known {
+            self.in_shadows.of(vertices)
+        } else {
+            SHADOW_VERTEX_COST * self.direct.of(vertices)
+        }
     }
 
     /// The time of direct light in an increment that measures it, s.
@@ -138,14 +142,18 @@ impl Costs {
 
     /// The time of the first survey of vertices, s.
     fn of_first(&self, vertices: f64) -> f64 {
-        let known = if self.first.things > 0.0 { self.first } else { self.traced.times(FIRST) };
+        let known = if self.first.things > 0.0 {
+            self.first
+        } else {
+            self.traced.times(SURVEY_COST_A_VERTEX)
+        };
         known.of(vertices)
     }
 
     /// The time of a later survey of vertices, s.
     fn of_looks(&self, vertices: f64) -> f64 {
         let is_known = self.looks.things > 0.0;
-        if is_known { self.looks.of(vertices) } else { LATER * self.of_first(vertices) }
+        if is_known { self.looks.of(vertices) } else { LATER_SURVEY_COST * self.of_first(vertices) }
     }
 }
 
@@ -210,8 +218,8 @@ impl Outlook {
     fn growth(&self) -> f64 {
         let Some(excess) = self.excess else {
             let (usual, target) =
-                self.usual.map_or((1.0, USUAL_TARGET), |usual| (usual, GOOD_ENOUGH));
-            return usual * libm::pow(target / self.target, 1.0 / USUAL_ORDER).max(1.0);
+                self.usual.map_or((1.0, USUAL_TARGET), |usual| (usual, FIRST_MESH_GOAL));
+            return usual * libm::pow(target / self.target, 1.0 / GROWTH_ORDER).max(1.0);
         };
         if excess <= 1.0 {
             return 1.0;
@@ -232,16 +240,16 @@ impl Outlook {
     /// The number of rounds of refinement to come.
     fn rounds(&self) -> f64 {
         if let Some(usual) = self.usual {
-            return (ROUNDS + ROUNDS_FOR_DIRECT) * (2.0 * (usual - 1.0)).min(1.0);
+            return (INDIRECT_ROUNDS + DIRECT_ROUNDS) * (2.0 * (usual - 1.0)).min(1.0);
         }
-        let indirect = if self.growth() > 1.0 { ROUNDS } else { 0.0 };
-        indirect + if self.more_for_direct > 0.0 { ROUNDS_FOR_DIRECT } else { 0.0 }
+        let indirect = if self.growth() > 1.0 { INDIRECT_ROUNDS } else { 0.0 };
+        indirect + if self.more_for_direct > 0.0 { DIRECT_ROUNDS } else { 0.0 }
     }
 
     /// The number of vertices still to be added for direct light alone.
     fn more_for_direct(&self) -> f64 {
         match self.usual {
-            Some(usual) => MORE_FOR_DIRECT * (usual - 1.0) * self.vertices,
+            Some(usual) => DIRECT_VERTICES_SHARE * (usual - 1.0) * self.vertices,
             None => self.more_for_direct,
         }
     }
@@ -268,18 +276,19 @@ impl Outlook {
         let direct_s = costs.direct.of(self.measured_again * vertices);
         let EachIncrement { rays, check_rays, particles, measures_direct } = self.each;
         let (own, others) = (carriers * rays, check_rays + particles * growth);
-        let each_s = costs.of_rays_then(own * (1.0 + SOLVED) + others + vertices * EVERY)
+        // All other work takes as long as one ray per vertex (decision 53).
+        let each_s = costs.of_rays_then(own * (1.0 + FIXED_POINT_SHARE) + others + vertices)
             + if measures_direct { costs.again(vertices) } else { 0.0 };
-        let once_s = ONCE * costs.of_looks(vertices)
+        let once_s = FIRST_WORK_SURVEYS * costs.of_looks(vertices)
             + costs.of_rays_then(carriers * rays.min(READERS.into()) + self.trials)
-            + CHECKED * costs.direct.of(self.checks);
+            + CHECK_POINT_COST * costs.direct.of(self.checks);
         let (in_all, factor) = match self.excess {
-            None if is_blind => (MANY_IN_ALL, BLIND),
-            None => (FEW_IN_ALL, BLIND_AMONG_FEW),
-            Some(excess) if excess > 1.0 => (1.0, REFINING),
-            Some(_) => (1.0, FIXED),
+            None if is_blind => (MANY_OBJECTS_TIME_RATIO, MANY_OBJECTS_DOUBT_FACTOR),
+            None => (FEW_OBJECTS_TIME_RATIO, FEW_OBJECTS_DOUBT_FACTOR),
+            Some(excess) if excess > 1.0 => (1.0, REFINING_DOUBT_FACTOR),
+            Some(_) => (1.0, FIXED_MESH_DOUBT_FACTOR),
         };
-        let time_s = pilot_s + direct_s + once_s + INCREMENTS * each_s;
+        let time_s = pilot_s + direct_s + once_s + EXPECTED_INCREMENTS * each_s;
         Left { time_s: in_all * time_s, factor }
     }
 }
@@ -289,7 +298,7 @@ impl Outlook {
 pub(crate) type Excess = (Option<f64>, Option<(f64, f64)>);
 
 /// The ratio of one, for elements that are fine enough.
-pub(crate) const FINE: Excess = (Some(1.0), None);
+pub(crate) const FINE_EXCESS: Excess = (Some(1.0), None);
 
 /// A callback that gets the report of every round and returns whether there is time for another.
 pub(crate) type GoOn<'g> = dyn FnMut(&Round) -> bool + 'g;

@@ -2,7 +2,7 @@
 
 use super::forecast::GoOn;
 use super::look::PilotRequest;
-use super::state::{FIRST_PART, PILOT_TOLERANCE, Pilot};
+use super::state::{FIRST_PART_DIVISOR, PILOT_TOLERANCE, Pilot};
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::gather::Gatherer;
@@ -16,7 +16,7 @@ use std::cell::RefCell;
 use std::time::Instant;
 
 /// The number of particles that find the places reached by way of specular surfaces.
-const LET_GO: u32 = 1 << 13;
+const SPECULAR_PARTICLES: u32 = 1 << 13;
 
 impl Pilot<'_> {
     /// Gathers at the carriers that have not gathered yet. On the first mesh all carriers gather, and the fixed point
@@ -41,7 +41,7 @@ impl Pilot<'_> {
         let gathering = self.gathering(elements, level, &self.near.standings);
         let key = self.key.with(2);
         let mut started = Instant::now();
-        let head = if is_first { rows.len() / FIRST_PART } else { 0 };
+        let head = if is_first { rows.len() / FIRST_PART_DIVISOR } else { 0 };
         let mut operator = gathering.operator(&rows[..head], |_| key);
         if is_first {
             // The time of a portion gives an early prediction. With a control variate, rays take little of the time.
@@ -110,7 +110,7 @@ impl Pilot<'_> {
     /// The places that trial particles reach by way of specular surfaces.
     fn reached_by_caustics(&self) -> Vec<SurfacePoint> {
         let of = (self.scene, self.lighting);
-        let flights = Flights::new(of, None, LET_GO, self.key.with(10));
+        let flights = Flights::new(of, None, SPECULAR_PARTICLES, self.key.with(10));
         let Some(flights) = flights.filter(|_| self.lighting.leaves_caustics()) else {
             return Vec::new();
         };
@@ -119,6 +119,6 @@ impl Pilot<'_> {
             flights.fly(index, |at, _| places.borrow_mut().push(*at));
             places.into_inner()
         };
-        (0..LET_GO).into_par_iter().flat_map_iter(places_of).collect()
+        (0..SPECULAR_PARTICLES).into_par_iter().flat_map_iter(places_of).collect()
     }
 }

@@ -5,20 +5,20 @@
 //! Particles follow the light. Elements that get clearly more or less flux than their vertices show are bisected.
 
 use super::look::PilotRequest;
-use super::state::Pilot;
+use super::state::{Pilot, SHARP_EDGE_SHARE};
 use crate::ablation::without;
 use crate::elements::Elements;
 use crate::engine::gather::Gatherer;
-use crate::engine::light::{BELIEVED, Emission, FIRST, Landing, MORE, Sum, landings};
+use crate::engine::light::{
+    BELIEVED_DEVIATIONS, Emission, FIRST_PARTICLES, FURTHER_PARTICLES, Landing, Sum, landings,
+};
 use crate::sampling::Sequence;
 
 /// The largest flux in wrong elements that is accepted, as a share of all flux that lands.
-const MATTERS: f64 = 0.01;
+const MOST_WRONG_FLUX_SHARE: f64 = 0.01;
 
 /// The largest number of rounds, of two bisections each.
-const ROUNDS: usize = 24;
-/// The shortest edge, as a share of that for other light.
-const LEAST_EDGE: f64 = 1.0 / 64.0;
+const MOST_ROUNDS: usize = 24;
 
 impl Pilot<'_> {
     /// Bisects elements until their vertices show about the flux that they get. Returns whether any element was
@@ -33,7 +33,7 @@ impl Pilot<'_> {
         }
         let Some(emission) = Emission::new(self.scene) else { return false };
         let times = landings::times(&emission);
-        let [few, many] = [FIRST * times, MORE * times];
+        let [few, many] = [FIRST_PARTICLES * times, FURTHER_PARTICLES * times];
         let each_lm = |count: u32| emission.flux_lm() / f64::from(count);
         let first = self.landed(&emission, few, 0);
         if self.wrongly_told(elements, (&first, each_lm(few))).is_empty() {
@@ -41,7 +41,7 @@ impl Pilot<'_> {
         }
         let landed = self.landed(&emission, many, 1);
         let mut any = false;
-        for _ in 0..ROUNDS {
+        for _ in 0..MOST_ROUNDS {
             let wrong = self.wrongly_told(elements, (&landed, each_lm(many)));
             let room = |pilot: &Self| pilot.mesh.subdivision.vertex_count() < request.max_vertices;
             if wrong.is_empty() || !room(self) {
@@ -78,7 +78,7 @@ impl Pilot<'_> {
             sums[place.node() as usize].add(of.flux_lm);
             all_lm += of.flux_lm;
         }
-        let least_edge_m = self.mesh.least_edge_m * LEAST_EDGE;
+        let least_edge_m = self.mesh.least_edge_m * SHARP_EDGE_SHARE;
         let (mut wrong, mut wrong_lm) = (Vec::new(), 0.0);
         for node in self.mesh.subdivision.leaves() {
             let corners = self.mesh.subdivision.node(node).0.vertices;
@@ -88,13 +88,13 @@ impl Pilot<'_> {
             let differs_lm = (flux_lm - told_lm).abs();
             // The expected flux gives a variance, too, since few particles give a poor one. One particle is the least.
             let variance_lm2 = squares_lm2.max(told_lm * each_lm).max(each_lm * each_lm);
-            if differs_lm > BELIEVED * variance_lm2.sqrt()
+            if differs_lm > BELIEVED_DEVIATIONS * variance_lm2.sqrt()
                 && self.mesh.subdivision.longest_edge_m(node) > 2.0 * least_edge_m
             {
                 wrong.push(node);
                 wrong_lm += differs_lm;
             }
         }
-        if wrong_lm > MATTERS * all_lm { wrong } else { Vec::new() }
+        if wrong_lm > MOST_WRONG_FLUX_SHARE * all_lm { wrong } else { Vec::new() }
     }
 }

@@ -6,19 +6,19 @@ use crate::engine::mesh::{LeafError, TrustLevels, WorstElements, trust};
 /// The allowed interpolation error of indirect light, as a share of the accuracy goal.
 const DISCRETIZATION_SHARE: f64 = 0.5;
 /// The share of the area whose elements may stay coarse. Readers gather afresh there.
-const FRESH_SHARE: f64 = 0.1;
+const FRESH_AREA_SHARE: f64 = 0.1;
 /// The same share where refinement makes no progress.
-const MOST_FRESH: f64 = 0.5;
+const MOST_FRESH_AREA_SHARE: f64 = 0.5;
 /// The allowed interpolation error of all elements, in accuracy goals. Rays read all of them, but as a mean over
 /// many. Measured on CUBE: at 3 the bias at its edges takes half of the accuracy; at 1 a third more elements
 /// bring nothing.
-const BARE: f64 = 2.0;
+const BARE_ERROR_GOALS: f64 = 2.0;
 /// The allowed interpolation error of elements that dim places see, in accuracy goals. Rays read it as a mean
 /// over many elements, but it is reflected repeatedly.
-const SEEN_FROM_DIM: f64 = 3.0;
+const DIM_ERROR_GOALS: f64 = 3.0;
 /// The share of the interpolation error that a fit leaves, below which light counts as smooth. The share is 0.4
 /// to 0.55 in empty rooms, 0.8 and more in furnished ones.
-const SMOOTH: f64 = 0.7;
+const SMOOTH_LEFT_SHARE: f64 = 0.7;
 /// The request to the pilot: accuracies and limits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PilotRequest {
@@ -108,9 +108,9 @@ impl Survey {
         let goal_lx = match what {
             // Fits do little for steep light at edges.
             ReadFor::All if request.is_fitted => {
-                request.mesh_target.min(BARE * request.target) * self.reference_lx
+                request.mesh_target.min(BARE_ERROR_GOALS * request.target) * self.reference_lx
             }
-            ReadFor::FromDim => SEEN_FROM_DIM * request.target * self.reference_lx,
+            ReadFor::FromDim => DIM_ERROR_GOALS * request.target * self.reference_lx,
             _ => self.goal_lx(request.target, request),
         };
         let error_lx = match what {
@@ -132,7 +132,7 @@ impl Survey {
         what: ReadFor,
         request: &PilotRequest,
     ) -> impl Fn(&LeafError) -> bool + use<> {
-        let limit = self.worst.limit(self.goal_lx(request.target, request), FRESH_SHARE);
+        let limit = self.worst.limit(self.goal_lx(request.target, request), FRESH_AREA_SHARE);
         move |e| match what {
             ReadFor::All => true,
             ReadFor::FromDim => e.seen > 0.0,
@@ -142,7 +142,7 @@ impl Survey {
 
     /// The error of elements up to which readers trust the map, lx.
     pub(crate) fn trusted_up_to_lx(&self, request: &PilotRequest) -> f64 {
-        let limit = self.worst.limit(self.goal_lx(request.target, request), MOST_FRESH);
+        let limit = self.worst.limit(self.goal_lx(request.target, request), MOST_FRESH_AREA_SHARE);
         limit.min(trust::above_all(&self.errors))
     }
 
@@ -154,7 +154,7 @@ impl Survey {
 
     /// Whether light is so smooth that a coarse first mesh is fine enough.
     pub(crate) fn is_smooth(&self) -> bool {
-        self.left_by_fit < SMOOTH
+        self.left_by_fit < SMOOTH_LEFT_SHARE
     }
 
     /// The allowed interpolation error before the fit, lx.

@@ -2,19 +2,19 @@
 //! criterion marks.
 
 use super::criteria::{Criterion, Hidden, IndirectError, Marked, Which};
-use super::forecast::{GoOn, LONGER};
+use super::forecast::{FIRST_SURVEY_COST, GoOn};
 use super::look::{PilotRequest, ReadFor, Survey};
-use super::state::{HEM, Mesh, Pilot};
+use super::state::{HEM_EDGE_SHARE, Mesh, Pilot};
 use crate::ablation::without;
 use crate::engine::judge::Light;
 use crate::engine::mesh::{Carriers, Refinement, WorstElements, refine_worst};
 use std::time::Instant;
 
 /// The largest number of vertices for indirect light, unless the first mesh has nearly as many.
-const MOST_FOR_INDIRECT_LIGHT: usize = 40_000;
+const MOST_INDIRECT_VERTICES: usize = 40_000;
 /// The share of the largest number of vertices above which the mesh counts as full. The worst elements are
 /// bisected in groups.
-const FULL: f64 = 0.95;
+const FULL_MESH_SHARE: f64 = 0.95;
 
 impl Pilot<'_> {
     /// Refines the elements until they are fine enough for indirect light, or as fine as time allows.
@@ -28,7 +28,7 @@ impl Pilot<'_> {
             self.mesh.subdivision.bisect_to(edge_m, request.max_vertices);
             look = self.look(request, go_on);
         }
-        let most = request.most_for_indirect_light.unwrap_or(MOST_FOR_INDIRECT_LIGHT);
+        let most = request.most_for_indirect_light.unwrap_or(MOST_INDIRECT_VERTICES);
         let most = most.max(look.elements.vertices().len() / 2 * 3);
         let most = request.max_vertices.min(most);
         self.mesh.most_for_indirect_light = most as f64;
@@ -42,7 +42,7 @@ impl Pilot<'_> {
         for &what in reads {
             self.refine(&mut IndirectError::of(what, most), &mut look, request, go_on);
         }
-        self.mesh.is_full = look.elements.vertices().len() as f64 > FULL * most as f64;
+        self.mesh.is_full = look.elements.vertices().len() as f64 > FULL_MESH_SHARE * most as f64;
         look
     }
 
@@ -75,7 +75,8 @@ impl Pilot<'_> {
         let beset = |node: u32| self.near.beset[node as usize];
         let details = self.details(&elements, &luminances);
         let hemmed = |vertex: u32, edge_m: f64| {
-            self.near.hemmed_in_m[vertex as usize] < HEM * edge_m && !without("hemmed-errors")
+            self.near.hemmed_in_m[vertex as usize] < HEM_EDGE_SHARE * edge_m
+                && !without("hemmed-errors")
         };
         let mut errors = details.leaf_errors(middle, beset, hemmed);
         let reference_lx = Light::of_vertices(&elements, &self.near.standings, lx).reference_lx();
@@ -85,7 +86,7 @@ impl Pilot<'_> {
         let left_by_fit = details.left_by_fit(&errors);
         self.weigh(&mut errors);
         let carriers = self.mesh.carriers.count(gatherers.len());
-        let longer = if is_first { LONGER } else { 1.0 };
+        let longer = if is_first { FIRST_SURVEY_COST } else { 1.0 };
         self.costs.looks.add(started.elapsed().div_f64(longer), gatherers.len() as f64);
         if is_first {
             self.costs.first.add(started.elapsed(), 0.0);

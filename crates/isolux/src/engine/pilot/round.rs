@@ -2,7 +2,7 @@
 
 use super::forecast::{EachIncrement, Excess, GoOn, Outlook, Round};
 use super::look::{PilotRequest, Survey};
-use super::state::{FIRST_PART, Pilot};
+use super::state::{FIRST_PART_DIVISOR, Pilot};
 use crate::elements::Elements;
 use crate::engine::gather::{
     FEWEST_UNJUDGED, Gatherer, RayTrial, allot, areas_m2, mean_of, noise_for,
@@ -17,18 +17,18 @@ use std::borrow::Cow;
 use std::time::Instant;
 
 /// The number of rays per vertex in the measurement of the time of a traced ray.
-const TRACED: u32 = 16;
+const TRACED_RAYS: u32 = 16;
 
 /// The growth of vertices for direct light, as a power of the ratio of its error to the goal. Measured in the hall.
 const ORDER_FOR_DIRECT: f64 = 0.5;
 /// The power of that growth where vertices also gather indirect light for the stored map. Measured in the hall.
 const ORDER_FOR_BARE: f64 = 1.3;
 
-/// The vertices that a round for direct light adds, in multiples of those of the last round.
-const NEXT: f64 = 1.5;
+/// The vertices that a round for direct light adds, in multiples of those of the last round (decision 53).
+const NEXT_ROUND_RATIO: f64 = 1.5;
 
 /// The share of the vertices that bisection moves: a guess.
-const MOVED: f64 = 0.1;
+const MOVED_VERTEX_SHARE: f64 = 0.1;
 
 impl Pilot<'_> {
     /// Reports a round and returns whether there is time for the next step. Without time the pilot counts as
@@ -58,19 +58,19 @@ impl Pilot<'_> {
         if !self.mesh.has_many_things {
             return;
         }
-        self.complete_direct(elements, &gatherers[..gatherers.len() / FIRST_PART]);
+        self.complete_direct(elements, &gatherers[..gatherers.len() / FIRST_PART_DIVISOR]);
         let (started, sequence) = (Instant::now(), Sequence::new(self.key));
-        let some: Vec<&Gatherer> = gatherers.iter().step_by(FIRST_PART).collect();
+        let some: Vec<&Gatherer> = gatherers.iter().step_by(FIRST_PART_DIVISOR).collect();
         let trace = |gatherer: &&Gatherer| {
             let axis = gatherer.normal.to_direction();
-            for index in 0..TRACED {
+            for index in 0..TRACED_RAYS {
                 let local = CosineHemisphere::sample(Dice::new(sequence, index).pair());
                 let ray = Ray::new(gatherer.origin, axis.from_local(local));
                 std::hint::black_box(self.scene.bvh().closest_hit(&ray));
             }
         };
         some.par_iter().for_each(trace);
-        self.costs.traced.add(started.elapsed(), (some.len() * TRACED as usize) as f64);
+        self.costs.traced.add(started.elapsed(), (some.len() * TRACED_RAYS as usize) as f64);
         go_on(&self.round(request, None, (None, None)));
     }
 
@@ -88,7 +88,7 @@ impl Pilot<'_> {
         let fixed = self.mesh.for_indirect_light.as_ref().map(|(count, _)| *count);
         let carriers = self.mesh.carriers.count(fixed.unwrap_or(vertices));
         // Each round adds more than the one before, except the last.
-        let another = NEXT * self.direct.added as f64;
+        let another = NEXT_ROUND_RATIO * self.direct.added as f64;
         let unmeasured = look.filter(|_| !self.direct.is_measured);
         let more = unmeasured.map_or(0.0, |look| self.more_for_direct(look, request, another));
         let for_bare = look.map_or(0.0, |look| self.rows_for_bare(look, request, more));
@@ -118,7 +118,7 @@ impl Pilot<'_> {
             before,
             usual: if look.is_none() && !self.direct.is_measured { self.usual() } else { None },
             more_for_direct: more,
-            measured_again: if self.direct.is_measured { 0.0 } else { MOVED },
+            measured_again: if self.direct.is_measured { 0.0 } else { MOVED_VERTEX_SHARE },
         };
         Round {
             receivers: vertices,

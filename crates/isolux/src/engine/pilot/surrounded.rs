@@ -1,6 +1,6 @@
 //! Objects close before elements and vertices.
 
-use super::state::{HEM, Pilot};
+use super::state::{HEM_EDGE_SHARE, Pilot};
 use crate::engine::gather::Gatherer;
 use crate::engine::occlusion::nearby;
 use crate::engine::ray::SurfacePoint;
@@ -27,7 +27,11 @@ impl Pilot<'_> {
             if on_border[vertex] {
                 return f64::INFINITY;
             }
-            nearby::hemmed_in_m(self.scene, &gatherers[vertex].surface, HEM * edges_m[vertex])
+            nearby::hemmed_in_m(
+                self.scene,
+                &gatherers[vertex].surface,
+                HEM_EDGE_SHARE * edges_m[vertex],
+            )
         };
         let new: Vec<f64> = (self.near.hemmed_in_m.len()..gatherers.len())
             .into_par_iter()

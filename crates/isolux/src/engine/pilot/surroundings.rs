@@ -12,13 +12,14 @@ use crate::engine::mesh::{LeafError, is_in_room};
 use crate::units::Rgb;
 use rayon::prelude::*;
 
-/// The illuminance of surroundings below which errors gain weight, as a share of the reference illuminance. The weight
-/// grows with the inverse square of that illuminance, until errors count relative to it.
-const DIM: f64 = 0.25;
+/// The illuminance of surroundings below which errors gain weight, as a share of the reference illuminance.
+/// The weight grows with the inverse square of that illuminance, until errors count relative to it. With 0.4,
+/// the hall makes its elements anew with one seed of five (decision 42).
+const DIM_LIGHT_SHARE: f64 = 0.25;
 /// The largest weight of an error.
 const MOST_WEIGHT: f64 = 1e3;
 /// The least area of dim surfaces that is assumed, as a share of all surfaces.
-pub(super) const LEAST_DIM: f64 = 1.0 / 64.0;
+pub(super) const LEAST_DIM_AREA_SHARE: f64 = 1.0 / 64.0;
 /// The number of reflections over which light counts as that of the surroundings, and over which errors are followed to
 /// dim places.
 const REFLECTIONS: usize = 3;
@@ -26,7 +27,7 @@ const REFLECTIONS: usize = 3;
 /// The weight of an error, from the illuminance of its surroundings and the reference illuminance, lx.
 fn weight(about_lx: f64, reference_lx: f64) -> f64 {
     let times = reference_lx / about_lx;
-    let dim = (DIM * times).max(1.0);
+    let dim = (DIM_LIGHT_SHARE * times).max(1.0);
     (dim * dim).min(times.max(1.0)).min(MOST_WEIGHT)
 }
 
@@ -71,7 +72,7 @@ impl Pilot<'_> {
             all_m2 += vertex.area_m2;
             dim_m2 += vertex.area_m2 * (1.0 - 1.0 / weight);
         }
-        self.indirect.surroundings.dim_m2 = dim_m2.max(LEAST_DIM * all_m2);
+        self.indirect.surroundings.dim_m2 = dim_m2.max(LEAST_DIM_AREA_SHARE * all_m2);
         if dim_m2 > 0.0 {
             let areas_m2 = areas_m2(&self.mesh.subdivision, &self.mesh.carriers);
             for _ in 0..REFLECTIONS {

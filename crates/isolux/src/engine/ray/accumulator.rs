@@ -13,9 +13,9 @@
 use crate::units::Rgb;
 
 /// Units of the scene's reference illuminance.
-const UNITS_OF_REFERENCE: f64 = (1u64 << 24) as f64;
+pub(crate) const UNITS_OF_REFERENCE: f64 = (1u64 << 24) as f64;
 /// The largest value of one increment, in units.
-const LARGEST: f64 = (1u64 << 47) as f64;
+const LARGEST_UNITS: f64 = (1u64 << 47) as f64;
 /// The most halvings of the unit, for receivers with little light.
 const MOST_HALVINGS: u8 = 14;
 
@@ -239,5 +239,5 @@ pub(crate) fn mean_and_variance(values: &[Rgb]) -> (Rgb, f64) {
 
 fn fixed(units: f64) -> i64 {
     // NaN becomes zero; infinities saturate.
-    units.clamp(-LARGEST, LARGEST).round_ties_even() as i64
+    units.clamp(-LARGEST_UNITS, LARGEST_UNITS).round_ties_even() as i64
 }

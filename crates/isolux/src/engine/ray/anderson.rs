@@ -11,15 +11,16 @@ use crate::units::Rgb;
 use rayon::prelude::*;
 use std::collections::VecDeque;
 
-/// Number of earlier sweeps that are remembered.
+/// Number of earlier sweeps that are remembered. With three, fixed points take 6 to 9 sweeps, where one
+/// extrapolation every three sweeps took 12 to 16 (decision 22).
 const DEPTH: usize = 3;
 
 /// The share of the square of a direction that must be independent of those before. A direction with less
 /// adds nothing.
-const LEAST_PIVOT: f64 = 1e-10;
+const LEAST_PIVOT_SHARE: f64 = 1e-10;
 
 /// Values in one partial sum. It is fixed, so that the order of summation is always the same.
-const CHUNK: usize = 4096;
+const SUMMED_VALUES: usize = 4096;
 
 /// The state of the acceleration: the last sweeps.
 pub(crate) struct Anderson {
@@ -61,7 +62,7 @@ impl Anderson {
             let held = |c: usize| if mixed.0[c] < 0.0 { image[k].0[c] } else { mixed.0[c] };
             Rgb([0, 1, 2].map(held))
         };
-        let next = (0..image.len()).into_par_iter().with_min_len(CHUNK).map(one).collect();
+        let next = (0..image.len()).into_par_iter().with_min_len(SUMMED_VALUES).map(one).collect();
         self.before = Some((image, change));
         next
     }
@@ -98,7 +99,10 @@ fn dot(a: &[Rgb], b: &[Rgb], weights: &[f64]) -> Rgb {
         let products = a.iter().zip(b).zip(weights);
         products.map(|((&a, &b), &weight)| a * b * (weight * weight)).sum()
     };
-    let all = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)).zip(weights.par_chunks(CHUNK));
+    let all = a
+        .par_chunks(SUMMED_VALUES)
+        .zip(b.par_chunks(SUMMED_VALUES))
+        .zip(weights.par_chunks(SUMMED_VALUES));
     let parts: Vec<Rgb> = all.map(part).collect();
     parts.into_iter().sum()
 }
@@ -110,7 +114,7 @@ fn solved(mut rows: [[f64; DEPTH + 1]; DEPTH], count: usize) -> [f64; DEPTH] {
     let diagonal: [f64; DEPTH] = std::array::from_fn(|k| rows[k][k]);
     // The latest step comes first as pivot: it tells the most.
     for k in (0..count).rev() {
-        if rows[k][k] <= LEAST_PIVOT * diagonal[k] || rows[k][k] <= 0.0 {
+        if rows[k][k] <= LEAST_PIVOT_SHARE * diagonal[k] || rows[k][k] <= 0.0 {
             continue;
         }
         found[k] = true;
@@ -124,5 +128,5 @@ fn solved(mut rows: [[f64; DEPTH + 1]; DEPTH], count: usize) -> [f64; DEPTH] {
 }
 
 fn minus(a: &[Rgb], b: &[Rgb]) -> Vec<Rgb> {
-    a.par_iter().zip(b).with_min_len(CHUNK).map(|(&a, &b)| a - b).collect()
+    a.par_iter().zip(b).with_min_len(SUMMED_VALUES).map(|(&a, &b)| a - b).collect()
 }

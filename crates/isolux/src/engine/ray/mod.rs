@@ -13,16 +13,16 @@ mod surface;
 
 pub use accumulator::Sums;
 pub(crate) use accumulator::{
-    Accumulator, Effort, Estimate, MAX_INCREMENTS, Sample, mean_and_variance,
+    Accumulator, Effort, Estimate, MAX_INCREMENTS, Sample, UNITS_OF_REFERENCE, mean_and_variance,
 };
 pub(crate) use anderson::Anderson;
 pub(crate) use deadline::Deadline;
 pub(crate) use noise::Noise;
 pub(crate) use path::{Dice, MAX_SPECULAR, PathEnd, follow, follow_on, specular_step};
 pub use place::ProbePoint;
-pub(crate) use place::{INWARDS, Places, place_key};
+pub(crate) use place::{INWARD_ROUNDINGS, Places, place_key};
 pub(crate) use scatter::{Scattered, luminance_ratio, pane};
 #[cfg(test)]
 pub(crate) use scatter::{reflect, refract, specular_share};
 pub(crate) use short_rays::ShortRays;
-pub(crate) use surface::{Stand, SurfacePoint};
+pub(crate) use surface::{COPLANAR_COS, Stand, SurfacePoint};

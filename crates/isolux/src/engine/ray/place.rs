@@ -11,7 +11,7 @@ const REACH_SHARE: f64 = 1e-4;
 /// Distance by which places on the rim of a triangle move inwards, in rounding steps of its coordinates. A
 /// wall that meets the rim is nearer than this by the sine of its angle with the direction to the centroid.
 /// The place stays more than one rounding step away from it for angles down to one degree.
-pub(crate) const INWARDS: f64 = 64.0;
+pub(crate) const INWARD_ROUNDINGS: f64 = 64.0;
 
 /// A place and the direction in which a luxmeter faces there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,7 +73,7 @@ impl<'a> Places<'a> {
         let inwards = triangle.centroid() - at.point;
         let largest_m = self.scene.bvh().mesh().largest_coordinate_m(at.triangle);
         let rounding_m = f64::from(f32::EPSILON) * largest_m;
-        let distance_m = (INWARDS * rounding_m).min(0.5 * inwards.length());
+        let distance_m = (INWARD_ROUNDINGS * rounding_m).min(0.5 * inwards.length());
         let near_rim = at.u.min(at.v).min(1.0 - at.u - at.v) * inwards.length() < distance_m;
         match inwards.direction() {
             Some(direction) if near_rim => {

@@ -8,7 +8,7 @@ use isolux_geometry::Triangle;
 use rayon::prelude::*;
 
 /// Places in an element at which its texture is sampled.
-const PLACES: u32 = 16;
+const TEXTURE_PLACES: u32 = 16;
 
 /// Mean diffuse reflectance of a part of a triangle. `number` seeds the places at which its texture is
 /// sampled.
@@ -27,7 +27,7 @@ pub(crate) fn of_part(scene: &Scene, origin: &Origin, part: &Triangle, number: u
         let [u, v] = scene.triangle(origin.triangle).barycentric(place);
         scene.diffuse_reflectance(finish, origin.triangle, u, v)
     };
-    (0..PLACES).map(at).sum::<Rgb>() / f64::from(PLACES)
+    (0..TEXTURE_PLACES).map(at).sum::<Rgb>() / f64::from(TEXTURE_PLACES)
 }
 
 /// Mean photometric diffuse reflectance of all surfaces, weighted by area.

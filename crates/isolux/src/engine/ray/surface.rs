@@ -5,6 +5,10 @@ use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::{Direction, Hit, Normal, Point, Ray};
 
+/// The least cosine between the normals of triangles in one plane. The difference to one is for the rounding of
+/// `f32` coordinates.
+pub(crate) const COPLANAR_COS: f64 = 1.0 - 1e-6;
+
 /// A place on one side of a triangle; both normals point to that side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfacePoint {

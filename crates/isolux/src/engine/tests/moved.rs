@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::engine::{SolveRequest, Watch, solve};
-use crate::map::{Illuminance, IlluminationMap, Standing};
+use crate::map::{IlluminationMap, Standing, VertexLight};
 use crate::scene::LuminaireKind;
 
 /// Coarse.
@@ -65,7 +65,7 @@ fn a_cupboard_far_away_is_as_dark_as_here() {
     assert!(inside.iter().all(|&k| there.values[k].is_none()), "no light comes there");
     // Random numbers belong to places: what is left is noise.
     let sum_lx = |map: &IlluminationMap| {
-        map.values.iter().flatten().map(Illuminance::illuminance_lx).sum::<f64>()
+        map.values.iter().flatten().map(VertexLight::illuminance_lx).sum::<f64>()
     };
     let (here_lx, there_lx) = (sum_lx(&here), sum_lx(&there));
     assert!((here_lx - there_lx).abs() < ACCURACY * here_lx, "{here_lx} {there_lx}");

@@ -9,7 +9,7 @@ use crate::engine::pilot::pilot;
 use crate::engine::ray::{Deadline, ProbePoint};
 use crate::engine::read::{ExactSettings, MapReader};
 use crate::engine::{SolveRequest, Watch, solve};
-use crate::map::{Illuminance, Standing};
+use crate::map::{Standing, VertexLight};
 
 /// Half the side of a square hole, 1 m above the floor, and the luminance of what is seen through it.
 const HALF: f64 = 0.1;
@@ -120,11 +120,11 @@ fn vertices_have_noise_as_those_about_them() {
     subdivision.bisect_to(1.0, 1000);
     let elements = subdivision.elements();
     let noisy = |lx: f64| {
-        Some(Illuminance {
+        Some(VertexLight {
             indirect_standard_error_lx: lx,
             standard_error_lx: libm::hypot(lx, 3.0),
             standing: Standing::Open,
-            ..Illuminance::NOTHING
+            ..VertexLight::NOTHING
         })
     };
     let mut values = vec![noisy(4.0); elements.vertices().len()];

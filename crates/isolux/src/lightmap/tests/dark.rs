@@ -32,7 +32,7 @@ fn whole_surfaces_are_dark_and_not_parts_of_lit_ones() {
 fn a_doubt_is_light() {
     let scene = floors();
     let mut map = light(&scene);
-    let is_dark = |v: &&mut Option<Illuminance>| v.is_some_and(|v| v.illuminance_lx() == 0.0);
+    let is_dark = |v: &&mut Option<VertexLight>| v.is_some_and(|v| v.illuminance_lx() == 0.0);
     map.values.iter_mut().filter(is_dark).flatten().for_each(|v| v.standard_error_lx = 0.1);
     let dark = dark_sides(&scene, &map);
     assert!(dark.iter().all(|&(triangle, _)| scene.shape_of(triangle) == 3) && dark.len() == 32);

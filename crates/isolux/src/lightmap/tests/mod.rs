@@ -8,7 +8,7 @@ mod stitching;
 
 use super::*;
 use crate::elements::Subdivision;
-use crate::map::{Illuminance, IlluminationMap, Method, Provenance, Standing};
+use crate::map::{IlluminationMap, Method, Provenance, Standing, VertexLight};
 use crate::scene::{Finish, Material, Scene, SceneParts, Shape};
 use crate::units::Rgb;
 
@@ -43,12 +43,12 @@ pub(super) fn scene(shapes: Vec<Shape>) -> Scene {
 /// A map of indirect light alone, by a function of place; vertices of which it gives nothing are unknown.
 pub(super) fn map(scene: &Scene, lx: impl Fn([f64; 3]) -> Option<f64>) -> IlluminationMap {
     let elements = Subdivision::new(scene).elements();
-    let value = |lx: f64| Illuminance {
+    let value = |lx: f64| VertexLight {
         indirect_lx: Rgb::grey(lx),
         standard_error_lx: 0.01 * lx,
         indirect_standard_error_lx: 0.01 * lx,
         standing: Standing::Open,
-        ..Illuminance::NOTHING
+        ..VertexLight::NOTHING
     };
     let values = elements.vertices().iter().map(|v| lx(v.position.into()).map(value)).collect();
     IlluminationMap { elements, values, provenance: provenance() }

@@ -3,7 +3,8 @@
 //! Every side of a triangle on which particles land is bisected until few are left in a patch, whatever the elements
 //! of a map. So light as narrow as the gap before a lamp is separated from its surroundings.
 
-use crate::engine::light::{BELIEVED, Landing, Sum};
+use crate::engine::light::{BELIEVED_DEVIATIONS, Landing, Sum};
+use crate::engine::mesh::NO_INDEX;
 use crate::engine::ray::SurfacePoint;
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -12,22 +13,19 @@ use std::collections::BTreeMap;
 
 /// The number of particles above which a patch is bisected. The density of light in a patch of so few errs by a
 /// third.
-const FEW: usize = 8;
+const FEW_PARTICLES: usize = 8;
 
 /// The least length of the longest edge of a patch that is bisected, in rounding bounds of positions.
-const LEAST_EDGE: f64 = 4.0;
-
-/// The number that stands for no patch and for no node below.
-pub(super) const NONE: u32 = u32::MAX;
+const LEAST_EDGE_ROUNDINGS: f64 = 4.0;
 
 /// A node of the bisection of a side.
 #[derive(Clone, Copy)]
 struct Node {
     /// The corner opposite to the edge that is bisected.
     corner: u8,
-    /// The first of the two halves, or [`NONE`].
+    /// The first of the two halves, or [`NO_INDEX`].
     below: u32,
-    /// The number of the patch if the node has no halves, or [`NONE`].
+    /// The number of the patch if the node has no halves, or [`NO_INDEX`].
     patch: u32,
 }
 
@@ -89,16 +87,16 @@ impl Patches {
     /// The number of the patch that a place lies in.
     pub(super) fn at(&self, place: &SurfacePoint) -> Option<usize> {
         let root = self.roots.get(place.triangle as usize)?[usize::from(place.back)];
-        if root == NONE {
+        if root == NO_INDEX {
             return None;
         }
         let mut weights = [1.0 - place.u - place.v, place.u, place.v];
         let mut node = self.nodes[root as usize];
-        while node.below != NONE {
+        while node.below != NO_INDEX {
             let half = half(&mut weights, usize::from(node.corner));
             node = self.nodes[node.below as usize + half];
         }
-        (node.patch != NONE).then_some(node.patch as usize)
+        (node.patch != NO_INDEX).then_some(node.patch as usize)
     }
 
     fn divide(
@@ -117,11 +115,12 @@ impl Patches {
         while let Some(part) = left.pop() {
             let Sum { flux_lm, squares_lm2 } = part.sum();
             let least_lm = least_lx * part.area_m2;
-            let is_sure = part.is_sure || flux_lm - BELIEVED * squares_lm2.sqrt() > least_lm;
+            let is_sure =
+                part.is_sure || flux_lm - BELIEVED_DEVIATIONS * squares_lm2.sqrt() > least_lm;
             let points = part.corners.map(point);
             let (corner, edge_m) = longest(points);
-            let least_m = LEAST_EDGE * scene.bvh().offset_m(points[0]);
-            if part.arrived.len() > FEW && edge_m > least_m {
+            let least_m = LEAST_EDGE_ROUNDINGS * scene.bvh().offset_m(points[0]);
+            if part.arrived.len() > FEW_PARTICLES && edge_m > least_m {
                 left.extend(self.bisect(part, corner, is_sure));
             } else if is_sure && flux_lm > least_lm {
                 self.nodes[part.node as usize].patch = self.all.len() as u32;
@@ -135,7 +134,7 @@ impl Patches {
             return;
         }
         let needed = triangle as usize + 1;
-        self.roots.resize(self.roots.len().max(needed), [NONE; 2]);
+        self.roots.resize(self.roots.len().max(needed), [NO_INDEX; 2]);
         self.roots[triangle as usize][usize::from(back)] = node;
     }
 
@@ -143,7 +142,7 @@ impl Patches {
         let Part { node, corners, area_m2, arrived, .. } = part;
         let below = self.add_node();
         self.add_node();
-        self.nodes[node as usize] = Node { corner: corner as u8, below, patch: NONE };
+        self.nodes[node as usize] = Node { corner: corner as u8, below, patch: NO_INDEX };
         let [_, second, third] = around(corner);
         let middle = [0, 1].map(|k| 0.5 * (corners[second][k] + corners[third][k]));
         let halves = [third, second].map(|moved| {
@@ -167,7 +166,7 @@ impl Patches {
     }
 
     fn add_node(&mut self) -> u32 {
-        self.nodes.push(Node { corner: 0, below: NONE, patch: NONE });
+        self.nodes.push(Node { corner: 0, below: NO_INDEX, patch: NO_INDEX });
         self.nodes.len() as u32 - 1
     }
 }

@@ -12,7 +12,7 @@ pub(super) const LANES: usize = 8;
 pub(super) struct Lanes(pub(super) [f64; LANES]);
 
 /// The coefficients of `atan(z) / z` in powers of `z^2`, for `z` up to the tangent of pi / 8.
-const ATAN: [f64; 11] = [
+const ATAN_COEFFICIENTS: [f64; 11] = [
     1.0,
     -0.3333333333332844,
     0.1999999999885511,
@@ -25,14 +25,12 @@ const ATAN: [f64; 11] = [
     -0.04348052215716462,
     0.021135373157693246,
 ];
-/// An eighth of pi.
-const EIGHTH: f64 = std::f64::consts::FRAC_PI_8;
 /// The tangent of pi / 8.
-const TAN_OF_EIGHTH: f64 = std::f64::consts::SQRT_2 - 1.0;
+const TAN_PI_8: f64 = std::f64::consts::SQRT_2 - 1.0;
 
 /// The coefficients of `ln((1 + s) / (1 - s)) / s` in powers of `s^2`, for ratios between the root of 1/2 and the
 /// root of 2.
-const LN: [f64; 7] = [
+const LN_COEFFICIENTS: [f64; 7] = [
     2.0000000000000004,
     0.6666666666655292,
     0.40000000061741614,
@@ -43,7 +41,7 @@ const LN: [f64; 7] = [
 ];
 
 /// The coefficients of `exp` in powers, for arguments up to half of `ln 2`.
-const EXP: [f64; 12] = [
+const EXP_COEFFICIENTS: [f64; 12] = [
     1.0,
     1.0,
     0.5000000000000019,
@@ -59,13 +57,13 @@ const EXP: [f64; 12] = [
 ];
 
 /// A number so large that it has no digits after the point: a number added to it is rounded to an integer.
-const WHOLE: f64 = (3_u64 << 51) as f64;
-/// The number of bits of the mantissa of an `f64`.
-const MANTISSA: u32 = 52;
+const ROUNDING_OFFSET: f64 = (3_u64 << 51) as f64;
+/// The number of bits that an `f64` stores of its mantissa.
+const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 /// The bits of the number one.
-const ONE: u64 = 1.0_f64.to_bits();
+const ONE_BITS: u64 = 1.0_f64.to_bits();
 /// The bits of the root of 1/2.
-const ROOT_OF_HALF: u64 = std::f64::consts::FRAC_1_SQRT_2.to_bits();
+const ROOT_OF_HALF_BITS: u64 = std::f64::consts::FRAC_1_SQRT_2.to_bits();
 
 impl Lanes {
     #[inline(always)]
@@ -111,10 +109,14 @@ impl Lanes {
     pub(super) fn atan(self) -> Self {
         let turned = self.map(|x| if x > 1.0 { 1.0 / x } else { x });
         // The angle whose tangent is `z` lies between -pi / 8 and pi / 8.
-        let from_eighth = |z: f64| (z - TAN_OF_EIGHTH) / (1.0 + TAN_OF_EIGHTH * z);
+        let from_eighth = |z: f64| (z - TAN_PI_8) / (1.0 + TAN_PI_8 * z);
         let z = turned.map(from_eighth);
-        let angle = Self::of(EIGHTH) + z * (z * z).polynomial(&ATAN);
-        self.with(angle, |x, angle| if x > 1.0 { 4.0 * EIGHTH - angle } else { angle })
+        let angle =
+            Self::of(std::f64::consts::FRAC_PI_8) + z * (z * z).polynomial(&ATAN_COEFFICIENTS);
+        self.with(
+            angle,
+            |x, angle| if x > 1.0 { std::f64::consts::FRAC_PI_2 - angle } else { angle },
+        )
     }
 
     /// The natural logarithm of positive, finite, normal numbers.
@@ -122,25 +124,29 @@ impl Lanes {
     pub(super) fn ln(self) -> Self {
         // The powers of two in them; the remaining factor is near one.
         let twos = self.map(|x| {
-            let above = x.to_bits().wrapping_sub(ROOT_OF_HALF).wrapping_add(ONE) >> MANTISSA;
-            f64::from_bits(WHOLE.to_bits() | above) - WHOLE - (ONE >> MANTISSA) as f64
+            let above =
+                x.to_bits().wrapping_sub(ROOT_OF_HALF_BITS).wrapping_add(ONE_BITS) >> MANTISSA_BITS;
+            f64::from_bits(ROUNDING_OFFSET.to_bits() | above)
+                - ROUNDING_OFFSET
+                - (ONE_BITS >> MANTISSA_BITS) as f64
         });
         let left = self.map(|x| {
-            let above = x.to_bits().wrapping_sub(ROOT_OF_HALF) & !((1 << MANTISSA) - 1);
+            let above = x.to_bits().wrapping_sub(ROOT_OF_HALF_BITS) & !((1 << MANTISSA_BITS) - 1);
             f64::from_bits(x.to_bits().wrapping_sub(above))
         });
         let s = left.map(|m| (m - 1.0) / (m + 1.0));
-        twos * Self::of(std::f64::consts::LN_2) + s * (s * s).polynomial(&LN)
+        twos * Self::of(std::f64::consts::LN_2) + s * (s * s).polynomial(&LN_COEFFICIENTS)
     }
 
     /// The exponential function of numbers up to a few hundred in magnitude.
     #[inline(always)]
     pub(super) fn exp(self) -> Self {
-        let rounded = self.map(|x| x * std::f64::consts::LOG2_E + WHOLE);
-        let twos = rounded.map(|r| r - WHOLE);
+        let rounded = self.map(|x| x * std::f64::consts::LOG2_E + ROUNDING_OFFSET);
+        let twos = rounded.map(|r| r - ROUNDING_OFFSET);
         let left = self - twos * Self::of(std::f64::consts::LN_2);
-        let power = rounded.map(|r| f64::from_bits((r.to_bits() << MANTISSA).wrapping_add(ONE)));
-        left.polynomial(&EXP) * power
+        let power =
+            rounded.map(|r| f64::from_bits((r.to_bits() << MANTISSA_BITS).wrapping_add(ONE_BITS)));
+        left.polynomial(&EXP_COEFFICIENTS) * power
     }
 
     /// The inverse hyperbolic sine.
@@ -189,7 +195,7 @@ mod tests {
     use super::*;
 
     /// The tolerance of the tests: a few roundings of `f64`.
-    const ROUNDINGS: f64 = 1e-15;
+    const TOLERANCE: f64 = 1e-15;
 
     /// Compares a function with `known`, with errors relative to the larger of the result and `size`.
     fn check(
@@ -200,7 +206,7 @@ mod tests {
     ) {
         for x in numbers {
             let (found, expected) = (own(Lanes::of(x)).0[LANES - 1], known(x));
-            let least = ROUNDINGS * expected.abs().max(size(x));
+            let least = TOLERANCE * expected.abs().max(size(x));
             assert!((found - expected).abs() <= least, "{x}: {found} {expected}");
         }
     }

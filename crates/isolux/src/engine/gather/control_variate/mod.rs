@@ -15,19 +15,19 @@ use crate::sampling::Key;
 use crate::scene::Scene;
 use crate::units::Rgb;
 use isolux_geometry::Direction;
-use planes::Rectangle;
-use polynomial::{COUNT, Polynomial, View, powers};
+use planes::{BESIDE_WALL_SHARE, Rectangle};
+use polynomial::{COEFFICIENTS, Polynomial, View, powers};
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
 /// The largest number of walls: a room has six.
-const MOST: usize = 8;
+const MOST_WALLS: usize = 8;
 /// The number of places of a wall along each side whose light is evaluated.
-const PLACES: usize = 16;
+const PLACES_A_SIDE: usize = 16;
 /// The ridge term of the fit, relative to the weight of all places. It matters where few places are lit.
-const HELD: f64 = 1e-6;
+const RIDGE_WEIGHT: f64 = 1e-6;
 /// The least share of the surface that has to see mostly walls.
-const CLEAR_SHARE: f64 = 0.3;
+const LEAST_CLEAR_SHARE: f64 = 0.3;
 /// The number of places that stand for the surface in this test.
 pub(crate) const SOME: usize = 64;
 /// The largest share of the variation of direct light on walls that polynomials may leave out. Where they leave out
@@ -36,19 +36,16 @@ pub(crate) const LEFT_OUT: f64 = 0.3;
 /// The largest share of the noise that walls may leave to be worth their cost.
 pub(crate) const WORTH: f64 = 0.7;
 /// The number of rays that test whether something stands before the walls.
-const TRIED: usize = 16;
+const TEST_RAYS: usize = 16;
 /// The number of these rays that have to reach the walls.
-const CLEAR: usize = 12;
+const FEWEST_CLEAR_RAYS: usize = 12;
 /// The Gauss rule for places along a side of a wall.
-static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::new(PLACES));
+static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::new(PLACES_A_SIDE));
 /// The directions of the test rays.
-static DIRECTIONS: LazyLock<ShortRays<TRIED>> = LazyLock::new(|| ShortRays::of(Key::new(0)));
-/// The distance before or behind a wall at which a ray still ends on it, relative to its length plus the size of the
-/// wall.
-const BESIDE: f64 = 1e-3;
+static DIRECTIONS: LazyLock<ShortRays<TEST_RAYS>> = LazyLock::new(|| ShortRays::of(Key::new(0)));
 /// The distance from the middle of a wall, in half sides, beyond which the wall is left out. The closed form loses
 /// its digits there.
-const FAR: f64 = 24.0;
+const MOST_HALF_SIDES: f64 = 24.0;
 
 /// A stand, and the light that the surface around it reflects.
 #[derive(Clone, Copy, Debug)]
@@ -115,18 +112,18 @@ impl ControlVariate {
         places: impl Iterator<Item = (Stand, f64)>,
     ) -> Option<Self> {
         let places: Vec<_> = places.collect();
-        Self::of(scene).filter(|walls| walls.share_of_clear(scene, &places) >= CLEAR_SHARE)
+        Self::of(scene).filter(|walls| walls.share_of_clear(scene, &places) >= LEAST_CLEAR_SHARE)
     }
 
     /// The walls of a scene with large plane surfaces, still dark, whether places see them or not.
     pub(crate) fn of(scene: &Scene) -> Option<Self> {
         let dark = |rectangle: Rectangle| {
-            let light = Polynomial([0.0; COUNT]);
+            let light = Polynomial([0.0; COEFFICIENTS]);
             Wall { rectangle, light, tint: Rgb::BLACK, lit: Vec::new() }
         };
         let largest = planes::largest(scene).into_iter();
         let faced = largest.filter(|rectangle| rectangle.faces_something(scene));
-        let walls: Vec<Wall> = faced.take(MOST).map(dark).collect();
+        let walls: Vec<Wall> = faced.take(MOST_WALLS).map(dark).collect();
         (!walls.is_empty()).then_some(Self { walls })
     }
 
@@ -200,7 +197,8 @@ impl ControlVariate {
             let far = |s: &Seen<'_>| s.at(direction).map(|(far_m, _)| (far_m, s.size_m()));
             let mut along = seen.iter().filter_map(far);
             let Some((far_m, size_m)) = along.next() else { continue };
-            let is_at = |other_m: f64| (other_m - far_m).abs() <= BESIDE * (far_m + size_m);
+            let is_at =
+                |other_m: f64| (other_m - far_m).abs() <= BESIDE_WALL_SHARE * (far_m + size_m);
             // A wall behind another one is not seen.
             let comes_there = along.all(|(other_m, _)| is_at(other_m))
                 && met.is_some_and(|hit| is_at(f64::from(hit.t)));
@@ -214,7 +212,9 @@ impl ControlVariate {
             }
         }
         let are_told = left <= WORTH * WORTH * squared;
-        are_told && count >= CLEAR && light * TRIED as f64 >= all_light * CLEAR as f64
+        are_told
+            && count >= FEWEST_CLEAR_RAYS
+            && light * TEST_RAYS as f64 >= all_light * FEWEST_CLEAR_RAYS as f64
     }
 }
 
@@ -235,7 +235,7 @@ impl Wall {
         self.lit.clear();
         let mut sums = Sums::default();
         let mut colour = Rgb::BLACK;
-        let mut places = Vec::with_capacity(PLACES * PLACES);
+        let mut places = Vec::with_capacity(PLACES_A_SIDE * PLACES_A_SIDE);
         for (&x, &weight_x) in rule.nodes.iter().zip(&rule.weights) {
             for (&y, &weight_y) in rule.nodes.iter().zip(&rule.weights) {
                 let weight = weight_x * weight_y;
@@ -267,9 +267,9 @@ impl Wall {
     fn tells(&self, of: &Stand) -> Option<f64> {
         let Rectangle { middle, axes, half_m } = &self.rectangle;
         let to = of.origin - *middle;
-        let before_m = BESIDE * half_m[0].min(half_m[1]);
-        let is_on =
-            to.dot(axes[2]).abs() < before_m && of.normal.to_vector().dot(axes[2]) > 1.0 - BESIDE;
+        let before_m = BESIDE_WALL_SHARE * half_m[0].min(half_m[1]);
+        let is_on = to.dot(axes[2]).abs() < before_m
+            && of.normal.to_vector().dot(axes[2]) > 1.0 - BESIDE_WALL_SHARE;
         let place = [0, 1].map(|k| to.dot(axes[k]) / half_m[k]);
         let is_within = place.iter().all(|c| c.abs() <= 1.0);
         (is_on && is_within).then(|| self.light.at(place))
@@ -281,7 +281,7 @@ impl<'a> Seen<'a> {
         let Rectangle { middle, axes, half_m } = &wall.rectangle;
         let normal = of.normal.to_vector();
         let view = View::new(of.origin - *middle, normal, axes);
-        let is_near = |m: f64, half_m: f64| m.abs() < FAR * half_m;
+        let is_near = |m: f64, half_m: f64| m.abs() < MOST_HALF_SIDES * half_m;
         let least_m = half_m[0].min(half_m[1]);
         let is_before = view.height_m > 0.0
             && is_near(view.height_m, least_m)
@@ -320,11 +320,11 @@ impl<'a> Seen<'a> {
         let (_, place) = self.at(direction)?;
         let [x, y] = place.map(|c| {
             let after = RULE.nodes.partition_point(|node| *node < c);
-            [after.saturating_sub(1), after.min(PLACES - 1)]
+            [after.saturating_sub(1), after.min(PLACES_A_SIDE - 1)]
         });
         let about = x.into_iter().flat_map(|x| y.map(|y| [x, y]));
-        let known =
-            about.filter_map(|[x, y]| Some(((*self.wall.lit.get(PLACES * x + y)?)?, [x, y])));
+        let known = about
+            .filter_map(|[x, y]| Some(((*self.wall.lit.get(PLACES_A_SIDE * x + y)?)?, [x, y])));
         let (lit, least) = known.min_by(|a, b| a.0.total_cmp(&b.0))?;
         Some([lit, self.wall.light.at(least.map(|k| RULE.nodes[k]))])
     }
@@ -337,18 +337,18 @@ impl<'a> Seen<'a> {
 
 /// The normal equations of the fit.
 struct Sums {
-    products: [[f64; COUNT]; COUNT],
-    values: [f64; COUNT],
+    products: [[f64; COEFFICIENTS]; COEFFICIENTS],
+    values: [f64; COEFFICIENTS],
 }
 
 impl Default for Sums {
     fn default() -> Self {
-        Self { products: [[0.0; COUNT]; COUNT], values: [0.0; COUNT] }
+        Self { products: [[0.0; COEFFICIENTS]; COEFFICIENTS], values: [0.0; COEFFICIENTS] }
     }
 }
 
 impl Sums {
-    fn add(&mut self, powers: &[f64; COUNT], value: f64, weight: f64) {
+    fn add(&mut self, powers: &[f64; COEFFICIENTS], value: f64, weight: f64) {
         for (i, row) in self.products.iter_mut().enumerate() {
             for (k, product) in row.iter_mut().enumerate().take(i + 1) {
                 *product += weight * powers[i] * powers[k];
@@ -358,10 +358,10 @@ impl Sums {
     }
 
     /// The coefficients by Cholesky's method; `None` without any place.
-    fn solved(mut self) -> Option<[f64; COUNT]> {
-        let held = HELD * self.products[0][0];
+    fn solved(mut self) -> Option<[f64; COEFFICIENTS]> {
+        let held = RIDGE_WEIGHT * self.products[0][0];
         let rows = &mut self.products;
-        for i in 0..COUNT {
+        for i in 0..COEFFICIENTS {
             rows[i][i] += held;
             for k in 0..=i {
                 let known: f64 = (0..k).map(|j| rows[i][j] * rows[k][j]).sum();
@@ -377,12 +377,12 @@ impl Sums {
             }
         }
         let mut values = self.values;
-        for i in 0..COUNT {
+        for i in 0..COEFFICIENTS {
             let known: f64 = (0..i).map(|j| rows[i][j] * values[j]).sum();
             values[i] = (values[i] - known) / rows[i][i];
         }
-        for i in (0..COUNT).rev() {
-            let known: f64 = (i + 1..COUNT).map(|j| rows[j][i] * values[j]).sum();
+        for i in (0..COEFFICIENTS).rev() {
+            let known: f64 = (i + 1..COEFFICIENTS).map(|j| rows[j][i] * values[j]).sum();
             values[i] = (values[i] - known) / rows[i][i];
         }
         Some(values)

@@ -8,16 +8,17 @@ use isolux_geometry::{Point, Ray, Triangle, Vector};
 use std::collections::HashMap;
 
 /// The largest number of rectangles: a room has six walls, each with two sides.
-const MOST: usize = 16;
+const MOST_RECTANGLES: usize = 16;
 /// The least share of all surface that a rectangle has.
-const LEAST_SHARE: f64 = 0.02;
+const LEAST_AREA_SHARE: f64 = 0.02;
 /// The least share of a rectangle that the surface fills.
-const LEAST_FILLED: f64 = 0.5;
+const LEAST_FILLED_SHARE: f64 = 0.5;
 /// The tolerance for triangles of one plane: on components of normals, and on distances as a share of the size of the
 /// scene.
-const ALIKE: f64 = 1e-4;
-/// The distance before a rectangle from which its surface is looked for, as a share of its size.
-const BEFORE: f64 = 1e-3;
+const PLANE_TOLERANCE: f64 = 1e-4;
+/// The distance before or behind a wall within which a place or the end of a ray lies on it, as a share of the size
+/// of the wall and, for rays, of their length.
+pub(super) const BESIDE_WALL_SHARE: f64 = 1e-3;
 /// A rectangle that faces the room.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rectangle {
@@ -31,7 +32,7 @@ pub(super) struct Rectangle {
 /// The largest number of planes that are kept apart.
 const MOST_PLANES: usize = 1 << 16;
 /// The number of triangles of a plane whose edges are tried as directions of its sides.
-const TELLING: usize = 8;
+const SIDE_TRIANGLES: usize = 8;
 
 /// The rounded normal of a plane and its distance from a point.
 type Key = [i32; 4];
@@ -68,9 +69,9 @@ pub(super) fn largest(scene: &Scene) -> Vec<Rectangle> {
         }
     }
     let mut large: Vec<(Key, f64)> =
-        areas_m2.into_iter().filter(|(_, m2)| *m2 >= LEAST_SHARE * all_m2).collect();
+        areas_m2.into_iter().filter(|(_, m2)| *m2 >= LEAST_AREA_SHARE * all_m2).collect();
     large.sort_by(|(a, own_m2), (b, m2)| m2.total_cmp(own_m2).then(a.cmp(b)));
-    large.truncate(MOST);
+    large.truncate(MOST_RECTANGLES);
     let mut planes: Vec<Option<Plane>> = large.iter().map(|_| None).collect();
     for OnPlane { key, normal, triangle } in sides().filter(|_| !large.is_empty()) {
         if let Some(k) = large.iter().position(|(own, _)| *own == key) {
@@ -89,14 +90,14 @@ fn plane_of(triangle: Triangle, back: bool, (from, size_m): (Point, f64)) -> Opt
     let normal = (b - a).cross(c - a).direction()?.to_vector();
     let normal = if back { -normal } else { normal };
     let far = (a - from).dot(normal) / size_m;
-    let key = [normal.x, normal.y, normal.z, far].map(|x| libm::round(x / ALIKE) as i32);
+    let key = [normal.x, normal.y, normal.z, far].map(|x| libm::round(x / PLANE_TOLERANCE) as i32);
     Some(OnPlane { key, normal, triangle })
 }
 
 impl Plane {
     /// The smallest bounding rectangle with sides along some edge, if the surface fills enough of it.
     fn rectangle(&self, area_m2: f64) -> Option<Rectangle> {
-        let every = self.triangles.len().div_ceil(TELLING).max(1);
+        let every = self.triangles.len().div_ceil(SIDE_TRIANGLES).max(1);
         let edges = self.triangles.iter().step_by(every).flat_map(|t| {
             let [a, b, c] = t.corners;
             [b - a, c - b, a - c]
@@ -119,12 +120,12 @@ impl Plane {
         let whole_m2 = |r: &Rectangle| 4.0 * r.half_m[0] * r.half_m[1];
         let smallest =
             edges.filter_map(about).min_by(|a, b| whole_m2(a).total_cmp(&whole_m2(b)))?;
-        (area_m2 >= LEAST_FILLED * whole_m2(&smallest)).then_some(smallest)
+        (area_m2 >= LEAST_FILLED_SHARE * whole_m2(&smallest)).then_some(smallest)
     }
 }
 
 /// The number of rays that test whether a rectangle faces anything, as the inner side of a wall does.
-const FACING: u32 = 16;
+const FACING_RAYS: u32 = 16;
 
 impl Rectangle {
     /// Whether more than half of the rays from all over it meet something.
@@ -138,14 +139,14 @@ impl Rectangle {
             let local = CosineHemisphere::sample(dice.pair());
             scene.bvh().closest_hit(&at.leave(axis.from_local(local))).is_some()
         };
-        2 * (0..FACING).filter(meets).count() as u32 > FACING
+        2 * (0..FACING_RAYS).filter(meets).count() as u32 > FACING_RAYS
     }
 
     /// The surface point at a place of the rectangle, if there is a surface.
     pub(super) fn surface(&self, scene: &Scene, [x, y]: [f64; 2]) -> Option<SurfacePoint> {
         let at =
             self.middle + self.axes[0] * (x * self.half_m[0]) + self.axes[1] * (y * self.half_m[1]);
-        let before_m = BEFORE * self.half_m[0].min(self.half_m[1]);
+        let before_m = BESIDE_WALL_SHARE * self.half_m[0].min(self.half_m[1]);
         let ray = Ray::new(at + self.axes[2] * before_m, (-self.axes[2]).direction()?)
             .up_to((2.0 * before_m) as f32);
         let hit = scene.bvh().closest_hit(&ray)?;

@@ -10,21 +10,18 @@ use std::sync::OnceLock;
 /// degree 0, 2, 4, 6 leave 26, 7.7, 2.3, 0.7 % of the light; nets of 64 rays then err by 1.3, 0.56, 0.19, 0.06 %.
 pub(super) const DEGREE: usize = 6;
 /// The number of coefficients of a polynomial in two variables.
-pub(super) const COUNT: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
-/// The least number of nodes of an integral along an edge.
+pub(super) const COEFFICIENTS: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
+/// The least number of nodes of an integral along an edge, with one more for each unit of the variable.
+/// Errors over places of CUBE are 1.2e-5 root mean square and 2.4e-5 at most (decision 40).
 const FEWEST_NODES: f64 = 3.0;
-/// The number of further nodes for each unit of the variable.
-const NODES_A_UNIT: f64 = 1.0;
 /// The largest number of nodes of such an integral.
-const MOST_NODES: usize = 51;
-/// The number of nodes of a rectangle as it is usually seen.
-const USUAL_NODES: usize = 32;
+const MOST_NODES: usize = (FEWEST_NODES + 2.0 * INTEGRATION_LIMIT) as usize;
 /// The limit of the variable of integration; the integrand vanishes beyond it.
-const FAR: f64 = 24.0;
+const INTEGRATION_LIMIT: f64 = 24.0;
 
 /// A polynomial in two variables from -1 to 1: the coefficients of `x^i y^k`, ordered by `i`, then `k`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Polynomial(pub(super) [f64; COUNT]);
+pub(super) struct Polynomial(pub(super) [f64; COEFFICIENTS]);
 
 /// The position and normal of a place relative to a plane.
 #[derive(Clone, Copy, Debug)]
@@ -43,8 +40,8 @@ const fn first(i: usize) -> usize {
 }
 
 /// All powers `x^i y^k` in the order of the coefficients.
-pub(super) fn powers([x, y]: [f64; 2]) -> [f64; COUNT] {
-    let mut powers = [0.0; COUNT];
+pub(super) fn powers([x, y]: [f64; 2]) -> [f64; COEFFICIENTS] {
+    let mut powers = [0.0; COEFFICIENTS];
     let mut of_x = 1.0;
     for i in 0..=DEGREE {
         let mut both = of_x;
@@ -174,12 +171,14 @@ fn along_edges(corners: &[[f64; 2]]) -> Vec<Node> {
         edges[k] = (edge, sign);
         (begins.0[k], ends.0[k]) = (edge.place(from), edge.place(to));
     }
-    let [begins, ends] = [begins, ends].map(|places| places.asinh().map(|w| w.clamp(-FAR, FAR)));
-    let mut nodes = Vec::with_capacity(USUAL_NODES);
+    let [begins, ends] = [begins, ends]
+        .map(|places| places.asinh().map(|w| w.clamp(-INTEGRATION_LIMIT, INTEGRATION_LIMIT)));
+    // As many as a rectangle usually takes.
+    let mut nodes = Vec::with_capacity(32);
     for (k, (edge, sign)) in edges.into_iter().enumerate() {
         let (begin, end) = (begins.0[k], ends.0[k]);
         if end > begin {
-            let count = (FEWEST_NODES + NODES_A_UNIT * (end - begin)).ceil() as usize;
+            let count = (FEWEST_NODES + (end - begin)).ceil() as usize;
             let rule = rule_of(count.min(MOST_NODES)).over(begin, end);
             nodes.extend(rule.map(|(place, weight)| Node { edge, place, weight: sign * weight }));
         }
@@ -274,7 +273,7 @@ impl View {
 }
 
 /// The inverse of each number; entry zero is not used.
-const INVERSE: [f64; DEGREE + 2] = {
+const INVERSES: [f64; DEGREE + 2] = {
     let mut inverse = [0.0; DEGREE + 2];
     let mut k = 1;
     while k < DEGREE + 2 {
@@ -305,7 +304,7 @@ fn radial(to: Lanes) -> [Lanes; DEGREE + 3] {
     let mut power = Lanes::of(1.0);
     for k in 2..DEGREE + 3 {
         power = power * to;
-        once[k] = power * Lanes::of(INVERSE[k - 1]) - once[k - 2];
+        once[k] = power * Lanes::of(INVERSES[k - 1]) - once[k - 2];
     }
     let mut twice = [Lanes::of(0.0); DEGREE + 3];
     twice[0] = Lanes::of(0.5) * (once[0] + to * fall);
@@ -328,7 +327,7 @@ mod tests {
     use super::*;
 
     /// The relative error of the sum over panels.
-    const BY_PANELS: f64 = 2e-5;
+    const PANELS_ERROR: f64 = 2e-5;
 
     fn some() -> Polynomial {
         Polynomial(std::array::from_fn(|k| {
@@ -375,7 +374,10 @@ mod tests {
                 }
             }
             expected *= half_m[0] * half_m[1] * FRAC_1_PI;
-            assert!((found / expected - 1.0).abs() < BY_PANELS, "{foot_m:?}: {found} {expected}");
+            assert!(
+                (found / expected - 1.0).abs() < PANELS_ERROR,
+                "{foot_m:?}: {found} {expected}"
+            );
         }
     }
 }

@@ -1,17 +1,13 @@
 //! Chains of planar mirrors for light that does not come from a luminaire.
 
 use super::super::lighting::Lighting;
+use super::planar::{MAX_CHAIN_MIRRORS, MAX_CHAINS};
 use crate::engine::ray::SurfacePoint;
 use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 
-/// The most mirrors in a chain; longer chains are left to rays.
-const MAX_CHAIN: usize = 6;
-/// The most chains; the others are left to rays.
-const MAX_CHAINS: usize = 64;
-
 /// Reflectance of a chain below which it is left to rays.
-const LEAST_REFLECTANCE: f64 = 1e-2;
+const LEAST_CHAIN_REFLECTANCE: f64 = 1e-2;
 
 /// Planar mirrors that light meets one after the other; empty for straight light.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,8 +40,8 @@ impl Lighting<'_> {
                 if !(meets && corners.iter().any(is_before)) {
                     continue;
                 }
-                let is_short = before.planes.len() < MAX_CHAIN && found.len() < MAX_CHAINS;
-                if is_short && reflectance.max_channel() >= LEAST_REFLECTANCE {
+                let is_short = before.planes.len() < MAX_CHAIN_MIRRORS && found.len() < MAX_CHAINS;
+                if is_short && reflectance.max_channel() >= LEAST_CHAIN_REFLECTANCE {
                     let planes = before.planes.iter().copied().chain([plane]).collect();
                     found.push(Chain { planes, reflectance });
                     boxes.push(corners.map(|corner| mirror.image(corner)));

@@ -7,9 +7,16 @@ use isolux_geometry::{Normal, Point, Triangle, Vector};
 /// The most planes that get virtual luminaires; the largest ones are kept.
 const MAX_PLANES: usize = 16;
 
-/// Tolerance within which mirror triangles lie in one plane, in normals and in distances as a share
-/// of the scene's extent: the rounding of `f32` coordinates.
-const PLANE_TOLERANCE: f64 = 1e-5;
+/// The most mirrors in a chain, and the most reflections of a virtual luminaire. Longer chains are left to
+/// particles or rays.
+pub(crate) const MAX_CHAIN_MIRRORS: usize = 6;
+/// The most chains, and the most images of a luminaire, with the empty chain and the luminaire itself. The others
+/// are left to particles or rays.
+pub(crate) const MAX_CHAINS: usize = 64;
+
+/// Tolerance within which triangles lie in one plane, in distances as a share of the scene's extent and, for
+/// mirrors, in normals: the rounding of `f32` coordinates.
+pub(crate) const PLANE_TOLERANCE: f64 = 1e-5;
 
 /// A plane with mirror triangles in it, seen from the reflecting side.
 #[derive(Clone, Debug)]

@@ -25,11 +25,11 @@ use std::f64::consts::FRAC_PI_4;
 
 /// Distance up to which a surface counts as at a place of reflection, in bounds of rounding: those
 /// of the place, of the start of the ray, of its direction and of the plane.
-const ROUNDINGS: f64 = 4.0;
+const REFLECTION_ROUNDINGS: f64 = 4.0;
 
 /// Cosine from which on a surface lies along a mirror and hides all of it, however near. For a
 /// surface with this inclination, the strip that is ignored is some hundred roundings wide at most.
-const ALONG: f64 = 1.0 - 1e-4;
+const ALONG_MIRROR_COS: f64 = 1.0 - 1e-4;
 
 /// A reflection of a path.
 #[derive(Clone, Copy)]
@@ -106,11 +106,11 @@ impl Lighting<'_> {
             let surface = SurfacePoint::from_hit(self.scene, &hit);
             let plane_of = |back: bool| self.mirrors.of(surface.triangle, back);
             let lies_on = |end: Reflection<'_>| {
-                let is_across = surface.geometric.dot(end.normal).abs() < ALONG;
+                let is_across = surface.geometric.dot(end.normal).abs() < ALONG_MIRROR_COS;
                 let off_m = (end.point - surface.point).dot(surface.geometric.to_vector()).abs();
                 let is_of_chain =
                     [false, true].into_iter().filter_map(plane_of).any(|p| end.chain.contains(&p));
-                is_of_chain && is_across && off_m <= ROUNDINGS * bvh.offset_m(end.point)
+                is_of_chain && is_across && off_m <= REFLECTION_ROUNDINGS * bvh.offset_m(end.point)
             };
             match self.pane_share(&surface, &ray) {
                 Some(passed) => share = share * passed,
@@ -125,7 +125,7 @@ impl Lighting<'_> {
     /// A place on a plane's mirrors, if they reach to within rounding of it. It is searched for
     /// there and in eight directions about it.
     fn mirror_near(&self, mirror: &Plane, plane: u32, at: Point) -> Option<SurfacePoint> {
-        let beside_m = ROUNDINGS * self.scene.bvh().offset_m(at);
+        let beside_m = REFLECTION_ROUNDINGS * self.scene.bvh().offset_m(at);
         let above_m = beside_m + self.mirrors.tolerance_m;
         let (u, v) = mirror.normal.to_direction().frame();
         let beside = (0..8).map(|k| {

@@ -12,47 +12,46 @@ use crate::elements::carries_map;
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::{Key, Sequence};
 use isolux_geometry::Point;
-use planes::{Plane, Way, planes};
+use planes::{MOST_OPENINGS, Plane, Way, planes};
 use rayon::prelude::*;
 use seen::{Looked, ThroughOpenings};
 use std::f64::consts::PI;
 
-/// Rounds of the search, until enough is seen: number of places, and trial rays of each.
-const ROUNDS: [(usize, usize); 4] = [(64, 8), (512, 8), (4096, 8), (4096, 24)];
+/// Rounds of the search, until enough is seen: number of places, and trial rays of each. The first one takes
+/// less than 0.2 ms (decision 47).
+const SEARCH_ROUNDS: [(usize, usize); 4] = [(64, 8), (512, 8), (4096, 8), (4096, 24)];
 
 /// The most triangles from which places are drawn; of more, every n-th triangle is used.
-const TRIANGLES: u32 = 1 << 20;
+const MOST_TRIANGLES: u32 = 1 << 20;
 
 /// The most trial rays for all emitters of a scene together.
-const MOST_LOOKS: usize = 1 << 20;
+const MOST_TRIAL_RAYS: usize = 1 << 20;
 
 /// The smallest share of dark places with which openings are searched for.
-const LEAST_DARK: f64 = 0.2;
+const LEAST_DARK_SHARE: f64 = 0.2;
 /// The smallest unoccluded projected solid angle of an emitter for a search, sr: rays to smaller
 /// ones make little noise.
-const LEAST_SR: f64 = 0.2;
+const LEAST_UNOCCLUDED_SR: f64 = 0.2;
 
 /// Share of the hemisphere that an unoccluded emitter must fill to count as all around.
-const SURROUNDED: f64 = 0.99;
+const SURROUNDING_SHARE: f64 = 0.99;
 
 /// Number of free paths from dark places to the emitter that suffices to find openings.
-const ENOUGH: usize = 512;
+const ENOUGH_FREE_PATHS: usize = 512;
 /// The fewest free paths with which openings are searched for.
-const FEWEST: usize = 16;
+const FEWEST_FREE_PATHS: usize = 16;
 
 /// The most blocked paths that are traced to the surface that blocks them.
-const STOPPED: usize = 4096;
+const MOST_TRACED_PATHS: usize = 4096;
 
-/// The most openings in front of an emitter.
-const MOST: usize = 16;
 /// The smallest share of the free paths that a further opening must explain.
-const WORTH: f64 = 0.02;
+const LEAST_EXPLAINED_SHARE: f64 = 0.02;
 
 /// The most free, and the most blocked, paths from which the openings in a plane are found.
-const TELLING: usize = 1024;
+const MOST_TELLING_PATHS: usize = 1024;
 
 /// The smallest share of the paths through an opening that reach the emitter.
-const LEAST_FREE: f64 = 0.1;
+const LEAST_FREE_SHARE: f64 = 0.1;
 
 impl Lighting<'_> {
     /// The openings in front of all emitting surfaces. They depend on the scene alone.
@@ -62,7 +61,7 @@ impl Lighting<'_> {
             return Openings::default();
         }
         let surface = Surface::of(self);
-        let mut left = MOST_LOOKS;
+        let mut left = MOST_TRIAL_RAYS;
         let before = |number: usize| {
             let source = &self.sources[self.starts[self.scene.luminaires().len() + number]];
             let SourceKind::Area { emitter, triangles } = &source.kind else { return None };
@@ -83,7 +82,7 @@ struct Surface {
 impl Surface {
     fn of(lighting: &Lighting) -> Self {
         let scene = lighting.scene;
-        let step = scene.triangle_count().div_ceil(TRIANGLES).max(1);
+        let step = scene.triangle_count().div_ceil(MOST_TRIANGLES).max(1);
         let all = (0..scene.triangle_count()).step_by(step as usize);
         let all = all.flat_map(|triangle| [(triangle, false), (triangle, true)]);
         let sides: Vec<_> = all.filter(|&(t, back)| carries_map(scene, t, back)).collect();
@@ -126,14 +125,14 @@ impl Finder<'_> {
             return None;
         }
         // Most emitters are small: the search ends for these.
-        let places = self.looked_from(surface, (ROUNDS[0].0, 0), self.key);
+        let places = self.looked_from(surface, (SEARCH_ROUNDS[0].0, 0), self.key);
         let whole: f64 = places.iter().map(|looked| looked.whole).sum();
-        if whole <= LEAST_DARK * LEAST_SR * places.len() as f64 {
+        if whole <= LEAST_DARK_SHARE * LEAST_UNOCCLUDED_SR * places.len() as f64 {
             return None;
         }
         let first = self.looks(surface, 0, left)?;
-        let surrounds =
-            first.len() == ROUNDS[0].0 && first.iter().all(|l| l.whole >= SURROUNDED * PI);
+        let surrounds = first.len() == SEARCH_ROUNDS[0].0
+            && first.iter().all(|l| l.whole >= SURROUNDING_SHARE * PI);
         let mut before = Before::new(self.emitter.indices.clone(), back, surrounds);
         if let Some(looked) = self.ways(first, surface, left) {
             before.openings = self.openings(&looked);
@@ -147,7 +146,7 @@ impl Finder<'_> {
     /// together have used up their trial rays.
     fn looks(&self, surface: &Surface, round: usize, left: &mut usize) -> Option<Vec<Looked>> {
         let &(places, looks) =
-            ROUNDS.get(round).filter(|(places, looks)| places * looks <= *left)?;
+            SEARCH_ROUNDS.get(round).filter(|(places, looks)| places * looks <= *left)?;
         *left -= places * looks;
         Some(self.looked_from(surface, (places, looks), self.key.with(round as u64)))
     }
@@ -169,17 +168,17 @@ impl Finder<'_> {
         for round in 1.. {
             let dark = || looked.iter().filter(|looked| looked.is_dark());
             let (count, whole) = (dark().count(), dark().map(|looked| looked.whole).sum::<f64>());
-            let is_dark = count > 0 && count as f64 >= LEAST_DARK * looked.len() as f64;
-            if !is_dark || whole < LEAST_SR * count as f64 {
+            let is_dark = count > 0 && count as f64 >= LEAST_DARK_SHARE * looked.len() as f64;
+            if !is_dark || whole < LEAST_UNOCCLUDED_SR * count as f64 {
                 return None;
             }
             let ways: usize = dark().map(|looked| looked.free.len()).sum();
-            if ways >= ENOUGH {
+            if ways >= ENOUGH_FREE_PATHS {
                 break;
             }
             match self.looks(surface, round, left) {
                 Some(more) => looked = more,
-                None if ways >= FEWEST => break,
+                None if ways >= FEWEST_FREE_PATHS => break,
                 None => return None,
             }
         }
@@ -213,17 +212,17 @@ impl Finder<'_> {
         };
         let (mut free, stopped) = (ways(|l| &l.free), ways(|l| &l.stopped));
         let stopped_at = dark().flat_map(|l| l.stopped.iter().map(|to| (&l.at, *to)));
-        let stopped_at = stopped_at.take(STOPPED).filter_map(|(at, to)| {
+        let stopped_at = stopped_at.take(MOST_TRACED_PATHS).filter_map(|(at, to)| {
             let direction = (to - at.point).direction()?;
             self.lighting.first_opaque(at, direction).map(|(_, surface)| surface.triangle)
         });
         let planes = planes(self.lighting.scene, stopped_at);
-        let worth = WORTH * free.len() as f64;
+        let worth = LEAST_EXPLAINED_SHARE * free.len() as f64;
         let mut found = Vec::new();
-        while found.len() < MOST {
+        while found.len() < MOST_OPENINGS {
             let shares = [free.len() as f64, stopped.len() as f64];
             let spread = |ways: &[Way]| {
-                let step = ways.len().div_ceil(TELLING).max(1);
+                let step = ways.len().div_ceil(MOST_TELLING_PATHS).max(1);
                 ways.iter().step_by(step).copied().collect::<Vec<Way>>()
             };
             let tell = [spread(&free), spread(&stopped)];
@@ -233,7 +232,7 @@ impl Finder<'_> {
             free.retain(|way| !openings.iter().any(|opening| way.passes(opening)));
             found.extend(openings);
         }
-        found.truncate(MOST);
+        found.truncate(MOST_OPENINGS);
         found
     }
 }
@@ -250,7 +249,7 @@ fn worth_of(plane: &Plane, tell: &[Vec<Way>; 2], counts: [f64; 2]) -> (f64, Vec<
         };
         let [free, stopped] = [count(0), count(1)];
         let share = free / (free + stopped).max(1.0);
-        let is_one = share >= LEAST_FREE;
+        let is_one = share >= LEAST_FREE_SHARE;
         worth += if is_one { free * share } else { 0.0 };
         is_one
     });

@@ -1,40 +1,37 @@
 //! Openings in the planes of the surfaces that block an emitter.
 
+use super::super::mirrors::planar::PLANE_TOLERANCE;
 use super::super::openings::Opening;
+use crate::engine::ray::COPLANAR_COS;
 use crate::scene::Scene;
 use isolux_geometry::{Normal, Point, Vector};
 use std::collections::BTreeMap;
 
 /// The most planes examined; those that block most paths come first.
-const PLANES: usize = 24;
+const MOST_PLANES: usize = 24;
 /// The most triangles of a plane whose edges are tried as axes of openings.
-const TELLING: usize = 8;
+const MOST_AXIS_TRIANGLES: usize = 8;
 
 /// The most triangles of a plane whose corners may bound openings.
-const BORDERING: usize = 256;
+const MOST_CORNER_TRIANGLES: usize = 256;
 
 /// Distance by which an opening reaches beyond its outermost paths, in mean spacings of the paths along that
 /// side. A corner from one such distance inside to two outside takes precedence: the opening then ends there.
-const BEYOND: f64 = 3.0;
+const BEYOND_SPACINGS: f64 = 3.0;
 
 /// Allowance for rounding where an opening ends at a corner, as a share of its length.
-const ROUNDING: f64 = 1e-6;
-
-/// Cosine above which the normals of two triangles agree, so that these may lie in one plane.
-const ALIKE_COS: f64 = 1.0 - 1e-6;
-/// Distance up to which they do lie in one plane, as a share of the scene's extent.
-const ALIKE: f64 = 1e-5;
+const CORNER_ROUNDING: f64 = 1e-6;
 
 /// The fewest paths through an opening.
-const FEWEST: usize = 8;
-/// The most openings in one plane.
-const MOST: usize = 16;
+const FEWEST_PATHS: usize = 8;
+/// The most openings in front of an emitter, and so in one plane.
+pub(super) const MOST_OPENINGS: usize = 16;
 
 /// The largest area of two openings, as a share of the area of one around both, with which they are divided.
-const APART: f64 = 0.95;
+const DIVIDED_AREA_SHARE: f64 = 0.95;
 /// The smallest gap between two openings, in mean spacings of the paths. One opening has such a gap
 /// by chance in one case of thirty.
-const GAP: f64 = 8.0;
+const LEAST_GAP_SPACINGS: f64 = 8.0;
 
 /// A straight path to a place on an emitter.
 #[derive(Clone, Copy, Debug)]
@@ -75,22 +72,23 @@ pub(super) fn planes(scene: &Scene, stopped_at: impl Iterator<Item = u32>) -> Ve
         let [a, b, c] = scene.triangle(triangle).corners;
         let normal = scene.geometric_normal(triangle);
         let is_alike = |plane: &Plane| {
-            plane.normal.dot(normal).abs() >= ALIKE_COS
-                && (a - plane.through).dot(plane.normal.to_vector()).abs() <= ALIKE * extent_m
+            plane.normal.dot(normal).abs() >= COPLANAR_COS
+                && (a - plane.through).dot(plane.normal.to_vector()).abs()
+                    <= PLANE_TOLERANCE * extent_m
         };
         let edges = [b - a, c - b, a - c];
         match planes.iter().position(is_alike) {
             Some(known) => {
                 let plane = &mut planes[known];
                 plane.hits += hits;
-                if plane.corners.len() < 3 * BORDERING {
+                if plane.corners.len() < 3 * MOST_CORNER_TRIANGLES {
                     plane.corners.extend([a, b, c]);
                 }
-                if plane.edges.len() < 3 * TELLING {
+                if plane.edges.len() < 3 * MOST_AXIS_TRIANGLES {
                     plane.edges.extend(edges);
                 }
             }
-            None if planes.len() < 4 * PLANES => {
+            None if planes.len() < 4 * MOST_PLANES => {
                 let (edges, corners) = (edges.to_vec(), vec![a, b, c]);
                 planes.push(Plane { through: a, normal, hits, edges, corners });
             }
@@ -98,7 +96,7 @@ pub(super) fn planes(scene: &Scene, stopped_at: impl Iterator<Item = u32>) -> Ve
         }
     }
     planes.sort_by_key(|plane| std::cmp::Reverse(plane.hits));
-    planes.truncate(PLANES);
+    planes.truncate(MOST_PLANES);
     planes
 }
 
@@ -123,7 +121,7 @@ impl Plane {
         let extent = Rectangle::of(&corners);
         let places = places.map(|place| [place.dot(first), place.dot(second)]);
         let places: Vec<[f64; 2]> = places.filter(|&place| extent.has(place)).collect();
-        if places.len() < FEWEST {
+        if places.len() < FEWEST_PATHS {
             return Vec::new();
         }
         let boxes = apart(places).into_iter().map(|of| Rectangle::ending(&of, &corners));
@@ -187,12 +185,12 @@ impl Rectangle {
         let mut of = Self::around(places);
         for axis in 0..2 {
             let long = of.high[axis] - of.low[axis];
-            let beyond = BEYOND * long / places.len() as f64;
+            let beyond = BEYOND_SPACINGS * long / places.len() as f64;
             let end = |from: f64, sign: f64| {
                 let away = corners.iter().map(|corner| (corner[axis] - from) * sign);
                 let near = away.filter(|away| (-beyond..=2.0 * beyond).contains(away));
                 let nearest = near.min_by(|a, b| a.abs().total_cmp(&b.abs()));
-                from + sign * nearest.map_or(beyond, |away| away + ROUNDING * long)
+                from + sign * nearest.map_or(beyond, |away| away + CORNER_ROUNDING * long)
             };
             let (low, high) = (end(of.low[axis], -1.0), end(of.high[axis], 1.0));
             (of.low[axis], of.high[axis]) = (low, high);
@@ -212,7 +210,9 @@ fn apart(places: Vec<[f64; 2]>) -> Vec<Vec<[f64; 2]>> {
     while let Some(places) = waiting.pop() {
         let whole = Rectangle::around(&places);
         match divided(&places, &whole) {
-            Some(halves) if found.len() + waiting.len() + 2 <= MOST => waiting.extend(halves),
+            Some(halves) if found.len() + waiting.len() + 2 <= MOST_OPENINGS => {
+                waiting.extend(halves)
+            }
             _ => found.push(places),
         }
     }
@@ -221,20 +221,21 @@ fn apart(places: Vec<[f64; 2]>) -> Vec<Vec<[f64; 2]>> {
 
 /// Two groups of places that lie apart; `None` if there are none.
 fn divided(places: &[[f64; 2]], whole: &Rectangle) -> Option<[Vec<[f64; 2]>; 2]> {
-    let mut best = (APART * whole.area(), None);
+    let mut best = (DIVIDED_AREA_SHARE * whole.area(), None);
     for axis in 0..2 {
         let mut sorted = places.to_vec();
         sorted
             .sort_by(|a, b| a[axis].total_cmp(&b[axis]).then(a[1 - axis].total_cmp(&b[1 - axis])));
         // The division is at the largest gap.
-        let last = sorted.len().checked_sub(FEWEST)?;
+        let last = sorted.len().checked_sub(FEWEST_PATHS)?;
         let gap = |k: &usize| sorted[*k][axis] - sorted[*k - 1][axis];
-        let Some(at) = (FEWEST..=last).max_by(|a, b| gap(a).total_cmp(&gap(b)).then(b.cmp(a)))
+        let Some(at) =
+            (FEWEST_PATHS..=last).max_by(|a, b| gap(a).total_cmp(&gap(b)).then(b.cmp(a)))
         else {
             continue;
         };
         let long = sorted[sorted.len() - 1][axis] - sorted[0][axis];
-        if gap(&at) * (sorted.len() as f64) < GAP * long {
+        if gap(&at) * (sorted.len() as f64) < LEAST_GAP_SPACINGS * long {
             continue;
         }
         let (first, second) = sorted.split_at(at);

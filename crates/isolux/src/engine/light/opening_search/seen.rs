@@ -1,7 +1,7 @@
 //! Trial rays of places to an emitting surface, and the better kind of rays that follows from them.
 
 use super::super::lighting::Lighting;
-use super::super::openings::{ANYWHERE, Before, Through, Told, View, Zones};
+use super::super::openings::{ANYWHERE_SHARE, Before, Through, Told, View, Zones};
 use crate::engine::ray::{Dice, SurfacePoint};
 use crate::sampling::{Key, Sequence};
 use isolux_geometry::Point;
@@ -9,18 +9,18 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// The largest share of free trial rays to an emitter with which a place counts as dark.
-const DARK: f64 = 0.25;
+const DARK_FREE_SHARE: f64 = 0.25;
 
 /// Trial rays of a place to each opening.
-const LOOKS: usize = 4;
+const TRIAL_RAYS: usize = 4;
 /// Number of trial rays that the mean over all places counts as.
-const PRIOR: f64 = 1.0;
+const PRIOR_RAYS: f64 = 1.0;
 
 /// The smallest weight of an opening in a part of the scene: a hundredth of the trial rays pass it.
 const LEAST_WEIGHT: f64 = 0.1;
 
 /// The largest share of the variance that rays to openings may leave in order to be used.
-const GAIN: f64 = 0.5;
+const MOST_VARIANCE_SHARE: f64 = 0.5;
 
 /// A place with its trial rays to an emitter.
 pub(super) struct Looked {
@@ -34,7 +34,7 @@ pub(super) struct Looked {
 
 impl Looked {
     pub(super) fn is_dark(&self) -> bool {
-        self.free.len() as f64 <= DARK * self.looks as f64
+        self.free.len() as f64 <= DARK_FREE_SHARE * self.looks as f64
     }
 }
 
@@ -97,9 +97,9 @@ impl<'a> ThroughOpenings<'a> {
         let one = |opening: usize| {
             let telling = of.iter().filter(|&&k| self.sees_any(k as usize));
             let all = telling.filter_map(|&k| self.seen[k as usize][opening]);
-            let (mut count, mut came) = (PRIOR, PRIOR * prior(opening));
+            let (mut count, mut came) = (PRIOR_RAYS, PRIOR_RAYS * prior(opening));
             for seen in all {
-                count += LOOKS as f64;
+                count += TRIAL_RAYS as f64;
                 came += f64::from(seen.looks);
             }
             let weight = (came / count).sqrt();
@@ -118,7 +118,7 @@ impl<'a> ThroughOpenings<'a> {
             to_all += all;
             to_openings += openings;
         }
-        if to_openings <= GAIN * to_all { through } else { Vec::new() }
+        if to_openings <= MOST_VARIANCE_SHARE * to_all { through } else { Vec::new() }
     }
 
     /// Variance of a ray from a place to all of the emitter, and of one to openings or over the hemisphere.
@@ -128,7 +128,7 @@ impl<'a> ThroughOpenings<'a> {
         let [mut inside, mut weighted, mut of_light] = [0.0; 3];
         for &Through { opening, weight } in through {
             let Some(seen) = seen[opening as usize] else { continue };
-            let light = seen.steradians * f64::from(seen.looks) / LOOKS as f64;
+            let light = seen.steradians * f64::from(seen.looks) / TRIAL_RAYS as f64;
             inside += light;
             weighted += seen.steradians * weight;
             of_light += light / weight;
@@ -145,7 +145,8 @@ impl<'a> ThroughOpenings<'a> {
         };
         let outside = looked.free.iter().filter(is_outside).count();
         let outside = looked.whole * outside as f64 / looked.looks as f64;
-        let to_openings = weighted * of_light / (1.0 - ANYWHERE) + PI * outside / ANYWHERE;
+        let to_openings =
+            weighted * of_light / (1.0 - ANYWHERE_SHARE) + PI * outside / ANYWHERE_SHARE;
         [looked.whole * (inside + outside), to_openings]
     }
 }
@@ -167,6 +168,6 @@ fn seen(
         let direction = view.through_one(pair, &mut dice);
         direction.is_some_and(|(direction, _)| !lighting.seen_along(&view, direction).is_black())
     };
-    let looks = (0..LOOKS).filter(|&k| comes(k)).count() as u32;
+    let looks = (0..TRIAL_RAYS).filter(|&k| comes(k)).count() as u32;
     Some(Seen { steradians: view.whole, looks })
 }

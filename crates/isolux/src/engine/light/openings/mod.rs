@@ -25,7 +25,7 @@ use std::f64::consts::PI;
 pub(crate) use zones::{Through, Told, Zones};
 
 /// Share of the rays that are spread over the hemisphere, through openings or not.
-pub(crate) const ANYWHERE: f64 = 0.25;
+pub(crate) const ANYWHERE_SHARE: f64 = 0.25;
 
 /// A rectangle through which light enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,7 +126,7 @@ impl<'a> View<'a> {
 
     /// Share of the rays that are spread over the hemisphere.
     fn anywhere_share(&self) -> f64 {
-        if self.whole > 0.0 { ANYWHERE } else { 1.0 }
+        if self.whole > 0.0 { ANYWHERE_SHARE } else { 1.0 }
     }
 
     /// Mean projected solid angle of the visible part of the emitter, sr, by `samples` rays. `seen`

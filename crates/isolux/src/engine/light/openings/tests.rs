@@ -10,7 +10,7 @@ use crate::scene::{Finish, Material, Scene, Shape};
 const SKY_CD_M2: f64 = 4000.0;
 
 /// Rays of every measurement.
-const MANY: u32 = 2048;
+const RAYS: u32 = 2048;
 /// Standard errors by which none of a hundred such means is off.
 const SIGMAS: f64 = 4.5;
 
@@ -108,10 +108,10 @@ fn places(scene: &Scene, is_inside: bool) -> Vec<SurfacePoint> {
 fn by_one_ray(lighting: &Lighting, at: &SurfacePoint, seed: u64) -> [f64; 2] {
     let sequence = |k: u32| Sequence::new(Key::new(seed).with(u64::from(k)));
     let one = |k: u32| lighting.estimate(at, &mut Dice::new(sequence(k), 0)).luminance();
-    let values: Vec<f64> = (0..MANY).map(one).collect();
-    let mean = values.iter().sum::<f64>() / f64::from(MANY);
+    let values: Vec<f64> = (0..RAYS).map(one).collect();
+    let mean = values.iter().sum::<f64>() / f64::from(RAYS);
     let squares = values.iter().map(|lx| (lx - mean).powi(2)).sum::<f64>();
-    [mean, squares / f64::from(MANY - 1)]
+    [mean, squares / f64::from(RAYS - 1)]
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn light_through_windows_is_exact_with_little_noise() {
             continue;
         }
         let [mean, variance] = by_one_ray(&lighting, at, k as u64);
-        let error = (variance / f64::from(MANY)).sqrt();
+        let error = (variance / f64::from(RAYS)).sqrt();
         assert!((mean - exact).abs() < SIGMAS * error, "{k}: {mean} +- {error}, not {exact}");
         // A quarter of the rays is spread over the hemisphere; the rest share the openings, whose luminance is uniform.
         let lx = lighting.illuminance(at, &mut Dice::new(Sequence::new(Key::new(k as u64)), 0));
@@ -181,7 +181,7 @@ fn light_outside_is_what_it_was() {
     for (k, at) in places(&scene, false).iter().enumerate() {
         let [mean, variance] = by_one_ray(&lighting, at, k as u64);
         let [usual, of_usual] = by_one_ray(&without, at, 1000 + k as u64);
-        let error = ((variance + of_usual) / f64::from(MANY)).sqrt();
+        let error = ((variance + of_usual) / f64::from(RAYS)).sqrt();
         assert!(
             (mean - usual).abs() <= SIGMAS * error + 1e-6 * usual,
             "{k}: {mean} +- {error}, not {usual}"

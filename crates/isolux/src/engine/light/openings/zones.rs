@@ -3,19 +3,17 @@
 use crate::engine::ray::SurfacePoint;
 
 /// The most places of a part.
-const PLACES: usize = 64;
+const MOST_PLACES: usize = 64;
 /// The fewest places on either side of a border.
-const FEWEST: usize = 2;
+const FEWEST_PLACES: usize = 2;
 
 /// Number of borders tried along every coordinate.
-const BORDERS: usize = 32;
+const TRIED_BORDERS: usize = 32;
 /// The smallest share of the variance that a border must save.
-const WORTH: f64 = 0.02;
+const LEAST_SAVED_SHARE: f64 = 0.02;
 
-/// Number of coordinates: those of a place and of its normal.
-const FEATURES: usize = 6;
-/// Number of coordinates of the place alone.
-const PLACE_ALONE: usize = 3;
+/// Number of coordinates: three of a place and three of its normal.
+const COORDINATES: usize = 6;
 
 /// An opening through which light reaches a part of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +25,7 @@ pub(crate) struct Through {
 
 /// A place with two variances: of a ray to all of the emitter, and of a ray to openings.
 pub(crate) struct Told {
-    features: [f64; FEATURES],
+    features: [f64; COORDINATES],
     variances: [f64; 2],
 }
 
@@ -37,7 +35,7 @@ impl Told {
     }
 }
 
-fn features(at: &SurfacePoint) -> [f64; FEATURES] {
+fn features(at: &SurfacePoint) -> [f64; COORDINATES] {
     let (point, normal) = (at.point.to_vector(), at.geometric.to_vector());
     [point.x, point.y, point.z, normal.x, normal.y, normal.z]
 }
@@ -118,17 +116,17 @@ impl Maker<'_> {
     fn border(&self, of: &[u32]) -> Option<(usize, f64)> {
         let mut best = None;
         let mut most = 0.0_f64;
-        for feature in 0..FEATURES {
+        for feature in 0..COORDINATES {
             let [low, high] = self.range(of, feature);
             if high <= low {
                 continue;
             }
-            let scale = BORDERS as f64 / (high - low);
-            let mut bins = [(0, [0.0; 2]); BORDERS];
+            let scale = TRIED_BORDERS as f64 / (high - low);
+            let mut bins = [(0, [0.0; 2]); TRIED_BORDERS];
             for &k in of {
                 let Told { features, variances } = &self.told[k as usize];
-                let bin =
-                    &mut bins[(((features[feature] - low) * scale) as usize).min(BORDERS - 1)];
+                let bin = &mut bins
+                    [(((features[feature] - low) * scale) as usize).min(TRIED_BORDERS - 1)];
                 bin.0 += 1;
                 (0..2).for_each(|k| bin.1[k] += variances[k]);
             }
@@ -138,10 +136,12 @@ impl Maker<'_> {
             };
             let least = |of: [f64; 2]| of[0].min(of[1]);
             let whole = least(sum(&bins).1);
-            for k in 1..BORDERS {
+            for k in 1..TRIED_BORDERS {
                 let (first, second) = (sum(&bins[..k]), sum(&bins[k..]));
                 let saved = whole - least(first.1) - least(second.1);
-                if first.0.min(second.0) >= FEWEST && saved > most.max(WORTH * whole) {
+                if first.0.min(second.0) >= FEWEST_PLACES
+                    && saved > most.max(LEAST_SAVED_SHARE * whole)
+                {
                     most = saved;
                     best = Some((feature, low + k as f64 / scale));
                 }
@@ -154,8 +154,8 @@ impl Maker<'_> {
     fn middle(&self, of: &[u32]) -> Option<(usize, f64)> {
         let ranges = [0, 1, 2].map(|feature| self.range(of, feature));
         let long = |feature: &usize| ranges[*feature][1] - ranges[*feature][0];
-        let feature = (0..PLACE_ALONE).max_by(|a, b| long(a).total_cmp(&long(b)))?;
-        if of.len() <= PLACES || long(&feature) <= 0.0 {
+        let feature = (0..ranges.len()).max_by(|a, b| long(a).total_cmp(&long(b)))?;
+        if of.len() <= MOST_PLACES || long(&feature) <= 0.0 {
             return None;
         }
         let mut sorted: Vec<f64> =

@@ -2,7 +2,7 @@
 
 use super::super::lighting::Lighting;
 use super::super::tree::cut::Cut;
-use super::measured::{Goal, Measured, OF_FEW, REPLICATES};
+use super::measured::{Goal, Measured, REPLICATES, STUDENT_FACTOR};
 use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
 use crate::sampling::Sequence;
 use crate::units::Rgb;
@@ -12,7 +12,7 @@ const FEWEST_TEETH: f64 = 4.0;
 /// The most teeth of a replicate in the first measurement.
 const MOST_TEETH: f64 = 512.0;
 /// The most teeth of a replicate in a second measurement.
-const MOST_MORE_TEETH: f64 = 2048.0;
+const MOST_FURTHER_TEETH: f64 = 2048.0;
 
 /// Order of convergence of combs: their error falls like this power of 1/n for n teeth where part of the
 /// light is hidden. Measured on an interior of 2626 luminaires from 8 to 512 teeth (independent rays: 0.5).
@@ -20,15 +20,15 @@ const COMB_ORDER: f64 = 0.7;
 
 /// Imaginary rays added to those of the first look, half of them dark and half fully lit. A first
 /// look whose rays agree may still be wrong.
-const DOUBT: f64 = 0.5;
+const IMAGINARY_RAYS: f64 = 0.5;
 
 /// Ratio of the measured to the wanted standard error above which another measurement follows.
-const MISSED: f64 = 1.25;
+const MISSED_ERROR_RATIO: f64 = 1.25;
 
 /// The most shadow rays of a reading to emitting surfaces, in multiples of the usual number.
-const MOST_TO_SURFACES: f64 = 64.0;
+const MOST_RAYS_FACTOR: f64 = 64.0;
 /// The largest factor on that for finer readings.
-const MOST_FINER: f64 = 10.0;
+const MOST_FINER_FACTOR: f64 = 10.0;
 
 impl Lighting<'_> {
     /// Direct illuminance with the variance of its noise. Where luminaires are few it is evaluated
@@ -64,12 +64,12 @@ impl Lighting<'_> {
         let unseen_lx = if is_exact(teeth) { 0.0 } else { cut.parts.total / rays };
         let (lx, variance) = mean_and_variance(&values);
         let over = variance.sqrt() / goal_lx(lx.luminance());
-        if !goal.insists || variance == 0.0 || over <= MISSED {
+        if !goal.insists || variance == 0.0 || over <= MISSED_ERROR_RATIO {
             return (Measured { lx, variance }, unseen_lx);
         }
         // The first look underestimated the spread; these replicates tell more.
         let wanted = teeth as f64 * libm::pow(over, 1.0 / COMB_ORDER);
-        let more = wanted.min(MOST_MORE_TEETH) as usize;
+        let more = wanted.min(MOST_FURTHER_TEETH) as usize;
         let others = self.replicates(&cut, at, more, sequence.fork(REPLICATES, 0));
         // The weights are inverse to the expected variances; evaluating all luminaires has variance zero.
         let weight = libm::pow(over, 2.0);
@@ -98,7 +98,7 @@ impl Lighting<'_> {
     }
 
     /// Direct illuminance for a reading, with a safe variance. Errors from few replicates are enlarged by
-    /// [`OF_FEW`]. If no ray meets light, the variance assumes that the next one would. Emitting surfaces
+    /// [`STUDENT_FACTOR`]. If no ray meets light, the variance assumes that the next one would. Emitting surfaces
     /// get as many rays as needed, since few rays meet light that enters through a small opening.
     pub(crate) fn read(&self, at: &SurfacePoint, goal: Goal, sequence: Sequence) -> Measured {
         let (points, tree) = if self.has_many() {
@@ -112,8 +112,8 @@ impl Lighting<'_> {
         };
         let known = points + tree.lx;
         let usual = self.area_samples();
-        let finer = (Goal::reading(f64::INFINITY).share / goal.share).clamp(1.0, MOST_FINER);
-        let most = (MOST_TO_SURFACES * finer) as usize * usual;
+        let finer = (Goal::reading(f64::INFINITY).share / goal.share).clamp(1.0, MOST_FINER_FACTOR);
+        let most = (MOST_RAYS_FACTOR * finer) as usize * usual;
         let goal_lx = |of_surfaces: Rgb| goal.of((known + of_surfaces).luminance());
         let which = self.others.iter().copied();
         let surfaces = self.of_surfaces(which, at, goal_lx, [usual, most], sequence);
@@ -127,8 +127,11 @@ impl Lighting<'_> {
         sequence: Sequence,
     ) -> Measured {
         let (Measured { lx, variance }, unseen_lx) = self.of_tree(at, (goal, beside), sequence);
-        let variance =
-            if lx.is_black() { unseen_lx * unseen_lx } else { OF_FEW * OF_FEW * variance };
+        let variance = if lx.is_black() {
+            unseen_lx * unseen_lx
+        } else {
+            STUDENT_FACTOR * STUDENT_FACTOR * variance
+        };
         Measured { lx, variance }
     }
 
@@ -192,13 +195,14 @@ impl Lighting<'_> {
         }
         let total = cut.parts.total;
         // Half of the imaginary rays are dark, half as lit as possible.
-        let (mut sum, mut squares) = (0.5 * DOUBT * total, 0.5 * DOUBT * total * total);
+        let (mut sum, mut squares) =
+            (0.5 * IMAGINARY_RAYS * total, 0.5 * IMAGINARY_RAYS * total * total);
         self.look(cut, at, first_look, dice, |found| {
             let lx = found.luminance();
             sum += lx;
             squares += lx * lx;
         });
-        let looks = first_look as f64 + DOUBT;
+        let looks = first_look as f64 + IMAGINARY_RAYS;
         let (lx, square) = (sum / looks, squares / looks);
         let spread_lx = (square - lx * lx).max(0.0).sqrt();
         let error_lx = spread_lx / f64::from(REPLICATES).sqrt();

@@ -2,9 +2,11 @@
 
 use super::super::lighting::Lighting;
 use super::super::polygon::{Piece, Place, drawn, pieces, target};
-use super::super::sources::{Emitter, Source, SourceKind, TRIANGLES_A_SAMPLE, Target, facing_cos};
+use super::super::sources::{
+    Emitter, MOST_TRIANGLES_A_SAMPLE, Source, SourceKind, Target, facing_cos,
+};
 use super::clusters::Parted;
-use super::measured::{Measured, OF_FEW, REPLICATES};
+use super::measured::{Measured, REPLICATES, STUDENT_FACTOR};
 use crate::engine::ray::{Dice, SurfacePoint, mean_and_variance};
 use crate::sampling::Sequence;
 use crate::units::Rgb;
@@ -12,10 +14,10 @@ use isolux_geometry::{Direction, Point, Vector};
 use std::borrow::Cow;
 
 /// Factor on the number of shadow rays if the noise is still too large.
-const MORE: usize = 4;
+const FURTHER_RAYS_FACTOR: usize = 4;
 
 /// Samples of a large emitter for a rough value of its unoccluded light.
-const LOOKED_AT: usize = 16;
+const ROUGH_SAMPLES: usize = 16;
 
 /// An emitting surface as a receiver sees it without obstacles, for drawing directions to it.
 pub(crate) struct Shape<'a> {
@@ -56,7 +58,7 @@ impl<'a> Shape<'a> {
         (emitter, triangles): (&'a Emitter, &'a [[Point; 3]]),
         samples: usize,
     ) -> Option<Self> {
-        let (seen, whole) = if triangles.len() > TRIANGLES_A_SAMPLE * samples {
+        let (seen, whole) = if triangles.len() > MOST_TRIANGLES_A_SAMPLE * samples {
             let parted = Parted::new(at, &emitter.clusters, triangles, samples);
             let whole = parted.whole;
             (Seen::Parted(parted), whole)
@@ -134,7 +136,7 @@ impl Lighting<'_> {
         let mut found: Vec<Measured> = surfaces.iter().map(|of| measured(of, fewest)).collect();
         let sum = |found: &[Measured]| Measured {
             lx: found.iter().map(|m| m.lx).sum(),
-            variance: found.iter().map(|m| OF_FEW * OF_FEW * m.variance).sum(),
+            variance: found.iter().map(|m| STUDENT_FACTOR * STUDENT_FACTOR * m.variance).sum(),
         };
         let first = sum(&found);
         let goal = goal_lx(first.lx).powi(2);
@@ -143,7 +145,7 @@ impl Lighting<'_> {
             for (found, of) in found.iter_mut().zip(&surfaces) {
                 let mut samples = fewest;
                 while found.variance > goal && samples < most {
-                    samples = (MORE * samples).min(most);
+                    samples = (FURTHER_RAYS_FACTOR * samples).min(most);
                     *found = measured(of, samples);
                 }
             }
@@ -219,7 +221,7 @@ fn unhidden_lx(surface: AreaSource<'_>, at: &SurfacePoint, dice: &mut Dice) -> f
     let AreaSource { source, emitter, triangles } = surface;
     let Some(shape) = Shape::new(at, (emitter, triangles), 1) else { return 0.0 };
     let one = |dice: &mut Dice| Rgb::grey(shape.place(dice).map_or(0.0, |place| place.share));
-    let samples = if let Seen::Pieces(_) = shape.seen { 1 } else { LOOKED_AT };
+    let samples = if let Seen::Pieces(_) = shape.seen { 1 } else { ROUGH_SAMPLES };
     source.colour.luminance() * mean(samples, dice, one).luminance() * shape.whole
 }
 
@@ -249,7 +251,7 @@ mod tests {
     const DEVIATIONS: f64 = 5.5;
 
     /// Expected number of draws of a part that is missing from all draws in one case of three thousand.
-    const SELDOM: f64 = 8.0;
+    const SELDOM_DRAWS: f64 = 8.0;
 
     fn emitter(triangles: &[[Point; 3]]) -> Emitter {
         Emitter {
@@ -348,7 +350,7 @@ mod tests {
         let error = (square / (count * (count - 1.0))).sqrt();
         // A part that is drawn more seldom may be missing, or wrong by half. Thin triangles lose
         // half the digits of the arcs.
-        let tolerance = DEVIATIONS * error + 0.5 * SELDOM / count * expected + 1e-7;
+        let tolerance = DEVIATIONS * error + 0.5 * SELDOM_DRAWS / count * expected + 1e-7;
         assert!((mean - expected).abs() <= tolerance, "{what}: {mean} +- {error}, not {expected}");
     }
 

@@ -10,9 +10,9 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 /// Triangles and clusters examined for every sample.
-const LOOKED_AT: usize = 64;
+const EXAMINED_PARTS: usize = 64;
 /// Number of samples up to which that grows in proportion.
-const SAMPLES: usize = 8;
+const MOST_PROPORTIONAL_SAMPLES: usize = 8;
 
 /// A cluster of the partition.
 struct Part {
@@ -67,16 +67,16 @@ impl<'a> Parted<'a> {
         triangles: &'a [[Point; 3]],
         samples: usize,
     ) -> Self {
-        let parts = Vec::with_capacity(LOOKED_AT);
+        let parts = Vec::with_capacity(EXAMINED_PARTS);
         let mut parted = Self { at: *at, clusters, triangles, parts, whole: 0.0 };
-        parted.divide(LOOKED_AT * samples.min(SAMPLES));
+        parted.divide(EXAMINED_PARTS * samples.min(MOST_PROPORTIONAL_SAMPLES));
         parted.whole = parted.parts.iter().map(|part| part.weight).sum();
         parted
     }
 
     /// Divides the clusters whose outlook is unknown, the most doubtful first, until `most` have been examined.
     fn divide(&mut self, most: usize) {
-        let (mut waiting, mut looked_at) = (BinaryHeap::with_capacity(LOOKED_AT), 0);
+        let (mut waiting, mut looked_at) = (BinaryHeap::with_capacity(EXAMINED_PARTS), 0);
         self.look(0, &mut waiting);
         while looked_at < most {
             let Some(Doubtful { cluster, .. }) = waiting.pop() else { break };

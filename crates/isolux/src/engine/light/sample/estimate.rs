@@ -1,6 +1,6 @@
 //! Direct light by a fixed number of shadow rays, to all sources or to one that is drawn.
 
-use super::super::lighting::{EXACT_SOURCES, Lighting, RAYS_TO_MANY, drawn};
+use super::super::lighting::{Lighting, MOST_EXACT_SOURCES, RAYS_TO_MANY_POINTS, drawn};
 use super::super::sources;
 use super::super::sources::{Arriving, Source};
 use super::super::visibility::shadows::Shadows;
@@ -28,14 +28,14 @@ impl Lighting<'_> {
     ) -> impl Fn(&mut Dice) -> Rgb + 'd {
         let cut = self.has_many().then(|| self.fine_cut(at));
         move |dice| match &cut {
-            Some(cut) => self.lit_by_cut(cut, at, (RAYS_TO_MANY, samples), dice),
+            Some(cut) => self.lit_by_cut(cut, at, (RAYS_TO_MANY_POINTS, samples), dice),
             None => self.by_all(at, samples, dice),
         }
     }
 
     /// An unbiased estimate of the direct illuminance by few shadow rays, for the ends of gathering rays.
     pub(crate) fn estimate(&self, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
-        if self.sources.len() <= EXACT_SOURCES {
+        if self.sources.len() <= MOST_EXACT_SOURCES {
             return self.sources.iter().map(|s| self.lit_by(s, at, 1, dice)).sum();
         }
         let cut = (!self.tree.lamps.is_empty()).then(|| self.rough_cut(at));
@@ -97,7 +97,7 @@ impl Lighting<'_> {
         dice: &mut Dice,
         shadows: &mut Shadows,
     ) -> Rgb {
-        if self.sources.len() > EXACT_SOURCES {
+        if self.sources.len() > MOST_EXACT_SOURCES {
             return share * self.estimate(at, dice);
         }
         let mut sum = Rgb::BLACK;

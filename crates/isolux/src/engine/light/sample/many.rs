@@ -8,7 +8,7 @@
 //! right and nothing is hidden. For a triangle of an emitting surface, one point is sampled, by projected
 //! solid angle where the triangle is near. Then only occlusion of the triangle makes noise.
 
-use super::super::lighting::{Lighting, RAYS_TO_MANY, drawn};
+use super::super::lighting::{Lighting, RAYS_TO_MANY_POINTS, drawn};
 use super::super::polygon::{Place, pieces, target};
 use super::super::sources::Target;
 use super::super::sources::triangle_lamps::{Face, middle_and_twice_m2};
@@ -21,13 +21,13 @@ use crate::units::Rgb;
 use isolux_geometry::{Point, Vector};
 
 /// Number of point sources for every ray up to which all of them are evaluated, without noise.
-const MORE_POINTS: usize = 4;
+const MOST_POINTS_A_RAY: usize = 4;
 
 /// Luminaires of a cluster among which one is chosen.
-const CHOICE: usize = 8;
+const CANDIDATES: usize = 8;
 
-/// Radius of a face, as a share of its distance, up to which it is sampled by area. That takes a third of the time.
-const FAR: f64 = 0.25;
+/// Radius of a face over its distance, up to which it is sampled by area. That takes a third of the time.
+const FAR_RADIUS_RATIO: f64 = 0.25;
 
 /// The teeth of a comb: whole numbers plus a shift.
 #[derive(Clone, Copy)]
@@ -54,7 +54,7 @@ impl Lighting<'_> {
         if !self.has_many() {
             return self.by_all(at, samples, dice);
         }
-        self.lit_by_cut(&self.cut_on(patches, at), at, (RAYS_TO_MANY, samples), dice)
+        self.lit_by_cut(&self.cut_on(patches, at), at, (RAYS_TO_MANY_POINTS, samples), dice)
     }
 
     /// An unbiased estimate by about `rays` shadow rays, for a receiver on a surface with many
@@ -67,7 +67,7 @@ impl Lighting<'_> {
         dice: &mut Dice,
     ) -> Rgb {
         let samples = (rays / self.area_sources.max(1)).max(1);
-        let is_exact = self.tree.faces.is_empty() && self.points <= MORE_POINTS * rays;
+        let is_exact = self.tree.faces.is_empty() && self.points <= MOST_POINTS_A_RAY * rays;
         if self.tree.lamps.is_empty() || is_exact {
             return self.by_all(at, samples, dice);
         }
@@ -193,8 +193,8 @@ impl Lighting<'_> {
     fn lit_by_one_of(&self, node: u32, view: &View, at: &SurfacePoint, dice: &mut Dice) -> Rgb {
         let [shift, pick] = dice.pair();
         let node: &Node = &self.tree.nodes[node as usize];
-        let lamps: [u32; CHOICE] =
-            std::array::from_fn(|k| self.tree.member(node, (k as f64 + shift) / CHOICE as f64));
+        let lamps: [u32; CANDIDATES] =
+            std::array::from_fn(|k| self.tree.member(node, (k as f64 + shift) / CANDIDATES as f64));
         let share = |lamp: u32| {
             let lamp = &self.tree.lamps[lamp as usize];
             view.lamp_weight(lamp) / lamp.peak_cd
@@ -203,7 +203,7 @@ impl Lighting<'_> {
         let total: f64 = shares.iter().sum();
         let Some(k) = drawn(&shares, pick * total) else { return Rgb::BLACK };
         let peak_cd = self.tree.lamps[lamps[k] as usize].peak_cd;
-        let chance = CHOICE as f64 * (peak_cd / node.peak_cd) * (shares[k] / total);
+        let chance = CANDIDATES as f64 * (peak_cd / node.peak_cd) * (shares[k] / total);
         self.lit_by_lamp(view, lamps[k], at, dice) / chance
     }
 
@@ -255,7 +255,7 @@ impl Lighting<'_> {
             colour = colour * plane.reflectance;
         }
         let (middle, twice_m2) = middle_and_twice_m2(corners);
-        let is_far = face.radius_m <= FAR * (middle - at.point).length();
+        let is_far = face.radius_m <= FAR_RADIUS_RATIO * (middle - at.point).length();
         let drawn = if is_far {
             by_area(corners, twice_m2, at, dice)
         } else {

@@ -7,16 +7,16 @@ pub(crate) const REPLICATES: u32 = 8;
 
 /// Factor on a standard error from the spread of eight replicates, with which 1.96 standard errors hold the true
 /// value in 95 % of cases (quantiles of Student's distribution with seven degrees of freedom and of the normal one).
-pub(crate) const OF_FEW: f64 = 2.365 / 1.96;
+pub(crate) const STUDENT_FACTOR: f64 = 2.365 / 1.96;
 
 /// Factor on the allowed noise from which rough clusters suffice.
-const ROUGH_FROM: f64 = 1.5;
+const ROUGH_NOISE_FACTOR: f64 = 1.5;
 
 /// Standard error of a reading, as a share of the accuracy asked for.
-const OF_ACCURACY: f64 = 0.3;
+const ACCURACY_SHARE: f64 = 0.3;
 /// The smallest and the largest standard error of a reading, as a share of its light. The number of
 /// rays grows like its power of -1.4.
-const OF_READINGS: [f64; 2] = [3e-4, 3e-3];
+const READING_ERROR_SHARES: [f64; 2] = [3e-4, 3e-3];
 
 /// The standard error asked for in a measurement of light.
 #[derive(Clone, Copy, Debug)]
@@ -40,8 +40,8 @@ impl Goal {
 
     /// The goal of a reading of a map that is accurate to this share of its light.
     pub(crate) fn reading(accuracy: f64) -> Self {
-        let [least, most] = OF_READINGS;
-        let share = (OF_ACCURACY * accuracy).clamp(least, most);
+        let [least, most] = READING_ERROR_SHARES;
+        let share = (ACCURACY_SHARE * accuracy).clamp(least, most);
         Self { lx: 0.0, share, first_look: 64, is_rough: false, insists: true }
     }
 
@@ -53,7 +53,7 @@ impl Goal {
     /// The goal with `by` times the noise. If `by` is large, clusters may be as rough as those from
     /// which one luminaire is drawn.
     pub(crate) fn relaxed(self, by: f64) -> Self {
-        Self { lx: self.lx * by, is_rough: by >= ROUGH_FROM, ..self }
+        Self { lx: self.lx * by, is_rough: by >= ROUGH_NOISE_FACTOR, ..self }
     }
 
     /// A goal in lux, with a short first look.

@@ -17,12 +17,12 @@ use isolux_geometry::Point;
 /// Number of candidates, evenly spaced over the distribution.
 const CANDIDATES: usize = 8;
 
-/// Radius of a cluster, as a share of its distance, up to which it is one part of the distribution.
-const TIGHTNESS: f64 = 0.4;
+/// Radius of a cluster over its distance, up to which it is one part of the distribution.
+const TIGHT_RADIUS_RATIO: f64 = 0.4;
 
 /// The smallest expected light of a cluster, as a share of its light at the highest intensity.
 /// Other places may see it from another side.
-const LEAST_SHAPE: f64 = 0.03;
+const LEAST_LIGHT_SHARE: f64 = 0.03;
 
 /// Clusters and single luminaires, by chain of mirrors, with the running sums of their expected light.
 pub(crate) struct NearbyLuminaires {
@@ -64,7 +64,7 @@ impl Lighting<'_> {
                 let distance_m = (node.centre - from).length().max(reach_m);
                 let weight =
                     |extent: Extent| reflectance * self.expected(node, extent, from, reach_m);
-                if node.radius_m <= TIGHTNESS * distance_m {
+                if node.radius_m <= TIGHT_RADIUS_RATIO * distance_m {
                     let Node { centre, radius_m, peak_cd, .. } = *node;
                     about.push(
                         chain,
@@ -104,7 +104,7 @@ impl Lighting<'_> {
             None => -to,
         };
         let shape = self.tree.lobes.towards(node.lobe, extent_m / distance_m, local);
-        part.peak_cd * shape.max(LEAST_SHAPE) / (distance_m * distance_m)
+        part.peak_cd * shape.max(LEAST_LIGHT_SHARE) / (distance_m * distance_m)
     }
 
     /// An unbiased estimate of the direct illuminance at a place by one shadow ray, or two if there

@@ -9,10 +9,10 @@ use crate::engine::ray::{Dice, SurfacePoint};
 use isolux_geometry::{Point, Vector};
 
 /// Numbers of triangles for this method: fewer are all sampled exactly, more form clusters.
-const TRIANGLES: std::ops::RangeInclusive<usize> = 5..=128;
+const TRIANGLE_COUNTS: std::ops::RangeInclusive<usize> = 5..=128;
 
-/// Radius of a triangle, as a share of its distance, up to which its weight comes from its centroid alone.
-const FAR: f64 = 0.5;
+/// Radius of a triangle over its distance, up to which its weight comes from its centroid alone.
+const FAR_RADIUS_RATIO: f64 = 0.5;
 
 /// The triangles of an emitter.
 #[derive(Clone, Debug, Default)]
@@ -39,7 +39,7 @@ impl Facets {
             let radius_m = reach_m * (1.0 + 1e-12);
             Facet { start: a, middle, radius_m, twice_m2: (b - a).cross(c - a) }
         };
-        let are_some = TRIANGLES.contains(&triangles.len());
+        let are_some = TRIANGLE_COUNTS.contains(&triangles.len());
         Self(triangles.iter().filter(|_| are_some).map(facet).collect())
     }
 
@@ -56,7 +56,7 @@ impl Facets {
         triangles: &[[Point; 3]],
         dice: &mut Dice,
     ) -> Option<(Place, f64)> {
-        let mut weights = [0.0; *TRIANGLES.end()];
+        let mut weights = [0.0; *TRIANGLE_COUNTS.end()];
         let mut whole = 0.0;
         for ((weight, facet), corners) in weights.iter_mut().zip(&self.0).zip(triangles) {
             *weight = facet.weight(at, corners);
@@ -94,7 +94,7 @@ impl Facet {
             return 0.0;
         }
         let distance2 = to.length_squared();
-        if self.radius_m * self.radius_m > FAR * FAR * distance2 {
+        if self.radius_m * self.radius_m > FAR_RADIUS_RATIO * FAR_RADIUS_RATIO * distance2 {
             return steradians(at, *corners);
         }
         let height_m = height_above(height_m, self.radius_m).max(f64::MIN_POSITIVE);

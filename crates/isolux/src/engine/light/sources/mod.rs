@@ -4,7 +4,7 @@ pub(super) mod facets;
 pub(super) mod triangle_lamps;
 pub(super) mod triangle_tree;
 
-use super::mirrors::planar::Mirrors;
+use super::mirrors::planar::{MAX_CHAIN_MIRRORS, MAX_CHAINS, Mirrors};
 use crate::engine::ray::SurfacePoint;
 use crate::photometry::IntensityDistribution;
 use crate::scene::{LuminaireKind, Scene};
@@ -13,12 +13,8 @@ use facets::Facets;
 use isolux_geometry::{Direction, Normal, Point, Transform, Vector};
 use triangle_tree::Clusters;
 
-/// The most reflections of a virtual luminaire; longer chains are left to particles.
-const MAX_CHAIN: usize = 6;
 /// Reflectance of a chain of mirrors below which its image is left out and its light counted as error.
-const LEAST_REFLECTANCE: f64 = 1e-3;
-/// The most virtual luminaires of one luminaire; the others are left to particles.
-const MAX_IMAGES: usize = 64;
+const LEAST_IMAGE_REFLECTANCE: f64 = 1e-3;
 
 /// Number of a luminaire of the scene: one without a surface, or an emitting surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +65,7 @@ pub(crate) struct Arriving {
 
 /// The most triangles a sample with which an emitter is sampled by solid angle, with the exact
 /// unoccluded illuminance as control variate. Of larger emitters only the near triangles are sampled so.
-pub(crate) const TRIANGLES_A_SAMPLE: usize = 32;
+pub(crate) const MOST_TRIANGLES_A_SAMPLE: usize = 32;
 
 /// Position of a source.
 #[derive(Clone, Copy, Debug)]
@@ -112,7 +108,7 @@ impl Sources {
             let mut next = first;
             // Breadth first: each image is appended, and reflected in turn.
             while next < found.all.len() {
-                let full = found.all.len() - first >= MAX_IMAGES;
+                let full = found.all.len() - first >= MAX_CHAINS;
                 found.reflect(next, mirrors, full);
                 next += 1;
             }
@@ -126,9 +122,9 @@ impl Sources {
             let source = &self.all[source];
             let Some(image) = image(source, plane, mirrors) else { continue };
             let kept = chain_reflectance(&image, mirrors);
-            if kept < LEAST_REFLECTANCE {
+            if kept < LEAST_IMAGE_REFLECTANCE {
                 self.left_out = self.left_out.max(kept);
-            } else if full || image.chain.len() > MAX_CHAIN {
+            } else if full || image.chain.len() > MAX_CHAIN_MIRRORS {
                 self.leaves_chains = true;
             } else {
                 self.all.push(image);
@@ -188,7 +184,7 @@ fn area_kind(indices: Vec<u32>, triangles: Vec<[Point; 3]>) -> SourceKind {
     }
     let centre = Point::ORIGIN + moment / sum_m2;
     // Emitters of few triangles need no tree: they are sampled triangle by triangle.
-    let is_large = triangles.len() > TRIANGLES_A_SAMPLE;
+    let is_large = triangles.len() > MOST_TRIANGLES_A_SAMPLE;
     let clusters = if is_large { Clusters::of(&triangles) } else { Clusters::default() };
     let facets = Facets::of(&triangles);
     let emitter = Emitter { indices, area_m2: sum_m2, centre, facets, clusters };

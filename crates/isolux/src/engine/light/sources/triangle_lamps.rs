@@ -9,14 +9,16 @@ use crate::ablation::without;
 use crate::scene::Scene;
 use isolux_geometry::{Point, Vector};
 
-/// The most emitting surfaces of which every one is sampled.
-const FEW: usize = 3;
+/// The most emitting surfaces of which every one is sampled: exactly where nothing hides them. From two on,
+/// faces take less time for the same errors (decision 48).
+const FEW_SURFACES: usize = 3;
 
 /// Extent of a surface, as a share of the scene's, above which it is always sampled: skies, luminous ceilings.
-const LARGE: f64 = 0.25;
+const LARGE_EXTENT_SHARE: f64 = 0.25;
 
-/// The most triangles in the light tree.
-const MOST: usize = 1 << 18;
+/// The most triangles in the light tree. Each takes 600 bytes: with 2^20, a scene of 786,000 takes 1.5 GB in place
+/// of 0.9 GB (decision 48).
+const MOST_TRIANGLES: usize = 1 << 18;
 
 /// An emitting triangle in the light tree.
 #[derive(Clone, Copy, Debug)]
@@ -46,9 +48,9 @@ pub(crate) fn middle_and_twice_m2([a, b, c]: [Point; 3]) -> (Point, Vector) {
 /// of surfaces that rays sample through openings.
 pub(crate) fn faces(scene: &Scene, openings: &Openings) -> Vec<Face> {
     let bounds = scene.bvh().mesh().bounds();
-    let most_m = LARGE * bounds.map_or(0.0, |(low, high)| (high - low).length());
+    let most_m = LARGE_EXTENT_SHARE * bounds.map_or(0.0, |(low, high)| (high - low).length());
     let areas = scene.area_luminaires();
-    if areas.len() <= FEW || without("triangle-lamps") {
+    if areas.len() <= FEW_SURFACES || without("triangle-lamps") {
         return Vec::new();
     }
     let all = areas.iter().enumerate().filter(|&(number, _)| !openings.are_before(number));
@@ -71,11 +73,11 @@ pub(crate) fn faces(scene: &Scene, openings: &Openings) -> Vec<Face> {
     let mut found: Vec<Vec<Face>> = found.collect();
     // Surfaces with the fewest triangles come first, as far as there is room.
     found.sort_by_key(Vec::len);
-    let mut left = MOST;
+    let mut left = MOST_TRIANGLES;
     found.retain(|faces| {
         let has_room = faces.len() <= left;
         left -= if has_room { faces.len() } else { 0 };
         has_room
     });
-    if found.len() <= FEW { Vec::new() } else { found.concat() }
+    if found.len() <= FEW_SURFACES { Vec::new() } else { found.concat() }
 }

@@ -5,22 +5,22 @@ use isolux_geometry::{Normal, Point, Vector};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The most triangles in a leaf.
-const GROUP: usize = 4;
+const MOST_LEAF_TRIANGLES: usize = 4;
 
 /// The most triangles of a cluster whose weight is the sum over them, where not all of them face the receiver.
-const FEW: usize = 32;
+const FEW_TRIANGLES: usize = 32;
 
-/// Radius of a cluster, as a share of its distance, up to which its weight comes from its centre alone.
-const FAR: f64 = 0.3;
+/// Radius of a cluster over its distance, up to which its weight comes from its centre alone.
+const FAR_RADIUS_RATIO: f64 = 0.3;
 
 /// Share of the area of a near cluster that counts as facing the receiver, times its radius over its distance.
-const NEAR: f64 = 0.25;
+const NEAR_AREA_SHARE: f64 = 0.25;
 
 /// The smallest distance at which a cluster counts, in its radii.
-const NEAREST: f64 = 0.05;
+const LEAST_DISTANCE_RADII: f64 = 0.05;
 
 /// Weight of a spread of normals against a spread of places as wide as the emitter.
-const TURN: f64 = 0.25;
+const NORMAL_SPREAD_WEIGHT: f64 = 0.25;
 
 /// Rounding of an angle, rad: that of a cosine near its ends.
 const ROUNDING_RAD: f64 = 1e-6;
@@ -105,7 +105,7 @@ impl Clusters {
         let index = self.all.len();
         let members = &mut self.order[first..end];
         self.all.push(cluster(facets, first, members));
-        if members.len() > GROUP {
+        if members.len() > MOST_LEAF_TRIANGLES {
             let middle = first + halve(facets, extent, members);
             self.build(facets, extent, (first, middle));
             self.all[index].second = Some(self.build(facets, extent, (middle, end)));
@@ -175,7 +175,7 @@ impl Cluster {
         if self.area_m2 <= 0.0 || height_m + radius_m <= 0.0 {
             return Outlook::Dark;
         }
-        let is_far = radius_m <= FAR * distance;
+        let is_far = radius_m <= FAR_RADIUS_RATIO * distance;
         let distance2 = distance.max(radius_m).max(f64::MIN_POSITIVE).powi(2);
         let about = self.axis.and_then(|axis| Some((axis, self.sine_about(radius_m / distance)?)));
         if let Some((axis, sine)) = about {
@@ -207,15 +207,15 @@ impl Cluster {
     fn steradians(&self, at: &SurfacePoint, facets: &[Facet]) -> f64 {
         let to = self.centre - at.point;
         let (distance, radius_m) = (to.length(), self.radius_m);
-        if facets.len() <= FEW {
-            let is_far = radius_m <= FAR * distance;
+        if facets.len() <= FEW_TRIANGLES {
+            let is_far = radius_m <= FAR_RADIUS_RATIO * distance;
             let each = facets.iter().map(|facet| facet.steradians(at, radius_m, is_far));
             return each.sum::<f64>().max(f64::MIN_POSITIVE);
         }
         let distance = distance.max(radius_m).max(f64::MIN_POSITIVE);
         let height = height_above(to.dot(at.shading.to_vector()), radius_m) / distance;
         // The geometric mean of the distances to its nearest place and to its centre suits a cluster along a line.
-        let nearest_m = self.nearest_m(at.point).max(NEAREST * radius_m);
+        let nearest_m = self.nearest_m(at.point).max(LEAST_DISTANCE_RADII * radius_m);
         (self.facing_m2(to) * height / (nearest_m * distance)).max(f64::MIN_POSITIVE)
     }
 
@@ -234,7 +234,7 @@ impl Cluster {
             let component = -to.component(axis) / distance;
             component.abs() * self.sides_m2[axis][usize::from(component < 0.0)]
         };
-        along(0) + along(1) + along(2) + NEAR * self.area_m2 * self.radius_m / distance
+        along(0) + along(1) + along(2) + NEAR_AREA_SHARE * self.area_m2 * self.radius_m / distance
     }
 }
 
@@ -326,7 +326,8 @@ fn cluster(facets: &[Facet], first: usize, members: &[u32]) -> Cluster {
 /// Puts the half first that is lower along the axis of the widest spread, of places or of normals. Returns its size.
 fn halve(facets: &[Facet], extent: f64, members: &mut [u32]) -> usize {
     let places = spreads(members, |k| Some(facets[k].middle.to_vector())).map(|m| m / extent);
-    let turns = spreads(members, |k| facets[k].normal.map(Normal::to_vector)).map(|t| t * TURN);
+    let turns = spreads(members, |k| facets[k].normal.map(Normal::to_vector))
+        .map(|t| t * NORMAL_SPREAD_WEIGHT);
     let widest = |of: [f64; 3]| (0..3).fold(0, |best, k| if of[k] > of[best] { k } else { best });
     let (place, turn) = (widest(places), widest(turns));
     let along = |&k: &u32| {

@@ -21,18 +21,20 @@ struct Tightness {
 }
 
 impl Tightness {
-    /// The shares for drawing one luminaire.
+    /// The ratios for drawing one luminaire.
     const ROUGH: Self = Self { leaf: 0.4, inner: 0.4 };
-    /// The shares for measuring the light.
+    /// The ratios for measuring the light. With 0.15, 0.2, 0.3 and 0.4 for both, 128 rays to 2626 luminaires err by
+    /// 1.22, 1.10, 1.25 and 1.56 %. With 0.3 for both and 100,000 luminaires, a goal of 1.25 % is missed by far: 3.6 %
+    /// (decision 9).
     const FINE: Self = Self { leaf: 0.3, inner: 0.15 };
 }
 
 /// The share of the highest expected light among members below which a cluster is uneven. It is
 /// also the smallest weight of an uneven cluster, as a share of the value from its table.
-const UNEVEN: f64 = 0.25;
+const UNEVEN_LIGHT_SHARE: f64 = 0.25;
 
-/// Radius of a face, as a share of its distance, up to which its weight comes from its centroid alone.
-const FAR: f64 = 0.3;
+/// Radius of a face over its distance, up to which its weight comes from its centroid alone.
+const FAR_RADIUS_RATIO: f64 = 0.3;
 
 /// A receiver as reflected back to the luminaires by a chain of mirrors.
 pub(crate) struct View<'a> {
@@ -197,10 +199,10 @@ impl View<'_> {
         });
         let mean = node.peak_cd * shares.iter().sum::<f64>() / shares.len() as f64;
         let highest = shares.into_iter().fold(0.0, f64::max);
-        if shares.iter().all(|&share| share > UNEVEN * highest) {
+        if shares.iter().all(|&share| share > UNEVEN_LIGHT_SHARE * highest) {
             return mean;
         }
-        mean.max(UNEVEN * self.weight_by_table(to, node))
+        mean.max(UNEVEN_LIGHT_SHARE * self.weight_by_table(to, node))
     }
 
     /// Illuminance from a cluster that may be in view, by its own table.
@@ -270,7 +272,7 @@ impl View<'_> {
             return 0.0;
         }
         let distance2 = to.length_squared();
-        let is_near = radius_m * radius_m > FAR * FAR * distance2;
+        let is_near = radius_m * radius_m > FAR_RADIUS_RATIO * FAR_RADIUS_RATIO * distance2;
         if is_near && self.reach_m == 0.0 {
             let corners = face.corners(self.scene);
             return lamp.colour.luminance() * steradians_from((self.point, self.shading), corners);

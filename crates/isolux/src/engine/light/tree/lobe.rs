@@ -17,22 +17,22 @@ const PLAIN_SIZE: usize = 64;
 const SPREADS: usize = 6;
 
 /// Texels across of the table of one distribution.
-const SIZE: usize = 32;
+const TABLE_SIZE: usize = 32;
 /// Texels across of the table of a mixture.
 const MIXED_SIZE: usize = 16;
 
 /// Samples of a texel along each side, its border included.
-const SAMPLES: usize = 5;
+const SIDE_SAMPLES: usize = 5;
 
 /// The smallest value, as a share of the highest intensity over the spread.
-const LEAST_SHARE: f64 = 0.125;
+const LEAST_VALUE_SHARE: f64 = 0.125;
 
 /// The smallest value of a texel beside a lit one, as a share of that.
-const BORDER_SHARE: f64 = 0.02;
+const BORDER_VALUE_SHARE: f64 = 0.02;
 
 /// Largest distance on the map for every radian of direction: the square root of two, at the
 /// corners of the octahedron, rounded up.
-const STRETCH: f64 = 1.5;
+const MOST_STRETCH: f64 = 1.5;
 
 /// Tables of several distributions.
 #[derive(Debug, Default)]
@@ -79,12 +79,12 @@ impl Lobes {
     /// Adds the table of a distribution, relative to its highest intensity.
     pub(crate) fn add(&mut self, intensity: &IntensityDistribution) -> Lobe {
         let most_cd = intensity.max_intensity_cd().max(f64::MIN_POSITIVE);
-        let mut texels = Texels::dark(SIZE);
-        for j in 0..SIZE {
-            for i in 0..SIZE {
+        let mut texels = Texels::dark(TABLE_SIZE);
+        for j in 0..TABLE_SIZE {
+            for i in 0..TABLE_SIZE {
                 let (mean, highest) = sampled(intensity, i, j);
-                texels.means[j * SIZE + i] = mean / most_cd;
-                texels.highest[j * SIZE + i] = highest / most_cd;
+                texels.means[j * TABLE_SIZE + i] = mean / most_cd;
+                texels.highest[j * TABLE_SIZE + i] = highest / most_cd;
             }
         }
         if let IntensityDistribution::Web(web) = intensity {
@@ -97,7 +97,7 @@ impl Lobes {
             let place = |k: usize| (k as f64 + 0.5) / PLAIN_SIZE as f64;
             let around = self.read(lobe, 0, direction_at(place(i), place(j)));
             let mean = mean_of_corners(intensity, i, j) / most_cd;
-            self.plain.push(mean.max(LEAST_SHARE * around) as f32);
+            self.plain.push(mean.max(LEAST_VALUE_SHARE * around) as f32);
         }
         lobe
     }
@@ -128,13 +128,13 @@ impl Lobes {
     /// The value for directions that spread about `local` (of any length) by an angle whose sine is `spread`.
     pub(crate) fn towards(&self, lobe: Lobe, spread: f64, local: Vector) -> f64 {
         let size = lobe.size as usize;
-        let texels = spread * (STRETCH * 0.5 * size as f64);
+        let texels = spread * (MOST_STRETCH * 0.5 * size as f64);
         let level = match texels {
             t if t <= 0.0 => 0,
             t if t <= 1.0 => 1,
             t if t <= 3.0 => 2,
             t if t <= 7.0 => 3,
-            t if t <= 15.0 && size == SIZE => 4,
+            t if t <= 15.0 && size == TABLE_SIZE => 4,
             _ => SPREADS - 1,
         };
         self.read(lobe, level, local)
@@ -173,7 +173,7 @@ impl Lobes {
                 _ => texels.spread(self.around(texels.size, 1 << (level - 1))),
             }
             // A single direction takes the highest value, so that no sample gets a large weight.
-            let share = if level == 0 { 1.0 } else { LEAST_SHARE };
+            let share = if level == 0 { 1.0 } else { LEAST_VALUE_SHARE };
             let value = |(&mean, &highest): (&f64, &f64)| mean.max(share * highest) as f32;
             self.values.extend(texels.means.iter().zip(&texels.highest).map(value));
         }
@@ -202,7 +202,7 @@ impl Texels {
         self.spread(around);
         self.means = means;
         for (blurred, sharp) in self.highest.iter_mut().zip(sharp) {
-            *blurred = sharp.max(BORDER_SHARE * *blurred);
+            *blurred = sharp.max(BORDER_VALUE_SHARE * *blurred);
         }
     }
 
@@ -227,15 +227,16 @@ impl Texels {
 /// Mean and highest intensity over a texel, cd.
 fn sampled(intensity: &IntensityDistribution, i: usize, j: usize) -> (f64, f64) {
     let (mut sum, mut highest) = (0.0, 0.0_f64);
-    let place =
-        |texel: usize, k: usize| (texel as f64 + k as f64 / (SAMPLES - 1) as f64) / SIZE as f64;
-    for (a, b) in (0..SAMPLES).flat_map(|a| (0..SAMPLES).map(move |b| (a, b))) {
+    let place = |texel: usize, k: usize| {
+        (texel as f64 + k as f64 / (SIDE_SAMPLES - 1) as f64) / TABLE_SIZE as f64
+    };
+    for (a, b) in (0..SIDE_SAMPLES).flat_map(|a| (0..SIDE_SAMPLES).map(move |b| (a, b))) {
         let local = direction_at(place(i, a), place(j, b)).direction().unwrap_or(Direction::Z);
         let cd = intensity.intensity_cd(local);
         sum += cd;
         highest = highest.max(cd);
     }
-    (sum / (SAMPLES * SAMPLES) as f64, highest)
+    (sum / (SIDE_SAMPLES * SIDE_SAMPLES) as f64, highest)
 }
 
 /// Mean intensity over a texel of a plain table, cd, from its corners and its middle (exact for linear functions).

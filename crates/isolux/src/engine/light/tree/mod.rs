@@ -14,15 +14,15 @@ use kind::{Kind, Kinds};
 use lobe::{Lobe, Lobes, PartOfMixture};
 
 /// The most lamps in a leaf.
-const GROUP: usize = 16;
+const MOST_LEAF_LAMPS: usize = 16;
 
 /// Lamps of a cluster that its weight is estimated from.
 const MEMBERS: usize = 4;
 
 /// The most lamps of a cluster that is divided by kind before it is divided in space.
-const SMALL: usize = 128;
+const SMALL_CLUSTER_LAMPS: usize = 128;
 /// Such a division requires a share of at least one in this number for the most frequent kind.
-const FEW: usize = 8;
+const FREQUENT_KIND_DIVISOR: usize = 8;
 
 /// A lamp of the light tree: a point luminaire or a face. It fits in one cache line.
 #[derive(Clone, Debug)]
@@ -182,7 +182,7 @@ impl Tree {
             members: [first as u32; MEMBERS],
             second: None,
         });
-        if end - first > GROUP {
+        if end - first > MOST_LEAF_LAMPS {
             let lamps = &mut self.lamps[first..end];
             let middle = first + divide_by_kind(lamps).unwrap_or_else(|| halve(lamps, widest));
             self.build(first, middle);
@@ -272,13 +272,13 @@ fn halve(lamps: &mut [Lamp], axis: usize) -> usize {
 /// Puts the lamps of the most frequent kind first and returns their number. `None` if these are all
 /// or too few, or if the cluster is too large for its parts to stay close in space.
 fn divide_by_kind(lamps: &mut [Lamp]) -> Option<usize> {
-    if lamps.len() > SMALL {
+    if lamps.len() > SMALL_CLUSTER_LAMPS {
         return None;
     }
     let count = |kind: u32| lamps.iter().filter(|l| l.kind == kind).count();
     let kind = lamps.iter().map(|l| l.kind).max_by_key(|&kind| (count(kind), kind))?;
     let alike = count(kind);
-    if alike == lamps.len() || alike * FEW < lamps.len() {
+    if alike == lamps.len() || alike * FREQUENT_KIND_DIVISOR < lamps.len() {
         return None;
     }
     lamps.sort_unstable_by_key(|l| (l.kind != kind, l.luminaire));

@@ -2,7 +2,7 @@
 
 use crate::elements::Elements;
 use crate::engine::gather::known_weights;
-use crate::engine::mesh::HatFunctions;
+use crate::engine::mesh::{HatFunctions, NO_INDEX};
 use crate::engine::particle::{Flights, PARTS, part_of};
 use crate::engine::pilot::state::Pilot;
 use crate::map::Standing;
@@ -12,9 +12,6 @@ use std::cell::RefCell;
 
 /// The number of batches.
 pub(super) const BATCHES: usize = 8;
-
-/// The number that stands for no element.
-const NONE: u32 = u32::MAX;
 
 /// The flux that a particle has left at a place, as if it carried all light.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +38,7 @@ pub(super) struct Brought {
     pub(super) particles: f64,
     /// The light at the vertices in a map of this batch, lx.
     pub(super) light: Vec<f64>,
-    /// By node, its number among the elements with deposits, or [`NONE`].
+    /// By node, its number among the elements with deposits, or [`NO_INDEX`].
     of_node: Vec<u32>,
     elements: Vec<ToElement>,
     /// The flux of the vertices, as if each particle carried all light, lm.
@@ -72,7 +69,7 @@ impl Brought {
         Self {
             particles: 0.0,
             light: Vec::new(),
-            of_node: vec![NONE; elements.node_count()],
+            of_node: vec![NO_INDEX; elements.node_count()],
             elements: Vec::new(),
             fluxes_lm: vec![0.0; elements.vertices().len()],
         }
@@ -94,7 +91,7 @@ impl Brought {
                 self.fluxes_lm[*vertex as usize] += weight * flux_lm;
             }
             let of_node = &mut self.of_node[place.node() as usize];
-            if *of_node == NONE {
+            if *of_node == NO_INDEX {
                 *of_node = self.elements.len() as u32;
                 self.elements.push(ToElement::default());
             }

@@ -1,12 +1,13 @@
 //! The interpolation error of direct light.
 
 use super::{Criterion, Marked, Which};
-use crate::engine::pilot::forecast::{FINE, GoOn};
+use crate::engine::pilot::forecast::{FINE_EXCESS, GoOn};
 use crate::engine::pilot::look::{PilotRequest, Survey};
 use crate::engine::pilot::state::{MAX_ROUNDS, MOST_STALLS, Pilot};
 
-/// The share of the error left after a round above which the round counts as without progress.
-const STALLED: f64 = 0.98;
+/// The share of the error left after a round above which the round counts as without progress. With a lamp close to
+/// a ceiling, 5000 receivers so take the place of 50,000 (decision 40).
+const STALLED_ERROR_RATIO: f64 = 0.98;
 
 /// The criterion for direct light.
 pub(crate) struct DirectError {
@@ -37,13 +38,13 @@ impl Criterion for DirectError {
         let (errors, excess) = pilot.direct_excess(&look.elements, request, look.reference_lx);
         pilot.direct.excess = Some((pilot.mesh.subdivision.vertex_count(), excess));
         // The largest errors may lie in elements that are already as small as allowed.
-        self.stalls = if excess > STALLED * self.before { self.stalls + 1 } else { 0 };
+        self.stalls = if excess > STALLED_ERROR_RATIO * self.before { self.stalls + 1 } else { 0 };
         if excess <= 1.0 || self.stalls > MOST_STALLS {
             return None;
         }
         self.before = excess;
         let which = Which::Worst { errors, wanted: 0.0, activates: false };
-        Some(Marked { which, excess: Some(FINE), max_vertices: self.max_vertices })
+        Some(Marked { which, excess: Some(FINE_EXCESS), max_vertices: self.max_vertices })
     }
 
     fn follow(

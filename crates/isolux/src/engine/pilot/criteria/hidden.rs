@@ -12,11 +12,12 @@ use isolux_geometry::Point;
 use rayon::prelude::*;
 
 /// The number of places tested for light in an element with hidden vertices: one per bit of
-/// [`Unlit`](crate::engine::gather::Unlit).
-const PLACES: u32 = 16;
+/// [`Unlit`](crate::engine::gather::Unlit). Four places miss strips of open floor beside walls and cupboards
+/// (decision 41).
+const TESTED_PLACES: u32 = 16;
 
 /// The largest number of rounds.
-const ROUNDS: usize = 4;
+const MOST_ROUNDS: usize = 4;
 
 /// The criterion for elements with hidden vertices.
 pub(crate) struct Hidden {
@@ -25,7 +26,7 @@ pub(crate) struct Hidden {
 
 impl Criterion for Hidden {
     fn most_rounds(&self) -> usize {
-        ROUNDS
+        MOST_ROUNDS
     }
 
     /// Marks elements with hidden vertices if light reaches a place that sees none of the open ones, and elements with
@@ -74,10 +75,10 @@ impl Pilot<'_> {
     fn unlit_places(&self, sight: &Sight<'_>, node: u32) -> Option<u16> {
         let sequence = Sequence::new(self.key.with(4).with(u64::from(node)));
         let mut unlit = self.near.unlit.0.get(&self.element(node)).copied().unwrap_or(0);
-        for k in 0..PLACES {
+        for k in 0..TESTED_PLACES {
             let square = Dice::new(sequence, k).pair();
             let place = SurfacePoint::in_node(self.scene, &self.mesh.subdivision, node, square);
-            let number = u64::from(node * PLACES + k);
+            let number = u64::from(node * TESTED_PLACES + k);
             match sight.cut_off((&place, number), &self.near.known, unlit >> k & 1 == 1) {
                 CutOff::Yes => return None,
                 CutOff::No => {}

@@ -7,9 +7,9 @@ use crate::engine::pilot::state::{MAX_ROUNDS, MOST_STALLS, Pilot};
 
 /// The least order of convergence, in the number of vertices, at which a round counts as progress. For smooth
 /// functions the order is one. It is lower for some rounds where light enters through narrow places.
-const LEAST_ORDER: f64 = 0.25;
+const LEAST_PROGRESS_ORDER: f64 = 0.25;
 /// The largest number of rounds in which errors may rise because light was found in gaps.
-const MOST_RISEN: usize = 3;
+const MOST_RISEN_ROUNDS: usize = 3;
 
 /// The criterion for one kind of reading.
 pub(crate) struct IndirectError {
@@ -31,8 +31,8 @@ impl IndirectError {
         let Some((excess_before, carriers_before)) = self.before else { return false };
         let has_risen = sees_lit_gaps && excess > excess_before;
         self.risen += usize::from(has_risen);
-        let is_excused = has_risen && self.risen <= MOST_RISEN;
-        let fallen = libm::pow(carriers_before / carriers, LEAST_ORDER);
+        let is_excused = has_risen && self.risen <= MOST_RISEN_ROUNDS;
+        let fallen = libm::pow(carriers_before / carriers, LEAST_PROGRESS_ORDER);
         let stalled = !is_excused && excess > excess_before * fallen;
         self.stalls = if stalled { self.stalls + 1 } else { 0 };
         self.stalls > MOST_STALLS

@@ -13,7 +13,7 @@ use crate::ablation::without;
 use crate::elements::Element;
 use crate::engine::gather::{DirectAtEnds, Gatherer, Gathering, Operator};
 use crate::engine::ray::{SurfacePoint, place_key};
-use crate::map::Illuminance;
+use crate::map::VertexLight;
 use crate::sampling::Key;
 use crate::units::Rgb;
 
@@ -53,7 +53,7 @@ impl MapReader<'_> {
         let key = Key::new(self.map.provenance.seed).with(18);
         let operator = self.reading_alone(&dark).operator(&rows, |row| key.with(row as u64));
         self.count(operator.rays);
-        let of = |read: &dyn Fn(&Illuminance) -> f64| {
+        let of = |read: &dyn Fn(&VertexLight) -> f64| {
             let read = self.map.values.iter().map(|v| v.as_ref().map_or(0.0, read)).collect();
             self.relative(self.about(&operator, &elements, read))
         };
@@ -62,7 +62,7 @@ impl MapReader<'_> {
         // Where more error is expected, readers gather.
         let trusted_lx = self.map.provenance.fresh.and_then(|fresh| fresh.above_lx);
         let most_lx = trusted_lx.unwrap_or(f64::INFINITY);
-        let expected = |value: &Illuminance| value.interpolation_error_lx;
+        let expected = |value: &VertexLight| value.interpolation_error_lx;
         let by_elements =
             of(&|value| Some(expected(value)).filter(|e| *e <= most_lx).unwrap_or(0.0));
         let of_vertices: Vec<Rgb> =

@@ -16,7 +16,7 @@ use crate::engine::light::{Lighting, Patches};
 use crate::engine::mesh::LEAST as LEAST_OF_NOISE;
 use crate::engine::occlusion::{Barriers, nearby};
 use crate::engine::ray::{Dice, PathEnd, Places, ProbePoint, SurfacePoint, follow, place_key};
-use crate::map::{Illuminance, IlluminationMap, Standing};
+use crate::map::{Illuminance, IlluminationMap, Standing, VertexLight};
 use crate::sampling::{CosineHemisphere, Key, Sequence};
 use crate::scene::Scene;
 use crate::units::Rgb;
@@ -79,10 +79,10 @@ impl<'a> MapReader<'a> {
         bright: Option<Arc<BrightSurfaces>>,
     ) -> Self {
         let ambient = map.ambient_lx();
-        let reflected = |v: &Option<Illuminance>| {
+        let reflected = |v: &Option<VertexLight>| {
             v.map_or(Rgb::BLACK, |v| v.indirect_lx + v.caustic_lx + ambient)
         };
-        let direct = |v: &Option<Illuminance>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
+        let direct = |v: &Option<VertexLight>| v.map_or(Rgb::BLACK, |v| v.direct_lx - v.caustic_lx);
         let are_read = lighting.are_read_at_ends();
         let light: Vec<Rgb> = map.values.iter().map(reflected).collect();
         let reader = Self {

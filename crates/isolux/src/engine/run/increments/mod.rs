@@ -18,7 +18,7 @@ use crate::engine::method::{
 use crate::engine::particle::{Squared, element_parts, flights};
 use crate::engine::plan::Plan;
 use crate::engine::ray::{Accumulator, Deadline, Estimate, Noise, Sample};
-use crate::map::{Accuracy, FilterReport, Fresh, Illuminance, Method, Unshot};
+use crate::map::{Accuracy, FilterReport, Fresh, Method, Unshot, VertexLight};
 use crate::sampling::Key;
 use crate::units::Rgb;
 
@@ -374,7 +374,7 @@ impl<'p, 's> Work<'p, 's> {
     pub(crate) fn values(
         &self,
         filtered: bool,
-    ) -> (Vec<Option<Illuminance>>, Option<FilterReport>) {
+    ) -> (Vec<Option<VertexLight>>, Option<FilterReport>) {
         let judged = self.is_believed().then(|| self.judged(Noise::Counted));
         let trust = judged.map_or(self.plan.trust(), |judged| judged.trust);
         let expected = self.plan.expected_lx(trust);
@@ -383,7 +383,7 @@ impl<'p, 's> Work<'p, 's> {
         let value = |(k, expected_lx): (usize, f64)| {
             self.value(k, over * expected_lx, of_caustics.get(k).map_or(0.0, |lx2| lx2.0[0]))
         };
-        let mut values: Vec<Option<Illuminance>> =
+        let mut values: Vec<Option<VertexLight>> =
             expected.into_iter().enumerate().map(value).collect();
         let by_particles = matches!(self.engine, Engine::Forward(_));
         self.hold_deposits(&mut values, by_particles);
@@ -395,12 +395,12 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     /// Bounds the light of particles where deposits overshoot: caustics, or all light.
-    fn hold_deposits(&self, values: &mut [Option<Illuminance>], all: bool) {
+    fn hold_deposits(&self, values: &mut [Option<VertexLight>], all: bool) {
         if !all && !self.plan.lighting.leaves_caustics() {
             return;
         }
         let hats = HatFunctions::new(&self.plan.mesh.subdivision, &self.plan.mesh.standings);
-        let held = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
+        let held = |read: &dyn Fn(&VertexLight) -> Rgb| -> Vec<Rgb> {
             let some = values[..self.plan.mesh.indirect_vertices].iter();
             let some: Vec<Rgb> = some.map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect();
             self.plan.prolongate(&hats.held(&some))
@@ -419,9 +419,9 @@ impl<'p, 's> Work<'p, 's> {
     }
 
     /// Filters indirect light and caustics, and direct light if particles have brought it.
-    fn filter(&self, values: &mut [Option<Illuminance>], direct: bool) -> FilterReport {
+    fn filter(&self, values: &mut [Option<VertexLight>], direct: bool) -> FilterReport {
         let coarse = self.plan.mesh.indirect_vertices;
-        let part = |read: &dyn Fn(&Illuminance) -> Rgb| -> Vec<Rgb> {
+        let part = |read: &dyn Fn(&VertexLight) -> Rgb| -> Vec<Rgb> {
             values[..coarse].iter().map(|v| v.as_ref().map_or(Rgb::BLACK, read)).collect()
         };
         let mut parts = vec![part(&|v| v.indirect_lx), part(&|v| v.caustic_lx)];
@@ -478,7 +478,7 @@ impl<'p, 's> Work<'p, 's> {
         vertex: usize,
         interpolation_error_lx: f64,
         caustic_variance: f64,
-    ) -> Option<Illuminance> {
+    ) -> Option<VertexLight> {
         let standing = self.plan.mesh.standings[vertex]?;
         let estimate = self.estimate(vertex);
         let mean = estimate.mean;
@@ -487,7 +487,7 @@ impl<'p, 's> Work<'p, 's> {
             Engine::Radiosity(_) => 0.0,
             _ => self.plan.light.direct_variance[vertex],
         };
-        Some(Illuminance {
+        Some(VertexLight {
             direct_lx: mean.direct + mean.caustic,
             caustic_lx: mean.caustic,
             indirect_lx: mean.indirect,
@@ -495,7 +495,6 @@ impl<'p, 's> Work<'p, 's> {
             indirect_standard_error_lx: (estimate.indirect_variance + caustic_variance).sqrt(),
             common_error_lx: estimate.common_variance.min(estimate.indirect_variance).sqrt(),
             interpolation_error_lx,
-            bias_lx: 0.0,
             standing,
             samples: self.sums.increments * u64::from(self.samples_of(vertex)),
         })
