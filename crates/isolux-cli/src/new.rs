@@ -15,7 +15,7 @@ const PANEL_M: f64 = 0.6;
 /// The maintained illuminance that panels are counted for, lx: writing and reading, EN 12464-1.
 const WANTED_LX: f64 = 500.0;
 /// The share of the flux that comes to the working plane and stays, in a light room after some years.
-const UTILIZED: f64 = 0.5;
+const UTILIZED: f64 = 0.75;
 /// The gap between the ceiling and a panel, m.
 const BELOW_CEILING_M: f64 = 0.02;
 /// The edges of a desk, m.
