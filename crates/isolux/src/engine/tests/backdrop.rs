@@ -1,5 +1,6 @@
 //! Walls that rays are judged by.
 
+use super::carrying::bent_shape;
 use super::*;
 use crate::engine::gather::{ControlVariate, Gatherer, Gathering, Unlit, lacking};
 use crate::engine::light::Lighting;
@@ -111,11 +112,16 @@ fn walls_take_noise_off_and_leave_the_light() {
 
 #[test]
 fn light_settles_among_carriers_as_it_does_among_all() {
-    let scene = lit_room();
+    // A room with a finely tessellated sheet in it.
+    let mut sheet = bent_shape(40, 0.2);
+    sheet.positions.iter_mut().for_each(|[x, y, z]| (*x, *y, *z) = (*x + 0.7, *y + 0.6, *z + 0.5));
+    let shapes = inward_box(ROOM_M, 0).into_iter().chain([sheet]).collect();
+    let lamps = vec![isotropic([2.0, 1.5, 1.6], 100.0)];
+    let scene = scene(shapes, vec![painted(Rgb::grey(0.5))], lamps);
     let lighting = Lighting::new(&scene);
     let plan = pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), &mut |_| true);
     let vertices = plan.light.guess.len();
-    assert!(plan.mesh.waiting.count() > 0, "some carry none");
+    assert!(2 * plan.mesh.waiting.count() >= vertices, "few carry light");
     let gathering = Gathering::of(&plan, &plan.light.direct);
     let rows: Vec<Gatherer> = (0..vertices)
         .map(|v| {

@@ -6,7 +6,7 @@ use crate::engine::mesh::Carriers;
 
 /// A unit square of so many small squares a side, slightly bent into a paraboloid, its shading normals
 /// smooth.
-fn bent(side: u32, bend: f64) -> Scene {
+pub(super) fn bent_shape(side: u32, bend: f64) -> Shape {
     let place = |i: u32, j: u32| {
         let (x, y) = (f64::from(i) / f64::from(side), f64::from(j) / f64::from(side));
         (x, y, bend * (x * x + y * y))
@@ -25,14 +25,17 @@ fn bent(side: u32, bend: f64) -> Scene {
         let [c, d] = [corners(i + 1, j + 1), corners(i, j + 1)];
         [[a, b, c], [a, c, d]]
     });
-    let shape = Shape {
+    Shape {
         name: "bent".into(),
         positions,
         triangles: halves.collect(),
         normals: Some(normals.collect()),
         ..Shape::default()
-    };
-    scene(vec![shape], vec![painted(Rgb::grey(0.5))], vec![])
+    }
+}
+
+fn bent(side: u32, bend: f64) -> Scene {
+    scene(vec![bent_shape(side, bend)], vec![painted(Rgb::grey(0.5))], vec![])
 }
 
 fn sparse(subdivision: &Subdivision, spacing_m: f64) -> Carriers {

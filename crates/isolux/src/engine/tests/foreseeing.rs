@@ -4,7 +4,7 @@ use super::errors::room;
 use super::{Rgb, Scene, inward_box, isotropic, painted, scene, usual_request};
 use crate::engine::gather::Unlit;
 use crate::engine::light::Lighting;
-use crate::engine::pilot::{Costs, EachIncrement, GoOn, Outlook, Round, pilot};
+use crate::engine::pilot::{Costs, EachIncrement, GoOn, Outlook, PilotRequest, Round, pilot};
 use crate::engine::plan::Plan;
 use crate::engine::{SolveRequest, Stage, Watch, foresee, solve};
 use std::time::Duration;
@@ -157,9 +157,9 @@ fn furnished() -> Scene {
 fn a_step_that_takes_too_long_is_told_before_it_is_begun() {
     let scene = furnished();
     let lighting = Lighting::new(&scene);
-    let with = |go_on: &mut GoOn<'_>| {
-        pilot(&scene, &lighting, &usual_request(), &mut Unlit::default(), go_on)
-    };
+    let request = PilotRequest { mesh_target: 0.005, ..usual_request() };
+    let with =
+        |go_on: &mut GoOn<'_>| pilot(&scene, &lighting, &request, &mut Unlit::default(), go_on);
     let mut longest = (0.0, 0);
     let whole = with(&mut |round: &Round| {
         if round.step_s > longest.0 {
