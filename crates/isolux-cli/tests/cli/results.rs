@@ -472,7 +472,7 @@ fn a_room_that_absorbs_nothing_is_bounded_and_told() {
     let told = "white.toml: material `p`: reflects 1.000 of the light and is taken to reflect 0.99";
     let checked = home.run(&["check", "white.toml"]);
     assert!([&checked.out, &checked.err].iter().any(|text| text.contains(told)), "{checked:?}");
-    let ran = home.run(&["solve", "white.toml", "-o", "w.glb", "--accuracy", "2%", "--json"]);
+    let ran = home.run(&["solve", "white.toml", "-o", "w.glb", "--accuracy", "1%", "--json"]);
     assert!(ran.code == 0 && ran.err.contains(told), "{ran:?}");
     home.file("p.pts", "1 1 0 0 0 1\n");
     let probed = home.run(&["probe", "w.glb", "--points", "p.pts"]);

@@ -181,7 +181,7 @@ impl Pilot<'_> {
     }
 
     /// The ratio of reflected to direct light in a closed room.
-    fn reflected_again(&self) -> f64 {
+    pub(super) fn reflected_again(&self) -> f64 {
         let reflectance =
             reflectance::of_all(self.scene, &self.mesh.subdivision).min(MOST_MEAN_REFLECTANCE);
         reflectance / (1.0 - reflectance)

@@ -11,7 +11,7 @@ const FRESH_AREA_SHARE: f64 = 0.1;
 const MOST_FRESH_AREA_SHARE: f64 = 0.5;
 /// The allowed interpolation error of all elements, in accuracy goals. Rays read all of them, but as a mean over
 /// many. Measured on CUBE: at 3 the bias at its edges takes half of the accuracy; at 1 a third more elements
-/// bring nothing.
+/// bring nothing. CUBE reflects one half, so light is reflected once again in all.
 const BARE_ERROR_GOALS: f64 = 2.0;
 /// The allowed interpolation error of elements that dim places see, in accuracy goals. Rays read it as a mean
 /// over many elements, but it is reflected repeatedly.
@@ -65,6 +65,8 @@ pub(crate) struct Survey {
     pub(crate) reference_lx: f64,
     /// The area of dim surfaces, m2.
     pub(crate) dim_m2: f64,
+    /// The ratio of reflected to direct light in a closed room of these surfaces.
+    pub(crate) reflected_again: f64,
 }
 
 /// The kind of reading that elements serve.
@@ -108,7 +110,9 @@ impl Survey {
         let goal_lx = match what {
             // Fits do little for steep light at edges.
             ReadFor::All if request.is_fitted => {
-                request.mesh_target.min(BARE_ERROR_GOALS * request.target) * self.reference_lx
+                // Errors that have one sign are reflected as often as light is.
+                let read = BARE_ERROR_GOALS * request.target / self.reflected_again.max(1.0);
+                request.mesh_target.min(read) * self.reference_lx
             }
             ReadFor::FromDim => DIM_ERROR_GOALS * request.target * self.reference_lx,
             _ => self.goal_lx(request.target, request),

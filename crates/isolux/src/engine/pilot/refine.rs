@@ -100,6 +100,7 @@ impl Pilot<'_> {
             left_by_fit,
             reference_lx,
             dim_m2: self.indirect.surroundings.dim_m2,
+            reflected_again: self.reflected_again(),
         }
     }
 
