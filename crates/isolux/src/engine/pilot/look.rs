@@ -11,7 +11,8 @@ const FRESH_AREA_SHARE: f64 = 0.1;
 const MOST_FRESH_AREA_SHARE: f64 = 0.5;
 /// The allowed interpolation error of all elements, in accuracy goals. Rays read all of them, but as a mean over
 /// many. Measured on CUBE: at 3 the bias at its edges takes half of the accuracy; at 1 a third more elements
-/// bring nothing. CUBE reflects one half, so light is reflected once again in all.
+/// bring nothing. This is for rooms whose reflected light is no more than the direct light. In others it is divided by
+/// the ratio of the two: by 2 on CUBE, which reflects two thirds.
 const BARE_ERROR_GOALS: f64 = 2.0;
 /// The allowed interpolation error of elements that dim places see, in accuracy goals. Rays read it as a mean
 /// over many elements, but it is reflected repeatedly.

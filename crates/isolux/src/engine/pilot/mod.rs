@@ -1,7 +1,7 @@
 //! The pilot: the deterministic loop of adaptive refinement that fixes the elements before the first increment.
 //!
-//! Each round solves for the light, finds the elements with large details and bisects them. The loop ends when
-//! the interpolation error is a fixed part of the accuracy goal. All receivers use the same random numbers
+//! The first survey solves for the light, later ones gather at new vertices. Each round bisects the elements whose
+//! errors are too large, until each kind of error meets its goal. All receivers use the same random numbers
 //! here: noise is then smooth over surfaces and is not mistaken for detail.
 
 mod bare;
@@ -20,6 +20,7 @@ mod standings;
 mod state;
 mod surrounded;
 mod surroundings;
+mod survey;
 mod walls;
 
 use crate::engine::gather::Unlit;

@@ -226,8 +226,8 @@ impl Cluster {
         Vector::new(along(0), along(1), along(2)).length()
     }
 
-    /// Upper bound of the area that faces a receiver in one direction, m2, at most the square root
-    /// of three times too large.
+    /// Estimate of the area that faces a receiver in one direction, m2: exact for facets along the axes, too large for
+    /// others.
     fn facing_m2(&self, to: Vector) -> f64 {
         let distance = to.length().max(self.radius_m);
         let along = |axis: usize| {

@@ -132,7 +132,8 @@ pub(crate) struct Caustics {
 }
 
 impl Caustics {
-    /// The criterion with the first particles sent; `None` where no particle meets a surface by way of specular ones.
+    /// The criterion with the first particles sent; `None` where no particle comes to a surface by way of
+    /// specular ones, or there is no light.
     pub(crate) fn new(
         pilot: &mut Pilot<'_>,
         look: &mut Survey,

@@ -5,7 +5,7 @@ use crate::engine::pilot::forecast::{FINE_EXCESS, GoOn};
 use crate::engine::pilot::look::{PilotRequest, Survey};
 use crate::engine::pilot::state::{MAX_ROUNDS, MOST_STALLS, Pilot};
 
-/// The share of the error left after a round above which the round counts as without progress. With a lamp close to
+/// The ratio of the excess to that of the last round above which a round makes no progress. With a lamp close to
 /// a ceiling, 5000 receivers so take the place of 50,000 (decision 40).
 const STALLED_ERROR_RATIO: f64 = 0.98;
 

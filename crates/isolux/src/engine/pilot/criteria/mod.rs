@@ -33,7 +33,8 @@ pub(super) trait Criterion {
         go_on: &mut GoOn<'_>,
     ) -> Option<Marked>;
 
-    /// Brings the survey and the light of the pilot to the elements just bisected.
+    /// Brings the survey and the light of the pilot to the elements just bisected. Some of the light may be left to
+    /// [`Criterion::end`].
     fn follow(
         &mut self,
         pilot: &mut Pilot<'_>,
@@ -58,9 +59,9 @@ pub(super) struct Marked {
 
 /// The choice of elements to bisect.
 pub(super) enum Which {
-    /// The worst of these errors, as many as bring the error down to `wanted` of its present size. If vertices among
-    /// carriers wait in an element, they become carriers instead.
+    /// The elements with the worst of these errors: as many as bring the error down to `wanted` of its present size,
+    /// but no more than a share of all. With `activates`, waiting vertices become carriers instead.
     Worst { errors: Vec<LeafError>, wanted: f64, activates: bool },
-    /// All of these nodes: the first once, the others twice.
+    /// All of these nodes, bisected once or twice, until the mesh is full.
     Nodes { once: Vec<u32>, twice: Vec<u32> },
 }
