@@ -16,20 +16,26 @@ use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+/// The files that engines read light from.
+const KINDS: [&str; 3] = ["glb", "exr", "ktx2"];
+
 /// Runs the subcommand.
 pub(crate) fn run(flags: &BakeFlags, json: bool) -> Result<Outcome, Failure> {
-    let folder = map_folder(&flags.output)?;
-    let path = folder.path().join("map.glb");
-    let export = export_of(flags, path.clone());
+    let extension = flags.output.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     let kind = || {
         Failure::bad_input(format!(
             "{}: cannot bake to this kind of file; end its name in .glb, .exr or .ktx2",
             flags.output.display()
         ))
     };
+    if !KINDS.contains(&extension.as_str()) {
+        return Err(kind());
+    }
+    let folder = map_folder(&flags.output)?;
+    let path = folder.path().join("map.glb");
+    let export = export_of(flags, path.clone());
     let wanted = Wanted::of(&export)?.ok_or_else(kind)?;
-    let extension = flags.output.extension().unwrap_or_default().to_string_lossy();
-    let output = OutputPath::check(&flags.output, &extension.to_lowercase())?;
+    let output = OutputPath::check(&flags.output, &extension)?;
     output.differs_from(&flags.scene)?;
     output.replaces_exports_alone()?;
     let scene = source::read_scene(&flags.scene)?;
