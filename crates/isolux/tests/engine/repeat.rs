@@ -96,12 +96,13 @@ fn a_run_stopped_and_resumed_gives_the_same_bits() {
 
 #[test]
 fn who_stops_while_finer_elements_are_made_has_what_was_known_before() {
-    let room = inward_box([0.0; 3], [4.0, 5.0, 2.8], 0);
-    let table = outward_box([1.0, 1.0, 0.7], [3.0, 2.0, 0.8], 0);
-    let shapes = room.into_iter().chain(table).collect();
-    let scene = scene(shapes, vec![painted(0.7)], vec![lamp([2.0, 2.5, 2.5], 100.0)]);
     // Which accuracies take elements made anew depends on what the pilot foresees.
-    let stopped = |accuracy: f64| {
+    let stopped = |(reflectance, accuracy): (f64, f64)| {
+        let room = inward_box([0.0; 3], [4.0, 5.0, 2.8], 0);
+        let table = outward_box([1.0, 1.0, 0.7], [3.0, 2.0, 0.8], 0);
+        let shapes = room.into_iter().chain(table).collect();
+        let lamps = vec![lamp([2.0, 2.5, 2.5], 100.0)];
+        let scene = scene(shapes, vec![painted(reflectance)], lamps);
         let request = SolveRequest { accuracy: Some(accuracy), ..SolveRequest::default() };
         let (mut seen, mut stopped) = (None, false);
         let solution = solve(&scene, &request, None, &mut |p| {
@@ -114,7 +115,10 @@ fn who_stops_while_finer_elements_are_made_has_what_was_known_before() {
         let solution = solution.expect("the scene has light");
         (!solution.map.provenance.complete).then_some((solution, seen))
     };
-    let found = [1.5e-3, 1.2e-3, 1e-3, 2e-3, 3e-3].into_iter().find_map(stopped);
+    let accuracies = [1e-2, 5e-3, 3e-3, 2e-3, 1.5e-3, 1e-3];
+    let rooms = [0.95, 0.9, 0.7].into_iter();
+    let mut all = rooms.flat_map(|reflectance| accuracies.map(|accuracy| (reflectance, accuracy)));
+    let found = all.find_map(stopped);
     let (solution, seen) = found.expect("some first elements were to be too coarse");
     let (increments, receivers) = seen.expect("increments came first");
     assert_eq!(solution.state.stage, 1);
