@@ -5,7 +5,7 @@ use isolux::geometry::{Direction, Ray, Vector};
 use isolux::scene::Camera;
 
 /// Rays through the pixels of a picture.
-pub(crate) struct ViewRays {
+pub struct ViewRays {
     camera: Camera,
     /// From the middle of the picture plane at distance 1 to its right edge and to its top.
     right: Vector,
@@ -14,7 +14,8 @@ pub(crate) struct ViewRays {
 }
 
 impl ViewRays {
-    pub(crate) fn new(camera: &Camera, size: Size) -> Self {
+    /// The rays of a camera for a picture of this size.
+    pub fn new(camera: &Camera, size: Size) -> Self {
         let forward = camera.direction.to_vector();
         // A camera of a scene never looks along its up; any other picks a frame by itself.
         let right = forward.cross(camera.up.to_vector()).direction();
@@ -30,7 +31,7 @@ impl ViewRays {
     }
 
     /// The ray through a place of the picture, in pixels from the top left corner.
-    pub(crate) fn through(&self, x: f64, y: f64) -> (Ray, Direction) {
+    pub fn through(&self, x: f64, y: f64) -> (Ray, Direction) {
         let across = 2.0 * x / f64::from(self.size.width()) - 1.0;
         let up = 1.0 - 2.0 * y / f64::from(self.size.height());
         let forward = self.camera.direction;

@@ -27,6 +27,7 @@ mod tone;
 mod trace;
 mod white;
 
+pub use camera::ViewRays;
 pub use develop::{Development, develop};
 pub use difference::differences;
 pub use error::ViewError;

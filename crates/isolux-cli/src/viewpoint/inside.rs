@@ -1,8 +1,9 @@
 //! A camera of our own: at eye height inside the scene, where it sees the most lit space.
 
-use super::overview::{VERTICAL_FOV_RAD, overview};
+use super::overview::{VERTICAL_FOV_RAD, overview, up_of};
 use isolux::geometry::{Direction, Point, Ray, Vector};
 use isolux::scene::{Camera, Scene, UpAxis};
+use isolux_view::{Size, ViewRays};
 use rayon::prelude::*;
 use std::f64::consts::TAU;
 
@@ -19,7 +20,7 @@ const DIRECTIONS: usize = 16;
 /// The slope of the view: the floor fills more of a picture than the ceiling.
 const DESCENT: f64 = 0.12;
 /// The rays of a view, across and down.
-const RAYS: [usize; 2] = [16, 9];
+const RAYS: [u32; 2] = [16, 9];
 /// The distance up to which nothing may stand before the eye, as a share of the scene's extent.
 const CLEARANCE: f64 = 0.02;
 
@@ -87,7 +88,7 @@ fn camera(scene: &Scene, position: Point, number: usize) -> Camera {
         name: "inside".to_owned(),
         position,
         direction: towards.direction().unwrap_or(Direction::X),
-        up: up.direction().unwrap_or(Direction::Z),
+        up: up_of(scene),
         vertical_fov_rad: VERTICAL_FOV_RAD,
     }
 }
@@ -96,21 +97,14 @@ fn camera(scene: &Scene, position: Point, number: usize) -> Camera {
 /// root keeps a view down one long corridor from being better than a view of a room.
 fn seen(scene: &Scene, camera: &Camera, extent_m: f64, is_lit: &IsLit<'_>) -> f64 {
     let [across, down] = RAYS;
-    let half = libm::tan(0.5 * camera.vertical_fov_rad);
-    let forward = camera.direction.to_vector();
-    let right = forward.cross(camera.up.to_vector());
-    let right = right * (1.0 / right.length());
-    let above = right.cross(forward);
-    let ray = |k: usize| {
-        let along = |k: usize, of: usize| 2.0 * (k as f64 + 0.5) / of as f64 - 1.0;
-        let x = along(k % across, across) * half * across as f64 / down as f64;
-        let y = along(k / across, down) * half;
-        (forward + right * x + above * y).direction().map(|way| Ray::new(camera.position, way))
-    };
-    let lit = |ray: Ray| {
+    let Ok(size) = Size::new(across, down) else { return 0.0 };
+    let rays = ViewRays::new(camera, size);
+    let lit = |k: u32| {
+        let middle = |pixel: u32| f64::from(pixel) + 0.5;
+        let (ray, _) = rays.through(middle(k % across), middle(k / across));
         let hit = scene.bvh().closest_hit(&ray)?;
         let is_lit = is_lit(hit.triangle, hit.back, [f64::from(hit.u), f64::from(hit.v)]);
         is_lit.then(|| (f64::from(hit.t) / extent_m).max(0.0).sqrt())
     };
-    (0..across * down).filter_map(ray).filter_map(lit).sum()
+    (0..across * down).filter_map(lit).sum()
 }

@@ -8,8 +8,8 @@ use crate::flags::EyeFlags;
 use crate::shown::names;
 pub(crate) use inside::IsLit;
 use isolux::geometry::{Point, Vector};
-use isolux::scene::{Camera, Scene, UpAxis};
-use overview::{VERTICAL_FOV_RAD, looking, overview};
+use isolux::scene::{Camera, Scene};
+use overview::{VERTICAL_FOV_RAD, looking, overview, up_of};
 
 /// The camera that flags ask for: by name, by an eye, or by a view file; else the first of the scene, or else one of our
 /// own inside it.
@@ -37,11 +37,7 @@ fn eye_of(scene: &Scene, position: [f64; 3], flags: &EyeFlags) -> Result<Camera,
     let middle = || scene.bvh().mesh().bounds().map_or(Point::ORIGIN, |(a, b)| a.lerp(b, 0.5));
     let position = point(position);
     let towards = flags.target.map_or_else(middle, point) - position;
-    let up = match (flags.up, scene.up()) {
-        (Some([x, y, z]), _) => Vector::new(x, y, z),
-        (None, UpAxis::Y) => Vector::new(0.0, 1.0, 0.0),
-        (None, UpAxis::Z) => Vector::new(0.0, 0.0, 1.0),
-    };
+    let up = flags.up.map_or_else(|| up_of(scene).to_vector(), |[x, y, z]| Vector::new(x, y, z));
     let fov_deg = flags.fov.unwrap_or(VERTICAL_FOV_RAD.to_degrees());
     looking(position, towards, up, fov_deg)
         .map_err(|problem| format!("--eye: {problem}; give another --target, or --up X,Y,Z"))

@@ -30,21 +30,29 @@ pub(super) fn looking(
     Ok(Camera { name: "eye".to_owned(), position, direction, up, vertical_fov_rad })
 }
 
+/// Up in a scene.
+pub(super) fn up_of(scene: &Scene) -> Direction {
+    match scene.up() {
+        UpAxis::Y => Direction::Y,
+        UpAxis::Z => Direction::Z,
+    }
+}
+
 /// From a corner of the box around the scene towards its middle.
 pub(super) fn overview(scene: &Scene) -> Camera {
     let (low, high) = scene.bvh().mesh().bounds().unwrap_or((Point::ORIGIN, Point::ORIGIN));
     let middle = low.lerp(high, 0.5);
     let half = (high - low) * (0.5 * TOWARDS_CORNER);
     // Eye height in a room rather than the ceiling.
-    let (step, up) = match scene.up() {
-        UpAxis::Y => (Vector::new(half.x, 0.5 * half.y, half.z), Direction::Y),
-        UpAxis::Z => (Vector::new(half.x, -half.y, 0.5 * half.z), Direction::Z),
+    let step = match scene.up() {
+        UpAxis::Y => Vector::new(half.x, 0.5 * half.y, half.z),
+        UpAxis::Z => Vector::new(half.x, -half.y, 0.5 * half.z),
     };
     Camera {
         name: "overview".to_owned(),
         position: middle + step,
         direction: (-step).direction().unwrap_or(Direction::X),
-        up,
+        up: up_of(scene),
         vertical_fov_rad: VERTICAL_FOV_RAD,
     }
 }

@@ -31,7 +31,7 @@ impl Pilot<'_> {
         self.try_some(&look, request.target);
         let excess = (Some(look.greatest_excess(request)), None);
         if self.has_time(&look, request, excess, go_on) {
-            self.refine(&mut Hidden { max_vertices: most }, &mut look, request, go_on);
+            self.refine(&mut Hidden::new(most), &mut look, request, go_on);
         }
         // Readers gather over gathered maps alone: maps of particles are blurred nearby.
         let reads = if request.is_fitted { &ReadFor::EVERY[..] } else { &[ReadFor::All] };
@@ -51,8 +51,7 @@ impl Pilot<'_> {
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
     ) {
-        for _ in 0..criterion.most_rounds() {
-            let Some(marked) = criterion.marked(self, look, request, go_on) else { break };
+        while let Some(marked) = criterion.marked(self, look, request, go_on) {
             let has_time =
                 marked.excess.is_none_or(|excess| self.has_time(look, request, excess, go_on));
             if !has_time || !self.bisect(marked) {

@@ -240,11 +240,6 @@ impl Caustics {
 }
 
 impl Criterion for Caustics {
-    /// The criterion counts its rounds itself: the last one measures errors alone.
-    fn most_rounds(&self) -> usize {
-        usize::MAX
-    }
-
     fn marked(
         &mut self,
         pilot: &mut Pilot<'_>,

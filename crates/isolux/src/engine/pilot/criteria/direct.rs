@@ -1,9 +1,9 @@
 //! The interpolation error of direct light.
 
-use super::{Criterion, Marked, Which};
+use super::{Criterion, Marked, Rounds, Which};
 use crate::engine::pilot::forecast::{FINE_EXCESS, GoOn};
 use crate::engine::pilot::look::{PilotRequest, Survey};
-use crate::engine::pilot::state::{MAX_ROUNDS, MOST_STALLS, Pilot};
+use crate::engine::pilot::state::{MAX_ROUNDS, Pilot};
 
 /// The ratio of the excess to that of the last round above which a round makes no progress. With a lamp close to
 /// a ceiling, 5000 receivers so take the place of 50,000 (decision 40).
@@ -14,20 +14,16 @@ pub(crate) struct DirectError {
     max_vertices: usize,
     /// The excess one round ago.
     before: f64,
-    stalls: usize,
+    rounds: Rounds,
 }
 
 impl DirectError {
     pub(crate) const fn new(max_vertices: usize) -> Self {
-        Self { max_vertices, before: f64::INFINITY, stalls: 0 }
+        Self { max_vertices, before: f64::INFINITY, rounds: Rounds::at_most(MAX_ROUNDS) }
     }
 }
 
 impl Criterion for DirectError {
-    fn most_rounds(&self) -> usize {
-        MAX_ROUNDS
-    }
-
     fn marked(
         &mut self,
         pilot: &mut Pilot<'_>,
@@ -38,8 +34,8 @@ impl Criterion for DirectError {
         let (errors, excess) = pilot.direct_excess(&look.elements, request, look.reference_lx);
         pilot.direct.excess = Some((pilot.mesh.subdivision.vertex_count(), excess));
         // The largest errors may lie in elements that are already as small as allowed.
-        self.stalls = if excess > STALLED_ERROR_RATIO * self.before { self.stalls + 1 } else { 0 };
-        if excess <= 1.0 || self.stalls > MOST_STALLS {
+        let has_stalled = excess > STALLED_ERROR_RATIO * self.before;
+        if !self.rounds.go_on(has_stalled) || excess <= 1.0 {
             return None;
         }
         self.before = excess;

@@ -1,6 +1,6 @@
 //! Elements with hidden vertices that light reaches.
 
-use super::{Criterion, Marked, Which};
+use super::{Criterion, Marked, Rounds, Which};
 use crate::engine::gather::{CutOff, Element, Sight};
 use crate::engine::pilot::forecast::GoOn;
 use crate::engine::pilot::look::{PilotRequest, Survey};
@@ -21,14 +21,17 @@ const MOST_ROUNDS: usize = 4;
 
 /// The criterion for elements with hidden vertices.
 pub(crate) struct Hidden {
-    pub(crate) max_vertices: usize,
+    max_vertices: usize,
+    rounds: Rounds,
+}
+
+impl Hidden {
+    pub(crate) const fn new(max_vertices: usize) -> Self {
+        Self { max_vertices, rounds: Rounds::at_most(MOST_ROUNDS) }
+    }
 }
 
 impl Criterion for Hidden {
-    fn most_rounds(&self) -> usize {
-        MOST_ROUNDS
-    }
-
     /// Marks elements with hidden vertices if light reaches a place that sees none of the open ones, and elements with
     /// all vertices at the rim of a gap.
     fn marked(
@@ -38,6 +41,9 @@ impl Criterion for Hidden {
         request: &PilotRequest,
         _go_on: &mut GoOn<'_>,
     ) -> Option<Marked> {
+        if !self.rounds.go_on(false) {
+            return None;
+        }
         let gatherers = pilot.gatherers();
         let sight = pilot.sight(&look.elements, &gatherers);
         let leaves = || pilot.mesh.subdivision.leaves();
@@ -56,16 +62,6 @@ impl Criterion for Hidden {
         let any = !once.is_empty() || !twice.is_empty();
         let which = Which::Nodes { once, twice };
         any.then_some(Marked { which, excess: Some(excess), max_vertices: self.max_vertices })
-    }
-
-    fn follow(
-        &mut self,
-        pilot: &mut Pilot<'_>,
-        look: &mut Survey,
-        request: &PilotRequest,
-        go_on: &mut GoOn<'_>,
-    ) {
-        *look = pilot.look(request, go_on);
     }
 }
 

@@ -16,15 +16,12 @@ pub(super) use indirect::IndirectError;
 
 use super::forecast::{Excess, GoOn};
 use super::look::{PilotRequest, Survey};
-use super::state::Pilot;
+use super::state::{MOST_STALLS, Pilot};
 use crate::engine::mesh::LeafError;
 
 /// A kind of error that elements are bisected for.
 pub(super) trait Criterion {
-    /// The largest number of rounds.
-    fn most_rounds(&self) -> usize;
-
-    /// The elements to bisect; `None` where the error meets its goal or bisection makes no progress.
+    /// The elements to bisect; `None` where the error meets its goal, bisection makes no progress, or rounds are used up.
     fn marked(
         &mut self,
         pilot: &mut Pilot<'_>,
@@ -33,7 +30,8 @@ pub(super) trait Criterion {
         go_on: &mut GoOn<'_>,
     ) -> Option<Marked>;
 
-    /// Brings the survey and the light of the pilot to the elements just bisected. Some of the light may be left to
+    /// Brings the survey and the light of the pilot to the elements just bisected: by a survey, unless a criterion
+    /// needs less. Some of the light may be left to
     /// [`Criterion::end`].
     fn follow(
         &mut self,
@@ -41,10 +39,33 @@ pub(super) trait Criterion {
         look: &mut Survey,
         request: &PilotRequest,
         go_on: &mut GoOn<'_>,
-    );
+    ) {
+        *look = pilot.look(request, go_on);
+    }
 
     /// Completes the light after the last round.
     fn end(&mut self, _pilot: &mut Pilot<'_>, _look: &Survey, _request: &PilotRequest) {}
+}
+
+/// The rounds of a criterion, which end after too many, or after several in a row without progress.
+pub(super) struct Rounds {
+    left: usize,
+    /// The number of successive rounds without progress.
+    stalls: usize,
+}
+
+impl Rounds {
+    pub(super) const fn at_most(left: usize) -> Self {
+        Self { left, stalls: 0 }
+    }
+
+    /// Whether there is another round, after one that may have stalled.
+    pub(super) const fn go_on(&mut self, has_stalled: bool) -> bool {
+        self.stalls = if has_stalled { self.stalls + 1 } else { 0 };
+        let goes_on = self.left > 0 && self.stalls <= MOST_STALLS;
+        self.left = self.left.saturating_sub(1);
+        goes_on
+    }
 }
 
 /// The elements to bisect in a round.
